@@ -1,0 +1,176 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+/// The scene image on disk: one file, read in place, no pointers, no parsing.
+///
+///   Header | Section table | sections, each starting at a multiple of 64, ascending, without holes but padding
+///
+/// Every byte of the file is covered by a checksum: the header's covers header and table (itself taken as 0) up to the
+/// first section, a section's covers its bytes and the zero padding behind them up to the next section or the end.
+/// Numbers are little-endian IEEE 754 / two's complement; lengths are metres in W (the still mesh's frame).
+namespace godobject::format {
+
+inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
+inline constexpr std::uint32_t kByteOrder = 0x01020304;
+inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::size_t kAlignment = 64;
+inline constexpr std::size_t kMaxSections = 16;
+
+inline constexpr std::int32_t kMaxBricksPerAxis = 4096;
+inline constexpr std::uint32_t kMaxPoints = 1u << 22;
+inline constexpr std::uint32_t kMaxLevels = 16;
+
+static_assert(std::endian::native == std::endian::little, "scene images are little-endian");
+
+enum class SectionId : std::uint32_t {
+  kSettings = 1,    ///< one Settings
+  kGrid = 2,        ///< one Grid
+  kBrickIndex = 3,  ///< one std::uint32_t a brick position, x fastest: see IndexEntry
+  kBricks = 4,      ///< Brick[]
+  kBody = 5,        ///< one Body
+  kPoints = 6,      ///< float x[n], y[n], z[n]: sample points in the body frame B, in tree order
+  kNormals = 7,     ///< float x[n], y[n], z[n]: unit normals pointing into the body; left out unless `paper` may run
+  kNodes = 8,       ///< Node[]: sphere tree in pre-order
+  kProvenance = 9,  ///< UTF-8 JSON: what the compiler found and measured; the core never reads it
+};
+
+struct Header {
+  char magic[8];
+  std::uint32_t byte_order;
+  std::uint32_t version;
+  std::uint32_t header_bytes;  ///< sizeof(Header) + section_count * sizeof(Section), rounded up to kAlignment
+  std::uint32_t section_count;
+  std::uint64_t total_bytes;  ///< the file's size
+  std::uint64_t checksum;
+  std::uint64_t reserved[3];  ///< 0
+};
+static_assert(sizeof(Header) == 64);
+
+struct Section {
+  SectionId id;
+  std::uint32_t reserved;  ///< 0
+  std::uint64_t offset;    ///< from the file's begin, multiple of kAlignment
+  std::uint64_t bytes;     ///< without padding
+  std::uint64_t checksum;  ///< over bytes and padding
+};
+static_assert(sizeof(Section) == 32);
+
+enum class Solver : std::uint32_t { kPaper = 0, kCorrected = 1 };
+inline constexpr std::uint32_t kSolverCount = 2;
+
+/// What the scene file decides for the pipeline. SI units.
+struct Settings {
+  std::uint32_t default_solver;  ///< format::Solver
+  std::uint32_t solvers;         ///< bit (1 << Solver) set: this image holds what that solver reads
+  std::uint32_t friction;        ///< 1: the scene has a friction table
+  std::uint32_t reserved;
+  double safety_distance;          ///< d [m], > 0
+  double margin;                   ///< m of the contact solver [m], > 0
+  double stiffness;                ///< k_D [N/m], > 0
+  double damping;                  ///< b_D [Ns/m], >= 0
+  double coupling_translation;     ///< k_VC,x [1], > 0
+  double coupling_rotation;        ///< k_VC,r [m^2], > 0
+  double friction_static;          ///< mu_s [1], >= friction_kinetic
+  double friction_kinetic;         ///< mu_k [1], >= 0
+  double friction_viscous;         ///< mu_v [Ns/m] of slip at the contact, >= 0
+  double paper_rotation_static;    ///< mu_r,s of Algorithm 1 [1]
+  double paper_rotation_kinetic;   ///< mu_r,k of Algorithm 1 [1]
+  double paper_viscous;            ///< mu_v of Algorithm 1, per cycle [1]: x and r alike
+};
+static_assert(sizeof(Settings) == 112);
+
+/// The still body's signed distance: nodes on a lattice of edge `voxel_size`, kept in bricks of kBrickCells^3 cells.
+/// Node (i, j, k) stands at origin + voxel_size * (i, j, k).
+struct Grid {
+  double origin[3];
+  double voxel_size;      ///< s [m]
+  double band;            ///< |distance| < band is stored [m]
+  double surface_min[3];  ///< bounding box of the surface (of shells: thickened)
+  double surface_max[3];
+  double lipschitz;       ///< largest gradient norm of the trilinear field, seams (see Brick) left out [1]
+  double lipschitz_seam;  ///< the same with seams [1]; equal where there is none
+  std::int32_t bricks[3];  ///< brick positions along x, y, z
+  std::uint32_t brick_count;  ///< stored bricks
+};
+static_assert(sizeof(Grid) == 120);
+
+inline constexpr int kBrickCells = 4;                    ///< cells along an edge of a brick
+inline constexpr int kBrickNodes = kBrickCells + 1;      ///< nodes along an edge: neighbours share a face of nodes
+inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
+
+/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], each exact to float rounding, not clamped to the band.
+/// A brick position is stored when a node is nearer than the band or its nodes differ in sign, so whatever lies within the band
+/// lies in a stored brick, and every change of sign does.
+/// Where an open mesh's sign jumps without a surface (winding number 1/2 across a hole) neighbouring nodes differ by more
+/// than the lattice edge: a *seam*.
+struct alignas(64) Brick {
+  float value[kBrickValues];
+  float seam_clearance;  ///< no seam is nearer than this to any point of the brick [m]; FLT_MAX where none is near
+  float reserved[2];
+};
+static_assert(sizeof(Brick) == 512);
+
+/// One entry of the brick index.
+///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance; bits 0-29 the brick's number
+///   bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right by one:
+///               for every point of this brick position and every x within `r` of it, the stored field at x is at least
+///               clearance - r (outside), whatever brick x lies in. Inside it is not read.
+namespace index_entry {
+inline constexpr std::uint32_t kFar = 1u << 31;
+inline constexpr std::uint32_t kInside = 1u << 30;    // with kFar
+inline constexpr std::uint32_t kSeamNear = 1u << 30;  // without kFar
+inline constexpr std::uint32_t kLow = kSeamNear - 1;
+
+/// `clearance` >= 0 [m]; what is decoded is at most one part in 4e6 smaller.
+constexpr std::uint32_t encode_far(bool inside, float clearance) noexcept {
+  return kFar | (inside ? kInside : 0u) | (std::bit_cast<std::uint32_t>(clearance) >> 1);
+}
+constexpr float far_clearance(std::uint32_t entry) noexcept { return std::bit_cast<float>((entry & kLow) << 1); }
+}  // namespace index_entry
+
+/// Of the moving body. Body frame B: centre of mass, principal axes. Moving mesh frame M (scaled to metres).
+struct Body {
+  double rotation_MB[4];     ///< quaternion w, x, y, z
+  double translation_MB[3];  ///< centre of mass in M [m]
+  double inertia[3];         ///< principal moments of J_B / m [m^2], ascending, >= 0 (not floored)
+  double radius;             ///< R_max: largest distance of a sample point from the centre of mass [m], > 0
+  double volume;             ///< [m^3]; 0 where the mesh encloses none
+  std::uint32_t inertia_from_points;  ///< 1: mass spread over the surface points, 0: over the closed volume
+  std::uint32_t point_count;
+  std::uint32_t node_count;
+  std::uint32_t level_count;
+};
+static_assert(sizeof(Body) == 112);
+
+/// Sphere tree over the sample points, in pre-order: the children of node i start at i + 1; `skip` is the next node once
+/// the subtree of i is left out. Node 0 (level 0) holds all points. The nodes of level k = 1 .. level_count - 1 are the
+/// samples of hierarchy level k, each level a sampling of the whole surface; the points themselves are level level_count.
+/// A subtree's points are contiguous, and the first of them is the node's own sample: levels are nested.
+struct Node {
+  float center[3];  ///< of a sphere around all points of the subtree, in B; minimal up to rounding, never too small
+  float radius;
+  std::uint32_t skip;         ///< > own index, <= node_count
+  std::uint32_t first_point;  ///< of the subtree; the node's sample
+  std::uint32_t point_count;  ///< of the subtree, >= 1
+  std::uint16_t level;        ///< depth: 0 for node 0, parent's + 1 otherwise
+  std::uint16_t leaf;         ///< 1: no child nodes, look at the points
+};
+static_assert(sizeof(Node) == 32);
+
+/// Checksum of a section or header: a multiplicative hash over 64-bit words, each step a bijection of the state,
+/// so any change within one word is seen. `bytes` must be a multiple of 8.
+constexpr std::uint64_t kChecksumSeed = 0xcbf29ce484222325u;
+inline std::uint64_t checksum(const std::byte* data, std::size_t bytes, std::uint64_t hash = kChecksumSeed) noexcept {
+  for (std::size_t i = 0; i + 8 <= bytes; i += 8) {
+    std::uint64_t word = 0;
+    for (int b = 0; b < 8; ++b) word |= static_cast<std::uint64_t>(data[i + static_cast<std::size_t>(b)]) << (8 * b);
+    hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+}  // namespace godobject::format

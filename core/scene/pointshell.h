@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/scene/format.h"
+#include "core/spatial/vector.h"
+
+namespace godobject {
+
+/// The moving body's sample points with their sphere tree, in the body frame B. A view; owns nothing.
+struct Pointshell {
+  std::size_t size = 0;
+  const float* x = nullptr;  ///< [m]; size values each
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const float* normal_x = nullptr;  ///< unit, pointing into the body; null where the image holds no normals
+  const float* normal_y = nullptr;
+  const float* normal_z = nullptr;
+  std::span<const format::Node> nodes;  ///< pre-order; nodes[0] holds all points
+
+  Vector3 point(std::size_t i) const noexcept {
+    return {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
+  }
+  Vector3 normal(std::size_t i) const noexcept {
+    return {static_cast<double>(normal_x[i]), static_cast<double>(normal_y[i]), static_cast<double>(normal_z[i])};
+  }
+};
+
+}  // namespace godobject

@@ -1,0 +1,255 @@
+#include "core/scene/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace godobject {
+namespace {
+
+using format::SectionId;
+
+/// The sections of one image, by id; empty where absent.
+struct Sections {
+  std::array<std::span<const std::byte>, format::kMaxSections> of{};
+
+  std::span<const std::byte> operator[](SectionId id) const noexcept { return of[static_cast<std::size_t>(id)]; }
+};
+
+template <class T>
+bool read_one(std::span<const std::byte> bytes, T& value) noexcept {
+  if (bytes.size() != sizeof(T)) return false;
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  return true;
+}
+
+bool in_range(double value, double low, double high) noexcept { return value >= low && value <= high; }
+
+bool all_finite(const float* values, std::size_t count, float limit) noexcept {
+  bool fine = true;
+  for (std::size_t i = 0; i < count; ++i) fine &= std::fabs(values[i]) <= limit;  // false for NaN
+  return fine;
+}
+
+Status read_header(std::span<const std::byte> image, format::Header& header) noexcept {
+  if (image.size() < sizeof(format::Header)) return Status::kImageTruncated;
+  std::memcpy(&header, image.data(), sizeof(header));
+  if (std::memcmp(header.magic, format::kMagic, sizeof(header.magic)) != 0) return Status::kImageForeign;
+  if (header.byte_order != format::kByteOrder) return Status::kImageForeign;
+  if (header.version != format::kVersion) return Status::kImageVersion;
+  if (header.total_bytes != image.size()) return Status::kImageTruncated;
+  if (header.section_count == 0 || header.section_count >= format::kMaxSections) return Status::kImageLayout;
+  const std::size_t table_end = sizeof(format::Header) + header.section_count * sizeof(format::Section);
+  const std::size_t expected = (table_end + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
+  if (header.header_bytes != expected) return Status::kImageLayout;
+  if (image.size() < expected) return Status::kImageTruncated;
+
+  format::Header cleared = header;
+  cleared.checksum = 0;
+  std::array<std::byte, sizeof(format::Header)> head{};
+  std::memcpy(head.data(), &cleared, sizeof(cleared));
+  const std::uint64_t sum = format::checksum(image.data() + sizeof(format::Header), expected - sizeof(format::Header),
+                                             format::checksum(head.data(), head.size()));
+  return sum == header.checksum ? Status::kOk : Status::kImageChecksum;
+}
+
+Status read_sections(std::span<const std::byte> image, const format::Header& header, Sections& sections) noexcept {
+  std::uint64_t next = header.header_bytes;
+  for (std::uint32_t i = 0; i < header.section_count; ++i) {
+    format::Section section{};
+    std::memcpy(&section, image.data() + sizeof(format::Header) + i * sizeof(format::Section), sizeof(section));
+    const auto id = static_cast<std::size_t>(section.id);
+    if (id == 0 || id >= format::kMaxSections || section.reserved != 0) return Status::kImageLayout;
+    if (sections.of[id].data() != nullptr) return Status::kImageLayout;
+    if (section.offset != next) return Status::kImageLayout;
+    if (section.bytes > image.size() - section.offset) return Status::kImageLayout;
+    const std::uint64_t padded = (section.bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
+    if (padded > image.size() - section.offset) return Status::kImageLayout;
+    if (format::checksum(image.data() + section.offset, padded) != section.checksum) return Status::kImageChecksum;
+    sections.of[id] = image.subspan(section.offset, section.bytes);
+    next = section.offset + padded;
+  }
+  return next == image.size() ? Status::kOk : Status::kImageLayout;
+}
+
+bool valid_settings(const format::Settings& s) noexcept {
+  constexpr double kLarge = 1e9;
+  return s.default_solver < format::kSolverCount && s.solvers < (1u << format::kSolverCount) &&
+         ((s.solvers >> s.default_solver) & 1u) != 0 && s.friction <= 1 && s.reserved == 0 &&
+         in_range(s.safety_distance, 1e-12, kLarge) && in_range(s.margin, 1e-12, kLarge) &&
+         in_range(s.stiffness, 1e-12, kLarge) && in_range(s.damping, 0.0, kLarge) &&
+         in_range(s.coupling_translation, 1e-12, kLarge) && in_range(s.coupling_rotation, 1e-18, kLarge) &&
+         in_range(s.friction_static, 0.0, 10.0) && in_range(s.friction_kinetic, 0.0, s.friction_static) &&
+         in_range(s.friction_viscous, 0.0, kLarge) && in_range(s.paper_rotation_static, 0.0, 10.0) &&
+         in_range(s.paper_rotation_kinetic, 0.0, s.paper_rotation_static) && in_range(s.paper_viscous, 0.0, 10.0);
+}
+
+bool valid_grid(const format::Grid& g) noexcept {
+  constexpr double kLarge = 1e7;
+  if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, kLarge)) return false;
+  // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
+  if (!in_range(g.lipschitz, 0.0, 2.0) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (g.bricks[axis] < 1 || g.bricks[axis] > format::kMaxBricksPerAxis) return false;
+    const double low = g.origin[axis];
+    const double high = low + g.voxel_size * format::kBrickCells * g.bricks[axis];
+    if (!in_range(low, -kLarge, kLarge)) return false;
+    if (!in_range(g.surface_min[axis], low, high) || !in_range(g.surface_max[axis], g.surface_min[axis], high)) return false;
+  }
+  return true;
+}
+
+bool valid_index(std::span<const std::uint32_t> index, std::uint32_t brick_count) noexcept {
+  for (const std::uint32_t entry : index) {
+    if (entry & format::index_entry::kFar) {
+      if (!(format::index_entry::far_clearance(entry) <= 1e8f)) return false;
+    } else if ((entry & format::index_entry::kLow) >= brick_count) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool valid_bricks(std::span<const format::Brick> bricks) noexcept {
+  for (const format::Brick& brick : bricks) {
+    if (!all_finite(brick.value, format::kBrickValues, 1e8f)) return false;
+    if (!(brick.seam_clearance >= 0.0f)) return false;
+    if (!(brick.reserved[0] == 0.0f && brick.reserved[1] == 0.0f)) return false;
+  }
+  return true;
+}
+
+bool valid_body(const format::Body& b) noexcept {
+  double norm_squared = 0.0;
+  for (const double q : b.rotation_MB) norm_squared += q * q;
+  if (!in_range(norm_squared, 1.0 - 1e-6, 1.0 + 1e-6)) return false;
+  for (const double t : b.translation_MB) {
+    if (!in_range(t, -1e7, 1e7)) return false;
+  }
+  if (!in_range(b.inertia[0], 0.0, 1e12) || !in_range(b.inertia[1], b.inertia[0], 1e12) ||
+      !in_range(b.inertia[2], b.inertia[1], 1e12)) {
+    return false;
+  }
+  return in_range(b.radius, 1e-12, 1e6) && in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1 &&
+         b.point_count >= 1 && b.point_count <= format::kMaxPoints && b.node_count >= 1 &&
+         b.node_count <= 2 * b.point_count && b.level_count >= 1 && b.level_count <= format::kMaxLevels;
+}
+
+/// Structure of the tree: pre-order, depth bounded by level_count, children partition their parent's points in order.
+bool valid_nodes(std::span<const format::Node> nodes, const format::Body& body) noexcept {
+  struct Open {
+    std::uint32_t skip;        // where the subtree ends
+    std::uint32_t point_end;   // and its points
+    std::uint32_t next_point;  // first point that the next child must have
+  };
+  std::array<Open, format::kMaxLevels + 1> open{};
+  std::uint32_t depth = 0;
+  const auto count = static_cast<std::uint32_t>(nodes.size());
+  if (nodes[0].skip != count || nodes[0].first_point != 0 || nodes[0].point_count != body.point_count) return false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    while (depth > 0 && open[depth - 1].skip == i) {
+      --depth;
+      if (open[depth].next_point != open[depth].point_end) return false;
+    }
+    const format::Node& node = nodes[i];
+    if (!(node.radius >= 0.0f && node.radius <= 1e7f) || !all_finite(node.center, 3, 1e7f)) return false;
+    if (node.level != depth || node.leaf > 1 || depth >= body.level_count) return false;
+    if (node.skip <= i || node.skip > count || node.point_count == 0) return false;
+    if (node.leaf == (node.skip == i + 1 ? 0 : 1)) return false;
+    if (i > 0) {
+      if (depth == 0) return false;  // a second root
+      Open& parent = open[depth - 1];
+      if (node.skip > parent.skip || node.first_point != parent.next_point) return false;
+      if (node.point_count > parent.point_end - parent.next_point) return false;
+      parent.next_point += node.point_count;
+    }
+    if (node.leaf == 0) open[depth++] = {node.skip, node.first_point + node.point_count, node.first_point};
+  }
+  while (depth > 0) {
+    --depth;
+    if (open[depth].skip != count || open[depth].next_point != open[depth].point_end) return false;
+  }
+  return true;
+}
+
+bool valid_points(const Pointshell& shell, double radius) noexcept {
+  constexpr double kSlack = 1.0 + 1e-5;  // single precision
+  for (std::size_t i = 0; i < shell.size; ++i) {
+    if (!(shell.point(i).norm() <= radius * kSlack)) return false;
+    if (shell.normal_x != nullptr && !in_range(shell.normal(i).squaredNorm(), 0.998, 1.002)) return false;
+  }
+  // the tree is worth nothing if a point stands outside of its spheres
+  for (const format::Node& node : shell.nodes) {
+    const Vector3 center(static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+                         static_cast<double>(node.center[2]));
+    const double reach = static_cast<double>(node.radius);
+    for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
+      if (!((shell.point(i) - center).norm() <= reach)) return false;
+    }
+  }
+  return true;
+}
+
+template <class T>
+std::span<const T> as_array(std::span<const std::byte> bytes) noexcept {
+  // sections begin at multiples of kAlignment of an aligned image; T is trivial
+  return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+}
+
+/// `values` is float x[n], y[n], z[n].
+void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x, const float*& y, const float*& z) noexcept {
+  x = as_array<float>(values).data();
+  y = x + n;
+  z = y + n;
+}
+
+}  // namespace
+
+Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
+  if (reinterpret_cast<std::uintptr_t>(image.data()) % format::kAlignment != 0) return Status::kImageLayout;
+  format::Header header{};
+  Status status = read_header(image, header);
+  if (status != Status::kOk) return status;
+  Sections sections;
+  status = read_sections(image, header, sections);
+  if (status != Status::kOk) return status;
+
+  Scene opened;
+  if (!read_one(sections[SectionId::kSettings], opened.settings)) return Status::kImageLayout;
+  if (!read_one(sections[SectionId::kGrid], opened.grid)) return Status::kImageLayout;
+  if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
+  if (!valid_settings(opened.settings) || !valid_grid(opened.grid) || !valid_body(opened.body)) return Status::kImageValue;
+
+  const format::Grid& grid = opened.grid;
+  const format::Body& body = opened.body;
+  const auto index = as_array<std::uint32_t>(sections[SectionId::kBrickIndex]);
+  const auto bricks = as_array<format::Brick>(sections[SectionId::kBricks]);
+  const std::uint64_t positions = static_cast<std::uint64_t>(grid.bricks[0]) * static_cast<std::uint64_t>(grid.bricks[1]) *
+                                  static_cast<std::uint64_t>(grid.bricks[2]);
+  const std::size_t axes_bytes = std::size_t{3} * sizeof(float) * body.point_count;
+  if (sections[SectionId::kBrickIndex].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
+  if (sections[SectionId::kBricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
+  if (sections[SectionId::kPoints].size() != axes_bytes) return Status::kImageLayout;
+  if (sections[SectionId::kNodes].size() != body.node_count * sizeof(format::Node)) return Status::kImageLayout;
+  const auto normals = sections[SectionId::kNormals];
+  if (normals.data() != nullptr && normals.size() != axes_bytes) return Status::kImageLayout;
+  if (normals.data() == nullptr && opened.holds(format::Solver::kPaper)) return Status::kImageLayout;
+  if (!valid_index(index, grid.brick_count) || !valid_bricks(bricks)) return Status::kImageValue;
+
+  Pointshell& shell = opened.pointshell;
+  shell.size = body.point_count;
+  set_axes(sections[SectionId::kPoints], shell.size, shell.x, shell.y, shell.z);
+  if (normals.data() != nullptr) set_axes(normals, shell.size, shell.normal_x, shell.normal_y, shell.normal_z);
+  shell.nodes = as_array<format::Node>(sections[SectionId::kNodes]);
+  if (!valid_nodes(shell.nodes, body) || !valid_points(shell, body.radius)) return Status::kImageValue;
+
+  opened.voxelmap = Voxelmap(grid, index, bricks);
+  opened.H_MB.rotation = Quaternion(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]).normalized();
+  opened.H_MB.translation = Vector3(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);
+  opened.provenance = sections[SectionId::kProvenance];
+  scene = opened;
+  return Status::kOk;
+}
+
+}  // namespace godobject

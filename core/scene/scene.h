@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/scene/format.h"
+#include "core/scene/pointshell.h"
+#include "core/scene/voxelmap.h"
+#include "core/spatial/pose.h"
+#include "core/status.h"
+
+namespace godobject {
+
+/// A validated scene image, read in place: settings, the still body's voxelmap, the moving body's pointshell and mass.
+/// A view of the bytes it was opened on, which must stay where they are and unchanged.
+struct Scene {
+  format::Settings settings{};
+  format::Grid grid{};
+  format::Body body{};
+  Voxelmap voxelmap;
+  Pointshell pointshell;
+  Pose H_MB;  ///< body frame (centre of mass, principal axes) in the moving mesh's frame
+  std::span<const std::byte> provenance;  ///< UTF-8 JSON, for people
+
+  /// Checks the whole image once (checksums, layout, every index and every number) and fills the view.
+  /// `image` must begin at a multiple of format::kAlignment. Cost: one pass over the bytes, about 1 ms per MiB; no allocation.
+  /// kImageTruncated, kImageForeign, kImageVersion, kImageChecksum, kImageLayout, kImageValue: see Status; `scene` is unchanged.
+  static Status open(std::span<const std::byte> image, Scene& scene) noexcept;
+
+  bool holds(format::Solver solver) const noexcept {
+    return (settings.solvers >> static_cast<std::uint32_t>(solver)) & 1u;
+  }
+};
+
+}  // namespace godobject

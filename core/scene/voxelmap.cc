@@ -1,0 +1,143 @@
+#include "core/scene/voxelmap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace godobject {
+namespace {
+
+using format::kBrickCells;
+using format::kBrickNodes;
+
+constexpr int kStrideY = kBrickNodes;
+constexpr int kStrideZ = kBrickNodes * kBrickNodes;
+
+/// Largest error of trilinear interpolation of a 1-Lipschitz function, in voxels: half the cell's diagonal.
+constexpr double kInterpolationError = 0.8660254037844387;
+
+}  // namespace
+
+Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
+                   std::span<const format::Brick> bricks) noexcept
+    : index_(index.data()),
+      bricks_(bricks.data()),
+      origin_(grid.origin[0], grid.origin[1], grid.origin[2]),
+      surface_min_(grid.surface_min[0], grid.surface_min[1], grid.surface_min[2]),
+      surface_max_(grid.surface_max[0], grid.surface_max[1], grid.surface_max[2]),
+      voxel_size_(grid.voxel_size),
+      per_voxel_(1.0 / grid.voxel_size),
+      band_(grid.band),
+      lipschitz_(std::max(1.0, grid.lipschitz)),
+      lipschitz_seam_(std::max(1.0, grid.lipschitz_seam)),
+      nx_(grid.bricks[0]),
+      ny_(grid.bricks[1]),
+      nz_(grid.bricks[2]) {}
+
+bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
+  const Vector3 node = (p_W - origin_) * per_voxel_;
+  // written so that NaN falls outside
+  const bool within = node.x() >= 0.0 && node.y() >= 0.0 && node.z() >= 0.0 && node.x() < nx_ * kBrickCells &&
+                      node.y() < ny_ * kBrickCells && node.z() < nz_ * kBrickCells;
+  if (!within) return false;
+  const int ix = static_cast<int>(node.x());
+  const int iy = static_cast<int>(node.y());
+  const int iz = static_cast<int>(node.z());
+  cell.fx = static_cast<float>(node.x() - ix);
+  cell.fy = static_cast<float>(node.y() - iy);
+  cell.fz = static_cast<float>(node.z() - iz);
+  cell.x = ix % kBrickCells;
+  cell.y = iy % kBrickCells;
+  cell.z = iz % kBrickCells;
+  const auto brick = static_cast<std::size_t>(ix / kBrickCells) +
+                     static_cast<std::size_t>(nx_) * (static_cast<std::size_t>(iy / kBrickCells) +
+                                                      static_cast<std::size_t>(ny_) * static_cast<std::size_t>(iz / kBrickCells));
+  cell.entry = index_[brick];
+  return true;
+}
+
+FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
+  FieldSample sample;
+  sample.distance = band_;
+  Cell cell;
+  if (!locate(p_W, cell)) return sample;
+  if (cell.entry & format::index_entry::kFar) {
+    if (cell.entry & format::index_entry::kInside) sample.distance = -band_;
+    return sample;
+  }
+  const float* v = bricks_[cell.entry & format::index_entry::kLow].value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
+  const float x00 = v[0] + cell.fx * (v[1] - v[0]);
+  const float x10 = v[kStrideY] + cell.fx * (v[kStrideY + 1] - v[kStrideY]);
+  const float x01 = v[kStrideZ] + cell.fx * (v[kStrideZ + 1] - v[kStrideZ]);
+  const float x11 = v[kStrideZ + kStrideY] + cell.fx * (v[kStrideZ + kStrideY + 1] - v[kStrideZ + kStrideY]);
+  const float y0 = x00 + cell.fy * (x10 - x00);
+  const float y1 = x01 + cell.fy * (x11 - x01);
+  const double distance = static_cast<double>(y0 + cell.fz * (y1 - y0));
+  if (!(std::fabs(distance) < band_)) {
+    if (distance < 0.0) sample.distance = -band_;
+    return sample;
+  }
+  const float d00 = v[1] - v[0];
+  const float d10 = v[kStrideY + 1] - v[kStrideY];
+  const float d01 = v[kStrideZ + 1] - v[kStrideZ];
+  const float d11 = v[kStrideZ + kStrideY + 1] - v[kStrideZ + kStrideY];
+  const float d0 = d00 + cell.fy * (d10 - d00);
+  const float d1 = d01 + cell.fy * (d11 - d01);
+  const float gx = d0 + cell.fz * (d1 - d0);
+  const float gy = (x10 - x00) + cell.fz * ((x11 - x01) - (x10 - x00));
+  const float gz = y1 - y0;
+  sample.distance = distance;
+  sample.gradient = per_voxel_ * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
+  sample.known = true;
+  return sample;
+}
+
+LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {
+  LayerSample sample;
+  const int deepest = static_cast<int>(band_ * per_voxel_ + 0.5);
+  sample.layer = -deepest;
+  Cell cell;
+  if (!locate(p_W, cell)) return sample;
+  // the nearest node is a corner of the cell, so it is stored wherever the cell is
+  const int ox = cell.fx >= 0.5f ? 1 : 0;
+  const int oy = cell.fy >= 0.5f ? 1 : 0;
+  const int oz = cell.fz >= 0.5f ? 1 : 0;
+  sample.to_center = voxel_size_ * Vector3(static_cast<double>(static_cast<float>(ox) - cell.fx),
+                                           static_cast<double>(static_cast<float>(oy) - cell.fy),
+                                           static_cast<double>(static_cast<float>(oz) - cell.fz));
+  if (cell.entry & format::index_entry::kFar) {
+    if (cell.entry & format::index_entry::kInside) sample.layer = deepest;
+    return sample;
+  }
+  const int node = cell.x + ox + kStrideY * (cell.y + oy) + kStrideZ * (cell.z + oz);
+  const double layers =
+      -static_cast<double>(bricks_[cell.entry & format::index_entry::kLow].value[node]) * per_voxel_;
+  sample.layer = static_cast<int>(std::clamp(std::floor(layers + 0.5), -static_cast<double>(deepest), static_cast<double>(deepest)));
+  return sample;
+}
+
+double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexcept {
+  constexpr double kNoBound = -std::numeric_limits<double>::infinity();
+  double bound = kNoBound;
+  Cell cell;
+  if (!locate(center_W, cell)) {
+    const Vector3 outside = (surface_min_ - center_W).cwiseMax(center_W - surface_max_).cwiseMax(0.0);
+    // from the exact distance to the interpolated one: off by at most kInterpolationError voxels
+    bound = outside.norm() - kInterpolationError * voxel_size_ - radius;
+  } else if (cell.entry & format::index_entry::kFar) {
+    if (cell.entry & format::index_entry::kInside) return kNoBound;
+    bound = static_cast<double>(format::index_entry::far_clearance(cell.entry)) - radius;
+  } else {
+    if (cell.entry & format::index_entry::kSeamNear) {
+      const format::Brick& brick = bricks_[cell.entry & format::index_entry::kLow];
+      if (!(radius < static_cast<double>(brick.seam_clearance))) return kNoBound;
+    }
+    // Along the segment from the centre to any x of the ball the stored field falls by at most lipschitz_ a metre while
+    // the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at least the band.
+    bound = sample(center_W).distance - lipschitz_ * radius;
+  }
+  // A ball that may reach the surface may also reach through a seam into the solid: no bound is known there.
+  return bound >= 0.0 ? bound : kNoBound;
+}
+
+}  // namespace godobject

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/scene/field.h"
+#include "core/scene/format.h"
+
+namespace godobject {
+
+/// The compiled still body: trilinear value and gradient of signed distances stored in sparse bricks. A view; owns nothing.
+/// Real-time safe; every call looks at one brick (one index entry and at most 8 floats of it).
+class Voxelmap {
+ public:
+  Voxelmap() = default;
+
+  /// The parts must have been validated (Scene::open does) and must outlive the view.
+  Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks) noexcept;
+
+  double voxel_size() const noexcept { return voxel_size_; }
+  double band() const noexcept { return band_; }
+  double lipschitz() const noexcept { return lipschitz_seam_; }
+
+  /// Trilinear interpolation of the stored distances and its exact gradient at p_W. Outside the grid is free space
+  /// (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts as outside.
+  FieldSample sample(const Vector3& p_W) const noexcept;
+
+  /// The paper's voxel layer v = round(-phi(C) / s) at the centre C of the voxel (node) nearest to p_W; beyond the band
+  /// that of the band's edge. Nothing more is stored for it.
+  LayerSample layer(const Vector3& p_W) const noexcept;
+
+  /// See DistanceField. Within the band from the Lipschitz constant, beyond it from the clearance kept in the brick index,
+  /// outside the grid from the surface's bounding box.
+  double lower_bound(const Vector3& center_W, double radius) const noexcept;
+
+ private:
+  struct Cell {
+    std::uint32_t entry;  ///< of the brick index
+    int x, y, z;          ///< cell within the brick, 0 .. kBrickCells - 1
+    float fx, fy, fz;     ///< position within the cell, 0 .. 1
+  };
+
+  bool locate(const Vector3& p_W, Cell& cell) const noexcept;
+
+  const std::uint32_t* index_ = nullptr;
+  const format::Brick* bricks_ = nullptr;
+  Vector3 origin_ = Vector3::Zero();
+  Vector3 surface_min_ = Vector3::Zero();
+  Vector3 surface_max_ = Vector3::Zero();
+  double voxel_size_ = 1.0;
+  double per_voxel_ = 1.0;
+  double band_ = 0.0;
+  double lipschitz_ = 1.0;
+  double lipschitz_seam_ = 1.0;
+  int nx_ = 0, ny_ = 0, nz_ = 0;  ///< brick positions
+};
+
+static_assert(DistanceField<Voxelmap>);
+
+}  // namespace godobject

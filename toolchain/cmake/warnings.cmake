@@ -1,0 +1,11 @@
+# Warnings of every target, as errors. `godobject_embedded` adds what holds in the rooms that run on the device.
+
+add_library(godobject_warnings INTERFACE)
+target_compile_options(godobject_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor -Wcast-align
+  -Wundef -Wnull-dereference -Werror)
+
+add_library(godobject_embedded INTERFACE)
+target_link_libraries(godobject_embedded INTERFACE godobject_warnings)
+target_compile_options(godobject_embedded INTERFACE
+  -fno-exceptions -fno-rtti -fno-threadsafe-statics -Wvla -Wdouble-promotion -Wstack-usage=16384)

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "toolchain/scene_compiler/triangle_mesh.h"
+
+namespace godobject::scene_compiler {
+
+enum class SurfaceKind { kAuto, kSolid, kShell };
+
+/// A mesh as a body: which of its components enclose a solid and which are thickened shells, with exact distance and
+/// winding number anywhere. All queries are const and may run on many threads.
+class SolidSurface {
+ public:
+  struct Component {
+    bool shell = false;       ///< thickened: phi = |d| - thickness / 2
+    bool inside_out = false;  ///< its triangles wind the wrong way round; taken with the other sign
+    std::uint32_t triangles = 0;
+  };
+
+  struct Closest {
+    double distance = 0.0;         ///< unsigned, to the nearest triangle [m]
+    Eigen::Vector3d point;         ///< on that triangle
+    std::uint32_t triangle = 0;
+  };
+
+  /// `thickness` of shells [m].
+  SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness);
+  ~SolidSurface();
+
+  const TriangleMesh& mesh() const;
+  const std::vector<Component>& components() const;
+  const std::vector<std::uint32_t>& component_of_triangle() const;
+  double thickness() const;
+
+  /// Signed distance, positive outside: of solid components |d| with the sign of (winding number > 0.5 is inside), of shells
+  /// |d| - thickness / 2, the smaller of both. `hint` (if not negative) is an upper bound of the unsigned distance to any triangle.
+  double signed_distance(const Eigen::Vector3d& p, double hint = -1.0) const;
+
+  /// Nearest triangle of any component.
+  Closest closest(const Eigen::Vector3d& p, double hint = -1.0) const;
+
+  /// Generalised winding number of the solid components: 1 inside, 0 outside of closed ones.
+  double winding_number(const Eigen::Vector3d& p) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace godobject::scene_compiler
