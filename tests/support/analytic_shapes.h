@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/spatial/vector.h"
+
+namespace godobject::test {
+
+/// Exact signed distance to a ball about the origin [m].
+inline double ball_distance(const Vector3& p, double radius) { return p.norm() - radius; }
+
+/// Exact signed distance to an axis-aligned box about the origin [m].
+inline double box_distance(const Vector3& p, const Vector3& half_edges) {
+  const Vector3 q = p.cwiseAbs() - half_edges;
+  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+/// Sample points of a surface with unit normals that point into the body.
+struct SurfaceSamples {
+  std::vector<Vector3> points;
+  std::vector<Vector3> normals;
+};
+
+/// `count` points spread evenly (golden spiral) over a ball about the origin.
+inline SurfaceSamples sample_ball(double radius, int count) {
+  constexpr double kGoldenAngle = 2.399963229728653;
+  SurfaceSamples samples;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double ring = std::sqrt(1.0 - z * z);
+    const Vector3 outward(ring * std::cos(kGoldenAngle * i), ring * std::sin(kGoldenAngle * i), z);
+    samples.points.push_back(radius * outward);
+    samples.normals.push_back(-outward);
+  }
+  return samples;
+}
+
+/// A lattice of `per_edge`^3 points on the faces, edges and corners of a box about the origin; per_edge >= 2.
+inline SurfaceSamples sample_box(const Vector3& half_edges, int per_edge) {
+  SurfaceSamples samples;
+  const int last = per_edge - 1;
+  for (int z = 0; z <= last; ++z) {
+    for (int y = 0; y <= last; ++y) {
+      for (int x = 0; x <= last; ++x) {
+        const auto side = [last](int i) { return i == 0 ? -1.0 : i == last ? 1.0 : 0.0; };
+        const Vector3 outward(side(x), side(y), side(z));
+        if (outward.isZero()) continue;
+        const Vector3 at = 2.0 / last * Vector3(x, y, z) - Vector3::Ones();
+        samples.points.push_back(at.cwiseProduct(half_edges));
+        samples.normals.push_back(-outward.normalized());
+      }
+    }
+  }
+  return samples;
+}
+
+}  // namespace godobject::test
