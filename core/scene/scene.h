@@ -27,6 +27,7 @@ struct Scene {
   /// kImageTruncated, kImageForeign, kImageVersion, kImageChecksum, kImageLayout, kImageValue: see Status; `scene` is unchanged.
   static Status open(std::span<const std::byte> image, Scene& scene) noexcept;
 
+  format::Solver default_solver() const noexcept { return static_cast<format::Solver>(settings.default_solver); }
   bool holds(format::Solver solver) const noexcept {
     return (settings.solvers >> static_cast<std::uint32_t>(solver)) & 1u;
   }

@@ -1,0 +1,49 @@
+#include "core/pipeline/cycle.h"
+
+namespace godobject {
+
+const char* name(Outcome outcome) noexcept {
+  switch (outcome) {
+    case Outcome::kFree: return "free";
+    case Outcome::kContact: return "contact";
+    case Outcome::kStartInside: return "start_inside";
+    case Outcome::kCut: return "cut";
+    case Outcome::kOverflow: return "overflow";
+    case Outcome::kBadInput: return "bad_input";
+    case Outcome::kInfeasible: return "infeasible";
+  }
+  return "unknown";
+}
+
+namespace detail {
+
+Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, bool cut, bool slipping,
+              const Parameters& parameters, State& state, CycleReport& report) noexcept {
+  const Motion stretch = coupling_stretch(input.H_WD, H_WS);                                                       // #6 (44), (45)
+  const Wrench coupling = constraint_force(stretch, parameters.coupling_translation, parameters.coupling_rotation);  // (46)
+  const DeviceForce force = device_force(coupling, input.H_WD, input.velocity_W, parameters);                      // #7
+  const bool finite = H_WS.is_finite() && force.total_W.force.allFinite() && force.total_W.torque.allFinite() &&
+                      force.spring_W.force.allFinite() && force.spring_W.torque.allFinite();
+  if (!finite) return Status::kNotFinite;
+
+  state.H_WS = H_WS;
+  state.slipping = slipping;
+  const double penetration = contacts.depth - parameters.safety_distance;
+  if (penetration <= kOutside * parameters.voxel_size) state.inside = false;
+  report.H_WS = H_WS;
+  report.force = force;
+  report.penetration = penetration;
+  report.contacts = contacts.count;
+  report.substeps = 1;
+  if (state.inside) {
+    report.outcome = Outcome::kStartInside;
+  } else if (cut) {
+    report.outcome = Outcome::kCut;
+  } else {
+    report.outcome = contacts.depth > 0.0 ? Outcome::kContact : Outcome::kFree;
+  }
+  return Status::kOk;
+}
+
+}  // namespace detail
+}  // namespace godobject

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/pipeline/constrained_motion.h"
+#include "core/pipeline/constraint_force.h"
+#include "core/pipeline/correction.h"
+#include "core/pipeline/device_force.h"
+#include "core/pipeline/parameters.h"
+#include "core/pipeline/penalty_contacts.h"
+#include "core/pipeline/projection.h"
+#include "core/pipeline/proxy_filter.h"
+#include "core/status.h"
+
+namespace godobject {
+
+/// What the operator's side gives to one cycle: the body's pose on the device and its velocity, in W.
+struct CycleInput {
+  Pose H_WD;            ///< frame B of the moving body as the device holds it
+  Motion velocity_W;    ///< of D's origin [m/s] and angular [rad/s]; damping only
+};
+
+/// How a cycle went; one word a row of a replay.
+enum class Outcome : std::uint8_t {
+  kFree,         ///< no contact: the god object is the device pose
+  kContact,      ///< constrained
+  kStartInside,  ///< the first pose penetrated, and the god object is still on its way out
+  kCut,          ///< a motion was shortened so as not to jump over the surface
+  kOverflow,     ///< more contacts than a workspace holds (contact solver)
+  kBadInput,     ///< the device pose was no pose; the god object was held
+  kInfeasible,   ///< constraints without a solution (contact solver)
+};
+
+/// `free contact start_inside cut overflow bad_input infeasible`
+const char* name(Outcome outcome) noexcept;
+
+/// Carried from cycle to cycle; written once, at the end of a cycle that went well.
+struct State {
+  Pose H_WS;              ///< the god object
+  bool started = false;   ///< H_WS means something
+  bool inside = false;    ///< it started in penetration and has not come out
+  bool slipping = false;  ///< friction of `corrected`
+};
+
+/// What a cycle leaves for others to look at.
+struct CycleReport {
+  Pose H_WS;                        ///< god object after the cycle, frame B
+  DeviceForce force;                ///< for the device, in W about the centre of mass
+  double penetration = 0.0;         ///< p = p_d - d of step #1, before the cycle's motion [m]
+  std::uint32_t contacts = 0;       ///< points with V > 0
+  std::uint32_t substeps = 0;
+  Outcome outcome = Outcome::kFree;
+};
+
+/// Optional stopwatch: how long step #1 and steps #2-#7 took. The core has no clock of its own.
+struct StepTimes {
+  std::int64_t (*now_ns)() noexcept = nullptr;
+  std::int64_t step1_ns = 0;
+  std::int64_t solve_ns = 0;
+};
+
+/// The god object leaves `inside` once it is less than this deep; corrections approach the surface, they do not reach it. [voxels]
+inline constexpr double kOutside = 0.1;
+
+namespace detail {
+
+inline std::int64_t read(const StepTimes* times) noexcept { return times != nullptr ? times->now_ns() : 0; }
+
+/// Steps #6 and #7, the finite check, and the only place where `state` changes.
+Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, bool cut, bool slipping,
+              const Parameters& parameters, State& state, CycleReport& report) noexcept;
+
+}  // namespace detail
+
+/// One cycle of `paper`: equations (1)-(48) as printed but for the few mended ones (core/README.md). #8 is the caller's.
+/// kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
+template <bool kFriction, DistanceField Field>
+Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input, State& state,
+                   CycleReport& report, StepTimes* times = nullptr) noexcept {
+  const std::int64_t begin_ns = detail::read(times);
+  const auto contacts = penalty_contacts<LayerPenetration>(field, shell, state.H_WS, q.safety_distance, 0.0);      // #1 (1), (2)
+  const std::int64_t found_ns = detail::read(times);
+
+  Pose H_WS = input.H_WD;                                                                                          // region C
+  if (contacts.depth > 0.0) {
+    const Correction c = correction(contacts, q.safety_distance, q.mass);                                          // #2 (3)-(27)
+    const bool region_A = c.penetration >= 0.0;
+    const double eta = region_A ? q.correction_gain : 0.0;
+    const Pose H_pen = set_matrix({eta * c.delta.translation, eta * c.delta.rotation});                            //    (28)
+    const Pose H_WSc = state.H_WS * H_pen;                                                                         //    (29)
+    const Vector3 u_x = H_pen.rotation.conjugate()._transformVector(c.u_x);                                        //    (30)
+    const Vector3 u_r = H_pen.rotation.conjugate()._transformVector(c.u_r);
+    const Motion free = unconstrained_motion(H_WSc, input.H_WD);                                                   // #3 (32), (33)
+    Motion step{constrained_motion(free.translation, u_x, c.delta.translation.norm(), c.penetration),              // #4 (36)-(39)
+                constrained_motion(free.rotation, u_r, c.delta.rotation.norm(), c.penetration)};
+    if constexpr (kFriction) {
+      const SplitMotion x = split(free.translation, u_x);
+      const SplitMotion r = split(free.rotation, u_r);
+      const PaperFriction& mu = q.paper_friction;
+      const Vector3 x_restricted = x.parallel - split(step.translation, u_x).parallel;                             //    (40)
+      const Vector3 r_restricted = r.parallel - split(step.rotation, u_r).parallel;
+      step.translation += paper_friction(x_restricted, x.perpendicular, mu.translation_static, mu.translation_kinetic, mu.viscous);
+      step.rotation += paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
+    }                                                                                                              //    (47), (48)
+    const Pose H_WS_unfiltered = H_WSc * set_matrix(step);                                                         //    (41), (42)
+    H_WS = filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period);                                        // #5 (43)
+  }
+  const Status status = detail::finish(input, H_WS, contacts, false, false, q, state, report);                     // #6, #7 (44)-(46)
+  if (times != nullptr) {
+    times->step1_ns = found_ns - begin_ns;
+    times->solve_ns = times->now_ns() - found_ns;
+  }
+  return status;
+}
+
+/// One cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter. As above otherwise.
+template <bool kFriction, DistanceField Field>
+Status corrected_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input, State& state,
+                       CycleReport& report, StepTimes* times = nullptr) noexcept {
+  const std::int64_t begin_ns = detail::read(times);
+  const Motion free = unconstrained_motion(state.H_WS, input.H_WD);                                                // #3 (32), (33)
+  const double travel = free.translation.norm() + q.mass.radius * free.rotation.norm();
+  const auto contacts = penalty_contacts<DistancePenetration>(field, shell, state.H_WS, q.safety_distance, travel);  // #1 (1), (2)
+  const std::int64_t found_ns = detail::read(times);
+
+  Projection step;                                                                                                 // #2-#4
+  if (state.inside && !contacts.has_direction()) {
+    step.motion = free;  // swallowed, and the field does not say where out is: with the device
+  } else if constexpr (kFriction) {
+    const double viscous_step = q.friction.viscous / (q.stiffness * q.coupling_translation * q.period);
+    step = project_with_friction(free, contacts, q.safety_distance, q.correction_gain, q.mass,
+                                 {q.friction.static_ratio, q.friction.kinetic_ratio, viscous_step}, state.slipping);
+  } else {
+    step = project(free, contacts, q.safety_distance, q.correction_gain, q.mass);
+  }
+  const bool follows = !step.cut && contacts.depth <= 0.0;  // the device pose itself, without rounding
+  const Pose H_WS = follows ? input.H_WD : state.H_WS * set_matrix(step.motion);
+  const Status status = detail::finish(input, H_WS, contacts, step.cut, step.slipping, q, state, report);          // #6, #7 (44)-(46)
+  if (times != nullptr) {
+    times->step1_ns = found_ns - begin_ns;
+    times->solve_ns = times->now_ns() - found_ns;
+  }
+  return status;
+}
+
+}  // namespace godobject

@@ -1,0 +1,51 @@
+#include "core/pipeline/god_object.h"
+
+#include <cassert>
+
+namespace godobject {
+namespace {
+
+Status refuse(Status status, const State& state, CycleReport& report) noexcept {
+  report = CycleReport{};
+  report.H_WS = state.H_WS;
+  report.outcome = Outcome::kBadInput;
+  return status;
+}
+
+}  // namespace
+
+Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexcept {
+  if (!scene.holds(solver) || (friction && scene.settings.friction == 0)) return Status::kNotInImage;
+  switch (solver) {
+    case Solver::kPaper: cycle_ = friction ? &paper_cycle<true, Voxelmap> : &paper_cycle<false, Voxelmap>; break;
+    case Solver::kCorrected: cycle_ = friction ? &corrected_cycle<true, Voxelmap> : &corrected_cycle<false, Voxelmap>; break;
+  }
+  scene_ = &scene;
+  H_MB_ = scene.H_MB;
+  H_BM_ = scene.H_MB.inverse();
+  parameters_ = Parameters::make(scene);
+  reset();
+  return Status::kOk;
+}
+
+Status GodObject::update(const Input& input, CycleReport& report, StepTimes* times) noexcept {
+  assert(cycle_ != nullptr && "start() comes first");
+  constexpr double kUnit = 1e-3;
+  if (!input.H_WM.is_finite() || !input.velocity_W.translation.allFinite() || !input.velocity_W.rotation.allFinite()) {
+    return refuse(Status::kNotFinite, state_, report);
+  }
+  const double length = input.H_WM.rotation.norm();
+  if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return refuse(Status::kNotUnit, state_, report);
+
+  CycleInput cycle_input{input.H_WM * H_MB_, input.velocity_W};  // the product normalises the rotation
+  if (!state_.started) {
+    state_.H_WS = cycle_input.H_WD;
+    state_.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, state_.H_WS) < 0.0;
+    state_.slipping = false;
+    state_.started = true;
+  }
+  const Status status = cycle_(scene_->voxelmap, scene_->pointshell, parameters_, cycle_input, state_, report, times);
+  return status == Status::kOk ? status : refuse(status, state_, report);
+}
+
+}  // namespace godobject

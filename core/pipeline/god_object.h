@@ -1,0 +1,58 @@
+#pragma once
+
+#include "core/pipeline/cycle.h"
+#include "core/scene/scene.h"
+
+namespace godobject {
+
+using Solver = format::Solver;
+
+/// The god object of a compiled scene: one `update` a millisecond, from the device's pose to the force on the device.
+///
+/// Poses are those of the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
+/// No allocation, no exceptions, no locks; about 1 KiB. The scene must outlive it.
+///
+///     GodObject god_object;
+///     if (god_object.start(scene, scene.default_solver(), true) != Status::kOk) ...
+///     while (running) if (god_object.update({H_WM, velocity_W}, report) == Status::kOk) use(report.force.total_W);
+class GodObject {
+ public:
+  /// Device pose of the moving mesh, and its velocity at the centre of mass, for the damping.
+  struct Input {
+    Pose H_WM;          ///< a rotation within 1e-3 of unit length is normalised
+    Motion velocity_W;  ///< of the body's centre of mass [m/s], angular [rad/s]
+  };
+
+  /// Chooses the pipeline once. Without a friction table in the scene `friction` = true is refused.
+  /// kNotInImage: the image was compiled without that solver, or without friction; nothing changed.
+  Status start(const Scene& scene, Solver solver, bool friction) noexcept;
+
+  /// Forgets the god object: the next update starts with it at the device pose.
+  void reset() noexcept { state_ = State{}; }
+
+  /// One cycle, steps #1-#7. The first one after `start` or `reset` puts the god object at the device pose; if that
+  /// penetrates, the outcome is kStartInside until it has come out: by eta p a cycle where the field gives a direction,
+  /// with the device where it gives none.
+  /// kNotFinite, kNotUnit: the input is no pose, or would have led to a NaN; the god object is held, the force is zero,
+  /// the report's outcome is kBadInput. Cost: ALGORITHM's step #1 and less than 1 us for the others. Real-time safe.
+  Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
+
+  /// The god object as a pose of the moving mesh's frame in W.
+  Pose mesh_pose() const noexcept { return state_.H_WS * H_BM_; }
+
+  const Parameters& parameters() const noexcept { return parameters_; }
+  const State& state() const noexcept { return state_; }
+
+ private:
+  using Cycle = Status (*)(const Voxelmap&, const Pointshell&, const Parameters&, const CycleInput&, State&, CycleReport&,
+                           StepTimes*) noexcept;
+
+  const Scene* scene_ = nullptr;
+  Cycle cycle_ = nullptr;
+  Pose H_MB_;
+  Pose H_BM_;
+  Parameters parameters_;
+  State state_;
+};
+
+}  // namespace godobject
