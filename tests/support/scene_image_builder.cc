@@ -19,7 +19,9 @@ using format::SectionId;
 
 constexpr double kHalfDiagonal = 0.8660254037844387;  // of a unit cube
 
-std::size_t padded(std::size_t bytes) { return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment; }
+std::size_t padded(std::size_t bytes) {
+  return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
+}
 
 /// The still body: grid, brick index, bricks.
 struct StoredField {
@@ -44,7 +46,8 @@ format::Grid frame_grid(const SceneDescription& description) {
   return grid;
 }
 
-format::Brick sample_brick(const SceneDescription& description, const format::Grid& grid, const std::array<int, 3>& at) {
+format::Brick sample_brick(const SceneDescription& description, const format::Grid& grid,
+                           const std::array<int, 3>& at) {
   format::Brick brick{};
   brick.seam_clearance = FLT_MAX;
   for (int z = 0, node = 0; z < kBrickNodes; ++z) {
@@ -104,11 +107,13 @@ StoredField store_field(const SceneDescription& description) {
         }
         // from the nearest node to any point of the brick, then from the exact distance to the interpolated one
         const double clearance = lowest - 2.0 * kHalfDiagonal * grid.voxel_size;
-        field.index.push_back(format::index_entry::encode_far(highest < 0.0, static_cast<float>(std::max(0.0, clearance))));
+        field.index.push_back(
+            format::index_entry::encode_far(highest < 0.0, static_cast<float>(std::max(0.0, clearance))));
       }
     }
   }
-  grid.lipschitz = steepest_edge / grid.voxel_size * (1.0 + 1e-6);  // single precision differences are taken again later
+  grid.lipschitz =
+      steepest_edge / grid.voxel_size * (1.0 + 1e-6);  // single precision differences are taken again later
   grid.lipschitz_seam = grid.lipschitz;
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   return field;
@@ -181,7 +186,8 @@ StoredBody store_body(const SceneDescription& description) {
   std::copy(std::begin(rotation), std::end(rotation), std::begin(body.rotation_MB));
   std::copy_n(description.H_MB.translation.data(), 3, std::begin(body.translation_MB));
   std::copy(description.inertia.begin(), description.inertia.end(), std::begin(body.inertia));
-  if (body.inertia[2] == 0.0) std::fill(std::begin(body.inertia), std::end(body.inertia), 0.4 * body.radius * body.radius);
+  if (body.inertia[2] == 0.0)
+    std::fill(std::begin(body.inertia), std::end(body.inertia), 0.4 * body.radius * body.radius);
   body.volume = 0.0;
   body.inertia_from_points = 1;
   return stored;
@@ -273,7 +279,8 @@ SceneImage build_scene_image(const SceneDescription& description) {
     parts.push_back(part(SectionId::kNormals, std::span(normals)));
   }
   parts.push_back(part(SectionId::kNodes, std::span(stored.nodes)));
-  parts.push_back(part(SectionId::kProvenance, std::span(description.provenance.data(), description.provenance.size())));
+  parts.push_back(
+      part(SectionId::kProvenance, std::span(description.provenance.data(), description.provenance.size())));
   return assemble(parts);
 }
 

@@ -39,8 +39,8 @@ struct SceneDescription {
   double voxel_size = 0.005;
   double band = 0.0;  ///< 0: four voxels
 
-  std::vector<Vector3> points;   ///< in the body frame B; the image may hold them in another order
-  std::vector<Vector3> normals;  ///< unit, pointing into the body, one a point; empty: left out, and `paper` with them
+  std::vector<Vector3> points;    ///< in the body frame B; the image may hold them in another order
+  std::vector<Vector3> normals;   ///< unit, pointing into the body, one a point; empty: left out, and `paper` with them
   std::uint32_t level_count = 0;  ///< of the sphere tree; 0: as many as leave about eight points to a leaf
   Pose H_MB;
   std::array<double, 3> inertia{};  ///< principal moments over mass, ascending [m^2]; zeros: those of a solid ball
@@ -50,7 +50,8 @@ struct SceneDescription {
 };
 
 /// A valid image of the scene, checksums and all, written without the scene compiler: a second reading of format.h.
-/// The grid covers the surface's box, one band and a voxel. Throws std::invalid_argument naming the member that is wrong.
+/// The grid covers the surface's box, one band and a voxel. Throws std::invalid_argument naming the member that is
+/// wrong.
 SceneImage build_scene_image(const SceneDescription& description);
 
 /// The bytes of a section, without padding; empty where the image has none.
