@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/scene_compiler/triangle_tree.h"
 
 namespace godobject::scene_compiler {
 
@@ -19,11 +20,12 @@ class SolidSurface {
     bool shell = false;       ///< thickened: phi = |d| - thickness / 2
     bool inside_out = false;  ///< its triangles wind the wrong way round; taken with the other sign
     std::uint32_t triangles = 0;
+    double winding = 0.0;     ///< principal value of the whole mesh's winding number on the component: see classify
   };
 
   struct Closest {
-    double distance = 0.0;         ///< unsigned, to the nearest triangle [m]
-    Eigen::Vector3d point;         ///< on that triangle
+    double distance = 0.0;  ///< unsigned, to the nearest triangle [m]; infinity where p is not finite
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< on that triangle
     std::uint32_t triangle = 0;
   };
 
@@ -45,6 +47,14 @@ class SolidSurface {
 
   /// Generalised winding number of the solid components: 1 inside, 0 outside of closed ones.
   double winding_number(const Eigen::Vector3d& p) const;
+
+  /// Unsigned distance to the triangles of one kind; infinity if there are none. `hint` as above, for that kind.
+  double distance_to_solids(const Eigen::Vector3d& p, double hint = -1.0) const;
+  double distance_to_shells(const Eigen::Vector3d& p, double hint = -1.0) const;
+
+  /// Triangles of one kind as a tree, ids those of `mesh()`; those of an inside-out component turned round.
+  const TriangleTree& solid_triangles() const;
+  const TriangleTree& shell_triangles() const;
 
  private:
   struct Impl;
