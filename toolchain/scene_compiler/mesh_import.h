@@ -35,7 +35,7 @@ inline constexpr std::uint64_t kMaxTriangles = 1u << 25;
 inline constexpr double kMaxCoordinate = 1e5;
 
 /// Reads a PLY, STL or OBJ file, scales it to metres and cleans it: coincident vertices welded (1e-6 of the bounding box's
-/// diagonal), degenerate and duplicate triangles and loose vertices dropped. Coordinates pass through single precision.
+/// diagonal), degenerate and duplicate triangles and loose vertices dropped. STL and OBJ pass through single precision.
 /// Throws Failure naming the file and the cure: kNoInput if it cannot be read, kBadData if it holds no usable mesh.
 TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshReport& report);
 
