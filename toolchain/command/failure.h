@@ -1,0 +1,21 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace godobject::command {
+
+/// Exit codes of sysexits.h.
+enum class ExitCode : int { kOk = 0, kUsage = 64, kBadData = 65, kNoInput = 66, kInternal = 70, kIo = 74, kBadConfig = 78 };
+
+/// Ends a command: one line for the user (what, where, the cure) and the exit code.
+class Failure : public std::runtime_error {
+ public:
+  Failure(ExitCode exit_code, const std::string& message) : std::runtime_error(message), exit_code_(exit_code) {}
+  ExitCode exit_code() const noexcept { return exit_code_; }
+
+ private:
+  ExitCode exit_code_;
+};
+
+}  // namespace godobject::command

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+namespace godobject::command {
+
+/// Parses the command line into `app` (adding --version), runs `body`, and turns whatever goes wrong into one line on stderr
+/// and an exit code of sysexits.h: what main() returns. `body` returns the exit code of its own success.
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+}  // namespace godobject::command

@@ -1,0 +1,90 @@
+#include <cfenv>
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/command/failure.h"
+#include "toolchain/command/progress.h"
+#include "toolchain/command/run.h"
+#include "toolchain/command/scene_file.h"
+#include "toolchain/replay/replay.h"
+
+namespace {
+
+using godobject::Solver;
+using godobject::command::ExitCode;
+using godobject::command::Failure;
+
+const std::map<std::string, Solver> kSolvers = {{"paper", Solver::kPaper}, {"corrected", Solver::kCorrected}};
+
+const char* const kFooter = R"(Example:
+  godobject-replay bunny_teapot.scene bunny_teapot.csv -o out.csv --solver corrected
+
+POSES.csv holds t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row a millisecond. OUT.csv gets one
+row a cycle: device pose d, god-object pose g (after the cycle), spring force f [N] and torque t [Nm] on the device in W about
+the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside), contacts, substeps,
+time of step #1 and of steps #2-#7, and a status:
+  free          no contact, the god object is the device pose
+  contact       constrained
+  start_inside  the first pose penetrated and the god object is still on its way out: it moves out by a fifth of its depth a
+                cycle where the field gives a direction, and goes with the device where it gives none
+  cut           the motion was shortened so as not to jump over the surface
+  overflow      more contacts than fit; infeasible: constraints without a solution (neither happens with paper and corrected)
+  bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, exit 65 at the end)";
+
+std::string float_exceptions(int raised) {
+  std::string names;
+  if (raised & FE_INVALID) names += " invalid";
+  if (raised & FE_DIVBYZERO) names += " divide-by-zero";
+  if (raised & FE_OVERFLOW) names += " overflow";
+  return names.empty() ? " none" : names;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Runs the god object along a recorded device path, open loop: one 1 ms cycle for each row.", "godobject-replay");
+  app.footer(kFooter);
+  std::string scene_path, poses_path, out_path, solver_name, friction_name;
+  app.add_option("SCENE", scene_path, "scene image, X.scene")->required();
+  app.add_option("POSES", poses_path, "device path, CSV")->required();
+  app.add_option("-o,--output", out_path, "what to write, CSV")->required();
+  app.add_option("--solver", solver_name, "paper or corrected; default: the scene's")->check(CLI::IsMember(kSolvers));
+  app.add_option("--friction", friction_name, "on or off; default: on if the scene has a friction table")->check(CLI::IsMember({"on", "off"}));
+
+  return godobject::command::run(app, argc, argv, [&] {
+    const godobject::command::SceneFile file(scene_path);
+    const godobject::Scene& scene = file.scene();
+    const Solver solver = solver_name.empty() ? scene.default_solver() : kSolvers.at(solver_name);
+    const bool has_friction = scene.settings.friction != 0;
+    const bool friction = friction_name.empty() ? has_friction : friction_name == "on";
+    if (friction && !has_friction) {
+      throw Failure(ExitCode::kBadConfig, fmt::format("{}: --friction on, but the scene has no [friction] table; add one and compile it again",
+                                                      scene_path));
+    }
+    if (!scene.holds(solver)) {
+      throw Failure(ExitCode::kBadData, fmt::format("{}: was compiled without the solver {}; compile it again without --only-solver",
+                                                    scene_path, solver_name));
+    }
+    const godobject::replay::Path path = godobject::replay::read_path(poses_path);
+    godobject::command::AtomicFile out(out_path);
+    godobject::replay::Summary summary;
+    {
+      godobject::command::Progress progress("replay");
+      summary = godobject::replay::replay(
+          scene, solver, friction, path, [&](const std::string& row) { out.write(row); }, [&](double share) { progress.update(share); });
+    }
+    out.commit();
+    fmt::print("{}: {} cycles, deepest {:.3f} mm, peak force {:.2f} N, floating-point exceptions:{}\n", out_path, summary.cycles,
+               1e3 * summary.deepest, summary.peak_force, float_exceptions(summary.float_exceptions));
+    if (summary.bad_rows > 0) {
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), the first of {} such rows; the god object was "
+                                "held there", poses_path, summary.first_bad_line, summary.bad_rows));
+    }
+    return 0;
+  });
+}

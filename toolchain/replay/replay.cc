@@ -1,0 +1,105 @@
+#include "toolchain/replay/replay.h"
+
+#include <array>
+#include <cfenv>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "core/pipeline/penalty_contacts.h"
+#include "toolchain/command/csv_table.h"
+#include "toolchain/command/failure.h"
+
+namespace godobject::replay {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+std::int64_t now_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{1000000000} * now.tv_sec + now.tv_nsec;
+}
+
+void append(std::string& row, const Vector3& v) { fmt::format_to(std::back_inserter(row), ",{},{},{}", v.x(), v.y(), v.z()); }
+
+void append(std::string& row, const Pose& pose) {
+  append(row, pose.translation);
+  const Quaternion& q = pose.rotation;
+  fmt::format_to(std::back_inserter(row), ",{},{},{},{}", q.w(), q.x(), q.y(), q.z());
+}
+
+}  // namespace
+
+const char* const kColumns =
+    "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,solve_ns,status";
+
+Path read_path(const std::filesystem::path& file) {
+  constexpr double kPeriod = 1e-3;
+  constexpr double kTolerance = 0.1 * kPeriod + 1e-9;  // and the rounding of t itself
+  constexpr std::array<std::string_view, 8> kPathColumns = {"t", "px", "py", "pz", "qw", "qx", "qy", "qz"};
+  const command::CsvTable table = command::read_csv(file, kPathColumns);
+  if (table.rows() == 0) throw Failure(ExitCode::kBadData, fmt::format("{}: holds no pose; write one row a millisecond", file.string()));
+  Path path;
+  path.lines = table.lines;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto row = table.row(i);
+    if (!std::isfinite(row[0]) || (i > 0 && !(std::fabs(row[0] - path.t.back() - kPeriod) <= kTolerance))) {
+      throw Failure(ExitCode::kBadData, fmt::format("{}:{}: t = {} does not follow its predecessor by 1 ms within 10 %; resample the path "
+                                                    "to 1 kHz", file.string(), table.lines[i], row[0]));
+    }
+    Pose pose;
+    pose.translation = Vector3(row[1], row[2], row[3]);
+    pose.rotation = Quaternion(row[4], row[5], row[6], row[7]);
+    path.t.push_back(row[0]);
+    path.poses.push_back(pose);
+  }
+  return path;
+}
+
+Summary replay(const Scene& scene, Solver solver, bool friction, const Path& path, const std::function<void(const std::string&)>& write_row,
+               const std::function<void(double)>& progress) {
+  constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  constexpr std::size_t kProgressEvery = 256;
+  GodObject god_object;
+  if (god_object.start(scene, solver, friction) != Status::kOk) {
+    throw Failure(ExitCode::kBadData, "the scene image was compiled without this solver or without friction; compile it without "
+                                      "--only-solver, or with a [friction] table");
+  }
+  Summary summary;
+  std::string row = std::string(kColumns) + "\n";
+  write_row(row);
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    StepTimes times{.now_ns = &now_ns};
+    CycleReport report;
+    std::feclearexcept(kWatched);
+    const Status status = god_object.update({path.poses[i], Motion{}}, report, &times);
+    summary.float_exceptions |= std::fetestexcept(kWatched);
+
+    ++summary.cycles;
+    if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];
+    const State& state = god_object.state();
+    // before the first good row there is no god object to measure
+    const double depth = state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
+    summary.deepest = std::max(summary.deepest, depth);
+    summary.peak_force = std::max(summary.peak_force, report.force.spring_W.force.norm());
+
+    Pose device = path.poses[i];
+    if (status == Status::kOk) device.rotation.normalize();
+    row.clear();
+    fmt::format_to(std::back_inserter(row), "{}", path.t[i]);
+    append(row, device);
+    append(row, god_object.mesh_pose());
+    append(row, report.force.spring_W.force);
+    append(row, report.force.spring_W.torque);
+    fmt::format_to(std::back_inserter(row), ",{},{},{},{},{},{}\n", depth, report.contacts, report.substeps, times.step1_ns, times.solve_ns,
+                   name(report.outcome));
+    write_row(row);
+    if (i % kProgressEvery == 0) progress(static_cast<double>(i) / static_cast<double>(path.poses.size()));
+  }
+  return summary;
+}
+
+}  // namespace godobject::replay
