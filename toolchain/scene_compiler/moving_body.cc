@@ -1,0 +1,213 @@
+#include "toolchain/scene_compiler/moving_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <fmt/format.h>
+
+#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/scene_compiler/mass_properties.h"
+#include "toolchain/scene_compiler/outer_surface.h"
+#include "toolchain/scene_compiler/parallel.h"
+#include "toolchain/scene_compiler/point_tree.h"
+#include "toolchain/scene_compiler/sample_elimination.h"
+#include "toolchain/scene_compiler/sphere_tree.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+using Progress = std::function<void(double)>;
+
+constexpr std::uint32_t kCandidatesPerPoint = 6;
+constexpr std::uint32_t kLeastCandidates = 1000;
+constexpr double kEdgeCandidates = 4.0;   // per distance between points
+constexpr double kCoarsest = 8.0;         // samples of level 1
+constexpr double kLeastRefinement = 1.5;  // from level to level; keeps nodes below twice the points
+constexpr double kLeastRadius = 1e-9;     // [m], of a body of one point
+constexpr std::uint32_t kCandidateSeed = 1;
+constexpr std::uint32_t kCoverageSeed = 2;
+constexpr std::uint32_t kLeastCoverageSamples = 20000;
+constexpr std::uint32_t kMostCoverageSamples = 1u << 19;
+
+/// Maps the 0 .. 1 of a part of the work to begin .. end of the whole.
+Progress part_of(const Progress& progress, double begin, double end) {
+  if (!progress) return {};
+  return [&progress, begin, end](double done) { progress(begin + done * (end - begin)); };
+}
+
+void check_arguments(std::uint32_t points, std::uint32_t levels) {
+  if (points < 1 || points > format::kMaxPoints) {
+    throw Failure(ExitCode::kBadConfig,
+                  fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
+  }
+  if (levels < 1 || levels > format::kMaxLevels) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
+  }
+  const double deepest = std::max(1.0, 1.0 + std::floor(std::log(points / kCoarsest) / std::log(kLeastRefinement)));
+  if (levels > deepest) {
+    throw Failure(ExitCode::kBadConfig,
+                  fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
+                              levels, points, static_cast<int>(deepest),
+                              static_cast<int>(std::ceil(kCoarsest * std::pow(kLeastRefinement, levels - 1)))));
+  }
+}
+
+/// Samples of level 1 .. levels: a geometric progression from 8 to n.
+std::vector<std::uint32_t> level_sizes(std::uint32_t points, std::uint32_t levels) {
+  std::vector<std::uint32_t> sizes;
+  for (std::uint32_t k = 1; k < levels; ++k) {
+    const double exponent = static_cast<double>(k - 1) / static_cast<double>(levels - 1);
+    sizes.push_back(static_cast<std::uint32_t>(std::lround(kCoarsest * std::pow(points / kCoarsest, exponent))));
+  }
+  sizes.push_back(points);
+  return sizes;
+}
+
+std::vector<std::uint32_t> first_indices(std::size_t count) {
+  std::vector<std::uint32_t> indices;
+  for (std::uint32_t i = 0; i < count; ++i) indices.push_back(i);
+  return indices;
+}
+
+/// The samples that stay, and of them, as ascending indices, those of each level.
+struct Sampling {
+  std::vector<SurfaceSample> samples;
+  std::vector<std::vector<std::uint32_t>> levels;
+};
+
+Sampling sample_in_levels(const OuterSurface& outer, const std::vector<std::uint32_t>& sizes, const Progress& progress) {
+  const std::uint32_t points = sizes.back();
+  OuterSurface::Spread spread = outer.spread(std::max(kCandidatesPerPoint * points, kLeastCandidates), kCandidateSeed,
+                                             part_of(progress, 0.0, 0.4));
+  std::vector<SurfaceSample>& candidates = spread.samples;
+  const auto most_sharp = static_cast<std::uint32_t>(candidates.size());
+  const double distance = 2.0 * densest_disc_radius(spread.area, points);
+  const std::vector<SurfaceSample> sharp = outer.sharp_samples(distance / kEdgeCandidates, most_sharp);
+  candidates.insert(candidates.end(), sharp.begin(), sharp.end());
+
+  const std::vector<std::uint32_t> kept =
+      eliminate(candidates, first_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 0.8));
+  Sampling sampling;
+  for (const std::uint32_t i : kept) sampling.samples.push_back(candidates[i]);
+  sampling.levels.push_back(first_indices(kept.size()));
+  for (std::size_t k = sizes.size() - 1; k > 0; --k) {
+    sampling.levels.push_back(eliminate(sampling.samples, sampling.levels.back(), spread.area, sizes[k - 1], {}));
+  }
+  std::reverse(sampling.levels.begin(), sampling.levels.end());
+  return sampling;
+}
+
+std::vector<Vector3d> points_of(const std::vector<SurfaceSample>& samples) {
+  std::vector<Vector3d> points;
+  points.reserve(samples.size());
+  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
+  return points;
+}
+
+double median_neighbour_distance(const std::vector<SurfaceSample>& samples, const PointTree& tree) {
+  std::vector<double> squared(samples.size());
+  parallel_chunks(samples.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto neighbour = tree.nearest(
+          samples[i].point, [&](std::uint32_t j) { return j != i && same_side(samples[i], samples[j]); });
+      squared[i] = neighbour.squared_distance;
+    }
+  });
+  std::erase_if(squared, [](double s) { return !std::isfinite(s); });  // alone on its side
+  if (squared.empty()) return 0.0;
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  return std::sqrt(*middle);
+}
+
+/// To the nearest sample of the same side, where there is one at all.
+double largest_gap(const OuterSurface& outer, const std::vector<SurfaceSample>& samples, const PointTree& tree,
+                   const Progress& progress) {
+  const auto wanted = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastCoverageSamples, kMostCoverageSamples);
+  const std::vector<SurfaceSample> probes = outer.spread(wanted, kCoverageSeed, progress).samples;
+  std::vector<double> squared(probes.size());
+  parallel_chunks(probes.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      auto nearest = tree.nearest(probes[i].point, [&](std::uint32_t j) { return same_side(probes[i], samples[j]); });
+      if (nearest.index == PointTree::kNone) nearest = tree.nearest(probes[i].point);
+      squared[i] = nearest.squared_distance;
+    }
+  });
+  return std::sqrt(*std::max_element(squared.begin(), squared.end()));
+}
+
+/// Mass of the enclosed volume, or else of the points; fills the body's frame, inertia and volume.
+Eigen::Isometry3d set_mass(const BodyMesh& mesh, const std::vector<Vector3d>& points, format::Body& body) {
+  MassMoments moments;
+  if (mesh.encloses_volume()) moments = moments_of_volume(mesh.mesh);
+  const bool from_points = moments.volume == 0.0;
+  if (from_points) moments = moments_of_points(points);
+  const PrincipalAxes principal = principal_axes(moments.inertia);
+
+  Eigen::Quaterniond rotation(principal.rotation_MB);
+  rotation.normalize();
+  if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
+  const Eigen::Vector4d wxyz(rotation.w(), rotation.x(), rotation.y(), rotation.z());
+  std::copy_n(wxyz.data(), 4, body.rotation_MB);
+  std::copy_n(moments.center.data(), 3, body.translation_MB);
+  std::copy_n(principal.moments.data(), 3, body.inertia);
+  body.volume = moments.volume;
+  body.inertia_from_points = from_points ? 1 : 0;
+
+  Eigen::Isometry3d X_MB = Eigen::Isometry3d::Identity();
+  X_MB.linear() = rotation.toRotationMatrix();
+  X_MB.translation() = moments.center;
+  return X_MB;
+}
+
+/// x[n], y[n], z[n] of values[order[0]], values[order[1]], ..
+std::vector<float> by_axis(const std::vector<Eigen::Vector3f>& values, const std::vector<std::uint32_t>& order) {
+  std::vector<float> axes;
+  axes.reserve(3 * order.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::uint32_t i : order) axes.push_back(values[i][axis]);
+  }
+  return axes;
+}
+
+}  // namespace
+
+MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, std::uint32_t levels,
+                            const std::function<void(double)>& progress) {
+  check_arguments(points, levels);
+  MovingBody moving;
+  moving.level_sizes = level_sizes(points, levels);
+  const OuterSurface outer(surface);
+  const Sampling sampling = sample_in_levels(outer, moving.level_sizes, progress);
+  const std::vector<Vector3d> points_M = points_of(sampling.samples);
+
+  format::Body& body = moving.body;
+  const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_M, body).inverse();
+  std::vector<Eigen::Vector3f> points_B;
+  std::vector<Eigen::Vector3f> normals_B;
+  double radius = kLeastRadius;
+  for (const SurfaceSample& sample : sampling.samples) {
+    points_B.push_back((X_BM * sample.point).cast<float>());
+    normals_B.push_back((X_BM.linear() * sample.inward).cast<float>());
+    radius = std::max(radius, points_B.back().cast<double>().norm());
+  }
+  SphereTree tree = build_sphere_tree(points_B, sampling.levels);
+  moving.points = by_axis(points_B, tree.order);
+  moving.normals = by_axis(normals_B, tree.order);
+  moving.nodes = std::move(tree.nodes);
+  body.radius = radius * (1.0 + 1e-12);
+  body.point_count = points;
+  body.node_count = static_cast<std::uint32_t>(moving.nodes.size());
+  body.level_count = levels;
+
+  const PointTree point_tree(points_M);
+  moving.spacing = median_neighbour_distance(sampling.samples, point_tree);
+  moving.coverage = largest_gap(outer, sampling.samples, point_tree, part_of(progress, 0.9, 1.0));
+  return moving;
+}
+
+}  // namespace godobject::scene_compiler

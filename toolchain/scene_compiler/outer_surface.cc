@@ -1,0 +1,124 @@
+#include "toolchain/scene_compiler/outer_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/scene_compiler/parallel.h"
+#include "toolchain/scene_compiler/triangle_tree.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStep = 1e-6;             // of the bounding box's diagonal: above rounding, below any wall
+constexpr double kLeastOuterPart = 4e-3;  // of the area; with less a mesh is taken for one without outside
+constexpr std::uint64_t kBlock = 1u << 16;
+
+/// A number in 0 .. 1 for each (seed, index, dimension): a hash (splitmix64), so that draws can be made in any order.
+double uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
+  std::uint64_t x = (seed << 48) + 3 * index + dimension + 1;
+  x *= 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  x ^= x >> 31;
+  return static_cast<double>(x >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+OuterSurface::OuterSurface(const SolidSurface& surface)
+    : surface_(surface), body_(surface), patches_(body_), sharp_(sharp_features(body_)), step_(kStep * body_.diagonal) {}
+
+bool OuterSurface::is_outer(const SurfaceSample& sample) const {
+  if (!surface_.shell_triangles().empty()) {
+    const double half = body_.half_thickness;
+    if (surface_.distance_to_shells(sample.point, half + step_) < half - step_) return false;
+  }
+  if (surface_.solid_triangles().empty()) return true;
+  if (sample.on_shell) return surface_.winding_number(sample.point) < 0.5;
+  return surface_.winding_number(sample.point - step_ * sample.inward) < 0.5 &&
+         surface_.winding_number(sample.point + step_ * sample.inward) > 0.5;
+}
+
+void OuterSurface::append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const {
+  std::vector<std::uint8_t> outer(candidates.size());
+  parallel_chunks(candidates.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(candidates[i]);
+  });
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (outer[i]) samples.push_back(candidates[i]);
+  }
+}
+
+void OuterSurface::draw_outer(const Draws& draws, const std::function<void(double)>& progress,
+                              std::vector<SurfaceSample>& samples) const {
+  std::vector<SurfaceSample> block;
+  for (std::uint64_t begin = 0; begin < draws.count; begin += kBlock) {
+    const std::uint64_t end = std::min(begin + kBlock, draws.count);
+    block.clear();
+    for (std::uint64_t i = begin; i < end; ++i) {
+      const double at = (static_cast<double>(i) + uniform(draws.seed, i, 0)) / static_cast<double>(draws.count);
+      block.push_back(patches_.draw(at, uniform(draws.seed, i, 1), uniform(draws.seed, i, 2)));
+    }
+    append_outer(block, samples);
+    if (progress) progress(static_cast<double>(end) / static_cast<double>(draws.count));
+  }
+}
+
+OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed,
+                                          const std::function<void(double)>& progress) const {
+  Spread spread;
+  std::uint64_t drawn = wanted;
+  if (patches_.area() > 0.0) draw_outer({drawn, 2 * std::uint64_t{seed}}, progress, spread.samples);
+  const double outer_part = static_cast<double>(spread.samples.size()) / static_cast<double>(drawn);
+  if (outer_part < kLeastOuterPart) {
+    throw Failure(ExitCode::kBadData,
+                  "moving mesh: no outer surface found: it neither encloses a solid nor is taken as a thin sheet; "
+                  "set surface = \"shell\" and a thickness, or close the mesh");
+  }
+  if (spread.samples.size() < wanted) {
+    const double missing = static_cast<double>(wanted) - static_cast<double>(spread.samples.size());
+    const auto more = static_cast<std::uint64_t>(std::ceil(missing / outer_part * 1.05)) + 1;
+    draw_outer({more, 2 * std::uint64_t{seed} + 1}, progress, spread.samples);
+    drawn += more;
+  }
+  spread.area = patches_.area() * static_cast<double>(spread.samples.size()) / static_cast<double>(drawn);
+  return spread;
+}
+
+SurfaceSample OuterSurface::sharp_sample(const Vector3d& at, const Vector3d& outward, bool in_shell,
+                                         SurfaceSample::Place place) const {
+  const double off = in_shell ? body_.half_thickness : 0.0;
+  return {at + off * outward, -outward, place, in_shell};
+}
+
+std::vector<SurfaceSample> OuterSurface::sharp_samples(double step, std::uint32_t most) const {
+  const std::vector<Vector3d>& vertices = body_.mesh.vertices;
+  std::vector<SurfaceSample> candidates;
+  const std::size_t stride = sharp_.vertices.size() / most + 1;
+  for (std::size_t i = 0; i < sharp_.vertices.size(); i += stride) {
+    const SharpVertex& sharp = sharp_.vertices[i];
+    candidates.push_back(sharp_sample(vertices[sharp.vertex], sharp.outward, sharp.in_shell, SurfaceSample::Place::kVertex));
+  }
+  double length = 0.0;
+  for (const SharpEdge& edge : sharp_.edges) length += (vertices[edge.high] - vertices[edge.low]).norm();
+  const double spacing = std::max(step, length / most);
+  double travelled = 0.5 * spacing;  // along all edges since the last sample
+  for (const SharpEdge& edge : sharp_.edges) {
+    const Vector3d along = vertices[edge.high] - vertices[edge.low];
+    const double edge_length = along.norm();
+    double at = spacing - travelled;
+    for (; at < edge_length; at += spacing) {
+      const Vector3d point = vertices[edge.low] + at / edge_length * along;
+      candidates.push_back(sharp_sample(point, edge.outward, edge.in_shell, SurfaceSample::Place::kEdge));
+    }
+    travelled = edge_length - (at - spacing);
+  }
+  std::vector<SurfaceSample> samples;
+  append_outer(candidates, samples);
+  return samples;
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "toolchain/scene_compiler/body_mesh.h"
+#include "toolchain/scene_compiler/sharp_features.h"
+#include "toolchain/scene_compiler/surface_patches.h"
+#include "toolchain/scene_compiler/surface_sample.h"
+
+namespace godobject::scene_compiler {
+
+/// The outer boundary of a body, to be sampled: the pieces of its surface that part inside from outside, without what is
+/// buried in another component.
+class OuterSurface {
+ public:
+  struct Spread {
+    std::vector<SurfaceSample> samples;
+    double area = 0.0;  ///< of the outer surface [m^2], estimated from the part of the draws that lay on it
+  };
+
+  /// Reads `surface` later on: it must stay alive.
+  explicit OuterSurface(const SolidSurface& surface);
+
+  const BodyMesh& body() const { return body_; }
+
+  /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 .. 1;
+  /// may be empty. Cost: two winding numbers a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
+  Spread spread(std::uint32_t wanted, std::uint32_t seed, const std::function<void(double)>& progress) const;
+
+  /// The sharp vertices, and points on the sharp edges at most `step` [m] apart, but not (much) more than `most` of either:
+  /// too many are thinned out evenly.
+  std::vector<SurfaceSample> sharp_samples(double step, std::uint32_t most) const;
+
+ private:
+  struct Draws {
+    std::uint64_t count;
+    std::uint64_t seed;
+  };
+
+  void draw_outer(const Draws& draws, const std::function<void(double)>& progress,
+                  std::vector<SurfaceSample>& samples) const;
+  void append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const;
+  bool is_outer(const SurfaceSample& sample) const;
+  SurfaceSample sharp_sample(const Eigen::Vector3d& at, const Eigen::Vector3d& outward, bool in_shell,
+                             SurfaceSample::Place place) const;
+
+  const SolidSurface& surface_;
+  BodyMesh body_;
+  SurfacePatches patches_;
+  SharpFeatures sharp_;
+  double step_;  // off the surface, to see what is on its sides [m]
+};
+
+}  // namespace godobject::scene_compiler

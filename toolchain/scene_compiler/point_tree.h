@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace godobject::scene_compiler {
+
+/// Balanced kd-tree over points: all within a radius, the nearest that is accepted. Const calls may run on many threads.
+class PointTree {
+ public:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  struct Nearest {
+    std::uint32_t index = kNone;  ///< into the points given; kNone: nothing accepted
+    double squared_distance = std::numeric_limits<double>::infinity();
+  };
+
+  explicit PointTree(std::span<const Eigen::Vector3d> points);
+
+  /// visit(index, squared distance) for every point not further than `radius` from p.
+  template <class Visit>
+  void within(const Eigen::Vector3d& p, double radius, const Visit& visit) const {
+    const double bound = radius * radius;
+    descend(p, Range{0, 0, size()}, [&bound] { return bound; }, [&](std::uint32_t index, double squared) {
+      if (squared <= bound) visit(index, squared);
+    });
+  }
+
+  /// Of the points with accept(index), the nearest; of equally near ones the first.
+  template <class Accept>
+  Nearest nearest(const Eigen::Vector3d& p, const Accept& accept) const {
+    Nearest best;
+    descend(p, Range{0, 0, size()}, [&best] { return best.squared_distance; }, [&](std::uint32_t index, double squared) {
+      const bool nearer = squared < best.squared_distance || (squared == best.squared_distance && index < best.index);
+      if (nearer && accept(index)) best = {index, squared};
+    });
+    return best;
+  }
+
+  Nearest nearest(const Eigen::Vector3d& p) const {
+    return nearest(p, [](std::uint32_t) { return true; });
+  }
+
+ private:
+  static constexpr std::uint32_t kLeafSize = 8;
+
+  struct Entry {
+    Eigen::Vector3d point;
+    std::uint32_t index;
+  };
+  /// Where a range of more than kLeafSize entries is cut in halves; the children of node k are 2k + 1 and 2k + 2.
+  struct Cut {
+    double value = 0.0;
+    int axis = 0;
+  };
+  struct Range {
+    std::uint32_t node, begin, end;
+    Range lower() const { return {2 * node + 1, begin, middle()}; }
+    Range upper() const { return {2 * node + 2, middle(), end}; }
+    std::uint32_t middle() const { return begin + (end - begin) / 2; }
+    bool leaf() const { return end - begin <= kLeafSize; }
+  };
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
+  void build(const Range& range);
+
+  template <class Bound, class Visit>
+  void descend(const Eigen::Vector3d& p, const Range& range, const Bound& bound, const Visit& visit) const {
+    if (range.leaf()) {
+      for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        visit(entries_[i].index, (entries_[i].point - p).squaredNorm());
+      }
+      return;
+    }
+    const Cut& cut = cuts_[range.node];
+    const double beyond = p[cut.axis] - cut.value;
+    descend(p, beyond < 0.0 ? range.lower() : range.upper(), bound, visit);
+    if (beyond * beyond <= bound()) descend(p, beyond < 0.0 ? range.upper() : range.lower(), bound, visit);
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<Cut> cuts_;
+};
+
+}  // namespace godobject::scene_compiler
