@@ -83,6 +83,29 @@ TriangleTree tree_of(const TriangleMesh& mesh, const std::vector<SolidSurface::C
   return TriangleTree(std::move(triangles));
 }
 
+bool solids_are_sealed(const TriangleMesh& mesh, const std::vector<SolidSurface::Component>& components,
+                       const std::vector<std::uint32_t>& component_of) {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> edges;  // both ends, and which way along
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const SolidSurface::Component& component = components[component_of[i]];
+    if (component.shell) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t from = mesh.triangles[i][k];
+      const std::uint64_t to = mesh.triangles[i][(k + 1) % 3];
+      edges.emplace_back(std::min(from, to) << 32 | std::max(from, to), (from < to) != component.inside_out ? 1 : -1);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t begin = 0; begin < edges.size();) {
+    std::int32_t balance = 0;
+    std::size_t end = begin;
+    while (end < edges.size() && edges[end].first == edges[begin].first) balance += edges[end++].second;
+    if (balance != 0) return false;
+    begin = end;
+  }
+  return true;
+}
+
 }  // namespace
 
 struct SolidSurface::Impl {
@@ -92,6 +115,7 @@ struct SolidSurface::Impl {
   std::vector<std::uint32_t> component_of;
   TriangleTree solids;
   TriangleTree shells;
+  bool sealed = false;
 
   void classify(SurfaceKind kind);
   double winding_number(const Vector3d& p) const;
@@ -145,6 +169,7 @@ SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness
   impl_->thickness = thickness;
   impl_->classify(kind);
   impl_->solids = tree_of(impl_->mesh, impl_->components, impl_->component_of, false, true);
+  impl_->sealed = solids_are_sealed(impl_->mesh, impl_->components, impl_->component_of);
   impl_->shells = tree_of(impl_->mesh, impl_->components, impl_->component_of, true, false);
 }
 
@@ -154,8 +179,10 @@ const TriangleMesh& SolidSurface::mesh() const { return impl_->mesh; }
 const std::vector<SolidSurface::Component>& SolidSurface::components() const { return impl_->components; }
 const std::vector<std::uint32_t>& SolidSurface::component_of_triangle() const { return impl_->component_of; }
 double SolidSurface::thickness() const { return impl_->thickness; }
+bool SolidSurface::sealed() const { return impl_->sealed; }
 const TriangleTree& SolidSurface::solid_triangles() const { return impl_->solids; }
 const TriangleTree& SolidSurface::shell_triangles() const { return impl_->shells; }
+bool SolidSurface::is_inside(const Vector3d& p) const { return !impl_->solids.empty() && impl_->winding_number(p) > 0.5; }
 double SolidSurface::winding_number(const Vector3d& p) const { return impl_->winding_number(p); }
 
 double SolidSurface::distance_to_solids(const Vector3d& p, double hint) const { return distance_to(impl_->solids, p, hint); }
@@ -167,7 +194,7 @@ double SolidSurface::signed_distance(const Vector3d& p, double hint) const {
   const double to_shell = distance_to_shells(p, bound) - 0.5 * impl_->thickness;
   if (impl_->solids.empty()) return to_shell;
   const double to_solid = distance_to_solids(p, bound);
-  return std::min(impl_->winding_number(p) > 0.5 ? -to_solid : to_solid, to_shell);
+  return std::min(is_inside(p) ? -to_solid : to_solid, to_shell);
 }
 
 SolidSurface::Closest SolidSurface::closest(const Vector3d& p, double hint) const {

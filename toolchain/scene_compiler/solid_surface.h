@@ -48,6 +48,13 @@ class SolidSurface {
   /// Generalised winding number of the solid components: 1 inside, 0 outside of closed ones.
   double winding_number(const Eigen::Vector3d& p) const;
 
+  /// Whether p lies inside of a solid component: winding number > 1/2. False if there is none.
+  bool is_inside(const Eigen::Vector3d& p) const;
+
+  /// The solid components have no boundary: along every edge their triangles cancel. Then the winding number is a whole
+  /// number and changes at triangles only. True if there is none.
+  bool sealed() const;
+
   /// Unsigned distance to the triangles of one kind; infinity if there are none. `hint` as above, for that kind.
   double distance_to_solids(const Eigen::Vector3d& p, double hint = -1.0) const;
   double distance_to_shells(const Eigen::Vector3d& p, double hint = -1.0) const;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+
+#include "toolchain/scene_compiler/cell_edges.h"
+
+namespace godobject::scene_compiler {
+
+/// Lipschitz constant of the stored field: its largest gradient, on seams and off them.
+class FieldSlope {
+ public:
+  explicit FieldSlope(double voxel_size) : voxel_size_(voxel_size) {}
+
+  void add(const format::Brick& brick) {
+    for_each_cell(brick, [this](const CellEdges& edges, int, int, int) {
+      const double gradient = edges.largest_gradient(voxel_size_) * kRounding;
+      seamed_ = std::max(seamed_, gradient);
+      if (!edges.on_seam(voxel_size_)) smooth_ = std::max(smooth_, gradient);
+    });
+  }
+
+  double largest() const { return smooth_; }
+  double largest_with_seams() const { return seamed_; }
+
+ private:
+  static constexpr double kRounding = 1.0 + 1e-5;  // who reads the field interpolates in single precision
+
+  double voxel_size_;
+  double smooth_ = 0.0;
+  double seamed_ = 0.0;
+};
+
+}  // namespace godobject::scene_compiler
