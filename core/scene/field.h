@@ -23,8 +23,9 @@ struct LayerSample {
 ///
 /// `sample(p)`          distance and gradient at p_W.
 /// `layer(p)`           the paper's integer layer at p_W.
-/// `lower_bound(c, r)`  no point x with |x - c| <= r has sample(x).distance below it. May be loose; negative
-///                      infinity wherever no bound of at least 0 is known.
+/// `lower_bound(c, r)`  no point x with |x - c| <= r is nearer to the surface: sample(x).distance is not below it, or is
+///                      the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
+///                      least 0 is known.
 /// `voxel_size()`       s [m];  `band()`  distances beyond it are not known [m];  `lipschitz()`  of `sample` [1], >= 1.
 template <class F>
 concept DistanceField = requires(const F& field, const Vector3& p, double r) {

@@ -51,7 +51,11 @@ Status read_header(std::span<const std::byte> image, format::Header& header) noe
   std::memcpy(head.data(), &cleared, sizeof(cleared));
   const std::uint64_t sum = format::checksum(image.data() + sizeof(format::Header), expected - sizeof(format::Header),
                                              format::checksum(head.data(), head.size()));
-  return sum == header.checksum ? Status::kOk : Status::kImageChecksum;
+  if (sum != header.checksum) return Status::kImageChecksum;
+  for (const std::uint64_t word : header.reserved) {
+    if (word != 0) return Status::kImageLayout;
+  }
+  return Status::kOk;
 }
 
 Status read_sections(std::span<const std::byte> image, const format::Header& header, Sections& sections) noexcept {
@@ -174,7 +178,7 @@ bool valid_nodes(std::span<const format::Node> nodes, const format::Body& body) 
 }
 
 bool valid_points(const Pointshell& shell, double radius) noexcept {
-  constexpr double kSlack = 1.0 + 1e-5;  // single precision
+  constexpr double kSlack = 1.0 + 1e-6;  // single precision; Voxelmap::lower_bound allows for it
   for (std::size_t i = 0; i < shell.size; ++i) {
     if (!(shell.point(i).norm() <= radius * kSlack)) return false;
     if (shell.normal_x != nullptr && !in_range(shell.normal(i).squaredNorm(), 0.998, 1.002)) return false;
@@ -185,7 +189,7 @@ bool valid_points(const Pointshell& shell, double radius) noexcept {
                          static_cast<double>(node.center[2]));
     const double reach = static_cast<double>(node.radius);
     for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-      if (!((shell.point(i) - center).norm() <= reach)) return false;
+      if (!((shell.point(i) - center).norm() <= reach * kSlack)) return false;
     }
   }
   return true;

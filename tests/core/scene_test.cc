@@ -2,24 +2,359 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <ostream>
+#include <string>
+
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
 
 namespace godobject {
 namespace {
 
-TEST(Scene, OpensABallUnderABox) {
-  test::SceneDescription d;
-  d.distance = [](const Vector3& p) { return test::ball_distance(p, 0.02); };
-  d.surface_min = Vector3::Constant(-0.02);
-  d.surface_max = Vector3::Constant(0.02);
-  const auto box = test::sample_box(Vector3(0.01, 0.02, 0.03), 5);
-  d.points = box.points;
-  d.normals = box.normals;
-  const test::SceneImage image = test::build_scene_image(d);
+using format::SectionId;
+using test::SceneImage;
+using test::section_item;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A ball of two voxels' diameter, and a box of 26 points under a tree of seven nodes: 7 KiB with everything in it.
+SceneImage small_image() {
+  test::SceneDescription description;
+  description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
+  description.surface_min = Vector3::Constant(-0.01);
+  description.surface_max = Vector3::Constant(0.01);
+  description.voxel_size = 0.01;
+  description.band = 0.01;
+  const test::SurfaceSamples box = test::sample_box(Vector3(0.01, 0.02, 0.03), 3);
+  description.points = box.points;
+  description.normals = box.normals;
+  description.level_count = 3;
+  description.H_MB.rotation = Quaternion(0.5, 0.5, -0.5, 0.5);
+  description.H_MB.translation = Vector3(0.1, 0.2, 0.3);
+  description.provenance = R"({"still": "ball"})";
+  return test::build_scene_image(description);
+}
+
+/// What the view holds, byte for byte.
+std::array<std::byte, sizeof(Scene)> bytes_of(const Scene& scene) {
+  std::array<std::byte, sizeof(Scene)> bytes{};
+  std::memcpy(bytes.data(), static_cast<const void*>(&scene), sizeof(Scene));
+  return bytes;
+}
+
+/// Opens `image` into a scene that holds another one already; a refusal must leave that as it was.
+Status open_over_another(std::span<const std::byte> image) {
+  static const SceneImage another = small_image();
+  static const Scene opened = test::open_scene(another);
+  Scene scene = opened;
+  const auto before = bytes_of(scene);
+  const Status status = Scene::open(image, scene);
+  if (status != Status::kOk) {
+    EXPECT_EQ(bytes_of(scene), before) << "a refused image has changed the scene";
+  }
+  return status;
+}
+
+TEST(Scene, ShowsWhatTheImageHolds) {
+  const SceneImage image = small_image();
   const Scene scene = test::open_scene(image);
-  EXPECT_EQ(scene.pointshell.size, box.points.size());
-  EXPECT_NEAR(scene.voxelmap.sample(Vector3(0.025, 0, 0)).distance, 0.005, 1e-3);
+  EXPECT_EQ(scene.pointshell.size, 26u);
+  EXPECT_EQ(scene.pointshell.nodes.size(), 7u);
+  EXPECT_EQ(scene.body.level_count, 3u);
+  EXPECT_TRUE(scene.holds(format::Solver::kPaper));
+  EXPECT_TRUE(scene.holds(format::Solver::kCorrected));
+  EXPECT_DOUBLE_EQ(scene.settings.safety_distance, 0.015);
+  EXPECT_EQ(scene.voxelmap.voxel_size(), 0.01);
+  EXPECT_EQ(scene.voxelmap.band(), 0.01);
+  EXPECT_NEAR(scene.voxelmap.sample(Vector3(0.01, 0.0, 0.0)).distance, 0.0, 1e-9);  // a node, rounded to float
+  EXPECT_EQ(scene.H_MB.translation, Vector3(0.1, 0.2, 0.3));
+  EXPECT_EQ(scene.H_MB.rotation.coeffs(), Quaternion(0.5, 0.5, -0.5, 0.5).coeffs());
+  EXPECT_EQ(scene.provenance.size(), std::strlen(R"({"still": "ball"})"));
+  // R_max is the corner's distance, and each normal points to the centre's side
+  EXPECT_NEAR(scene.body.radius, Vector3(0.01, 0.02, 0.03).norm(), 1e-8);
+  for (std::size_t i = 0; i < scene.pointshell.size; ++i) {
+    EXPECT_LT(scene.pointshell.point(i).dot(scene.pointshell.normal(i)), 0.0);
+  }
+}
+
+TEST(Scene, OpensWithoutNormalsWhenPaperIsNotHeld) {
+  test::SceneDescription description;
+  description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
+  description.surface_min = Vector3::Constant(-0.01);
+  description.surface_max = Vector3::Constant(0.01);
+  description.points = test::sample_ball(0.02, 40).points;
+  const SceneImage image = test::build_scene_image(description);
+  const Scene scene = test::open_scene(image);
+  EXPECT_EQ(scene.pointshell.normal_x, nullptr);
+  EXPECT_FALSE(scene.holds(format::Solver::kPaper));
+}
+
+TEST(Scene, RefusesEveryTruncation) {
+  const SceneImage image = small_image();
+  for (std::size_t bytes = 0; bytes < image.bytes().size(); ++bytes) {
+    ASSERT_EQ(open_over_another(image.bytes().first(bytes)), Status::kImageTruncated) << bytes << " bytes";
+  }
+}
+
+TEST(Scene, RefusesBytesTooMany) {
+  const SceneImage image = small_image();
+  SceneImage longer(image.bytes().size() + format::kAlignment);
+  std::ranges::copy(image.bytes(), longer.bytes().begin());
+  EXPECT_EQ(open_over_another(longer.bytes()), Status::kImageTruncated);
+  EXPECT_EQ(open_over_another(longer.bytes().first(image.bytes().size() + 1)), Status::kImageTruncated);
+}
+
+TEST(Scene, RefusesEverySingleBitFlip) {
+  SceneImage image = small_image();
+  for (std::size_t bit = 0; bit < 8 * image.bytes().size(); ++bit) {
+    const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};
+    image.bytes()[bit / 8] ^= mask;
+    ASSERT_NE(open_over_another(image.bytes()), Status::kOk) << "byte " << bit / 8 << " bit " << bit % 8;
+    image.bytes()[bit / 8] ^= mask;
+  }
+  EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
+}
+
+/// A flipped bit behind a right checksum may be refused or not; what opens must be safe to use. The sanitizers judge.
+TEST(Scene, SurvivesEverySingleBitFlipBehindRightChecksums) {
+  const SceneImage whole = small_image();
+  std::size_t refused = 0;
+  for (std::size_t bit = 0; bit < 8 * whole.bytes().size(); ++bit) {
+    SceneImage image = whole;
+    image.bytes()[bit / 8] ^= std::byte{static_cast<unsigned char>(1u << (bit % 8))};
+    auto& header = *reinterpret_cast<format::Header*>(image.bytes().data());
+    const std::uint32_t header_bytes = reinterpret_cast<const format::Header*>(whole.bytes().data())->header_bytes;
+    if (bit / 8 >= header_bytes) {
+      test::seal(image);
+    } else {
+      header.checksum = 0;
+      header.checksum = format::checksum(image.bytes().data(), header_bytes);
+    }
+    Scene scene;
+    if (Scene::open(image.bytes(), scene) != Status::kOk) {
+      ++refused;
+      continue;
+    }
+    for (const Vector3& p : {Vector3(0.0, 0.0, 0.0), Vector3(0.012, 0.001, -0.009), Vector3(-0.029, 0.029, 0.02)}) {
+      ASSERT_FALSE(std::isnan(scene.voxelmap.sample(p).distance)) << "byte " << bit / 8 << " bit " << bit % 8;
+      ASSERT_FALSE(std::isnan(scene.voxelmap.lower_bound(p, 0.001))) << "byte " << bit / 8 << " bit " << bit % 8;
+    }
+    for (std::size_t i = 0; i < scene.pointshell.size; ++i) ASSERT_TRUE(scene.pointshell.point(i).allFinite());
+  }
+  EXPECT_GT(refused, whole.bytes().size());
+}
+
+TEST(Scene, RefusesAMisalignedBuffer) {
+  const SceneImage image = small_image();
+  const std::size_t bytes = image.bytes().size();
+  SceneImage room(bytes + format::kAlignment);
+  for (const std::size_t shift : {1u, 8u, 16u, 32u, 63u}) {
+    std::ranges::copy(image.bytes(), room.bytes().begin() + static_cast<std::ptrdiff_t>(shift));
+    EXPECT_EQ(open_over_another(room.bytes().subspan(shift, bytes)), Status::kImageLayout) << shift;
+  }
+}
+
+struct Spoiled {
+  const char* what;
+  Status status;
+  void (*spoil)(SceneImage& image);
+};
+
+void PrintTo(const Spoiled& spoiled, std::ostream* out) { *out << spoiled.what; }
+
+class SceneRefuses : public ::testing::TestWithParam<Spoiled> {};
+
+TEST_P(SceneRefuses, EvenWithRightChecksums) {
+  SceneImage image = small_image();
+  GetParam().spoil(image);
+  EXPECT_EQ(describe(open_over_another(image.bytes())), std::string(describe(GetParam().status)));
+}
+
+format::Header& header_of(SceneImage& image) { return *reinterpret_cast<format::Header*>(image.bytes().data()); }
+
+format::Section& section_of(SceneImage& image, SectionId id) {
+  auto* sections = reinterpret_cast<format::Section*>(image.bytes().data() + sizeof(format::Header));
+  while (sections->id != id) ++sections;
+  return *sections;
+}
+
+/// Of the header alone: the table may be spoiled, so the sections cannot be found.
+void seal_header(SceneImage& image, std::uint32_t header_bytes) {
+  header_of(image).checksum = 0;
+  header_of(image).checksum = format::checksum(image.bytes().data(), header_bytes);
+}
+
+template <class Change>
+void change_header(SceneImage& image, Change change) {
+  const std::uint32_t header_bytes = header_of(image).header_bytes;
+  change(header_of(image));
+  seal_header(image, header_bytes);
+}
+
+template <SectionId kId, class Change>
+void change_section(SceneImage& image, Change change) {
+  change(section_of(image, kId));
+  seal_header(image, header_of(image).header_bytes);
+}
+
+template <class T, SectionId kId, std::size_t kItem = 0, class Change>
+void change(SceneImage& image, Change change) {
+  change(section_item<T>(image, kId, kItem));
+  test::seal(image);
+}
+
+template <SectionId kId>
+void leave_out(SceneImage& image) {
+  change_section<kId>(image, [](format::Section& section) { section.id = static_cast<SectionId>(15); });
+}
+
+#define HEADER(CHANGE) [](SceneImage& i) { change_header(i, [](format::Header& x) { CHANGE; }); }
+#define SECTION(ID, CHANGE) [](SceneImage& i) { change_section<SectionId::ID>(i, [](format::Section& x) { CHANGE; }); }
+#define ITEM(T, ID, N, CHANGE) [](SceneImage& i) { change<T, SectionId::ID, N>(i, [](T& x) { CHANGE; }); }
+#define SETTINGS(CHANGE) ITEM(format::Settings, kSettings, 0, CHANGE)
+#define GRID(CHANGE) ITEM(format::Grid, kGrid, 0, CHANGE)
+#define BODY(CHANGE) ITEM(format::Body, kBody, 0, CHANGE)
+#define BRICK(CHANGE) ITEM(format::Brick, kBricks, 1, CHANGE)
+#define NODE(N, CHANGE) ITEM(format::Node, kNodes, N, CHANGE)
+
+constexpr Spoiled kLayouts[] = {
+    {"magic", Status::kImageForeign, HEADER(x.magic[5] = 'X')},
+    {"big-endian", Status::kImageForeign, HEADER(x.byte_order = 0x04030201)},
+    {"older version", Status::kImageVersion, HEADER(x.version = format::kVersion - 1)},
+    {"newer version", Status::kImageVersion, HEADER(x.version = format::kVersion + 1)},
+    {"claims more bytes", Status::kImageTruncated, HEADER(x.total_bytes += 64)},
+    {"claims fewer bytes", Status::kImageTruncated, HEADER(x.total_bytes -= 64)},
+    {"header size", Status::kImageLayout, HEADER(x.header_bytes += 64)},
+    {"no section", Status::kImageLayout, HEADER(x.section_count = 0)},
+    {"sections too many", Status::kImageLayout, HEADER(x.section_count = 16)},
+    {"sections without end", Status::kImageLayout, HEADER(x.section_count = 0xffffffff)},
+    {"reserved words of the header", Status::kImageLayout, HEADER(x.reserved[2] = 1)},
+    {"section id 0", Status::kImageLayout, SECTION(kGrid, x.id = static_cast<SectionId>(0))},
+    {"section id 16", Status::kImageLayout, SECTION(kGrid, x.id = static_cast<SectionId>(16))},
+    {"section twice", Status::kImageLayout, SECTION(kGrid, x.id = SectionId::kSettings)},
+    {"reserved word of a section", Status::kImageLayout, SECTION(kGrid, x.reserved = 1)},
+    {"hole", Status::kImageLayout, SECTION(kBricks, x.offset += 64)},
+    {"overlap", Status::kImageLayout, SECTION(kBricks, x.offset -= 64)},
+    {"offset beyond the end", Status::kImageLayout, SECTION(kBricks, x.offset = ~0ull - 63)},
+    {"size beyond the end", Status::kImageLayout, SECTION(kNodes, x.bytes = 1u << 20)},
+    {"size that overflows", Status::kImageLayout, SECTION(kNodes, x.bytes = ~0ull)},
+    {"checksum of a section", Status::kImageChecksum, SECTION(kNodes, x.checksum ^= 1)},
+    {"no settings", Status::kImageLayout, leave_out<SectionId::kSettings>},
+    {"no grid", Status::kImageLayout, leave_out<SectionId::kGrid>},
+    {"no brick index", Status::kImageLayout, leave_out<SectionId::kBrickIndex>},
+    {"no bricks", Status::kImageLayout, leave_out<SectionId::kBricks>},
+    {"no body", Status::kImageLayout, leave_out<SectionId::kBody>},
+    {"no points", Status::kImageLayout, leave_out<SectionId::kPoints>},
+    {"no normals for paper", Status::kImageLayout, leave_out<SectionId::kNormals>},
+    {"no nodes", Status::kImageLayout, leave_out<SectionId::kNodes>},
+    {"short settings", Status::kImageLayout, SECTION(kSettings, x.bytes -= 8)},
+    {"short points", Status::kImageLayout, SECTION(kPoints, x.bytes -= 4)},
+    {"short normals", Status::kImageLayout, SECTION(kNormals, x.bytes -= 4)},
+    {"brick count", Status::kImageLayout, GRID(x.brick_count += 1)},
+    {"brick positions", Status::kImageLayout, GRID(x.bricks[0] += 1)},
+    {"point count", Status::kImageLayout, BODY(x.point_count += 1)},
+    {"node count", Status::kImageLayout, BODY(x.node_count -= 1)},
+};
+INSTANTIATE_TEST_SUITE_P(Layout, SceneRefuses, ::testing::ValuesIn(kLayouts));
+
+constexpr Spoiled kNumbers[] = {
+    {"unknown solver", Status::kImageValue, SETTINGS(x.default_solver = format::kSolverCount)},
+    {"default solver not held", Status::kImageValue, SETTINGS(x.solvers = 1)},
+    {"solver bits", Status::kImageValue, SETTINGS(x.solvers |= 1u << format::kSolverCount)},
+    {"friction flag", Status::kImageValue, SETTINGS(x.friction = 2)},
+    {"no stiffness", Status::kImageValue, SETTINGS(x.stiffness = 0.0)},
+    {"infinite stiffness", Status::kImageValue, SETTINGS(x.stiffness = kInfinity)},
+    {"negative damping", Status::kImageValue, SETTINGS(x.damping = -1.0)},
+    {"kinetic over static", Status::kImageValue, SETTINGS(x.friction_kinetic = x.friction_static + 0.1)},
+    {"negative kinetic", Status::kImageValue, SETTINGS(x.friction_kinetic = -0.1)},
+    {"no voxel", Status::kImageValue, GRID(x.voxel_size = 0.0)},
+    {"negative voxel", Status::kImageValue, GRID(x.voxel_size = -0.01)},
+    {"band under a voxel", Status::kImageValue, GRID(x.band = 0.5 * x.voxel_size)},
+    {"no brick position", Status::kImageValue, GRID(x.bricks[1] = 0)},
+    {"negative brick positions", Status::kImageValue, GRID(x.bricks[1] = -2)},
+    {"brick positions too many", Status::kImageValue, GRID(x.bricks[2] = format::kMaxBricksPerAxis + 1)},
+    {"surface before the grid", Status::kImageValue, GRID(x.surface_min[0] = x.origin[0] - 1.0)},
+    {"surface behind the grid", Status::kImageValue, GRID(x.surface_max[0] = 10.0)},
+    {"surface inside out", Status::kImageValue, GRID(x.surface_max[0] = x.surface_min[0] - 1e-3)},
+    {"steep field", Status::kImageValue, GRID(x.lipschitz = 2.1; x.lipschitz_seam = 2.1)},
+    {"seams flatter than the rest", Status::kImageValue, GRID(x.lipschitz_seam = 0.5 * x.lipschitz)},
+    {"brick number", Status::kImageValue, ITEM(std::uint32_t, kBrickIndex, 3, x = 8)},
+    {"clearance NaN", Status::kImageValue, ITEM(std::uint32_t, kBrickIndex, 3, x = 0xbfffffff)},
+    {"distance NaN", Status::kImageValue, BRICK(x.value[124] = std::numeric_limits<float>::quiet_NaN())},
+    {"distance infinite", Status::kImageValue, BRICK(x.value[0] = -std::numeric_limits<float>::infinity())},
+    {"seam clearance negative", Status::kImageValue, BRICK(x.seam_clearance = -1.0f)},
+    {"seam clearance NaN", Status::kImageValue, BRICK(x.seam_clearance = std::numeric_limits<float>::quiet_NaN())},
+    {"reserved words of a brick", Status::kImageValue, BRICK(x.reserved[1] = 1.0f)},
+    {"rotation not unit", Status::kImageValue, BODY(x.rotation_MB[0] = 0.51)},
+    {"inertia not ascending", Status::kImageValue, BODY(x.inertia[0] = 2.0 * x.inertia[1])},
+    {"inertia negative", Status::kImageValue, BODY(x.inertia[0] = -1e-9)},
+    {"no radius", Status::kImageValue, BODY(x.radius = 0.0)},
+    {"no point", Status::kImageValue, BODY(x.point_count = 0)},
+    {"points without end", Status::kImageValue, BODY(x.point_count = format::kMaxPoints + 1)},
+    {"no node", Status::kImageValue, BODY(x.node_count = 0)},
+    {"no level", Status::kImageValue, BODY(x.level_count = 0)},
+    {"levels too many", Status::kImageValue, BODY(x.level_count = format::kMaxLevels + 1)},
+    {"point outside R_max", Status::kImageValue, BODY(x.radius *= 0.999)},
+    {"point NaN", Status::kImageValue, ITEM(float, kPoints, 7, x = std::numeric_limits<float>::quiet_NaN())},
+    {"point outside its sphere", Status::kImageValue, ITEM(float, kPoints, 7, x = -1.5f * x + 0.005f)},
+    {"normal NaN", Status::kImageValue, ITEM(float, kNormals, 7, x = std::numeric_limits<float>::quiet_NaN())},
+    {"normal not unit", Status::kImageValue, ITEM(float, kNormals, 7, x += 1.5f)},
+};
+INSTANTIATE_TEST_SUITE_P(Number, SceneRefuses, ::testing::ValuesIn(kNumbers));
+
+// Nodes in pre-order: 0 root, 1 and 4 its children, 2, 3 and 5, 6 the leaves.
+constexpr Spoiled kTrees[] = {
+    {"a subtree that ends where it begins", Status::kImageValue, NODE(2, x.skip = 2)},
+    {"a cycle back to the root", Status::kImageValue, NODE(3, x.skip = 0)},
+    {"a subtree longer than its parent's", Status::kImageValue, NODE(3, x.skip = 5)},
+    {"a skip beyond the end", Status::kImageValue, NODE(6, x.skip = 8)},
+    {"a root that ends early: a second root", Status::kImageValue, NODE(0, x.skip = 4)},
+    {"a root without all points", Status::kImageValue, NODE(0, x.point_count -= 1)},
+    {"a root that starts late", Status::kImageValue, NODE(0, x.first_point = 1)},
+    {"siblings that overlap", Status::kImageValue, NODE(4, x.first_point -= 1; x.point_count += 1)},
+    {"siblings with a gap", Status::kImageValue, NODE(4, x.first_point += 1; x.point_count -= 1)},
+    {"a last child that ends early", Status::kImageValue, NODE(6, x.point_count -= 1)},
+    {"a child with more points than its parent", Status::kImageValue, NODE(5, x.point_count += 1000)},
+    {"points that overflow", Status::kImageValue, NODE(5, x.point_count = 0xffffffff)},
+    {"a node without points", Status::kImageValue, NODE(5, x.point_count = 0)},
+    {"a wrong level", Status::kImageValue, NODE(5, x.level = 1)},
+    {"more levels than announced", Status::kImageValue, BODY(x.level_count = 2)},
+    {"a leaf with children", Status::kImageValue, NODE(1, x.leaf = 1)},
+    {"an inner node without children", Status::kImageValue, NODE(2, x.leaf = 0)},
+    {"a leaf flag of two", Status::kImageValue, NODE(2, x.leaf = 2)},
+    {"a sphere that shrank", Status::kImageValue, NODE(2, x.radius *= 0.99f)},
+    {"a sphere that moved", Status::kImageValue, NODE(0, x.center[1] += 1e-4f)},
+    {"a radius NaN", Status::kImageValue, NODE(4, x.radius = std::numeric_limits<float>::quiet_NaN())},
+    {"a radius below zero", Status::kImageValue, NODE(4, x.radius = -x.radius)},
+    {"a centre NaN", Status::kImageValue, NODE(4, x.center[2] = std::numeric_limits<float>::quiet_NaN())},
+};
+INSTANTIATE_TEST_SUITE_P(Tree, SceneRefuses, ::testing::ValuesIn(kTrees));
+
+/// Every double from `first` on, one after the other.
+template <class T, SectionId kId>
+void expect_each_double_is_checked(std::size_t first, std::size_t count) {
+  for (const double value : {kNaN, kInfinity, -kInfinity}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      SceneImage image = small_image();
+      std::memcpy(test::section_bytes(image, kId).data() + first + i * sizeof(double), &value, sizeof(double));
+      test::seal(image);
+      EXPECT_EQ(open_over_another(image.bytes()), Status::kImageValue) << "double " << i << " = " << value;
+    }
+  }
+}
+
+TEST(Scene, RefusesWhatIsNotFinite) {
+  constexpr std::size_t kSettingsFirst = offsetof(format::Settings, safety_distance);
+  expect_each_double_is_checked<format::Settings, SectionId::kSettings>(
+      kSettingsFirst, (sizeof(format::Settings) - kSettingsFirst) / sizeof(double));
+  expect_each_double_is_checked<format::Grid, SectionId::kGrid>(0, offsetof(format::Grid, bricks) / sizeof(double));
+  expect_each_double_is_checked<format::Body, SectionId::kBody>(
+      0, offsetof(format::Body, inertia_from_points) / sizeof(double));
 }
 
 }  // namespace

@@ -18,14 +18,14 @@ thread_local std::int64_t release_count = 0;
 #define GODOBJECT_INTERPOSES_MALLOC 1
 
 extern "C" {
-// glibc's own entry points, behind the public names that are replaced here. NOLINTBEGIN(*-reserved-identifier,
-// *-naming)
+// glibc's own entry points, behind the public names that are replaced here.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(std::size_t bytes) noexcept;
 void* __libc_calloc(std::size_t count, std::size_t bytes) noexcept;
 void* __libc_realloc(void* block, std::size_t bytes) noexcept;
 void* __libc_memalign(std::size_t alignment, std::size_t bytes) noexcept;
 void __libc_free(void* block) noexcept;
-// NOLINTEND(*-reserved-identifier, *-naming)
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* malloc(std::size_t bytes) noexcept {
   if (live_guards > 0) ++allocation_count;

@@ -1,0 +1,310 @@
+#include "core/scene/voxelmap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+test::SceneDescription still_body(std::function<double(const Vector3&)> distance, const Vector3& half_edges,
+                                  double voxel_size, double band) {
+  test::SceneDescription description;
+  description.distance = std::move(distance);
+  description.surface_min = -half_edges;
+  description.surface_max = half_edges;
+  description.voxel_size = voxel_size;
+  description.band = band;
+  description.points = {Vector3(0.01, 0.0, 0.0)};
+  return description;
+}
+
+/// One brick of 4 x 4 x 4 cells with edge 1/4 m, its first node at the origin. Numbers that floats hold exactly.
+struct OneBrick {
+  format::Grid grid{};
+  format::Brick brick{};
+  std::uint32_t index = 0;
+
+  OneBrick() {
+    grid.voxel_size = 0.25;
+    grid.band = 4.0;
+    grid.lipschitz = 1.0;
+    grid.lipschitz_seam = 1.0;
+    std::fill(std::begin(grid.surface_max), std::end(grid.surface_max), 1.0);
+    std::fill(std::begin(grid.bricks), std::end(grid.bricks), 1);
+    grid.brick_count = 1;
+    brick.seam_clearance = FLT_MAX;
+  }
+  float& node(int x, int y, int z) { return brick.value[x + 5 * (y + 5 * z)]; }
+  Voxelmap map() const { return {grid, std::span(&index, 1), std::span(&brick, 1)}; }
+};
+
+TEST(Voxelmap, InterpolatesACellByHand) {
+  OneBrick one;
+  // the cell from node (1, 2, 3) to (2, 3, 4): corners 1 .. 8, x fastest
+  float corner = 1.0f;
+  for (const int z : {3, 4}) {
+    for (const int y : {2, 3}) {
+      for (const int x : {1, 2}) one.node(x, y, z) = 0.125f * corner++;
+    }
+  }
+  // a quarter along x, a half along y, three quarters along z: 1 + 1/4 + 2/2 + 4 * 3/4 = 5.25 eighths
+  const FieldSample sample = one.map().sample(0.25 * Vector3(1.25, 2.5, 3.75));
+  EXPECT_TRUE(sample.known);
+  EXPECT_EQ(sample.distance, 5.25 / 8.0);
+  EXPECT_EQ(sample.gradient, Vector3(0.5, 1.0, 2.0));  // 1, 2, 4 eighths a quarter metre
+}
+
+TEST(Voxelmap, InterpolatesTheProductTermsByHand) {
+  OneBrick one;
+  one.node(1, 1, 1) = 1.0f;  // xyz of the cell at the origin, all other corners 0
+  const FieldSample sample = one.map().sample(0.25 * Vector3(0.5, 0.25, 0.75));
+  EXPECT_EQ(sample.distance, 0.5 * 0.25 * 0.75);
+  EXPECT_EQ(sample.gradient, 4.0 * Vector3(0.25 * 0.75, 0.5 * 0.75, 0.5 * 0.25));
+}
+
+TEST(Voxelmap, TellsKnownFromBandInsideAndOutside) {
+  OneBrick one;
+  one.grid.band = 0.5;
+  for (int z = 0; z < 5; ++z) {
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 0; x < 5; ++x) one.node(x, y, z) = 0.5f * static_cast<float>(x) - 1.0f;  // -1 .. 1
+    }
+  }
+  const Voxelmap map = one.map();
+  const auto at = [&](double x) { return map.sample(Vector3(x, 0.5, 0.5)); };
+  EXPECT_TRUE(at(0.5).known);
+  EXPECT_EQ(at(0.5).distance, 0.0);
+  EXPECT_EQ(at(0.5).gradient, Vector3(2.0, 0.0, 0.0));
+  EXPECT_TRUE(at(0.74).known);
+  for (const double x : {0.75, 0.8, 0.99, 1.0, 7.0}) {  // at the band, beyond it, at the grid's end, beyond that
+    EXPECT_FALSE(at(x).known) << x;
+    EXPECT_EQ(at(x).distance, 0.5) << x;
+    EXPECT_EQ(at(x).gradient, Vector3::Zero()) << x;
+  }
+  for (const double x : {0.25, 0.1, 0.0}) {
+    EXPECT_FALSE(at(x).known) << x;
+    EXPECT_EQ(at(x).distance, -0.5) << x;
+    EXPECT_EQ(at(x).gradient, Vector3::Zero()) << x;
+  }
+  EXPECT_EQ(at(-1e-9).distance, 0.5);  // before the grid is free space, whatever stands at its edge
+}
+
+TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
+  OneBrick one;
+  one.grid.band = 0.5;
+  one.index = format::index_entry::encode_far(false, 2.0f);
+  EXPECT_EQ(one.map().sample(Vector3::Constant(0.5)).distance, 0.5);
+  EXPECT_FALSE(one.map().sample(Vector3::Constant(0.5)).known);
+  EXPECT_NEAR(one.map().lower_bound(Vector3::Constant(0.5), 1.5), 0.5, 1e-6);
+  EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 2.5), -kInfinity);
+  EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, -2);
+
+  one.index = format::index_entry::encode_far(true, 2.0f);
+  EXPECT_EQ(one.map().sample(Vector3::Constant(0.5)).distance, -0.5);
+  EXPECT_FALSE(one.map().sample(Vector3::Constant(0.5)).known);
+  EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 0.0), -kInfinity);
+  EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, 2);
+}
+
+TEST(Voxelmap, KnowsNoBoundOnceTheBallReachesASeam) {
+  OneBrick one;
+  std::fill(std::begin(one.brick.value), std::end(one.brick.value), 3.0f);
+  one.brick.seam_clearance = 0.5f;
+  EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 1.0), 2.0) << "not marked in the index";
+  one.index |= format::index_entry::kSeamNear;
+  EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 0.25), 2.75);
+  EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 0.5), -kInfinity);
+}
+
+TEST(Voxelmap, TakesWhatIsNotFiniteForOutside) {
+  const auto description =
+      still_body([](const Vector3& p) { return test::ball_distance(p, 0.02); }, Vector3::Constant(0.02), 0.005, 0.01);
+  const test::SceneImage image = test::build_scene_image(description);
+  const Voxelmap map = test::open_scene(image).voxelmap;
+  for (const double value : {kNaN, kInfinity, -kInfinity, DBL_MAX, -DBL_MAX}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector3 p = Vector3::Zero();
+      p[axis] = value;
+      EXPECT_EQ(map.sample(p).distance, 0.01) << value;
+      EXPECT_FALSE(map.sample(p).known) << value;
+      EXPECT_EQ(map.layer(p).layer, -2) << value;
+      EXPECT_FALSE(std::isnan(map.lower_bound(p, 0.001))) << value;
+    }
+    EXPECT_LE(map.lower_bound(Vector3::Constant(0.03), std::fabs(value)), 0.0) << value;
+  }
+}
+
+TEST(Voxelmap, ReproducesALinearFieldToFloatRounding) {
+  const Vector3 slope = Vector3(1.0, -2.0, 0.5).normalized();
+  const auto description =
+      still_body([&](const Vector3& p) { return slope.dot(p) - 0.003; }, Vector3::Constant(0.02), 0.0017, 0.017);
+  const test::SceneImage image = test::build_scene_image(description);
+  const Voxelmap map = test::open_scene(image).voxelmap;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> anywhere(-0.008, 0.008);
+  for (int i = 0; i < 10000; ++i) {
+    const Vector3 p(anywhere(random), anywhere(random), anywhere(random));
+    const FieldSample sample = map.sample(p);
+    ASSERT_TRUE(sample.known);
+    // floats below 0.06, and their differences over a voxel
+    ASSERT_NEAR(sample.distance, slope.dot(p) - 0.003, 0.06 * FLT_EPSILON) << p.transpose();
+    ASSERT_LT((sample.gradient - slope).norm(), 0.06 * FLT_EPSILON / 0.0017) << p.transpose();
+  }
+}
+
+/// A union of balls and boxes, turned: 1-Lipschitz, with edges and saddles.
+class RandomShapes {
+ public:
+  explicit RandomShapes(unsigned seed) : random_(seed) {
+    for (int i = 0; i < 3; ++i) centers_[i] = 0.02 * Vector3(uniform(), uniform(), uniform());
+    half_edges_ = Vector3::Constant(0.012) + 0.006 * Vector3(uniform(), uniform(), uniform());
+    turn_ = exp_rotation(2.0 * Vector3(uniform(), uniform(), uniform()));
+  }
+  double uniform() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
+  double operator()(const Vector3& p) const {
+    return std::min({test::ball_distance(p - centers_[0], 0.01), test::ball_distance(p - centers_[1], 0.006),
+                     test::box_distance(turn_ * (p - centers_[2]), half_edges_)});
+  }
+
+ private:
+  std::mt19937 random_;
+  Vector3 centers_[3];
+  Vector3 half_edges_;
+  Quaternion turn_;
+};
+
+class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
+ protected:
+  VoxelmapOfRandomShapes()
+      : shapes_(GetParam()),
+        image_(test::build_scene_image(still_body(shapes_, Vector3::Constant(0.055), 0.002, 0.008))),
+        map_(test::open_scene(image_).voxelmap) {}
+
+  Vector3 random_point(double reach) {
+    return reach * Vector3(shapes_.uniform(), shapes_.uniform(), shapes_.uniform());
+  }
+
+  RandomShapes shapes_;
+  test::SceneImage image_;
+  Voxelmap map_;
+};
+
+TEST_P(VoxelmapOfRandomShapes, IsNearTheTruth) {
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 p = random_point(0.06);
+    const double truth = shapes_(p);
+    const double stored = map_.sample(p).distance;
+    // trilinear error of a 1-Lipschitz function, and the clipping to the band
+    ASSERT_NEAR(stored, std::clamp(truth, -0.008, 0.008), 0.8661 * 0.002) << p.transpose();
+  }
+}
+
+TEST_P(VoxelmapOfRandomShapes, GivesTheGradientOfItsOwnDistance) {
+  constexpr double kStep = 1e-4;  // long against float rounding (1e-9), short against a voxel
+  int compared = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 p = random_point(0.05);
+    const FieldSample sample = map_.sample(p);
+    if (!sample.known) continue;
+    ASSERT_LE(sample.gradient.norm(), map_.lipschitz()) << p.transpose();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 step = kStep * Vector3::Unit(axis);
+      const FieldSample ahead = map_.sample(p + step);
+      const FieldSample behind = map_.sample(p - step);
+      if (!ahead.known || !behind.known) continue;
+      // along an axis the field is linear within a cell: differences are exact there, and the component is constant
+      if (std::fabs(ahead.gradient[axis] - behind.gradient[axis]) > 1e-5) continue;
+      ++compared;
+      ASSERT_NEAR(sample.gradient[axis], (ahead.distance - behind.distance) / (2.0 * kStep), 1e-4) << p.transpose();
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST_P(VoxelmapOfRandomShapes, IsContinuous) {
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 p = random_point(0.06);
+    const Vector3 q = p + random_point(1e-5);
+    ASSERT_LE(std::fabs(map_.sample(p).distance - map_.sample(q).distance), map_.lipschitz() * (q - p).norm() + 1e-8)
+        << p.transpose() << " and " << q.transpose();
+  }
+}
+
+TEST_P(VoxelmapOfRandomShapes, NeverPromisesMoreThanTheBallHolds) {
+  int promised = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 center = random_point(0.1);
+    const double radius = 0.01 * std::fabs(shapes_.uniform());
+    const double bound = map_.lower_bound(center, radius);
+    ASSERT_TRUE(bound >= 0.0 || bound == -kInfinity) << bound;
+    if (bound < 0.0) continue;
+    ++promised;
+    for (int k = 0; k < 50; ++k) {
+      Vector3 offset = random_point(1.0);
+      if (k % 2 == 0 || offset.norm() > 1.0) offset.normalize();  // half of them on the sphere, where it counts
+      const FieldSample sample = map_.sample(center + radius * offset);
+      ASSERT_GE(sample.distance, std::min(bound, map_.band()) - 1e-9) << center.transpose() << " r " << radius;
+    }
+  }
+  EXPECT_GT(promised, 1000);
+}
+
+TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 center = random_point(0.1);
+    const double truth = shapes_(center);
+    // a loose bound is legal but would send every point of the tree to the field; two brick diagonals is what it may
+    // lose
+    if (truth > 2.0 * 4.0 * 1.7321 * 0.002) {
+      ASSERT_GE(map_.lower_bound(center, 0.0), 0.0) << center.transpose();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, 9u));
+
+TEST(Voxelmap, NumbersTheLayersByHand) {
+  OneBrick one;  // voxels of 1/4 m around the nodes; the surface stands at x = 1/2
+  one.grid.band = 0.5;
+  for (int z = 0; z < 5; ++z) {
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 0; x < 5; ++x) one.node(x, y, z) = 0.25f * static_cast<float>(x) - 0.5f;
+    }
+  }
+  const Voxelmap map = one.map();
+  const auto at = [&](double x) { return map.layer(Vector3(x, 0.5, 0.5)).layer; };
+  EXPECT_EQ(at(0.5), 0);
+  EXPECT_EQ(at(0.62), 0);
+  EXPECT_EQ(at(0.63), -1);
+  EXPECT_EQ(at(0.99), -2);
+  EXPECT_EQ(at(0.38), 0);
+  EXPECT_EQ(at(0.37), 1);
+  EXPECT_EQ(at(0.0), 2);
+  EXPECT_EQ(at(5.0), -2);
+
+  const LayerSample sample = map.layer(Vector3(0.375, 0.5625, 0.4375));
+  EXPECT_EQ(sample.layer, 0);  // half way goes to the node above
+  EXPECT_EQ(sample.to_center, Vector3(0.125, -0.0625, 0.0625));
+}
+
+TEST(Voxelmap, RoundsALayerHalfWayInwards) {
+  OneBrick one;
+  std::fill(std::begin(one.brick.value), std::end(one.brick.value), -0.375f);  // 1.5 voxels deep
+  EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, 2);
+  std::fill(std::begin(one.brick.value), std::end(one.brick.value), 0.375f);
+  EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, -1);
+}
+
+}  // namespace
+}  // namespace godobject
