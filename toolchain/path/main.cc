@@ -1,0 +1,58 @@
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/command/run.h"
+#include "toolchain/path/keyframes.h"
+#include "toolchain/path/trajectory.h"
+
+namespace {
+
+const char* const kFooter = R"(Example:
+  godobject-path peg.keyframes.toml -o peg.csv
+
+KEYFRAMES.toml:
+  pivot = [0, 0, 0]            # optional: point of the moving mesh (scaled, its own frame) that positions speak of [m]
+  [[keyframe]]                 # two or more
+  t = 0.0                      # [s]
+  position = [0, 0, 0.1]       # of the pivot in W, the still mesh's frame [m]
+  axis_angle = [0, 0, 1, 90]   # x, y, z, degrees; or quaternion = [w, x, y, z]; neither: unrotated
+  [[oscillation]]              # optional: a sine laid over the path
+  from = 1.0                   # [s]
+  to = 2.0
+  frequency = 9.0              # [Hz]
+  phase_deg = 0                # optional; a circle is two oscillations 90 degrees apart
+  fade = 0.1                   # optional: grows and shrinks within this time at both ends [s]
+  translation = [0.001, 0, 0]  # amplitude of the pivot in W [m]
+  rotation_deg = [0, 0, 2]     # amplitude as a rotation vector in W, about the pivot
+
+POSES.csv gets t,px,py,pz,qw,qx,qy,qz, one row a millisecond: the moving mesh's frame in W. Each keyframe is a place of rest;
+between two the pivot goes straight and the rotation along the shorter arc, with the least jerk (10 u^3 - 15 u^4 + 6 u^5).)";
+
+std::string row(const godobject::path::Sample& sample) {
+  const godobject::Vector3& p = sample.pose.translation;
+  const godobject::Quaternion& q = sample.pose.rotation;
+  return fmt::format("{:.3f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f}\n", sample.t, p.x(), p.y(), p.z(), q.w(), q.x(),
+                     q.y(), q.z());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Makes a device path, one pose a millisecond, from keyframes.", "godobject-path");
+  app.footer(kFooter);
+  std::string keyframes_path, out_path;
+  app.add_option("KEYFRAMES", keyframes_path, "keyframes, TOML")->required();
+  app.add_option("-o,--output", out_path, "what to write, CSV")->required();
+
+  return godobject::command::run(app, argc, argv, [&] {
+    const godobject::path::Keyframes motion = godobject::path::read_keyframes(keyframes_path);
+    godobject::command::AtomicFile out(out_path);
+    out.write("t,px,py,pz,qw,qx,qy,qz\n");
+    for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample));
+    out.commit();
+    return 0;
+  });
+}
