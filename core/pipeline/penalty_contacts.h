@@ -29,7 +29,7 @@ struct PointPenetration {
 
 /// Eq (1) as printed: integer layer of the voxel around the point, n the pointshell's own normal.
 struct LayerPenetration {
-  /// V > 0 is possible up to this stored distance: half a layer of rounding, half a diagonal for e, and one for phi(C).
+  /// V <= reach - phi, so V > 0 is possible up to this stored distance phi: half a layer of rounding, half a diagonal for e, and one for phi(C).
   static double reach(double safety_distance, double voxel_size) noexcept {
     return safety_distance + (0.5 + 2.0 * 0.8660254037844387) * voxel_size;
   }
@@ -112,10 +112,10 @@ PenaltyContacts penalty_contacts(const Field& field, const Pointshell& shell, co
       ++contacts.count;
     }
     // without a contact yet, whatever is farther away than the nearest point so far does not matter
-    return std::max(reach, std::min(reach + travel, safety_distance - depth));
+    return std::max(reach, std::min(reach + travel, reach - depth));
   };
   const double left_out = visit_points_below(reach + travel, field, shell, H_WS, visit);
-  contacts.depth = std::max(depth, safety_distance - left_out);
+  contacts.depth = std::max(depth, reach - left_out);  // V <= reach - phi
   contacts.wrench_S.force = R_WS.transpose() * wrench_W.force;
   contacts.wrench_S.torque = R_WS.transpose() * wrench_W.torque;
   return contacts;

@@ -118,6 +118,10 @@ LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {
 
 double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexcept {
   constexpr double kNoBound = -std::numeric_limits<double>::infinity();
+  // spheres and distances come in single precision: a sphere may be this much too small, a distance this much off
+  constexpr double kRadiusRounding = 2e-6;  // of the radius
+  constexpr double kRounding = 1e-5;        // voxels
+  radius += kRadiusRounding * radius + kRounding * voxel_size_;
   double bound = kNoBound;
   Cell cell;
   if (!locate(center_W, cell)) {

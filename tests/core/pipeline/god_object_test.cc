@@ -1,0 +1,249 @@
+// The whole cycle on compiled scenes: its edges, its promises to the caller, no allocation, no floating-point exception.
+
+#include "core/pipeline/god_object.h"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <limits>
+#include <random>
+
+#include "tests/support/allocation_guard.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject::test {
+namespace {
+
+constexpr double kWorldRadius = 0.06;
+constexpr double kBodyRadius = 0.02;
+
+/// A ball of 20 mm over a ball of 60 mm, its mesh frame shifted and turned against the body frame.
+SceneDescription balls() {
+  SceneDescription d;
+  d.distance = [](const Vector3& p) { return ball_distance(p, kWorldRadius); };
+  d.surface_min = Vector3::Constant(-kWorldRadius);
+  d.surface_max = Vector3::Constant(kWorldRadius);
+  d.voxel_size = 0.003;
+  const SurfaceSamples samples = sample_ball(kBodyRadius, 1000);
+  d.points = samples.points;
+  d.normals = samples.normals;
+  d.H_MB.translation = Vector3(0.01, -0.02, 0.03);
+  d.H_MB.rotation = exp_rotation(Vector3(0.3, -0.5, 0.2));
+  d.settings.friction = 1;
+  d.settings.friction_static = 0.2;
+  d.settings.friction_kinetic = 0.18;
+  d.settings.paper_rotation_static = 0.2;
+  d.settings.paper_rotation_kinetic = 0.18;
+  d.settings.paper_viscous = 0.002;
+  return d;
+}
+
+class GodObjectTest : public testing::Test {
+ protected:
+  GodObjectTest() : image_(build_scene_image(balls())) { EXPECT_EQ(Scene::open(image_.bytes(), scene_), Status::kOk); }
+
+  /// Mesh pose with the body's centre at `center`, turned by `r`.
+  Pose mesh_pose(const Vector3& center, const Vector3& r = Vector3::Zero()) const {
+    Pose H_WB;
+    H_WB.translation = center;
+    H_WB.rotation = exp_rotation(r);
+    return H_WB * scene_.H_MB.inverse();
+  }
+
+  /// Comes down, presses by 5 mm, slides, turns and leaves; 0 <= phase < 1.
+  Pose along_path(double phase) const {
+    const double press = 0.025 * std::sin(M_PI * phase);
+    const double angle = 0.8 * phase;
+    const double distance = kWorldRadius + kBodyRadius + 0.02 - press;
+    return mesh_pose(distance * Vector3(std::sin(angle), 0.0, std::cos(angle)), Vector3(0.0, 0.0, phase));
+  }
+
+  SceneImage image_;
+  Scene scene_;
+};
+
+struct Pipeline {
+  Solver solver;
+  bool friction;
+};
+constexpr Pipeline kPipelines[] = {{Solver::kPaper, false}, {Solver::kPaper, true}, {Solver::kCorrected, false}, {Solver::kCorrected, true}};
+
+TEST_F(GodObjectTest, MakesNoAllocationAndRaisesNoFloatingPointExceptionInAHundredThousandCycles) {
+  constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  if (!AllocationGuard::works()) GTEST_SKIP() << "a sanitizer owns malloc";
+  for (const auto& [solver, friction] : kPipelines) {
+    GodObject god_object;
+    ASSERT_EQ(god_object.start(scene_, solver, friction), Status::kOk);
+    CycleReport report;
+    int bad = 0;
+    std::uint32_t contacts = 0;
+    std::feclearexcept(kWatched);
+    const AllocationGuard guard;
+    for (int k = 0; k < 100000; ++k) {
+      if (god_object.update({along_path(k % 5000 / 5000.0), Motion{}}, report) != Status::kOk) ++bad;
+      contacts = std::max(contacts, report.contacts);
+    }
+    EXPECT_EQ(guard.allocations(), 0);
+    EXPECT_EQ(guard.releases(), 0);
+    EXPECT_EQ(std::fetestexcept(kWatched), 0);
+    EXPECT_EQ(bad, 0);
+    EXPECT_GT(contacts, 10u) << "the path must touch, or this shows nothing";
+  }
+}
+
+TEST_F(GodObjectTest, SpeaksOfTheMeshFrameAndForcesOfTheCentreOfMass) {
+  GodObject god_object;
+  ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, false), Status::kOk);
+  CycleReport report;
+  for (int k = 0; k <= 500; ++k) {
+    const double height = kWorldRadius + kBodyRadius + 0.005 - 2e-5 * k;
+    ASSERT_EQ(god_object.update({mesh_pose({0.0, 0.0, height}, {0.4, 0.0, 0.0}), Motion{}}, report), Status::kOk);
+  }
+  // 5 mm deep along the line of centres: the mesh frame is pushed back by as much, the force has no lever
+  const Pose god = god_object.mesh_pose();
+  const Pose device = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius - 0.005}, {0.4, 0.0, 0.0});
+  EXPECT_NEAR((god.translation - device.translation).z(), 0.005, 0.1 * 0.003);
+  EXPECT_NEAR(report.force.spring_W.force.z(), 2000.0 * 0.005, 2000.0 * 0.1 * 0.003);
+  EXPECT_LT(report.force.spring_W.torque.norm(), 10.0 * 0.25 * kBodyRadius);  // points and voxels are not quite symmetric
+}
+
+TEST_F(GodObjectTest, HoldsTheGodObjectAndSendsNoForceOnBadInput) {
+  GodObject god_object;
+  ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, true), Status::kOk);
+  CycleReport report;
+  const Pose start = mesh_pose({0.0, 0.0, 0.1});
+  ASSERT_EQ(god_object.update({start, Motion{}}, report), Status::kOk);
+  const Pose before = god_object.mesh_pose();
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Pose bad = start;
+  bad.translation.x() = kNaN;
+  EXPECT_EQ(god_object.update({bad, Motion{}}, report), Status::kNotFinite);
+  bad = start;
+  bad.translation.y() = -kInf;
+  EXPECT_EQ(god_object.update({bad, Motion{}}, report), Status::kNotFinite);
+  bad = start;
+  bad.rotation.coeffs() *= 1.002;
+  EXPECT_EQ(god_object.update({bad, Motion{}}, report), Status::kNotUnit);
+  bad.rotation.coeffs().setZero();
+  EXPECT_EQ(god_object.update({bad, Motion{}}, report), Status::kNotUnit);
+  Motion velocity;
+  velocity.rotation.z() = kNaN;
+  EXPECT_EQ(god_object.update({start, velocity}, report), Status::kNotFinite);
+  EXPECT_EQ(report.outcome, Outcome::kBadInput);
+  EXPECT_TRUE(report.force.total_W.force.isZero());
+  EXPECT_EQ(god_object.mesh_pose().translation, before.translation);
+  // and goes on with the next pose; a rotation within 1e-3 of unit length is one, of either sign
+  Pose rough = start;
+  rough.rotation.coeffs() *= -1.0005;
+  EXPECT_EQ(god_object.update({rough, Motion{}}, report), Status::kOk);
+  EXPECT_EQ(report.outcome, Outcome::kFree);
+}
+
+TEST_F(GodObjectTest, SurvivesPosesFarOutsideOfEverything) {
+  for (const auto& [solver, friction] : kPipelines) {
+    GodObject god_object;
+    ASSERT_EQ(god_object.start(scene_, solver, friction), Status::kOk);
+    CycleReport report;
+    for (const double far : {0.1, 1e3, 1e12, 1e100, 1e-3}) {
+      const Status status = god_object.update({mesh_pose({far, -far, far}), Motion{}}, report);
+      EXPECT_TRUE(report.H_WS.is_finite());
+      EXPECT_TRUE(report.force.total_W.force.allFinite());
+      if (far < 1e6) {
+        EXPECT_EQ(status, Status::kOk);
+      }
+    }
+  }
+}
+
+TEST_F(GodObjectTest, ComesOutWhenItStartsInsideEvenBeyondTheBand) {
+  for (const double depth : {0.005, 0.030, 0.075}) {
+    GodObject god_object;
+    ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, false), Status::kOk);
+    CycleReport report;
+    for (int k = 0; k < 5000; ++k) {
+      const double height = kWorldRadius + kBodyRadius - depth + 2e-5 * k;
+      ASSERT_EQ(god_object.update({mesh_pose({0.0, 0.0, height}), Motion{}}, report), Status::kOk);
+      ASSERT_LT(report.force.spring_W.force.norm(), 2000.0 * 0.1);
+      if (k == 0) {
+        EXPECT_EQ(report.outcome, Outcome::kStartInside);
+      }
+    }
+    EXPECT_EQ(report.outcome, Outcome::kFree) << "started " << depth << " m deep";
+  }
+}
+
+TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
+  SceneDescription lean = balls();
+  lean.normals.clear();
+  lean.settings.friction = 0;
+  const SceneImage image = build_scene_image(lean);
+  Scene scene;
+  ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
+  GodObject god_object;
+  EXPECT_EQ(god_object.start(scene, Solver::kPaper, false), Status::kNotInImage);
+  EXPECT_EQ(god_object.start(scene, Solver::kCorrected, true), Status::kNotInImage);
+  EXPECT_EQ(god_object.start(scene, Solver::kCorrected, false), Status::kOk);
+}
+
+/// The tree must not lose a contact, whatever the pose: same points, bit for bit, as looking at all of them.
+TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const Pointshell& shell = scene_.pointshell;
+  std::size_t touching = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Pose H_WS;
+    H_WS.translation = (kWorldRadius + kBodyRadius + 0.006 * normal(random)) * vector().normalized();
+    H_WS.rotation = exp_rotation(vector());
+    const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
+    const double d = 0.0045;
+    const auto check = [&](auto penetration) {
+      using Penetration = decltype(penetration);
+      const PenaltyContacts fast = penalty_contacts<Penetration>(scene_.voxelmap, shell, H_WS, d, 0.0);
+      Vector3 force = Vector3::Zero();
+      std::uint32_t count = 0;
+      double depth = -1.0;
+      for (std::size_t p = 0; p < shell.size; ++p) {
+        const PointPenetration point =
+            Penetration::at(scene_.voxelmap, shell, p, R_WS * shell.point(p) + H_WS.translation, R_WS, d);
+        depth = std::max(depth, point.value);
+        if (point.value <= 0.0) continue;
+        force += point.value * point.normal_W;
+        ++count;
+      }
+      ASSERT_EQ(fast.count, count);
+      ASSERT_EQ(fast.wrench_S.force, R_WS.transpose() * force);
+      if (count > 0) {
+        ASSERT_EQ(fast.depth, depth);
+      }
+      if (count == 0) {
+        ASSERT_GE(fast.depth, depth);
+      }
+      touching += count;
+    };
+    check(LayerPenetration{});
+    check(DistancePenetration{});
+    double smallest = scene_.voxelmap.band();
+    for (std::size_t p = 0; p < shell.size; ++p) {
+      smallest = std::min(smallest, scene_.voxelmap.sample(R_WS * shell.point(p) + H_WS.translation).distance);
+    }
+    ASSERT_EQ(smallest_distance(scene_.voxelmap, shell, H_WS), smallest);
+  }
+  EXPECT_GT(touching, 10000u);
+}
+
+TEST_F(GodObjectTest, KeepsItsRotationAtUnitLength) {
+  GodObject god_object;
+  ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, true), Status::kOk);
+  CycleReport report;
+  for (int k = 0; k < 200000; ++k) {
+    ASSERT_EQ(god_object.update({along_path(k % 3333 / 3333.0), Motion{}}, report), Status::kOk);
+  }
+  EXPECT_NEAR(report.H_WS.rotation.norm(), 1.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace godobject::test
