@@ -4,8 +4,9 @@
 
 namespace godobject::scene_compiler {
 
-/// Signed distance along a walk: the last answer bounds the next search, and where the solids are sealed a step shorter
-/// than the last distance keeps its sign. Gives what SolidSurface::signed_distance gives. One walk a thread.
+/// Signed distance along a walk: the last answer bounds the next search, and the winding number is summed again only
+/// after a step that crosses a triangle, or far from where it was known. Gives what SolidSurface::signed_distance gives.
+/// One walk a thread.
 class DistanceProbe {
  public:
   explicit DistanceProbe(const SolidSurface& surface) : surface_(surface) {}
@@ -13,11 +14,14 @@ class DistanceProbe {
   double signed_distance(const Eigen::Vector3d& p);
 
  private:
+  bool keeps_side(const Eigen::Vector3d& p, double step) const;
+
   const SolidSurface& surface_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
-  double to_solids_ = -1.0;  ///< negative: no answer yet
+  double to_solids_ = -1.0;  ///< at the last point; negative: no answer yet
   double to_shells_ = -1.0;
   bool inside_ = false;
+  double path_left_ = 0.0;  ///< until the winding number must be summed again [m]
 };
 
 }  // namespace godobject::scene_compiler

@@ -48,12 +48,10 @@ class SolidSurface {
   /// Generalised winding number of the solid components: 1 inside, 0 outside of closed ones.
   double winding_number(const Eigen::Vector3d& p) const;
 
-  /// Whether p lies inside of a solid component: winding number > 1/2. False if there is none.
-  bool is_inside(const Eigen::Vector3d& p) const;
-
-  /// The solid components have no boundary: along every edge their triangles cancel. Then the winding number is a whole
-  /// number and changes at triangles only. True if there is none.
-  bool sealed() const;
+  /// How far one may go from p, without crossing a solid's triangle, before the winding number can pass 1/2 [m]. Along such a path
+  /// the winding number changes by at most L / (4 pi r^2) a metre, L the length of the open boundary and r the distance from
+  /// it (Biot and Savart); infinity where the solids are sealed.
+  double constant_side_path(const Eigen::Vector3d& p, double winding_number) const;
 
   /// Unsigned distance to the triangles of one kind; infinity if there are none. `hint` as above, for that kind.
   double distance_to_solids(const Eigen::Vector3d& p, double hint = -1.0) const;
