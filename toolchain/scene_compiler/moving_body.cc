@@ -29,9 +29,10 @@ constexpr double kCoarsest = 8.0;         // samples of level 1
 constexpr double kLeastRefinement = 1.5;  // from level to level; keeps nodes below twice the points
 constexpr double kLeastRadius = 1e-9;     // [m], of a body of one point
 constexpr std::uint32_t kCandidateSeed = 1;
-constexpr std::uint32_t kCoverageSeed = 2;
-constexpr std::uint32_t kLeastCoverageSamples = 20000;
-constexpr std::uint32_t kMostCoverageSamples = 1u << 19;
+constexpr std::uint32_t kProbeSeed = 2;
+constexpr std::uint32_t kLeastProbes = 20000;
+constexpr std::uint32_t kMostProbes = 1u << 20;
+constexpr std::size_t kProbeBlock = 256;
 
 /// Maps the 0 .. 1 of a part of the work to begin .. end of the whole.
 Progress part_of(const Progress& progress, double begin, double end) {
@@ -124,20 +125,30 @@ double median_neighbour_distance(const std::vector<SurfaceSample>& samples, cons
   return std::sqrt(*middle);
 }
 
-/// To the nearest sample of the same side, where there is one at all.
-double largest_gap(const OuterSurface& outer, const std::vector<SurfaceSample>& samples, const PointTree& tree,
-                   const Progress& progress) {
-  const auto wanted = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastCoverageSamples, kMostCoverageSamples);
-  const std::vector<SurfaceSample> probes = outer.spread(wanted, kCoverageSeed, progress).samples;
-  std::vector<double> squared(probes.size());
+/// Largest distance of the outer surface to its nearest sample, on fresh draws. Those furthest off are looked at first: the
+/// first one that is not buried decides.
+double largest_gap(const OuterSurface& outer, const std::vector<SurfaceSample>& samples, const PointTree& tree) {
+  const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
+  const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);
+  std::vector<std::pair<double, std::uint32_t>> far_first(probes.size());
   parallel_chunks(probes.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto nearest = tree.nearest(probes[i].point, [&](std::uint32_t j) { return same_side(probes[i], samples[j]); });
-      if (nearest.index == PointTree::kNone) nearest = tree.nearest(probes[i].point);
-      squared[i] = nearest.squared_distance;
+      far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
     }
   });
-  return std::sqrt(*std::max_element(squared.begin(), squared.end()));
+  std::sort(far_first.begin(), far_first.end());
+  for (std::size_t begin = 0; begin < far_first.size(); begin += kProbeBlock) {
+    std::vector<SurfaceSample> block;
+    for (std::size_t i = begin; i < std::min(begin + kProbeBlock, far_first.size()); ++i) {
+      block.push_back(probes[far_first[i].second]);
+    }
+    const std::vector<std::uint8_t> are_outer = outer.are_outer(block);
+    const auto found = std::find(are_outer.begin(), are_outer.end(), 1);
+    if (found != are_outer.end()) {
+      return std::sqrt(-far_first[begin + static_cast<std::size_t>(found - are_outer.begin())].first);
+    }
+  }
+  return 0.0;
 }
 
 /// Mass of the enclosed volume, or else of the points; fills the body's frame, inertia and volume.
@@ -206,7 +217,8 @@ MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, s
 
   const PointTree point_tree(points_M);
   moving.spacing = median_neighbour_distance(sampling.samples, point_tree);
-  moving.coverage = largest_gap(outer, sampling.samples, point_tree, part_of(progress, 0.9, 1.0));
+  moving.coverage = largest_gap(outer, sampling.samples, point_tree);
+  if (progress) progress(1.0);
   return moving;
 }
 

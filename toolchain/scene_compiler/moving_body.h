@@ -16,7 +16,7 @@ struct MovingBody {
   std::vector<float> normals;   ///< the same, unit, pointing into the body
   std::vector<format::Node> nodes;
   std::vector<std::uint32_t> level_sizes;  ///< samples of level 1 .. level_count; the last is n
-  double spacing = 0.0;   ///< median distance of a point to its nearest neighbour [m]
+  double spacing = 0.0;   ///< median distance of a point to the nearest one on its side of the body [m]
   double coverage = 0.0;  ///< largest distance of the (outer) surface from its nearest sample point, on fresh samples [m]
 };
 

@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep = 1e-6;             // of the bounding box's diagonal: above rounding, below any wall
+constexpr double kMostNegative = 0.49;    // winding number outside; a flat open sheet has just -0.5 there and 0.5 inside
 constexpr double kLeastOuterPart = 4e-3;  // of the area; with less a mesh is taken for one without outside
 constexpr std::uint64_t kBlock = 1u << 16;
 
@@ -38,31 +39,44 @@ bool OuterSurface::is_outer(const SurfaceSample& sample) const {
   }
   if (surface_.solid_triangles().empty()) return true;
   if (sample.on_shell) return surface_.winding_number(sample.point) < 0.5;
-  return surface_.winding_number(sample.point - step_ * sample.inward) < 0.5 &&
-         surface_.winding_number(sample.point + step_ * sample.inward) > 0.5;
+  // through its triangle the winding number grows by one: it passes one half if it was within one half of zero
+  const double outside = surface_.winding_number(sample.point - step_ * sample.inward);
+  return outside > -kMostNegative && outside < 0.5;
+}
+
+std::vector<std::uint8_t> OuterSurface::are_outer(std::span<const SurfaceSample> samples) const {
+  std::vector<std::uint8_t> outer(samples.size());
+  parallel_chunks(samples.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i]) ? 1 : 0;
+  });
+  return outer;
 }
 
 void OuterSurface::append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const {
-  std::vector<std::uint8_t> outer(candidates.size());
-  parallel_chunks(candidates.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(candidates[i]);
-  });
+  const std::vector<std::uint8_t> outer = are_outer(candidates);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (outer[i]) samples.push_back(candidates[i]);
   }
 }
 
+std::vector<SurfaceSample> OuterSurface::draw(const Draws& draws, std::uint64_t begin, std::uint64_t end) const {
+  std::vector<SurfaceSample> samples;
+  for (std::uint64_t i = begin; i < end; ++i) {
+    const double at = (static_cast<double>(i) + uniform(draws.seed, i, 0)) / static_cast<double>(draws.count);
+    samples.push_back(patches_.draw(at, uniform(draws.seed, i, 1), uniform(draws.seed, i, 2)));
+  }
+  return samples;
+}
+
+std::vector<SurfaceSample> OuterSurface::draw_all(std::uint32_t count, std::uint32_t seed) const {
+  return draw({count, 2 * std::uint64_t{seed}}, 0, count);
+}
+
 void OuterSurface::draw_outer(const Draws& draws, const std::function<void(double)>& progress,
                               std::vector<SurfaceSample>& samples) const {
-  std::vector<SurfaceSample> block;
   for (std::uint64_t begin = 0; begin < draws.count; begin += kBlock) {
     const std::uint64_t end = std::min(begin + kBlock, draws.count);
-    block.clear();
-    for (std::uint64_t i = begin; i < end; ++i) {
-      const double at = (static_cast<double>(i) + uniform(draws.seed, i, 0)) / static_cast<double>(draws.count);
-      block.push_back(patches_.draw(at, uniform(draws.seed, i, 1), uniform(draws.seed, i, 2)));
-    }
-    append_outer(block, samples);
+    append_outer(draw(draws, begin, end), samples);
     if (progress) progress(static_cast<double>(end) / static_cast<double>(draws.count));
   }
 }

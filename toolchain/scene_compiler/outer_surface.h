@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "toolchain/scene_compiler/body_mesh.h"
@@ -26,8 +27,14 @@ class OuterSurface {
   const BodyMesh& body() const { return body_; }
 
   /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 .. 1;
-  /// may be empty. Cost: two winding numbers a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
+  /// may be empty. Cost: a winding number a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
   Spread spread(std::uint32_t wanted, std::uint32_t seed, const std::function<void(double)>& progress) const;
+
+  /// `count` draws of the whole surface, buried parts included, for who needs to know only of some whether they are outer.
+  std::vector<SurfaceSample> draw_all(std::uint32_t count, std::uint32_t seed) const;
+
+  /// Whether each sample parts inside from outside: 1 or 0.
+  std::vector<std::uint8_t> are_outer(std::span<const SurfaceSample> samples) const;
 
   /// The sharp vertices, and points on the sharp edges at most `step` [m] apart, but not (much) more than `most` of either:
   /// too many are thinned out evenly.
@@ -39,6 +46,7 @@ class OuterSurface {
     std::uint64_t seed;
   };
 
+  std::vector<SurfaceSample> draw(const Draws& draws, std::uint64_t begin, std::uint64_t end) const;
   void draw_outer(const Draws& draws, const std::function<void(double)>& progress,
                   std::vector<SurfaceSample>& samples) const;
   void append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const;

@@ -17,10 +17,16 @@ constexpr double kNothing = 1e-13;  // weight without neighbours, but for roundi
 constexpr double kWider = 1.5;      // growth of the radius once nobody has neighbours
 constexpr std::size_t kReportEvery = 1u << 16;
 
-/// How much two samples at a distance crowd each other.
+/// Who crowds whom, and how much.
 struct Crowding {
-  double reach;  ///< no more than this far [m]
-  double limit;  ///< as if no nearer than this [m]
+  double reach;      ///< no more than this far [m]
+  double limit;      ///< as if no nearer than this [m]
+  bool across_body;  ///< also samples on opposite sides
+
+  /// Whether `sample` yields to `neighbour`.
+  bool yields(const SurfaceSample& sample, const SurfaceSample& neighbour) const {
+    return neighbour.place >= sample.place && (across_body || same_side(sample, neighbour));
+  }
 
   double weight(double squared_distance) const {
     const double relative = std::max(std::sqrt(squared_distance), limit) / reach;
@@ -93,16 +99,14 @@ class Crowd {
   double weight_of(std::size_t i) const {
     double sum = 0.0;
     tree_.within(sample(i).point, crowding_.reach, [&](std::uint32_t j, double squared_distance) {
-      if (j == i || sample(j).place < sample(i).place || !same_side(sample(i), sample(j))) return;
-      sum += crowding_.weight(squared_distance);
+      if (j != i && crowding_.yields(sample(i), sample(j))) sum += crowding_.weight(squared_distance);
     });
     return sum;
   }
 
   void release_neighbours(std::uint32_t gone) {
     tree_.within(sample(gone).point, crowding_.reach, [&](std::uint32_t j, double squared_distance) {
-      if (!alive_[j] || sample(gone).place < sample(j).place || !same_side(sample(gone), sample(j))) return;
-      weights_[j] -= crowding_.weight(squared_distance);
+      if (alive_[j] && crowding_.yields(sample(j), sample(gone))) weights_[j] -= crowding_.weight(squared_distance);
     });
   }
 
@@ -114,6 +118,16 @@ class Crowd {
   std::vector<double> weights_;
   std::vector<Entry> queue_;
 };
+
+double extent_of(std::span<const SurfaceSample> samples, const std::vector<std::uint32_t>& chosen) {
+  Eigen::Vector3d low = samples[chosen.front()].point;
+  Eigen::Vector3d high = low;
+  for (const std::uint32_t i : chosen) {
+    low = low.cwiseMin(samples[i].point);
+    high = high.cwiseMax(samples[i].point);
+  }
+  return (high - low).norm();
+}
 
 }  // namespace
 
@@ -128,9 +142,11 @@ std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std
   const double kept_part = static_cast<double>(count) / static_cast<double>(chosen.size());
   const double limit_part = kLimitFactor * (1.0 - std::pow(kept_part, kLimitExponent));
   std::size_t gone = 0;
-  // the radius is right for a surface; samples along a needle, say, lie further apart
+  const double extent = extent_of(samples, chosen);
+  // the radius is right for a surface; samples along a needle, say, lie further apart, and if those left are few and all
+  // on sides of their own these must give up their independence
   for (double reach = 2.0 * densest_disc_radius(area, count); gone < to_go; reach *= kWider) {
-    Crowd crowd(samples, chosen, {reach, limit_part * reach});
+    Crowd crowd(samples, chosen, {reach, limit_part * reach, reach > extent});
     while (gone < to_go && crowd.eliminate_one()) {
       ++gone;
       if (progress && gone % kReportEvery == 0) progress(static_cast<double>(gone) / static_cast<double>(to_go));
