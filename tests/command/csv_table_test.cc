@@ -1,0 +1,80 @@
+#include "toolchain/command/csv_table.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/command/failure.h"
+
+namespace godobject::command {
+namespace {
+
+class CommandFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& text) const {
+    std::ofstream(folder_ / "table.csv", std::ios::binary) << text;
+    return folder_ / "table.csv";
+  }
+
+  /// The message with which `text` is refused; empty if it is not.
+  std::string refusal(const std::string& text, ExitCode expected) const {
+    try {
+      read_csv(file(text), kColumns);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), expected);
+      return failure.what();
+    }
+    return {};
+  }
+
+  static constexpr std::array<std::string_view, 3> kColumns = {"a", "b", "c"};
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandFiles, CsvIsReadWithItsLineNumbers) {
+  const CsvTable table = read_csv(file("# made by hand\r\na, b ,c\r\n1,2e-3,-3\r\n\r\nnan,inf,-inf\r\n"), kColumns);
+  ASSERT_EQ(table.rows(), 2u);
+  EXPECT_EQ(table.lines[0], 3u);
+  EXPECT_EQ(table.lines[1], 5u);
+  EXPECT_DOUBLE_EQ(table.row(0)[1], 2e-3);
+  EXPECT_TRUE(std::isnan(table.row(1)[0]));
+  EXPECT_TRUE(std::isinf(table.row(1)[2]));
+}
+
+TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
+  EXPECT_NE(refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number"), std::string::npos);
+  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3"), std::string::npos);
+  EXPECT_NE(refusal("a,b,c\n1,2,3,\n", ExitCode::kBadData).find(":2: \"\" is not a number"), std::string::npos);
+  EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);
+  EXPECT_NE(refusal("", ExitCode::kBadData).find("is empty"), std::string::npos);
+  EXPECT_THROW(read_csv(folder_ / "absent.csv", kColumns), Failure);
+}
+
+TEST_F(CommandFiles, OutputsAppearWholeOrNotAtAll) {
+  const std::filesystem::path path = folder_ / "out.txt";
+  {
+    AtomicFile abandoned(path);
+    abandoned.write("half");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  AtomicFile file(path);
+  file.write("whole");
+  EXPECT_FALSE(std::filesystem::exists(path));
+  file.commit();
+  EXPECT_EQ(std::filesystem::file_size(path), 5u);
+  EXPECT_THROW(AtomicFile(folder_ / "absent" / "out.txt"), Failure);
+}
+
+}  // namespace
+}  // namespace godobject::command

@@ -1,0 +1,180 @@
+// godobject-replay as its users meet it: the program is run, its files and exit codes are looked at.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject::test {
+namespace {
+
+class ReplayTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+    write_scene(true);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write_scene(bool friction) const {
+    SceneDescription d;
+    d.distance = [](const Vector3& p) { return ball_distance(p, 0.06); };
+    d.surface_min = Vector3::Constant(-0.06);
+    d.surface_max = Vector3::Constant(0.06);
+    const SurfaceSamples samples = sample_ball(0.02, 500);
+    d.points = samples.points;
+    d.normals = samples.normals;
+    d.settings.friction = friction ? 1 : 0;
+    d.settings.friction_static = 0.2;
+    d.settings.friction_kinetic = 0.18;
+    d.settings.default_solver = static_cast<std::uint32_t>(format::Solver::kCorrected);
+    const SceneImage image = build_scene_image(d);
+    std::ofstream(folder_ / "balls.scene", std::ios::binary)
+        .write(reinterpret_cast<const char*>(image.bytes().data()), static_cast<std::streamsize>(image.bytes().size()));
+  }
+
+  /// From 10 mm above contact to 10 mm below, and back; `spoil` replaces the row of that index.
+  void write_path(int rows = 300, int spoiled = -1, const std::string& spoil = "") const {
+    std::ofstream out(folder_ / "path.csv");
+    out << "t,px,py,pz,qw,qx,qy,qz\n";
+    for (int k = 0; k < rows; ++k) {
+      if (k == spoiled) {
+        out << spoil << "\n";
+        continue;
+      }
+      out << fmt::format("{},{},0,{},1,0,0,0\n", 1e-3 * k, 1e-5 * k, 0.090 - 0.020 * std::sin(M_PI * k / rows));
+    }
+  }
+
+  /// Exit code; `output` gets stdout and stderr.
+  int run(const std::string& arguments, const std::string& out = "out.csv") {
+    const std::string command = fmt::format("cd {} && {} balls.scene path.csv -o {} {} > log.txt 2>&1", folder_.string(),
+                                            GODOBJECT_REPLAY, out, arguments);
+    const int status = std::system(command.c_str());
+    std::ostringstream text;
+    text << std::ifstream(folder_ / "log.txt").rdbuf();
+    output_ = text.str();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::vector<std::vector<std::string>> rows(const std::string& name = "out.csv") const {
+    std::vector<std::vector<std::string>> table;
+    std::ifstream in(folder_ / name);
+    for (std::string line; std::getline(in, line);) {
+      table.emplace_back();
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) table.back().push_back(field);
+    }
+    return table;
+  }
+
+  std::filesystem::path folder_;
+  std::string output_;
+};
+
+constexpr std::size_t kDepth = 21, kStep1 = 24, kSolve = 25, kStatus = 26, kGodZ = 10, kForceZ = 17;
+
+TEST_F(ReplayTest, WritesOneRowACycleWithTheColumnsOfTheContract) {
+  write_path();
+  ASSERT_EQ(run("--solver corrected --friction off"), 0) << output_;
+  const auto table = rows();
+  ASSERT_EQ(table.size(), 301u);
+  std::string header;
+  for (const std::string& name : table[0]) header += name + ",";
+  EXPECT_EQ(header, "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
+                    "solve_ns,status,");
+  EXPECT_EQ(table[1][kStatus], "free");
+  EXPECT_EQ(table[151][kStatus], "contact");
+  EXPECT_GT(std::stod(table[151][kForceZ]), 2000.0 * 0.009);
+  EXPECT_GT(std::stod(table[151][kGodZ]), 0.079);
+  EXPECT_LT(std::stod(table[151][kDepth]), 0.1 * 0.005);
+  EXPECT_GT(std::stol(table[151][kStep1]), 0);
+  EXPECT_NE(output_.find("floating-point exceptions: none"), std::string::npos);
+}
+
+TEST_F(ReplayTest, IsTheSameToTheLastBitApartFromTiming) {
+  write_path();
+  for (const std::string solver : {"paper", "corrected"}) {
+    ASSERT_EQ(run("--solver " + solver, "a.csv"), 0) << output_;
+    ASSERT_EQ(run("--solver " + solver, "b.csv"), 0) << output_;
+    auto a = rows("a.csv");
+    auto b = rows("b.csv");
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 1; i < a.size(); ++i) {
+      for (const std::size_t column : {kStep1, kSolve}) a[i][column] = b[i][column] = "";
+      ASSERT_EQ(a[i], b[i]);
+    }
+  }
+}
+
+TEST_F(ReplayTest, HoldsTheGodObjectOnBadRowsAndSaysSoAtTheEnd) {
+  for (const std::string bad : {"0.1,nan,0,0.08,1,0,0,0", "0.1,0,inf,0.08,1,0,0,0", "0.1,0,0,0.08,1.1,0,0,0", "0.1,0,0,0.08,0,0,0,0"}) {
+    write_path(300, 100, bad);
+    EXPECT_EQ(run(""), 65);
+    EXPECT_NE(output_.find("path.csv:102"), std::string::npos) << output_;
+    const auto table = rows();
+    ASSERT_EQ(table.size(), 301u);
+    EXPECT_EQ(table[101][kStatus], "bad_input");
+    EXPECT_EQ(table[101][kGodZ], table[100][kGodZ]);
+    EXPECT_NE(table[102][kStatus], "bad_input");
+  }
+}
+
+TEST_F(ReplayTest, TakesAQuaternionOfEitherSignAndAlmostUnitLength) {
+  write_path(300, 100, "0.1,0.001,0,0.07,-1.0009,0,0,0");
+  EXPECT_EQ(run(""), 0) << output_;
+}
+
+TEST_F(ReplayTest, RefusesTimesThatAreNotOneMillisecondApart) {
+  for (const std::string bad : {"0.1002,0,0,0.08,1,0,0,0", "0.099,0,0,0.08,1,0,0,0", "nan,0,0,0.08,1,0,0,0"}) {
+    write_path(300, 100, bad);
+    EXPECT_EQ(run(""), 65) << bad;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.csv"));
+  }
+  write_path(300, 100, "0.10009,0,0,0.08,1,0,0,0");
+  EXPECT_EQ(run(""), 0) << output_;
+}
+
+TEST_F(ReplayTest, StartsInsideWithItsStatus) {
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.07,1,0,0,0\n0.001,0,0,0.07,1,0,0,0\n";
+  ASSERT_EQ(run("--solver corrected"), 0) << output_;
+  EXPECT_EQ(rows()[1][kStatus], "start_inside");
+}
+
+TEST_F(ReplayTest, EndsWithTheExitCodesOfTheContract) {
+  write_path();
+  EXPECT_EQ(run("--solver nonsense"), 64);
+  EXPECT_EQ(run("--unknown"), 64);
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_NE(output_.find("Example:"), std::string::npos);
+  EXPECT_NE(output_.find("infeasible"), std::string::npos);
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_EQ(run("", "absent/out.csv"), 74);
+  write_scene(false);
+  EXPECT_EQ(run("--friction on"), 78);
+  EXPECT_EQ(run("--friction off"), 0) << output_;
+  std::filesystem::remove(folder_ / "path.csv");
+  EXPECT_EQ(run(""), 66);
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n";
+  EXPECT_EQ(run(""), 65);
+  std::filesystem::resize_file(folder_ / "balls.scene", 1000);
+  EXPECT_EQ(run(""), 65);
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  std::filesystem::remove(folder_ / "balls.scene");
+  EXPECT_EQ(run(""), 66);
+}
+
+}  // namespace
+}  // namespace godobject::test
