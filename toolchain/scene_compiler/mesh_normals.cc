@@ -42,16 +42,14 @@ VertexCorners::VertexCorners(const TriangleMesh& mesh)
 std::vector<std::array<Vector3d, 3>> corner_normals(const TriangleMesh& mesh, const std::vector<Vector3d>& face_normals) {
   const VertexCorners around(mesh);
   std::vector<std::array<Vector3d, 3>> normals(mesh.triangles.size());
-  parallel_chunks(mesh.triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        Vector3d sum = Vector3d::Zero();
-        for (const std::size_t other : around.of(mesh.triangles[t][corner])) {
-          const Vector3d& normal = face_normals[other / 3];
-          if (normal.dot(face_normals[t]) > kCreaseCosine) sum += corner_angle(mesh, other / 3, other % 3) * normal;
-        }
-        normals[t][corner] = sum.stableNormalized();
+  parallel_for(mesh.triangles.size(), [&](std::size_t t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      Vector3d sum = Vector3d::Zero();
+      for (const std::size_t other : around.of(mesh.triangles[t][corner])) {
+        const Vector3d& normal = face_normals[other / 3];
+        if (normal.dot(face_normals[t]) > kCreaseCosine) sum += corner_angle(mesh, other / 3, other % 3) * normal;
       }
+      normals[t][corner] = sum.stableNormalized();
     }
   });
   return normals;

@@ -20,7 +20,6 @@ namespace godobject::scene_compiler {
 namespace {
 
 using Eigen::Vector3d;
-using Progress = std::function<void(double)>;
 
 constexpr std::uint32_t kCandidatesPerPoint = 6;
 constexpr std::uint32_t kLeastCandidates = 1000;
@@ -111,12 +110,9 @@ std::vector<Vector3d> points_of(const std::vector<SurfaceSample>& samples) {
 
 double median_neighbour_distance(const std::vector<SurfaceSample>& samples, const PointTree& tree) {
   std::vector<double> squared(samples.size());
-  parallel_chunks(samples.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto neighbour = tree.nearest(
-          samples[i].point, [&](std::uint32_t j) { return j != i && same_side(samples[i], samples[j]); });
-      squared[i] = neighbour.squared_distance;
-    }
+  parallel_for(samples.size(), [&](std::size_t i) {
+    const auto other = [&](std::uint32_t j) { return j != i && same_side(samples[i], samples[j]); };
+    squared[i] = tree.nearest(samples[i].point, other).squared_distance;
   });
   std::erase_if(squared, [](double s) { return !std::isfinite(s); });  // alone on its side
   if (squared.empty()) return 0.0;
@@ -131,10 +127,8 @@ double largest_gap(const OuterSurface& outer, const std::vector<SurfaceSample>& 
   const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
   const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);
   std::vector<std::pair<double, std::uint32_t>> far_first(probes.size());
-  parallel_chunks(probes.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
-    }
+  parallel_for(probes.size(), [&](std::size_t i) {
+    far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
   });
   std::sort(far_first.begin(), far_first.end());
   for (std::size_t begin = 0; begin < far_first.size(); begin += kProbeBlock) {

@@ -46,9 +46,7 @@ bool OuterSurface::is_outer(const SurfaceSample& sample) const {
 
 std::vector<std::uint8_t> OuterSurface::are_outer(std::span<const SurfaceSample> samples) const {
   std::vector<std::uint8_t> outer(samples.size());
-  parallel_chunks(samples.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i]) ? 1 : 0;
-  });
+  parallel_for(samples.size(), [&](std::size_t i) { outer[i] = is_outer(samples[i]) ? 1 : 0; });
   return outer;
 }
 
@@ -72,7 +70,7 @@ std::vector<SurfaceSample> OuterSurface::draw_all(std::uint32_t count, std::uint
   return draw({count, 2 * std::uint64_t{seed}}, 0, count);
 }
 
-void OuterSurface::draw_outer(const Draws& draws, const std::function<void(double)>& progress,
+void OuterSurface::draw_outer(const Draws& draws, const Progress& progress,
                               std::vector<SurfaceSample>& samples) const {
   for (std::uint64_t begin = 0; begin < draws.count; begin += kBlock) {
     const std::uint64_t end = std::min(begin + kBlock, draws.count);
@@ -82,7 +80,7 @@ void OuterSurface::draw_outer(const Draws& draws, const std::function<void(doubl
 }
 
 OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed,
-                                          const std::function<void(double)>& progress) const {
+                                          const Progress& progress) const {
   Spread spread;
   std::uint64_t drawn = wanted;
   if (patches_.area() > 0.0) draw_outer({drawn, 2 * std::uint64_t{seed}}, progress, spread.samples);

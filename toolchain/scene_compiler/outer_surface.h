@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "toolchain/scene_compiler/body_mesh.h"
+#include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/sharp_features.h"
 #include "toolchain/scene_compiler/surface_patches.h"
 #include "toolchain/scene_compiler/surface_sample.h"
@@ -28,7 +28,7 @@ class OuterSurface {
 
   /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 .. 1;
   /// may be empty. Cost: a winding number a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
-  Spread spread(std::uint32_t wanted, std::uint32_t seed, const std::function<void(double)>& progress) const;
+  Spread spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const;
 
   /// `count` draws of the whole surface, buried parts included, for who needs to know only of some whether they are outer.
   std::vector<SurfaceSample> draw_all(std::uint32_t count, std::uint32_t seed) const;
@@ -47,7 +47,7 @@ class OuterSurface {
   };
 
   std::vector<SurfaceSample> draw(const Draws& draws, std::uint64_t begin, std::uint64_t end) const;
-  void draw_outer(const Draws& draws, const std::function<void(double)>& progress,
+  void draw_outer(const Draws& draws, const Progress& progress,
                   std::vector<SurfaceSample>& samples) const;
   void append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const;
   bool is_outer(const SurfaceSample& sample) const;

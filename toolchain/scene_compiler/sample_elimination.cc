@@ -42,9 +42,7 @@ class Crowd {
   Crowd(std::span<const SurfaceSample> samples, const std::vector<std::uint32_t>& chosen, const Crowding& crowding)
       : samples_(samples), chosen_(chosen), crowding_(crowding), tree_(points_of(samples, chosen)),
         alive_(chosen.size(), 1), weights_(chosen.size()) {
-    parallel_chunks(chosen.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) weights_[i] = weight_of(i);
-    });
+    parallel_for(chosen.size(), [&](std::size_t i) { weights_[i] = weight_of(i); });
     for (std::uint32_t i = 0; i < chosen.size(); ++i) queue_.push_back({weights_[i], i});
     std::make_heap(queue_.begin(), queue_.end(), later);
   }
@@ -136,7 +134,7 @@ double densest_disc_radius(double area, std::uint32_t count) {
 }
 
 std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen, double area,
-                                     std::uint32_t count, const std::function<void(double)>& progress) {
+                                     std::uint32_t count, const Progress& progress) {
   if (chosen.size() <= count) return chosen;
   const std::size_t to_go = chosen.size() - count;
   const double kept_part = static_cast<double>(count) / static_cast<double>(chosen.size());

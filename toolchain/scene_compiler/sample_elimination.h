@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/surface_sample.h"
 
 namespace godobject::scene_compiler {
@@ -23,6 +23,6 @@ double densest_disc_radius(double area, std::uint32_t count);
 ///
 /// `progress` gets 0 .. 1; may be empty. Deterministic. Cost: about 5 us for each of `chosen`.
 std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen, double area,
-                                     std::uint32_t count, const std::function<void(double)>& progress);
+                                     std::uint32_t count, const Progress& progress);
 
 }  // namespace godobject::scene_compiler

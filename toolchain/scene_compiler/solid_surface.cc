@@ -196,6 +196,7 @@ SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness
   impl_->shells = tree_of(impl_->mesh, impl_->components, impl_->component_of, true, false);
 }
 
+SolidSurface::SolidSurface(SolidSurface&& other) noexcept = default;
 SolidSurface::~SolidSurface() = default;
 
 const TriangleMesh& SolidSurface::mesh() const { return impl_->mesh; }

@@ -31,6 +31,7 @@ class SolidSurface {
 
   /// `thickness` of shells [m].
   SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness);
+  SolidSurface(SolidSurface&& other) noexcept;
   ~SolidSurface();
 
   const TriangleMesh& mesh() const;

@@ -40,11 +40,9 @@ Children attach(std::span<const Eigen::Vector3f> points, std::span<const std::ui
                 std::span<const std::uint32_t> samples) {
   const PointTree tree(points_of(points, parents));
   std::vector<std::size_t> parent(samples.size());
-  parallel_chunks(samples.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      parent[i] = holds(parents, samples[i]) ? place_of(samples[i], parents)
-                                             : tree.nearest(points[samples[i]].cast<double>()).index;
-    }
+  parallel_for(samples.size(), [&](std::size_t i) {
+    parent[i] = holds(parents, samples[i]) ? place_of(samples[i], parents)
+                                           : tree.nearest(points[samples[i]].cast<double>()).index;
   });
   Children children{std::vector<std::size_t>(parents.size() + 1, 0), std::vector<std::uint32_t>(samples.size())};
   for (const std::size_t p : parent) ++children.first[p + 1];
@@ -127,11 +125,9 @@ void set_sphere(std::span<const Vector3d> points, format::Node& node) {
 SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points, const std::vector<std::vector<std::uint32_t>>& levels) {
   SphereTree tree = Layout(points, levels).make();
   const std::vector<Vector3d> ordered = points_of(points, tree.order);
-  parallel_chunks(tree.nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      format::Node& node = tree.nodes[i];
-      set_sphere(std::span(ordered).subspan(node.first_point, node.point_count), node);
-    }
+  parallel_for(tree.nodes.size(), [&](std::size_t i) {
+    format::Node& node = tree.nodes[i];
+    set_sphere(std::span(ordered).subspan(node.first_point, node.point_count), node);
   });
   return tree;
 }

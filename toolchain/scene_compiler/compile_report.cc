@@ -1,0 +1,296 @@
+#include "toolchain/scene_compiler/compile_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace godobject::scene_compiler {
+namespace {
+
+const char* name_of(format::SectionId id) {
+  switch (id) {
+    case format::SectionId::kSettings: return "settings";
+    case format::SectionId::kGrid: return "grid";
+    case format::SectionId::kBrickIndex: return "brick_index";
+    case format::SectionId::kBricks: return "bricks";
+    case format::SectionId::kBody: return "body";
+    case format::SectionId::kPoints: return "points";
+    case format::SectionId::kNormals: return "normals";
+    case format::SectionId::kNodes: return "nodes";
+    case format::SectionId::kProvenance: return "provenance";
+  }
+  return "unknown";
+}
+
+const char* name_of(format::Solver solver) { return solver == format::Solver::kPaper ? "paper" : "corrected"; }
+
+Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json array_json(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFacts& facts, double thickness) {
+  const MeshReport& r = facts.report;
+  Json components = Json::array();
+  constexpr std::size_t kListed = 100;
+  for (std::size_t i = 0; i < std::min(kListed, facts.components.size()); ++i) {
+    const SolidSurface::Component& c = facts.components[i];
+    components.push_back({{"kind", c.shell ? "shell" : "solid"}, {"triangles", c.triangles}, {"inside_out", c.inside_out},
+                          {"surface_winding_number", c.winding}});
+  }
+  return {{"file", mesh.name},
+          {"scale", mesh.scale},
+          {"low", vector_json(r.low)},
+          {"high", vector_json(r.high)},
+          {"vertices", r.vertices},
+          {"triangles", r.triangles},
+          {"defects",
+           {{"polygons_cut", r.polygons},
+            {"lines_and_points_dropped", r.lines_and_points},
+            {"vertices_welded", r.welded_vertices},
+            {"degenerate_triangles_dropped", r.degenerate_triangles},
+            {"duplicate_triangles_dropped", r.duplicate_triangles},
+            {"folded_triangles", r.folded_triangles},
+            {"unreferenced_vertices_dropped", r.unreferenced_vertices},
+            {"boundary_edges", r.boundary_edges},
+            {"nonmanifold_edges", r.nonmanifold_edges},
+            {"misoriented_edges", r.misoriented_edges}}},
+          {"watertight", r.boundary_edges == 0 && r.nonmanifold_edges == 0},
+          {"orientation_consistent", r.misoriented_edges == 0},
+          {"euler_number", r.euler},
+          {"weld_tolerance", r.weld_tolerance},
+          {"component_count", facts.components.size()},
+          {"components", components},
+          {"shell_thickness", thickness}};
+}
+
+Json thin_json(const ThinPlaces& places) {
+  Json json = {{"found", places.samples > 0}};
+  if (places.samples == 0) return json;
+  json["smallest"] = places.smallest;
+  json["at"] = vector_json(places.at);
+  json["area"] = places.area;
+  json["voxel_needed"] = places.voxel_needed;
+  json["largest_patch_thinner_than_a_voxel"] = places.lost_patch;
+  if (places.lost_patch > 0.0) {
+    json["patch_thickness"] = places.lost_thickness;
+    json["patch_at"] = vector_json(places.lost_at);
+  }
+  return json;
+}
+
+Json settings_json(const format::Settings& s) {
+  Json solvers = Json::array();
+  for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
+    if ((s.solvers >> i & 1u) != 0) solvers.push_back(name_of(static_cast<format::Solver>(i)));
+  }
+  Json json = {{"solver", name_of(static_cast<format::Solver>(s.default_solver))},
+               {"solvers_held", solvers},
+               {"safety_distance", s.safety_distance},
+               {"margin", s.margin},
+               {"stiffness", s.stiffness},
+               {"damping", s.damping},
+               {"coupling_translation", s.coupling_translation},
+               {"coupling_rotational", s.coupling_rotation},
+               {"friction", nullptr},
+               {"paper",
+                {{"rotation_static", s.paper_rotation_static},
+                 {"rotation_kinetic", s.paper_rotation_kinetic},
+                 {"viscous", s.paper_viscous}}}};
+  if (s.friction != 0) {
+    json["friction"] = {{"static", s.friction_static}, {"kinetic", s.friction_kinetic}, {"viscous", s.friction_viscous}};
+  }
+  return json;
+}
+
+Json grid_json(const format::Grid& g) {
+  return {{"voxel_size", g.voxel_size},
+          {"band", g.band},
+          {"origin", array_json(g.origin)},
+          {"bricks", {g.bricks[0], g.bricks[1], g.bricks[2]}},
+          {"voxels", {g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells}},
+          {"bricks_stored", g.brick_count},
+          {"surface_low", array_json(g.surface_min)},
+          {"surface_high", array_json(g.surface_max)},
+          {"lipschitz", g.lipschitz},
+          {"lipschitz_with_seams", g.lipschitz_seam}};
+}
+
+Json body_json(const format::Body& b) {
+  return {{"points", b.point_count},
+          {"levels", b.level_count},
+          {"nodes", b.node_count},
+          {"center_of_mass", array_json(b.translation_MB)},
+          {"principal_axes_wxyz", {b.rotation_MB[0], b.rotation_MB[1], b.rotation_MB[2], b.rotation_MB[3]}},
+          {"inertia_per_mass", array_json(b.inertia)},
+          {"inertia_from_points", b.inertia_from_points != 0},
+          {"radius", b.radius},
+          {"volume", b.volume}};
+}
+
+Json error_json(const FieldError& e, double voxel_size) {
+  return {{"points", e.points},
+          {"rms", e.rms},
+          {"floor_rms", e.floor_rms},
+          {"rms_in_voxels", e.rms / voxel_size},
+          {"largest", e.largest},
+          {"floor_largest", e.floor_largest},
+          {"sign_errors", e.sign_errors},
+          {"floor_sign_errors", e.floor_sign_errors},
+          {"largest_node_error", e.largest_node_error}};
+}
+
+std::uint64_t section_bytes(const CompileReport& report, format::SectionId id) {
+  for (const auto& [section, bytes] : report.sections) {
+    if (section == id) return bytes;
+  }
+  return 0;
+}
+
+Json left_out_json(const CompileReport& report) {
+  const format::Grid& g = report.grid;
+  std::uint64_t nodes = 1;
+  for (const std::int32_t bricks : g.bricks) nodes *= static_cast<std::uint64_t>(bricks) * format::kBrickCells + 1;
+  const std::uint64_t dense = nodes * sizeof(float);
+  const std::uint64_t sparse = section_bytes(report, format::SectionId::kBrickIndex) + section_bytes(report, format::SectionId::kBricks);
+  Json list = Json::array();
+  list.push_back({{"what", "distances beyond the band"}, {"dense_bytes", dense}, {"stored_bytes", sparse},
+                  {"bytes_saved", static_cast<std::int64_t>(dense) - static_cast<std::int64_t>(sparse)}});
+  if (section_bytes(report, format::SectionId::kNormals) == 0) {
+    list.push_back({{"what", "normals, which only the paper's solver reads"},
+                    {"bytes_saved", section_bytes(report, format::SectionId::kPoints)}});
+  }
+  if (report.config.settings.friction == 0) {
+    list.push_back({{"what", "friction: the scene has no friction table"}, {"bytes_saved", 0}});
+  }
+  return list;
+}
+
+std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
+
+std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFacts& facts) {
+  const MeshReport& r = facts.report;
+  const auto shells = std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.shell; });
+  const auto flipped = std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.inside_out; });
+  const Eigen::Vector3d size = 1e3 * (r.high - r.low);
+  std::string text = fmt::format("{:<7} {}: {} triangles, {:.1f} x {:.1f} x {:.1f} mm, {} component(s): {} solid, {} shell\n", role,
+                                 mesh.name, r.triangles, size.x(), size.y(), size.z(), facts.components.size(),
+                                 static_cast<std::ptrdiff_t>(facts.components.size()) - shells, shells);
+  const auto note = [&text](std::uint64_t count, const char* what) {
+    if (count > 0) text += fmt::format("        {} {}\n", count, what);
+  };
+  note(r.boundary_edges, "boundary edges: open, the side is told by the winding number");
+  note(r.nonmanifold_edges, "edges of more than two triangles");
+  note(r.misoriented_edges, "edges between triangles of opposite sense");
+  note(r.polygons, "polygons cut into triangles");
+  note(r.lines_and_points, "lines and points dropped");
+  note(r.welded_vertices, "coincident vertices welded");
+  note(r.degenerate_triangles, "degenerate triangles dropped");
+  note(r.duplicate_triangles, "duplicate triangles dropped");
+  note(r.folded_triangles, "triangles in folds without volume");
+  note(r.unreferenced_vertices, "loose vertices dropped");
+  note(static_cast<std::uint64_t>(flipped), "component(s) inside out, turned");
+  return text;
+}
+
+std::string thin_text(const char* what, const ThinPlaces& p) {
+  if (p.samples == 0) return fmt::format("{:<7} none thinner than two voxels\n", what);
+  return fmt::format("{:<7} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m: would need voxel_size = {:.2g}\n",
+                     what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
+}
+
+}  // namespace
+
+Json report_json(const CompileReport& report) {
+  const SceneConfig& config = report.config;
+  Json settings = settings_json(config.settings);
+  if (report.only_solver) settings["solvers_held"] = Json::array({name_of(*report.only_solver)});
+  if (report.only_solver) settings["solver"] = name_of(*report.only_solver);
+  Json sections;
+  for (const auto& [id, bytes] : report.sections) sections[name_of(id)] = bytes;
+  Json body = body_json(report.body.body);
+  body["level_sizes"] = report.body.level_sizes;
+  body["point_spacing"] = report.body.spacing;
+  body["largest_distance_of_the_surface_from_a_point"] = report.body.coverage;
+  return {{"compiler", "godobject-scenec " GODOBJECT_VERSION},
+          {"settings", settings},
+          {"still", mesh_json(config.still, report.still, config.thickness)},
+          {"moving", mesh_json(config.moving, report.moving, config.thickness)},
+          {"walls", thin_json(report.thin.walls)},
+          {"gaps", thin_json(report.thin.gaps)},
+          {"wall_sample_spacing", report.thin.sample_spacing},
+          {"grid", grid_json(report.grid)},
+          {"seams",
+           {{"cells", report.seams.cells}, {"largest_jump", report.seams.largest_jump}, {"at", vector_json(report.seams.at)}}},
+          {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
+          {"body", body},
+          {"section_bytes", sections},
+          {"left_out", left_out_json(report)}};
+}
+
+Json full_report_json(const CompileReport& report) {
+  Json json = report_json(report);
+  json["image_bytes"] = report.image_bytes;
+  Json seconds;
+  double total = 0.0;
+  for (const auto& [phase, time] : report.seconds) {
+    seconds[phase] = time;
+    total += time;
+  }
+  seconds["total"] = total;
+  json["seconds"] = seconds;
+  return json;
+}
+
+std::string report_text(const CompileReport& report) {
+  const format::Grid& g = report.grid;
+  const FieldError& e = report.field_error;
+  std::string text = mesh_text("still", report.config.still, report.still);
+  text += mesh_text("moving", report.config.moving, report.moving);
+  text += thin_text("walls", report.thin.walls);
+  text += thin_text("gaps", report.thin.gaps);
+  text += fmt::format("field   {} x {} x {} voxels of {}, band {}, {} of {} bricks stored\n", g.bricks[0] * format::kBrickCells,
+                      g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells, millimetres(g.voxel_size), millimetres(g.band),
+                      g.brick_count, report.brick_positions);
+  if (report.seams.cells > 0) {
+    text += fmt::format("        seams in {} cells where holes leave the side open, largest jump {} at ({:.4g}, {:.4g}, {:.4g}) m\n",
+                        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
+                        report.seams.at.z());
+  }
+  text += fmt::format("error   rms {} (floor of trilinear interpolation {}), largest {} ({}), wrong side {} ({}) of {} points\n",
+                      millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.sign_errors,
+                      e.floor_sign_errors, e.points);
+  text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n", report.body.body.point_count,
+                      report.body.body.level_count, millimetres(report.body.spacing), millimetres(report.body.coverage));
+  const Json left_out = left_out_json(report);
+  for (const Json& item : left_out) {
+    text += fmt::format("left out {}: {:.1f} KiB saved\n", item["what"].get<std::string>(), item["bytes_saved"].get<double>() / 1024.0);
+  }
+  double total = 0.0;
+  for (const auto& [phase, time] : report.seconds) total += time;
+  text += fmt::format("image   {:.1f} KiB, {:.2f} s\n", static_cast<double>(report.image_bytes) / 1024.0, total);
+  return text;
+}
+
+Json inspect_json(const SceneImage& image) {
+  const Scene& scene = image.scene;
+  format::Header header{};
+  std::copy_n(image.bytes.span().data(), sizeof(header), reinterpret_cast<std::byte*>(&header));
+  Json sections;
+  for (std::uint32_t i = 0; i < header.section_count; ++i) {
+    format::Section section{};
+    std::copy_n(image.bytes.span().data() + sizeof(header) + i * sizeof(section), sizeof(section), reinterpret_cast<std::byte*>(&section));
+    sections[name_of(section.id)] = {{"offset", section.offset}, {"bytes", section.bytes}};
+  }
+  const std::string text(reinterpret_cast<const char*>(scene.provenance.data()), scene.provenance.size());
+  const Json provenance = Json::parse(text, nullptr, false);
+  return {{"version", header.version},
+          {"bytes", header.total_bytes},
+          {"settings", settings_json(scene.settings)},
+          {"grid", grid_json(scene.grid)},
+          {"body", body_json(scene.body)},
+          {"sections", sections},
+          {"provenance", provenance.is_discarded() ? Json(nullptr) : provenance}};
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,148 @@
+#include "toolchain/scene_compiler/compile_scene.h"
+
+#include <chrono>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/scene_compiler/output_file.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+constexpr std::uint64_t kCheckedPoints = 20000;
+constexpr double kLargestNodeError = 1e-5;  // [m], for voxels up to a millimetre; in proportion above
+
+/// Runs the phases, with progress and their times.
+class Phases {
+ public:
+  Phases(const CompileRequest& request, CompileReport& report) : request_(request), report_(report) {}
+
+  template <class Work>
+  auto run(const char* name, Work&& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Progress progress = [this, name](double done) {
+      if (request_.progress) request_.progress(name, done);
+    };
+    progress(0.0);
+    auto result = work(progress);
+    report_.seconds.emplace_back(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    return result;
+  }
+
+ private:
+  const CompileRequest& request_;
+  CompileReport& report_;
+};
+
+template <class T>
+std::vector<std::byte> bytes_of(const std::vector<T>& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class T>
+std::vector<std::byte> bytes_of_one(const T& value) {
+  const auto bytes = std::as_bytes(std::span(&value, 1));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::vector<SectionBytes> lay_out(const CompileReport& report, const DistanceGrid& field, const MovingBody& body) {
+  using format::SectionId;
+  format::Settings settings = report.config.settings;
+  if (report.only_solver) {
+    settings.solvers = 1u << static_cast<std::uint32_t>(*report.only_solver);
+    settings.default_solver = static_cast<std::uint32_t>(*report.only_solver);
+  }
+  std::vector<SectionBytes> sections;
+  sections.push_back({SectionId::kSettings, bytes_of_one(settings)});
+  sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
+  sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
+  sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
+  sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
+  sections.push_back({SectionId::kPoints, bytes_of(body.points)});
+  if (report.only_solver != format::Solver::kCorrected) sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
+  sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
+  return sections;
+}
+
+void require_exact_nodes(const FieldError& error, double voxel_size) {
+  const double allowed = kLargestNodeError * std::max(1.0, voxel_size / 1e-3);
+  if (error.largest_node_error <= allowed) return;
+  throw Failure(ExitCode::kInternal, fmt::format("a stored distance is {:.3g} m off the exact one, more than {:g} m; please report this scene",
+                                                 error.largest_node_error, allowed));
+}
+
+MovingBody sample_moving(const SceneConfig& config, const SolidSurface& surface, const Progress& progress) {
+  try {
+    return make_moving_body(surface, config.points, config.levels, progress);
+  } catch (const Failure&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw Failure(ExitCode::kBadData, fmt::format("{}: {}", config.moving.file.string(), error.what()));
+  }
+}
+
+/// The image is complete under a temporary name, read back and opened as the device does, before it gets its own.
+void write_image(const AlignedBytes& image, const std::filesystem::path& file) {
+  OutputFile output(file);
+  output.write(image.span());
+  output.flush();
+  const SceneImage read_back = SceneImage::read(output.temporary());
+  if (std::memcmp(read_back.bytes.span().data(), image.span().data(), image.span().size()) != 0) {
+    throw Failure(ExitCode::kIo, fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
+  }
+  output.commit();
+}
+
+}  // namespace
+
+CompileReport compile_scene(const CompileRequest& request) {
+  CompileReport report;
+  Phases phases(request, report);
+  report.only_solver = request.only_solver;
+  report.config = read_scene_config(request.scene_file);
+  const SceneConfig& config = report.config;
+
+  const auto open_mesh = [&](const SceneConfig::Mesh& mesh, MeshFacts& facts) {
+    return SolidSurface(import_mesh(mesh.file, mesh.scale, facts.report), mesh.surface, config.thickness);
+  };
+  const SolidSurface still = phases.run("still mesh", [&](const Progress&) { return open_mesh(config.still, report.still); });
+  report.still.components = still.components();
+  const SolidSurface moving = phases.run("moving mesh", [&](const Progress&) { return open_mesh(config.moving, report.moving); });
+  report.moving.components = moving.components();
+
+  report.thin = phases.run("walls and gaps", [&](const Progress& p) { return find_thin_places(still, config.voxel_size, p); });
+  require_walls_that_last(report.thin, config.voxel_size, config.still.file.string());
+
+  const double band = default_band(config.voxel_size, config.settings.safety_distance);
+  const DistanceGrid field = phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
+  report.grid = field.grid;
+  report.seams = field.seams;
+  report.brick_positions = field.index.size();
+  report.body = phases.run("points", [&](const Progress& p) { return sample_moving(config, moving, p); });
+
+  std::vector<SectionBytes> sections = lay_out(report, field, report.body);
+  for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
+  report.field_error = phases.run("check", [&](const Progress& p) {
+    const SceneImage image(make_image(sections), request.output.string());
+    return check_field(still, field, image.scene.voxelmap, kCheckedPoints, p);
+  });
+  require_exact_nodes(report.field_error, config.voxel_size);
+
+  const std::string provenance = report_json(report).dump(1);
+  const auto text = std::as_bytes(std::span(provenance));
+  sections.push_back({format::SectionId::kProvenance, {text.begin(), text.end()}});
+  report.image_bytes = phases.run("write", [&](const Progress&) {
+    const AlignedBytes image = make_image(sections);
+    write_image(image, request.output);
+    return image.span().size();
+  });
+  return report;
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,36 @@
+#include <string>
+
+#include "toolchain/scene_compiler/command_line.h"
+#include "toolchain/scene_compiler/query_points.h"
+#include "toolchain/scene_compiler/scene_image.h"
+
+namespace {
+
+constexpr const char* kFooter = R"(
+Example:
+  godobject-query teapot.scene points.csv -o distances.csv
+
+POINTS.csv holds rows x,y,z in the still mesh's frame, in metres. OUT.csv gets x,y,z,distance,nx,ny,nz,known:
+known = 1 within the stored band, n the outward normal; known = 0 beyond it: distance is plus or minus the band, n is 0.
+
+Exit codes: 0 done, 64 usage, 65 bad image or row, 66 file not found, 74 cannot write.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace godobject::scene_compiler;
+  CLI::App app{"Looks up distances in a compiled scene.", "godobject-query"};
+  std::string scene;
+  std::string points;
+  std::string output;
+  app.add_option("X.scene", scene, "scene image")->required();
+  app.add_option("POINTS.csv", points, "points to look up")->required();
+  app.add_option("-o,--output", output, "CSV file to write")->required();
+  app.set_version_flag("--version", "godobject-query " GODOBJECT_VERSION);
+  app.footer(kFooter);
+  return run_command(app, argc, argv, [&] {
+    const SceneImage image = SceneImage::read(scene);
+    ProgressLine line;
+    query_points(image.scene.voxelmap, points, output, [&line](double done) { line.show("points", done); });
+  });
+}

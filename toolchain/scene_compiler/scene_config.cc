@@ -1,0 +1,130 @@
+#include "toolchain/scene_compiler/scene_config.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/scene_compiler/toml_table.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Range = TomlTable::Range;
+
+constexpr Range kScale{1e-9, 1e9};
+constexpr Range kVoxel{1e-8, 1e4};
+constexpr Range kRatio{0.0, 10.0};
+
+toml::table parse(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw Failure(ExitCode::kNoInput, fmt::format("{}: no such scene file; check the path", file.string()));
+  }
+  try {
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& wrong) {
+    if (wrong.source().begin.line == 0) {
+      throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; check its permissions", file.string()));
+    }
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
+                                                    std::string_view(wrong.description())));
+  }
+}
+
+void allow_tables(const toml::table& root, const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 6> kTables = {"still", "moving", "contact", "friction", "paper", "coupling"};
+  for (const auto& [key, node] : root) {
+    if (std::find(kTables.begin(), kTables.end(), key.str()) == kTables.end()) {
+      throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {} is not a known table; known: {}", file.string(),
+                                                      key.source().begin.line, key.str(), fmt::join(kTables, ", ")));
+    }
+  }
+}
+
+SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path& folder) {
+  SceneConfig::Mesh mesh;
+  mesh.name = table.text("mesh");
+  mesh.file = folder / mesh.name;
+  mesh.scale = table.number("scale", kScale, 1.0);
+  const std::string surface = table.text("surface", "auto");
+  if (surface == "solid") {
+    mesh.surface = SurfaceKind::kSolid;
+  } else if (surface == "shell") {
+    mesh.surface = SurfaceKind::kShell;
+  } else if (surface != "auto") {
+    table.complain("surface", fmt::format("= \"{}\" is not known; it must be auto, solid or shell", surface));
+  }
+  return mesh;
+}
+
+std::uint32_t read_solver(const TomlTable& contact) {
+  const std::string solver = contact.text("solver", "corrected");
+  if (solver == "paper") return static_cast<std::uint32_t>(format::Solver::kPaper);
+  if (solver == "contact") contact.complain("solver", "= \"contact\" is not in this version; take corrected or paper");
+  if (solver != "corrected") contact.complain("solver", fmt::format("= \"{}\" is not known; it must be corrected or paper", solver));
+  return static_cast<std::uint32_t>(format::Solver::kCorrected);
+}
+
+void read_friction(const TomlTable& friction, format::Settings& settings) {
+  friction.allow({"static", "kinetic", "viscous"});
+  if (!friction.present()) return;
+  settings.friction = 1;
+  settings.friction_static = friction.number("static", kRatio);
+  settings.friction_kinetic = friction.number("kinetic", {0.0, settings.friction_static}, 0.9 * settings.friction_static);
+  settings.friction_viscous = friction.number("viscous", {0.0, 1e6}, 0.0);
+}
+
+/// The paper's own coefficients: mu_r,s = 0.2, mu_r,k = 0.9 mu_r,s, mu_v = 0.01 mu_s.
+void read_paper(const TomlTable& paper, format::Settings& settings) {
+  paper.allow({"rotation_static", "rotation_kinetic", "viscous"});
+  settings.paper_rotation_static = paper.number("rotation_static", kRatio, 0.2);
+  settings.paper_rotation_kinetic =
+      paper.number("rotation_kinetic", {0.0, settings.paper_rotation_static}, 0.9 * settings.paper_rotation_static);
+  settings.paper_viscous = paper.number("viscous", kRatio, 0.002);
+}
+
+}  // namespace
+
+SceneConfig read_scene_config(const std::filesystem::path& file) {
+  const toml::table root = parse(file);
+  allow_tables(root, file);
+  const auto table = [&](const char* name) { return TomlTable(root, name, file); };
+  const std::filesystem::path folder = file.parent_path();
+  SceneConfig config;
+
+  const TomlTable still = table("still");
+  still.allow({"mesh", "scale", "voxel_size", "surface", "thickness"});
+  config.still = read_mesh(still, folder);
+  config.voxel_size = still.number("voxel_size", kVoxel);
+  const double s = config.voxel_size;
+  config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
+
+  const TomlTable moving = table("moving");
+  moving.allow({"mesh", "scale", "points", "levels", "surface"});
+  config.moving = read_mesh(moving, folder);
+  config.points = static_cast<std::uint32_t>(moving.whole_number("points", {1.0, format::kMaxPoints}, 5000));
+  config.levels = static_cast<std::uint32_t>(moving.whole_number("levels", {1.0, format::kMaxLevels}, 7));
+
+  format::Settings& settings = config.settings;
+  const TomlTable contact = table("contact");
+  contact.allow({"solver", "safety_distance", "margin"});
+  settings.default_solver = read_solver(contact);
+  settings.solvers = (1u << format::kSolverCount) - 1;
+  settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
+  settings.margin = contact.number("margin", {1e-6 * s, s}, 0.01 * s);
+
+  read_friction(table("friction"), settings);
+  read_paper(table("paper"), settings);
+
+  const TomlTable coupling = table("coupling");
+  coupling.allow({"stiffness", "damping", "rotational"});
+  settings.stiffness = coupling.number("stiffness", {1e-6, 1e8}, 2000.0);
+  settings.damping = coupling.number("damping", {0.0, 1e6}, 20.0);
+  settings.coupling_translation = 1.0;  // the spring along the translation is k_D itself
+  settings.coupling_rotation = coupling.number("rotational", {1e-15, 1e9}, 0.025);
+  return config;
+}
+
+}  // namespace godobject::scene_compiler

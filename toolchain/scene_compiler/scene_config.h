@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/scene/format.h"
+#include "toolchain/scene_compiler/solid_surface.h"
+
+namespace godobject::scene_compiler {
+
+/// A scene file, checked, with its defaults filled in. SI units.
+struct SceneConfig {
+  struct Mesh {
+    std::filesystem::path file;  ///< as found from the working directory
+    std::string name;            ///< as written in the scene file
+    double scale = 1.0;          ///< mesh unit -> metre
+    SurfaceKind surface = SurfaceKind::kAuto;
+  };
+
+  Mesh still;
+  double voxel_size = 0.0;  ///< s [m]
+  double thickness = 0.0;   ///< of shells [m]
+  Mesh moving;
+  std::uint32_t points = 0;
+  std::uint32_t levels = 0;
+  format::Settings settings{};
+};
+
+/// Reads and checks a scene file. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line and key for
+/// unknown keys, missing keys, wrong types, values out of range.
+SceneConfig read_scene_config(const std::filesystem::path& file);
+
+}  // namespace godobject::scene_compiler

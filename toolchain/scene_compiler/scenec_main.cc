@@ -1,0 +1,85 @@
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "toolchain/scene_compiler/command_line.h"
+#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/scene_compiler/output_file.h"
+
+namespace {
+
+using namespace godobject;
+using namespace godobject::scene_compiler;
+
+constexpr const char* kFooter = R"(
+Example:
+  godobject-scenec teapot.toml -o teapot.scene --report teapot.json
+
+A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
+  [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s]
+  [moving]    mesh, scale [1], surface [auto], points [5000], levels [7]
+  [contact]   solver [corrected|paper], safety_distance [1.5 s], margin [0.01 s]
+  [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
+  [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
+  [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
+Meshes are PLY, STL or OBJ, found relative to the scene file.
+
+Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 file not found, 74 cannot write, 78 bad scene file.)";
+
+struct Options {
+  std::string scene_file;
+  std::string output;
+  std::string report;
+  std::string only_solver;
+  std::string inspect;
+};
+
+void compile(const Options& options) {
+  CompileRequest request;
+  request.scene_file = options.scene_file;
+  request.output = options.output;
+  if (options.only_solver == "paper") request.only_solver = format::Solver::kPaper;
+  if (options.only_solver == "corrected") request.only_solver = format::Solver::kCorrected;
+  CompileReport report;
+  {
+    ProgressLine line;
+    request.progress = [&line](const char* phase, double done) { line.show(phase, done); };
+    report = compile_scene(request);
+  }
+  if (!options.report.empty()) {
+    OutputFile file(options.report);
+    file.write(full_report_json(report).dump(2) + "\n");
+    file.commit();
+  }
+  fmt::print("{}", report_text(report));
+}
+
+void run(const Options& options) {
+  const bool compiles = !options.scene_file.empty() || !options.output.empty();
+  if (!options.inspect.empty()) {
+    if (compiles) throw Failure(ExitCode::kUsage, "--inspect takes no scene file and no output; see godobject-scenec --help");
+    fmt::print("{}\n", inspect_json(SceneImage::read(options.inspect)).dump(2));
+    return;
+  }
+  if (options.scene_file.empty()) throw Failure(ExitCode::kUsage, "SCENE.toml is missing; see godobject-scenec --help");
+  if (options.output.empty()) throw Failure(ExitCode::kUsage, "-o OUT.scene is missing; see godobject-scenec --help");
+  compile(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Compiles a scene file and its meshes into one scene image for the controller.", "godobject-scenec"};
+  Options options;
+  app.add_option("SCENE.toml", options.scene_file, "scene file");
+  app.add_option("-o,--output", options.output, "scene image to write");
+  app.add_option("--report", options.report, "write what was found and measured as JSON");
+  app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")->check(CLI::IsMember({"paper", "corrected"}));
+  app.add_option("--inspect", options.inspect, "print the facts of a compiled image as JSON");
+  app.set_version_flag("--version", "godobject-scenec " GODOBJECT_VERSION);
+  app.footer(kFooter);
+  return run_command(app, argc, argv, [&options] { run(options); });
+}

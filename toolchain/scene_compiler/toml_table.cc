@@ -1,0 +1,76 @@
+#include "toolchain/scene_compiler/toml_table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "toolchain/scene_compiler/failure.h"
+
+namespace godobject::scene_compiler {
+
+TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem::path file)
+    : name_(std::move(name)), file_(std::move(file)) {
+  const toml::node* node = root.get(name_);
+  if (node == nullptr) return;
+  table_ = node->as_table();
+  if (table_ == nullptr) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(),
+                                                    node->source().begin.line, name_, name_));
+  }
+}
+
+void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_) {
+    if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
+      complain(key.str(), fmt::format("is not a known key; known here: {}", fmt::join(keys, ", ")));
+    }
+  }
+}
+
+std::string TomlTable::text(std::string_view key, const char* fallback) const {
+  const toml::node* node = find(key);
+  if (node == nullptr && fallback != nullptr) return fallback;
+  if (node == nullptr) complain(key, "is missing and has no default");
+  const auto value = node->value<std::string>();
+  if (!value) complain(key, "must be a text in quotes");
+  return *value;
+}
+
+double TomlTable::number(std::string_view key, Range range) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) complain(key, "is missing and has no default");
+  if (!node->is_number()) complain(key, "must be a number");
+  const double value = node->value<double>().value_or(0.0);
+  require_in_range(key, value, range);
+  return value;
+}
+
+double TomlTable::number(std::string_view key, Range range, double fallback) const {
+  return find(key) == nullptr ? fallback : number(key, range);
+}
+
+std::int64_t TomlTable::whole_number(std::string_view key, Range range, std::int64_t fallback) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  if (!node->is_integer()) complain(key, "must be a whole number");
+  const std::int64_t value = node->value<std::int64_t>().value_or(0);
+  require_in_range(key, static_cast<double>(value), range);
+  return value;
+}
+
+void TomlTable::complain(std::string_view key, const std::string& what) const {
+  const toml::node* node = find(key);
+  const toml::source_index line = node != nullptr      ? node->source().begin.line
+                                  : table_ != nullptr  ? table_->source().begin.line
+                                                       : 0;
+  const std::string where = line == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line);
+  throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
+}
+
+void TomlTable::require_in_range(std::string_view key, double value, Range range) const {
+  if (value >= range.low && value <= range.high) return;
+  complain(key, fmt::format("= {:g} is out of range; it must be from {:g} to {:g}", value, range.low, range.high));
+}
+
+}  // namespace godobject::scene_compiler

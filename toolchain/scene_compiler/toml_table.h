@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include <toml++/toml.h>
+
+namespace godobject::scene_compiler {
+
+/// One table of a scene file, read key by key; every complaint is a Failure (kBadConfig) naming file, line and key.
+class TomlTable {
+ public:
+  struct Range {
+    double low, high;
+  };
+
+  /// `name` may be absent from `root`: then the table is empty and complaints give no line.
+  TomlTable(const toml::table& root, std::string name, std::filesystem::path file);
+
+  bool present() const { return table_ != nullptr; }
+
+  /// Throws for the first key that is not one of `keys`.
+  void allow(std::initializer_list<std::string_view> keys) const;
+
+  std::string text(std::string_view key, const char* fallback = nullptr) const;
+  double number(std::string_view key, Range range) const;  ///< no default
+  double number(std::string_view key, Range range, double fallback) const;
+  std::int64_t whole_number(std::string_view key, Range range, std::int64_t fallback) const;
+
+  /// "FILE:LINE: TABLE.KEY WHAT"
+  [[noreturn]] void complain(std::string_view key, const std::string& what) const;
+
+ private:
+  const toml::node* find(std::string_view key) const { return table_ == nullptr ? nullptr : table_->get(key); }
+  void require_in_range(std::string_view key, double value, Range range) const;
+
+  const toml::table* table_ = nullptr;
+  std::string name_;
+  std::filesystem::path file_;
+};
+
+}  // namespace godobject::scene_compiler
