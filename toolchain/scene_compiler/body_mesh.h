@@ -7,8 +7,8 @@
 
 namespace godobject::scene_compiler {
 
-/// The triangles of a body with what belongs to each. Those of solid components run counter-clockwise seen from outside,
-/// also where the file has them inside out.
+/// The triangles of a body with what belongs to each. Those of solid components run counter-clockwise seen from
+/// outside, also where the file has them inside out.
 struct BodyMesh {
   explicit BodyMesh(const SolidSurface& surface);
 

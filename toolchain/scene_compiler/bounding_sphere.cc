@@ -14,13 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlack = 1e-10;     // of the radius: what counts as on the sphere
-constexpr double kFlat = 1e-24;      // squared relative area or volume below which points count as collinear, coplanar
+constexpr double kSlack = 1e-10;      // of the radius: what counts as on the sphere
+constexpr double kFlat = 1e-24;       // squared relative area or volume below which points count as collinear, coplanar
 constexpr int kMostExchanges = 1000;  // never seen above 30
 
 /// Points that determine a sphere, at most four, and one more that lies outside of it.
 struct Support {
-  std::array<Vector3d, 5> points{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+  std::array<Vector3d, 5> points{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(),
+                                 Vector3d::Zero()};
   std::size_t count = 0;
 };
 
@@ -43,7 +44,8 @@ bool sphere_through(const Support& support, Sphere& sphere) {
     const Vector3d c = points[3] - origin;
     const double volume = a.dot(b.cross(c));
     if (!(volume * volume > kFlat * a.squaredNorm() * b.squaredNorm() * c.squaredNorm())) return false;
-    offset = (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b)) / (2.0 * volume);
+    offset =
+        (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b)) / (2.0 * volume);
   }
   sphere = {origin + offset, offset.norm()};
   return true;
@@ -86,8 +88,9 @@ bool exchange(Support& support, Sphere& sphere) {
 
 }  // namespace
 
-/// An exchange of basis as in the simplex method (the smallest sphere is an LP-type problem): the point furthest outside
-/// enters the set of at most four that determine the sphere, whose radius grows each time until nothing is outside.
+/// An exchange of basis as in the simplex method (the smallest sphere is an LP-type problem): the point furthest
+/// outside enters the set of at most four that determine the sphere, whose radius grows each time until nothing is
+/// outside.
 Sphere bounding_sphere(std::span<const Vector3d> points) {
   Sphere sphere{points.front(), 0.0};
   Support support;

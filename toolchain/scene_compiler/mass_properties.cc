@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastVolume = 1e-10;    // of the bounding box's diagonal cubed: below it rounding decides
+constexpr double kLeastVolume = 1e-10;  // of the bounding box's diagonal cubed: below it rounding decides
 constexpr double kEqualMoments = 1e-5;  // of the largest: coordinates in single precision, some metres off the origin
 
 Matrix3d inertia_of_covariance(const Matrix3d& covariance) {

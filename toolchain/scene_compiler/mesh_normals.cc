@@ -39,7 +39,8 @@ VertexCorners::VertexCorners(const TriangleMesh& mesh)
   for (std::size_t c = 0; c < corners_.size(); ++c) corners_[next[mesh.triangles[c / 3][c % 3]]++] = c;
 }
 
-std::vector<std::array<Vector3d, 3>> corner_normals(const TriangleMesh& mesh, const std::vector<Vector3d>& face_normals) {
+std::vector<std::array<Vector3d, 3>> corner_normals(const TriangleMesh& mesh,
+                                                    const std::vector<Vector3d>& face_normals) {
   const VertexCorners around(mesh);
   std::vector<std::array<Vector3d, 3>> normals(mesh.triangles.size());
   parallel_for(mesh.triangles.size(), [&](std::size_t t) {

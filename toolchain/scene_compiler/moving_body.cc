@@ -41,18 +41,18 @@ Progress part_of(const Progress& progress, double begin, double end) {
 
 void check_arguments(std::uint32_t points, std::uint32_t levels) {
   if (points < 1 || points > format::kMaxPoints) {
-    throw Failure(ExitCode::kBadConfig,
-                  fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
+    throw Failure(ExitCode::kBadConfig, fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
   }
   if (levels < 1 || levels > format::kMaxLevels) {
     throw Failure(ExitCode::kBadConfig, fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
   }
   const double deepest = std::max(1.0, 1.0 + std::floor(std::log(points / kCoarsest) / std::log(kLeastRefinement)));
   if (levels > deepest) {
-    throw Failure(ExitCode::kBadConfig,
-                  fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
-                              levels, points, static_cast<int>(deepest),
-                              static_cast<int>(std::ceil(kCoarsest * std::pow(kLeastRefinement, levels - 1)))));
+    throw Failure(
+        ExitCode::kBadConfig,
+        fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
+                    levels, points, static_cast<int>(deepest),
+                    static_cast<int>(std::ceil(kCoarsest * std::pow(kLeastRefinement, levels - 1)))));
   }
 }
 
@@ -79,7 +79,8 @@ struct Sampling {
   std::vector<std::vector<std::uint32_t>> levels;
 };
 
-Sampling sample_in_levels(const OuterSurface& outer, const std::vector<std::uint32_t>& sizes, const Progress& progress) {
+Sampling sample_in_levels(const OuterSurface& outer, const std::vector<std::uint32_t>& sizes,
+                          const Progress& progress) {
   const std::uint32_t points = sizes.back();
   OuterSurface::Spread spread = outer.spread(std::max(kCandidatesPerPoint * points, kLeastCandidates), kCandidateSeed,
                                              part_of(progress, 0.0, 0.4));
@@ -121,8 +122,8 @@ double median_neighbour_distance(const std::vector<SurfaceSample>& samples, cons
   return std::sqrt(*middle);
 }
 
-/// Largest distance of the outer surface to its nearest sample, on fresh draws. Those furthest off are looked at first: the
-/// first one that is not buried decides.
+/// Largest distance of the outer surface to its nearest sample, on fresh draws. Those furthest off are looked at first:
+/// the first one that is not buried decides.
 double largest_gap(const OuterSurface& outer, const std::vector<SurfaceSample>& samples, const PointTree& tree) {
   const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
   const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 1e-6;             // of the bounding box's diagonal: above rounding, below any wall
-constexpr double kMostNegative = 0.49;    // winding number outside; a flat open sheet has just -0.5 there and 0.5 inside
+constexpr double kStep = 1e-6;          // of the bounding box's diagonal: above rounding, below any wall
+constexpr double kMostNegative = 0.49;  // winding number outside; a flat open sheet has just -0.5 there and 0.5 inside
 constexpr double kLeastOuterPart = 4e-3;  // of the area; with less a mesh is taken for one without outside
 constexpr std::uint64_t kBlock = 1u << 16;
 
@@ -30,7 +30,11 @@ double uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension)
 }  // namespace
 
 OuterSurface::OuterSurface(const SolidSurface& surface)
-    : surface_(surface), body_(surface), patches_(body_), sharp_(sharp_features(body_)), step_(kStep * body_.diagonal) {}
+    : surface_(surface),
+      body_(surface),
+      patches_(body_),
+      sharp_(sharp_features(body_)),
+      step_(kStep * body_.diagonal) {}
 
 bool OuterSurface::is_outer(const SurfaceSample& sample) const {
   if (!surface_.shell_triangles().empty()) {
@@ -50,7 +54,8 @@ std::vector<std::uint8_t> OuterSurface::are_outer(std::span<const SurfaceSample>
   return outer;
 }
 
-void OuterSurface::append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const {
+void OuterSurface::append_outer(const std::vector<SurfaceSample>& candidates,
+                                std::vector<SurfaceSample>& samples) const {
   const std::vector<std::uint8_t> outer = are_outer(candidates);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (outer[i]) samples.push_back(candidates[i]);
@@ -70,8 +75,7 @@ std::vector<SurfaceSample> OuterSurface::draw_all(std::uint32_t count, std::uint
   return draw({count, 2 * std::uint64_t{seed}}, 0, count);
 }
 
-void OuterSurface::draw_outer(const Draws& draws, const Progress& progress,
-                              std::vector<SurfaceSample>& samples) const {
+void OuterSurface::draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const {
   for (std::uint64_t begin = 0; begin < draws.count; begin += kBlock) {
     const std::uint64_t end = std::min(begin + kBlock, draws.count);
     append_outer(draw(draws, begin, end), samples);
@@ -79,8 +83,7 @@ void OuterSurface::draw_outer(const Draws& draws, const Progress& progress,
   }
 }
 
-OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed,
-                                          const Progress& progress) const {
+OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const {
   Spread spread;
   std::uint64_t drawn = wanted;
   if (patches_.area() > 0.0) draw_outer({drawn, 2 * std::uint64_t{seed}}, progress, spread.samples);
@@ -112,7 +115,8 @@ std::vector<SurfaceSample> OuterSurface::sharp_samples(double step, std::uint32_
   const std::size_t stride = sharp_.vertices.size() / most + 1;
   for (std::size_t i = 0; i < sharp_.vertices.size(); i += stride) {
     const SharpVertex& sharp = sharp_.vertices[i];
-    candidates.push_back(sharp_sample(vertices[sharp.vertex], sharp.outward, sharp.in_shell, SurfaceSample::Place::kVertex));
+    candidates.push_back(
+        sharp_sample(vertices[sharp.vertex], sharp.outward, sharp.in_shell, SurfaceSample::Place::kVertex));
   }
   double length = 0.0;
   for (const SharpEdge& edge : sharp_.edges) length += (vertices[edge.high] - vertices[edge.low]).norm();

@@ -12,8 +12,8 @@
 
 namespace godobject::scene_compiler {
 
-/// The outer boundary of a body, to be sampled: the pieces of its surface that part inside from outside, without what is
-/// buried in another component.
+/// The outer boundary of a body, to be sampled: the pieces of its surface that part inside from outside, without what
+/// is buried in another component.
 class OuterSurface {
  public:
   struct Spread {
@@ -26,18 +26,19 @@ class OuterSurface {
 
   const BodyMesh& body() const { return body_; }
 
-  /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 .. 1;
-  /// may be empty. Cost: a winding number a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
+  /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 ..
+  /// 1; may be empty. Cost: a winding number a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
   Spread spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const;
 
-  /// `count` draws of the whole surface, buried parts included, for who needs to know only of some whether they are outer.
+  /// `count` draws of the whole surface, buried parts included, for who needs to know only of some whether they are
+  /// outer.
   std::vector<SurfaceSample> draw_all(std::uint32_t count, std::uint32_t seed) const;
 
   /// Whether each sample parts inside from outside: 1 or 0.
   std::vector<std::uint8_t> are_outer(std::span<const SurfaceSample> samples) const;
 
-  /// The sharp vertices, and points on the sharp edges at most `step` [m] apart, but not (much) more than `most` of either:
-  /// too many are thinned out evenly.
+  /// The sharp vertices, and points on the sharp edges at most `step` [m] apart, but not (much) more than `most` of
+  /// either: too many are thinned out evenly.
   std::vector<SurfaceSample> sharp_samples(double step, std::uint32_t most) const;
 
  private:
@@ -47,8 +48,7 @@ class OuterSurface {
   };
 
   std::vector<SurfaceSample> draw(const Draws& draws, std::uint64_t begin, std::uint64_t end) const;
-  void draw_outer(const Draws& draws, const Progress& progress,
-                  std::vector<SurfaceSample>& samples) const;
+  void draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const;
   void append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const;
   bool is_outer(const SurfaceSample& sample) const;
   SurfaceSample sharp_sample(const Eigen::Vector3d& at, const Eigen::Vector3d& outward, bool in_shell,

@@ -10,7 +10,8 @@
 
 namespace godobject::scene_compiler {
 
-/// Balanced kd-tree over points: all within a radius, the nearest that is accepted. Const calls may run on many threads.
+/// Balanced kd-tree over points: all within a radius, the nearest that is accepted. Const calls may run on many
+/// threads.
 class PointTree {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -26,19 +27,24 @@ class PointTree {
   template <class Visit>
   void within(const Eigen::Vector3d& p, double radius, const Visit& visit) const {
     const double bound = radius * radius;
-    descend(p, Range{0, 0, size()}, [&bound] { return bound; }, [&](std::uint32_t index, double squared) {
-      if (squared <= bound) visit(index, squared);
-    });
+    descend(
+        p, Range{0, 0, size()}, [&bound] { return bound; },
+        [&](std::uint32_t index, double squared) {
+          if (squared <= bound) visit(index, squared);
+        });
   }
 
   /// Of the points with accept(index), the nearest; of equally near ones the first.
   template <class Accept>
   Nearest nearest(const Eigen::Vector3d& p, const Accept& accept) const {
     Nearest best;
-    descend(p, Range{0, 0, size()}, [&best] { return best.squared_distance; }, [&](std::uint32_t index, double squared) {
-      const bool nearer = squared < best.squared_distance || (squared == best.squared_distance && index < best.index);
-      if (nearer && accept(index)) best = {index, squared};
-    });
+    descend(
+        p, Range{0, 0, size()}, [&best] { return best.squared_distance; },
+        [&](std::uint32_t index, double squared) {
+          const bool nearer =
+              squared < best.squared_distance || (squared == best.squared_distance && index < best.index);
+          if (nearer && accept(index)) best = {index, squared};
+        });
     return best;
   }
 

@@ -10,7 +10,8 @@
 namespace godobject::scene_compiler {
 namespace {
 
-// of the paper: how much pairs nearer than the final distance count alike, lest elimination wait for pairs that will go anyway
+// of the paper: how much pairs nearer than the final distance count alike, lest elimination wait for pairs that will go
+// anyway
 constexpr double kLimitFactor = 0.65;
 constexpr double kLimitExponent = 1.5;
 constexpr double kNothing = 1e-13;  // weight without neighbours, but for rounding
@@ -40,8 +41,12 @@ struct Crowding {
 class Crowd {
  public:
   Crowd(std::span<const SurfaceSample> samples, const std::vector<std::uint32_t>& chosen, const Crowding& crowding)
-      : samples_(samples), chosen_(chosen), crowding_(crowding), tree_(points_of(samples, chosen)),
-        alive_(chosen.size(), 1), weights_(chosen.size()) {
+      : samples_(samples),
+        chosen_(chosen),
+        crowding_(crowding),
+        tree_(points_of(samples, chosen)),
+        alive_(chosen.size(), 1),
+        weights_(chosen.size()) {
     parallel_for(chosen.size(), [&](std::size_t i) { weights_[i] = weight_of(i); });
     for (std::uint32_t i = 0; i < chosen.size(); ++i) queue_.push_back({weights_[i], i});
     std::make_heap(queue_.begin(), queue_.end(), later);
@@ -133,16 +138,16 @@ double densest_disc_radius(double area, std::uint32_t count) {
   return std::sqrt(area / (2.0 * std::numbers::sqrt3 * static_cast<double>(count)));
 }
 
-std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen, double area,
-                                     std::uint32_t count, const Progress& progress) {
+std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen,
+                                     double area, std::uint32_t count, const Progress& progress) {
   if (chosen.size() <= count) return chosen;
   const std::size_t to_go = chosen.size() - count;
   const double kept_part = static_cast<double>(count) / static_cast<double>(chosen.size());
   const double limit_part = kLimitFactor * (1.0 - std::pow(kept_part, kLimitExponent));
   std::size_t gone = 0;
   const double extent = extent_of(samples, chosen);
-  // the radius is right for a surface; samples along a needle, say, lie further apart, and if those left are few and all
-  // on sides of their own these must give up their independence
+  // the radius is right for a surface; samples along a needle, say, lie further apart, and if those left are few and
+  // all on sides of their own these must give up their independence
   for (double reach = 2.0 * densest_disc_radius(area, count); gone < to_go; reach *= kWider) {
     Crowd crowd(samples, chosen, {reach, limit_part * reach, reach > extent});
     while (gone < to_go && crowd.eliminate_one()) {

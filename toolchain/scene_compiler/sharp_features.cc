@@ -14,8 +14,9 @@ using Eigen::Vector3d;
 /// The sharp edges at one vertex.
 struct Meeting {
   int edges = 0;
-  std::array<Vector3d, 2> directions{Vector3d::Zero(), Vector3d::Zero()};  ///< along the first two, away from the vertex
-  Vector3d outward = Vector3d::Zero();                                     ///< sum of theirs
+  std::array<Vector3d, 2> directions{Vector3d::Zero(),
+                                     Vector3d::Zero()};  ///< along the first two, away from the vertex
+  Vector3d outward = Vector3d::Zero();                   ///< sum of theirs
 
   bool corner() const { return edges > 2 || (edges == 2 && directions[0].dot(directions[1]) > -kCreaseCosine); }
 

@@ -7,16 +7,16 @@
 
 namespace godobject::scene_compiler {
 
-/// An edge that sticks out: faces that meet convexly at more than the crease angle, or the rim of a sheet. Of a thickened
-/// sheet every crease is convex from one side. Edges of more than two triangles are left out.
+/// An edge that sticks out: faces that meet convexly at more than the crease angle, or the rim of a sheet. Of a
+/// thickened sheet every crease is convex from one side. Edges of more than two triangles are left out.
 struct SharpEdge {
   std::uint32_t low, high;  ///< vertices
   Eigen::Vector3d outward;  ///< unit, across the edge, halfway between its faces
   bool in_shell;
 };
 
-/// A vertex that sticks out: where sharp edges meet (more than two, or two that turn by more than the crease angle), or the
-/// apex of a cone without sharp edges.
+/// A vertex that sticks out: where sharp edges meet (more than two, or two that turn by more than the crease angle), or
+/// the apex of a cone without sharp edges.
 struct SharpVertex {
   std::uint32_t vertex;
   Eigen::Vector3d outward;  ///< unit

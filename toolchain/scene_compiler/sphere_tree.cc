@@ -58,7 +58,8 @@ Children attach(std::span<const Eigen::Vector3f> points, std::span<const std::ui
 /// Lays nodes and points out in pre-order.
 class Layout {
  public:
-  Layout(std::span<const Eigen::Vector3f> points, const std::vector<std::vector<std::uint32_t>>& levels) : levels_(levels) {
+  Layout(std::span<const Eigen::Vector3f> points, const std::vector<std::vector<std::uint32_t>>& levels)
+      : levels_(levels) {
     for (std::size_t k = 1; k < levels.size(); ++k) children_.push_back(attach(points, levels[k - 1], levels[k]));
   }
 
@@ -109,8 +110,8 @@ class Layout {
   SphereTree tree_;
 };
 
-/// Center and radius as floats; the radius grows by what the center's rounding moved it, then to the next float, so that
-/// the last bit of whoever computes a distance to the center does not matter.
+/// Center and radius as floats; the radius grows by what the center's rounding moved it, then to the next float, so
+/// that the last bit of whoever computes a distance to the center does not matter.
 void set_sphere(std::span<const Vector3d> points, format::Node& node) {
   const Eigen::Vector3f center = bounding_sphere(points).center.cast<float>();
   double radius = 0.0;
@@ -122,7 +123,8 @@ void set_sphere(std::span<const Vector3d> points, format::Node& node) {
 
 }  // namespace
 
-SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points, const std::vector<std::vector<std::uint32_t>>& levels) {
+SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
+                             const std::vector<std::vector<std::uint32_t>>& levels) {
   SphereTree tree = Layout(points, levels).make();
   const std::vector<Vector3d> ordered = points_of(points, tree.order);
   parallel_for(tree.nodes.size(), [&](std::size_t i) {

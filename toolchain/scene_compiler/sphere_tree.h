@@ -19,6 +19,7 @@ struct SphereTree {
 /// `levels`: the samples of hierarchy level 1, 2, .. as ascending indices into `points`, each level containing the one
 /// before it and the last all points. Every sample hangs on the nearest one of the level before; itself if it is there.
 /// Spheres hold their points in double arithmetic and are minimal up to the rounding of their numbers to float.
-SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points, const std::vector<std::vector<std::uint32_t>>& levels);
+SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
+                             const std::vector<std::vector<std::uint32_t>>& levels);
 
 }  // namespace godobject::scene_compiler

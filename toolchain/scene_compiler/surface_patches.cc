@@ -59,7 +59,8 @@ void SurfacePatches::add_rounds() {
     }
     if (half_angle < kLeastAngle || outward.squaredNorm() == 0.0) continue;
     const double length = (mesh.vertices[edge.high] - mesh.vertices[edge.low]).norm();
-    add({Patch::Kind::kRound, static_cast<std::uint32_t>(rounds_.size())}, length * body_.half_thickness * 2.0 * half_angle);
+    add({Patch::Kind::kRound, static_cast<std::uint32_t>(rounds_.size())},
+        length * body_.half_thickness * 2.0 * half_angle);
     rounds_.push_back({edge.low, edge.high, outward, half_angle});
   }
 }

@@ -9,9 +9,9 @@
 
 namespace godobject::scene_compiler {
 
-/// The pieces a body's surface is made of, buried ones included: the triangles of solids; of shells both faces, half the
-/// thickness off each triangle, and the sectors of cylinders that round rims and creases. (The pieces of spheres around a
-/// shell's vertices are left out: their area is of the order of the thickness squared.)
+/// The pieces a body's surface is made of, buried ones included: the triangles of solids; of shells both faces, half
+/// the thickness off each triangle, and the sectors of cylinders that round rims and creases. (The pieces of spheres
+/// around a shell's vertices are left out: their area is of the order of the thickness squared.)
 class SurfacePatches {
  public:
   /// Reads `body` later on: it must stay alive.
@@ -19,8 +19,9 @@ class SurfacePatches {
 
   double area() const { return cumulated_area_.empty() ? 0.0 : cumulated_area_.back(); }  ///< of all pieces [m^2]
 
-  /// The point at `at` (0 .. 1) of the area when the pieces are laid in a row, placed within its piece by u and v (0 .. 1):
-  /// uniform numbers give uniform points. Normals of faces are interpolated where they meet at less than the crease angle.
+  /// The point at `at` (0 .. 1) of the area when the pieces are laid in a row, placed within its piece by u and v (0 ..
+  /// 1): uniform numbers give uniform points. Normals of faces are interpolated where they meet at less than the crease
+  /// angle.
   SurfaceSample draw(double at, double u, double v) const;
 
  private:
