@@ -1,0 +1,92 @@
+#include "toolchain/figures/replay_log.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "toolchain/command/failure.h"
+#include "toolchain/replay/replay.h"
+
+namespace godobject::figures {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+constexpr std::size_t kNumbers = 26;  // and the status
+
+Pose pose(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
+
+/// Cuts a line into its numbers and the status; false if it has not that many, or one is no finite number.
+bool split(std::string_view line, std::array<double, kNumbers>& numbers, std::string& status) {
+  for (double& number : numbers) {
+    const std::size_t comma = line.find(',');
+    if (comma == std::string_view::npos) return false;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + comma, number);
+    if (error != std::errc{} || end != line.data() + comma) return false;
+    line.remove_prefix(comma + 1);
+  }
+  status = line;
+  return !line.empty() && line.find(',') == std::string_view::npos;
+}
+
+ReplayRow make_row(const std::array<double, kNumbers>& v, std::string status) {
+  ReplayRow row;
+  row.t = v[0];
+  row.H_WD = pose(&v[1]);
+  row.H_WS = pose(&v[8]);
+  row.wrench = {Vector3(v[15], v[16], v[17]), Vector3(v[18], v[19], v[20])};
+  row.depth = v[21];
+  row.contacts = v[22];
+  row.step1_ns = v[24];
+  row.solve_ns = v[25];
+  row.status = std::move(status);
+  return row;
+}
+
+/// The device pose of a `bad_input` row may hold anything; nothing else may.
+bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
+  const auto first = v.begin() + (status == "bad_input" ? 8 : 0);
+  return std::isfinite(v[0]) && std::all_of(first, v.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+ReplayLog read_replay_log(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; make it with godobject-replay", file.string()));
+  const auto refuse = [&](std::size_t line, std::string_view what) {
+    throw Failure(ExitCode::kBadData, fmt::format("{}:{}: {}; make it again with godobject-replay", file.string(), line, what));
+  };
+  std::string text;
+  if (!std::getline(stream, text) || text != replay::kColumns) refuse(1, "not the header of a replay");
+  ReplayLog log;
+  std::array<double, kNumbers> numbers{};
+  std::string status;
+  for (std::size_t line = 2; std::getline(stream, text); ++line) {
+    if (!split(text, numbers, status)) refuse(line, fmt::format("not {} numbers and a status", kNumbers));
+    if (!finite(numbers, status)) refuse(line, "a number is not finite");
+    if (!log.empty() && numbers[0] <= log.back().t) refuse(line, "t does not increase");
+    log.push_back(make_row(numbers, std::move(status)));
+  }
+  if (stream.bad()) throw Failure(ExitCode::kIo, fmt::format("{}: could not be read to its end", file.string()));
+  if (log.empty()) refuse(2, "holds no cycle");
+  return log;
+}
+
+const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::path& file) {
+  constexpr double kCycle = 1e-3;
+  const double begin = log.front().t;
+  const double end = log.back().t;
+  if (!(t >= begin - kCycle && t <= end + kCycle)) {
+    throw Failure(ExitCode::kBadData, fmt::format("{}: no cycle at {} s; it holds {} .. {} s", file.string(), t, begin, end));
+  }
+  return *std::min_element(log.begin(), log.end(), [t](const ReplayRow& a, const ReplayRow& b) { return std::abs(a.t - t) < std::abs(b.t - t); });
+}
+
+}  // namespace godobject::figures

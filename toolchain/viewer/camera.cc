@@ -1,0 +1,139 @@
+#include "toolchain/viewer/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "toolchain/scene_compiler/triangle_tree.h"
+
+namespace godobject::viewer {
+namespace {
+
+using scene_compiler::TriangleMesh;
+using scene_compiler::TriangleTree;
+
+TriangleTree tree_of(const TriangleMesh& mesh, const Pose& pose) {
+  std::vector<TriangleTree::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    triangles.push_back({pose * mesh.vertices[t[0]], pose * mesh.vertices[t[1]], pose * mesh.vertices[t[2]],
+                         static_cast<std::uint32_t>(triangles.size())});
+  }
+  return TriangleTree(std::move(triangles));
+}
+
+struct Ball {
+  Vector3 center;
+  double radius;
+};
+
+/// Around the middle of the bounding box.
+Ball bounding_ball(const std::vector<Vector3>& points) {
+  Vector3 low = points.front();
+  Vector3 high = low;
+  for (const Vector3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  Ball ball{0.5 * (low + high), 0.0};
+  for (const Vector3& p : points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
+  return ball;
+}
+
+/// The moving mesh's vertex that is nearest to the still surface.
+Vector3 nearest_place(const TriangleMesh& moving, const Pose& H_WS, const TriangleTree& still) {
+  Vector3 place = H_WS.translation;
+  TriangleTree::Nearest nearest{std::numeric_limits<double>::infinity(), Vector3::Zero(), 0};
+  for (const Vector3& vertex : moving.vertices) {
+    const Vector3 p = H_WS * vertex;
+    if (still.nearest(p, nearest.squared_distance, nearest)) place = p;
+  }
+  return place;
+}
+
+/// Unit vector from the target to the eye.
+Vector3 toward_eye(const ViewDirection& direction, int up_axis) {
+  Vector3 v;
+  v[up_axis] = std::sin(direction.elevation);
+  v[(up_axis + 1) % 3] = std::cos(direction.elevation) * std::cos(direction.azimuth);
+  v[(up_axis + 2) % 3] = std::cos(direction.elevation) * std::sin(direction.azimuth);
+  return v;
+}
+
+/// Share of points spread around `place` from which the way to the eye is free.
+double visible_share(const Vector3& place, double spread, const Vector3& to_eye, const TriangleTree& still, const TriangleTree& moving) {
+  constexpr int kRays = 24;
+  constexpr double kGoldenAngle = 2.399963229728653;
+  int free = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / kRays;
+    const double r = std::sqrt(1.0 - z * z);
+    const Vector3 from = place + spread * Vector3(r * std::cos(kGoldenAngle * i), r * std::sin(kGoldenAngle * i), z);
+    TriangleTree::RayHit hit{};
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    if (!still.first_hit(from, to_eye, 0.0, kFar, hit) && !moving.first_hit(from, to_eye, 0.0, kFar, hit)) ++free;
+  }
+  return static_cast<double>(free) / kRays;
+}
+
+struct Subject {
+  Vector3 place;        ///< of nearest approach
+  Vector3 separation;   ///< unit, from the device to the god object where they differ, else from the place to the body
+  double size;
+};
+
+Vector3 choose_direction(const Subject& subject, int up_axis, const TriangleTree& still, const TriangleTree& moving) {
+  constexpr int kAround = 72;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  Vector3 best = Vector3::UnitX();
+  double best_score = -1.0;
+  for (const double elevation : {12.0 * kDegree, 25.0 * kDegree, 40.0 * kDegree}) {
+    for (int i = 0; i < kAround; ++i) {
+      const Vector3 v = toward_eye({2.0 * std::numbers::pi * i / kAround, elevation}, up_axis);
+      const double sideways = 1.0 - std::abs(v.dot(subject.separation));
+      const double score = visible_share(subject.place, 0.05 * subject.size, v, still, moving) + 0.5 * sideways;
+      if (score > best_score + 1e-9) {
+        best_score = score;
+        best = v;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Camera make_camera(const View& view) {
+  std::vector<Vector3> shown;
+  for (const Vector3& vertex : view.moving.vertices) {
+    shown.push_back(view.H_WS * vertex);
+    shown.push_back(view.H_WD * vertex);
+  }
+  const TriangleTree still = tree_of(view.still, Pose());
+  const Vector3 place = nearest_place(view.moving, view.H_WS, still);
+  shown.push_back(place);
+  const Ball ball = bounding_ball(shown);
+
+  Vector3 to_eye;
+  if (view.direction) {
+    to_eye = toward_eye(*view.direction, view.up_axis);
+  } else {
+    const Vector3 apart = view.H_WS.translation - view.H_WD.translation;
+    const bool differ = apart.norm() > 1e-3 * ball.radius;
+    const Subject subject{place, differ ? apart.normalized() : (ball.center - place).stableNormalized(), ball.radius};
+    to_eye = choose_direction(subject, view.up_axis, still, tree_of(view.moving, view.H_WS));
+  }
+
+  constexpr double kRoom = 1.1;
+  Camera camera;
+  camera.target = ball.center + 0.25 * (place - ball.center);
+  camera.forward = -to_eye;
+  camera.right = camera.forward.cross(Vector3::Unit(view.up_axis)).stableNormalized();
+  if (camera.right.squaredNorm() < 0.5) camera.right = Vector3::Unit((view.up_axis + 1) % 3);  // straight from above
+  camera.up = camera.right.cross(camera.forward);
+  camera.eye = camera.target + to_eye * (kRoom * ball.radius / (view.zoom * std::sin(kHalfView)));
+  return camera;
+}
+
+}  // namespace godobject::viewer

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/spatial/pose.h"
+#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/viewer/camera.h"
+
+namespace godobject::viewer {
+
+/// Leaves out of the still body what lies on the side of `normal`.
+struct Cut {
+  Vector3 point;   ///< on the plane, in W [m]
+  Vector3 normal;  ///< unit, in W
+};
+
+struct Picture {
+  int width = 800;   ///< [pixels]
+  int height = 600;
+  Camera camera;
+  Pose H_WD;  ///< drawn red and translucent
+  Pose H_WS;  ///< drawn blue
+  std::optional<Cut> cut;  ///< the still mesh must be closed
+};
+
+/// A scene for POV-Ray 3.7, lengths in millimetres: still body green, device pose red, god object blue. The red body is drawn
+/// smaller by 1/500 of its diagonal, so that where both poses agree it lies hidden in the blue one.
+std::string pov_text(const scene_compiler::TriangleMesh& still, const scene_compiler::TriangleMesh& moving, const Picture& picture);
+
+}  // namespace godobject::viewer

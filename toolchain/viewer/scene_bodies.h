@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "toolchain/scene_compiler/triangle_mesh.h"
+
+namespace godobject::viewer {
+
+/// The two meshes of a scene, in metres: the still one in W, the moving one in its own frame M.
+struct SceneBodies {
+  scene_compiler::TriangleMesh still;
+  scene_compiler::TriangleMesh moving;
+};
+
+/// Reads `mesh` and `scale` of [still] and [moving] from a scene file and imports both meshes; the other keys are the scene
+/// compiler's business. Throws Failure: kNoInput, kBadData, or kBadConfig naming the key.
+SceneBodies read_scene_bodies(const std::filesystem::path& scene_file);
+
+}  // namespace godobject::viewer
