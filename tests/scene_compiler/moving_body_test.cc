@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,6 @@
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
 #include "toolchain/scene_compiler/bounding_sphere.h"
-#include "toolchain/scene_compiler/failure.h"
 #include "toolchain/scene_compiler/point_tree.h"
 #include "toolchain/scene_compiler/sample_elimination.h"
 #include "toolchain/scene_compiler/scene_image.h"
@@ -383,7 +383,7 @@ TEST(MovingBody, AClosedPlateWithoutVolumeIsAShell) {
 std::string failure_of(const TriangleMesh& mesh, std::uint32_t points, std::uint32_t levels, SurfaceKind kind) {
   try {
     make(mesh, points, levels, kind);
-  } catch (const Failure& failure) {
+  } catch (const std::runtime_error& failure) {
     return failure.what();
   }
   return "";
@@ -399,7 +399,7 @@ TEST(MovingBody, SaysWhatIsWrongAndTheCure) {
   EXPECT_EQ(failure_of(box, 92, 7, SurfaceKind::kAuto), "");
   const std::string too_deep = failure_of(box, 91, 7, SurfaceKind::kAuto);
   EXPECT_NE(too_deep.find("set levels to 6 or less, or points to 92 or more"), std::string::npos) << too_deep;
-  EXPECT_NE(failure_of(test::sheet_mesh(0.1), 100, 1, SurfaceKind::kSolid).find("surface = \"shell\""),
+  EXPECT_NE(failure_of(test::sheet_mesh(0.1), 100, 1, SurfaceKind::kSolid).find("moving.surface = \"shell\""),
             std::string::npos);
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
-#include "toolchain/scene_compiler/failure.h"
 #include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/triangle_tree.h"
 
@@ -89,9 +89,9 @@ OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t se
   if (patches_.area() > 0.0) draw_outer({drawn, 2 * std::uint64_t{seed}}, progress, spread.samples);
   const double outer_part = static_cast<double>(spread.samples.size()) / static_cast<double>(drawn);
   if (outer_part < kLeastOuterPart) {
-    throw Failure(ExitCode::kBadData,
-                  "moving mesh: no outer surface found: it neither encloses a solid nor is taken as a thin sheet; "
-                  "set surface = \"shell\" and a thickness, or close the mesh");
+    throw std::runtime_error(
+        "no outer surface found: the mesh neither encloses a solid nor is taken as a thin sheet; set moving.surface = "
+        "\"shell\", or close the mesh");
   }
   if (spread.samples.size() < wanted) {
     const double missing = static_cast<double>(wanted) - static_cast<double>(spread.samples.size());

@@ -27,7 +27,8 @@ class OuterSurface {
   const BodyMesh& body() const { return body_; }
 
   /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 ..
-  /// 1; may be empty. Cost: a winding number a draw. Throws Failure if (nearly) nothing of the mesh is outer surface.
+  /// 1; may be empty. Cost: a winding number a draw. Throws std::runtime_error if (nearly) nothing of the mesh is outer
+  /// surface.
   Spread spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const;
 
   /// `count` draws of the whole surface, buried parts included, for who needs to know only of some whether they are
