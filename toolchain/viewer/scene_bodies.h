@@ -12,8 +12,7 @@ struct SceneBodies {
   scene_compiler::TriangleMesh moving;
 };
 
-/// Reads `mesh` and `scale` of [still] and [moving] from a scene file and imports both meshes; the other keys are the scene
-/// compiler's business. Throws Failure: kNoInput, kBadData, or kBadConfig naming the key.
+/// Reads a scene file and imports both of its meshes. Throws Failure as the scene compiler does.
 SceneBodies read_scene_bodies(const std::filesystem::path& scene_file);
 
 }  // namespace godobject::viewer

@@ -1,0 +1,72 @@
+#include "toolchain/figures/plan.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "toolchain/command/failure.h"
+#include "toolchain/figures/page.h"
+
+namespace godobject::figures {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+class Plan : public testing::Test {
+ protected:
+  Plan() { std::filesystem::create_directories(folder_ / "peg"); }
+  ~Plan() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path holding(const std::string& text) {
+    std::ofstream(folder_ / "plan.toml") << text;
+    return folder_ / "plan.toml";
+  }
+
+  void expect_refused(const std::string& text, ExitCode exit_code, const std::string& part) {
+    try {
+      (void)read_plan(holding(text));
+      FAIL() << "accepted: " << text;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), exit_code);
+      EXPECT_NE(std::string(failure.what()).find(part), std::string::npos) << failure.what();
+    }
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / (std::string("plan_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const std::string kScene = "[[scene]]\nname = 'peg'\nimage = 'hole'\ntitle = 'A < B'\ntext = 'words'\n";
+};
+
+TEST_F(Plan, IsRead) {
+  const auto plans = read_plan(holding(kScene + "markers = { A = 0.5, B = 1 }\n"));
+  ASSERT_EQ(plans.size(), 1u);
+  EXPECT_EQ(plans[0].image, "hole");
+  ASSERT_EQ(plans[0].markers.size(), 2u);
+  EXPECT_EQ(plans[0].markers[1].name, "B");
+  EXPECT_EQ(plans[0].markers[1].t, 1.0);
+}
+
+TEST_F(Plan, IsRefusedNamingTheKey) {
+  expect_refused("[[scene]\n", ExitCode::kBadData, "plan.toml:1");
+  expect_refused("[[scene]]\nname = 'peg'\n", ExitCode::kBadConfig, "scene.image");
+  expect_refused(kScene + "colour = 3\n", ExitCode::kBadConfig, "scene.colour");
+  expect_refused(kScene + "markers = { A = 'now' }\n", ExitCode::kBadConfig, "scene.markers.A");
+  expect_refused("", ExitCode::kBadConfig, "scene");
+}
+
+TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
+  for (const char* name : {"paper_1.200.png", "figure.png", "paper.csv"}) std::ofstream(folder_ / "peg" / name) << "x";
+  const std::string html = page(read_plan(holding(kScene)), {{"peg", "paper", 0.002, {}}}, {"MISSED & lost"}, folder_);
+  EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
+  EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
+  EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);
+  EXPECT_NE(html.find("paper, 1.200 s"), std::string::npos);
+  EXPECT_NE(html.find("href=\"peg/paper.csv\""), std::string::npos);
+  EXPECT_EQ(html.find("<figcaption>figure"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace godobject::figures

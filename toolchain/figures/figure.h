@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "toolchain/figures/replay_log.h"
+
+namespace godobject::figures {
+
+/// A line across all panels.
+struct Marker {
+  std::string name;
+  double t = 0.0;  ///< [s]
+};
+
+/// The paper's Figure 8 made anew: a column for each solver, one below the other force, torque, penetration of the god object
+/// (with the voxel edge), colliding points, and time of step #1 and of #2-#7.
+struct Figure {
+  struct Series {
+    std::string solver;
+    ReplayLog log;
+  };
+
+  std::string title;
+  double voxel_size = 0.0;  ///< [m]
+  std::vector<Marker> markers;
+  std::vector<Series> series;  ///< one or more
+};
+
+/// The picture as a program for gnuplot, data included, that writes `png`.
+std::string gnuplot_text(const Figure& figure, const std::filesystem::path& png);
+
+/// Draws it. Throws Failure if gnuplot is not installed or fails, or the file cannot be written.
+void draw(const Figure& figure, const std::filesystem::path& png);
+
+}  // namespace godobject::figures

@@ -1,0 +1,83 @@
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/command/progress.h"
+#include "toolchain/command/run.h"
+#include "toolchain/command/scene_file.h"
+#include "toolchain/figures/claims.h"
+#include "toolchain/figures/figure.h"
+#include "toolchain/figures/page.h"
+#include "toolchain/figures/plan.h"
+#include "toolchain/figures/statistics.h"
+#include "toolchain/figures/table.h"
+
+namespace {
+
+using namespace godobject::figures;
+namespace command = godobject::command;
+namespace fs = std::filesystem;
+
+const char* const kFooter = R"(Example:
+  godobject-figures figures.toml --images images --solvers paper,corrected -o out
+
+FIGURES.toml holds tables [[scene]] with the keys name, image, title, text, markers = { A = 0.4 } [s]. For each of them
+OUT/NAME/SOLVER.csv (of godobject-replay) and IMAGES/IMAGE.scene (of godobject-scenec) must be there. Writes OUT/NAME/figure.png
+with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table and which of the paper's claims are missed.
+Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.)";
+
+struct Options {
+  std::string plan, images, output;
+  std::vector<std::string> solvers;
+};
+
+void write(const fs::path& file, const std::string& text) {
+  command::AtomicFile out(file);
+  out.write(text);
+  out.commit();
+}
+
+int make_figures(const Options& options) {
+  const fs::path output = options.output;
+  const std::vector<ScenePlan> plans = read_plan(options.plan);
+  std::vector<Entry> entries;
+  {
+    command::Progress progress("figures");
+    for (const ScenePlan& plan : plans) {
+      progress.update(static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
+      const command::SceneFile image(fs::path(options.images) / (plan.image + ".scene"));
+      Figure figure{.title = plan.title, .voxel_size = image.scene().grid.voxel_size, .markers = plan.markers, .series = {}};
+      for (const std::string& solver : options.solvers) {
+        ReplayLog log = read_replay_log(output / plan.name / (solver + ".csv"));
+        entries.push_back({plan.name, solver, figure.voxel_size, statistics(log)});
+        figure.series.push_back({solver, std::move(log)});
+      }
+      draw(figure, output / plan.name / "figure.png");
+    }
+  }
+  const std::vector<std::string> verdicts = judge(entries);
+  write(output / "statistics.csv", csv_table(entries));
+  write(output / "index.html", page(plans, entries, verdicts, output));
+  fmt::print("{}\n", text_table(entries));
+  for (const std::string& verdict : verdicts) fmt::print("{}\n", verdict);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Statistics and figures of replays: tables, plots, one HTML page.", "godobject-figures");
+  app.footer(kFooter);
+  Options options;
+  app.add_option("FIGURES", options.plan, "what to show, TOML")->required();
+  app.add_option("--images", options.images, "folder of the scene images")->required();
+  app.add_option("--solvers", options.solvers, "SOLVER[,SOLVER ...]: a column each")->delimiter(',')->required();
+  app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")->required();
+  return command::run(app, argc, argv, [&] { return make_figures(options); });
+}

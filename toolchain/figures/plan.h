@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "toolchain/figures/figure.h"
+
+namespace godobject::figures {
+
+/// What is to be shown of a scene: what the demo knows beside the scene file.
+struct ScenePlan {
+  std::string name;   ///< folder of its replays
+  std::string image;  ///< name of its scene image, without folder and extension
+  std::string title;
+  std::string text;   ///< a few sentences for the page
+  std::vector<Marker> markers;
+};
+
+/// Reads tables [[scene]] with name, image, title, text and markers = { A = 0.4, ... }. Throws Failure: kNoInput, kBadData
+/// if it is not TOML, kBadConfig naming the key.
+std::vector<ScenePlan> read_plan(const std::filesystem::path& file);
+
+}  // namespace godobject::figures

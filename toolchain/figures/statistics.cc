@@ -1,0 +1,54 @@
+#include "toolchain/figures/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace godobject::figures {
+namespace {
+
+constexpr double kMicrosecond_ns = 1e3;
+constexpr double kMillisecond_ns = 1e6;
+
+Times times(std::vector<double> values_ns) {
+  if (values_ns.empty()) return {};
+  return {.p50 = percentile(values_ns, 0.50) / kMicrosecond_ns,
+          .p99 = percentile(values_ns, 0.99) / kMicrosecond_ns,
+          .max = percentile(values_ns, 1.0) / kMicrosecond_ns};
+}
+
+}  // namespace
+
+double percentile(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  // 1e-9: the product of a share such as 0.07 and n must not be rounded up to the next rank
+  const double rank = std::ceil(share * static_cast<double>(values.size()) - 1e-9);
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+Statistics statistics(const ReplayLog& log) {
+  Statistics result;
+  result.cycles = log.size();
+  std::vector<double> step1;
+  std::vector<double> solve;
+  double sum = 0.0;
+  for (const ReplayRow& row : log) {
+    if (row.step1_ns + row.solve_ns > kMillisecond_ns) ++result.over_1ms;
+    if (row.contacts <= 0.0 && row.depth <= 0.0) continue;
+    ++result.contact_cycles;
+    step1.push_back(row.step1_ns);
+    solve.push_back(row.solve_ns);
+    sum += std::max(row.depth, 0.0);
+    if (row.depth > result.penetration_max) {
+      result.penetration_max = row.depth;
+      result.penetration_at = row.t;
+    }
+    result.peak_force = std::max(result.peak_force, row.wrench.force.norm());
+    result.peak_contacts = std::max(result.peak_contacts, row.contacts);
+  }
+  if (result.contact_cycles > 0) result.penetration_mean = sum / static_cast<double>(result.contact_cycles);
+  result.step1 = times(std::move(step1));
+  result.solve = times(std::move(solve));
+  return result;
+}
+
+}  // namespace godobject::figures

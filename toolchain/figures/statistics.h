@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "toolchain/figures/replay_log.h"
+
+namespace godobject::figures {
+
+/// The value below or at which a share of all lies: of n sorted values the ceil(share n)-th (nearest rank), at least the first.
+/// `values` must not be empty; it is sorted in passing. share in (0, 1].
+double percentile(std::vector<double>& values, double share);
+
+/// Run time of part of a cycle over the cycles in contact [us]; zeros where there is none.
+struct Times {
+  double p50 = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+/// What one solver did in one scene. A cycle is in contact when a point collides or the god object penetrates.
+struct Statistics {
+  std::size_t cycles = 0;
+  std::size_t contact_cycles = 0;
+  double penetration_max = 0.0;   ///< [m]
+  double penetration_at = 0.0;    ///< time of it [s]
+  double penetration_mean = 0.0;  ///< over the cycles in contact, depths below zero counted as zero [m]
+  double peak_force = 0.0;        ///< [N]
+  double peak_contacts = 0.0;
+  Times step1;                    ///< #1
+  Times solve;                    ///< #2-#7
+  std::size_t over_1ms = 0;       ///< of all cycles, those whose #1-#7 took longer than 1 ms
+};
+
+Statistics statistics(const ReplayLog& log);
+
+/// A line of the table: which solver in which scene.
+struct Entry {
+  std::string scene;
+  std::string solver;
+  double voxel_size = 0.0;  ///< [m]
+  Statistics statistics;
+};
+
+}  // namespace godobject::figures

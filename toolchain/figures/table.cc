@@ -1,0 +1,64 @@
+#include "toolchain/figures/table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace godobject::figures {
+namespace {
+
+std::string us(double time) { return fmt::format("{:.2f}", time); }
+
+}  // namespace
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> kColumns = {
+      {"scene", "scene", [](const Entry& e) { return e.scene; }},
+      {"solver", "solver", [](const Entry& e) { return e.solver; }},
+      {"depth max mm", "penetration_max_mm", [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }},
+      {"mean mm", "penetration_mean_mm", [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
+      {"max vox", "penetration_max_voxels", [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_max / e.voxel_size); }},
+      {"mean vox", "penetration_mean_voxels", [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
+      {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }},
+      {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); }},
+      {"#1 p50 us", "step1_p50_us", [](const Entry& e) { return us(e.statistics.step1.p50); }},
+      {"p99", "step1_p99_us", [](const Entry& e) { return us(e.statistics.step1.p99); }},
+      {"max", "step1_max_us", [](const Entry& e) { return us(e.statistics.step1.max); }},
+      {"#2-#7 p50 us", "solve_p50_us", [](const Entry& e) { return us(e.statistics.solve.p50); }},
+      {"p99", "solve_p99_us", [](const Entry& e) { return us(e.statistics.solve.p99); }},
+      {"max", "solve_max_us", [](const Entry& e) { return us(e.statistics.solve.max); }},
+      {">1 ms", "cycles_over_1ms", [](const Entry& e) { return fmt::format("{}", e.statistics.over_1ms); }},
+  };
+  return kColumns;
+}
+
+std::string text_table(const std::vector<Entry>& entries) {
+  std::vector<std::string> lines(entries.size() + 1);
+  for (const Column& column : columns()) {
+    std::vector<std::string> cells = {column.heading};
+    for (const Entry& entry : entries) cells.push_back(column.value(entry));
+    std::size_t width = 0;
+    for (const std::string& cell : cells) width = std::max(width, cell.size());
+    const bool words = lines.front().empty() || &column == &columns()[1];
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!lines[i].empty()) lines[i] += "  ";
+      lines[i] += words ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width);
+    }
+  }
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+std::string csv_table(const std::vector<Entry>& entries) {
+  std::string text;
+  for (const Column& column : columns()) text += fmt::format("{}{}", text.empty() ? "" : ",", column.name);
+  text += "\n";
+  for (const Entry& entry : entries) {
+    for (const Column& column : columns()) text += fmt::format("{}{}", &column == &columns().front() ? "" : ",", column.value(entry));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace godobject::figures

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "toolchain/figures/statistics.h"
+
+namespace godobject::figures {
+
+/// One column of the table: its heading (for people), its name (in the CSV file), an entry's value.
+struct Column {
+  const char* heading;
+  const char* name;
+  std::string (*value)(const Entry& entry);
+};
+
+/// scene, solver, penetration in mm and in voxels, peak force, peak colliding points, times, cycles over 1 ms.
+const std::vector<Column>& columns();
+
+/// For a terminal: columns padded with blanks, headings first.
+std::string text_table(const std::vector<Entry>& entries);
+
+/// The same numbers as CSV; the first line names the columns.
+std::string csv_table(const std::vector<Entry>& entries);
+
+}  // namespace godobject::figures
