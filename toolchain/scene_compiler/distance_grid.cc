@@ -76,11 +76,13 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
     }
   }
   const double edge = kBrickCells * voxel_size;
-  origin_ = low_.array() - (band + edge);
+  // the odd part keeps the nodes of a mesh that is aligned with the lattice off the band's edge, where rounding would decide
+  const double margin = band + edge + 0.15 * voxel_size;
+  origin_ = low_.array() - margin;
   std::uint64_t positions = 1;
   double largest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double needed = std::ceil((high_[axis] + band + edge - origin_[axis]) / edge);
+    const double needed = std::ceil((high_[axis] + margin - origin_[axis]) / edge - 1e-6);
     largest = std::max(largest, needed);
     if (needed > format::kMaxBricksPerAxis) break;
     bricks_.size[static_cast<std::size_t>(axis)] = static_cast<int>(needed);

@@ -129,6 +129,34 @@ OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurf
   return boundary;
 }
 
+double diagonal(const TriangleMesh& mesh) {
+  Vector3d low = mesh.vertices.front();
+  Vector3d high = low;
+  for (const Vector3d& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).norm();
+}
+
+/// Median over the samples of the mean winding number just outside and just inside.
+double principal_value(const TriangleTree& tree, const SurfaceSamples& samples, double step) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    const Vector3d off = step * samples.normals[i];
+    values.push_back(0.5 * (tree.winding_number(samples.points[i] + off, kFinerOpening) +
+                            tree.winding_number(samples.points[i] - off, kFinerOpening)));
+  }
+  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), median, values.end());
+  return *median;
+}
+
+void decide(SolidSurface::Component& component, SurfaceKind kind) {
+  component.shell = kind == SurfaceKind::kShell || (kind == SurfaceKind::kAuto && std::abs(component.winding) < kShellLimit);
+  component.inside_out = !component.shell && component.winding <= -kShellLimit;
+}
+
 }  // namespace
 
 struct SolidSurface::Impl {
@@ -155,29 +183,34 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
   std::vector<std::vector<std::uint32_t>> ids(connected.count);
   for (std::uint32_t i = 0; i < component_of.size(); ++i) ids[component_of[i]].push_back(i);
 
-  const TriangleTree whole = tree_of(mesh, components, component_of, true, true);
-  Vector3d low = mesh.vertices.front();
-  Vector3d high = low;
-  for (const Vector3d& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  const double step = kStepOffSurface * (high - low).norm();
+  std::vector<SurfaceSamples> samples;
   for (std::uint32_t c = 0; c < connected.count; ++c) {
-    const SurfaceSamples samples = sample_component(mesh, ids[c]);
-    std::vector<double> values;
-    for (std::size_t i = 0; i < samples.points.size(); ++i) {
-      const Vector3d off = step * samples.normals[i];
-      values.push_back(0.5 * (whole.winding_number(samples.points[i] + off, kFinerOpening) +
-                              whole.winding_number(samples.points[i] - off, kFinerOpening)));
-    }
-    std::nth_element(values.begin(), values.begin() + kSamplesPerComponent / 2, values.end());
-    Component& component = components[c];
-    component.triangles = static_cast<std::uint32_t>(ids[c].size());
-    component.winding = values[kSamplesPerComponent / 2];
-    component.shell = kind == SurfaceKind::kShell || (kind == SurfaceKind::kAuto && std::abs(component.winding) < kShellLimit);
-    component.inside_out = !component.shell && component.winding <= -kShellLimit;
+    samples.push_back(sample_component(mesh, ids[c]));
+    components[c].triangles = static_cast<std::uint32_t>(ids[c].size());
   }
+  const double step = kStepOffSurface * diagonal(mesh);
+  const TriangleTree whole = tree_of(mesh, components, component_of, true, true);
+  for (std::uint32_t c = 0; c < connected.count; ++c) {
+    components[c].winding = principal_value(whole, samples[c], step);
+    decide(components[c], kind);
+  }
+  if (kind != SurfaceKind::kAuto) return;
+
+  // Sheets above each other pass for one another's solids and are turned: then what is left encloses nothing. A solid
+  // must be one among the solids alone, turned as they are; else its own winding number decides.
+  const TriangleTree chosen = tree_of(mesh, components, component_of, false, true);
+  std::vector<Component> settled = components;
+  for (std::uint32_t c = 0; c < connected.count; ++c) {
+    if (components[c].shell || principal_value(chosen, samples[c], step) >= kShellLimit) continue;
+    std::vector<TriangleTree::Triangle> own;
+    for (const std::uint32_t id : ids[c]) {
+      const auto& t = mesh.triangles[id];
+      own.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], id});
+    }
+    settled[c].winding = principal_value(TriangleTree(std::move(own)), samples[c], step);
+    decide(settled[c], kind);
+  }
+  components = settled;
 }
 
 double SolidSurface::Impl::winding_number(const Vector3d& p) const {

@@ -1,0 +1,88 @@
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <sys/wait.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/scene_compiler/test_meshes.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // stdout and stderr
+};
+
+Outcome run(const std::string& command) {
+  Outcome outcome;
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer;
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), got);
+  outcome.exit_code = WEXITSTATUS(::pclose(pipe));
+  return outcome;
+}
+
+const std::string kScenec = GODOBJECT_SCENEC;
+const std::string kQuery = GODOBJECT_QUERY;
+
+/// One line that names the place and the cure, and the right exit code.
+void expect_refusal(const std::string& command, int exit_code, const std::string& names) {
+  const Outcome outcome = run(command);
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
+  EXPECT_NE(outcome.output.find(names), std::string::npos) << outcome.output;
+  ASSERT_FALSE(outcome.output.empty());
+  EXPECT_EQ(outcome.output.find('\n'), outcome.output.size() - 1) << "not one line: " << outcome.output;
+}
+
+TEST(Command, HelpShowsAnExampleAndVersion) {
+  for (const std::string& command : {kScenec, kQuery}) {
+    const Outcome help = run(command + " --help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.output.find("Example"), std::string::npos);
+    const Outcome version = run(command + " --version");
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_NE(version.output.find("godobject-"), std::string::npos);
+  }
+}
+
+TEST(Command, RefusesInOneLineWithTheRightExitCode) {
+  const ScratchFolder folder;
+  const std::string out = " -o " + folder.file("o.scene").string();
+  const auto scene = [&folder](const std::string& text) { return folder.write("s.toml", text).string(); };
+  const std::string moving = "[moving]\nmesh = \"" + mesh_file("cube_100mm").string() + "\"\npoints = 50\nlevels = 2\n";
+  const auto still = [](const std::string& mesh) { return "[still]\nmesh = \"" + mesh + "\"\nvoxel_size = 0.004\n"; };
+  expect_refusal(kScenec, 64, "SCENE.toml");
+  expect_refusal(kScenec + " --wrong", 64, "--wrong");
+  expect_refusal(kScenec + " " + scene(moving), 64, "-o");
+  expect_refusal(kScenec + " /nowhere.toml" + out, 66, "/nowhere.toml");
+  expect_refusal(kScenec + " " + scene("[still]\nmush = 1\n" + moving) + out, 78, "still.mush");
+  expect_refusal(kScenec + " " + scene(still("gone.ply") + moving) + out, 66, "gone.ply");
+  folder.write("empty.ply", "");
+  expect_refusal(kScenec + " " + scene(still("empty.ply") + moving) + out, 65, "empty.ply");
+  expect_refusal(kScenec + " " + scene(still(mesh_file("cube_100mm").string()) + moving) + " -o /nowhere/o.scene", 74, "/nowhere/o.scene");
+  expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65, "x.scene");
+  expect_refusal(kScenec + " --inspect /nowhere.scene", 66, "/nowhere.scene");
+  expect_refusal(kQuery + " /nowhere.scene p.csv -o o.csv", 66, "/nowhere.scene");
+}
+
+TEST(Command, CompilesInspectsAndQueries) {
+  const ScratchFolder folder;
+  const std::string mesh = mesh_file("cube_100mm").string();
+  const std::string scene = folder.write("s.toml", "[still]\nmesh = \"" + mesh + "\"\nvoxel_size = 0.004\n[moving]\nmesh = \"" + mesh +
+                                                       "\"\nscale = 0.2\npoints = 100\nlevels = 2\n").string();
+  const std::string image = folder.file("o.scene").string();
+  const Outcome compiled = run(kScenec + " " + scene + " -o " + image + " --report " + folder.file("r.json").string());
+  EXPECT_EQ(compiled.exit_code, 0) << compiled.output;
+  EXPECT_NE(compiled.output.find("floor of trilinear interpolation"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("r.json")));
+  EXPECT_EQ(run(kScenec + " --inspect " + image).exit_code, 0);
+  const std::string points = folder.write("p.csv", "0,0,0.06\n").string();
+  EXPECT_EQ(run(kQuery + " " + image + " " + points + " -o " + folder.file("d.csv").string()).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler

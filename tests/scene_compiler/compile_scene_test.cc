@@ -1,0 +1,173 @@
+#include "toolchain/scene_compiler/compile_scene.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/scene_compiler/query_points.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+std::string slurp(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A scene of two meshes, `size` times as large as the meshes are.
+struct SceneText {
+  const char* still = "bracket";
+  const char* moving = "cube_100mm";
+  double size = 1.0;
+  double voxel_size = 0.004;
+  std::string more = "";
+
+  std::string text() const {
+    return "[still]\nmesh = \"" + mesh_file(still).string() + "\"\nscale = " + number(size) + "\nvoxel_size = " + number(size * voxel_size) +
+           "\n[moving]\nmesh = \"" + mesh_file(moving).string() + "\"\nscale = " + number(0.3 * size) + "\npoints = 300\nlevels = 3\n" + more;
+  }
+  static std::string number(double value) {
+    std::ostringstream stream;
+    stream << std::showpoint << std::setprecision(12) << value;
+    return stream.str();
+  }
+};
+
+class CompileScene : public testing::Test {
+ protected:
+  CompileReport compile(const SceneText& scene, const char* output = "out.scene", std::optional<format::Solver> only = {}) {
+    CompileRequest request;
+    request.scene_file = folder_.write("scene.toml", scene.text());
+    request.output = folder_.file(output);
+    request.only_solver = only;
+    return compile_scene(request);
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
+  const CompileReport report = compile({});
+  const SceneImage image = SceneImage::read(folder_.file("out.scene"));
+  EXPECT_EQ(image.bytes.span().size(), report.image_bytes);
+  EXPECT_TRUE(image.scene.holds(format::Solver::kPaper));
+  EXPECT_TRUE(image.scene.holds(format::Solver::kCorrected));
+  EXPECT_EQ(image.scene.pointshell.size, 300u);
+  EXPECT_NE(image.scene.pointshell.normal_x, nullptr);
+  EXPECT_LE(report.field_error.largest_node_error, 1e-5);
+  EXPECT_LE(report.field_error.rms, 1.001 * report.field_error.floor_rms);
+  EXPECT_LE(report.field_error.sign_errors, report.field_error.floor_sign_errors);
+  EXPECT_GE(report.field_error.points, 10000u);
+}
+
+TEST_F(CompileScene, GivesTheSameBytesEveryTime) {
+  compile({}, "a.scene");
+  compile({}, "b.scene");
+  const std::string a = slurp(folder_.file("a.scene"));
+  EXPECT_FALSE(a.empty());
+  EXPECT_EQ(a, slurp(folder_.file("b.scene")));
+}
+
+TEST_F(CompileScene, OnlySolverStripsNormalsAndSaysSo) {
+  const CompileReport all = compile({}, "all.scene");
+  const CompileReport one = compile({}, "one.scene", format::Solver::kCorrected);
+  const SceneImage image = SceneImage::read(folder_.file("one.scene"));
+  EXPECT_FALSE(image.scene.holds(format::Solver::kPaper));
+  EXPECT_EQ(image.scene.pointshell.normal_x, nullptr);
+  EXPECT_LT(one.image_bytes, all.image_bytes);
+  EXPECT_NE(report_json(one).dump().find("normals"), std::string::npos);
+  compile({}, "paper.scene", format::Solver::kPaper);
+  const SceneImage paper = SceneImage::read(folder_.file("paper.scene"));
+  EXPECT_FALSE(paper.scene.holds(format::Solver::kCorrected));
+  EXPECT_EQ(paper.scene.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kPaper));
+}
+
+TEST_F(CompileScene, InspectShowsWhatWasCompiled) {
+  compile({.more = "[friction]\nstatic = 0.3\n"});
+  const Json json = inspect_json(SceneImage::read(folder_.file("out.scene")));
+  EXPECT_EQ(json["settings"]["solver"], "corrected");
+  EXPECT_DOUBLE_EQ(json["settings"]["friction"]["kinetic"], 0.27);
+  EXPECT_DOUBLE_EQ(json["grid"]["voxel_size"], 0.004);
+  EXPECT_EQ(json["body"]["points"], 300);
+  EXPECT_GT(json["sections"]["bricks"]["bytes"], 0);
+  EXPECT_TRUE(json["provenance"]["walls"].contains("found"));
+  EXPECT_FALSE(json["provenance"].contains("seconds"));
+}
+
+TEST_F(CompileScene, BehavesAlikeFromAThousandthToAThousandfold) {
+  const CompileReport one = compile({});
+  for (const double size : {1e-3, 1e3}) {
+    const CompileReport scaled = compile({.size = size});
+    EXPECT_EQ(scaled.grid.brick_count, one.grid.brick_count) << size;
+    EXPECT_NEAR(scaled.field_error.rms / size, one.field_error.rms, 1e-3 * one.field_error.rms) << size;
+    EXPECT_NEAR(scaled.grid.lipschitz, one.grid.lipschitz, 1e-3) << size;
+    EXPECT_NEAR(scaled.body.coverage / size, one.body.coverage, 0.05 * one.body.coverage) << size;
+  }
+}
+
+TEST_F(CompileScene, RefusalLeavesNoFileBehind) {
+  try {
+    compile({.still = "plate_2mm", .voxel_size = 0.005});
+    FAIL() << "took a wall thinner than a voxel";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("out.scene")));
+}
+
+TEST_F(CompileScene, DamageIsSeen) {
+  compile({});
+  std::string bytes = slurp(folder_.file("out.scene"));
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  EXPECT_THROW(SceneImage::read(folder_.write("bad.scene", bytes)), Failure);
+  EXPECT_THROW(SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), Failure);
+  EXPECT_THROW(SceneImage::read(folder_.write("none.scene", "")), Failure);
+}
+
+TEST_F(CompileScene, AnswersQueries) {
+  compile({.still = "cube_100mm"});
+  const SceneImage image = SceneImage::read(folder_.file("out.scene"));
+  const auto points = folder_.write("p.csv", "x,y,z\r\n0.0,0.0,0.053\n0, 0 ,0\n1e3,0,0\n\n");
+  const std::uint64_t rows = query_points(image.scene.voxelmap, points, folder_.file("d.csv"), {});
+  EXPECT_EQ(rows, 3u);
+  std::istringstream lines(slurp(folder_.file("d.csv")));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "x,y,z,distance,nx,ny,nz,known");
+  std::getline(lines, line);
+  double v[8];
+  ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7), 8);
+  EXPECT_EQ(v[2], 0.053);
+  EXPECT_NEAR(v[3], 0.003, 1e-7);
+  EXPECT_NEAR(v[6], 1.0, 1e-6);
+  EXPECT_EQ(v[7], 1.0);
+  std::getline(lines, line);
+  EXPECT_EQ(line, "0, 0 ,0,-0.013,0,0,0,0");
+  std::getline(lines, line);
+  EXPECT_EQ(line, "1e3,0,0,0.013,0,0,0,0");
+}
+
+TEST_F(CompileScene, NamesTheLineOfABadRow) {
+  compile({.still = "cube_100mm"});
+  const SceneImage image = SceneImage::read(folder_.file("out.scene"));
+  for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0"}) {
+    try {
+      query_points(image.scene.voxelmap, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"), folder_.file("d.csv"), {});
+      FAIL() << "took " << row;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+      EXPECT_NE(std::string(failure.what()).find("p.csv:2:"), std::string::npos) << failure.what();
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("d.csv")));
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,106 @@
+#include "toolchain/scene_compiler/scene_config.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/failure.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+constexpr const char* kStill = "[still]\nmesh = \"a.ply\"\nvoxel_size = 0.002\n";
+constexpr const char* kMoving = "[moving]\nmesh = \"b.ply\"\n";
+
+SceneConfig read(const std::string& text) {
+  const ScratchFolder folder;
+  return read_scene_config(folder.write("scene.toml", text));
+}
+
+/// Reads a scene that must be refused; the message must name the line and the key.
+void expect_refused(const std::string& text, const std::string& line, const std::string& key) {
+  try {
+    read(text);
+    FAIL() << "took it:\n" << text;
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), ExitCode::kBadConfig);
+    const std::string message = failure.what();
+    EXPECT_NE(message.find(line), std::string::npos) << message;
+    EXPECT_NE(message.find(key), std::string::npos) << message;
+  }
+}
+
+TEST(SceneConfig, FillsInDefaultsAsMultiplesOfTheVoxel) {
+  const SceneConfig config = read(std::string(kStill) + kMoving);
+  EXPECT_EQ(config.still.scale, 1.0);
+  EXPECT_EQ(config.still.surface, SurfaceKind::kAuto);
+  EXPECT_DOUBLE_EQ(config.thickness, 0.004);
+  EXPECT_DOUBLE_EQ(config.settings.safety_distance, 0.003);
+  EXPECT_DOUBLE_EQ(config.settings.margin, 2e-5);
+  EXPECT_EQ(config.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kCorrected));
+  EXPECT_EQ(config.settings.solvers, 3u);
+  EXPECT_EQ(config.settings.friction, 0u);
+  EXPECT_DOUBLE_EQ(config.settings.paper_rotation_static, 0.2);
+  EXPECT_DOUBLE_EQ(config.settings.paper_rotation_kinetic, 0.18);
+  EXPECT_DOUBLE_EQ(config.settings.paper_viscous, 0.002);
+  EXPECT_DOUBLE_EQ(config.settings.stiffness, 2000.0);
+  EXPECT_EQ(config.levels, 7u);
+}
+
+TEST(SceneConfig, ReadsEveryKey) {
+  const SceneConfig config = read(
+      "[still]\nmesh = \"m/a.ply\"\nscale = 2\nvoxel_size = 0.001\nsurface = \"shell\"\nthickness = 0.003\n"
+      "[moving]\nmesh = \"b.stl\"\nscale = 0.5\nsurface = \"solid\"\npoints = 100\nlevels = 3\n"
+      "[contact]\nsolver = \"paper\"\nsafety_distance = 0.002\nmargin = 1e-5\n"
+      "[friction]\nstatic = 0.3\nkinetic = 0.25\nviscous = 0.1\n"
+      "[paper]\nrotation_static = 0.1\nrotation_kinetic = 0.05\nviscous = 0.001\n"
+      "[coupling]\nstiffness = 1000\ndamping = 0\nrotational = 0.01\n");
+  EXPECT_EQ(config.still.file.filename(), "a.ply");
+  EXPECT_EQ(config.still.file.parent_path().filename(), "m");
+  EXPECT_EQ(config.still.surface, SurfaceKind::kShell);
+  EXPECT_EQ(config.moving.surface, SurfaceKind::kSolid);
+  EXPECT_EQ(config.points, 100u);
+  EXPECT_EQ(config.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kPaper));
+  EXPECT_EQ(config.settings.friction, 1u);
+  EXPECT_DOUBLE_EQ(config.settings.friction_kinetic, 0.25);
+  EXPECT_DOUBLE_EQ(config.settings.paper_viscous, 0.001);
+  EXPECT_DOUBLE_EQ(config.settings.damping, 0.0);
+}
+
+TEST(SceneConfig, RefusesWithLineAndKey) {
+  const std::string still = kStill;
+  const std::string moving = kMoving;
+  expect_refused(still + "voxelsize = 1\n" + moving, ":4:", "still.voxelsize");
+  expect_refused("[still]\nvoxel_size = 0.002\n" + moving, ":1:", "still.mesh is missing");
+  expect_refused("[still]\nmesh = \"a.ply\"\n" + moving, ":1:", "still.voxel_size is missing");
+  expect_refused(still, "scene.toml", "moving.mesh is missing");
+  expect_refused("[still]\nmesh = \"a.ply\"\nvoxel_size = -1\n" + moving, ":3:", "still.voxel_size");
+  expect_refused("[still]\nmesh = \"a.ply\"\nvoxel_size = nan\n" + moving, ":3:", "still.voxel_size");
+  expect_refused("[still]\nmesh = \"a.ply\"\nvoxel_size = \"2 mm\"\n" + moving, ":3:", "must be a number");
+  expect_refused("[still]\nmesh = 3\nvoxel_size = 1\n" + moving, ":2:", "still.mesh");
+  expect_refused(still + "surface = \"both\"\n" + moving, ":4:", "still.surface");
+  expect_refused(still + "thickness = 0.001\n" + moving, ":4:", "still.thickness");
+  expect_refused(still + moving + "points = 2.5\n", ":6:", "moving.points");
+  expect_refused(still + moving + "points = 0\n", ":6:", "moving.points");
+  expect_refused(still + moving + "levels = 99\n", ":6:", "moving.levels");
+  expect_refused(still + moving + "[contact]\nsolver = \"contact\"\n", ":7:", "not in this version");
+  expect_refused(still + moving + "[contact]\nsolver = \"best\"\n", ":7:", "contact.solver");
+  expect_refused(still + moving + "[contact]\nmargin = 0.1\n", ":7:", "contact.margin");
+  expect_refused(still + moving + "[friction]\nkinetic = 0.1\n", ":6:", "friction.static is missing");
+  expect_refused(still + moving + "[friction]\nstatic = 0.1\nkinetic = 0.2\n", ":8:", "friction.kinetic");
+  expect_refused(still + moving + "[coupling]\nstiffness = 0\n", ":7:", "coupling.stiffness");
+  expect_refused(still + moving + "[colour]\nred = 1\n", ":6:", "colour");
+  expect_refused("still = 3\n" + moving, ":1:", "still");
+  expect_refused(still + "mesh = \"again.ply\"\n", ":4:", "not TOML");
+}
+
+TEST(SceneConfig, SaysWhenThereIsNoFile) {
+  try {
+    read_scene_config("/nowhere/scene.toml");
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), ExitCode::kNoInput);
+  }
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include "toolchain/scene_compiler/mesh_import.h"
+
+namespace godobject::scene_compiler {
+
+/// A mesh of the project by its name.
+inline std::filesystem::path mesh_file(const std::string& name) {
+  return std::filesystem::path(GODOBJECT_MESH_FOLDER) / (name + ".ply");
+}
+
+inline TriangleMesh load(const std::string& name, double scale) {
+  MeshReport report;
+  return import_mesh(mesh_file(name), scale, report);
+}
+
+/// A folder of this test's own, gone with it.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_(std::filesystem::temp_directory_path() / ("godobject_test_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  std::filesystem::path file(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Box from `low` to `high`, outward triangles; `faces` tells which of -x, +x, -y, +y, -z, +z are there.
+inline TriangleMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                        const std::array<bool, 6>& faces = {true, true, true, true, true, true}) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(), (i & 4) != 0 ? high.z() : low.z());
+  }
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kQuads = {
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (std::size_t f = 0; f < 6; ++f) {
+    if (!faces[f]) continue;
+    const auto& q = kQuads[f];
+    mesh.triangles.push_back({q[0], q[1], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[3]});
+  }
+  return mesh;
+}
+
+/// Both meshes as one, their vertices apart.
+inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
+  const auto first = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& t : b.triangles) a.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  return a;
+}
+
+inline TriangleMesh turned_inside_out(TriangleMesh mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+}  // namespace godobject::scene_compiler
