@@ -41,12 +41,15 @@ class Plan : public testing::Test {
 };
 
 TEST_F(Plan, IsRead) {
-  const auto plans = read_plan(holding(kScene + "markers = { A = 0.5, B = 1 }\n"));
+  const auto plans = read_plan(holding(kScene + "markers = { A = 0.5, B = 1 }\nbarrier = [0, 0, 1, 0, 0, 2]\n"));
   ASSERT_EQ(plans.size(), 1u);
   EXPECT_EQ(plans[0].image, "hole");
   ASSERT_EQ(plans[0].markers.size(), 2u);
   EXPECT_EQ(plans[0].markers[1].name, "B");
   EXPECT_EQ(plans[0].markers[1].t, 1.0);
+  ASSERT_TRUE(plans[0].barrier);
+  EXPECT_EQ(plans[0].barrier->point, Vector3(0, 0, 1));
+  EXPECT_EQ(plans[0].barrier->normal, Vector3(0, 0, 1));
 }
 
 TEST_F(Plan, IsRefusedNamingTheKey) {
@@ -54,12 +57,14 @@ TEST_F(Plan, IsRefusedNamingTheKey) {
   expect_refused("[[scene]]\nname = 'peg'\n", ExitCode::kBadConfig, "scene.image");
   expect_refused(kScene + "colour = 3\n", ExitCode::kBadConfig, "scene.colour");
   expect_refused(kScene + "markers = { A = 'now' }\n", ExitCode::kBadConfig, "scene.markers.A");
+  expect_refused(kScene + "barrier = [0, 0, 1]\n", ExitCode::kBadConfig, "scene.barrier");
+  expect_refused(kScene + "barrier = [0, 0, 1, 0, 0, 0]\n", ExitCode::kBadConfig, "scene.barrier");
   expect_refused("", ExitCode::kBadConfig, "scene");
 }
 
 TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   for (const char* name : {"paper_1.200.png", "figure.png", "paper.csv"}) std::ofstream(folder_ / "peg" / name) << "x";
-  const std::string html = page(read_plan(holding(kScene)), {{"peg", "paper", 0.002, {}}}, {"MISSED & lost"}, folder_);
+  const std::string html = page(read_plan(holding(kScene)), {{"peg", "paper", 0.002, {}, {}}}, {"MISSED & lost"}, folder_);
   EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
   EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
   EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);

@@ -43,7 +43,7 @@ TEST(Statistics, AreHandComputed) {
       replay_row(0.003, 3.0, 0.001, 0, 20e3, 2e3),    // inside: in contact without a count
       replay_row(0.004, 2.0, 0.000, 1, 999e3, 1e3),   // exactly 1 ms: not over
   };
-  const Statistics s = statistics(log);
+  const Statistics s = statistics(log, 0.0035);
   EXPECT_EQ(s.cycles, 5u);
   EXPECT_EQ(s.contact_cycles, 4u);
   EXPECT_DOUBLE_EQ(s.penetration_max, 0.003);
@@ -56,17 +56,19 @@ TEST(Statistics, AreHandComputed) {
   EXPECT_EQ(s.solve.p50, 1.0);
   EXPECT_EQ(s.solve.max, 3.0);
   EXPECT_EQ(s.over_1ms, 1u);
+  EXPECT_FALSE(s.depth_is_bound);
+  EXPECT_TRUE(statistics(log, 0.003).depth_is_bound);
 }
 
 TEST(Statistics, OfAFreeMotionAreZero) {
-  const Statistics s = statistics({replay_row(0.0, 0.0, -0.006, 0, 9e3, 100)});
+  const Statistics s = statistics({replay_row(0.0, 0.0, -0.006, 0, 9e3, 100)}, 0.006);
   EXPECT_EQ(s.contact_cycles, 0u);
   EXPECT_EQ(s.penetration_mean, 0.0);
   EXPECT_EQ(s.step1.max, 0.0);
 }
 
 Entry entry(double depth, double solve_p99, std::size_t over_1ms) {
-  Entry e{.scene = "peg", .solver = "paper", .voxel_size = 0.002, .statistics = {}};
+  Entry e{.scene = "peg", .solver = "paper", .voxel_size = 0.002, .statistics = {}, .crossing = {}};
   e.statistics.penetration_max = depth;
   e.statistics.solve.p99 = solve_p99;
   e.statistics.over_1ms = over_1ms;
@@ -88,6 +90,20 @@ TEST(Claims, ThatHoldAreSaidToHold) {
   const auto verdicts = judge({entry(0.0, 1.0, 0)});
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_EQ(verdicts[0], "Met by every scene and solver: penetration below one voxel; steps #2-#7 within 5 us (99th percentile); every cycle below 1 ms");
+}
+
+TEST(Claims, ABodyBehindTheBarrierHasPoppedThroughThoughItsDepthIsSmall) {
+  Entry e = entry(0.0005, 1.0, 0);
+  e.crossing = Crossing{.distance = 0.1, .t = 1.7};
+  const auto verdicts = judge({e});
+  EXPECT_NE(verdicts[0].find("MISSED peg, solver paper: the god object goes 100.0 mm behind the surface, at 1.700 s"), std::string::npos);
+  for (const std::string& verdict : verdicts) EXPECT_EQ(verdict.find("penetration below one voxel"), std::string::npos);
+}
+
+TEST(Claims, ADepthAtTheBandIsALowerBound) {
+  Entry e = entry(0.006, 1.0, 0);
+  e.statistics.depth_is_bound = true;
+  EXPECT_NE(judge({e})[0].find("at least 6.00 mm"), std::string::npos);
 }
 
 TEST(Table, HasTheSameFieldsInEveryLine) {

@@ -17,8 +17,13 @@ std::vector<std::string> judge(const std::vector<Entry>& entries) {
     const Statistics& s = e.statistics;
     const std::string who = fmt::format("{}, solver {}", e.scene, e.solver);
     if (s.penetration_max >= e.voxel_size) {
-      depth.push_back(fmt::format("MISSED {}: the god object penetrates up to {:.2f} mm, {:.1f} voxels, at {:.3f} s (paper: below one voxel)",
-                                  who, 1e3 * s.penetration_max, s.penetration_max / e.voxel_size, s.penetration_at));
+      depth.push_back(fmt::format("MISSED {}: the god object penetrates {} {:.2f} mm, {:.1f} voxels, at {:.3f} s (paper: below one voxel)",
+                                  who, s.depth_is_bound ? "at least" : "up to", 1e3 * s.penetration_max,
+                                  s.penetration_max / e.voxel_size, s.penetration_at));
+    }
+    if (e.crossing && e.crossing->distance >= e.voxel_size) {
+      depth.push_back(fmt::format("MISSED {}: the god object goes {:.1f} mm behind the surface, at {:.3f} s (paper: it does not pop through)",
+                                  who, 1e3 * e.crossing->distance, e.crossing->t));
     }
     if (s.solve.p99 > kSolve_us) {
       solve.push_back(fmt::format("MISSED {}: steps #2-#7 take {:.2f} us in the median, {:.2f} us in the 99th percentile (paper: around 5 us)",

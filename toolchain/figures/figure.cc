@@ -79,7 +79,7 @@ std::string panel_text(const Figure& figure, std::size_t column, std::size_t row
 
 std::string time_panel_text(const Figure& figure, std::size_t column) {
   std::string text = marker_text(figure.markers, false);
-  text += "unset title\nset logscale y\nset yrange [0.05:2000]\nset format x '%g'\nset xlabel 'time [s]'\nset key top right horizontal\n";
+  text += "unset title\nset logscale y\nset yrange [0.05:50000]\nset format x '%g'\nset xlabel 'time [s]'\nset key top right horizontal\n";
   text += column == 0 ? "set ylabel 'run time [us]'\n" : "unset ylabel\n";
   text += fmt::format("plot $data{0} using 1:6 with lines lw 1 lc rgb '#e08214' title '#1', $data{0} using 1:7 with lines lw 1 lc rgb '#1f4e9c' "
                       "title '#2-#7', 1000 with lines dt 4 lw 1.2 lc rgb '#000000' title '1 ms'\n", column);

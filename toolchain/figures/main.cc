@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 const char* const kFooter = R"(Example:
   godobject-figures figures.toml --images images --solvers paper,corrected -o out
 
-FIGURES.toml holds tables [[scene]] with the keys name, image, title, text, markers = { A = 0.4 } [s]. For each of them
+FIGURES.toml holds tables [[scene]] with the keys name, image, title, text and, if wanted, markers =
+{ A = 0.4 } [s] and barrier = [x, y, z, nx, ny, nz]: the god object is to stay on that side of a plane of W [m]. For each of them
 OUT/NAME/SOLVER.csv (of godobject-replay) and IMAGES/IMAGE.scene (of godobject-scenec) must be there. Writes OUT/NAME/figure.png
 with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table and which of the paper's claims are missed.
 Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.)";
@@ -52,10 +53,13 @@ int make_figures(const Options& options) {
     for (const ScenePlan& plan : plans) {
       progress.update(static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
       const command::SceneFile image(fs::path(options.images) / (plan.image + ".scene"));
-      Figure figure{.title = plan.title, .voxel_size = image.scene().grid.voxel_size, .markers = plan.markers, .series = {}};
+      const godobject::Scene& scene = image.scene();
+      Figure figure{.title = plan.title, .voxel_size = scene.grid.voxel_size, .markers = plan.markers, .series = {}};
       for (const std::string& solver : options.solvers) {
         ReplayLog log = read_replay_log(output / plan.name / (solver + ".csv"));
-        entries.push_back({plan.name, solver, figure.voxel_size, statistics(log)});
+        Entry entry{plan.name, solver, figure.voxel_size, statistics(log, scene.grid.band), {}};
+        if (plan.barrier) entry.crossing = furthest_crossing(log, scene, *plan.barrier);
+        entries.push_back(std::move(entry));
         figure.series.push_back({solver, std::move(log)});
       }
       draw(figure, output / plan.name / "figure.png");

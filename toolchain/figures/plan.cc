@@ -1,10 +1,15 @@
 #include "toolchain/figures/plan.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "toolchain/command/failure.h"
@@ -36,23 +41,47 @@ std::string text_of(const std::filesystem::path& file, const toml::table& table,
   return *value;
 }
 
-ScenePlan scene_plan(const std::filesystem::path& file, const toml::table& table) {
-  for (const auto& [key, node] : table) {
-    if (key != "name" && key != "image" && key != "title" && key != "text" && key != "markers") {
-      refuse(file, node, fmt::format("scene.{}: unknown key; name, image, title, text and markers are known", key.str()));
-    }
-  }
-  ScenePlan plan{.name = text_of(file, table, "name"), .image = text_of(file, table, "image"), .title = text_of(file, table, "title"),
-                 .text = text_of(file, table, "text"), .markers = {}};
-  if (!table.contains("markers")) return plan;
-  const toml::table* markers = table["markers"].as_table();
-  if (markers == nullptr) refuse(file, table, "scene.markers: must be a table { NAME = seconds, ... }");
-  for (const auto& [name, node] : *markers) {
+std::vector<Marker> markers_of(const std::filesystem::path& file, const toml::table& table) {
+  std::vector<Marker> markers;
+  if (!table.contains("markers")) return markers;
+  const toml::table* times = table["markers"].as_table();
+  if (times == nullptr) refuse(file, table, "scene.markers: must be a table { NAME = seconds, ... }");
+  for (const auto& [name, node] : *times) {
     const std::optional<double> t = node.value<double>();
     if (!t) refuse(file, node, fmt::format("scene.markers.{}: must be a time [s]", name.str()));
-    plan.markers.push_back({std::string(name.str()), *t});
+    markers.push_back({std::string(name.str()), *t});
   }
-  return plan;
+  return markers;
+}
+
+std::optional<Barrier> barrier_of(const std::filesystem::path& file, const toml::table& table) {
+  if (!table.contains("barrier")) return std::nullopt;
+  std::array<double, 6> numbers{};
+  const toml::array* array = table["barrier"].as_array();
+  bool good = array != nullptr && array->size() == numbers.size();
+  for (std::size_t i = 0; good && i < numbers.size(); ++i) {
+    const std::optional<double> number = (*array)[i].value<double>();
+    good = number && std::isfinite(*number);
+    if (good) numbers[i] = *number;
+  }
+  const Vector3 normal(numbers[3], numbers[4], numbers[5]);
+  if (!good || !(normal.norm() > 1e-9)) refuse(file, table, "scene.barrier: must be [x, y, z, nx, ny, nz], a point [m] and a normal");
+  return Barrier{.point = Vector3(numbers[0], numbers[1], numbers[2]), .normal = normal.normalized()};
+}
+
+ScenePlan scene_plan(const std::filesystem::path& file, const toml::table& table) {
+  constexpr std::array<std::string_view, 6> kKeys = {"name", "image", "title", "text", "markers", "barrier"};
+  for (const auto& [key, node] : table) {
+    if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) {
+      refuse(file, node, fmt::format("scene.{}: unknown key; known are {}", key.str(), fmt::join(kKeys, ", ")));
+    }
+  }
+  return {.name = text_of(file, table, "name"),
+          .image = text_of(file, table, "image"),
+          .title = text_of(file, table, "title"),
+          .text = text_of(file, table, "text"),
+          .markers = markers_of(file, table),
+          .barrier = barrier_of(file, table)};
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "toolchain/figures/crossing.h"
 #include "toolchain/figures/figure.h"
 
 namespace godobject::figures {
@@ -15,9 +17,10 @@ struct ScenePlan {
   std::string title;
   std::string text;   ///< a few sentences for the page
   std::vector<Marker> markers;
+  std::optional<Barrier> barrier;
 };
 
-/// Reads tables [[scene]] with name, image, title, text and markers = { A = 0.4, ... }. Throws Failure: kNoInput, kBadData
+/// Reads tables [[scene]] with name, image, title, text and, if wanted, markers = { A = 0.4, ... } and barrier = [point, normal]. Throws Failure: kNoInput, kBadData
 /// if it is not TOML, kBadConfig naming the key.
 std::vector<ScenePlan> read_plan(const std::filesystem::path& file);
 

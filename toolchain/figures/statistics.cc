@@ -25,7 +25,7 @@ double percentile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-Statistics statistics(const ReplayLog& log) {
+Statistics statistics(const ReplayLog& log, double band) {
   Statistics result;
   result.cycles = log.size();
   std::vector<double> step1;
@@ -46,6 +46,7 @@ Statistics statistics(const ReplayLog& log) {
     result.peak_contacts = std::max(result.peak_contacts, row.contacts);
   }
   if (result.contact_cycles > 0) result.penetration_mean = sum / static_cast<double>(result.contact_cycles);
+  result.depth_is_bound = result.penetration_max >= (1.0 - 1e-6) * band;
   result.step1 = times(std::move(step1));
   result.solve = times(std::move(solve));
   return result;

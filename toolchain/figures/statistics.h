@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "toolchain/figures/crossing.h"
 #include "toolchain/figures/replay_log.h"
 
 namespace godobject::figures {
@@ -25,6 +27,7 @@ struct Statistics {
   std::size_t contact_cycles = 0;
   double penetration_max = 0.0;   ///< [m]
   double penetration_at = 0.0;    ///< time of it [s]
+  bool depth_is_bound = false;    ///< it reaches the band of stored distances: the true depth may be larger
   double penetration_mean = 0.0;  ///< over the cycles in contact, depths below zero counted as zero [m]
   double peak_force = 0.0;        ///< [N]
   double peak_contacts = 0.0;
@@ -33,7 +36,8 @@ struct Statistics {
   std::size_t over_1ms = 0;       ///< of all cycles, those whose #1-#7 took longer than 1 ms
 };
 
-Statistics statistics(const ReplayLog& log);
+/// `band`: distances are stored up to it [m].
+Statistics statistics(const ReplayLog& log, double band);
 
 /// A line of the table: which solver in which scene.
 struct Entry {
@@ -41,6 +45,7 @@ struct Entry {
   std::string solver;
   double voxel_size = 0.0;  ///< [m]
   Statistics statistics;
+  std::optional<Crossing> crossing;  ///< where the scene has a barrier
 };
 
 }  // namespace godobject::figures

@@ -9,6 +9,9 @@ namespace {
 
 std::string us(double time) { return fmt::format("{:.2f}", time); }
 
+/// Furthest behind the scene's barrier [mm].
+std::string behind(const Entry& e) { return e.crossing ? fmt::format("{:.3f}", 1e3 * e.crossing->distance) : std::string("-"); }
+
 }  // namespace
 
 const std::vector<Column>& columns() {
@@ -19,6 +22,8 @@ const std::vector<Column>& columns() {
       {"mean mm", "penetration_mean_mm", [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
       {"max vox", "penetration_max_voxels", [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_max / e.voxel_size); }},
       {"mean vox", "penetration_mean_voxels", [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
+      {"at band", "penetration_at_band", [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
+      {"behind mm", "furthest_behind_barrier_mm", behind},
       {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }},
       {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); }},
       {"#1 p50 us", "step1_p50_us", [](const Entry& e) { return us(e.statistics.step1.p50); }},

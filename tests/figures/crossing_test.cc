@@ -1,0 +1,49 @@
+#include "toolchain/figures/crossing.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject::figures {
+namespace {
+
+/// A body of two points, 0.1 m either way along the x of its mesh frame, whose body frame is turned against that.
+test::SceneImage dumbbell() {
+  test::SceneDescription description;
+  description.distance = [](const Vector3& p) { return p.norm() - 0.02; };
+  description.surface_min = Vector3::Constant(-0.02);
+  description.surface_max = Vector3::Constant(0.02);
+  description.points = {Vector3(0, 0.1, 0), Vector3(0, -0.1, 0)};
+  description.H_MB = {exp_rotation(Vector3(0, 0, -std::numbers::pi / 2)), Vector3::Zero()};
+  return test::build_scene_image(description);
+}
+
+ReplayRow at(double t, const Vector3& rotation, double z) {
+  ReplayRow row;
+  row.t = t;
+  row.H_WS = {exp_rotation(rotation), Vector3(0, 0, z)};
+  return row;
+}
+
+TEST(Crossing, IsThatOfTheFurthestPointAndCycle) {
+  const test::SceneImage image = dumbbell();
+  const Scene scene = test::open_scene(image);
+  const Barrier floor{.point = Vector3(0, 0, 0.01), .normal = Vector3(0, 0, 1)};
+  const Vector3 upright(0, std::numbers::pi / 2, 0);  // takes the mesh's x to -z
+  const ReplayLog log = {at(0.0, Vector3::Zero(), 0.05), at(0.1, upright, 0.08), at(0.2, Vector3::Zero(), 0.005)};
+  const Crossing crossing = furthest_crossing(log, scene, floor);
+  EXPECT_NEAR(crossing.distance, 0.03, 1e-8);  // 0.08 - 0.1 = -0.02, 0.03 below 0.01; points are floats
+  EXPECT_EQ(crossing.t, 0.1);
+}
+
+TEST(Crossing, IsZeroOnTheRightSide) {
+  const test::SceneImage image = dumbbell();
+  const Scene scene = test::open_scene(image);
+  const Barrier floor{.point = Vector3::Zero(), .normal = Vector3(0, 0, 1)};
+  EXPECT_EQ(furthest_crossing({at(0.0, Vector3::Zero(), 0.05)}, scene, floor).distance, 0.0);
+}
+
+}  // namespace
+}  // namespace godobject::figures
