@@ -35,7 +35,9 @@ class BruteForce {
     return sum / (4.0 * std::numbers::pi);
   }
 
-  double signed_distance(const Eigen::Vector3d& p) const { return winding_number(p) > 0.5 ? -distance(p) : distance(p); }
+  double signed_distance(const Eigen::Vector3d& p) const {
+    return winding_number(p) > 0.5 ? -distance(p) : distance(p);
+  }
 
  private:
   static double to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -45,9 +47,12 @@ class BruteForce {
   }
 
   /// In the plane's coordinates: above the face the height counts, else the nearest of the three edges.
-  static double to_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  static double to_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                            const Eigen::Vector3d& c) {
     const Eigen::Vector3d n = (b - a).cross(c - a).normalized();
-    const auto left_of = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& v) { return n.dot((v - u).cross(p - u)) >= 0.0; };
+    const auto left_of = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+      return n.dot((v - u).cross(p - u)) >= 0.0;
+    };
     if (left_of(a, b) && left_of(b, c) && left_of(c, a)) return std::abs(n.dot(p - a));
     return std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
   }

@@ -21,7 +21,8 @@ Outcome run(const std::string& command) {
   Outcome outcome;
   FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer;
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), got);
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    outcome.output.append(buffer.data(), got);
   outcome.exit_code = WEXITSTATUS(::pclose(pipe));
   return outcome;
 }
@@ -63,7 +64,8 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " " + scene(still("gone.ply") + moving) + out, 66, "gone.ply");
   folder.write("empty.ply", "");
   expect_refusal(kScenec + " " + scene(still("empty.ply") + moving) + out, 65, "empty.ply");
-  expect_refusal(kScenec + " " + scene(still(mesh_file("cube_100mm").string()) + moving) + " -o /nowhere/o.scene", 74, "/nowhere/o.scene");
+  expect_refusal(kScenec + " " + scene(still(mesh_file("cube_100mm").string()) + moving) + " -o /nowhere/o.scene", 74,
+                 "/nowhere/o.scene");
   expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65, "x.scene");
   expect_refusal(kScenec + " --inspect /nowhere.scene", 66, "/nowhere.scene");
   expect_refusal(kQuery + " /nowhere.scene p.csv -o o.csv", 66, "/nowhere.scene");
@@ -72,8 +74,11 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
 TEST(Command, CompilesInspectsAndQueries) {
   const ScratchFolder folder;
   const std::string mesh = mesh_file("cube_100mm").string();
-  const std::string scene = folder.write("s.toml", "[still]\nmesh = \"" + mesh + "\"\nvoxel_size = 0.004\n[moving]\nmesh = \"" + mesh +
-                                                       "\"\nscale = 0.2\npoints = 100\nlevels = 2\n").string();
+  const std::string scene =
+      folder
+          .write("s.toml", "[still]\nmesh = \"" + mesh + "\"\nvoxel_size = 0.004\n[moving]\nmesh = \"" + mesh +
+                               "\"\nscale = 0.2\npoints = 100\nlevels = 2\n")
+          .string();
   const std::string image = folder.file("o.scene").string();
   const Outcome compiled = run(kScenec + " " + scene + " -o " + image + " --report " + folder.file("r.json").string());
   EXPECT_EQ(compiled.exit_code, 0) << compiled.output;

@@ -27,11 +27,13 @@ struct SceneText {
   const char* moving = "cube_100mm";
   double size = 1.0;
   double voxel_size = 0.004;
+  const char* forced = "auto";
   std::string more = "";
 
   std::string text() const {
-    return "[still]\nmesh = \"" + mesh_file(still).string() + "\"\nscale = " + number(size) + "\nvoxel_size = " + number(size * voxel_size) +
-           "\n[moving]\nmesh = \"" + mesh_file(moving).string() + "\"\nscale = " + number(0.3 * size) + "\npoints = 300\nlevels = 3\n" + more;
+    return "[still]\nmesh = \"" + mesh_file(still).string() + "\"\nscale = " + number(size) +
+           "\nvoxel_size = " + number(size * voxel_size) + "\nsurface = \"" + forced + "\"" + "\n[moving]\nmesh = \"" +
+           mesh_file(moving).string() + "\"\nscale = " + number(0.3 * size) + "\npoints = 300\nlevels = 3\n" + more;
   }
   static std::string number(double value) {
     std::ostringstream stream;
@@ -42,7 +44,8 @@ struct SceneText {
 
 class CompileScene : public testing::Test {
  protected:
-  CompileReport compile(const SceneText& scene, const char* output = "out.scene", std::optional<format::Solver> only = {}) {
+  CompileReport compile(const SceneText& scene, const char* output = "out.scene",
+                        std::optional<format::Solver> only = {}) {
     CompileRequest request;
     request.scene_file = folder_.write("scene.toml", scene.text());
     request.output = folder_.file(output);
@@ -122,6 +125,18 @@ TEST_F(CompileScene, RefusalLeavesNoFileBehind) {
   EXPECT_FALSE(std::filesystem::exists(folder_.file("out.scene")));
 }
 
+TEST_F(CompileScene, RefusesABodyThatLeavesNothingInside) {
+  for (const SceneText& scene :
+       {SceneText{.still = "cube_100mm", .voxel_size = 0.9}, SceneText{.still = "sheet_open", .forced = "solid"}}) {
+    try {
+      compile(scene);
+      FAIL() << "took a body that is no obstacle";
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), ExitCode::kBadData) << failure.what();
+    }
+  }
+}
+
 TEST_F(CompileScene, DamageIsSeen) {
   compile({});
   std::string bytes = slurp(folder_.file("out.scene"));
@@ -143,7 +158,9 @@ TEST_F(CompileScene, AnswersQueries) {
   EXPECT_EQ(line, "x,y,z,distance,nx,ny,nz,known");
   std::getline(lines, line);
   double v[8];
-  ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7), 8);
+  ASSERT_EQ(
+      std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7),
+      8);
   EXPECT_EQ(v[2], 0.053);
   EXPECT_NEAR(v[3], 0.003, 1e-7);
   EXPECT_NEAR(v[6], 1.0, 1e-6);
@@ -159,7 +176,8 @@ TEST_F(CompileScene, NamesTheLineOfABadRow) {
   const SceneImage image = SceneImage::read(folder_.file("out.scene"));
   for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0"}) {
     try {
-      query_points(image.scene.voxelmap, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"), folder_.file("d.csv"), {});
+      query_points(image.scene.voxelmap, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"),
+                   folder_.file("d.csv"), {});
       FAIL() << "took " << row;
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-/// Writes a closed ball of 200 mm with waves of 4 mm on it, about as many triangles as asked for, as binary PLY in metres:
-/// the large mesh of the compiler's timing.   displaced_sphere OUT.ply TRIANGLES
+/// Writes a closed ball of 200 mm with waves of 4 mm on it, about as many triangles as asked for, as binary PLY in
+/// metres: the large mesh of the compiler's timing.   displaced_sphere OUT.ply TRIANGLES
 int main(int argc, char** argv) {
   if (argc != 3) {
     std::fputs("usage: displaced_sphere OUT.ply TRIANGLES\n", stderr);
@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
   for (std::int32_t j = 0; j < around; ++j) {
     corners.insert(corners.end(), {0, at(1, j), at(1, j + 1)});
     for (std::int32_t i = 1; i + 1 < rings; ++i) {
-      corners.insert(corners.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      corners.insert(corners.end(),
+                     {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
     corners.insert(corners.end(), {at(rings - 1, j), last, at(rings - 1, j + 1)});
   }
@@ -42,7 +43,8 @@ int main(int argc, char** argv) {
   file << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices.size() / 3
        << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << corners.size() / 3
        << "\nproperty list uchar int vertex_indices\nend_header\n";
-  file.write(reinterpret_cast<const char*>(vertices.data()), static_cast<std::streamsize>(vertices.size() * sizeof(float)));
+  file.write(reinterpret_cast<const char*>(vertices.data()),
+             static_cast<std::streamsize>(vertices.size() * sizeof(float)));
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     file.put(3);
     file.write(reinterpret_cast<const char*>(&corners[i]), 3 * sizeof(std::int32_t));

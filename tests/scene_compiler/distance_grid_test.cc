@@ -119,7 +119,8 @@ TEST(DistanceGrid, LipschitzConstantBoundsEveryGradient) {
     double largest = 0.0;
     for (int i = 0; i < 300000; ++i) {
       Vector3d p;
-      for (int axis = 0; axis < 3; ++axis) p[axis] = g.origin[axis] + unit(random) * g.bricks[axis] * format::kBrickCells * g.voxel_size;
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = g.origin[axis] + unit(random) * g.bricks[axis] * format::kBrickCells * g.voxel_size;
       largest = std::max(largest, field.map.sample(p).gradient.norm());
     }
     EXPECT_LE(largest, g.lipschitz) << name;
@@ -134,7 +135,8 @@ TEST(DistanceGrid, LowerBoundHoldsForSealedSolids) {
 
 TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
   // a box without its lid, told to be solid: across the opening the sign jumps
-  const Field open = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}), 0.004, SurfaceKind::kSolid);
+  const Field open = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
+                              0.004, SurfaceKind::kSolid);
   EXPECT_GT(open.grid.seams.cells, 0u);
   EXPECT_GT(open.grid.seams.largest_jump, 0.02);
   EXPECT_GT(open.grid.grid.lipschitz_seam, open.grid.grid.lipschitz);
@@ -144,7 +146,8 @@ TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
 }
 
 TEST(DistanceGrid, SeamClearanceHoldsNoSeamCell) {
-  const Field field = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}), 0.004, SurfaceKind::kSolid);
+  const Field field = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
+                               0.004, SurfaceKind::kSolid);
   const format::Grid& g = field.grid.grid;
   const double s = g.voxel_size;
   struct Placed {

@@ -22,8 +22,8 @@ struct Case {
 
 class FieldOracle : public testing::TestWithParam<Case> {};
 
-/// The stored field against a slow oracle that shares no code with the compiler: stored node values are exact, and between
-/// the nodes nothing is worse than trilinear interpolation must be.
+/// The stored field against a slow oracle that shares no code with the compiler: stored node values are exact, and
+/// between the nodes nothing is worse than trilinear interpolation must be.
 TEST_P(FieldOracle, StoresExactDistances) {
   const auto [name, scale, s] = GetParam();
   const SolidSurface surface(load(name, scale), SurfaceKind::kAuto, 2.0 * s);
@@ -72,10 +72,10 @@ TEST_P(FieldOracle, StoresExactDistances) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, FieldOracle,
-                         testing::Values(Case{"teapot", 0.037, 0.002}, Case{"bunny_npm", 0.0161497, 0.002}, Case{"gear", 1.0, 0.002},
-                                         Case{"bracket", 1.0, 0.002}, Case{"anchor_part", 0.12, 0.002},
-                                         Case{"dragon_clean", 0.975199, 0.002}, Case{"hole_round", 1.0, 0.0005},
-                                         Case{"peg_round", 1.0, 0.0005}),
+                         testing::Values(Case{"teapot", 0.037, 0.002}, Case{"bunny_npm", 0.0161497, 0.002},
+                                         Case{"gear", 1.0, 0.002}, Case{"bracket", 1.0, 0.002},
+                                         Case{"anchor_part", 0.12, 0.002}, Case{"dragon_clean", 0.975199, 0.002},
+                                         Case{"hole_round", 1.0, 0.0005}, Case{"peg_round", 1.0, 0.0005}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <bit>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/failure.h"
@@ -64,12 +64,13 @@ TEST_P(MeshCounts, AreThoseOfTheMeshTable) {
   EXPECT_EQ(report.misoriented_edges, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, MeshCounts,
-                         testing::Values(KnownMesh{"bunny_npm", 1839, 3674, 0, 2}, KnownMesh{"teapot", 3241, 6320, 160, 1},
-                                         KnownMesh{"dragon_clean", 24891, 49998, 0, -108}, KnownMesh{"anchor_part", 3793, 7598, 0, -6},
-                                         KnownMesh{"gear", 2246, 4512, 0, -10}, KnownMesh{"bracket", 538, 1088, 0, -6},
-                                         KnownMesh{"peg_square", 1538, 3072, 0, 2}, KnownMesh{"sheet_open", 1681, 3200, 160, 1}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, MeshCounts,
+    testing::Values(KnownMesh{"bunny_npm", 1839, 3674, 0, 2}, KnownMesh{"teapot", 3241, 6320, 160, 1},
+                    KnownMesh{"dragon_clean", 24891, 49998, 0, -108}, KnownMesh{"anchor_part", 3793, 7598, 0, -6},
+                    KnownMesh{"gear", 2246, 4512, 0, -10}, KnownMesh{"bracket", 538, 1088, 0, -6},
+                    KnownMesh{"peg_square", 1538, 3072, 0, 2}, KnownMesh{"sheet_open", 1681, 3200, 160, 1}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(MeshImport, ReadsTheSameTetrahedronFromPlyStlAndObj) {
   const ScratchFolder folder;
@@ -77,7 +78,8 @@ TEST(MeshImport, ReadsTheSameTetrahedronFromPlyStlAndObj) {
   const auto obj = folder.write("t.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   std::string facets = "solid t\n";
   const auto facet = [&facets](const char* a, const char* b, const char* c) {
-    facets += "facet normal 0 0 0\nouter loop\nvertex " + std::string(a) + "\nvertex " + b + "\nvertex " + c + "\nendloop\nendfacet\n";
+    facets += "facet normal 0 0 0\nouter loop\nvertex " + std::string(a) + "\nvertex " + b + "\nvertex " + c +
+              "\nendloop\nendfacet\n";
   };
   facet("0 0 0", "0 1 0", "1 0 0");
   facet("0 0 0", "1 0 0", "0 0 1");
@@ -95,8 +97,10 @@ TEST(MeshImport, ReadsTheSameTetrahedronFromPlyStlAndObj) {
 }
 
 TEST(MeshImport, ReadsBigEndianDoublesAndSkipsOtherProperties) {
-  std::string text = "ply\r\nformat binary_big_endian 1.0\r\nelement vertex 3\r\nproperty double x\r\nproperty uchar red\r\n"
-                     "property double y\r\nproperty double z\r\nelement face 1\r\nproperty list uchar uint vertex_index\r\nend_header\r\n";
+  std::string text =
+      "ply\r\nformat binary_big_endian 1.0\r\nelement vertex 3\r\nproperty double x\r\nproperty uchar red\r\n"
+      "property double y\r\nproperty double z\r\nelement face 1\r\nproperty list uchar uint "
+      "vertex_index\r\nend_header\r\n";
   const auto put_double = [&text](double value) {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     for (int shift = 56; shift >= 0; shift -= 8) text.push_back(static_cast<char>(bits >> shift & 0xff));
@@ -178,11 +182,13 @@ TEST(MeshImport, RefusesWhatIsNoMeshWithFileAndCure) {
   expect(refusal("no_faces.ply", ascii_ply(kTetrahedronVertices, 4, "", 0)), ExitCode::kBadData, "no triangles");
   expect(refusal("nan.ply", ascii_ply("nan 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), ExitCode::kBadData, "finite");
   expect(refusal("inf.ply", ascii_ply("1e999 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), ExitCode::kBadData, "finite");
-  expect(refusal("index.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 9\n", 1)), ExitCode::kBadData, "names vertex 9");
+  expect(refusal("index.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 9\n", 1)), ExitCode::kBadData,
+         "names vertex 9");
   expect(refusal("short.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 2\n", 9)), ExitCode::kBadData, "ends before");
   expect(refusal("word.ply", ascii_ply("a b c\n", 1, "3 0 1 2\n", 1)), ExitCode::kBadData, "number");
   expect(refusal("header.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"), ExitCode::kBadData, "header");
-  expect(refusal("huge.ply", ascii_ply("1e9 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), ExitCode::kBadData, "beyond the limit");
+  expect(refusal("huge.ply", ascii_ply("1e9 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), ExitCode::kBadData,
+         "beyond the limit");
   expect(refusal("point.ply", ascii_ply("1 0 0\n1 0 0\n1 0 0\n", 3, "3 0 1 2\n", 1)), ExitCode::kBadData, "one point");
   expect(refusal("line.ply", ascii_ply("0 0 0\n1 0 0\n2 0 0\n", 3, "3 0 1 2\n", 1)), ExitCode::kBadData, "degenerate");
   expect(refusal("mesh.off", "OFF\n"), ExitCode::kBadData, "PLY, STL or OBJ");

@@ -20,15 +20,16 @@ TEST(SolidSurface, GivesHandComputedDistancesOfABox) {
   EXPECT_DOUBLE_EQ(surface.signed_distance({0.5, 0.5, 0.5}), -0.5);
   EXPECT_DOUBLE_EQ(surface.signed_distance({0.5, 0.5, 0.9}), 0.5 - 0.5 - (1.0 - 0.9));
   EXPECT_DOUBLE_EQ(surface.signed_distance({0.5, 0.5, 3.0}), 2.0);
-  EXPECT_DOUBLE_EQ(surface.signed_distance({2.0, 2.0, 0.5}), std::sqrt(2.0));   // to an edge
-  EXPECT_DOUBLE_EQ(surface.signed_distance({2.0, 2.0, 2.0}), std::sqrt(3.0));   // to a corner
+  EXPECT_DOUBLE_EQ(surface.signed_distance({2.0, 2.0, 0.5}), std::sqrt(2.0));  // to an edge
+  EXPECT_DOUBLE_EQ(surface.signed_distance({2.0, 2.0, 2.0}), std::sqrt(3.0));  // to a corner
   EXPECT_NEAR(surface.winding_number({0.2, 0.3, 0.4}), 1.0, 1e-9);
   EXPECT_NEAR(surface.winding_number({1.2, 0.3, 0.4}), 0.0, 1e-9);
   EXPECT_NEAR(surface.components()[0].winding, 0.5, 1e-3);
 }
 
 TEST(SolidSurface, TakesAnOpenSheetForAShell) {
-  const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Ones(), {false, false, false, false, false, true}), SurfaceKind::kAuto, 0.1);
+  const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Ones(), {false, false, false, false, false, true}),
+                             SurfaceKind::kAuto, 0.1);
   ASSERT_TRUE(surface.components()[0].shell);
   EXPECT_NEAR(surface.components()[0].winding, 0.0, 1e-9);
   EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 1.0}), -0.05, 1e-12);
@@ -40,7 +41,8 @@ TEST(SolidSurface, ObeysTheSceneFileOverItsOwnJudgement) {
   const SolidSurface shell(unit_box(), SurfaceKind::kShell, 0.1);
   EXPECT_NEAR(shell.signed_distance({0.5, 0.5, 0.5}), 0.45, 1e-12);
   EXPECT_NEAR(shell.signed_distance({0.5, 0.5, 1.0}), -0.05, 1e-12);
-  const SolidSurface solid(box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, true, false}), SurfaceKind::kSolid, 0.1);
+  const SolidSurface solid(box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, true, false}),
+                           SurfaceKind::kSolid, 0.1);
   EXPECT_LT(solid.signed_distance({0.5, 0.5, 0.5}), 0.0);
 }
 
@@ -63,7 +65,8 @@ TEST(SolidSurface, LeavesACavityHollow) {
 
 TEST(SolidSurface, TakesSheetsAboveEachOtherForShells) {
   const std::array<bool, 6> kTop = {false, false, false, false, false, true};
-  const SolidSurface surface(joined(box({0, 0, -1}, {1, 1, 0}, kTop), box({0, 0, -1}, {1, 1, 0.05}, kTop)), SurfaceKind::kAuto, 0.01);
+  const SolidSurface surface(joined(box({0, 0, -1}, {1, 1, 0}, kTop), box({0, 0, -1}, {1, 1, 0.05}, kTop)),
+                             SurfaceKind::kAuto, 0.01);
   EXPECT_TRUE(surface.components()[0].shell);
   EXPECT_TRUE(surface.components()[1].shell);
   EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.05}), -0.005, 1e-12);
@@ -101,7 +104,8 @@ TEST(SolidSurface, CallsTheTeapotAndTheBunnySolid) {
 }
 
 TEST(SolidSurface, FindsWhatBruteForceFinds) {
-  for (const auto& [name, scale] : {std::pair{"teapot", 0.037}, std::pair{"hole_round", 1.0}, std::pair{"bunny_npm", 0.0161497}}) {
+  for (const auto& [name, scale] :
+       {std::pair{"teapot", 0.037}, std::pair{"hole_round", 1.0}, std::pair{"bunny_npm", 0.0161497}}) {
     const SolidSurface surface(load(name, scale), SurfaceKind::kAuto, 0.01);
     const BruteForce truth(surface.mesh());
     std::mt19937_64 random(1);
@@ -132,7 +136,8 @@ TEST(DistanceProbe, GivesTheSameOnAWalkAsAlone) {
     for (int i = 0; i < 3000; ++i) {
       p += Vector3d(step(random), step(random), step(random));
       if (p.norm() > 0.2) p = surface.mesh().vertices[static_cast<std::size_t>(i) % surface.mesh().vertices.size()];
-      ASSERT_EQ(probe.signed_distance(p), surface.signed_distance(p)) << name << " step " << i << " " << surface.winding_number(p);
+      ASSERT_EQ(probe.signed_distance(p), surface.signed_distance(p))
+          << name << " step " << i << " " << surface.winding_number(p);
     }
   }
 }

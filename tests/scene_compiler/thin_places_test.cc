@@ -61,7 +61,8 @@ TEST(ThinPlaces, ReportsAGapButDoesNotRefuseIt) {
 
 TEST(ThinPlaces, ReportsAGapBetweenSheets) {
   const std::array<bool, 6> kTop = {false, false, false, false, false, true};
-  const TriangleMesh two = joined(box({0, 0, -1}, {0.05, 0.05, 0.0}, kTop), box({0, 0, -1}, {0.05, 0.05, 0.0035}, kTop));
+  const TriangleMesh two =
+      joined(box({0, 0, -1}, {0.05, 0.05, 0.0}, kTop), box({0, 0, -1}, {0.05, 0.05, 0.0035}, kTop));
   const ThinReport report = look(two, 0.001);
   EXPECT_NEAR(report.gaps.smallest, 0.0015, 1e-9);  // between sheets thickened to 2 mm
 }
@@ -69,7 +70,8 @@ TEST(ThinPlaces, ReportsAGapBetweenSheets) {
 TEST(ThinPlaces, DoesNotTakeAnEdgeForAWall) {
   // a wedge of 22 degrees: flagged along its edge, not refused
   TriangleMesh wedge;
-  wedge.vertices = {{0, 0, 0}, {0.05, 0, 0.01}, {0.05, 0, -0.01}, {0, 0.05, 0}, {0.05, 0.05, 0.01}, {0.05, 0.05, -0.01}};
+  wedge.vertices = {{0, 0, 0},    {0.05, 0, 0.01},    {0.05, 0, -0.01},
+                    {0, 0.05, 0}, {0.05, 0.05, 0.01}, {0.05, 0.05, -0.01}};
   wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {0, 3, 5}, {0, 5, 2}, {1, 2, 5}, {1, 5, 4}};
   const ThinReport report = look(wedge, 0.001);
   EXPECT_GT(report.walls.samples, 0u);

@@ -11,8 +11,9 @@ namespace godobject::scene_compiler {
 
 /// Differences of the distance along the twelve edges of one cell of a brick [m].
 struct CellEdges {
-  std::array<std::array<double, 4>, 3> along{};  ///< along[axis][a + 2 b]: a, b the corner in the next two axes (cyclic)
-  double largest_value = 0.0;                    ///< largest |distance| at the corners
+  std::array<std::array<double, 4>, 3>
+      along{};                 ///< along[axis][a + 2 b]: a, b the corner in the next two axes (cyclic)
+  double largest_value = 0.0;  ///< largest |distance| at the corners
 
   CellEdges(const format::Brick& brick, int x, int y, int z) {
     constexpr std::array<int, 3> kStride = {1, format::kBrickNodes, format::kBrickNodes * format::kBrickNodes};
@@ -21,7 +22,8 @@ struct CellEdges {
       for (int edge = 0; edge < 4; ++edge) {
         const float* v = corner + (edge & 1) * kStride[(axis + 1) % 3] + (edge >> 1) * kStride[(axis + 2) % 3];
         along[axis][static_cast<std::size_t>(edge)] = static_cast<double>(v[kStride[axis]]) - static_cast<double>(v[0]);
-        largest_value = std::max({largest_value, std::abs(static_cast<double>(v[0])), std::abs(static_cast<double>(v[kStride[axis]]))});
+        largest_value = std::max(
+            {largest_value, std::abs(static_cast<double>(v[0])), std::abs(static_cast<double>(v[kStride[axis]]))});
       }
     }
   }
@@ -37,8 +39,8 @@ struct CellEdges {
   /// A distance changes along an edge by its length at most; the slack is rounding, of the values to float too.
   bool on_seam(double voxel_size) const { return largest_jump() > voxel_size * (1.0 + 1e-4) + 1e-6 * largest_value; }
 
-  /// Largest gradient of the trilinear field in the cell [1]. The squared norm is convex in each of x, y, z alone, so its
-  /// maximum stands at a corner, where each component is one edge's difference.
+  /// Largest gradient of the trilinear field in the cell [1]. The squared norm is convex in each of x, y, z alone, so
+  /// its maximum stands at a corner, where each component is one edge's difference.
   double largest_gradient(double voxel_size) const {
     double largest = 0.0;
     for (std::size_t corner = 0; corner < 8; ++corner) {

@@ -35,7 +35,9 @@ Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFacts& facts, double thi
   constexpr std::size_t kListed = 100;
   for (std::size_t i = 0; i < std::min(kListed, facts.components.size()); ++i) {
     const SolidSurface::Component& c = facts.components[i];
-    components.push_back({{"kind", c.shell ? "shell" : "solid"}, {"triangles", c.triangles}, {"inside_out", c.inside_out},
+    components.push_back({{"kind", c.shell ? "shell" : "solid"},
+                          {"triangles", c.triangles},
+                          {"inside_out", c.inside_out},
                           {"surface_winding_number", c.winding}});
   }
   return {{"file", mesh.name},
@@ -98,7 +100,8 @@ Json settings_json(const format::Settings& s) {
                  {"rotation_kinetic", s.paper_rotation_kinetic},
                  {"viscous", s.paper_viscous}}}};
   if (s.friction != 0) {
-    json["friction"] = {{"static", s.friction_static}, {"kinetic", s.friction_kinetic}, {"viscous", s.friction_viscous}};
+    json["friction"] = {
+        {"static", s.friction_static}, {"kinetic", s.friction_kinetic}, {"viscous", s.friction_viscous}};
   }
   return json;
 }
@@ -108,7 +111,8 @@ Json grid_json(const format::Grid& g) {
           {"band", g.band},
           {"origin", array_json(g.origin)},
           {"bricks", {g.bricks[0], g.bricks[1], g.bricks[2]}},
-          {"voxels", {g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells}},
+          {"voxels",
+           {g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells}},
           {"bricks_stored", g.brick_count},
           {"surface_low", array_json(g.surface_min)},
           {"surface_high", array_json(g.surface_max)},
@@ -152,9 +156,12 @@ Json left_out_json(const CompileReport& report) {
   std::uint64_t nodes = 1;
   for (const std::int32_t bricks : g.bricks) nodes *= static_cast<std::uint64_t>(bricks) * format::kBrickCells + 1;
   const std::uint64_t dense = nodes * sizeof(float);
-  const std::uint64_t sparse = section_bytes(report, format::SectionId::kBrickIndex) + section_bytes(report, format::SectionId::kBricks);
+  const std::uint64_t sparse =
+      section_bytes(report, format::SectionId::kBrickIndex) + section_bytes(report, format::SectionId::kBricks);
   Json list = Json::array();
-  list.push_back({{"what", "distances beyond the band"}, {"dense_bytes", dense}, {"stored_bytes", sparse},
+  list.push_back({{"what", "distances beyond the band"},
+                  {"dense_bytes", dense},
+                  {"stored_bytes", sparse},
                   {"bytes_saved", static_cast<std::int64_t>(dense) - static_cast<std::int64_t>(sparse)}});
   if (section_bytes(report, format::SectionId::kNormals) == 0) {
     list.push_back({{"what", "normals, which only the paper's solver reads"},
@@ -164,39 +171,6 @@ Json left_out_json(const CompileReport& report) {
     list.push_back({{"what", "friction: the scene has no friction table"}, {"bytes_saved", 0}});
   }
   return list;
-}
-
-std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
-
-std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFacts& facts) {
-  const MeshReport& r = facts.report;
-  const auto shells = std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.shell; });
-  const auto flipped = std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.inside_out; });
-  const Eigen::Vector3d size = 1e3 * (r.high - r.low);
-  std::string text = fmt::format("{:<7} {}: {} triangles, {:.1f} x {:.1f} x {:.1f} mm, {} component(s): {} solid, {} shell\n", role,
-                                 mesh.name, r.triangles, size.x(), size.y(), size.z(), facts.components.size(),
-                                 static_cast<std::ptrdiff_t>(facts.components.size()) - shells, shells);
-  const auto note = [&text](std::uint64_t count, const char* what) {
-    if (count > 0) text += fmt::format("        {} {}\n", count, what);
-  };
-  note(r.boundary_edges, "boundary edges: open, the side is told by the winding number");
-  note(r.nonmanifold_edges, "edges of more than two triangles");
-  note(r.misoriented_edges, "edges between triangles of opposite sense");
-  note(r.polygons, "polygons cut into triangles");
-  note(r.lines_and_points, "lines and points dropped");
-  note(r.welded_vertices, "coincident vertices welded");
-  note(r.degenerate_triangles, "degenerate triangles dropped");
-  note(r.duplicate_triangles, "duplicate triangles dropped");
-  note(r.folded_triangles, "triangles in folds without volume");
-  note(r.unreferenced_vertices, "loose vertices dropped");
-  note(static_cast<std::uint64_t>(flipped), "component(s) inside out, turned");
-  return text;
-}
-
-std::string thin_text(const char* what, const ThinPlaces& p) {
-  if (p.samples == 0) return fmt::format("{:<7} none thinner than two voxels\n", what);
-  return fmt::format("{:<7} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m: would need voxel_size = {:.2g}\n",
-                     what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
 }
 
 }  // namespace
@@ -221,7 +195,9 @@ Json report_json(const CompileReport& report) {
           {"wall_sample_spacing", report.thin.sample_spacing},
           {"grid", grid_json(report.grid)},
           {"seams",
-           {{"cells", report.seams.cells}, {"largest_jump", report.seams.largest_jump}, {"at", vector_json(report.seams.at)}}},
+           {{"cells", report.seams.cells},
+            {"largest_jump", report.seams.largest_jump},
+            {"at", vector_json(report.seams.at)}}},
           {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
           {"body", body},
           {"section_bytes", sections},
@@ -242,36 +218,6 @@ Json full_report_json(const CompileReport& report) {
   return json;
 }
 
-std::string report_text(const CompileReport& report) {
-  const format::Grid& g = report.grid;
-  const FieldError& e = report.field_error;
-  std::string text = mesh_text("still", report.config.still, report.still);
-  text += mesh_text("moving", report.config.moving, report.moving);
-  text += thin_text("walls", report.thin.walls);
-  text += thin_text("gaps", report.thin.gaps);
-  text += fmt::format("field   {} x {} x {} voxels of {}, band {}, {} of {} bricks stored\n", g.bricks[0] * format::kBrickCells,
-                      g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells, millimetres(g.voxel_size), millimetres(g.band),
-                      g.brick_count, report.brick_positions);
-  if (report.seams.cells > 0) {
-    text += fmt::format("        seams in {} cells where holes leave the side open, largest jump {} at ({:.4g}, {:.4g}, {:.4g}) m\n",
-                        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
-                        report.seams.at.z());
-  }
-  text += fmt::format("error   rms {} (floor of trilinear interpolation {}), largest {} ({}), wrong side {} ({}) of {} points\n",
-                      millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.sign_errors,
-                      e.floor_sign_errors, e.points);
-  text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n", report.body.body.point_count,
-                      report.body.body.level_count, millimetres(report.body.spacing), millimetres(report.body.coverage));
-  const Json left_out = left_out_json(report);
-  for (const Json& item : left_out) {
-    text += fmt::format("left out {}: {:.1f} KiB saved\n", item["what"].get<std::string>(), item["bytes_saved"].get<double>() / 1024.0);
-  }
-  double total = 0.0;
-  for (const auto& [phase, time] : report.seconds) total += time;
-  text += fmt::format("image   {:.1f} KiB, {:.2f} s\n", static_cast<double>(report.image_bytes) / 1024.0, total);
-  return text;
-}
-
 Json inspect_json(const SceneImage& image) {
   const Scene& scene = image.scene;
   format::Header header{};
@@ -279,7 +225,8 @@ Json inspect_json(const SceneImage& image) {
   Json sections;
   for (std::uint32_t i = 0; i < header.section_count; ++i) {
     format::Section section{};
-    std::copy_n(image.bytes.span().data() + sizeof(header) + i * sizeof(section), sizeof(section), reinterpret_cast<std::byte*>(&section));
+    std::copy_n(image.bytes.span().data() + sizeof(header) + i * sizeof(section), sizeof(section),
+                reinterpret_cast<std::byte*>(&section));
     sections[name_of(section.id)] = {{"offset", section.offset}, {"bytes", section.bytes}};
   }
   const std::string text(reinterpret_cast<const char*>(scene.provenance.data()), scene.provenance.size());

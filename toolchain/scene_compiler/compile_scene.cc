@@ -1,7 +1,9 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 
@@ -65,16 +67,31 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const DistanceGri
   sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
-  if (report.only_solver != format::Solver::kCorrected) sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
+  if (report.only_solver != format::Solver::kCorrected)
+    sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
   sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
   return sections;
+}
+
+/// A body that leaves no node inside would be no obstacle at all.
+void require_some_inside(const DistanceGrid& field, const std::string& mesh_name) {
+  for (const format::Brick& brick : field.bricks) {
+    if (*std::min_element(std::begin(brick.value), std::end(brick.value)) < 0.0f) return;
+  }
+  throw Failure(
+      ExitCode::kBadData,
+      fmt::format("{}: no node of the grid lies inside of it: it encloses nothing, or is smaller than a voxel; "
+                  "set surface = \"shell\", or a smaller voxel_size",
+                  mesh_name));
 }
 
 void require_exact_nodes(const FieldError& error, double voxel_size) {
   const double allowed = kLargestNodeError * std::max(1.0, voxel_size / 1e-3);
   if (error.largest_node_error <= allowed) return;
-  throw Failure(ExitCode::kInternal, fmt::format("a stored distance is {:.3g} m off the exact one, more than {:g} m; please report this scene",
-                                                 error.largest_node_error, allowed));
+  throw Failure(
+      ExitCode::kInternal,
+      fmt::format("a stored distance is {:.3g} m off the exact one, more than {:g} m; please report this scene",
+                  error.largest_node_error, allowed));
 }
 
 MovingBody sample_moving(const SceneConfig& config, const SolidSurface& surface, const Progress& progress) {
@@ -94,7 +111,8 @@ void write_image(const AlignedBytes& image, const std::filesystem::path& file) {
   output.flush();
   const SceneImage read_back = SceneImage::read(output.temporary());
   if (std::memcmp(read_back.bytes.span().data(), image.span().data(), image.span().size()) != 0) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
+    throw Failure(ExitCode::kIo,
+                  fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
   }
   output.commit();
 }
@@ -111,16 +129,21 @@ CompileReport compile_scene(const CompileRequest& request) {
   const auto open_mesh = [&](const SceneConfig::Mesh& mesh, MeshFacts& facts) {
     return SolidSurface(import_mesh(mesh.file, mesh.scale, facts.report), mesh.surface, config.thickness);
   };
-  const SolidSurface still = phases.run("still mesh", [&](const Progress&) { return open_mesh(config.still, report.still); });
+  const SolidSurface still =
+      phases.run("still mesh", [&](const Progress&) { return open_mesh(config.still, report.still); });
   report.still.components = still.components();
-  const SolidSurface moving = phases.run("moving mesh", [&](const Progress&) { return open_mesh(config.moving, report.moving); });
+  const SolidSurface moving =
+      phases.run("moving mesh", [&](const Progress&) { return open_mesh(config.moving, report.moving); });
   report.moving.components = moving.components();
 
-  report.thin = phases.run("walls and gaps", [&](const Progress& p) { return find_thin_places(still, config.voxel_size, p); });
+  report.thin =
+      phases.run("walls and gaps", [&](const Progress& p) { return find_thin_places(still, config.voxel_size, p); });
   require_walls_that_last(report.thin, config.voxel_size, config.still.file.string());
 
   const double band = default_band(config.voxel_size, config.settings.safety_distance);
-  const DistanceGrid field = phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
+  const DistanceGrid field =
+      phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
+  require_some_inside(field, config.still.file.string());
   report.grid = field.grid;
   report.seams = field.seams;
   report.brick_positions = field.index.size();

@@ -21,7 +21,7 @@ using format::kBrickCells;
 using format::kBrickNodes;
 
 constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // voxels
-constexpr double kInterpolationError = 0.8661;                                  // voxels: half a cell's diagonal
+constexpr double kInterpolationError = 0.8661;                                 // voxels: half a cell's diagonal
 
 /// The nodes that a brick position owns: those not on its upper faces.
 using Block = std::array<float, kBrickCells * kBrickCells * kBrickCells>;
@@ -38,7 +38,8 @@ class GridBuilder {
   static constexpr std::uint32_t kNone = ~0u;
 
   Vector3d node(const BrickPosition& brick, double x, double y, double z) const {
-    return origin_ + voxel_size_ * Vector3d(kBrickCells * brick[0] + x, kBrickCells * brick[1] + y, kBrickCells * brick[2] + z);
+    return origin_ +
+           voxel_size_ * Vector3d(kBrickCells * brick[0] + x, kBrickCells * brick[1] + y, kBrickCells * brick[2] + z);
   }
   bool is_boundary(const BrickPosition& p) const;
   void require_free_boundary(bool inside, const BrickPosition& p) const;
@@ -57,9 +58,9 @@ class GridBuilder {
   Vector3d high_ = -low_;
   Vector3d origin_ = Vector3d::Zero();
   BrickLattice bricks_;
-  std::vector<float> center_;          // signed distance at each brick's centre
-  std::vector<bool> evaluated_;        // all nodes are known
-  BrickLattice block_lattice_;         // one more than bricks_ a side: the outer nodes
+  std::vector<float> center_;    // signed distance at each brick's centre
+  std::vector<bool> evaluated_;  // all nodes are known
+  BrickLattice block_lattice_;   // one more than bricks_ a side: the outer nodes
   std::vector<std::uint32_t> block_of_;
   std::vector<Block> blocks_;
 };
@@ -76,7 +77,8 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
     }
   }
   const double edge = kBrickCells * voxel_size;
-  // the odd part keeps the nodes of a mesh that is aligned with the lattice off the band's edge, where rounding would decide
+  // the odd part keeps the nodes of a mesh that is aligned with the lattice off the band's edge, where rounding would
+  // decide
   const double margin = band + edge + 0.15 * voxel_size;
   origin_ = low_.array() - margin;
   std::uint64_t positions = 1;
@@ -92,9 +94,9 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
     const double coarser = largest > format::kMaxBricksPerAxis
                                ? largest / format::kMaxBricksPerAxis
                                : std::cbrt(static_cast<double>(positions) / static_cast<double>(kMaxBrickPositions));
-    throw Failure(ExitCode::kBadData,
-                  fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; take at least {:.2g} m, or check `scale`",
-                              (high_ - low_).maxCoeff(), voxel_size, 1.1 * coarser * voxel_size));
+    throw Failure(ExitCode::kBadData, fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; "
+                                                  "take at least {:.2g} m, or check `scale`",
+                                                  (high_ - low_).maxCoeff(), voxel_size, 1.1 * coarser * voxel_size));
   }
   block_lattice_.size = moved(bricks_.size, {1, 1, 1});
 }
@@ -103,13 +105,16 @@ void GridBuilder::classify(const Progress& progress) {
   center_.resize(bricks_.count());
   const auto rows = static_cast<std::size_t>(bricks_.size[1]) * static_cast<std::size_t>(bricks_.size[2]);
   const auto row_length = static_cast<std::size_t>(bricks_.size[0]);
-  parallel_for(rows, [&](std::size_t row) {
-    DistanceProbe probe(surface_);
-    for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
-      constexpr double kMiddle = 0.5 * kBrickCells;
-      center_[i] = static_cast<float>(probe.signed_distance(node(bricks_.position(i), kMiddle, kMiddle, kMiddle)));
-    }
-  }, progress);
+  parallel_for(
+      rows,
+      [&](std::size_t row) {
+        DistanceProbe probe(surface_);
+        for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
+          constexpr double kMiddle = 0.5 * kBrickCells;
+          center_[i] = static_cast<float>(probe.signed_distance(node(bricks_.position(i), kMiddle, kMiddle, kMiddle)));
+        }
+      },
+      progress);
 }
 
 bool GridBuilder::is_boundary(const BrickPosition& p) const {
@@ -122,8 +127,9 @@ bool GridBuilder::is_boundary(const BrickPosition& p) const {
 /// Outside of the grid is free space.
 void GridBuilder::require_free_boundary(bool inside, const BrickPosition& p) const {
   if (inside && is_boundary(p)) {
-    throw Failure(ExitCode::kBadData, "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
-                                      "mend its orientation or holes, or set surface = \"shell\"");
+    throw Failure(ExitCode::kBadData,
+                  "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
+                  "mend its orientation or holes, or set surface = \"shell\"");
   }
 }
 
@@ -150,8 +156,10 @@ void GridBuilder::evaluate(const Progress& progress) {
   std::vector<std::size_t> front = first_bricks();
   if (front.size() > kMaxBricks) {
     const double coarser = std::sqrt(static_cast<double>(front.size()) / static_cast<double>(kMaxBricks));
-    throw Failure(ExitCode::kBadData, fmt::format("a voxel_size of {:g} m needs {} bricks, more than the limit of {}; take at least {:.2g} m",
-                                                  voxel_size_, front.size(), kMaxBricks, 1.1 * coarser * voxel_size_));
+    throw Failure(
+        ExitCode::kBadData,
+        fmt::format("a voxel_size of {:g} m needs {} bricks, more than the limit of {}; take at least {:.2g} m",
+                    voxel_size_, front.size(), kMaxBricks, 1.1 * coarser * voxel_size_));
   }
   for (const std::size_t i : front) evaluated_[i] = true;
   while (!front.empty()) {
@@ -176,7 +184,8 @@ void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progr
   std::vector<std::size_t> added;
   for (const std::size_t i : bricks) {
     for (int corner = 0; corner < 8; ++corner) {
-      const std::size_t block = block_lattice_.number(moved(bricks_.position(i), {corner & 1, corner >> 1 & 1, corner >> 2}));
+      const std::size_t block =
+          block_lattice_.number(moved(bricks_.position(i), {corner & 1, corner >> 1 & 1, corner >> 2}));
       if (block_of_[block] != kNone) continue;
       block_of_[block] = static_cast<std::uint32_t>(blocks_.size() + added.size());
       added.push_back(block);
@@ -184,7 +193,8 @@ void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progr
   }
   const std::size_t before = blocks_.size();
   blocks_.resize(before + added.size());
-  parallel_for(added.size(), [&](std::size_t i) { fill(blocks_[before + i], block_lattice_.position(added[i])); }, progress);
+  parallel_for(
+      added.size(), [&](std::size_t i) { fill(blocks_[before + i], block_lattice_.position(added[i])); }, progress);
 }
 
 void GridBuilder::fill(Block& block, const BrickPosition& position) const {
@@ -284,7 +294,8 @@ DistanceGrid GridBuilder::assemble() {
       field.bricks[entry].seam_clearance = clearance;
       if (static_cast<double>(clearance) < 2.0 * band_) entry |= format::index_entry::kSeamNear;
     } else if ((entry & format::index_entry::kInside) == 0) {
-      const double to_surface = std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6) - kHalfBrickDiagonal * voxel_size_;
+      const double to_surface =
+          std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6) - kHalfBrickDiagonal * voxel_size_;
       const double clearance = std::min(to_surface, seams.clearance_of_bricks(p)) - kInterpolationError * voxel_size_;
       entry = format::index_entry::encode_far(false, static_cast<float>(std::max(0.0, clearance) * (1.0 - 1e-6)));
     }
@@ -294,7 +305,8 @@ DistanceGrid GridBuilder::assemble() {
   for (int axis = 0; axis < 3; ++axis) {
     grid.origin[axis] = origin_[axis];
     grid.bricks[axis] = bricks_.size[static_cast<std::size_t>(axis)];
-    grid.surface_min[axis] = low[axis];  // seams too: behind one the distance may be negative outside of the mesh's own box
+    grid.surface_min[axis] =
+        low[axis];  // seams too: behind one the distance may be negative outside of the mesh's own box
     grid.surface_max[axis] = high[axis];
   }
   grid.lipschitz = slope.largest();
@@ -313,8 +325,12 @@ double default_band(double voxel_size, double safety_distance) {
 DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band, const Progress& progress) {
   constexpr double kClassifyShare = 0.25;  // of the time, roughly
   GridBuilder builder(surface, voxel_size, band);
-  builder.classify([&](double done) { if (progress) progress(kClassifyShare * done); });
-  builder.evaluate([&](double done) { if (progress) progress(kClassifyShare + (1.0 - kClassifyShare) * done); });
+  builder.classify([&](double done) {
+    if (progress) progress(kClassifyShare * done);
+  });
+  builder.evaluate([&](double done) {
+    if (progress) progress(kClassifyShare + (1.0 - kClassifyShare) * done);
+  });
   return builder.assemble();
 }
 

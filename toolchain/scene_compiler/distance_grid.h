@@ -11,8 +11,9 @@ namespace godobject::scene_compiler {
 
 /// Where the sign of an open mesh jumps without a surface.
 struct SeamReport {
-  std::uint64_t cells = 0;     ///< stored cells with an edge along which the distance changes by more than the edge is long
-  double largest_jump = 0.0;   ///< [m]
+  std::uint64_t cells =
+      0;  ///< stored cells with an edge along which the distance changes by more than the edge is long
+  double largest_jump = 0.0;                     ///< [m]
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< of the largest jump
 };
 

@@ -5,8 +5,8 @@
 namespace godobject::scene_compiler {
 
 /// Signed distance along a walk: the last answer bounds the next search, and the winding number is summed again only
-/// after a step that crosses a triangle, or far from where it was known. Gives what SolidSurface::signed_distance gives.
-/// One walk a thread.
+/// after a step that crosses a triangle, or far from where it was known. Gives what SolidSurface::signed_distance
+/// gives. One walk a thread.
 class DistanceProbe {
  public:
   explicit DistanceProbe(const SolidSurface& surface) : surface_(surface) {}

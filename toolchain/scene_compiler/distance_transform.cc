@@ -7,7 +7,8 @@ namespace {
 
 constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
-/// One line of the transform: the lower envelope of parabolas rooted at (i, line[i]) (Felzenszwalb and Huttenlocher 2012).
+/// One line of the transform: the lower envelope of parabolas rooted at (i, line[i]) (Felzenszwalb and Huttenlocher
+/// 2012).
 class LineTransform {
  public:
   explicit LineTransform(std::size_t longest) : roots_(longest), starts_(longest + 1), heights_(longest) {}

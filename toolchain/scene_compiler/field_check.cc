@@ -21,7 +21,7 @@ constexpr double kOnSeam = 1e-6;    // |w - 1/2| below it: which sign is right i
 /// A point in a stored brick: cell and place within it.
 struct Place {
   std::size_t brick;
-  std::array<int, 3> cell;  // within the brick
+  std::array<int, 3> cell;   // within the brick
   std::array<double, 3> at;  // within the cell, 0 .. 1
   Vector3d low;              // the cell's first node
   Vector3d point;
@@ -79,18 +79,20 @@ PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const 
     for (std::size_t axis = 0; axis < 3; ++axis) weight *= offset[axis] == 1 ? place.at[axis] : 1.0 - place.at[axis];
     const double exact = probe.signed_distance(node);
     error.floor += weight * exact;
-    const int index = place.cell[0] + offset[0] + kBrickNodes * (place.cell[1] + offset[1] + kBrickNodes * (place.cell[2] + offset[2]));
+    const int index = place.cell[0] + offset[0] +
+                      kBrickNodes * (place.cell[1] + offset[1] + kBrickNodes * (place.cell[2] + offset[2]));
     const auto stored = static_cast<double>(grid.bricks[place.brick].value[index]);
     const bool undecided = stored * exact < 0.0 && std::abs(surface.winding_number(node) - 0.5) < kOnSeam;
-    error.node = std::max(error.node, undecided ? std::abs(std::abs(stored) - std::abs(exact)) : std::abs(stored - exact));
+    error.node =
+        std::max(error.node, undecided ? std::abs(std::abs(stored) - std::abs(exact)) : std::abs(stored - exact));
   }
   return error;
 }
 
 }  // namespace
 
-FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field, std::uint64_t points,
-                       const Progress& progress) {
+FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
+                       std::uint64_t points, const Progress& progress) {
   const Places places(grid);
   std::vector<Place> drawn;
   std::mt19937_64 random(20160902);
@@ -99,12 +101,15 @@ FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, co
     if (field.sample(place.point).known) drawn.push_back(place);
   }
   std::vector<PointError> errors(drawn.size());
-  parallel_for(drawn.size(), [&](std::size_t i) { errors[i] = measure(surface, grid, field, drawn[i]); }, progress);
+  parallel_for(
+      drawn.size(), [&](std::size_t i) { errors[i] = measure(surface, grid, field, drawn[i]); }, progress);
 
   FieldError total;
   total.points = errors.size();
   const double slack = kSignSlack * grid.grid.voxel_size;
-  const auto wrong_side = [slack](double exact, double value) { return std::abs(exact) > slack && (exact < 0.0) != (value < 0.0); };
+  const auto wrong_side = [slack](double exact, double value) {
+    return std::abs(exact) > slack && (exact < 0.0) != (value < 0.0);
+  };
   for (const PointError& e : errors) {
     const double error = std::abs(e.stored - e.exact);
     const double floor = std::abs(e.floor - e.exact);

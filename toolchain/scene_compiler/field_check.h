@@ -12,17 +12,17 @@ namespace godobject::scene_compiler {
 /// How far the field is from the exact distance, on fresh random points within the band.
 struct FieldError {
   std::uint64_t points = 0;
-  double rms = 0.0;                ///< of the stored field [m]
-  double largest = 0.0;            ///< [m]
-  double floor_rms = 0.0;          ///< of trilinear interpolation between exact node values in double precision [m]
-  double floor_largest = 0.0;      ///< [m]
-  std::uint64_t sign_errors = 0;   ///< wrong side although further than a tenth of a voxel from the surface
+  double rms = 0.0;               ///< of the stored field [m]
+  double largest = 0.0;           ///< [m]
+  double floor_rms = 0.0;         ///< of trilinear interpolation between exact node values in double precision [m]
+  double floor_largest = 0.0;     ///< [m]
+  std::uint64_t sign_errors = 0;  ///< wrong side although further than a tenth of a voxel from the surface
   std::uint64_t floor_sign_errors = 0;
-  double largest_node_error = 0.0; ///< of a stored value at the nodes around those points [m]
+  double largest_node_error = 0.0;  ///< of a stored value at the nodes around those points [m]
 };
 
 /// Deterministic. `field` is the view that the core has of `grid`.
-FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field, std::uint64_t points,
-                       const Progress& progress);
+FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
+                       std::uint64_t points, const Progress& progress);
 
 }  // namespace godobject::scene_compiler

@@ -4,8 +4,8 @@
 #include <string>
 #include <unordered_map>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "toolchain/scene_compiler/components.h"
 #include "toolchain/scene_compiler/failure.h"
@@ -35,8 +35,11 @@ void measure_box(const std::vector<Vector3d>& vertices, const std::string& name,
   }
   const double largest = report.low.cwiseAbs().cwiseMax(report.high.cwiseAbs()).maxCoeff();
   if (largest > kMaxCoordinate) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: a coordinate of {:g} m is beyond the limit of {:g} m; check `scale`, or move the mesh to its origin",
-                                                  name, largest, kMaxCoordinate));
+    throw Failure(
+        ExitCode::kBadData,
+        fmt::format(
+            "{}: a coordinate of {:g} m is beyond the limit of {:g} m; check `scale`, or move the mesh to its origin",
+            name, largest, kMaxCoordinate));
   }
 }
 
@@ -50,7 +53,8 @@ std::vector<std::uint32_t> weld(const std::vector<Vector3d>& vertices, double to
       return hash;
     }
   };
-  // cells twice the tolerance wide: what lies within the tolerance of p lies in one of the 8 cells around p's nearest corner
+  // cells twice the tolerance wide: what lies within the tolerance of p lies in one of the 8 cells around p's nearest
+  // corner
   const double width = 2.0 * tolerance;
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells;
   cells.reserve(vertices.size());
@@ -194,17 +198,18 @@ void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
 
 TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& report) {
   if (mesh.triangles.empty()) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: holds no triangles; export a surface mesh, not points or lines", name));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: holds no triangles; export a surface mesh, not points or lines", name));
   }
   if (mesh.triangles.size() > kMaxTriangles) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: {} triangles are more than the limit of {}; decimate the mesh", name,
-                                                  mesh.triangles.size(), kMaxTriangles));
+    throw Failure(ExitCode::kBadData, fmt::format("{}: {} triangles are more than the limit of {}; decimate the mesh",
+                                                  name, mesh.triangles.size(), kMaxTriangles));
   }
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       if (v >= mesh.vertices.size()) {
-        throw Failure(ExitCode::kBadData, fmt::format("{}: a face names vertex {} of {}; export the mesh again", name, v,
-                                                      mesh.vertices.size()));
+        throw Failure(ExitCode::kBadData, fmt::format("{}: a face names vertex {} of {}; export the mesh again", name,
+                                                      v, mesh.vertices.size()));
       }
     }
   }

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <assimp/Importer.hpp>
 
 #include "toolchain/scene_compiler/failure.h"
 #include "toolchain/scene_compiler/ply_reader.h"
@@ -24,15 +24,17 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 void check_readable(const std::filesystem::path& file, const std::string& extension) {
   if (extension != ".ply" && extension != ".stl" && extension != ".obj") {
-    throw Failure(ExitCode::kBadData,
-                  fmt::format("{}: not a PLY, STL or OBJ file by its name; export the mesh as one of them", file.string()));
+    throw Failure(
+        ExitCode::kBadData,
+        fmt::format("{}: not a PLY, STL or OBJ file by its name; export the mesh as one of them", file.string()));
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     throw Failure(ExitCode::kNoInput, fmt::format("{}: no such file; check `mesh` in the scene file", file.string()));
   }
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be opened; check its permissions", file.string()));
+  if (!stream)
+    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be opened; check its permissions", file.string()));
   if (stream.peek() == std::ifstream::traits_type::eof()) {
     throw Failure(ExitCode::kBadData, fmt::format("{}: the file is empty; export the mesh again", file.string()));
   }
@@ -55,7 +57,8 @@ TriangleMesh gather(const aiScene& scene, MeshReport& report) {
       corners.clear();
       for (unsigned i = 0; i < face.mNumIndices; ++i) {
         if (face.mIndices[i] >= mesh.mNumVertices) {
-          throw std::runtime_error(fmt::format("face {} names vertex {} of {}", f, face.mIndices[i], mesh.mNumVertices));
+          throw std::runtime_error(
+              fmt::format("face {} names vertex {} of {}", f, face.mIndices[i], mesh.mNumVertices));
         }
         corners.push_back(first + face.mIndices[i]);
       }

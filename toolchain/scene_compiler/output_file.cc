@@ -44,8 +44,8 @@ void OutputFile::commit() {
 }
 
 void OutputFile::fail(const char* what) const {
-  throw Failure(ExitCode::kIo, fmt::format("{}: {} ({}); check the folder, its permissions and free space", file_.string(), what,
-                                           std::strerror(errno)));
+  throw Failure(ExitCode::kIo, fmt::format("{}: {} ({}); check the folder, its permissions and free space",
+                                           file_.string(), what, std::strerror(errno)));
 }
 
 }  // namespace godobject::scene_compiler

@@ -43,9 +43,12 @@ void parallel_chunks(std::size_t count, std::size_t chunk, const std::function<v
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work, const Progress& progress) {
   const std::size_t chunk = std::clamp<std::size_t>(count / (thread_count() * 64), 1, 256);
-  parallel_chunks(count, chunk, [&work](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) work(i);
-  }, progress);
+  parallel_chunks(
+      count, chunk,
+      [&work](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) work(i);
+      },
+      progress);
 }
 
 }  // namespace godobject::scene_compiler

@@ -7,8 +7,8 @@ namespace godobject::scene_compiler {
 
 using Progress = std::function<void(double)>;  ///< gets 0 .. 1; may be empty
 
-/// Runs work(begin, end) over 0 .. count in chunks of `chunk` on all processors, each chunk once, in any order. The first
-/// exception ends it and is thrown to the caller. `progress` is called on the caller's thread.
+/// Runs work(begin, end) over 0 .. count in chunks of `chunk` on all processors, each chunk once, in any order. The
+/// first exception ends it and is thrown to the caller. `progress` is called on the caller's thread.
 void parallel_chunks(std::size_t count, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& work,
                      const Progress& progress = {});
 

@@ -44,10 +44,12 @@ struct PlyHeader {
 
 Number number_type(const std::string& name) {
   static constexpr std::pair<std::string_view, Number> kNames[] = {
-      {"char", Number::kInt8},    {"int8", Number::kInt8},     {"uchar", Number::kUint8},   {"uint8", Number::kUint8},
-      {"short", Number::kInt16},  {"int16", Number::kInt16},   {"ushort", Number::kUint16}, {"uint16", Number::kUint16},
-      {"int", Number::kInt32},    {"int32", Number::kInt32},   {"uint", Number::kUint32},   {"uint32", Number::kUint32},
-      {"float", Number::kFloat},  {"float32", Number::kFloat}, {"double", Number::kDouble}, {"float64", Number::kDouble}};
+      {"char", Number::kInt8},     {"int8", Number::kInt8},     {"uchar", Number::kUint8},
+      {"uint8", Number::kUint8},   {"short", Number::kInt16},   {"int16", Number::kInt16},
+      {"ushort", Number::kUint16}, {"uint16", Number::kUint16}, {"int", Number::kInt32},
+      {"int32", Number::kInt32},   {"uint", Number::kUint32},   {"uint32", Number::kUint32},
+      {"float", Number::kFloat},   {"float32", Number::kFloat}, {"double", Number::kDouble},
+      {"float64", Number::kDouble}};
   for (const auto& [known, type] : kNames) {
     if (name == known) return type;
   }
@@ -99,7 +101,8 @@ PlyHeader read_header(std::string_view data) {
       has_format = true;
     } else if (keyword == "element") {
       Element element;
-      if (!(words >> element.name >> element.count)) throw std::runtime_error("an element without a count in its header");
+      if (!(words >> element.name >> element.count))
+        throw std::runtime_error("an element without a count in its header");
       header.elements.push_back(element);
     } else if (keyword == "property") {
       if (header.elements.empty()) throw std::runtime_error("a property before the first element in its header");
@@ -160,13 +163,16 @@ class Body {
     if (error == std::errc::result_out_of_range) {
       value = std::numeric_limits<double>::infinity();
     } else if (error != std::errc() || (stop != end && std::isspace(static_cast<unsigned char>(*stop)) == 0)) {
-      throw std::runtime_error(fmt::format("\"{}\" where a number should stand", data_.substr(at_, std::min<std::size_t>(20, data_.size() - at_))));
+      throw std::runtime_error(fmt::format("\"{}\" where a number should stand",
+                                           data_.substr(at_, std::min<std::size_t>(20, data_.size() - at_))));
     }
     at_ = static_cast<std::size_t>(stop - data_.data());
     return value;
   }
 
-  [[noreturn]] static void throw_short() { throw std::runtime_error("it ends before the last element its header announces"); }
+  [[noreturn]] static void throw_short() {
+    throw std::runtime_error("it ends before the last element its header announces");
+  }
 
   std::string_view data_;
   Encoding encoding_;
@@ -181,7 +187,8 @@ void skip(Body& body, const Property& property) {
 void read_vertices(Body& body, const Element& element, TriangleMesh& mesh) {
   constexpr std::string_view kAxes[] = {"x", "y", "z"};
   int found = 0;
-  for (const Property& p : element.properties) found += std::count(std::begin(kAxes), std::end(kAxes), p.name) != 0 ? 1 : 0;
+  for (const Property& p : element.properties)
+    found += std::count(std::begin(kAxes), std::end(kAxes), p.name) != 0 ? 1 : 0;
   if (found != 3) throw std::runtime_error("its vertices lack x, y or z");
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Eigen::Vector3d vertex = Eigen::Vector3d::Zero();

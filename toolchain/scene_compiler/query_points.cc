@@ -29,33 +29,36 @@ bool read_point(std::string_view line, Vector3& point) {
     std::string_view word = trimmed(line.substr(0, comma));
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), point[axis]);
-    if (error != std::errc() || end != word.data() + word.size() || word.empty() || !std::isfinite(point[axis])) return false;
+    if (error != std::errc() || end != word.data() + word.size() || word.empty() || !std::isfinite(point[axis]))
+      return false;
     if (axis < 2) line.remove_prefix(comma + 1);
   }
   return true;
 }
 
 bool names_columns(std::string_view line) {
-  return !line.empty() && line.find_first_of("0123456789") == std::string_view::npos && line.find_first_of("xX") != std::string_view::npos;
+  return !line.empty() && line.find_first_of("0123456789") == std::string_view::npos &&
+         line.find_first_of("xX") != std::string_view::npos;
 }
 
 void append_row(std::string& text, std::string_view point_text, const Vector3& point, const Voxelmap& field) {
   const FieldSample sample = field.sample(point);
   const double length = sample.gradient.norm();
   const Vector3 normal = length > 0.0 ? Vector3(sample.gradient / length) : Vector3::Zero();
-  fmt::format_to(std::back_inserter(text), "{},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", point_text, sample.distance, normal.x(), normal.y(),
-                 normal.z(), sample.known ? 1 : 0);
+  fmt::format_to(std::back_inserter(text), "{},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", point_text, sample.distance,
+                 normal.x(), normal.y(), normal.z(), sample.known ? 1 : 0);
 }
 
 }  // namespace
 
-std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points, const std::filesystem::path& output,
-                           const Progress& progress) {
+std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points,
+                           const std::filesystem::path& output, const Progress& progress) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(points, error);
   std::ifstream stream(points);
   if (error || !stream) {
-    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; check the path and its permissions", points.string()));
+    throw Failure(ExitCode::kNoInput,
+                  fmt::format("{}: cannot be read; check the path and its permissions", points.string()));
   }
   OutputFile file(output);
   std::string text = "x,y,z,distance,nx,ny,nz,known\n";
@@ -68,8 +71,9 @@ std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& p
     if (row.empty() || (number == 1 && names_columns(row))) continue;
     Vector3 point;
     if (!read_point(row, point)) {
-      throw Failure(ExitCode::kBadData, fmt::format("{}:{}: \"{}\" is not three finite numbers x,y,z; mend or drop the row", points.string(),
-                                                    number, row.substr(0, 60)));
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{}:{}: \"{}\" is not three finite numbers x,y,z; mend or drop the row",
+                                points.string(), number, row.substr(0, 60)));
     }
     append_row(text, row, point, field);
     ++rows;

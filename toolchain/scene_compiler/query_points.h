@@ -8,10 +8,10 @@
 
 namespace godobject::scene_compiler {
 
-/// Reads rows `x,y,z` in W [m] (a first row of names is skipped) and writes `x,y,z,distance,nx,ny,nz,known`. The numbers x,
-/// y, z appear as they came. Returns the number of rows. Throws Failure: kNoInput, kIo, or kBadData naming the line of the
-/// first bad row; then there is no output.
-std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points, const std::filesystem::path& output,
-                           const Progress& progress);
+/// Reads rows `x,y,z` in W [m] (a first row of names is skipped) and writes `x,y,z,distance,nx,ny,nz,known`. The
+/// numbers x, y, z appear as they came. Returns the number of rows. Throws Failure: kNoInput, kIo, or kBadData naming
+/// the line of the first bad row; then there is no output.
+std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points,
+                           const std::filesystem::path& output, const Progress& progress);
 
 }  // namespace godobject::scene_compiler

@@ -63,7 +63,8 @@ std::uint32_t read_solver(const TomlTable& contact) {
   const std::string solver = contact.text("solver", "corrected");
   if (solver == "paper") return static_cast<std::uint32_t>(format::Solver::kPaper);
   if (solver == "contact") contact.complain("solver", "= \"contact\" is not in this version; take corrected or paper");
-  if (solver != "corrected") contact.complain("solver", fmt::format("= \"{}\" is not known; it must be corrected or paper", solver));
+  if (solver != "corrected")
+    contact.complain("solver", fmt::format("= \"{}\" is not known; it must be corrected or paper", solver));
   return static_cast<std::uint32_t>(format::Solver::kCorrected);
 }
 
@@ -72,7 +73,8 @@ void read_friction(const TomlTable& friction, format::Settings& settings) {
   if (!friction.present()) return;
   settings.friction = 1;
   settings.friction_static = friction.number("static", kRatio);
-  settings.friction_kinetic = friction.number("kinetic", {0.0, settings.friction_static}, 0.9 * settings.friction_static);
+  settings.friction_kinetic =
+      friction.number("kinetic", {0.0, settings.friction_static}, 0.9 * settings.friction_static);
   settings.friction_viscous = friction.number("viscous", {0.0, 1e6}, 0.0);
 }
 

@@ -26,8 +26,8 @@ struct SceneConfig {
   format::Settings settings{};
 };
 
-/// Reads and checks a scene file. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line and key for
-/// unknown keys, missing keys, wrong types, values out of range.
+/// Reads and checks a scene file. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line and key
+/// for unknown keys, missing keys, wrong types, values out of range.
 SceneConfig read_scene_config(const std::filesystem::path& file);
 
 }  // namespace godobject::scene_compiler

@@ -12,18 +12,21 @@
 namespace godobject::scene_compiler {
 namespace {
 
-std::size_t padded(std::size_t bytes) { return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment; }
+std::size_t padded(std::size_t bytes) {
+  return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
+}
 
 }  // namespace
 
 AlignedBytes::AlignedBytes(std::size_t size)
-    : bytes_(static_cast<std::byte*>(::operator new(std::max<std::size_t>(size, 1), std::align_val_t{format::kAlignment}))),
+    : bytes_(static_cast<std::byte*>(
+          ::operator new (std::max<std::size_t>(size, 1), std::align_val_t{format::kAlignment}))),
       size_(size) {
   std::memset(bytes_.get(), 0, size);
 }
 
 void AlignedBytes::Free::operator()(std::byte* bytes) const noexcept {
-  ::operator delete(bytes, std::align_val_t{format::kAlignment});
+  ::operator delete (bytes, std::align_val_t{format::kAlignment});
 }
 
 AlignedBytes make_image(const std::vector<SectionBytes>& sections) {
@@ -37,7 +40,8 @@ AlignedBytes make_image(const std::vector<SectionBytes>& sections) {
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const std::vector<std::byte>& bytes = sections[i].bytes;
     std::copy(bytes.begin(), bytes.end(), data + offset);
-    const format::Section entry{sections[i].id, 0, offset, bytes.size(), format::checksum(data + offset, padded(bytes.size()))};
+    const format::Section entry{sections[i].id, 0, offset, bytes.size(),
+                                format::checksum(data + offset, padded(bytes.size()))};
     std::memcpy(data + sizeof(format::Header) + i * sizeof(entry), &entry, sizeof(entry));
     offset += padded(bytes.size());
   }
@@ -57,7 +61,8 @@ AlignedBytes make_image(const std::vector<SectionBytes>& sections) {
 SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std::move(image)) {
   const Status status = Scene::open(bytes.span(), scene);
   if (status != Status::kOk) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: {}; compile the scene again with godobject-scenec", name, describe(status)));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: {}; compile the scene again with godobject-scenec", name, describe(status)));
   }
 }
 
@@ -66,7 +71,8 @@ SceneImage SceneImage::read(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
   if (error || !stream) {
-    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
+    throw Failure(ExitCode::kNoInput,
+                  fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
   }
   AlignedBytes image(size);
   stream.read(reinterpret_cast<char*>(image.span().data()), static_cast<std::streamsize>(size));

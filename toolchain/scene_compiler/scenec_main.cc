@@ -60,7 +60,8 @@ void compile(const Options& options) {
 void run(const Options& options) {
   const bool compiles = !options.scene_file.empty() || !options.output.empty();
   if (!options.inspect.empty()) {
-    if (compiles) throw Failure(ExitCode::kUsage, "--inspect takes no scene file and no output; see godobject-scenec --help");
+    if (compiles)
+      throw Failure(ExitCode::kUsage, "--inspect takes no scene file and no output; see godobject-scenec --help");
     fmt::print("{}\n", inspect_json(SceneImage::read(options.inspect)).dump(2));
     return;
   }
@@ -77,7 +78,8 @@ int main(int argc, char** argv) {
   app.add_option("SCENE.toml", options.scene_file, "scene file");
   app.add_option("-o,--output", options.output, "scene image to write");
   app.add_option("--report", options.report, "write what was found and measured as JSON");
-  app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")->check(CLI::IsMember({"paper", "corrected"}));
+  app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")
+      ->check(CLI::IsMember({"paper", "corrected"}));
   app.add_option("--inspect", options.inspect, "print the facts of a compiled image as JSON");
   app.set_version_flag("--version", "godobject-scenec " GODOBJECT_VERSION);
   app.footer(kFooter);

@@ -16,7 +16,9 @@ using format::kBrickCells;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Vector3d to_vector(const BrickPosition& p) { return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])}; }
+Vector3d to_vector(const BrickPosition& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
 
 }  // namespace
 
@@ -30,7 +32,8 @@ SeamMap::SeamMap(const BrickLattice& bricks, const Vector3d& origin, double voxe
 void SeamMap::add(const BrickPosition& position, const format::Brick& brick) {
   for_each_cell(brick, [&](const CellEdges& edges, int x, int y, int z) {
     if (!edges.on_seam(voxel_size_)) return;
-    const BrickPosition cell = {kBrickCells * position[0] + x, kBrickCells * position[1] + y, kBrickCells * position[2] + z};
+    const BrickPosition cell = {kBrickCells * position[0] + x, kBrickCells * position[1] + y,
+                                kBrickCells * position[2] + z};
     const auto [found, added] = boxes_.try_emplace(bricks_.number(position), CellBox{cell, cell});
     CellBox& box = found->second;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -48,8 +51,8 @@ void SeamMap::add(const BrickPosition& position, const format::Brick& brick) {
   });
 }
 
-/// Two bricks that touch are 0 apart: the gap in bricks along an axis is max(|i - j| - 1, 0). Its least squared sum over all
-/// seam bricks j is the squared distance to the nearest brick within one step of a seam brick.
+/// Two bricks that touch are 0 apart: the gap in bricks along an axis is max(|i - j| - 1, 0). Its least squared sum
+/// over all seam bricks j is the squared distance to the nearest brick within one step of a seam brick.
 void SeamMap::close() {
   if (boxes_.empty()) return;
   std::vector<bool> touching(bricks_.count());
@@ -69,7 +72,8 @@ void SeamMap::close() {
 
 double SeamMap::clearance_of_bricks(const BrickPosition& position) const {
   if (boxes_.empty()) return kInfinity;
-  return kBrickCells * voxel_size_ * std::sqrt(static_cast<double>(squared_steps_[bricks_.number(position)])) * (1.0 - 1e-6);
+  return kBrickCells * voxel_size_ * std::sqrt(static_cast<double>(squared_steps_[bricks_.number(position)])) *
+         (1.0 - 1e-6);
 }
 
 float SeamMap::clearance_of_cells(const BrickPosition& position, double reach) const {

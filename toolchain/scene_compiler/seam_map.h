@@ -37,8 +37,8 @@ class SeamMap {
   BrickLattice bricks_;
   Eigen::Vector3d origin_;
   double voxel_size_;
-  std::map<std::size_t, CellBox> boxes_;       // seam cells of a brick, by its number
-  std::vector<float> squared_steps_;           // of each brick to the nearest seam brick, in bricks between them
+  std::map<std::size_t, CellBox> boxes_;  // seam cells of a brick, by its number
+  std::vector<float> squared_steps_;      // of each brick to the nearest seam brick, in bricks between them
   SeamReport report_;
   Eigen::Vector3d low_, high_;
 };

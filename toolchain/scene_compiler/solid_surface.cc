@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "toolchain/scene_compiler/components.h"
+#include "toolchain/scene_compiler/open_boundary.h"
 #include "toolchain/scene_compiler/triangle_tree.h"
 
 namespace godobject::scene_compiler {
@@ -19,8 +20,8 @@ using Eigen::Vector3d;
 constexpr double kOpening = 2.0;       // 0.055
 constexpr double kFinerOpening = 8.0;  // 0.001
 constexpr double kDipoleError = 0.08;
-constexpr double kUnsure = 0.2;        // |w - 1/2| below it: sum again, finer
-constexpr double kVeryUnsure = 0.01;   // and below it: sum exactly
+constexpr double kUnsure = 0.2;       // |w - 1/2| below it: sum again, finer
+constexpr double kVeryUnsure = 0.01;  // and below it: sum exactly
 
 constexpr double kShellLimit = 0.25;
 constexpr std::uint32_t kSamplesPerComponent = 256;
@@ -55,7 +56,8 @@ SurfaceSamples sample_component(const TriangleMesh& mesh, const std::vector<std:
   SurfaceSamples samples;
   for (std::uint32_t i = 0; i < kSamplesPerComponent; ++i) {
     const double at = total * (i + 0.5) / kSamplesPerComponent;
-    const auto k = static_cast<std::size_t>(std::lower_bound(cumulated.begin(), cumulated.end(), at) - cumulated.begin());
+    const auto k =
+        static_cast<std::size_t>(std::lower_bound(cumulated.begin(), cumulated.end(), at) - cumulated.begin());
     const auto& t = mesh.triangles[ids[std::min(k, ids.size() - 1)]];
     // the plastic number's sequence fills the triangle evenly
     double u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0);
@@ -86,49 +88,6 @@ TriangleTree tree_of(const TriangleMesh& mesh, const std::vector<SolidSurface::C
   return TriangleTree(std::move(triangles));
 }
 
-/// Edges along which the solid components' triangles do not cancel.
-struct OpenBoundary {
-  TriangleTree edges;   ///< as flat triangles
-  double length = 0.0;  ///< each edge as often as it is left over [m]
-};
-
-OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurface::Component>& components,
-                           const std::vector<std::uint32_t>& component_of) {
-  struct Edge {
-    std::uint32_t low, high;
-    std::int32_t sense;
-    bool same_ends(const Edge& other) const { return low == other.low && high == other.high; }
-  };
-  std::vector<Edge> edges;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const SolidSurface::Component& component = components[component_of[i]];
-    if (component.shell) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = mesh.triangles[i][k];
-      const std::uint32_t to = mesh.triangles[i][(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), (from < to) != component.inside_out ? 1 : -1});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
-  OpenBoundary boundary;
-  std::vector<TriangleTree::Triangle> open;
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::int32_t balance = 0;
-    std::size_t end = begin;
-    while (end < edges.size() && edges[end].same_ends(edges[begin])) balance += edges[end++].sense;
-    if (balance != 0) {
-      const Vector3d& a = mesh.vertices[edges[begin].low];
-      const Vector3d& b = mesh.vertices[edges[begin].high];
-      open.push_back({a, b, b, static_cast<std::uint32_t>(open.size())});
-      boundary.length += std::abs(balance) * (b - a).norm();
-    }
-    begin = end;
-  }
-  boundary.edges = TriangleTree(std::move(open));
-  return boundary;
-}
-
 double diagonal(const TriangleMesh& mesh) {
   Vector3d low = mesh.vertices.front();
   Vector3d high = low;
@@ -153,7 +112,8 @@ double principal_value(const TriangleTree& tree, const SurfaceSamples& samples, 
 }
 
 void decide(SolidSurface::Component& component, SurfaceKind kind) {
-  component.shell = kind == SurfaceKind::kShell || (kind == SurfaceKind::kAuto && std::abs(component.winding) < kShellLimit);
+  component.shell =
+      kind == SurfaceKind::kShell || (kind == SurfaceKind::kAuto && std::abs(component.winding) < kShellLimit);
   component.inside_out = !component.shell && component.winding <= -kShellLimit;
 }
 
@@ -172,10 +132,10 @@ struct SolidSurface::Impl {
   double winding_number(const Vector3d& p) const;
 };
 
-/// The mean of the whole mesh's winding number just outside and just inside of a component is its principal value ON the
-/// surface, where the jump of one has dropped out: +1/2 all over a closed solid, 0 on an open sheet (each side sees the
-/// other half's +-1/2 cancel), -1/2 on a solid that is inside out. On either side alone a sheet has +-1/2 as well, which
-/// tells it from nothing. The median over the area forgives holes and crossing components.
+/// The mean of the whole mesh's winding number just outside and just inside of a component is its principal value ON
+/// the surface, where the jump of one has dropped out: +1/2 all over a closed solid, 0 on an open sheet (each side sees
+/// the other half's +-1/2 cancel), -1/2 on a solid that is inside out. On either side alone a sheet has +-1/2 as well,
+/// which tells it from nothing. The median over the area forgives holes and crossing components.
 void SolidSurface::Impl::classify(SurfaceKind kind) {
   const Components connected = connected_components(mesh);
   component_of = connected.of_triangle;
@@ -240,8 +200,12 @@ const TriangleTree& SolidSurface::solid_triangles() const { return impl_->solids
 const TriangleTree& SolidSurface::shell_triangles() const { return impl_->shells; }
 double SolidSurface::winding_number(const Vector3d& p) const { return impl_->winding_number(p); }
 
-double SolidSurface::distance_to_solids(const Vector3d& p, double hint) const { return distance_to(impl_->solids, p, hint); }
-double SolidSurface::distance_to_shells(const Vector3d& p, double hint) const { return distance_to(impl_->shells, p, hint); }
+double SolidSurface::distance_to_solids(const Vector3d& p, double hint) const {
+  return distance_to(impl_->solids, p, hint);
+}
+double SolidSurface::distance_to_shells(const Vector3d& p, double hint) const {
+  return distance_to(impl_->shells, p, hint);
+}
 
 double SolidSurface::signed_distance(const Vector3d& p, double hint) const {
   // with both kinds a bound to any triangle bounds neither

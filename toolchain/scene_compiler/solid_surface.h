@@ -20,7 +20,7 @@ class SolidSurface {
     bool shell = false;       ///< thickened: phi = |d| - thickness / 2
     bool inside_out = false;  ///< its triangles wind the wrong way round; taken with the other sign
     std::uint32_t triangles = 0;
-    double winding = 0.0;     ///< principal value of the whole mesh's winding number on the component: see classify
+    double winding = 0.0;  ///< principal value of the whole mesh's winding number on the component: see classify
   };
 
   struct Closest {
@@ -39,8 +39,9 @@ class SolidSurface {
   const std::vector<std::uint32_t>& component_of_triangle() const;
   double thickness() const;
 
-  /// Signed distance, positive outside: of solid components |d| with the sign of (winding number > 0.5 is inside), of shells
-  /// |d| - thickness / 2, the smaller of both. `hint` (if not negative) is an upper bound of the unsigned distance to any triangle.
+  /// Signed distance, positive outside: of solid components |d| with the sign of (winding number > 0.5 is inside), of
+  /// shells |d| - thickness / 2, the smaller of both. `hint` (if not negative) is an upper bound of the unsigned
+  /// distance to any triangle.
   double signed_distance(const Eigen::Vector3d& p, double hint = -1.0) const;
 
   /// Nearest triangle of any component.
@@ -49,9 +50,9 @@ class SolidSurface {
   /// Generalised winding number of the solid components: 1 inside, 0 outside of closed ones.
   double winding_number(const Eigen::Vector3d& p) const;
 
-  /// How far one may go from p, without crossing a solid's triangle, before the winding number can pass 1/2 [m]. Along such a path
-  /// the winding number changes by at most L / (4 pi r^2) a metre, L the length of the open boundary and r the distance from
-  /// it (Biot and Savart); infinity where the solids are sealed.
+  /// How far one may go from p, without crossing a solid's triangle, before the winding number can pass 1/2 [m]. Along
+  /// such a path the winding number changes by at most L / (4 pi r^2) a metre, L the length of the open boundary and r
+  /// the distance from it (Biot and Savart); infinity where the solids are sealed.
   double constant_side_path(const Eigen::Vector3d& p, double winding_number) const;
 
   /// Unsigned distance to the triangles of one kind; infinity if there are none. `hint` as above, for that kind.

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "toolchain/scene_compiler/failure.h"
 
@@ -17,14 +17,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSpacing = 0.5;            // of samples, voxels
+constexpr double kSpacing = 0.5;  // of samples, voxels
 constexpr double kMostSamples = 2e6;
-constexpr double kThin = 2.0;               // voxels
-constexpr double kLost = 1.0;               // voxels
-constexpr double kRounding = 1e-4;          // a plate of exactly two voxels is not thinner
-constexpr double kFacing = -0.9;            // cosine between the normals of two faces that make a wall
-constexpr double kParallel = -0.985;        // and of a wall that is no wedge: within 10 degrees
-constexpr double kRefusedArea = 12.0;       // voxel faces
+constexpr double kThin = 2.0;          // voxels
+constexpr double kLost = 1.0;          // voxels
+constexpr double kRounding = 1e-4;     // a plate of exactly two voxels is not thinner
+constexpr double kFacing = -0.9;       // cosine between the normals of two faces that make a wall
+constexpr double kParallel = -0.985;   // and of a wall that is no wedge: within 10 degrees
+constexpr double kRefusedArea = 12.0;  // voxel faces
 
 struct Sample {
   Vector3d point;
@@ -71,7 +71,8 @@ Samples sample(const SolidSurface& surface, double voxel_size) {
         v = 1.0 - v;
       }
       const Vector3d& a = mesh.vertices[t[0]];
-      samples.all.push_back({a + u * (mesh.vertices[t[1]] - a) + v * (mesh.vertices[t[2]] - a), normal, component.shell});
+      samples.all.push_back(
+          {a + u * (mesh.vertices[t[1]] - a) + v * (mesh.vertices[t[2]] - a), normal, component.shell});
     }
   }
   return samples;
@@ -84,7 +85,8 @@ std::optional<Thin> look_through_solid(const SolidSurface& surface, const Sample
   const auto is_inside = [&](const Vector3d& p) { return surface.winding_number(p) > 0.5; };
   const Vector3d direction = wall ? Vector3d(-from.normal) : from.normal;
   TriangleTree::RayHit hit{};
-  for (double begin = step; surface.solid_triangles().first_hit(from.point, direction, begin, reach, hit); begin = hit.t + step) {
+  for (double begin = step; surface.solid_triangles().first_hit(from.point, direction, begin, reach, hit);
+       begin = hit.t + step) {
     const double cosine = hit.normal.dot(from.normal);
     if (cosine > kFacing) continue;
     const Vector3d middle = from.point + 0.5 * hit.t * direction;
@@ -96,7 +98,8 @@ std::optional<Thin> look_through_solid(const SolidSurface& surface, const Sample
 }
 
 /// The free space between a thickened sheet and what faces it on the side of `direction`.
-std::optional<Thin> look_from_shell(const SolidSurface& surface, const Sample& from, const Vector3d& direction, double reach) {
+std::optional<Thin> look_from_shell(const SolidSurface& surface, const Sample& from, const Vector3d& direction,
+                                    double reach) {
   const double half = 0.5 * surface.thickness();
   const double step = 1e-4 * reach;
   std::optional<Thin> nearest;
@@ -117,13 +120,15 @@ void measure_lost(const std::vector<Thin>& lost, double area_each, double voxel_
   using Cell = std::array<int, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const noexcept {
-      return static_cast<std::size_t>(c[0]) * 73856093u ^ static_cast<std::size_t>(c[1]) * 19349663u ^ static_cast<std::size_t>(c[2]) * 83492791u;
+      return static_cast<std::size_t>(c[0]) * 73856093u ^ static_cast<std::size_t>(c[1]) * 19349663u ^
+             static_cast<std::size_t>(c[2]) * 83492791u;
     }
   };
   const double width = 1.5 * voxel_size;
   std::unordered_map<Cell, std::vector<std::size_t>, Hash> cells;
   const auto cell_of = [&](const Vector3d& p) {
-    return Cell{static_cast<int>(std::floor(p.x() / width)), static_cast<int>(std::floor(p.y() / width)), static_cast<int>(std::floor(p.z() / width))};
+    return Cell{static_cast<int>(std::floor(p.x() / width)), static_cast<int>(std::floor(p.y() / width)),
+                static_cast<int>(std::floor(p.z() / width))};
   };
   for (std::size_t i = 0; i < lost.size(); ++i) cells[cell_of(lost[i].middle)].push_back(i);
   std::vector<bool> taken(lost.size());
@@ -179,18 +184,21 @@ ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, cons
   const double reach = kThin * voxel_size * (1.0 - kRounding);
   std::vector<std::optional<Thin>> walls(samples.all.size());
   std::vector<std::optional<Thin>> gaps(samples.all.size());
-  parallel_for(samples.all.size(), [&](std::size_t i) {
-    const Sample& from = samples.all[i];
-    if (!from.shell) {
-      walls[i] = look_through_solid(surface, from, true, reach);
-      gaps[i] = look_through_solid(surface, from, false, reach);
-      return;
-    }
-    if (surface.thickness() < reach) walls[i] = Thin{surface.thickness(), from.point, false};
-    const auto ahead = look_from_shell(surface, from, from.normal, reach);
-    const auto behind = look_from_shell(surface, from, -from.normal, reach);
-    gaps[i] = !behind || (ahead && ahead->thickness < behind->thickness) ? ahead : behind;
-  }, progress);
+  parallel_for(
+      samples.all.size(),
+      [&](std::size_t i) {
+        const Sample& from = samples.all[i];
+        if (!from.shell) {
+          walls[i] = look_through_solid(surface, from, true, reach);
+          gaps[i] = look_through_solid(surface, from, false, reach);
+          return;
+        }
+        if (surface.thickness() < reach) walls[i] = Thin{surface.thickness(), from.point, false};
+        const auto ahead = look_from_shell(surface, from, from.normal, reach);
+        const auto behind = look_from_shell(surface, from, -from.normal, reach);
+        gaps[i] = !behind || (ahead && ahead->thickness < behind->thickness) ? ahead : behind;
+      },
+      progress);
   return {gather(walls, samples.area, voxel_size), gather(gaps, samples.area, voxel_size), std::sqrt(samples.area)};
 }
 
@@ -198,10 +206,11 @@ void require_walls_that_last(const ThinReport& report, double voxel_size, const 
   const ThinPlaces& walls = report.walls;
   if (walls.lost_patch <= kRefusedArea * voxel_size * voxel_size) return;
   throw Failure(ExitCode::kBadData,
-                fmt::format("{}: a wall of {:.3g} m over {:.2g} m^2 near ({:.4g}, {:.4g}, {:.4g}) is thinner than the voxel of {:g} m and would be "
+                fmt::format("{}: a wall of {:.3g} m over {:.2g} m^2 near ({:.4g}, {:.4g}, {:.4g}) is thinner than the "
+                            "voxel of {:g} m and would be "
                             "lost; set voxel_size = {:.2g} or smaller, or surface = \"shell\" to thicken it",
-                            mesh_name, walls.lost_thickness, walls.lost_patch, walls.lost_at.x(), walls.lost_at.y(), walls.lost_at.z(), voxel_size,
-                            0.5 * walls.lost_thickness));
+                            mesh_name, walls.lost_thickness, walls.lost_patch, walls.lost_at.x(), walls.lost_at.y(),
+                            walls.lost_at.z(), voxel_size, 0.5 * walls.lost_thickness));
 }
 
 }  // namespace godobject::scene_compiler

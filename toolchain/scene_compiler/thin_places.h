@@ -9,13 +9,13 @@ namespace godobject::scene_compiler {
 
 /// Walls, or gaps, that are thinner than the field can show.
 struct ThinPlaces {
-  std::uint64_t samples = 0;     ///< surface samples that see one thinner than two voxels
-  double area = 0.0;             ///< that they stand for, one side counted [m^2]
-  double smallest = 0.0;         ///< smallest thickness [m]; 0 samples: 0
+  std::uint64_t samples = 0;                     ///< surface samples that see one thinner than two voxels
+  double area = 0.0;                             ///< that they stand for, one side counted [m^2]
+  double smallest = 0.0;                         ///< smallest thickness [m]; 0 samples: 0
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< in the middle of it
-  double voxel_needed = 0.0;     ///< voxel edge that holds it: half of the smallest thickness [m]
-  double lost_patch = 0.0;       ///< largest connected area thinner than one voxel between nearly parallel faces [m^2]
-  double lost_thickness = 0.0;   ///< smallest thickness of that patch [m]
+  double voxel_needed = 0.0;                     ///< voxel edge that holds it: half of the smallest thickness [m]
+  double lost_patch = 0.0;      ///< largest connected area thinner than one voxel between nearly parallel faces [m^2]
+  double lost_thickness = 0.0;  ///< smallest thickness of that patch [m]
   Eigen::Vector3d lost_at = Eigen::Vector3d::Zero();  ///< where
 };
 

@@ -61,9 +61,9 @@ std::int64_t TomlTable::whole_number(std::string_view key, Range range, std::int
 
 void TomlTable::complain(std::string_view key, const std::string& what) const {
   const toml::node* node = find(key);
-  const toml::source_index line = node != nullptr      ? node->source().begin.line
-                                  : table_ != nullptr  ? table_->source().begin.line
-                                                       : 0;
+  const toml::source_index line = node != nullptr     ? node->source().begin.line
+                                  : table_ != nullptr ? table_->source().begin.line
+                                                      : 0;
   const std::string where = line == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line);
   throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
 }

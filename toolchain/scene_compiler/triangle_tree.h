@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "toolchain/scene_compiler/triangle_geometry.h"
+
 namespace godobject::scene_compiler {
 
 /// Bounding-volume hierarchy over triangles: nearest point, ray hits, generalised winding number. Double precision;
@@ -65,13 +67,5 @@ class TriangleTree {
   std::vector<Node> nodes_;
   std::vector<Dipole> dipoles_;
 };
-
-/// Nearest point of the triangle a, b, c to p.
-Eigen::Vector3d nearest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                          const Eigen::Vector3d& c) noexcept;
-
-/// Solid angle of the triangle seen from p, positive where it shows its back (p inside). [sr]
-double solid_angle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                   const Eigen::Vector3d& c) noexcept;
 
 }  // namespace godobject::scene_compiler

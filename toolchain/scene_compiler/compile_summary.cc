@@ -1,0 +1,85 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "toolchain/scene_compiler/compile_report.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
+
+std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFacts& facts) {
+  const MeshReport& r = facts.report;
+  const auto shells =
+      std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.shell; });
+  const auto flipped =
+      std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.inside_out; });
+  const Eigen::Vector3d size = 1e3 * (r.high - r.low);
+  std::string text =
+      fmt::format("{:<7} {}: {} triangles, {:.1f} x {:.1f} x {:.1f} mm, {} component(s): {} solid, {} shell\n", role,
+                  mesh.name, r.triangles, size.x(), size.y(), size.z(), facts.components.size(),
+                  static_cast<std::ptrdiff_t>(facts.components.size()) - shells, shells);
+  const auto note = [&text](std::uint64_t count, const char* what) {
+    if (count > 0) text += fmt::format("        {} {}\n", count, what);
+  };
+  note(r.boundary_edges, "boundary edges: open, the side is told by the winding number");
+  note(r.nonmanifold_edges, "edges of more than two triangles");
+  note(r.misoriented_edges, "edges between triangles of opposite sense");
+  note(r.polygons, "polygons cut into triangles");
+  note(r.lines_and_points, "lines and points dropped");
+  note(r.welded_vertices, "coincident vertices welded");
+  note(r.degenerate_triangles, "degenerate triangles dropped");
+  note(r.duplicate_triangles, "duplicate triangles dropped");
+  note(r.folded_triangles, "triangles in folds without volume");
+  note(r.unreferenced_vertices, "loose vertices dropped");
+  note(static_cast<std::uint64_t>(flipped), "component(s) inside out, turned");
+  return text;
+}
+
+std::string thin_text(const char* what, const ThinPlaces& p) {
+  if (p.samples == 0) return fmt::format("{:<7} none thinner than two voxels\n", what);
+  return fmt::format(
+      "{:<7} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m: would need voxel_size "
+      "= {:.2g}\n",
+      what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
+}
+
+}  // namespace
+
+std::string report_text(const CompileReport& report) {
+  const format::Grid& g = report.grid;
+  const FieldError& e = report.field_error;
+  std::string text = mesh_text("still", report.config.still, report.still);
+  text += mesh_text("moving", report.config.moving, report.moving);
+  text += thin_text("walls", report.thin.walls);
+  text += thin_text("gaps", report.thin.gaps);
+  text += fmt::format("field   {} x {} x {} voxels of {}, band {}, {} of {} bricks stored\n",
+                      g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells,
+                      g.bricks[2] * format::kBrickCells, millimetres(g.voxel_size), millimetres(g.band), g.brick_count,
+                      report.brick_positions);
+  if (report.seams.cells > 0) {
+    text += fmt::format(
+        "        seams in {} cells where holes leave the side open, largest jump {} at ({:.4g}, {:.4g}, {:.4g}) m\n",
+        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
+        report.seams.at.z());
+  }
+  text += fmt::format(
+      "error   rms {} (floor of trilinear interpolation {}), largest {} ({}), wrong side {} ({}) of {} points\n",
+      millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.sign_errors,
+      e.floor_sign_errors, e.points);
+  text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n",
+                      report.body.body.point_count, report.body.body.level_count, millimetres(report.body.spacing),
+                      millimetres(report.body.coverage));
+  const Json left_out = report_json(report)["left_out"];
+  for (const Json& item : left_out) {
+    text += fmt::format("left out {}: {:.1f} KiB saved\n", item["what"].get<std::string>(),
+                        item["bytes_saved"].get<double>() / 1024.0);
+  }
+  double total = 0.0;
+  for (const auto& [phase, time] : report.seconds) total += time;
+  text += fmt::format("image   {:.1f} KiB, {:.2f} s\n", static_cast<double>(report.image_bytes) / 1024.0, total);
+  return text;
+}
+
+}  // namespace godobject::scene_compiler
