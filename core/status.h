@@ -5,17 +5,17 @@
 namespace godobject {
 
 /// What a call of the core ended with. Outputs mean something only on `kOk`.
-enum class [[nodiscard]] Status : std::uint8_t {
-  kOk = 0,
-  kNotFinite,       ///< any step: a NaN or Inf came in, or would have left the step
-  kNotUnit,         ///< a quaternion further than 1e-3 from unit length
-  kImageTruncated,  ///< scene image: fewer bytes than it says it has, or more
-  kImageForeign,    ///< scene image: not one at all, or of another byte order
-  kImageVersion,    ///< scene image: made by another version of the compiler
-  kImageChecksum,   ///< scene image: a bit is wrong
-  kImageLayout,     ///< scene image: a section is missing, misplaced, or of the wrong size
-  kImageValue,      ///< scene image: a number in it is out of its range
-  kNotInImage,      ///< the solver or the friction asked for was left out of this image
+enum class [[nodiscard]] Status : std::uint8_t{
+    kOk = 0,
+    kNotFinite,       ///< any step: a NaN or Inf came in, or would have left the step
+    kNotUnit,         ///< a quaternion further than 1e-3 from unit length
+    kImageTruncated,  ///< scene image: fewer bytes than it says it has, or more
+    kImageForeign,    ///< scene image: not one at all, or of another byte order
+    kImageVersion,    ///< scene image: made by another version of the compiler
+    kImageChecksum,   ///< scene image: a bit is wrong
+    kImageLayout,     ///< scene image: a section is missing, misplaced, or of the wrong size
+    kImageValue,      ///< scene image: a number in it is out of its range
+    kNotInImage,      ///< the solver or the friction asked for was left out of this image
 };
 
 /// One clause in lower case, without a full stop, for the user's eye. Never null.

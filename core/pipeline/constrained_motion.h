@@ -8,7 +8,7 @@ namespace godobject {
 
 /// A motion split along a constrained direction u, eq (34) and (35); u is a unit vector or zero.
 struct SplitMotion {
-  Vector3 parallel = Vector3::Zero();       ///< along u
+  Vector3 parallel = Vector3::Zero();  ///< along u
   Vector3 perpendicular = Vector3::Zero();
 };
 
@@ -18,11 +18,14 @@ inline SplitMotion split(const Vector3& motion, const Vector3& u) noexcept {
 }
 
 /// Step #3: the unconstrained motion from a pose of the god object to the device, (x_u, r_u) of eq (32) and (33), in S.
-inline Motion unconstrained_motion(const Pose& H_WS, const Pose& H_WD) noexcept { return get_motion(H_WS.inverse() * H_WD); }
+inline Motion unconstrained_motion(const Pose& H_WS, const Pose& H_WD) noexcept {
+  return get_motion(H_WS.inverse() * H_WD);
+}
 
-/// Step #4 of `paper` for translations or rotations alone, equations (36)-(40), (47): the motion left of `unconstrained`
-/// [m or rad] when u is the constrained direction and `delta` [m or rad] the step that would reach contact, eq (7).
-/// Region A: `penetration` >= 0, region B otherwise. (38) treats translation and rotation apart, as printed.
+/// Step #4 of `paper` for translations or rotations alone, equations (36)-(40), (47): the motion left of
+/// `unconstrained` [m or rad] when u is the constrained direction and `delta` [m or rad] the step that would reach
+/// contact, eq (7). Region A: `penetration` >= 0, region B otherwise. (38) treats translation and rotation apart, as
+/// printed.
 Vector3 constrained_motion(const Vector3& unconstrained, const Vector3& u, double delta, double penetration) noexcept;
 
 /// Algorithm 1: what friction takes off a motion, x_fr of eq (48); add it to the constrained motion.

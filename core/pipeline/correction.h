@@ -16,8 +16,8 @@ struct Correction {
   double distribution = 0.0;      ///< lambda of eq (27) [1]
 };
 
-/// Equations (5)-(27) as printed, in S. Mended: (14) and a clamp in (11); kept although wrong: (12), (16), (20)-(27), see core/README.md.
-/// Every division is guarded: without force nothing is constrained, without torque nothing turns.
+/// Equations (5)-(27) as printed, in S. Mended: (14) and a clamp in (11); kept although wrong: (12), (16), (20)-(27),
+/// see core/README.md. Every division is guarded: without force nothing is constrained, without torque nothing turns.
 Correction correction(const PenaltyContacts& contacts, double safety_distance, const MassModel& mass) noexcept;
 
 }  // namespace godobject

@@ -19,9 +19,10 @@ namespace detail {
 
 Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, bool cut, bool slipping,
               const Parameters& parameters, State& state, CycleReport& report) noexcept {
-  const Motion stretch = coupling_stretch(input.H_WD, H_WS);                                                       // #6 (44), (45)
-  const Wrench coupling = constraint_force(stretch, parameters.coupling_translation, parameters.coupling_rotation);  // (46)
-  const DeviceForce force = device_force(coupling, input.H_WD, input.velocity_W, parameters);                      // #7
+  const Motion stretch = coupling_stretch(input.H_WD, H_WS);  // #6 (44), (45)
+  const Wrench coupling =
+      constraint_force(stretch, parameters.coupling_translation, parameters.coupling_rotation);  // (46)
+  const DeviceForce force = device_force(coupling, input.H_WD, input.velocity_W, parameters);    // #7
   const bool finite = H_WS.is_finite() && force.total_W.force.allFinite() && force.total_W.torque.allFinite() &&
                       force.spring_W.force.allFinite() && force.spring_W.torque.allFinite();
   if (!finite) return Status::kNotFinite;

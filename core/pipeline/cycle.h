@@ -16,8 +16,8 @@ namespace godobject {
 
 /// What the operator's side gives to one cycle: the body's pose on the device and its velocity, in W.
 struct CycleInput {
-  Pose H_WD;            ///< frame B of the moving body as the device holds it
-  Motion velocity_W;    ///< of D's origin [m/s] and angular [rad/s]; damping only
+  Pose H_WD;          ///< frame B of the moving body as the device holds it
+  Motion velocity_W;  ///< of D's origin [m/s] and angular [rad/s]; damping only
 };
 
 /// How a cycle went; one word a row of a replay.
@@ -44,10 +44,10 @@ struct State {
 
 /// What a cycle leaves for others to look at.
 struct CycleReport {
-  Pose H_WS;                        ///< god object after the cycle, frame B
-  DeviceForce force;                ///< for the device, in W about the centre of mass
-  double penetration = 0.0;         ///< p = p_d - d of step #1, before the cycle's motion [m]
-  std::uint32_t contacts = 0;       ///< points with V > 0
+  Pose H_WS;                   ///< god object after the cycle, frame B
+  DeviceForce force;           ///< for the device, in W about the centre of mass
+  double penetration = 0.0;    ///< p = p_d - d of step #1, before the cycle's motion [m]
+  std::uint32_t contacts = 0;  ///< points with V > 0
   std::uint32_t substeps = 0;
   Outcome outcome = Outcome::kFree;
 };
@@ -59,7 +59,8 @@ struct StepTimes {
   std::int64_t solve_ns = 0;
 };
 
-/// The god object leaves `inside` once it is less than this deep; corrections approach the surface, they do not reach it. [voxels]
+/// The god object leaves `inside` once it is less than this deep; corrections approach the surface, they do not reach
+/// it. [voxels]
 inline constexpr double kOutside = 0.1;
 
 namespace detail {
@@ -72,40 +73,45 @@ Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& 
 
 }  // namespace detail
 
-/// One cycle of `paper`: equations (1)-(48) as printed but for the few mended ones (core/README.md). #8 is the caller's.
-/// kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
+// clang-format off: equation numbers stand in a column of their own
+
+/// One cycle of `paper`: equations (1)-(48) as printed but for the few mended ones (core/README.md). #8 is the
+/// caller's. kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
 template <bool kFriction, DistanceField Field>
-Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input, State& state,
-                   CycleReport& report, StepTimes* times = nullptr) noexcept {
+Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                   State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
   const std::int64_t begin_ns = detail::read(times);
-  const auto contacts = penalty_contacts<LayerPenetration>(field, shell, state.H_WS, q.safety_distance, 0.0);      // #1 (1), (2)
+  const auto contacts =
+      penalty_contacts<LayerPenetration>(field, shell, state.H_WS, q.safety_distance, 0.0);  // #1 (1), (2)
   const std::int64_t found_ns = detail::read(times);
 
-  Pose H_WS = input.H_WD;                                                                                          // region C
+  Pose H_WS = input.H_WD;  // region C
   if (contacts.depth > 0.0) {
-    const Correction c = correction(contacts, q.safety_distance, q.mass);                                          // #2 (3)-(27)
+    const Correction c = correction(contacts, q.safety_distance, q.mass);  // #2 (3)-(27)
     const bool region_A = c.penetration >= 0.0;
     const double eta = region_A ? q.correction_gain : 0.0;
-    const Pose H_pen = set_matrix({eta * c.delta.translation, eta * c.delta.rotation});                            //    (28)
-    const Pose H_WSc = state.H_WS * H_pen;                                                                         //    (29)
-    const Vector3 u_x = H_pen.rotation.conjugate()._transformVector(c.u_x);                                        //    (30)
+    const Pose H_pen = set_matrix({eta * c.delta.translation, eta * c.delta.rotation});  //    (28)
+    const Pose H_WSc = state.H_WS * H_pen;                                               //    (29)
+    const Vector3 u_x = H_pen.rotation.conjugate()._transformVector(c.u_x);              //    (30)
     const Vector3 u_r = H_pen.rotation.conjugate()._transformVector(c.u_r);
-    const Motion free = unconstrained_motion(H_WSc, input.H_WD);                                                   // #3 (32), (33)
-    Motion step{constrained_motion(free.translation, u_x, c.delta.translation.norm(), c.penetration),              // #4 (36)-(39)
+    const Motion free = unconstrained_motion(H_WSc, input.H_WD);                                       // #3 (32), (33)
+    Motion step{constrained_motion(free.translation, u_x, c.delta.translation.norm(), c.penetration),  // #4 (36)-(39)
                 constrained_motion(free.rotation, u_r, c.delta.rotation.norm(), c.penetration)};
     if constexpr (kFriction) {
       const SplitMotion x = split(free.translation, u_x);
       const SplitMotion r = split(free.rotation, u_r);
       const PaperFriction& mu = q.paper_friction;
-      const Vector3 x_restricted = x.parallel - split(step.translation, u_x).parallel;                             //    (40)
+      const Vector3 x_restricted = x.parallel - split(step.translation, u_x).parallel;  //    (40)
       const Vector3 r_restricted = r.parallel - split(step.rotation, u_r).parallel;
-      step.translation += paper_friction(x_restricted, x.perpendicular, mu.translation_static, mu.translation_kinetic, mu.viscous);
-      step.rotation += paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
-    }                                                                                                              //    (47), (48)
-    const Pose H_WS_unfiltered = H_WSc * set_matrix(step);                                                         //    (41), (42)
-    H_WS = filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period);                                        // #5 (43)
+      step.translation +=
+          paper_friction(x_restricted, x.perpendicular, mu.translation_static, mu.translation_kinetic, mu.viscous);
+      step.rotation +=
+          paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
+    }                                                                        //    (47), (48)
+    const Pose H_WS_unfiltered = H_WSc * set_matrix(step);                   //    (41), (42)
+    H_WS = filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period);  // #5 (43)
   }
-  const Status status = detail::finish(input, H_WS, contacts, false, false, q, state, report);                     // #6, #7 (44)-(46)
+  const Status status = detail::finish(input, H_WS, contacts, false, false, q, state, report);  // #6, #7 (44)-(46)
   if (times != nullptr) {
     times->step1_ns = found_ns - begin_ns;
     times->solve_ns = times->now_ns() - found_ns;
@@ -113,17 +119,19 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
   return status;
 }
 
-/// One cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter. As above otherwise.
+/// One cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter. As above
+/// otherwise.
 template <bool kFriction, DistanceField Field>
-Status corrected_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input, State& state,
-                       CycleReport& report, StepTimes* times = nullptr) noexcept {
+Status corrected_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                       State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
   const std::int64_t begin_ns = detail::read(times);
-  const Motion free = unconstrained_motion(state.H_WS, input.H_WD);                                                // #3 (32), (33)
+  const Motion free = unconstrained_motion(state.H_WS, input.H_WD);  // #3 (32), (33)
   const double travel = free.translation.norm() + q.mass.radius * free.rotation.norm();
-  const auto contacts = penalty_contacts<DistancePenetration>(field, shell, state.H_WS, q.safety_distance, travel);  // #1 (1), (2)
+  const auto contacts =
+      penalty_contacts<DistancePenetration>(field, shell, state.H_WS, q.safety_distance, travel);  // #1 (1), (2)
   const std::int64_t found_ns = detail::read(times);
 
-  Projection step;                                                                                                 // #2-#4
+  Projection step;  // #2-#4
   if (state.inside && !contacts.has_direction()) {
     step.motion = free;  // swallowed, and the field does not say where out is: with the device
   } else if constexpr (kFriction) {
@@ -135,12 +143,15 @@ Status corrected_cycle(const Field& field, const Pointshell& shell, const Parame
   }
   const bool follows = !step.cut && contacts.depth <= 0.0;  // the device pose itself, without rounding
   const Pose H_WS = follows ? input.H_WD : state.H_WS * set_matrix(step.motion);
-  const Status status = detail::finish(input, H_WS, contacts, step.cut, step.slipping, q, state, report);          // #6, #7 (44)-(46)
+  const Status status =
+      detail::finish(input, H_WS, contacts, step.cut, step.slipping, q, state, report);  // #6, #7 (44)-(46)
   if (times != nullptr) {
     times->step1_ns = found_ns - begin_ns;
     times->solve_ns = times->now_ns() - found_ns;
   }
   return status;
 }
+
+// clang-format on
 
 }  // namespace godobject

@@ -16,12 +16,15 @@ Vector3 damped(const Vector3& spring, const Vector3& velocity, double damping) n
 
 }  // namespace
 
-DeviceForce device_force(const Wrench& coupling_D, const Pose& H_WD, const Motion& velocity_W, const Parameters& parameters) noexcept {
+DeviceForce device_force(const Wrench& coupling_D, const Pose& H_WD, const Motion& velocity_W,
+                         const Parameters& parameters) noexcept {
   DeviceForce out;
   out.spring_W.force = parameters.stiffness * H_WD.rotation._transformVector(coupling_D.force);
   out.spring_W.torque = parameters.stiffness * H_WD.rotation._transformVector(coupling_D.torque);
-  out.total_W.force = damped(out.spring_W.force, velocity_W.translation, parameters.damping * parameters.coupling_translation);
-  out.total_W.torque = damped(out.spring_W.torque, velocity_W.rotation, parameters.damping * parameters.coupling_rotation);
+  out.total_W.force =
+      damped(out.spring_W.force, velocity_W.translation, parameters.damping * parameters.coupling_translation);
+  out.total_W.torque =
+      damped(out.spring_W.torque, velocity_W.rotation, parameters.damping * parameters.coupling_rotation);
   return out;
 }
 

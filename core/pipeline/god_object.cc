@@ -18,7 +18,9 @@ Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexce
   if (!scene.holds(solver) || (friction && scene.settings.friction == 0)) return Status::kNotInImage;
   switch (solver) {
     case Solver::kPaper: cycle_ = friction ? &paper_cycle<true, Voxelmap> : &paper_cycle<false, Voxelmap>; break;
-    case Solver::kCorrected: cycle_ = friction ? &corrected_cycle<true, Voxelmap> : &corrected_cycle<false, Voxelmap>; break;
+    case Solver::kCorrected:
+      cycle_ = friction ? &corrected_cycle<true, Voxelmap> : &corrected_cycle<false, Voxelmap>;
+      break;
   }
   scene_ = &scene;
   H_MB_ = scene.H_MB;

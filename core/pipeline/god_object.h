@@ -44,8 +44,8 @@ class GodObject {
   const State& state() const noexcept { return state_; }
 
  private:
-  using Cycle = Status (*)(const Voxelmap&, const Pointshell&, const Parameters&, const CycleInput&, State&, CycleReport&,
-                           StepTimes*) noexcept;
+  using Cycle = Status (*)(const Voxelmap&, const Pointshell&, const Parameters&, const CycleInput&, State&,
+                           CycleReport&, StepTimes*) noexcept;
 
   const Scene* scene_ = nullptr;
   Cycle cycle_ = nullptr;

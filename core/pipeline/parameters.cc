@@ -8,17 +8,19 @@ namespace godobject {
 MassModel MassModel::make(const Vector3& principal_inertia, double radius, double length) noexcept {
   // A needle's spin inertia is next to nothing: u_r = J^-1 u_t would turn every torque into spin about its axis.
   constexpr double kInertiaFloor = 1e-2;
-  constexpr double kExtentFloor = 1e-3;   // of `length`: points and lines without any inertia
+  constexpr double kExtentFloor = 1e-3;     // of `length`: points and lines without any inertia
   constexpr double kEllipsoidFloor = 1e-6;  // of the largest a_i^2
-  const double smallest = std::max(kInertiaFloor * principal_inertia.maxCoeff(), kExtentFloor * length * kExtentFloor * length);
+  const double smallest =
+      std::max(kInertiaFloor * principal_inertia.maxCoeff(), kExtentFloor * length * kExtentFloor * length);
 
   MassModel mass;
   mass.radius = radius;
   mass.inertia = principal_inertia.cwiseMax(smallest);
   mass.inverse_inertia = mass.inertia.cwiseInverse();
-  mass.sigma = std::cbrt(mass.inertia.prod());                                                        // (4)
-  mass.ellipsoid = 2.5 * (Vector3::Constant(principal_inertia.sum()) - 2.0 * principal_inertia);      // (11)
-  mass.ellipsoid = mass.ellipsoid.cwiseMax(std::max(kEllipsoidFloor * mass.ellipsoid.maxCoeff(), smallest * kEllipsoidFloor));
+  mass.sigma = std::cbrt(mass.inertia.prod());                                                    // (4)
+  mass.ellipsoid = 2.5 * (Vector3::Constant(principal_inertia.sum()) - 2.0 * principal_inertia);  // (11)
+  mass.ellipsoid =
+      mass.ellipsoid.cwiseMax(std::max(kEllipsoidFloor * mass.ellipsoid.maxCoeff(), smallest * kEllipsoidFloor));
   return mass;
 }
 
@@ -32,9 +34,10 @@ Parameters Parameters::make(const Scene& scene) noexcept {
   p.coupling_translation = s.coupling_translation;
   p.coupling_rotation = s.coupling_rotation;
   p.friction = {s.friction_static, s.friction_kinetic, s.friction_viscous};
-  p.paper_friction = {s.friction_static, s.friction_kinetic, s.paper_rotation_static, s.paper_rotation_kinetic, s.paper_viscous};
-  p.mass = MassModel::make(Vector3(scene.body.inertia[0], scene.body.inertia[1], scene.body.inertia[2]), scene.body.radius,
-                           std::max(scene.body.radius, scene.grid.voxel_size));
+  p.paper_friction = {s.friction_static, s.friction_kinetic, s.paper_rotation_static, s.paper_rotation_kinetic,
+                      s.paper_viscous};
+  p.mass = MassModel::make(Vector3(scene.body.inertia[0], scene.body.inertia[1], scene.body.inertia[2]),
+                           scene.body.radius, std::max(scene.body.radius, scene.grid.voxel_size));
   return p;
 }
 

@@ -6,7 +6,8 @@
 namespace godobject {
 
 /// Mass distribution of the moving body as the solvers use it; m itself drops out of every equation.
-/// The body frame B lies on the principal axes, so inertia matrices are diagonals and the paper's R_BE, eq (9), is the identity.
+/// The body frame B lies on the principal axes, so inertia matrices are diagonals and the paper's R_BE, eq (9), is the
+/// identity.
 struct MassModel {
   Vector3 inertia = Vector3::Ones();          ///< diagonal of J_B / m [m^2], floored at 1e-2 of its largest
   Vector3 inverse_inertia = Vector3::Ones();  ///< [1/m^2]
@@ -36,14 +37,14 @@ struct PaperFriction {
 
 /// All that is constant during a session. SI units.
 struct Parameters {
-  double period = 1e-3;                ///< T [s]
-  double safety_distance = 3e-3;       ///< d [m]
-  double voxel_size = 2e-3;            ///< s [m]
-  double correction_gain = 0.2;        ///< eta of eq (28) [1]
-  double stiffness = 2000.0;           ///< k_D [N/m]
-  double damping = 20.0;               ///< b_D [Ns/m]
-  double coupling_translation = 1.0;   ///< k_VC,x of eq (46) [1]
-  double coupling_rotation = 0.025;    ///< k_VC,r of eq (46) [m^2]
+  double period = 1e-3;               ///< T [s]
+  double safety_distance = 3e-3;      ///< d [m]
+  double voxel_size = 2e-3;           ///< s [m]
+  double correction_gain = 0.2;       ///< eta of eq (28) [1]
+  double stiffness = 2000.0;          ///< k_D [N/m]
+  double damping = 20.0;              ///< b_D [Ns/m]
+  double coupling_translation = 1.0;  ///< k_VC,x of eq (46) [1]
+  double coupling_rotation = 0.025;   ///< k_VC,r of eq (46) [m^2]
   FrictionCoefficients friction;
   PaperFriction paper_friction;
   MassModel mass;

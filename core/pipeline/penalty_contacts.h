@@ -13,9 +13,9 @@ namespace godobject {
 
 /// What step #1 hands on: the paper's f_P, t_P, p_d (d is a parameter), whatever penalty method computed them.
 struct PenaltyContacts {
-  Wrench wrench_S;               ///< f_P [m], t_P [m^2]: sums of eq (2), in S about the centre of mass
-  double depth = 0.0;            ///< p_d [m]: largest V; if negative (region C), no point is nearer than -p_d to contact
-  std::uint32_t count = 0;       ///< points with V > 0
+  Wrench wrench_S;          ///< f_P [m], t_P [m^2]: sums of eq (2), in S about the centre of mass
+  double depth = 0.0;       ///< p_d [m]: largest V; if negative (region C), no point is nearer than -p_d to contact
+  std::uint32_t count = 0;  ///< points with V > 0
 
   /// The forces have a sum to constrain by: contacts may oppose each other, or lie where the field has no gradient.
   bool has_direction() const noexcept { return depth > 0.0 && wrench_S.force.norm() > 1e-6 * depth; }
@@ -23,20 +23,22 @@ struct PenaltyContacts {
 
 /// V of eq (1) and the contact's direction at one sample point.
 struct PointPenetration {
-  double value = 0.0;                  ///< V [m], safety distance included
-  Vector3 normal_W = Vector3::Zero();  ///< n: into the moving body; zero where it is not known (deep inside, medial axis)
+  double value = 0.0;  ///< V [m], safety distance included
+  Vector3 normal_W =
+      Vector3::Zero();  ///< n: into the moving body; zero where it is not known (deep inside, medial axis)
 };
 
 /// Eq (1) as printed: integer layer of the voxel around the point, n the pointshell's own normal.
 struct LayerPenetration {
-  /// V <= reach - phi, so V > 0 is possible up to this stored distance phi: half a layer of rounding, half a diagonal for e, and one for phi(C).
+  /// V <= reach - phi, so V > 0 is possible up to this stored distance phi: half a layer of rounding, half a diagonal
+  /// for e, and one for phi(C).
   static double reach(double safety_distance, double voxel_size) noexcept {
     return safety_distance + (0.5 + 2.0 * 0.8660254037844387) * voxel_size;
   }
 
   template <DistanceField Field>
-  static PointPenetration at(const Field& field, const Pointshell& shell, std::size_t i, const Vector3& p_W, const Matrix3& R_WS,
-                             double safety_distance) noexcept {
+  static PointPenetration at(const Field& field, const Pointshell& shell, std::size_t i, const Vector3& p_W,
+                             const Matrix3& R_WS, double safety_distance) noexcept {
     const LayerSample sample = field.layer(p_W);
     PointPenetration point;
     point.normal_W = R_WS * shell.normal(i);
@@ -63,18 +65,20 @@ struct DistancePenetration {
   }
 };
 
-/// Walks the sphere tree once, calling `visit(i, p_W)` for every sample point whose stored distance may be below `cutoff`,
-/// and returns a lower bound of the stored distance of all points left out (infinity if none was).
-/// `visit` returns the cutoff from there on, which may only shrink. Cost: one field look-up for each node and point visited;
+/// Walks the sphere tree once, calling `visit(i, p_W)` for every sample point whose stored distance may be below
+/// `cutoff`, and returns a lower bound of the stored distance of all points left out (infinity if none was). `visit`
+/// returns the cutoff from there on, which may only shrink. Cost: one field look-up for each node and point visited;
 /// bounded by the number of nodes and points, no stack.
 template <DistanceField Field, class Visit>
-double visit_points_below(double cutoff, const Field& field, const Pointshell& shell, const Pose& H_WS, Visit&& visit) noexcept {
+double visit_points_below(double cutoff, const Field& field, const Pointshell& shell, const Pose& H_WS,
+                          Visit&& visit) noexcept {
   const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
   double left_out = std::numeric_limits<double>::infinity();
   const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
   for (std::uint32_t n = 0; n < node_count;) {
     const format::Node& node = shell.nodes[n];
-    const Vector3 center_S(static_cast<double>(node.center[0]), static_cast<double>(node.center[1]), static_cast<double>(node.center[2]));
+    const Vector3 center_S(static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+                           static_cast<double>(node.center[2]));
     const double bound = field.lower_bound(R_WS * center_S + H_WS.translation, static_cast<double>(node.radius));
     if (bound >= cutoff) {
       left_out = std::min(left_out, bound);
@@ -106,9 +110,9 @@ PenaltyContacts penalty_contacts(const Field& field, const Pointshell& shell, co
     const PointPenetration point = Penetration::at(field, shell, i, p_W, R_WS, safety_distance);
     depth = std::max(depth, point.value);
     if (point.value > 0.0) {
-      const Vector3 force = point.value * point.normal_W;                        // (2)
+      const Vector3 force = point.value * point.normal_W;  // (2)
       wrench_W.force += force;
-      wrench_W.torque += (p_W - H_WS.translation).cross(force);                  // (2)
+      wrench_W.torque += (p_W - H_WS.translation).cross(force);  // (2)
       ++contacts.count;
     }
     // without a contact yet, whatever is farther away than the nearest point so far does not matter
@@ -121,7 +125,8 @@ PenaltyContacts penalty_contacts(const Field& field, const Pointshell& shell, co
   return contacts;
 }
 
-/// Smallest stored distance over all sample points at H_WS [m], at most the band. What a replay reports as minus its depth.
+/// Smallest stored distance over all sample points at H_WS [m], at most the band. What a replay reports as minus its
+/// depth.
 template <DistanceField Field>
 double smallest_distance(const Field& field, const Pointshell& shell, const Pose& H_WS) noexcept {
   double smallest = field.band();

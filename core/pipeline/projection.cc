@@ -56,13 +56,15 @@ ContactRow contact_row(const PenaltyContacts& contacts, double safety_distance, 
 }
 
 /// Region C, or a contact without direction: as far as the layer allows.
-Projection follow(const Motion& unconstrained, const PenaltyContacts& contacts, double safety_distance, const MassModel& mass) noexcept {
+Projection follow(const Motion& unconstrained, const PenaltyContacts& contacts, double safety_distance,
+                  const MassModel& mass) noexcept {
   constexpr double kLayerShare = 0.5;  // of d that one cycle may use up: 1.5 m/s at 3 mm beside the surface
   constexpr double kCreep = 0.01;      // of d a cycle where opposing contacts leave no direction
   Projection out;
   out.motion = unconstrained;
-  const double room = contacts.depth <= 0.0 ? kLayerShare * safety_distance - contacts.depth
-                                            : std::max(kLayerShare * (safety_distance - contacts.depth), kCreep * safety_distance);
+  const double room = contacts.depth <= 0.0
+                          ? kLayerShare * safety_distance - contacts.depth
+                          : std::max(kLayerShare * (safety_distance - contacts.depth), kCreep * safety_distance);
   out.cut = shorten(room, mass.radius, out.motion);
   return out;
 }
@@ -81,10 +83,11 @@ Projection project(const Motion& unconstrained, const PenaltyContacts& contacts,
   return out;
 }
 
-Projection project_with_friction(const Motion& unconstrained, const PenaltyContacts& contacts, double safety_distance, double gain,
-                                 const MassModel& mass, const ProjectionFriction& friction, bool was_slipping) noexcept {
-  constexpr int kRounds = 30;            // of the slip iteration; it converges geometrically
-  constexpr double kConverged = 1e-12;   // relative to the multipliers
+Projection project_with_friction(const Motion& unconstrained, const PenaltyContacts& contacts, double safety_distance,
+                                 double gain, const MassModel& mass, const ProjectionFriction& friction,
+                                 bool was_slipping) noexcept {
+  constexpr int kRounds = 30;           // of the slip iteration; it converges geometrically
+  constexpr double kConverged = 1e-12;  // relative to the multipliers
   const ContactRow contact = contact_row(contacts, safety_distance, gain);
   if (!contact.has_row) return follow(unconstrained, contacts, safety_distance, mass);
   const Row normal(contact.u, contact.tau, mass);
@@ -101,10 +104,11 @@ Projection project_with_friction(const Motion& unconstrained, const PenaltyConta
 
   // Stick: both tangents and the normal at rest. A is the inverse effective mass at the contact, positive definite.
   Matrix3 A;
-  A << normal.mobility(normal), normal.mobility(tangent1), normal.mobility(tangent2),
-      normal.mobility(tangent1), tangent1.mobility(tangent1), tangent1.mobility(tangent2),
-      normal.mobility(tangent2), tangent1.mobility(tangent2), tangent2.mobility(tangent2);
-  const Vector3 stick = A.llt().solve(Vector3(approach, -tangent1.along(unconstrained), -tangent2.along(unconstrained)));
+  A << normal.mobility(normal), normal.mobility(tangent1), normal.mobility(tangent2), normal.mobility(tangent1),
+      tangent1.mobility(tangent1), tangent1.mobility(tangent2), normal.mobility(tangent2), tangent1.mobility(tangent2),
+      tangent2.mobility(tangent2);
+  const Vector3 stick =
+      A.llt().solve(Vector3(approach, -tangent1.along(unconstrained), -tangent2.along(unconstrained)));
   const double stick_tangential = std::hypot(stick.y(), stick.z());
   const double mu = was_slipping ? friction.kinetic_ratio : friction.static_ratio;
   if (stick.x() >= 0.0 && stick_tangential <= mu * stick.x()) {
@@ -117,7 +121,8 @@ Projection project_with_friction(const Motion& unconstrained, const PenaltyConta
   // Slip: |l| = mu_k nu + viscous_step * slip, against the slip; normal and tangent in turn.
   out.slipping = true;
   const double a_n = A(0, 0);
-  const double a_t = std::max(A(1, 1), A(2, 2)) + std::fabs(A(1, 2));  // bounds the tangents' block: the iteration contracts
+  const double a_t =
+      std::max(A(1, 1), A(2, 2)) + std::fabs(A(1, 2));  // bounds the tangents' block: the iteration contracts
   const double viscous = friction.viscous_step * a_t;
   double nu = 0.0, l1 = 0.0, l2 = 0.0;
   for (int round = 0; round < kRounds; ++round) {

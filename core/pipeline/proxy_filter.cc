@@ -19,7 +19,7 @@ Pose filter_proxy(const Pose& H_WS_previous, const Pose& H_WS_target, const Pose
   Motion step = get_motion(H_WS_previous.inverse() * H_WS_target);
   step.translation *= gain;
   step.rotation *= gain;
-  return H_WS_previous * set_matrix(step);                                       // (43)
+  return H_WS_previous * set_matrix(step);  // (43)
 }
 
 }  // namespace godobject

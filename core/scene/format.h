@@ -67,18 +67,18 @@ struct Settings {
   std::uint32_t solvers;         ///< bit (1 << Solver) set: this image holds what that solver reads
   std::uint32_t friction;        ///< 1: the scene has a friction table
   std::uint32_t reserved;
-  double safety_distance;          ///< d [m], > 0
-  double margin;                   ///< m of the contact solver [m], > 0
-  double stiffness;                ///< k_D [N/m], > 0
-  double damping;                  ///< b_D [Ns/m], >= 0
-  double coupling_translation;     ///< k_VC,x [1], > 0
-  double coupling_rotation;        ///< k_VC,r [m^2], > 0
-  double friction_static;          ///< mu_s [1], >= friction_kinetic
-  double friction_kinetic;         ///< mu_k [1], >= 0
-  double friction_viscous;         ///< mu_v [Ns/m] of slip at the contact, >= 0
-  double paper_rotation_static;    ///< mu_r,s of Algorithm 1 [1]
-  double paper_rotation_kinetic;   ///< mu_r,k of Algorithm 1 [1]
-  double paper_viscous;            ///< mu_v of Algorithm 1, per cycle [1]: x and r alike
+  double safety_distance;         ///< d [m], > 0
+  double margin;                  ///< m of the contact solver [m], > 0
+  double stiffness;               ///< k_D [N/m], > 0
+  double damping;                 ///< b_D [Ns/m], >= 0
+  double coupling_translation;    ///< k_VC,x [1], > 0
+  double coupling_rotation;       ///< k_VC,r [m^2], > 0
+  double friction_static;         ///< mu_s [1], >= friction_kinetic
+  double friction_kinetic;        ///< mu_k [1], >= 0
+  double friction_viscous;        ///< mu_v [Ns/m] of slip at the contact, >= 0
+  double paper_rotation_static;   ///< mu_r,s of Algorithm 1 [1]
+  double paper_rotation_kinetic;  ///< mu_r,k of Algorithm 1 [1]
+  double paper_viscous;           ///< mu_v of Algorithm 1, per cycle [1]: x and r alike
 };
 static_assert(sizeof(Settings) == 112);
 
@@ -90,22 +90,21 @@ struct Grid {
   double band;            ///< |distance| < band is stored [m]
   double surface_min[3];  ///< bounding box of the surface (of shells: thickened)
   double surface_max[3];
-  double lipschitz;       ///< largest gradient norm of the trilinear field, seams (see Brick) left out [1]
-  double lipschitz_seam;  ///< the same with seams [1]; equal where there is none
-  std::int32_t bricks[3];  ///< brick positions along x, y, z
+  double lipschitz;           ///< largest gradient norm of the trilinear field, seams (see Brick) left out [1]
+  double lipschitz_seam;      ///< the same with seams [1]; equal where there is none
+  std::int32_t bricks[3];     ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks
 };
 static_assert(sizeof(Grid) == 120);
 
-inline constexpr int kBrickCells = 4;                    ///< cells along an edge of a brick
-inline constexpr int kBrickNodes = kBrickCells + 1;      ///< nodes along an edge: neighbours share a face of nodes
+inline constexpr int kBrickCells = 4;                ///< cells along an edge of a brick
+inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: neighbours share a face of nodes
 inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 
-/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], each exact to float rounding, not clamped to the band.
-/// A brick position is stored when a node is nearer than the band or its nodes differ in sign, so whatever lies within the band
-/// lies in a stored brick, and every change of sign does.
-/// Where an open mesh's sign jumps without a surface (winding number 1/2 across a hole) neighbouring nodes differ by more
-/// than the lattice edge: a *seam*.
+/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], each exact to float rounding, not clamped to
+/// the band. A brick position is stored when a node is nearer than the band or its nodes differ in sign, so whatever
+/// lies within the band lies in a stored brick, and every change of sign does. Where an open mesh's sign jumps without
+/// a surface (winding number 1/2 across a hole) neighbouring nodes differ by more than the lattice edge: a *seam*.
 struct alignas(64) Brick {
   float value[kBrickValues];
   float seam_clearance;  ///< no seam is nearer than this to any point of the brick [m]; FLT_MAX where none is near
@@ -114,8 +113,9 @@ struct alignas(64) Brick {
 static_assert(sizeof(Brick) == 512);
 
 /// One entry of the brick index.
-///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance; bits 0-29 the brick's number
-///   bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right by one:
+///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance; bits 0-29 the brick's
+///   number bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right
+///   by one:
 ///               for every point of this brick position and every x within `r` of it, the stored field at x is at least
 ///               clearance - r (outside), whatever brick x lies in. Inside it is not read.
 namespace index_entry {
@@ -133,11 +133,11 @@ constexpr float far_clearance(std::uint32_t entry) noexcept { return std::bit_ca
 
 /// Of the moving body. Body frame B: centre of mass, principal axes. Moving mesh frame M (scaled to metres).
 struct Body {
-  double rotation_MB[4];     ///< quaternion w, x, y, z
-  double translation_MB[3];  ///< centre of mass in M [m]
-  double inertia[3];         ///< principal moments of J_B / m [m^2], ascending, >= 0 (not floored)
-  double radius;             ///< R_max: largest distance of a sample point from the centre of mass [m], > 0
-  double volume;             ///< [m^3]; 0 where the mesh encloses none
+  double rotation_MB[4];              ///< quaternion w, x, y, z
+  double translation_MB[3];           ///< centre of mass in M [m]
+  double inertia[3];                  ///< principal moments of J_B / m [m^2], ascending, >= 0 (not floored)
+  double radius;                      ///< R_max: largest distance of a sample point from the centre of mass [m], > 0
+  double volume;                      ///< [m^3]; 0 where the mesh encloses none
   std::uint32_t inertia_from_points;  ///< 1: mass spread over the surface points, 0: over the closed volume
   std::uint32_t point_count;
   std::uint32_t node_count;
@@ -145,10 +145,10 @@ struct Body {
 };
 static_assert(sizeof(Body) == 112);
 
-/// Sphere tree over the sample points, in pre-order: the children of node i start at i + 1; `skip` is the next node once
-/// the subtree of i is left out. Node 0 (level 0) holds all points. The nodes of level k = 1 .. level_count - 1 are the
-/// samples of hierarchy level k, each level a sampling of the whole surface; the points themselves are level level_count.
-/// A subtree's points are contiguous, and the first of them is the node's own sample: levels are nested.
+/// Sphere tree over the sample points, in pre-order: the children of node i start at i + 1; `skip` is the next node
+/// once the subtree of i is left out. Node 0 (level 0) holds all points. The nodes of level k = 1 .. level_count - 1
+/// are the samples of hierarchy level k, each level a sampling of the whole surface; the points themselves are level
+/// level_count. A subtree's points are contiguous, and the first of them is the node's own sample: levels are nested.
 struct Node {
   float center[3];  ///< of a sphere around all points of the subtree, in B; minimal up to rounding, never too small
   float radius;

@@ -99,7 +99,8 @@ bool valid_grid(const format::Grid& g) noexcept {
     const double low = g.origin[axis];
     const double high = low + g.voxel_size * format::kBrickCells * g.bricks[axis];
     if (!in_range(low, -kLarge, kLarge)) return false;
-    if (!in_range(g.surface_min[axis], low, high) || !in_range(g.surface_max[axis], g.surface_min[axis], high)) return false;
+    if (!in_range(g.surface_min[axis], low, high) || !in_range(g.surface_max[axis], g.surface_min[axis], high))
+      return false;
   }
   return true;
 }
@@ -202,7 +203,8 @@ std::span<const T> as_array(std::span<const std::byte> bytes) noexcept {
 }
 
 /// `values` is float x[n], y[n], z[n].
-void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x, const float*& y, const float*& z) noexcept {
+void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x, const float*& y,
+              const float*& z) noexcept {
   x = as_array<float>(values).data();
   y = x + n;
   z = y + n;
@@ -223,13 +225,15 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   if (!read_one(sections[SectionId::kSettings], opened.settings)) return Status::kImageLayout;
   if (!read_one(sections[SectionId::kGrid], opened.grid)) return Status::kImageLayout;
   if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
-  if (!valid_settings(opened.settings) || !valid_grid(opened.grid) || !valid_body(opened.body)) return Status::kImageValue;
+  if (!valid_settings(opened.settings) || !valid_grid(opened.grid) || !valid_body(opened.body))
+    return Status::kImageValue;
 
   const format::Grid& grid = opened.grid;
   const format::Body& body = opened.body;
   const auto index = as_array<std::uint32_t>(sections[SectionId::kBrickIndex]);
   const auto bricks = as_array<format::Brick>(sections[SectionId::kBricks]);
-  const std::uint64_t positions = static_cast<std::uint64_t>(grid.bricks[0]) * static_cast<std::uint64_t>(grid.bricks[1]) *
+  const std::uint64_t positions = static_cast<std::uint64_t>(grid.bricks[0]) *
+                                  static_cast<std::uint64_t>(grid.bricks[1]) *
                                   static_cast<std::uint64_t>(grid.bricks[2]);
   const std::size_t axes_bytes = std::size_t{3} * sizeof(float) * body.point_count;
   if (sections[SectionId::kBrickIndex].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
@@ -249,7 +253,8 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   if (!valid_nodes(shell.nodes, body) || !valid_points(shell, body.radius)) return Status::kImageValue;
 
   opened.voxelmap = Voxelmap(grid, index, bricks);
-  opened.H_MB.rotation = Quaternion(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]).normalized();
+  opened.H_MB.rotation =
+      Quaternion(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]).normalized();
   opened.H_MB.translation = Vector3(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);
   opened.provenance = sections[SectionId::kProvenance];
   scene = opened;

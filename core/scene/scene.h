@@ -19,12 +19,13 @@ struct Scene {
   format::Body body{};
   Voxelmap voxelmap;
   Pointshell pointshell;
-  Pose H_MB;  ///< body frame (centre of mass, principal axes) in the moving mesh's frame
+  Pose H_MB;                              ///< body frame (centre of mass, principal axes) in the moving mesh's frame
   std::span<const std::byte> provenance;  ///< UTF-8 JSON, for people
 
   /// Checks the whole image once (checksums, layout, every index and every number) and fills the view.
-  /// `image` must begin at a multiple of format::kAlignment. Cost: one pass over the bytes, about 1 ms per MiB; no allocation.
-  /// kImageTruncated, kImageForeign, kImageVersion, kImageChecksum, kImageLayout, kImageValue: see Status; `scene` is unchanged.
+  /// `image` must begin at a multiple of format::kAlignment. Cost: one pass over the bytes, about 1 ms per MiB; no
+  /// allocation. kImageTruncated, kImageForeign, kImageVersion, kImageChecksum, kImageLayout, kImageValue: see Status;
+  /// `scene` is unchanged.
   static Status open(std::span<const std::byte> image, Scene& scene) noexcept;
 
   format::Solver default_solver() const noexcept { return static_cast<format::Solver>(settings.default_solver); }

@@ -49,9 +49,10 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   cell.x = ix % kBrickCells;
   cell.y = iy % kBrickCells;
   cell.z = iz % kBrickCells;
-  const auto brick = static_cast<std::size_t>(ix / kBrickCells) +
-                     static_cast<std::size_t>(nx_) * (static_cast<std::size_t>(iy / kBrickCells) +
-                                                      static_cast<std::size_t>(ny_) * static_cast<std::size_t>(iz / kBrickCells));
+  const auto brick =
+      static_cast<std::size_t>(ix / kBrickCells) +
+      static_cast<std::size_t>(nx_) * (static_cast<std::size_t>(iy / kBrickCells) +
+                                       static_cast<std::size_t>(ny_) * static_cast<std::size_t>(iz / kBrickCells));
   cell.entry = index_[brick];
   return true;
 }
@@ -65,7 +66,8 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     if (cell.entry & format::index_entry::kInside) sample.distance = -band_;
     return sample;
   }
-  const float* v = bricks_[cell.entry & format::index_entry::kLow].value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
+  const float* v =
+      bricks_[cell.entry & format::index_entry::kLow].value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
   const float x00 = v[0] + cell.fx * (v[1] - v[0]);
   const float x10 = v[kStrideY] + cell.fx * (v[kStrideY + 1] - v[kStrideY]);
   const float x01 = v[kStrideZ] + cell.fx * (v[kStrideZ + 1] - v[kStrideZ]);
@@ -110,9 +112,9 @@ LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {
     return sample;
   }
   const int node = cell.x + ox + kStrideY * (cell.y + oy) + kStrideZ * (cell.z + oz);
-  const double layers =
-      -static_cast<double>(bricks_[cell.entry & format::index_entry::kLow].value[node]) * per_voxel_;
-  sample.layer = static_cast<int>(std::clamp(std::floor(layers + 0.5), -static_cast<double>(deepest), static_cast<double>(deepest)));
+  const double layers = -static_cast<double>(bricks_[cell.entry & format::index_entry::kLow].value[node]) * per_voxel_;
+  sample.layer = static_cast<int>(
+      std::clamp(std::floor(layers + 0.5), -static_cast<double>(deepest), static_cast<double>(deepest)));
   return sample;
 }
 

@@ -8,14 +8,15 @@
 
 namespace godobject {
 
-/// The compiled still body: trilinear value and gradient of signed distances stored in sparse bricks. A view; owns nothing.
-/// Real-time safe; every call looks at one brick (one index entry and at most 8 floats of it).
+/// The compiled still body: trilinear value and gradient of signed distances stored in sparse bricks. A view; owns
+/// nothing. Real-time safe; every call looks at one brick (one index entry and at most 8 floats of it).
 class Voxelmap {
  public:
   Voxelmap() = default;
 
   /// The parts must have been validated (Scene::open does) and must outlive the view.
-  Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks) noexcept;
+  Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
+           std::span<const format::Brick> bricks) noexcept;
 
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return band_; }
@@ -29,8 +30,8 @@ class Voxelmap {
   /// that of the band's edge. Nothing more is stored for it.
   LayerSample layer(const Vector3& p_W) const noexcept;
 
-  /// See DistanceField. Within the band from the Lipschitz constant, beyond it from the clearance kept in the brick index,
-  /// outside the grid from the surface's bounding box.
+  /// See DistanceField. Within the band from the Lipschitz constant, beyond it from the clearance kept in the brick
+  /// index, outside the grid from the surface's bounding box.
   double lower_bound(const Vector3& center_W, double radius) const noexcept;
 
  private:

@@ -53,7 +53,8 @@ TEST_F(CommandFiles, CsvIsReadWithItsLineNumbers) {
 }
 
 TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
-  EXPECT_NE(refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number"), std::string::npos);
+  EXPECT_NE(refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number"),
+            std::string::npos);
   EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3"), std::string::npos);
   EXPECT_NE(refusal("a,b,c\n1,2,3,\n", ExitCode::kBadData).find(":2: \"\" is not a number"), std::string::npos);
   EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);

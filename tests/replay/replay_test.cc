@@ -60,8 +60,8 @@ class ReplayTest : public testing::Test {
 
   /// Exit code; `output` gets stdout and stderr.
   int run(const std::string& arguments, const std::string& out = "out.csv") {
-    const std::string command = fmt::format("cd {} && {} balls.scene path.csv -o {} {} > log.txt 2>&1", folder_.string(),
-                                            GODOBJECT_REPLAY, out, arguments);
+    const std::string command = fmt::format("cd {} && {} balls.scene path.csv -o {} {} > log.txt 2>&1",
+                                            folder_.string(), GODOBJECT_REPLAY, out, arguments);
     const int status = std::system(command.c_str());
     std::ostringstream text;
     text << std::ifstream(folder_ / "log.txt").rdbuf();
@@ -93,8 +93,10 @@ TEST_F(ReplayTest, WritesOneRowACycleWithTheColumnsOfTheContract) {
   ASSERT_EQ(table.size(), 301u);
   std::string header;
   for (const std::string& name : table[0]) header += name + ",";
-  EXPECT_EQ(header, "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
-                    "solve_ns,status,");
+  EXPECT_EQ(
+      header,
+      "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
+      "solve_ns,status,");
   EXPECT_EQ(table[1][kStatus], "free");
   EXPECT_EQ(table[151][kStatus], "contact");
   EXPECT_GT(std::stod(table[151][kForceZ]), 2000.0 * 0.009);
@@ -120,7 +122,8 @@ TEST_F(ReplayTest, IsTheSameToTheLastBitApartFromTiming) {
 }
 
 TEST_F(ReplayTest, HoldsTheGodObjectOnBadRowsAndSaysSoAtTheEnd) {
-  for (const std::string bad : {"0.1,nan,0,0.08,1,0,0,0", "0.1,0,inf,0.08,1,0,0,0", "0.1,0,0,0.08,1.1,0,0,0", "0.1,0,0,0.08,0,0,0,0"}) {
+  for (const std::string bad :
+       {"0.1,nan,0,0.08,1,0,0,0", "0.1,0,inf,0.08,1,0,0,0", "0.1,0,0,0.08,1.1,0,0,0", "0.1,0,0,0.08,0,0,0,0"}) {
     write_path(300, 100, bad);
     EXPECT_EQ(run(""), 65);
     EXPECT_NE(output_.find("path.csv:102"), std::string::npos) << output_;

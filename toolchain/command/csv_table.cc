@@ -64,7 +64,8 @@ CsvTable read_csv(const std::filesystem::path& file, std::span<const std::string
       table.values.push_back(value);
       ++count;
     });
-    if (count != columns.size()) refuse(line, fmt::format("has {} fields, not {} ({})", count, columns.size(), fmt::join(columns, ",")));
+    if (count != columns.size())
+      refuse(line, fmt::format("has {} fields, not {} ({})", count, columns.size(), fmt::join(columns, ",")));
     table.lines.push_back(line);
   }
   if (stream.bad()) throw Failure(ExitCode::kIo, fmt::format("{}: could not be read to its end", file.string()));

@@ -12,8 +12,8 @@ namespace godobject::command {
 /// Numbers of a CSV file, row by row. Lines that are empty or begin with # are passed over.
 struct CsvTable {
   std::size_t columns = 0;
-  std::vector<double> values;       ///< rows x columns
-  std::vector<std::size_t> lines;   ///< the file's line of each row, from 1
+  std::vector<double> values;      ///< rows x columns
+  std::vector<std::size_t> lines;  ///< the file's line of each row, from 1
 
   std::size_t rows() const { return lines.size(); }
   std::span<const double> row(std::size_t i) const { return std::span(values).subspan(i * columns, columns); }

@@ -6,7 +6,15 @@
 namespace godobject::command {
 
 /// Exit codes of sysexits.h.
-enum class ExitCode : int { kOk = 0, kUsage = 64, kBadData = 65, kNoInput = 66, kInternal = 70, kIo = 74, kBadConfig = 78 };
+enum class ExitCode : int {
+  kOk = 0,
+  kUsage = 64,
+  kBadData = 65,
+  kNoInput = 66,
+  kInternal = 70,
+  kIo = 74,
+  kBadConfig = 78
+};
 
 /// Ends a command: one line for the user (what, where, the cure) and the exit code.
 class Failure : public std::runtime_error {

@@ -18,8 +18,10 @@ SceneFile::SceneFile(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; make it with godobject-scenec", file.string()));
-  if (size > kLargestImage) throw Failure(ExitCode::kBadData, fmt::format("{}: larger than any scene image", file.string()));
+  if (error || !stream)
+    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; make it with godobject-scenec", file.string()));
+  if (size > kLargestImage)
+    throw Failure(ExitCode::kBadData, fmt::format("{}: larger than any scene image", file.string()));
   size_ = static_cast<std::size_t>(size);
   blocks_.resize((size_ + sizeof(Block) - 1) / sizeof(Block));
   stream.read(reinterpret_cast<char*>(blocks_.data()), static_cast<std::streamsize>(size_));
@@ -28,7 +30,8 @@ SceneFile::SceneFile(const std::filesystem::path& file) {
   }
   const Status status = Scene::open(bytes(), scene_);
   if (status != Status::kOk) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: {}; compile it again with godobject-scenec", file.string(), describe(status)));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: {}; compile it again with godobject-scenec", file.string(), describe(status)));
   }
 }
 

@@ -2,8 +2,8 @@
 #include <map>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/failure.h"
@@ -46,14 +46,16 @@ std::string float_exceptions(int raised) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs the god object along a recorded device path, open loop: one 1 ms cycle for each row.", "godobject-replay");
+  CLI::App app("Runs the god object along a recorded device path, open loop: one 1 ms cycle for each row.",
+               "godobject-replay");
   app.footer(kFooter);
   std::string scene_path, poses_path, out_path, solver_name, friction_name;
   app.add_option("SCENE", scene_path, "scene image, X.scene")->required();
   app.add_option("POSES", poses_path, "device path, CSV")->required();
   app.add_option("-o,--output", out_path, "what to write, CSV")->required();
   app.add_option("--solver", solver_name, "paper or corrected; default: the scene's")->check(CLI::IsMember(kSolvers));
-  app.add_option("--friction", friction_name, "on or off; default: on if the scene has a friction table")->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--friction", friction_name, "on or off; default: on if the scene has a friction table")
+      ->check(CLI::IsMember({"on", "off"}));
 
   return godobject::command::run(app, argc, argv, [&] {
     const godobject::command::SceneFile file(scene_path);
@@ -62,12 +64,15 @@ int main(int argc, char** argv) {
     const bool has_friction = scene.settings.friction != 0;
     const bool friction = friction_name.empty() ? has_friction : friction_name == "on";
     if (friction && !has_friction) {
-      throw Failure(ExitCode::kBadConfig, fmt::format("{}: --friction on, but the scene has no [friction] table; add one and compile it again",
-                                                      scene_path));
+      throw Failure(
+          ExitCode::kBadConfig,
+          fmt::format("{}: --friction on, but the scene has no [friction] table; add one and compile it again",
+                      scene_path));
     }
     if (!scene.holds(solver)) {
-      throw Failure(ExitCode::kBadData, fmt::format("{}: was compiled without the solver {}; compile it again without --only-solver",
-                                                    scene_path, solver_name));
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{}: was compiled without the solver {}; compile it again without --only-solver",
+                                scene_path, solver_name));
     }
     const godobject::replay::Path path = godobject::replay::read_path(poses_path);
     godobject::command::AtomicFile out(out_path);
@@ -75,15 +80,17 @@ int main(int argc, char** argv) {
     {
       godobject::command::Progress progress("replay");
       summary = godobject::replay::replay(
-          scene, solver, friction, path, [&](const std::string& row) { out.write(row); }, [&](double share) { progress.update(share); });
+          scene, solver, friction, path, [&](const std::string& row) { out.write(row); },
+          [&](double share) { progress.update(share); });
     }
     out.commit();
-    fmt::print("{}: {} cycles, deepest {:.3f} mm, peak force {:.2f} N, floating-point exceptions:{}\n", out_path, summary.cycles,
-               1e3 * summary.deepest, summary.peak_force, float_exceptions(summary.float_exceptions));
+    fmt::print("{}: {} cycles, deepest {:.3f} mm, peak force {:.2f} N, floating-point exceptions:{}\n", out_path,
+               summary.cycles, 1e3 * summary.deepest, summary.peak_force, float_exceptions(summary.float_exceptions));
     if (summary.bad_rows > 0) {
-      throw Failure(ExitCode::kBadData,
-                    fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), the first of {} such rows; the god object was "
-                                "held there", poses_path, summary.first_bad_line, summary.bad_rows));
+      throw Failure(ExitCode::kBadData, fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), "
+                                                    "the first of {} such rows; the god object was "
+                                                    "held there",
+                                                    poses_path, summary.first_bad_line, summary.bad_rows));
     }
     return 0;
   });

@@ -23,7 +23,9 @@ std::int64_t now_ns() noexcept {
   return std::int64_t{1000000000} * now.tv_sec + now.tv_nsec;
 }
 
-void append(std::string& row, const Vector3& v) { fmt::format_to(std::back_inserter(row), ",{},{},{}", v.x(), v.y(), v.z()); }
+void append(std::string& row, const Vector3& v) {
+  fmt::format_to(std::back_inserter(row), ",{},{},{}", v.x(), v.y(), v.z());
+}
 
 void append(std::string& row, const Pose& pose) {
   append(row, pose.translation);
@@ -34,21 +36,25 @@ void append(std::string& row, const Pose& pose) {
 }  // namespace
 
 const char* const kColumns =
-    "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,solve_ns,status";
+    "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
+    "solve_ns,status";
 
 Path read_path(const std::filesystem::path& file) {
   constexpr double kPeriod = 1e-3;
   constexpr double kTolerance = 0.1 * kPeriod + 1e-9;  // and the rounding of t itself
   constexpr std::array<std::string_view, 8> kPathColumns = {"t", "px", "py", "pz", "qw", "qx", "qy", "qz"};
   const command::CsvTable table = command::read_csv(file, kPathColumns);
-  if (table.rows() == 0) throw Failure(ExitCode::kBadData, fmt::format("{}: holds no pose; write one row a millisecond", file.string()));
+  if (table.rows() == 0)
+    throw Failure(ExitCode::kBadData, fmt::format("{}: holds no pose; write one row a millisecond", file.string()));
   Path path;
   path.lines = table.lines;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto row = table.row(i);
     if (!std::isfinite(row[0]) || (i > 0 && !(std::fabs(row[0] - path.t.back() - kPeriod) <= kTolerance))) {
-      throw Failure(ExitCode::kBadData, fmt::format("{}:{}: t = {} does not follow its predecessor by 1 ms within 10 %; resample the path "
-                                                    "to 1 kHz", file.string(), table.lines[i], row[0]));
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{}:{}: t = {} does not follow its predecessor by 1 ms within 10 %; resample the path "
+                                "to 1 kHz",
+                                file.string(), table.lines[i], row[0]));
     }
     Pose pose;
     pose.translation = Vector3(row[1], row[2], row[3]);
@@ -59,14 +65,15 @@ Path read_path(const std::filesystem::path& file) {
   return path;
 }
 
-Summary replay(const Scene& scene, Solver solver, bool friction, const Path& path, const std::function<void(const std::string&)>& write_row,
-               const std::function<void(double)>& progress) {
+Summary replay(const Scene& scene, Solver solver, bool friction, const Path& path,
+               const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
   GodObject god_object;
   if (god_object.start(scene, solver, friction) != Status::kOk) {
-    throw Failure(ExitCode::kBadData, "the scene image was compiled without this solver or without friction; compile it without "
-                                      "--only-solver, or with a [friction] table");
+    throw Failure(ExitCode::kBadData,
+                  "the scene image was compiled without this solver or without friction; compile it without "
+                  "--only-solver, or with a [friction] table");
   }
   Summary summary;
   std::string row = std::string(kColumns) + "\n";
@@ -82,7 +89,8 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const Path& pat
     if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];
     const State& state = god_object.state();
     // before the first good row there is no god object to measure
-    const double depth = state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
+    const double depth =
+        state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
     summary.deepest = std::max(summary.deepest, depth);
     summary.peak_force = std::max(summary.peak_force, report.force.spring_W.force.norm());
 
@@ -94,8 +102,8 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const Path& pat
     append(row, god_object.mesh_pose());
     append(row, report.force.spring_W.force);
     append(row, report.force.spring_W.torque);
-    fmt::format_to(std::back_inserter(row), ",{},{},{},{},{},{}\n", depth, report.contacts, report.substeps, times.step1_ns, times.solve_ns,
-                   name(report.outcome));
+    fmt::format_to(std::back_inserter(row), ",{},{},{},{},{},{}\n", depth, report.contacts, report.substeps,
+                   times.step1_ns, times.solve_ns, name(report.outcome));
     write_row(row);
     if (i % kProgressEvery == 0) progress(static_cast<double>(i) / static_cast<double>(path.poses.size()));
   }

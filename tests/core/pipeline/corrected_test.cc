@@ -109,7 +109,9 @@ TEST(Corrected, StaysOutOfAFloorWithinATenthOfAVoxel) {
 TEST(Corrected, StaysOnABallWithinATenthOfAVoxelWhileItSlidesAround) {
   const AnalyticField<Ball> world(Ball{Vector3::Zero(), 0.1}, kVoxel);
   const SampledBody ball = ball_body();
-  const auto pose = [](double angle, double distance) { return at(distance * std::sin(angle), distance * std::cos(angle)); };
+  const auto pose = [](double angle, double distance) {
+    return at(distance * std::sin(angle), distance * std::cos(angle));
+  };
   AnalyticRun<AnalyticField<Ball>, &corrected_cycle<false, AnalyticField<Ball>>> run(world, ball, pose(0.0, 0.13));
   double deepest = 0.0;
   for (int k = 0; k < 4000; ++k) {
@@ -174,7 +176,8 @@ double sliding_ratio(const SampledBody& body, double half_height, double speed, 
 
 TEST(Corrected, SlidesWithTheKineticRatioWithinOnePercent) {
   for (const double speed : {0.01, 0.1, 0.5}) {
-    EXPECT_NEAR(sliding_ratio(ball_body(), kBallRadius, speed, 0.18, 0.0) / 0.18, 1.0, 0.01) << "ball at " << speed << " m/s";
+    EXPECT_NEAR(sliding_ratio(ball_body(), kBallRadius, speed, 0.18, 0.0) / 0.18, 1.0, 0.01)
+        << "ball at " << speed << " m/s";
   }
 }
 
@@ -217,7 +220,8 @@ TEST(Corrected, IsFiniteAndBoundedUnderJumpsOfTheDevice) {
   const AnalyticField<Plate> plate(Plate{}, kVoxel);
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
-  for (const SampledBody& body : {ball_body(), box_body(), SampledBody({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero())}) {
+  for (const SampledBody& body :
+       {ball_body(), box_body(), SampledBody({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero())}) {
     AnalyticRun<AnalyticField<Plate>, &corrected_cycle<true, AnalyticField<Plate>>> run(plate, body, at(0.0, 0.1));
     run.parameters.friction = {0.2, 0.18, 1.0};
     for (int k = 0; k < 2000; ++k) {

@@ -1,4 +1,5 @@
-// The whole cycle on compiled scenes: its edges, its promises to the caller, no allocation, no floating-point exception.
+// The whole cycle on compiled scenes: its edges, its promises to the caller, no allocation, no floating-point
+// exception.
 
 #include "core/pipeline/god_object.h"
 
@@ -67,7 +68,8 @@ struct Pipeline {
   Solver solver;
   bool friction;
 };
-constexpr Pipeline kPipelines[] = {{Solver::kPaper, false}, {Solver::kPaper, true}, {Solver::kCorrected, false}, {Solver::kCorrected, true}};
+constexpr Pipeline kPipelines[] = {
+    {Solver::kPaper, false}, {Solver::kPaper, true}, {Solver::kCorrected, false}, {Solver::kCorrected, true}};
 
 TEST_F(GodObjectTest, MakesNoAllocationAndRaisesNoFloatingPointExceptionInAHundredThousandCycles) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
@@ -105,7 +107,8 @@ TEST_F(GodObjectTest, SpeaksOfTheMeshFrameAndForcesOfTheCentreOfMass) {
   const Pose device = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius - 0.005}, {0.4, 0.0, 0.0});
   EXPECT_NEAR((god.translation - device.translation).z(), 0.005, 0.1 * 0.003);
   EXPECT_NEAR(report.force.spring_W.force.z(), 2000.0 * 0.005, 2000.0 * 0.1 * 0.003);
-  EXPECT_LT(report.force.spring_W.torque.norm(), 10.0 * 0.25 * kBodyRadius);  // points and voxels are not quite symmetric
+  EXPECT_LT(report.force.spring_W.torque.norm(),
+            10.0 * 0.25 * kBodyRadius);  // points and voxels are not quite symmetric
 }
 
 TEST_F(GodObjectTest, HoldsTheGodObjectAndSendsNoForceOnBadInput) {

@@ -30,7 +30,8 @@ TEST(Paper, LeavesABallThatStartedTwoMillimetresDeepWhereItIs) {
   EXPECT_NEAR(run.depth(), 1.98e-3, 0.02e-3);
 }
 
-/// A press to 5 mm below contact and a hold there: region B glues, lambda being next to nothing (ALGORITHM: (21) with (27)).
+/// A press to 5 mm below contact and a hold there: region B glues, lambda being next to nothing (ALGORITHM: (21) with
+/// (27)).
 double hover_height(const SampledBody& body, double half_height) {
   const Floor floor(HalfSpace{}, kVoxel);
   PaperRun run(floor, body, at_height(half_height + 0.010));
@@ -77,9 +78,9 @@ TEST(Paper, GivesTheDevicePoseInRegionC) {
   EXPECT_TRUE(run.report.force.total_W.force.isZero());
 }
 
-/// One contact below a 60 x 40 x 30 mm box at (lever, 0, -15 mm). By hand for a lever of 10 mm: a_x^2 = 1500, a_z^2 = 375,
-/// Q_L = (10, -sqrt(375 (1 - 100/1500))), r^2 = 450, sigma tau = J_y = 375 (mm^2): lambda = 37500 / (37500 + 450^2) = 0.156,
-/// removed share lambda + (1 - lambda) 100 / 450 = 0.344. A consistent pair would remove all of p.
+/// One contact below a 60 x 40 x 30 mm box at (lever, 0, -15 mm). By hand for a lever of 10 mm: a_x^2 = 1500, a_z^2 =
+/// 375, Q_L = (10, -sqrt(375 (1 - 100/1500))), r^2 = 450, sigma tau = J_y = 375 (mm^2): lambda = 37500 / (37500 +
+/// 450^2) = 0.156, removed share lambda + (1 - lambda) 100 / 450 = 0.344. A consistent pair would remove all of p.
 TEST(PaperCorrection, RemovesOnlyAShareOfThePenetration) {
   const MassModel mass = box_body().mass;
   const struct {
@@ -122,7 +123,8 @@ TEST(PaperCorrection, IsFiniteOnWhateverWrenchComes) {
 TEST(PaperFriction, SticksSlipsAndAddsItsViscousShareAsAlgorithmOneSays) {
   const Vector3 restricted(0.0, 0.0, -1.0);
   EXPECT_EQ(paper_friction(restricted, Vector3(0.19, 0.0, 0.0), 0.2, 0.18, 0.01), Vector3(-0.19, 0.0, 0.0));
-  EXPECT_TRUE(paper_friction(restricted, Vector3(0.5, 0.0, 0.0), 0.2, 0.18, 0.01).isApprox(Vector3(-0.18 - 0.005, 0.0, 0.0)));
+  EXPECT_TRUE(
+      paper_friction(restricted, Vector3(0.5, 0.0, 0.0), 0.2, 0.18, 0.01).isApprox(Vector3(-0.18 - 0.005, 0.0, 0.0)));
   EXPECT_TRUE(paper_friction(Vector3::Zero(), Vector3(0.5, 0.0, 0.0), 0.2, 0.18, 0.01).isZero());
   EXPECT_TRUE(paper_friction(restricted, Vector3::Zero(), 0.0, 0.0, 0.0).isZero());
 }
