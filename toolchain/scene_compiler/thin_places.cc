@@ -62,7 +62,8 @@ Samples sample(const SolidSurface& surface, double voxel_size) {
     const SolidSurface::Component& component = surface.components()[surface.component_of_triangle()[i]];
     const Vector3d normal = areas[i].normalized() * (component.inside_out ? -1.0 : 1.0);
     cumulated += areas[i].norm();
-    for (; next < cumulated; next += samples.area) {
+    while (next < cumulated) {
+      next += samples.area;
       const auto k = static_cast<double>(samples.all.size());
       double u = std::fmod(0.5 + 0.7548776662466927 * k, 1.0);
       double v = std::fmod(0.5 + 0.5698402909980532 * k, 1.0);
