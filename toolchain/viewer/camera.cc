@@ -23,22 +23,21 @@ TriangleTree tree_of(const TriangleMesh& mesh, const Pose& pose) {
   return TriangleTree(std::move(triangles));
 }
 
-struct Ball {
-  Vector3 center;
-  double radius;
-};
-
-/// Around the middle of the bounding box.
-Ball bounding_ball(const std::vector<Vector3>& points) {
+/// Of the bounding box.
+Vector3 middle(const std::vector<Vector3>& points) {
   Vector3 low = points.front();
   Vector3 high = low;
   for (const Vector3& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  Ball ball{0.5 * (low + high), 0.0};
-  for (const Vector3& p : points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
-  return ball;
+  return 0.5 * (low + high);
+}
+
+double furthest(const std::vector<Vector3>& points, const Vector3& from) {
+  double radius = 0.0;
+  for (const Vector3& p : points) radius = std::max(radius, (p - from).norm());
+  return radius;
 }
 
 /// The moving mesh's vertex that is nearest to the still surface.
@@ -113,26 +112,28 @@ Camera make_camera(const View& view) {
   const TriangleTree still = tree_of(view.still, Pose());
   const Vector3 place = nearest_place(view.moving, view.H_WS, still);
   shown.push_back(place);
-  const Ball ball = bounding_ball(shown);
+  const Vector3 center = middle(shown);
+
+  Camera camera;
+  camera.target = center + 0.25 * (place - center);
+  const double radius = furthest(shown, camera.target);
 
   Vector3 to_eye;
   if (view.direction) {
     to_eye = toward_eye(*view.direction, view.up_axis);
   } else {
     const Vector3 apart = view.H_WS.translation - view.H_WD.translation;
-    const bool differ = apart.norm() > 1e-3 * ball.radius;
-    const Subject subject{place, differ ? apart.normalized() : (ball.center - place).stableNormalized(), ball.radius};
+    const bool differ = apart.norm() > 1e-3 * radius;
+    const Subject subject{place, differ ? apart.normalized() : (center - place).stableNormalized(), radius};
     to_eye = choose_direction(subject, view.up_axis, still, tree_of(view.moving, view.H_WS));
   }
 
-  constexpr double kRoom = 1.1;
-  Camera camera;
-  camera.target = ball.center + 0.25 * (place - ball.center);
+  constexpr double kRoom = 1.03;
   camera.forward = -to_eye;
   camera.right = camera.forward.cross(Vector3::Unit(view.up_axis)).stableNormalized();
   if (camera.right.squaredNorm() < 0.5) camera.right = Vector3::Unit((view.up_axis + 1) % 3);  // straight from above
   camera.up = camera.right.cross(camera.forward);
-  camera.eye = camera.target + to_eye * (kRoom * ball.radius / (view.zoom * std::sin(kHalfView)));
+  camera.eye = camera.target + to_eye * (kRoom * radius / (view.zoom * std::sin(kHalfView)));
   return camera;
 }
 
