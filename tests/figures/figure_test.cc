@@ -14,7 +14,10 @@ namespace {
 
 Figure two_solvers() {
   const ReplayLog log = {replay_row(0.0, 0.0, -0.006, 0, 9e3, 100), replay_row(0.001, 2.0, 0.003, 5, 20e3, 400)};
-  return {.title = "Pot's scene", .voxel_size = 0.002, .markers = {{"A", 0.0005}}, .series = {{"paper", log}, {"corrected", log}}};
+  return {.title = "Pot's scene",
+          .voxel_size = 0.002,
+          .markers = {{"A", 0.0005}},
+          .series = {{"paper", log}, {"corrected", log}}};
 }
 
 TEST(Figure, HoldsItsDataInTheUnitsOfItsAxes) {

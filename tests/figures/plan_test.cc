@@ -36,7 +36,8 @@ class Plan : public testing::Test {
   }
 
   const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / (std::string("plan_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("plan_") + testing::UnitTest::GetInstance()->current_test_info()->name());
   const std::string kScene = "[[scene]]\nname = 'peg'\nimage = 'hole'\ntitle = 'A < B'\ntext = 'words'\n";
 };
 
@@ -64,7 +65,8 @@ TEST_F(Plan, IsRefusedNamingTheKey) {
 
 TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   for (const char* name : {"paper_1.200.png", "figure.png", "paper.csv"}) std::ofstream(folder_ / "peg" / name) << "x";
-  const std::string html = page(read_plan(holding(kScene)), {{"peg", "paper", 0.002, {}, {}}}, {"MISSED & lost"}, folder_);
+  const std::string html =
+      page(read_plan(holding(kScene)), {{"peg", "paper", 0.002, {}, {}}}, {"MISSED & lost"}, folder_);
   EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
   EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
   EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);

@@ -40,8 +40,8 @@ TEST(Statistics, AreHandComputed) {
       replay_row(0.000, 0.0, -0.006, 0, 5e6, 100),    // free, and slow: counts only for cycles over 1 ms
       replay_row(0.001, 1.0, -0.0005, 4, 10e3, 1e3),  // in contact, not inside
       replay_row(0.002, 8.0, 0.003, 9, 30e3, 3e3),
-      replay_row(0.003, 3.0, 0.001, 0, 20e3, 2e3),    // inside: in contact without a count
-      replay_row(0.004, 2.0, 0.000, 1, 999e3, 1e3),   // exactly 1 ms: not over
+      replay_row(0.003, 3.0, 0.001, 0, 20e3, 2e3),   // inside: in contact without a count
+      replay_row(0.004, 2.0, 0.000, 1, 999e3, 1e3),  // exactly 1 ms: not over
   };
   const Statistics s = statistics(log, 0.0035);
   EXPECT_EQ(s.cycles, 5u);
@@ -89,14 +89,17 @@ TEST(Claims, OneVoxelIsNotBelowOneVoxel) { EXPECT_EQ(judge({entry(0.002, 1.0, 0)
 TEST(Claims, ThatHoldAreSaidToHold) {
   const auto verdicts = judge({entry(0.0, 1.0, 0)});
   ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0], "Met by every scene and solver: penetration below one voxel; steps #2-#7 within 5 us (99th percentile); every cycle below 1 ms");
+  EXPECT_EQ(verdicts[0],
+            "Met by every scene and solver: penetration below one voxel; steps #2-#7 within 5 us (99th percentile); "
+            "every cycle below 1 ms");
 }
 
 TEST(Claims, ABodyBehindTheBarrierHasPoppedThroughThoughItsDepthIsSmall) {
   Entry e = entry(0.0005, 1.0, 0);
   e.crossing = Crossing{.distance = 0.1, .t = 1.7};
   const auto verdicts = judge({e});
-  EXPECT_NE(verdicts[0].find("MISSED peg, solver paper: the god object goes 100.0 mm behind the surface, at 1.700 s"), std::string::npos);
+  EXPECT_NE(verdicts[0].find("MISSED peg, solver paper: the god object goes 100.0 mm behind the surface, at 1.700 s"),
+            std::string::npos);
   for (const std::string& verdict : verdicts) EXPECT_EQ(verdict.find("penetration below one voxel"), std::string::npos);
 }
 

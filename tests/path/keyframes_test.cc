@@ -44,7 +44,8 @@ frequency = 9
 phase_deg = 180
 translation = [0.001, 0, 0]
 rotation_deg = [0, 90, 0]
-)", "motion.toml");
+)",
+                                           "motion.toml");
   EXPECT_EQ(motion.pivot, Vector3(1, 2, 3));
   ASSERT_EQ(motion.keyframes.size(), 2u);
   EXPECT_EQ(motion.keyframes[1].position, Vector3(0.2, 0, 0.1));
@@ -83,14 +84,18 @@ TEST(Keyframes, RefuseNumbersOutOfRange) {
   expect_refused("[[keyframe]]\nt = nan\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe.t");
   expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0]\n", ExitCode::kBadConfig, "keyframe.position");
   expect_refused("[[keyframe]]\nt = 0\nposition = [0, inf, 0]\n", ExitCode::kBadConfig, "keyframe.position");
-  expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0, 0]\nquaternion = [1, 1, 0, 0]\n", ExitCode::kBadConfig, "keyframe.quaternion");
-  expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0, 0]\naxis_angle = [0, 0, 0, 9]\n", ExitCode::kBadConfig, "keyframe.axis_angle");
+  expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0, 0]\nquaternion = [1, 1, 0, 0]\n", ExitCode::kBadConfig,
+                 "keyframe.quaternion");
+  expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0, 0]\naxis_angle = [0, 0, 0, 9]\n", ExitCode::kBadConfig,
+                 "keyframe.axis_angle");
 }
 
 TEST(Keyframes, RefuseAnOscillationThatCannotBe) {
   expect_refused(kTwo + "[[oscillation]]\nfrom = 1\nto = 1\nfrequency = 9\n", ExitCode::kBadConfig, "oscillation.to");
-  expect_refused(kTwo + "[[oscillation]]\nfrom = 0\nto = 1\nfrequency = 0\n", ExitCode::kBadConfig, "oscillation.frequency");
-  expect_refused(kTwo + "[[oscillation]]\nfrom = 0\nto = 1\nfrequency = 9\nfade = 0.6\n", ExitCode::kBadConfig, "oscillation.fade");
+  expect_refused(kTwo + "[[oscillation]]\nfrom = 0\nto = 1\nfrequency = 0\n", ExitCode::kBadConfig,
+                 "oscillation.frequency");
+  expect_refused(kTwo + "[[oscillation]]\nfrom = 0\nto = 1\nfrequency = 9\nfade = 0.6\n", ExitCode::kBadConfig,
+                 "oscillation.fade");
 }
 
 TEST(Keyframes, NameAFileThatIsNotThere) {

@@ -14,8 +14,10 @@ constexpr double kPi = std::numbers::pi;
 Keyframes quarter_turn() {
   Keyframes motion;
   motion.keyframes.push_back({.t = 0.0, .position = Vector3(0, 0, 0)});
-  motion.keyframes.push_back({.t = 1.0, .position = Vector3(0.1, 0, 0), .rotation = exp_rotation(Vector3(0, 0, kPi / 2))});
-  motion.keyframes.push_back({.t = 1.5, .position = Vector3(0.1, 0.2, 0), .rotation = exp_rotation(Vector3(0, 0, kPi / 2))});
+  motion.keyframes.push_back(
+      {.t = 1.0, .position = Vector3(0.1, 0, 0), .rotation = exp_rotation(Vector3(0, 0, kPi / 2))});
+  motion.keyframes.push_back(
+      {.t = 1.5, .position = Vector3(0.1, 0.2, 0), .rotation = exp_rotation(Vector3(0, 0, kPi / 2))});
   return motion;
 }
 
@@ -56,14 +58,21 @@ TEST(Trajectory, HasOneUnitPoseAMillisecond) {
 
 TEST(Trajectory, IsSmoothToTheSecondDerivative) {
   Keyframes motion = quarter_turn();
-  motion.oscillations.push_back({.from = 0.2, .to = 1.3, .frequency = 8.0, .phase = 1.0, .fade = 0.1,
-                                 .translation = Vector3(0, 0, 0.001), .rotation = Vector3(0, 0.02, 0)});
+  motion.oscillations.push_back({.from = 0.2,
+                                 .to = 1.3,
+                                 .frequency = 8.0,
+                                 .phase = 1.0,
+                                 .fade = 0.1,
+                                 .translation = Vector3(0, 0, 0.001),
+                                 .rotation = Vector3(0, 0.02, 0)});
   // The third difference is T^3 x jerk wherever acceleration is continuous; a step of it would leave T^2 x that step.
-  // Largest jerk: 60 x 0.2 m / (0.5 s)^3 = 96 m/s^3, and of the fade 60 x 0.001 / 0.1^3 = 60 and its products with the sine.
+  // Largest jerk: 60 x 0.2 m / (0.5 s)^3 = 96 m/s^3, and of the fade 60 x 0.001 / 0.1^3 = 60 and its products with the
+  // sine.
   const std::vector<Sample> s = sample(motion);
   double largest = 0.0;
   for (std::size_t i = 3; i < s.size(); ++i) {
-    const Vector3 third = s[i].pose.translation - 3.0 * s[i - 1].pose.translation + 3.0 * s[i - 2].pose.translation - s[i - 3].pose.translation;
+    const Vector3 third = s[i].pose.translation - 3.0 * s[i - 1].pose.translation + 3.0 * s[i - 2].pose.translation -
+                          s[i - 3].pose.translation;
     largest = std::max(largest, third.norm());
   }
   EXPECT_LT(largest, 1e-9 * 500.0);
@@ -72,9 +81,19 @@ TEST(Trajectory, IsSmoothToTheSecondDerivative) {
 TEST(Trajectory, OscillationHasItsAmplitudeFrequencyAndPhase) {
   Keyframes motion;
   motion.keyframes = {{.t = 0.0}, {.t = 2.0}};
-  motion.oscillations.push_back({.from = 0.0, .to = 2.0, .frequency = 5.0, .phase = 0.0, .fade = 0.1, .translation = Vector3(0.002, 0, 0),
+  motion.oscillations.push_back({.from = 0.0,
+                                 .to = 2.0,
+                                 .frequency = 5.0,
+                                 .phase = 0.0,
+                                 .fade = 0.1,
+                                 .translation = Vector3(0.002, 0, 0),
                                  .rotation = Vector3::Zero()});
-  motion.oscillations.push_back({.from = 0.0, .to = 2.0, .frequency = 5.0, .phase = kPi / 2, .fade = 0.1, .translation = Vector3(0, 0.002, 0),
+  motion.oscillations.push_back({.from = 0.0,
+                                 .to = 2.0,
+                                 .frequency = 5.0,
+                                 .phase = kPi / 2,
+                                 .fade = 0.1,
+                                 .translation = Vector3(0, 0.002, 0),
                                  .rotation = Vector3::Zero()});
   EXPECT_TRUE(pose_at(motion, 0.0).translation.isZero(0.0));
   EXPECT_TRUE(pose_at(motion, 2.0).translation.isZero(0.0));

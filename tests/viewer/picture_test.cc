@@ -47,9 +47,10 @@ TEST(PovText, PlacesGodObjectAndDeviceByTransposedRotationAndMillimetres) {
   EXPECT_NE(red, std::string::npos);
   // A quarter turn about z takes x to y: the first row of POV-Ray's matrix is the image of x.
   double m[12] = {};
-  ASSERT_EQ(std::sscanf(text.c_str() + blue, "object { Moving matrix <%lf,%lf,%lf, %lf,%lf,%lf, %lf,%lf,%lf, %lf,%lf,%lf>", &m[0], &m[1],
-                        &m[2], &m[3], &m[4], &m[5], &m[6], &m[7], &m[8], &m[9], &m[10], &m[11]),
-            12);
+  ASSERT_EQ(
+      std::sscanf(text.c_str() + blue, "object { Moving matrix <%lf,%lf,%lf, %lf,%lf,%lf, %lf,%lf,%lf, %lf,%lf,%lf>",
+                  &m[0], &m[1], &m[2], &m[3], &m[4], &m[5], &m[6], &m[7], &m[8], &m[9], &m[10], &m[11]),
+      12);
   EXPECT_NEAR(m[0], 0.0, 1e-9);
   EXPECT_NEAR(m[1], 1.0, 1e-9);
   EXPECT_NEAR(m[3], -1.0, 1e-9);

@@ -11,7 +11,8 @@ Crossing furthest_crossing(const ReplayLog& log, const Scene& scene, const Barri
     const Vector3 normal_B = H_WB.rotation.conjugate()._transformVector(barrier.normal);
     const double offset = barrier.normal.dot(H_WB.translation - barrier.point);
     double lowest = 0.0;
-    for (std::size_t i = 0; i < scene.pointshell.size; ++i) lowest = std::min(lowest, offset + normal_B.dot(scene.pointshell.point(i)));
+    for (std::size_t i = 0; i < scene.pointshell.size; ++i)
+      lowest = std::min(lowest, offset + normal_B.dot(scene.pointshell.point(i)));
     if (-lowest > furthest.distance) furthest = {-lowest, row.t};
   }
   return furthest;

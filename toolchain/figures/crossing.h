@@ -7,11 +7,11 @@
 
 namespace godobject::figures {
 
-/// A plane of the still surface that the moving body is to stay on one side of. A thin body's depth says nothing once it has
-/// been passed; this does.
+/// A plane of the still surface that the moving body is to stay on one side of. A thin body's depth says nothing once
+/// it has been passed; this does.
 struct Barrier {
-  Vector3 point = Vector3::Zero();       ///< in W [m]
-  Vector3 normal = Vector3::UnitZ();     ///< unit, in W, towards where the body may be
+  Vector3 point = Vector3::Zero();    ///< in W [m]
+  Vector3 normal = Vector3::UnitZ();  ///< unit, in W, towards where the body may be
 };
 
 /// How far the god object went behind the barrier, and when it was furthest.

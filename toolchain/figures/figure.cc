@@ -41,7 +41,8 @@ std::string data_block(std::size_t number, const ReplayLog& log) {
   for (const ReplayRow& row : log) {
     fmt::format_to(std::back_inserter(text), "{:.4f}", row.t);
     for (const Panel& panel : kPanels) fmt::format_to(std::back_inserter(text), " {:.6g}", panel.value(row));
-    fmt::format_to(std::back_inserter(text), " {:.6g} {:.6g}\n", row.step1_ns / kMicrosecond_ns, row.solve_ns / kMicrosecond_ns);
+    fmt::format_to(std::back_inserter(text), " {:.6g} {:.6g}\n", row.step1_ns / kMicrosecond_ns,
+                   row.solve_ns / kMicrosecond_ns);
   }
   return text + "END\n";
 }
@@ -69,7 +70,8 @@ std::string panel_text(const Figure& figure, std::size_t column, std::size_t row
   const bool depth = row == kPenetration;
   const double voxel_mm = 1e3 * figure.voxel_size;
   std::string text = marker_text(figure.markers, row == 0);
-  text += row == 0 ? fmt::format("set title {} offset 0,0.6\n", quoted("solver " + figure.series[column].solver)) : "unset title\n";
+  text += row == 0 ? fmt::format("set title {} offset 0,0.6\n", quoted("solver " + figure.series[column].solver))
+                   : "unset title\n";
   text += column == 0 ? fmt::format("set ylabel '{}'\n", panel.label) : "unset ylabel\n";
   text += fmt::format("set yrange [0:{:.6g}]\n", top(figure, panel, depth ? 1.1 * voxel_mm : 1e-3));
   text += fmt::format("plot $data{} using 1:{} with lines lw 1.4 lc rgb '{}' notitle", column, row + 2, panel.color);
@@ -79,10 +81,15 @@ std::string panel_text(const Figure& figure, std::size_t column, std::size_t row
 
 std::string time_panel_text(const Figure& figure, std::size_t column) {
   std::string text = marker_text(figure.markers, false);
-  text += "unset title\nset logscale y\nset yrange [0.05:50000]\nset format x '%g'\nset xlabel 'time [s]'\nset key top right horizontal\n";
+  text +=
+      "unset title\nset logscale y\nset yrange [0.05:50000]\nset format x '%g'\nset xlabel 'time [s]'\nset key top "
+      "right horizontal\n";
   text += column == 0 ? "set ylabel 'run time [us]'\n" : "unset ylabel\n";
-  text += fmt::format("plot $data{0} using 1:6 with lines lw 1 lc rgb '#e08214' title '#1', $data{0} using 1:7 with lines lw 1 lc rgb '#1f4e9c' "
-                      "title '#2-#7', 1000 with lines dt 4 lw 1.2 lc rgb '#000000' title '1 ms'\n", column);
+  text += fmt::format(
+      "plot $data{0} using 1:6 with lines lw 1 lc rgb '#e08214' title '#1', $data{0} using 1:7 with lines lw 1 lc rgb "
+      "'#1f4e9c' "
+      "title '#2-#7', 1000 with lines dt 4 lw 1.2 lc rgb '#000000' title '1 ms'\n",
+      column);
   return text + "unset logscale y\nset format x ''\nunset xlabel\nset key default\n";
 }
 
@@ -93,11 +100,15 @@ std::string gnuplot_text(const Figure& figure, const std::filesystem::path& png)
   std::string text;
   for (std::size_t i = 0; i < columns; ++i) text += data_block(i, figure.series[i].log);
   const ReplayLog& first = figure.series.front().log;
-  text += fmt::format("set terminal pngcairo size {},1100 font 'DejaVu Sans,10' background rgb 'white' noenhanced\nset output {}\n",
-                      150 + 650 * columns, quoted(png.string()));
-  text += fmt::format("set multiplot layout {},{} columnsfirst title {} margins {:.4f},0.985,0.055,0.915 spacing {:.4f},0.022\n",
-                      kPanels.size() + 1, columns, quoted(figure.title), 90.0 / static_cast<double>(150 + 650 * columns), 0.11 / static_cast<double>(columns));
-  text += fmt::format("set xrange [{}:{}]\nset grid lc rgb '#dddddd'\nset format x ''\nset tics nomirror\n", first.front().t, first.back().t);
+  text += fmt::format(
+      "set terminal pngcairo size {},1100 font 'DejaVu Sans,10' background rgb 'white' noenhanced\nset output {}\n",
+      150 + 650 * columns, quoted(png.string()));
+  text += fmt::format(
+      "set multiplot layout {},{} columnsfirst title {} margins {:.4f},0.985,0.055,0.915 spacing {:.4f},0.022\n",
+      kPanels.size() + 1, columns, quoted(figure.title), 90.0 / static_cast<double>(150 + 650 * columns),
+      0.11 / static_cast<double>(columns));
+  text += fmt::format("set xrange [{}:{}]\nset grid lc rgb '#dddddd'\nset format x ''\nset tics nomirror\n",
+                      first.front().t, first.back().t);
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t row = 0; row < kPanels.size(); ++row) text += panel_text(figure, column, row);
     text += time_panel_text(figure, column);

@@ -14,8 +14,8 @@ struct Marker {
   double t = 0.0;  ///< [s]
 };
 
-/// The paper's Figure 8 made anew: a column for each solver, one below the other force, torque, penetration of the god object
-/// (with the voxel edge), colliding points, and time of step #1 and of #2-#7.
+/// The paper's Figure 8 made anew: a column for each solver, one below the other force, torque, penetration of the god
+/// object (with the voxel edge), colliding points, and time of step #1 and of #2-#7.
 struct Figure {
   struct Series {
     std::string solver;

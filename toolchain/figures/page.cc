@@ -80,12 +80,15 @@ std::string caption(const std::string& name) {
 
 std::string scene_html(const ScenePlan& plan, const std::vector<Entry>& entries, const std::filesystem::path& folder) {
   const std::string name = escaped(plan.name);
-  std::string text = fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" alt=\"{1}\"></a></p>\n",
-                                 name, escaped(plan.title), escaped(plan.text));
+  std::string text = fmt::format(
+      "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" "
+      "alt=\"{1}\"></a></p>\n",
+      name, escaped(plan.title), escaped(plan.text));
   text += "<div class=\"pictures\">\n";
   for (const std::string& picture : pictures(folder / plan.name)) {
-    text += fmt::format("<figure><a href=\"{0}/{1}\"><img src=\"{0}/{1}\" alt=\"{2}\"></a><figcaption>{2}</figcaption></figure>\n", name,
-                        escaped(picture), escaped(caption(picture)));
+    text += fmt::format(
+        "<figure><a href=\"{0}/{1}\"><img src=\"{0}/{1}\" alt=\"{2}\"></a><figcaption>{2}</figcaption></figure>\n",
+        name, escaped(picture), escaped(caption(picture)));
   }
   text += "</div>\n<p>Replays:";
   for (const Entry& entry : entries) {
@@ -96,8 +99,8 @@ std::string scene_html(const ScenePlan& plan, const std::vector<Entry>& entries,
 
 }  // namespace
 
-std::string page(const std::vector<ScenePlan>& plans, const std::vector<Entry>& entries, const std::vector<std::string>& verdicts,
-                 const std::filesystem::path& folder) {
+std::string page(const std::vector<ScenePlan>& plans, const std::vector<Entry>& entries,
+                 const std::vector<std::string>& verdicts, const std::filesystem::path& folder) {
   std::string text = kHead;
   text += table_html(entries);
   text += "<h2>What the paper claims</h2>\n" + list(verdicts);

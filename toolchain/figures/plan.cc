@@ -31,7 +31,8 @@ toml::table parse(const std::filesystem::path& file) {
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}:{}: not TOML: {}", file.string(), error.source().begin.line, error.description()));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}:{}: not TOML: {}", file.string(), error.source().begin.line, error.description()));
   }
 }
 
@@ -65,7 +66,8 @@ std::optional<Barrier> barrier_of(const std::filesystem::path& file, const toml:
     if (good) numbers[i] = *number;
   }
   const Vector3 normal(numbers[3], numbers[4], numbers[5]);
-  if (!good || !(normal.norm() > 1e-9)) refuse(file, table, "scene.barrier: must be [x, y, z, nx, ny, nz], a point [m] and a normal");
+  if (!good || !(normal.norm() > 1e-9))
+    refuse(file, table, "scene.barrier: must be [x, y, z, nx, ny, nz], a point [m] and a normal");
   return Barrier{.point = Vector3(numbers[0], numbers[1], numbers[2]), .normal = normal.normalized()};
 }
 

@@ -15,13 +15,13 @@ struct ScenePlan {
   std::string name;   ///< folder of its replays
   std::string image;  ///< name of its scene image, without folder and extension
   std::string title;
-  std::string text;   ///< a few sentences for the page
+  std::string text;  ///< a few sentences for the page
   std::vector<Marker> markers;
   std::optional<Barrier> barrier;
 };
 
-/// Reads tables [[scene]] with name, image, title, text and, if wanted, markers = { A = 0.4, ... } and barrier = [point, normal]. Throws Failure: kNoInput, kBadData
-/// if it is not TOML, kBadConfig naming the key.
+/// Reads tables [[scene]] with name, image, title, text and, if wanted, markers = { A = 0.4, ... } and barrier =
+/// [point, normal]. Throws Failure: kNoInput, kBadData if it is not TOML, kBadConfig naming the key.
 std::vector<ScenePlan> read_plan(const std::filesystem::path& file);
 
 }  // namespace godobject::figures

@@ -59,9 +59,11 @@ bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
 
 ReplayLog read_replay_log(const std::filesystem::path& file) {
   std::ifstream stream(file);
-  if (!stream) throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; make it with godobject-replay", file.string()));
+  if (!stream)
+    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; make it with godobject-replay", file.string()));
   const auto refuse = [&](std::size_t line, std::string_view what) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}:{}: {}; make it again with godobject-replay", file.string(), line, what));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}:{}: {}; make it again with godobject-replay", file.string(), line, what));
   };
   std::string text;
   if (!std::getline(stream, text) || text != replay::kColumns) refuse(1, "not the header of a replay");
@@ -84,9 +86,12 @@ const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::p
   const double begin = log.front().t;
   const double end = log.back().t;
   if (!(t >= begin - kCycle && t <= end + kCycle)) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: no cycle at {} s; it holds {} .. {} s", file.string(), t, begin, end));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: no cycle at {} s; it holds {} .. {} s", file.string(), t, begin, end));
   }
-  return *std::min_element(log.begin(), log.end(), [t](const ReplayRow& a, const ReplayRow& b) { return std::abs(a.t - t) < std::abs(b.t - t); });
+  return *std::min_element(log.begin(), log.end(), [t](const ReplayRow& a, const ReplayRow& b) {
+    return std::abs(a.t - t) < std::abs(b.t - t);
+  });
 }
 
 }  // namespace godobject::figures

@@ -10,8 +10,8 @@
 
 namespace godobject::figures {
 
-/// The value below or at which a share of all lies: of n sorted values the ceil(share n)-th (nearest rank), at least the first.
-/// `values` must not be empty; it is sorted in passing. share in (0, 1].
+/// The value below or at which a share of all lies: of n sorted values the ceil(share n)-th (nearest rank), at least
+/// the first. `values` must not be empty; it is sorted in passing. share in (0, 1].
 double percentile(std::vector<double>& values, double share);
 
 /// Run time of part of a cycle over the cycles in contact [us]; zeros where there is none.
@@ -31,9 +31,9 @@ struct Statistics {
   double penetration_mean = 0.0;  ///< over the cycles in contact, depths below zero counted as zero [m]
   double peak_force = 0.0;        ///< [N]
   double peak_contacts = 0.0;
-  Times step1;                    ///< #1
-  Times solve;                    ///< #2-#7
-  std::size_t over_1ms = 0;       ///< of all cycles, those whose #1-#7 took longer than 1 ms
+  Times step1;               ///< #1
+  Times solve;               ///< #2-#7
+  std::size_t over_1ms = 0;  ///< of all cycles, those whose #1-#7 took longer than 1 ms
 };
 
 /// `band`: distances are stored up to it [m].

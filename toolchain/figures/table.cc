@@ -10,7 +10,9 @@ namespace {
 std::string us(double time) { return fmt::format("{:.2f}", time); }
 
 /// Furthest behind the scene's barrier [mm].
-std::string behind(const Entry& e) { return e.crossing ? fmt::format("{:.3f}", 1e3 * e.crossing->distance) : std::string("-"); }
+std::string behind(const Entry& e) {
+  return e.crossing ? fmt::format("{:.3f}", 1e3 * e.crossing->distance) : std::string("-");
+}
 
 }  // namespace
 
@@ -18,11 +20,16 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> kColumns = {
       {"scene", "scene", [](const Entry& e) { return e.scene; }},
       {"solver", "solver", [](const Entry& e) { return e.solver; }},
-      {"depth max mm", "penetration_max_mm", [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }},
-      {"mean mm", "penetration_mean_mm", [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
-      {"max vox", "penetration_max_voxels", [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_max / e.voxel_size); }},
-      {"mean vox", "penetration_mean_voxels", [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
-      {"at band", "penetration_at_band", [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
+      {"depth max mm", "penetration_max_mm",
+       [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }},
+      {"mean mm", "penetration_mean_mm",
+       [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
+      {"max vox", "penetration_max_voxels",
+       [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_max / e.voxel_size); }},
+      {"mean vox", "penetration_mean_voxels",
+       [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
+      {"at band", "penetration_at_band",
+       [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
       {"behind mm", "furthest_behind_barrier_mm", behind},
       {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }},
       {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); }},
@@ -60,7 +67,8 @@ std::string csv_table(const std::vector<Entry>& entries) {
   for (const Column& column : columns()) text += fmt::format("{}{}", text.empty() ? "" : ",", column.name);
   text += "\n";
   for (const Entry& entry : entries) {
-    for (const Column& column : columns()) text += fmt::format("{}{}", &column == &columns().front() ? "" : ",", column.value(entry));
+    for (const Column& column : columns())
+      text += fmt::format("{}{}", &column == &columns().front() ? "" : ",", column.value(entry));
     text += "\n";
   }
   return text;

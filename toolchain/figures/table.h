@@ -14,8 +14,8 @@ struct Column {
   std::string (*value)(const Entry& entry);
 };
 
-/// scene, solver, penetration in mm and in voxels (whether it reached the band: then it is a lower bound), how far the god object
-/// went behind the scene's barrier, peak force, peak colliding points, times, cycles over 1 ms.
+/// scene, solver, penetration in mm and in voxels (whether it reached the band: then it is a lower bound), how far the
+/// god object went behind the scene's barrier, peak force, peak colliding points, times, cycles over 1 ms.
 const std::vector<Column>& columns();
 
 /// For a terminal: columns padded with blanks, headings first.

@@ -37,7 +37,8 @@ class Table {
 
   void allow_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, node] : table_) {
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) refuse(key.str(), "unknown key; see godobject-path --help");
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+        refuse(key.str(), "unknown key; see godobject-path --help");
     }
   }
 
@@ -78,7 +79,8 @@ class Table {
 
 /// From `quaternion` (w, x, y, z) or `axis_angle` (x, y, z, degrees); neither means as the mesh is.
 Quaternion rotation(const Table& table) {
-  if (table.has("quaternion") && table.has("axis_angle")) table.refuse("axis_angle", "give this or quaternion, not both");
+  if (table.has("quaternion") && table.has("axis_angle"))
+    table.refuse("axis_angle", "give this or quaternion, not both");
   if (table.has("quaternion")) {
     const auto q = table.numbers<4>("quaternion");
     const Quaternion rotation(q[0], q[1], q[2], q[3]);
@@ -123,7 +125,8 @@ void each_table(const toml::table& file, std::string_view name, std::string_view
   const Table whole(file, name, "");
   if (!whole.has(key)) return;
   const toml::array* array = file[key].as_array();
-  if (array == nullptr || !array->is_homogeneous<toml::table>()) whole.refuse(key, fmt::format("must be tables, each begun by [[{}]]", key));
+  if (array == nullptr || !array->is_homogeneous<toml::table>())
+    whole.refuse(key, fmt::format("must be tables, each begun by [[{}]]", key));
   for (const toml::node& node : *array) take(Table(*node.as_table(), name, fmt::format("{}.", key)));
 }
 
@@ -131,7 +134,8 @@ toml::table parse(std::string_view text, std::string_view name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
   }
 }
 
@@ -145,7 +149,8 @@ Keyframes parse_keyframes(std::string_view text, std::string_view name) {
   motion.pivot = whole.vector_or_zero("pivot");
   each_table(file, name, "keyframe", [&](const Table& table) {
     const Keyframe next = keyframe(table);
-    if (!motion.keyframes.empty() && next.t <= motion.keyframes.back().t) table.refuse("t", "must be later than that of the keyframe before");
+    if (!motion.keyframes.empty() && next.t <= motion.keyframes.back().t)
+      table.refuse("t", "must be later than that of the keyframe before");
     motion.keyframes.push_back(next);
   });
   if (motion.keyframes.size() < 2) whole.refuse("keyframe", "two or more tables [[keyframe]] are needed");

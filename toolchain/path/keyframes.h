@@ -10,20 +10,20 @@ namespace godobject::path {
 
 /// Where the moving body is to be at a time, at rest.
 struct Keyframe {
-  double t = 0.0;                          ///< [s]
-  Vector3 position = Vector3::Zero();      ///< of the pivot in W [m]
+  double t = 0.0;                                ///< [s]
+  Vector3 position = Vector3::Zero();            ///< of the pivot in W [m]
   Quaternion rotation = Quaternion::Identity();  ///< R_WM, M the moving mesh's frame
 };
 
 /// A sine laid over the path: a tremor, a rubbing motion; two of them a quarter period apart make a circle.
 struct Oscillation {
-  double from = 0.0;                           ///< [s]
-  double to = 0.0;                             ///< [s]
-  double frequency = 0.0;                      ///< [Hz]
-  double phase = 0.0;                          ///< at `from` [rad]
-  double fade = 0.0;                           ///< grows and shrinks within this at both ends [s]
-  Vector3 translation = Vector3::Zero();       ///< amplitude of the pivot in W [m]
-  Vector3 rotation = Vector3::Zero();          ///< amplitude as a rotation vector in W, about the pivot [rad]
+  double from = 0.0;                      ///< [s]
+  double to = 0.0;                        ///< [s]
+  double frequency = 0.0;                 ///< [Hz]
+  double phase = 0.0;                     ///< at `from` [rad]
+  double fade = 0.0;                      ///< grows and shrinks within this at both ends [s]
+  Vector3 translation = Vector3::Zero();  ///< amplitude of the pivot in W [m]
+  Vector3 rotation = Vector3::Zero();     ///< amplitude as a rotation vector in W, about the pivot [rad]
 };
 
 /// A motion as a person writes it down.
@@ -34,8 +34,8 @@ struct Keyframes {
 };
 
 /// Reads a TOML file: an optional `pivot`, two or more tables [[keyframe]], any number of [[oscillation]].
-/// Throws Failure: kNoInput if it cannot be read, kBadData if it is not TOML, kBadConfig naming the key that is unknown,
-/// missing or out of its range.
+/// Throws Failure: kNoInput if it cannot be read, kBadData if it is not TOML, kBadConfig naming the key that is
+/// unknown, missing or out of its range.
 Keyframes read_keyframes(const std::filesystem::path& file);
 
 /// The same from text; `name` is used in messages.

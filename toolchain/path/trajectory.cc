@@ -11,7 +11,8 @@ constexpr double kPeriod = 1e-3;
 
 /// Keyframes alone: rotation R_WM and the pivot's place in W.
 Pose blend(const std::vector<Keyframe>& keyframes, double t) {
-  const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), t, [](double time, const Keyframe& k) { return time < k.t; });
+  const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), t,
+                                     [](double time, const Keyframe& k) { return time < k.t; });
   if (next == keyframes.begin()) return {next->rotation, next->position};
   const auto last = next - 1;
   if (next == keyframes.end()) return {last->rotation, last->position};

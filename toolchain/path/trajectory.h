@@ -10,9 +10,9 @@ namespace godobject::path {
 /// person's hand makes it. Velocity and acceleration are 0 at both ends.
 double minimum_jerk(double u);
 
-/// The moving mesh's frame in W at time t: between two keyframes the pivot goes straight and the rotation along the shorter
-/// arc (slerp), both by `minimum_jerk`; then the oscillations, faded by it. Twice continuously differentiable in t.
-/// Before the first and after the last keyframe it rests there.
+/// The moving mesh's frame in W at time t: between two keyframes the pivot goes straight and the rotation along the
+/// shorter arc (slerp), both by `minimum_jerk`; then the oscillations, faded by it. Twice continuously differentiable
+/// in t. Before the first and after the last keyframe it rests there.
 Pose pose_at(const Keyframes& motion, double t);
 
 /// One pose a millisecond, from the first keyframe to the last.

@@ -61,7 +61,8 @@ Vector3 toward_eye(const ViewDirection& direction, int up_axis) {
 }
 
 /// Share of points spread around `place` from which the way to the eye is free.
-double visible_share(const Vector3& place, double spread, const Vector3& to_eye, const TriangleTree& still, const TriangleTree& moving) {
+double visible_share(const Vector3& place, double spread, const Vector3& to_eye, const TriangleTree& still,
+                     const TriangleTree& moving) {
   constexpr int kRays = 24;
   constexpr double kGoldenAngle = 2.399963229728653;
   int free = 0;
@@ -77,8 +78,8 @@ double visible_share(const Vector3& place, double spread, const Vector3& to_eye,
 }
 
 struct Subject {
-  Vector3 place;        ///< of nearest approach
-  Vector3 separation;   ///< unit, from the device to the god object where they differ, else from the place to the body
+  Vector3 place;       ///< of nearest approach
+  Vector3 separation;  ///< unit, from the device to the god object where they differ, else from the place to the body
   double size;
 };
 

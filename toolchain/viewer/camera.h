@@ -10,10 +10,10 @@ namespace godobject::viewer {
 
 /// Where a picture is taken from. Vectors in W.
 struct Camera {
-  Vector3 eye = Vector3::Zero();      ///< [m]
-  Vector3 target = Vector3::Zero();   ///< [m]
-  Vector3 forward = Vector3::UnitX(); ///< unit
-  Vector3 right = Vector3::UnitY();   ///< unit
+  Vector3 eye = Vector3::Zero();       ///< [m]
+  Vector3 target = Vector3::Zero();    ///< [m]
+  Vector3 forward = Vector3::UnitX();  ///< unit
+  Vector3 right = Vector3::UnitY();    ///< unit
   Vector3 up = Vector3::UnitZ();       ///< unit; right x up points back to the eye
 };
 
@@ -30,15 +30,16 @@ struct ViewDirection {
 struct View {
   const scene_compiler::TriangleMesh& still;
   const scene_compiler::TriangleMesh& moving;
-  Pose H_WD;  ///< device
-  Pose H_WS;  ///< god object
+  Pose H_WD;                               ///< device
+  Pose H_WS;                               ///< god object
   int up_axis = 2;                         ///< 0 .. 2: x, y, z
   double zoom = 1.0;                       ///< 2: everything twice as large
   std::optional<ViewDirection> direction;  ///< chosen if not given
 };
 
-/// Frames the moving body in both poses and where it is nearest to the still one. A direction that is not given is the one of
-/// 72 around and three heights from which most of that place is seen, and the gap between the poses from the side.
+/// Frames the moving body in both poses and where it is nearest to the still one. A direction that is not given is the
+/// one of 72 around and three heights from which most of that place is seen, and the gap between the poses from the
+/// side.
 Camera make_camera(const View& view);
 
 }  // namespace godobject::viewer

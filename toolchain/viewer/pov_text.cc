@@ -41,7 +41,8 @@ std::string declare(const char* name, const TriangleMesh& mesh) {
   fmt::format_to(out, " }}\nface_indices {{ {}", mesh.triangles.size());
   for (const auto& t : mesh.triangles) fmt::format_to(out, ",\n<{},{},{}>", t[0], t[1], t[2]);
   fmt::format_to(out, " }}\nnormal_indices {{ {}", mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) fmt::format_to(out, ",\n<{},{},{}>", 3 * i, 3 * i + 1, 3 * i + 2);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    fmt::format_to(out, ",\n<{},{},{}>", 3 * i, 3 * i + 1, 3 * i + 2);
   fmt::format_to(out, " }}\ninside_vector <0.12,0.31,0.94>\n}}\n");
   return text;
 }
@@ -52,7 +53,8 @@ TriangleMesh shrunk(const TriangleMesh& mesh) {
   const auto faces = scene_compiler::face_normals(mesh);
   std::vector<Vector3> normals(mesh.vertices.size(), Vector3::Zero());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t c = 0; c < 3; ++c) normals[mesh.triangles[t][c]] += scene_compiler::corner_angle(mesh, t, c) * faces[t];
+    for (std::size_t c = 0; c < 3; ++c)
+      normals[mesh.triangles[t][c]] += scene_compiler::corner_angle(mesh, t, c) * faces[t];
   }
   Vector3 low = mesh.vertices.front();
   Vector3 high = low;
@@ -61,7 +63,8 @@ TriangleMesh shrunk(const TriangleMesh& mesh) {
     high = high.cwiseMax(v);
   }
   TriangleMesh small = mesh;
-  for (std::size_t i = 0; i < normals.size(); ++i) small.vertices[i] -= kShare * (high - low).norm() * normals[i].stableNormalized();
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    small.vertices[i] -= kShare * (high - low).norm() * normals[i].stableNormalized();
   return small;
 }
 
@@ -69,8 +72,9 @@ TriangleMesh shrunk(const TriangleMesh& mesh) {
 std::string matrix(const Pose& pose) {
   const Matrix3 r = pose.rotation.normalized().toRotationMatrix();
   const Vector3 t = kMillimetre * pose.translation;
-  return fmt::format("matrix <{:.9g},{:.9g},{:.9g}, {:.9g},{:.9g},{:.9g}, {:.9g},{:.9g},{:.9g}, {:.9g},{:.9g},{:.9g}>", r(0, 0), r(1, 0),
-                     r(2, 0), r(0, 1), r(1, 1), r(2, 1), r(0, 2), r(1, 2), r(2, 2), t.x(), t.y(), t.z());
+  return fmt::format("matrix <{:.9g},{:.9g},{:.9g}, {:.9g},{:.9g},{:.9g}, {:.9g},{:.9g},{:.9g}, {:.9g},{:.9g},{:.9g}>",
+                     r(0, 0), r(1, 0), r(2, 0), r(0, 1), r(1, 1), r(2, 1), r(0, 2), r(1, 2), r(2, 2), t.x(), t.y(),
+                     t.z());
 }
 
 /// The eye's vectors are written out, so that POV-Ray's left-handed habits do not matter.
@@ -78,8 +82,8 @@ std::string camera_text(const Camera& camera, int width, int height) {
   const double side = 2.0 * std::tan(kHalfView);
   const double across = width >= height ? side * width / height : side;
   const double upright = width >= height ? side : side * height / width;
-  return fmt::format("camera {{ location {} direction {} right {} up {} }}\n", vector(kMillimetre * camera.eye), vector(camera.forward),
-                     vector(across * camera.right), vector(upright * camera.up));
+  return fmt::format("camera {{ location {} direction {} right {} up {} }}\n", vector(kMillimetre * camera.eye),
+                     vector(camera.forward), vector(across * camera.right), vector(upright * camera.up));
 }
 
 /// A broad key light from above the left shoulder, a weak one from the right without shadows.
@@ -89,15 +93,17 @@ std::string lights(const Camera& camera) {
   const Vector3 key = camera.target + distance * (0.8 * back - 0.7 * camera.right + 1.3 * camera.up);
   const Vector3 fill = camera.target + distance * (0.7 * back + 1.2 * camera.right + 0.1 * camera.up);
   return fmt::format(
-      "light_source {{ {} rgb 0.85 area_light {} {} 5 5 adaptive 1 circular orient }}\nlight_source {{ {} rgb 0.40 shadowless }}\n",
-      vector(kMillimetre * key), vector(kMillimetre * 0.4 * distance * camera.right), vector(kMillimetre * 0.4 * distance * camera.up),
-      vector(kMillimetre * fill));
+      "light_source {{ {} rgb 0.85 area_light {} {} 5 5 adaptive 1 circular orient }}\nlight_source {{ {} rgb 0.40 "
+      "shadowless }}\n",
+      vector(kMillimetre * key), vector(kMillimetre * 0.4 * distance * camera.right),
+      vector(kMillimetre * 0.4 * distance * camera.up), vector(kMillimetre * fill));
 }
 
 std::string still_object(const std::optional<Cut>& cut) {
   if (!cut) return "object { Still texture { Green } }\n";
-  return fmt::format("intersection {{ object {{ Still texture {{ Green }} }} plane {{ {}, {:.6g} texture {{ Cut }} }} }}\n", vector(cut->normal),
-                     kMillimetre * cut->normal.dot(cut->point));
+  return fmt::format(
+      "intersection {{ object {{ Still texture {{ Green }} }} plane {{ {}, {:.6g} texture {{ Cut }} }} }}\n",
+      vector(cut->normal), kMillimetre * cut->normal.dot(cut->point));
 }
 
 }  // namespace

@@ -16,16 +16,17 @@ struct Cut {
 };
 
 struct Picture {
-  int width = 800;   ///< [pixels]
+  int width = 800;  ///< [pixels]
   int height = 600;
   Camera camera;
-  Pose H_WD;  ///< drawn red and translucent
-  Pose H_WS;  ///< drawn blue
+  Pose H_WD;               ///< drawn red and translucent
+  Pose H_WS;               ///< drawn blue
   std::optional<Cut> cut;  ///< the still mesh must be closed
 };
 
-/// A scene for POV-Ray 3.7, lengths in millimetres: still body green, device pose red, god object blue. The red body is drawn
-/// smaller by 1/500 of its diagonal, so that where both poses agree it lies hidden in the blue one.
-std::string pov_text(const scene_compiler::TriangleMesh& still, const scene_compiler::TriangleMesh& moving, const Picture& picture);
+/// A scene for POV-Ray 3.7, lengths in millimetres: still body green, device pose red, god object blue. The red body is
+/// drawn smaller by 1/500 of its diagonal, so that where both poses agree it lies hidden in the blue one.
+std::string pov_text(const scene_compiler::TriangleMesh& still, const scene_compiler::TriangleMesh& moving,
+                     const Picture& picture);
 
 }  // namespace godobject::viewer
