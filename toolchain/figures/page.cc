@@ -11,7 +11,8 @@ namespace godobject::figures {
 namespace {
 
 const char* const kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <title>The god object, measured</title>
 <style>
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 1200px; margin: 2em auto; padding: 0 1em }
@@ -24,7 +25,7 @@ img { max-width: 100%; height: auto }
 figure { margin: 0 } figcaption { font-size: 13px; color: #555 }
 </style></head><body>
 <h1>The god object, measured</h1>
-<p>The voxelised object is green. The moving object is red where the device has it and blue where the god object keeps it.
+<p>The voxelised object is green. The moving object is red where the device has it, blue where the god object keeps it.
 Depths are those of the god object; times are those of this run, of cycles in contact.</p>
 )";
 
