@@ -10,7 +10,7 @@
 
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/compile_report.h"
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/query_points.h"
 
 namespace godobject::scene_compiler {
@@ -58,7 +58,7 @@ class CompileScene : public testing::Test {
 
 TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   const CompileReport report = compile({});
-  const SceneImage image = SceneImage::read(folder_.file("out.scene"));
+  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
   EXPECT_EQ(image.bytes.span().size(), report.image_bytes);
   EXPECT_TRUE(image.scene.holds(format::Solver::kPaper));
   EXPECT_TRUE(image.scene.holds(format::Solver::kCorrected));
@@ -81,20 +81,20 @@ TEST_F(CompileScene, GivesTheSameBytesEveryTime) {
 TEST_F(CompileScene, OnlySolverStripsNormalsAndSaysSo) {
   const CompileReport all = compile({}, "all.scene");
   const CompileReport one = compile({}, "one.scene", format::Solver::kCorrected);
-  const SceneImage image = SceneImage::read(folder_.file("one.scene"));
+  const command::SceneImage image = command::SceneImage::read(folder_.file("one.scene"));
   EXPECT_FALSE(image.scene.holds(format::Solver::kPaper));
   EXPECT_EQ(image.scene.pointshell.normal_x, nullptr);
   EXPECT_LT(one.image_bytes, all.image_bytes);
   EXPECT_NE(report_json(one).dump().find("normals"), std::string::npos);
   compile({}, "paper.scene", format::Solver::kPaper);
-  const SceneImage paper = SceneImage::read(folder_.file("paper.scene"));
+  const command::SceneImage paper = command::SceneImage::read(folder_.file("paper.scene"));
   EXPECT_FALSE(paper.scene.holds(format::Solver::kCorrected));
   EXPECT_EQ(paper.scene.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kPaper));
 }
 
 TEST_F(CompileScene, InspectShowsWhatWasCompiled) {
   compile({.more = "[friction]\nstatic = 0.3\n"});
-  const Json json = inspect_json(SceneImage::read(folder_.file("out.scene")));
+  const Json json = inspect_json(command::SceneImage::read(folder_.file("out.scene")));
   EXPECT_EQ(json["settings"]["solver"], "corrected");
   EXPECT_DOUBLE_EQ(json["settings"]["friction"]["kinetic"], 0.27);
   EXPECT_DOUBLE_EQ(json["grid"]["voxel_size"], 0.004);
@@ -119,8 +119,8 @@ TEST_F(CompileScene, RefusalLeavesNoFileBehind) {
   try {
     compile({.still = "plate_2mm", .voxel_size = 0.005});
     FAIL() << "took a wall thinner than a voxel";
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
   }
   EXPECT_FALSE(std::filesystem::exists(folder_.file("out.scene")));
 }
@@ -131,8 +131,8 @@ TEST_F(CompileScene, RefusesABodyThatLeavesNothingInside) {
     try {
       compile(scene);
       FAIL() << "took a body that is no obstacle";
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.exit_code(), ExitCode::kBadData) << failure.what();
+    } catch (const command::Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData) << failure.what();
     }
   }
 }
@@ -141,14 +141,14 @@ TEST_F(CompileScene, DamageIsSeen) {
   compile({});
   std::string bytes = slurp(folder_.file("out.scene"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
-  EXPECT_THROW(SceneImage::read(folder_.write("bad.scene", bytes)), Failure);
-  EXPECT_THROW(SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), Failure);
-  EXPECT_THROW(SceneImage::read(folder_.write("none.scene", "")), Failure);
+  EXPECT_THROW(command::SceneImage::read(folder_.write("bad.scene", bytes)), command::Failure);
+  EXPECT_THROW(command::SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), command::Failure);
+  EXPECT_THROW(command::SceneImage::read(folder_.write("none.scene", "")), command::Failure);
 }
 
 TEST_F(CompileScene, AnswersQueries) {
   compile({.still = "cube_100mm"});
-  const SceneImage image = SceneImage::read(folder_.file("out.scene"));
+  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
   const auto points = folder_.write("p.csv", "x,y,z\r\n0.0,0.0,0.053\n0, 0 ,0\n1e3,0,0\n\n");
   const std::uint64_t rows = query_points(image.scene.voxelmap, points, folder_.file("d.csv"), {});
   EXPECT_EQ(rows, 3u);
@@ -173,14 +173,14 @@ TEST_F(CompileScene, AnswersQueries) {
 
 TEST_F(CompileScene, NamesTheLineOfABadRow) {
   compile({.still = "cube_100mm"});
-  const SceneImage image = SceneImage::read(folder_.file("out.scene"));
+  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
   for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0"}) {
     try {
       query_points(image.scene.voxelmap, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"),
                    folder_.file("d.csv"), {});
       FAIL() << "took " << row;
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+    } catch (const command::Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
       EXPECT_NE(std::string(failure.what()).find("p.csv:2:"), std::string::npos) << failure.what();
     }
   }

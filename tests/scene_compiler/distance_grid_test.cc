@@ -8,7 +8,7 @@
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/distance_transform.h"
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -189,8 +189,8 @@ TEST(DistanceGrid, RefusesAGridBeyondItsLimitAndNamesTheVoxel) {
   try {
     field_of(box(Vector3d::Zero(), Vector3d::Constant(100.0)), 1e-4);
     FAIL() << "took it";
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
     EXPECT_NE(std::string(failure.what()).find("voxel_size"), std::string::npos);
   }
 }

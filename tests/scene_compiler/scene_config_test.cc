@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -21,8 +21,8 @@ void expect_refused(const std::string& text, const std::string& line, const std:
   try {
     read(text);
     FAIL() << "took it:\n" << text;
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.exit_code(), ExitCode::kBadConfig);
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadConfig);
     const std::string message = failure.what();
     EXPECT_NE(message.find(line), std::string::npos) << message;
     EXPECT_NE(message.find(key), std::string::npos) << message;
@@ -97,8 +97,8 @@ TEST(SceneConfig, SaysWhenThereIsNoFile) {
   try {
     read_scene_config("/nowhere/scene.toml");
     FAIL();
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.exit_code(), ExitCode::kNoInput);
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kNoInput);
   }
 }
 

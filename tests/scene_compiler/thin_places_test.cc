@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -36,8 +36,8 @@ TEST(ThinPlaces, RefusesAPlateThatWouldBeLost) {
   try {
     require_walls_that_last(report, 0.001, "plate.ply");
     FAIL() << "took it";
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
     const std::string message = failure.what();
     EXPECT_NE(message.find("plate.ply"), std::string::npos) << message;
     EXPECT_NE(message.find("voxel_size = 0.00025"), std::string::npos) << message;

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,40 +13,53 @@
 
 namespace godobject::command {
 
-AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), partial_(fmt::format("{}.{}.part", path_.string(), ::getpid())) {
-  file_ = std::fopen(partial_.c_str(), "wb");
-  if (file_ == nullptr) fail("cannot be written");
+AtomicFile::AtomicFile(std::filesystem::path file)
+    : file_(std::move(file)), temporary_(fmt::format("{}.{}.part", file_.string(), ::getpid())) {
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail("cannot be written");
 }
 
 AtomicFile::~AtomicFile() {
-  if (file_ == nullptr) return;
-  std::fclose(file_);
-  std::error_code ignored;
-  std::filesystem::remove(partial_, ignored);
+  ::close(descriptor_);
+  std::error_code ignored;  // gone after a rename
+  std::filesystem::remove(temporary_, ignored);
 }
 
-void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
+void AtomicFile::write(std::string_view text) {
+  constexpr std::size_t kPiece = std::size_t{1} << 18;
+  pending_ += text;
+  if (pending_.size() >= kPiece) write_through();
+}
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("could not be written whole");
+  write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void AtomicFile::write_through() {
+  std::string_view rest = pending_;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail("could not be written whole");
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  pending_.clear();
+}
+
+void AtomicFile::flush() {
+  write_through();
+  // EINVAL, EROFS: a device that has nothing to flush
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("could not be flushed to the disk");
 }
 
 void AtomicFile::commit() {
-  if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("could not be written whole");
-  std::FILE* file = std::exchange(file_, nullptr);
-  if (std::fclose(file) != 0 || std::rename(partial_.c_str(), path_.c_str()) != 0) {
-    const int error = errno;
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
-    errno = error;
-    fail("could not be put in its place");
-  }
+  flush();
+  if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail("could not be put in its place");
 }
 
 void AtomicFile::fail(const char* what) const {
   throw Failure(ExitCode::kIo, fmt::format("{}: {} ({}); choose a folder that exists, may be written to and has room",
-                                           path_.string(), what, std::strerror(errno)));
+                                           file_.string(), what, std::strerror(errno)));
 }
 
 }  // namespace godobject::command

@@ -1,34 +1,41 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace godobject::command {
 
-/// An output that appears under its name only when it is complete: written beside it, then renamed.
-/// Without `commit` nothing is left behind. Throws Failure (kIo) naming the file.
+/// An output that appears under its name only when it is complete: written to a temporary name beside it, flushed to the
+/// disk, renamed. Without `commit` nothing is left behind. Throws Failure (kIo) naming the file.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  explicit AtomicFile(std::filesystem::path file);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
+  /// Cheap for short pieces: they are gathered.
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
 
-  /// Flushes to the disk and renames.
+  /// Flushes to the disk; the bytes can be read back under `temporary()`.
+  void flush();
+  const std::filesystem::path& temporary() const noexcept { return temporary_; }
+
+  /// Flushes and gives the file its name.
   void commit();
 
  private:
+  void write_through();
   [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path path_;
-  std::filesystem::path partial_;
-  std::FILE* file_ = nullptr;
+  std::filesystem::path file_;
+  std::filesystem::path temporary_;
+  std::string pending_;
+  int descriptor_ = -1;
 };
 
 }  // namespace godobject::command

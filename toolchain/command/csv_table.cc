@@ -9,7 +9,6 @@
 #include "toolchain/command/failure.h"
 
 namespace godobject::command {
-namespace {
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
@@ -17,6 +16,8 @@ std::string_view trimmed(std::string_view text) {
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
+
+namespace {
 
 /// Calls take(field) for each comma-separated field.
 template <class Take>

@@ -19,6 +19,9 @@ struct CsvTable {
   std::span<const double> row(std::size_t i) const { return std::span(values).subspan(i * columns, columns); }
 };
 
+/// `text` without the blanks, tabs and carriage returns around it.
+std::string_view trimmed(std::string_view text);
+
 /// Reads a file whose first line names exactly `columns`. NaN and Inf are numbers here (`nan`, `inf`).
 /// Throws Failure: kNoInput if it cannot be read, kBadData naming the line.
 CsvTable read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns);

@@ -67,7 +67,8 @@ void run_program(const std::vector<std::string>& arguments, const std::string& p
   if (!program) throw Failure(ExitCode::kInternal, fmt::format("{}: not installed; apt-get install {}", name, package));
 
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw Failure(ExitCode::kInternal, fmt::format("{}: no pipe ({})", name, std::strerror(errno)));
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw Failure(ExitCode::kInternal, fmt::format("{}: no pipe ({})", name, std::strerror(errno)));
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -82,7 +83,8 @@ void run_program(const std::vector<std::string>& arguments, const std::string& p
   ::close(ends[1]);
   const std::string output = error == 0 ? drain(ends[0]) : std::string();
   ::close(ends[0]);
-  if (error != 0) throw Failure(ExitCode::kInternal, fmt::format("{}: cannot be started ({})", name, std::strerror(error)));
+  if (error != 0)
+    throw Failure(ExitCode::kInternal, fmt::format("{}: cannot be started ({})", name, std::strerror(error)));
   const int status = wait_for(child);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw Failure(ExitCode::kInternal, fmt::format("{}: failed: {}", name, ending(output)));

@@ -2,22 +2,23 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace godobject::command {
 
-/// One line on a terminal's stderr that tells how far a long piece of work is; silent elsewhere.
+/// "phase  42 %" on stderr, rewritten in place, where that is a terminal; silent elsewhere.
 class Progress {
  public:
-  explicit Progress(std::string label);
+  Progress();
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `share` of the work done, 0 .. 1. Cheap: writes at most ten times a second.
-  void update(double share);
+  /// `share` of the phase's work done, 0 .. 1. Cheap: writes when the phase changes, and at most ten times a second.
+  void show(std::string_view phase, double share);
 
  private:
-  std::string label_;
+  std::string phase_;
   bool on_terminal_;
   std::chrono::steady_clock::time_point next_{};
 };

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -11,30 +12,34 @@
 namespace godobject::command {
 namespace {
 
-int fail(const CLI::App& app, const char* message, ExitCode exit_code) {
+/// One line, whatever the text holds.
+int fail(const CLI::App& app, ExitCode exit_code, std::string message) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
   fmt::print(stderr, "{}: {}\n", app.get_name(), message);
   return static_cast<int>(exit_code);
 }
 
 }  // namespace
 
-int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
   app.set_version_flag("--version", app.get_name() + " " GODOBJECT_VERSION);
   try {
     app.parse(argc, argv);
+    body();
+    if (std::fflush(stdout) != 0) throw Failure(ExitCode::kIo, "standard output: writing failed; check where it goes");
+    return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::Success& wanted) {  // --help, --version
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    return fail(app, fmt::format("{} (see {} --help)", error.what(), app.get_name()).c_str(), ExitCode::kUsage);
-  }
-  try {
-    return body();
+    return fail(app, ExitCode::kUsage, fmt::format("{}; see {} --help", error.what(), app.get_name()));
   } catch (const Failure& failure) {
-    return fail(app, failure.what(), failure.exit_code());
+    return fail(app, failure.exit_code(), failure.what());
   } catch (const std::bad_alloc&) {
-    return fail(app, "out of memory: free some, or make the scene smaller (voxel_size, points)", ExitCode::kInternal);
+    return fail(app, ExitCode::kBadData, "not enough memory for this scene; raise voxel_size or decimate the meshes");
   } catch (const std::exception& error) {
-    return fail(app, error.what(), ExitCode::kInternal);
+    return fail(app, ExitCode::kInternal, fmt::format("{}; please report this", error.what()));
   }
 }
 

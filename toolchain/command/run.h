@@ -7,7 +7,7 @@
 namespace godobject::command {
 
 /// Parses the command line into `app` (adding --version), runs `body`, and turns whatever goes wrong into one line on
-/// stderr and an exit code of sysexits.h: what main() returns. `body` returns the exit code of its own success.
-int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+/// stderr and an exit code of sysexits.h: what main() returns.
+int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body);
 
 }  // namespace godobject::command

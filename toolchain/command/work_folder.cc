@@ -17,8 +17,9 @@ WorkFolder::WorkFolder(const std::filesystem::path& output) {
   const auto parent = output.parent_path();
   std::string name = ((parent.empty() ? "." : parent) / ".work-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be made ({}); choose a folder that exists and may be written to", output.string(),
-                                             std::strerror(errno)));
+    throw Failure(ExitCode::kIo,
+                  fmt::format("{}: cannot be made ({}); choose a folder that exists and may be written to",
+                              output.string(), std::strerror(errno)));
   }
   path_ = name;
 }
@@ -33,14 +34,17 @@ std::filesystem::path WorkFolder::write(const char* name, std::string_view text)
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw Failure(ExitCode::kIo, fmt::format("{}: could not be written whole; make room there", file.string()));
+  if (!stream)
+    throw Failure(ExitCode::kIo, fmt::format("{}: could not be written whole; make room there", file.string()));
   return file;
 }
 
 void WorkFolder::deliver(const char* name, const std::filesystem::path& output) const {
   std::error_code error;
   std::filesystem::rename(path_ / name, output, error);
-  if (error) throw Failure(ExitCode::kIo, fmt::format("{}: could not be put in its place ({})", output.string(), error.message()));
+  if (error)
+    throw Failure(ExitCode::kIo,
+                  fmt::format("{}: could not be put in its place ({})", output.string(), error.message()));
 }
 
 }  // namespace godobject::command

@@ -10,7 +10,7 @@
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/run.h"
-#include "toolchain/command/scene_file.h"
+#include "toolchain/command/scene_image.h"
 #include "toolchain/figures/claims.h"
 #include "toolchain/figures/figure.h"
 #include "toolchain/figures/page.h"
@@ -44,16 +44,16 @@ void write(const fs::path& file, const std::string& text) {
   out.commit();
 }
 
-int make_figures(const Options& options) {
+void make_figures(const Options& options) {
   const fs::path output = options.output;
   const std::vector<ScenePlan> plans = read_plan(options.plan);
   std::vector<Entry> entries;
   {
-    command::Progress progress("figures");
+    command::Progress progress;
     for (const ScenePlan& plan : plans) {
-      progress.update(static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
-      const command::SceneFile image(fs::path(options.images) / (plan.image + ".scene"));
-      const godobject::Scene& scene = image.scene();
+      progress.show("figures", static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
+      const auto image = command::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
+      const godobject::Scene& scene = image.scene;
       Figure figure{.title = plan.title, .voxel_size = scene.grid.voxel_size, .markers = plan.markers, .series = {}};
       for (const std::string& solver : options.solvers) {
         ReplayLog log = read_replay_log(output / plan.name / (solver + ".csv"));
@@ -70,7 +70,6 @@ int make_figures(const Options& options) {
   write(output / "index.html", page(plans, entries, verdicts, output));
   fmt::print("{}\n", text_table(entries));
   for (const std::string& verdict : verdicts) fmt::print("{}\n", verdict);
-  return 0;
 }
 
 }  // namespace
@@ -83,5 +82,5 @@ int main(int argc, char** argv) {
   app.add_option("--images", options.images, "folder of the scene images")->required();
   app.add_option("--solvers", options.solvers, "SOLVER[,SOLVER ...]: a column each")->delimiter(',')->required();
   app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")->required();
-  return command::run(app, argc, argv, [&] { return make_figures(options); });
+  return command::run(app, argc, argv, [&] { make_figures(options); });
 }

@@ -53,6 +53,5 @@ int main(int argc, char** argv) {
     out.write("t,px,py,pz,qw,qx,qy,qz\n");
     for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample));
     out.commit();
-    return 0;
   });
 }

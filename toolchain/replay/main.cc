@@ -9,7 +9,7 @@
 #include "toolchain/command/failure.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/run.h"
-#include "toolchain/command/scene_file.h"
+#include "toolchain/command/scene_image.h"
 #include "toolchain/replay/replay.h"
 
 namespace {
@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"on", "off"}));
 
   return godobject::command::run(app, argc, argv, [&] {
-    const godobject::command::SceneFile file(scene_path);
-    const godobject::Scene& scene = file.scene();
+    const auto image = godobject::command::SceneImage::read(scene_path);
+    const godobject::Scene& scene = image.scene;
     const Solver solver = solver_name.empty() ? scene.default_solver() : kSolvers.at(solver_name);
     const bool has_friction = scene.settings.friction != 0;
     const bool friction = friction_name.empty() ? has_friction : friction_name == "on";
@@ -78,10 +78,10 @@ int main(int argc, char** argv) {
     godobject::command::AtomicFile out(out_path);
     godobject::replay::Summary summary;
     {
-      godobject::command::Progress progress("replay");
+      godobject::command::Progress progress;
       summary = godobject::replay::replay(
           scene, solver, friction, path, [&](const std::string& row) { out.write(row); },
-          [&](double share) { progress.update(share); });
+          [&](double share) { progress.show("replay", share); });
     }
     out.commit();
     fmt::print("{}: {} cycles, deepest {:.3f} mm, peak force {:.2f} N, floating-point exceptions:{}\n", out_path,
@@ -92,6 +92,5 @@ int main(int argc, char** argv) {
                                                     "held there",
                                                     poses_path, summary.first_bad_line, summary.bad_rows));
     }
-    return 0;
   });
 }

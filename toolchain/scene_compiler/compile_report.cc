@@ -218,7 +218,7 @@ Json full_report_json(const CompileReport& report) {
   return json;
 }
 
-Json inspect_json(const SceneImage& image) {
+Json inspect_json(const command::SceneImage& image) {
   const Scene& scene = image.scene;
   format::Header header{};
   std::copy_n(image.bytes.span().data(), sizeof(header), reinterpret_cast<std::byte*>(&header));

@@ -20,6 +20,6 @@ Json full_report_json(const CompileReport& report);
 std::string report_text(const CompileReport& report);
 
 /// The facts of a compiled image.
-Json inspect_json(const SceneImage& image);
+Json inspect_json(const command::SceneImage& image);
 
 }  // namespace godobject::scene_compiler

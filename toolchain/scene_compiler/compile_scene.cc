@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "toolchain/scene_compiler/compile_report.h"
-#include "toolchain/scene_compiler/failure.h"
-#include "toolchain/scene_compiler/output_file.h"
+#include "toolchain/command/failure.h"
+#include "toolchain/command/atomic_file.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -78,8 +78,8 @@ void require_some_inside(const DistanceGrid& field, const std::string& mesh_name
   for (const format::Brick& brick : field.bricks) {
     if (*std::min_element(std::begin(brick.value), std::end(brick.value)) < 0.0f) return;
   }
-  throw Failure(
-      ExitCode::kBadData,
+  throw command::Failure(
+      command::ExitCode::kBadData,
       fmt::format("{}: no node of the grid lies inside of it: it encloses nothing, or is smaller than a voxel; "
                   "set surface = \"shell\", or a smaller voxel_size",
                   mesh_name));
@@ -88,8 +88,8 @@ void require_some_inside(const DistanceGrid& field, const std::string& mesh_name
 void require_exact_nodes(const FieldError& error, double voxel_size) {
   const double allowed = kLargestNodeError * std::max(1.0, voxel_size / 1e-3);
   if (error.largest_node_error <= allowed) return;
-  throw Failure(
-      ExitCode::kInternal,
+  throw command::Failure(
+      command::ExitCode::kInternal,
       fmt::format("a stored distance is {:.3g} m off the exact one, more than {:g} m; please report this scene",
                   error.largest_node_error, allowed));
 }
@@ -97,21 +97,21 @@ void require_exact_nodes(const FieldError& error, double voxel_size) {
 MovingBody sample_moving(const SceneConfig& config, const SolidSurface& surface, const Progress& progress) {
   try {
     return make_moving_body(surface, config.points, config.levels, progress);
-  } catch (const Failure&) {
+  } catch (const command::Failure&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: {}", config.moving.file.string(), error.what()));
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: {}", config.moving.file.string(), error.what()));
   }
 }
 
 /// The image is complete under a temporary name, read back and opened as the device does, before it gets its own.
-void write_image(const AlignedBytes& image, const std::filesystem::path& file) {
-  OutputFile output(file);
+void write_image(const command::AlignedBytes& image, const std::filesystem::path& file) {
+  command::AtomicFile output(file);
   output.write(image.span());
   output.flush();
-  const SceneImage read_back = SceneImage::read(output.temporary());
+  const command::SceneImage read_back = command::SceneImage::read(output.temporary());
   if (std::memcmp(read_back.bytes.span().data(), image.span().data(), image.span().size()) != 0) {
-    throw Failure(ExitCode::kIo,
+    throw command::Failure(command::ExitCode::kIo,
                   fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
   }
   output.commit();
@@ -152,7 +152,7 @@ CompileReport compile_scene(const CompileRequest& request) {
   std::vector<SectionBytes> sections = lay_out(report, field, report.body);
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
   report.field_error = phases.run("check", [&](const Progress& p) {
-    const SceneImage image(make_image(sections), request.output.string());
+    const command::SceneImage image(make_image(sections), request.output.string());
     return check_field(still, field, image.scene.voxelmap, kCheckedPoints, p);
   });
   require_exact_nodes(report.field_error, config.voxel_size);
@@ -161,7 +161,7 @@ CompileReport compile_scene(const CompileRequest& request) {
   const auto text = std::as_bytes(std::span(provenance));
   sections.push_back({format::SectionId::kProvenance, {text.begin(), text.end()}});
   report.image_bytes = phases.run("write", [&](const Progress&) {
-    const AlignedBytes image = make_image(sections);
+    const command::AlignedBytes image = make_image(sections);
     write_image(image, request.output);
     return image.span().size();
   });

@@ -9,7 +9,7 @@
 
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/distance_probe.h"
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/field_slope.h"
 #include "toolchain/scene_compiler/seam_map.h"
 
@@ -94,7 +94,7 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
     const double coarser = largest > format::kMaxBricksPerAxis
                                ? largest / format::kMaxBricksPerAxis
                                : std::cbrt(static_cast<double>(positions) / static_cast<double>(kMaxBrickPositions));
-    throw Failure(ExitCode::kBadData, fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; "
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; "
                                                   "take at least {:.2g} m, or check `scale`",
                                                   (high_ - low_).maxCoeff(), voxel_size, 1.1 * coarser * voxel_size));
   }
@@ -127,7 +127,7 @@ bool GridBuilder::is_boundary(const BrickPosition& p) const {
 /// Outside of the grid is free space.
 void GridBuilder::require_free_boundary(bool inside, const BrickPosition& p) const {
   if (inside && is_boundary(p)) {
-    throw Failure(ExitCode::kBadData,
+    throw command::Failure(command::ExitCode::kBadData,
                   "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
                   "mend its orientation or holes, or set surface = \"shell\"");
   }
@@ -156,8 +156,8 @@ void GridBuilder::evaluate(const Progress& progress) {
   std::vector<std::size_t> front = first_bricks();
   if (front.size() > kMaxBricks) {
     const double coarser = std::sqrt(static_cast<double>(front.size()) / static_cast<double>(kMaxBricks));
-    throw Failure(
-        ExitCode::kBadData,
+    throw command::Failure(
+        command::ExitCode::kBadData,
         fmt::format("a voxel_size of {:g} m needs {} bricks, more than the limit of {}; take at least {:.2g} m",
                     voxel_size_, front.size(), kMaxBricks, 1.1 * coarser * voxel_size_));
   }

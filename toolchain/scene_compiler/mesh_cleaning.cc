@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "toolchain/scene_compiler/components.h"
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 
 namespace godobject::scene_compiler {
@@ -27,7 +27,7 @@ void measure_box(const std::vector<Vector3d>& vertices, const std::string& name,
   report.high = -report.low;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!vertices[i].allFinite()) {
-      throw Failure(ExitCode::kBadData,
+      throw command::Failure(command::ExitCode::kBadData,
                     fmt::format("{}: vertex {} is not a finite number; repair the mesh and export it again", name, i));
     }
     report.low = report.low.cwiseMin(vertices[i]);
@@ -35,8 +35,8 @@ void measure_box(const std::vector<Vector3d>& vertices, const std::string& name,
   }
   const double largest = report.low.cwiseAbs().cwiseMax(report.high.cwiseAbs()).maxCoeff();
   if (largest > kMaxCoordinate) {
-    throw Failure(
-        ExitCode::kBadData,
+    throw command::Failure(
+        command::ExitCode::kBadData,
         fmt::format(
             "{}: a coordinate of {:g} m is beyond the limit of {:g} m; check `scale`, or move the mesh to its origin",
             name, largest, kMaxCoordinate));
@@ -198,17 +198,17 @@ void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
 
 TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& report) {
   if (mesh.triangles.empty()) {
-    throw Failure(ExitCode::kBadData,
+    throw command::Failure(command::ExitCode::kBadData,
                   fmt::format("{}: holds no triangles; export a surface mesh, not points or lines", name));
   }
   if (mesh.triangles.size() > kMaxTriangles) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: {} triangles are more than the limit of {}; decimate the mesh",
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: {} triangles are more than the limit of {}; decimate the mesh",
                                                   name, mesh.triangles.size(), kMaxTriangles));
   }
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       if (v >= mesh.vertices.size()) {
-        throw Failure(ExitCode::kBadData, fmt::format("{}: a face names vertex {} of {}; export the mesh again", name,
+        throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: a face names vertex {} of {}; export the mesh again", name,
                                                       v, mesh.vertices.size()));
       }
     }
@@ -217,7 +217,7 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
   const double diagonal = (report.high - report.low).norm();
   report.weld_tolerance = kWeldTolerance * diagonal;
   if (!(diagonal > 0.0)) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: all vertices are one point; export the mesh again", name));
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: all vertices are one point; export the mesh again", name));
   }
 
   const std::vector<std::uint32_t> standing = weld(mesh.vertices, report.weld_tolerance);
@@ -229,7 +229,7 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
       mesh.triangles, [&](const Triangle& t) { return has_no_area(mesh.vertices, t, report.weld_tolerance); });
   drop_duplicates(mesh.triangles, report);
   if (mesh.triangles.empty()) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: every triangle is degenerate; export the mesh again", name));
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: every triangle is degenerate; export the mesh again", name));
   }
   const std::size_t before = mesh.vertices.size();
   drop_loose_vertices(mesh);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <assimp/Importer.hpp>
 
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/ply_reader.h"
 #include "toolchain/scene_compiler/polygon.h"
 
@@ -24,19 +24,19 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 void check_readable(const std::filesystem::path& file, const std::string& extension) {
   if (extension != ".ply" && extension != ".stl" && extension != ".obj") {
-    throw Failure(
-        ExitCode::kBadData,
+    throw command::Failure(
+        command::ExitCode::kBadData,
         fmt::format("{}: not a PLY, STL or OBJ file by its name; export the mesh as one of them", file.string()));
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw Failure(ExitCode::kNoInput, fmt::format("{}: no such file; check `mesh` in the scene file", file.string()));
+    throw command::Failure(command::ExitCode::kNoInput, fmt::format("{}: no such file; check `mesh` in the scene file", file.string()));
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be opened; check its permissions", file.string()));
+    throw command::Failure(command::ExitCode::kNoInput, fmt::format("{}: cannot be opened; check its permissions", file.string()));
   if (stream.peek() == std::ifstream::traits_type::eof()) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: the file is empty; export the mesh again", file.string()));
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: the file is empty; export the mesh again", file.string()));
   }
 }
 
@@ -89,7 +89,7 @@ TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshRe
     // assimp 5.2 misreads some binary PLY files without a word: those have a reader of their own
     mesh = extension == ".ply" ? read_ply(file, report) : read_with_assimp(file, report);
   } catch (const std::exception& error) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: not a readable mesh ({}); export it again as binary PLY or STL",
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: not a readable mesh ({}); export it again as binary PLY or STL",
                                                   file.string(), error.what()));
   }
   for (Eigen::Vector3d& v : mesh.vertices) v *= scale;

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/mass_properties.h"
 #include "toolchain/scene_compiler/outer_surface.h"
 #include "toolchain/scene_compiler/parallel.h"
@@ -41,15 +41,15 @@ Progress part_of(const Progress& progress, double begin, double end) {
 
 void check_arguments(std::uint32_t points, std::uint32_t levels) {
   if (points < 1 || points > format::kMaxPoints) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
+    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
   }
   if (levels < 1 || levels > format::kMaxLevels) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
+    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
   }
   const double deepest = std::max(1.0, 1.0 + std::floor(std::log(points / kCoarsest) / std::log(kLeastRefinement)));
   if (levels > deepest) {
-    throw Failure(
-        ExitCode::kBadConfig,
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
         fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
                     levels, points, static_cast<int>(deepest),
                     static_cast<int>(std::ceil(kCoarsest * std::pow(kLeastRefinement, levels - 1)))));

@@ -1,8 +1,9 @@
 #include <string>
 
-#include "toolchain/scene_compiler/command_line.h"
+#include "toolchain/command/progress.h"
+#include "toolchain/command/run.h"
+#include "toolchain/command/scene_image.h"
 #include "toolchain/scene_compiler/query_points.h"
-#include "toolchain/scene_compiler/scene_image.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ Exit codes: 0 done, 64 usage, 65 bad image or row, 66 file not found, 74 cannot 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace godobject::scene_compiler;
+  using namespace godobject;
   CLI::App app{"Looks up distances in a compiled scene.", "godobject-query"};
   std::string scene;
   std::string points;
@@ -26,11 +27,10 @@ int main(int argc, char** argv) {
   app.add_option("X.scene", scene, "scene image")->required();
   app.add_option("POINTS.csv", points, "points to look up")->required();
   app.add_option("-o,--output", output, "CSV file to write")->required();
-  app.set_version_flag("--version", "godobject-query " GODOBJECT_VERSION);
   app.footer(kFooter);
-  return run_command(app, argc, argv, [&] {
-    const SceneImage image = SceneImage::read(scene);
-    ProgressLine line;
-    query_points(image.scene.voxelmap, points, output, [&line](double done) { line.show("points", done); });
+  return command::run(app, argc, argv, [&] {
+    const command::SceneImage image = command::SceneImage::read(scene);
+    command::Progress line;
+    scene_compiler::query_points(image.scene.voxelmap, points, output, [&line](double done) { line.show("points", done); });
   });
 }

@@ -8,25 +8,19 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/failure.h"
-#include "toolchain/scene_compiler/output_file.h"
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/command/csv_table.h"
+#include "toolchain/command/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-}
 
 /// Exactly three finite numbers parted by commas.
 bool read_point(std::string_view line, Vector3& point) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t comma = line.find(',');
     if ((comma == std::string_view::npos) != (axis == 2)) return false;
-    std::string_view word = trimmed(line.substr(0, comma));
+    std::string_view word = command::trimmed(line.substr(0, comma));
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), point[axis]);
     if (error != std::errc() || end != word.data() + word.size() || word.empty() || !std::isfinite(point[axis]))
@@ -57,21 +51,21 @@ std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& p
   const std::uintmax_t size = std::filesystem::file_size(points, error);
   std::ifstream stream(points);
   if (error || !stream) {
-    throw Failure(ExitCode::kNoInput,
+    throw command::Failure(command::ExitCode::kNoInput,
                   fmt::format("{}: cannot be read; check the path and its permissions", points.string()));
   }
-  OutputFile file(output);
+  command::AtomicFile file(output);
   std::string text = "x,y,z,distance,nx,ny,nz,known\n";
   std::string line;
   std::uint64_t rows = 0;
   std::uintmax_t bytes = 0;
   for (std::uint64_t number = 1; std::getline(stream, line); ++number) {
     bytes += line.size() + 1;
-    const std::string_view row = trimmed(line);
+    const std::string_view row = command::trimmed(line);
     if (row.empty() || (number == 1 && names_columns(row))) continue;
     Vector3 point;
     if (!read_point(row, point)) {
-      throw Failure(ExitCode::kBadData,
+      throw command::Failure(command::ExitCode::kBadData,
                     fmt::format("{}:{}: \"{}\" is not three finite numbers x,y,z; mend or drop the row",
                                 points.string(), number, row.substr(0, 60)));
     }

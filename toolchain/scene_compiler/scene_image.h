@@ -1,31 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <memory>
-#include <span>
 #include <vector>
 
 #include "core/scene/format.h"
-#include "core/scene/scene.h"
+#include "toolchain/command/scene_image.h"
 
 namespace godobject::scene_compiler {
-
-/// The bytes of a scene image, aligned as the format asks.
-class AlignedBytes {
- public:
-  explicit AlignedBytes(std::size_t size);
-
-  std::span<std::byte> span() noexcept { return {bytes_.get(), size_}; }
-  std::span<const std::byte> span() const noexcept { return {bytes_.get(), size_}; }
-
- private:
-  struct Free {
-    void operator()(std::byte* bytes) const noexcept;
-  };
-  std::unique_ptr<std::byte, Free> bytes_;
-  std::size_t size_;
-};
 
 struct SectionBytes {
   format::SectionId id;
@@ -33,18 +14,6 @@ struct SectionBytes {
 };
 
 /// Lays sections out as one image, with checksums.
-AlignedBytes make_image(const std::vector<SectionBytes>& sections);
-
-/// A scene image in memory and the core's view of it.
-struct SceneImage {
-  AlignedBytes bytes;
-  Scene scene;
-
-  /// Throws Failure (kBadData) with the core's reason; `name` is used in the message.
-  SceneImage(AlignedBytes image, const std::string& name);
-
-  /// Reads a file. Throws Failure: kNoInput if it cannot be read.
-  static SceneImage read(const std::filesystem::path& file);
-};
+command::AlignedBytes make_image(const std::vector<SectionBytes>& sections);
 
 }  // namespace godobject::scene_compiler

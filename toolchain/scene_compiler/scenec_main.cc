@@ -3,15 +3,18 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/command_line.h"
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/command/failure.h"
+#include "toolchain/command/progress.h"
+#include "toolchain/command/run.h"
+#include "toolchain/command/scene_image.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
-#include "toolchain/scene_compiler/failure.h"
-#include "toolchain/scene_compiler/output_file.h"
 
 namespace {
 
 using namespace godobject;
+using namespace godobject::command;
 using namespace godobject::scene_compiler;
 
 constexpr const char* kFooter = R"(
@@ -45,19 +48,19 @@ void compile(const Options& options) {
   if (options.only_solver == "corrected") request.only_solver = format::Solver::kCorrected;
   CompileReport report;
   {
-    ProgressLine line;
+    godobject::command::Progress line;
     request.progress = [&line](const char* phase, double done) { line.show(phase, done); };
     report = compile_scene(request);
   }
   if (!options.report.empty()) {
-    OutputFile file(options.report);
+    AtomicFile file(options.report);
     file.write(full_report_json(report).dump(2) + "\n");
     file.commit();
   }
   fmt::print("{}", report_text(report));
 }
 
-void run(const Options& options) {
+void run_scenec(const Options& options) {
   const bool compiles = !options.scene_file.empty() || !options.output.empty();
   if (!options.inspect.empty()) {
     if (compiles)
@@ -81,7 +84,6 @@ int main(int argc, char** argv) {
   app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")
       ->check(CLI::IsMember({"paper", "corrected"}));
   app.add_option("--inspect", options.inspect, "print the facts of a compiled image as JSON");
-  app.set_version_flag("--version", "godobject-scenec " GODOBJECT_VERSION);
   app.footer(kFooter);
-  return run_command(app, argc, argv, [&options] { run(options); });
+  return godobject::command::run(app, argc, argv, [&options] { run_scenec(options); });
 }

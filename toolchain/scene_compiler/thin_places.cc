@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -206,7 +206,7 @@ ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, cons
 void require_walls_that_last(const ThinReport& report, double voxel_size, const std::string& mesh_name) {
   const ThinPlaces& walls = report.walls;
   if (walls.lost_patch <= kRefusedArea * voxel_size * voxel_size) return;
-  throw Failure(ExitCode::kBadData,
+  throw command::Failure(command::ExitCode::kBadData,
                 fmt::format("{}: a wall of {:.3g} m over {:.2g} m^2 near ({:.4g}, {:.4g}, {:.4g}) is thinner than the "
                             "voxel of {:g} m and would be "
                             "lost; set voxel_size = {:.2g} or smaller, or surface = \"shell\" to thicken it",

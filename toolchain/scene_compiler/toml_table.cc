@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/failure.h"
+#include "toolchain/command/failure.h"
 
 namespace godobject::scene_compiler {
 
@@ -14,7 +14,7 @@ TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem:
   if (node == nullptr) return;
   table_ = node->as_table();
   if (table_ == nullptr) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(),
+    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(),
                                                     node->source().begin.line, name_, name_));
   }
 }
@@ -65,7 +65,7 @@ void TomlTable::complain(std::string_view key, const std::string& what) const {
                                   : table_ != nullptr ? table_->source().begin.line
                                                       : 0;
   const std::string where = line == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line);
-  throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
+  throw command::Failure(command::ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
 }
 
 void TomlTable::require_in_range(std::string_view key, double value, Range range) const {

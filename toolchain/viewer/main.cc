@@ -80,15 +80,15 @@ fs::path picture_path(const Options& options, double t) {
   return output / fmt::format("{}_{:.3f}.png", fs::path(options.replay).stem().string(), t);
 }
 
-int render_all(const Options& options) {
+void render_all(const Options& options) {
   const auto log = godobject::figures::read_replay_log(options.replay);
   const auto bodies = viewer::read_scene_bodies(options.scene);
   viewer::Picture picture;
   std::tie(picture.width, picture.height) = parse_size(options.size);
   picture.cut = cut(options.cut);
-  godobject::command::Progress progress("pictures");
+  godobject::command::Progress progress;
   for (std::size_t i = 0; i < options.times.size(); ++i) {
-    progress.update(static_cast<double>(i) / static_cast<double>(options.times.size()));
+    progress.show("pictures", static_cast<double>(i) / static_cast<double>(options.times.size()));
     const auto& row = godobject::figures::row_at(log, options.times[i], options.replay);
     picture.H_WD = row.H_WD;
     picture.H_WS = row.H_WS;
@@ -101,7 +101,6 @@ int render_all(const Options& options) {
                                           .direction = direction(options.camera)});
     viewer::render(viewer::pov_text(bodies.still, bodies.moving, picture), picture.width, picture.height, picture_path(options, row.t));
   }
-  return 0;
 }
 
 }  // namespace
@@ -121,5 +120,5 @@ int main(int argc, char** argv) {
   app.add_option("--up", options.up, "axis of W that points up: x, y or z; default: z")->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--cut", options.cut, "X,Y,Z,NX,NY,NZ: cuts away the still body (closed) beyond this plane of W [m]")->delimiter(',')->expected(6);
   app.add_option("--size", options.size, "WIDTHxHEIGHT [pixels]; default: 800x600");
-  return godobject::command::run(app, argc, argv, [&] { return render_all(options); });
+  return godobject::command::run(app, argc, argv, [&] { render_all(options); });
 }

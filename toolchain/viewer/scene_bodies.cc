@@ -1,21 +1,15 @@
 #include "toolchain/viewer/scene_bodies.h"
 
-#include "toolchain/command/failure.h"
-#include "toolchain/scene_compiler/failure.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace godobject::viewer {
 
 SceneBodies read_scene_bodies(const std::filesystem::path& scene_file) {
-  try {
-    const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(scene_file);
-    scene_compiler::MeshReport report;
-    return {.still = scene_compiler::import_mesh(config.still.file, config.still.scale, report),
-            .moving = scene_compiler::import_mesh(config.moving.file, config.moving.scale, report)};
-  } catch (const scene_compiler::Failure& failure) {
-    throw command::Failure(static_cast<command::ExitCode>(failure.exit_code()), failure.what());
-  }
+  const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(scene_file);
+  scene_compiler::MeshReport report;
+  return {.still = scene_compiler::import_mesh(config.still.file, config.still.scale, report),
+          .moving = scene_compiler::import_mesh(config.moving.file, config.moving.scale, report)};
 }
 
 }  // namespace godobject::viewer

@@ -1,0 +1,52 @@
+#include "toolchain/command/scene_image.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "toolchain/command/failure.h"
+
+namespace godobject::command {
+
+AlignedBytes::AlignedBytes(std::size_t size)
+    : bytes_(static_cast<std::byte*>(
+          ::operator new (std::max<std::size_t>(size, 1), std::align_val_t{format::kAlignment}))),
+      size_(size) {
+  std::memset(bytes_.get(), 0, size);
+}
+
+void AlignedBytes::Free::operator()(std::byte* bytes) const noexcept {
+  ::operator delete (bytes, std::align_val_t{format::kAlignment});
+}
+
+SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std::move(image)) {
+  const Status status = Scene::open(bytes.span(), scene);
+  if (status != Status::kOk) {
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: {}; compile the scene again with godobject-scenec", name, describe(status)));
+  }
+}
+
+SceneImage SceneImage::read(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream) {
+    throw Failure(ExitCode::kNoInput,
+                  fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
+  }
+  constexpr std::uintmax_t kLargest = std::uintmax_t{8} << 30;
+  if (size > kLargest) throw Failure(ExitCode::kBadData, fmt::format("{}: larger than any scene image", file.string()));
+  AlignedBytes image(size);
+  stream.read(reinterpret_cast<char*>(image.span().data()), static_cast<std::streamsize>(size));
+  if (stream.gcount() != static_cast<std::streamsize>(size)) {
+    throw Failure(ExitCode::kIo, fmt::format("{}: reading it failed; check the disk", file.string()));
+  }
+  return SceneImage(std::move(image), file.string());
+}
+
+}  // namespace godobject::command
