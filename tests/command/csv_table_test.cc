@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "toolchain/command/atomic_file.h"
 #include "toolchain/command/failure.h"
 
 namespace godobject::command {
@@ -60,21 +59,6 @@ TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
   EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);
   EXPECT_NE(refusal("", ExitCode::kBadData).find("is empty"), std::string::npos);
   EXPECT_THROW(read_csv(folder_ / "absent.csv", kColumns), Failure);
-}
-
-TEST_F(CommandFiles, OutputsAppearWholeOrNotAtAll) {
-  const std::filesystem::path path = folder_ / "out.txt";
-  {
-    AtomicFile abandoned(path);
-    abandoned.write("half");
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
-  AtomicFile file(path);
-  file.write("whole");
-  EXPECT_FALSE(std::filesystem::exists(path));
-  file.commit();
-  EXPECT_EQ(std::filesystem::file_size(path), 5u);
-  EXPECT_THROW(AtomicFile(folder_ / "absent" / "out.txt"), Failure);
 }
 
 }  // namespace

@@ -66,6 +66,10 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " " + scene(still("empty.ply") + moving) + out, 65, "empty.ply");
   expect_refusal(kScenec + " " + scene(still(mesh_file("cube_100mm").string()) + moving) + " -o /nowhere/o.scene", 74,
                  "/nowhere/o.scene");
+  const std::string good = scene(still(mesh_file("cube_100mm").string()) + moving);
+  expect_refusal(kScenec + " " + good + " -o /dev/null", 74, "/dev/null: is a device");
+  expect_refusal(kScenec + " " + good + out + " --report /dev", 74, "/dev: is a folder");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
   expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65, "x.scene");
   expect_refusal(kScenec + " --inspect /nowhere.scene", 66, "/nowhere.scene");
   expect_refusal(kQuery + " /nowhere.scene p.csv -o o.csv", 66, "/nowhere.scene");

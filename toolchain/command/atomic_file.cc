@@ -1,7 +1,6 @@
 #include "toolchain/command/atomic_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -9,12 +8,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "toolchain/command/failure.h"
+#include "toolchain/command/output_target.h"
 
 namespace godobject::command {
 
 AtomicFile::AtomicFile(std::filesystem::path file)
-    : file_(std::move(file)), temporary_(fmt::format("{}.{}.part", file_.string(), ::getpid())) {
+    : file_(std::move(file)),
+      target_(output_target(file_)),
+      temporary_(fmt::format("{}.{}.part", target_.string(), ::getpid())) {
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail("cannot be written");
 }
@@ -54,12 +55,9 @@ void AtomicFile::flush() {
 
 void AtomicFile::commit() {
   flush();
-  if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail("could not be put in its place");
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("could not be put in its place");
 }
 
-void AtomicFile::fail(const char* what) const {
-  throw Failure(ExitCode::kIo, fmt::format("{}: {} ({}); choose a folder that exists, may be written to and has room",
-                                           file_.string(), what, std::strerror(errno)));
-}
+void AtomicFile::fail(const char* what) const { throw output_failure(file_, what, errno); }
 
 }  // namespace godobject::command

@@ -8,8 +8,9 @@
 
 namespace godobject::command {
 
-/// An output that appears under its name only when it is complete: written to a temporary name beside it, flushed to the
-/// disk, renamed. Without `commit` nothing is left behind. Throws Failure (kIo) naming the file.
+/// An output that appears under its name only when it is complete: written to a temporary name beside it, flushed to
+/// the disk, renamed. Without `commit` nothing is left behind. A link is followed and stays one; what is no regular
+/// file is never replaced. Throws Failure (kIo, kNoPermission) naming the file.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path file);
@@ -32,7 +33,8 @@ class AtomicFile {
   void write_through();
   [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path file_;
+  std::filesystem::path file_;    // as the user named it
+  std::filesystem::path target_;  // behind its links
   std::filesystem::path temporary_;
   std::string pending_;
   int descriptor_ = -1;

@@ -13,6 +13,7 @@ enum class ExitCode : int {
   kNoInput = 66,
   kInternal = 70,
   kIo = 74,
+  kNoPermission = 77,
   kBadConfig = 78
 };
 

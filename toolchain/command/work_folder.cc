@@ -2,25 +2,20 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <string>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "toolchain/command/output_target.h"
 
 namespace godobject::command {
 
 WorkFolder::WorkFolder(const std::filesystem::path& output) {
-  const auto parent = output.parent_path();
+  const auto parent = output_target(output).parent_path();
   std::string name = ((parent.empty() ? "." : parent) / ".work-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw Failure(ExitCode::kIo,
-                  fmt::format("{}: cannot be made ({}); choose a folder that exists and may be written to",
-                              output.string(), std::strerror(errno)));
-  }
+  if (::mkdtemp(name.data()) == nullptr) throw output_failure(output, "cannot be made", errno);
   path_ = name;
 }
 
@@ -41,10 +36,8 @@ std::filesystem::path WorkFolder::write(const char* name, std::string_view text)
 
 void WorkFolder::deliver(const char* name, const std::filesystem::path& output) const {
   std::error_code error;
-  std::filesystem::rename(path_ / name, output, error);
-  if (error)
-    throw Failure(ExitCode::kIo,
-                  fmt::format("{}: could not be put in its place ({})", output.string(), error.message()));
+  std::filesystem::rename(path_ / name, output_target(output), error);
+  if (error) throw output_failure(output, "could not be put in its place", error.value());
 }
 
 }  // namespace godobject::command

@@ -6,7 +6,8 @@
 namespace godobject::command {
 
 /// A folder for what is made on the way to an output, in the output's own folder (so that a rename out of it is
-/// atomic); gone at the end, whatever happens. Throws Failure (kIo) if it cannot be made.
+/// atomic); gone at the end, whatever happens. Throws Failure (kIo, kNoPermission) if it cannot be made, or if the
+/// output would replace what is no regular file.
 class WorkFolder {
  public:
   /// `output` is a file that is to appear beside it.

@@ -14,7 +14,7 @@ Example:
 POINTS.csv holds rows x,y,z in the still mesh's frame, in metres. OUT.csv gets x,y,z,distance,nx,ny,nz,known:
 known = 1 within the stored band, n the outward normal; known = 0 beyond it: distance is plus or minus the band, n is 0.
 
-Exit codes: 0 done, 64 usage, 65 bad image or row, 66 file not found, 74 cannot write.)";
+Exit codes: 0 done, 64 usage, 65 bad image or row, 66 file not found, 74 cannot write, 77 no right to write.)";
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/failure.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
@@ -30,7 +31,7 @@ A scene file (TOML; lengths in metres, values in brackets are defaults, s is vox
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
 Meshes are PLY, STL or OBJ, found relative to the scene file.
 
-Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 file not found, 74 cannot write, 78 bad scene file.)";
+Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 file not found, 74 cannot write, 77 no right to write, 78 bad scene file.)";
 
 struct Options {
   std::string scene_file;
@@ -46,6 +47,9 @@ void compile(const Options& options) {
   request.output = options.output;
   if (options.only_solver == "paper") request.only_solver = format::Solver::kPaper;
   if (options.only_solver == "corrected") request.only_solver = format::Solver::kCorrected;
+  for (const std::string& output : {options.output, options.report}) {
+    if (!output.empty()) output_target(output);  // refused before the work, not after it
+  }
   CompileReport report;
   {
     godobject::command::Progress line;
