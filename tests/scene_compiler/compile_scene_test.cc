@@ -65,6 +65,7 @@ TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   EXPECT_EQ(image.scene.pointshell.size, 300u);
   EXPECT_NE(image.scene.pointshell.normal_x, nullptr);
   EXPECT_LE(report.field_error.largest_node_error, 1e-5);
+  EXPECT_LE(report.field_error.largest_node_excess, report.field_error.largest_node_error);
   EXPECT_LE(report.field_error.rms, 1.001 * report.field_error.floor_rms);
   EXPECT_LE(report.field_error.sign_errors, report.field_error.floor_sign_errors);
   EXPECT_GE(report.field_error.points, 10000u);
@@ -113,6 +114,23 @@ TEST_F(CompileScene, BehavesAlikeFromAThousandthToAThousandfold) {
     EXPECT_NEAR(scaled.grid.lipschitz, one.grid.lipschitz, 1e-3) << size;
     EXPECT_NEAR(scaled.body.coverage / size, one.body.coverage, 0.05 * one.body.coverage) << size;
   }
+}
+
+TEST(FieldCheck, HoldsNodesToTheSmallerOfTenMicrometresAndAThousandthOfAVoxel) {
+  const auto takes = [](double excess, double voxel_size) {
+    try {
+      require_exact_nodes({.largest_node_error = 1.0, .largest_node_excess = excess}, voxel_size);
+      return true;
+    } catch (const command::Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kInternal);
+      return false;
+    }
+  };
+  EXPECT_TRUE(takes(0.9e-5, 1.0));
+  EXPECT_FALSE(takes(1.1e-5, 1.0));
+  EXPECT_TRUE(takes(0.9e-6, 1e-3));
+  EXPECT_FALSE(takes(1.1e-6, 1e-3));
+  EXPECT_FALSE(takes(1.1e-9, 1e-6));
 }
 
 TEST_F(CompileScene, RefusalLeavesNoFileBehind) {

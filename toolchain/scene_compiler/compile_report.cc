@@ -141,7 +141,8 @@ Json error_json(const FieldError& e, double voxel_size) {
           {"floor_largest", e.floor_largest},
           {"sign_errors", e.sign_errors},
           {"floor_sign_errors", e.floor_sign_errors},
-          {"largest_node_error", e.largest_node_error}};
+          {"largest_node_error", e.largest_node_error},
+          {"largest_node_error_beyond_float_rounding", e.largest_node_excess}};
 }
 
 std::uint64_t section_bytes(const CompileReport& report, format::SectionId id) {

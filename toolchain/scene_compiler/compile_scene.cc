@@ -9,15 +9,14 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/compile_report.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/command/failure.h"
+#include "toolchain/scene_compiler/compile_report.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
 constexpr std::uint64_t kCheckedPoints = 20000;
-constexpr double kLargestNodeError = 1e-5;  // [m], for voxels up to a millimetre; in proportion above
 
 /// Runs the phases, with progress and their times.
 class Phases {
@@ -85,22 +84,14 @@ void require_some_inside(const DistanceGrid& field, const std::string& mesh_name
                   mesh_name));
 }
 
-void require_exact_nodes(const FieldError& error, double voxel_size) {
-  const double allowed = kLargestNodeError * std::max(1.0, voxel_size / 1e-3);
-  if (error.largest_node_error <= allowed) return;
-  throw command::Failure(
-      command::ExitCode::kInternal,
-      fmt::format("a stored distance is {:.3g} m off the exact one, more than {:g} m; please report this scene",
-                  error.largest_node_error, allowed));
-}
-
 MovingBody sample_moving(const SceneConfig& config, const SolidSurface& surface, const Progress& progress) {
   try {
     return make_moving_body(surface, config.points, config.levels, progress);
   } catch (const command::Failure&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: {}", config.moving.file.string(), error.what()));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: {}", config.moving.file.string(), error.what()));
   }
 }
 
@@ -111,8 +102,9 @@ void write_image(const command::AlignedBytes& image, const std::filesystem::path
   output.flush();
   const command::SceneImage read_back = command::SceneImage::read(output.temporary());
   if (std::memcmp(read_back.bytes.span().data(), image.span().data(), image.span().size()) != 0) {
-    throw command::Failure(command::ExitCode::kIo,
-                  fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
+    throw command::Failure(
+        command::ExitCode::kIo,
+        fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
   }
   output.commit();
 }

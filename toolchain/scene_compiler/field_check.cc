@@ -5,6 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include <fmt/format.h>
+
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/distance_probe.h"
 
@@ -15,8 +18,11 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 using format::kBrickNodes;
 
-constexpr double kSignSlack = 0.1;  // voxels
-constexpr double kOnSeam = 1e-6;    // |w - 1/2| below it: which sign is right is decided by rounding
+constexpr double kSignSlack = 0.1;           // voxels
+constexpr double kNodeError = 1e-5;          // [m]
+constexpr double kNodeErrorInVoxels = 1e-3;  // what binds below a voxel of a centimetre
+constexpr double kFloatRounding = 0x1p-24;   // of a value, relative
+constexpr double kOnSeam = 1e-6;             // |w - 1/2| below it: which sign is right is decided by rounding
 
 /// A point in a stored brick: cell and place within it.
 struct Place {
@@ -62,7 +68,7 @@ class Places {
 };
 
 struct PointError {
-  double exact, stored, floor, node;
+  double exact, stored, floor, node, node_excess;
 };
 
 PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field, const Place& place) {
@@ -83,8 +89,9 @@ PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const 
                       kBrickNodes * (place.cell[1] + offset[1] + kBrickNodes * (place.cell[2] + offset[2]));
     const auto stored = static_cast<double>(grid.bricks[place.brick].value[index]);
     const bool undecided = stored * exact < 0.0 && std::abs(surface.winding_number(node) - 0.5) < kOnSeam;
-    error.node =
-        std::max(error.node, undecided ? std::abs(std::abs(stored) - std::abs(exact)) : std::abs(stored - exact));
+    const double off = undecided ? std::abs(std::abs(stored) - std::abs(exact)) : std::abs(stored - exact);
+    error.node = std::max(error.node, off);
+    error.node_excess = std::max(error.node_excess, off - kFloatRounding * std::abs(exact));
   }
   return error;
 }
@@ -120,11 +127,21 @@ FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, co
     total.sign_errors += wrong_side(e.exact, e.stored) ? 1u : 0u;
     total.floor_sign_errors += wrong_side(e.exact, e.floor) ? 1u : 0u;
     total.largest_node_error = std::max(total.largest_node_error, e.node);
+    total.largest_node_excess = std::max(total.largest_node_excess, e.node_excess);
   }
   const double count = std::max(1.0, static_cast<double>(errors.size()));
   total.rms = std::sqrt(total.rms / count);
   total.floor_rms = std::sqrt(total.floor_rms / count);
   return total;
+}
+
+void require_exact_nodes(const FieldError& error, double voxel_size) {
+  const double allowed = std::min(kNodeError, kNodeErrorInVoxels * voxel_size);
+  if (error.largest_node_excess <= allowed) return;
+  throw command::Failure(command::ExitCode::kInternal,
+                         fmt::format("a stored distance is {:.3g} m further off the exact one than its rounding, more "
+                                     "than {:.3g} m; please report this scene",
+                                     error.largest_node_excess, allowed));
 }
 
 }  // namespace godobject::scene_compiler

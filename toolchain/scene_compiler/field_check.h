@@ -18,11 +18,16 @@ struct FieldError {
   double floor_largest = 0.0;     ///< [m]
   std::uint64_t sign_errors = 0;  ///< wrong side although further than a tenth of a voxel from the surface
   std::uint64_t floor_sign_errors = 0;
-  double largest_node_error = 0.0;  ///< of a stored value at the nodes around those points [m]
+  double largest_node_error = 0.0;   ///< of a stored value at the nodes around those points [m]
+  double largest_node_excess = 0.0;  ///< the same beyond what rounding the exact value to float may make of it [m]
 };
 
 /// Deterministic. `field` is the view that the core has of `grid`.
 FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
                        std::uint64_t points, const Progress& progress);
+
+/// Throws Failure (kInternal) if a node is off by more than the rounding of its value to float and the smaller of 1e-5
+/// m and a thousandth of a voxel.
+void require_exact_nodes(const FieldError& error, double voxel_size);
 
 }  // namespace godobject::scene_compiler
