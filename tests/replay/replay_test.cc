@@ -131,6 +131,7 @@ TEST_F(ReplayTest, HoldsTheGodObjectOnBadRowsAndSaysSoAtTheEnd) {
     ASSERT_EQ(table.size(), 301u);
     EXPECT_EQ(table[101][kStatus], "bad_input");
     EXPECT_EQ(table[101][kGodZ], table[100][kGodZ]);
+    EXPECT_EQ(std::stod(table[101][kForceZ]), 0.0);
     EXPECT_NE(table[102][kStatus], "bad_input");
   }
 }
@@ -154,6 +155,14 @@ TEST_F(ReplayTest, StartsInsideWithItsStatus) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.07,1,0,0,0\n0.001,0,0,0.07,1,0,0,0\n";
   ASSERT_EQ(run("--solver corrected"), 0) << output_;
   EXPECT_EQ(rows()[1][kStatus], "start_inside");
+  EXPECT_EQ(output_.find("at least"), std::string::npos) << output_;
+}
+
+TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.02,1,0,0,0\n";
+  ASSERT_EQ(run("--solver corrected"), 0) << output_;
+  EXPECT_NE(output_.find("deepest at least "), std::string::npos) << output_;
+  EXPECT_NE(output_.find("(the stored band)"), std::string::npos) << output_;
 }
 
 TEST_F(ReplayTest, EndsWithTheExitCodesOfTheContract) {
@@ -163,6 +172,7 @@ TEST_F(ReplayTest, EndsWithTheExitCodesOfTheContract) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_NE(output_.find("Example:"), std::string::npos);
   EXPECT_NE(output_.find("infeasible"), std::string::npos);
+  EXPECT_NE(output_.find("neither limited nor smoothed"), std::string::npos);
   EXPECT_EQ(run("--version"), 0);
   EXPECT_EQ(run("", "absent/out.csv"), 74);
   write_scene(false);

@@ -23,17 +23,26 @@ const std::map<std::string, Solver> kSolvers = {{"paper", Solver::kPaper}, {"cor
 const char* const kFooter = R"(Example:
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o out.csv --solver corrected
 
-POSES.csv holds t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row a millisecond. OUT.csv gets one
-row a cycle: device pose d, god-object pose g (after the cycle), spring force f [N] and torque t [Nm] on the device in W about
-the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside), contacts, substeps,
-time of step #1 and of steps #2-#7, and a status:
+POSES.csv holds t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row a millisecond. OUT.csv gets
+one row a cycle: device pose d, god-object pose g (after the cycle), spring force f [N] and torque t [Nm] on the device
+in W about the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside; at most
+the stored band), contacts, substeps, time of step #1 and of steps #2-#7, and a status:
   free          no contact, the god object is the device pose
   contact       constrained
-  start_inside  the first pose penetrated and the god object is still on its way out: it moves out by a fifth of its depth a
-                cycle where the field gives a direction, and goes with the device where it gives none
+  start_inside  the first pose penetrated and the god object is still on its way out: it moves out by a fifth of its
+                depth a cycle where the field gives a direction, and goes with the device where it gives none
   cut           the motion was shortened so as not to jump over the surface
-  overflow      more contacts than fit; infeasible: constraints without a solution (neither happens with paper and corrected)
-  bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, exit 65 at the end)";
+  overflow      more contacts than fit; infeasible: constraints without a solution (neither happens with paper and
+                corrected)
+  bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, force and torque
+                are zero, exit 65 at the end
+Forces are neither limited nor smoothed here: that is left to the controller that drives the device.)";
+
+/// The field knows no depth beyond its band.
+std::string depth_text(double deepest, double band) {
+  if (deepest < band) return fmt::format("deepest {:.3f} mm", 1e3 * deepest);
+  return fmt::format("deepest at least {:.3f} mm (the stored band)", 1e3 * band);
+}
 
 std::string float_exceptions(int raised) {
   std::string names;
@@ -84,8 +93,9 @@ int main(int argc, char** argv) {
           [&](double share) { progress.show("replay", share); });
     }
     out.commit();
-    fmt::print("{}: {} cycles, deepest {:.3f} mm, peak force {:.2f} N, floating-point exceptions:{}\n", out_path,
-               summary.cycles, 1e3 * summary.deepest, summary.peak_force, float_exceptions(summary.float_exceptions));
+    fmt::print("{}: {} cycles, {}, peak force {:.2f} N, floating-point exceptions:{}\n", out_path, summary.cycles,
+               depth_text(summary.deepest, scene.voxelmap.band()), summary.peak_force,
+               float_exceptions(summary.float_exceptions));
     if (summary.bad_rows > 0) {
       throw Failure(ExitCode::kBadData, fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), "
                                                     "the first of {} such rows; the god object was "
