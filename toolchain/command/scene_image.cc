@@ -24,7 +24,14 @@ void AlignedBytes::Free::operator()(std::byte* bytes) const noexcept {
 }
 
 SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std::move(image)) {
-  const Status status = Scene::open(bytes.span(), scene);
+  const std::span<const std::byte> whole = bytes.span();
+  if (whole.size() < sizeof(format::kMagic) || std::memcmp(whole.data(), format::kMagic, sizeof(format::kMagic)) != 0) {
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: is not a scene image (X.scene, made by godobject-scenec); compile one, or check the "
+                              "order of the arguments",
+                              name));
+  }
+  const Status status = Scene::open(whole, scene);
   if (status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile the scene again with godobject-scenec", name, describe(status)));
@@ -40,7 +47,11 @@ SceneImage SceneImage::read(const std::filesystem::path& file) {
                   fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
   }
   constexpr std::uintmax_t kLargest = std::uintmax_t{8} << 30;
-  if (size > kLargest) throw Failure(ExitCode::kBadData, fmt::format("{}: larger than any scene image", file.string()));
+  if (size > kLargest)
+    throw Failure(
+        ExitCode::kBadData,
+        fmt::format("{}: is not a scene image (X.scene, made by godobject-scenec): larger than any; check the path",
+                    file.string()));
   AlignedBytes image(size);
   stream.read(reinterpret_cast<char*>(image.span().data()), static_cast<std::streamsize>(size));
   if (stream.gcount() != static_cast<std::streamsize>(size)) {

@@ -31,7 +31,7 @@ struct SceneImage {
   AlignedBytes bytes;
   Scene scene;
 
-  /// Throws Failure (kBadData) with the core's reason; `name` is used in the message.
+  /// Throws Failure (kBadData) if it is no image at all, else with the core's reason; `name` is used in the message.
   SceneImage(AlignedBytes image, const std::string& name);
 
   /// Reads a file. Throws Failure: kNoInput if it cannot be read, kBadData if it is larger than any image.
