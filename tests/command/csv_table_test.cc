@@ -51,10 +51,26 @@ TEST_F(CommandFiles, CsvIsReadWithItsLineNumbers) {
   EXPECT_TRUE(std::isinf(table.row(1)[2]));
 }
 
+TEST_F(CommandFiles, CsvMayBeginWithAByteOrderMarkAndNumbersWithAPlus) {
+  const CsvTable table = read_csv(file("\xef\xbb\xbf"
+                                       "a,b,c\n+1,+2.5e1,-3\n"),
+                                  kColumns);
+  ASSERT_EQ(table.rows(), 1u);
+  EXPECT_EQ(table.row(0)[0], 1.0);
+  EXPECT_EQ(table.row(0)[1], 25.0);
+  for (const char* const bad : {"+-1", "++1", "+", "-+1"}) {
+    EXPECT_NE(refusal("a,b,c\n1,2," + std::string(bad) + "\n", ExitCode::kBadData).find("is not a number"),
+              std::string::npos)
+        << bad;
+  }
+}
+
 TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
-  EXPECT_NE(refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number"),
+  EXPECT_NE(
+      refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number; mend the row"),
+      std::string::npos);
+  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3 (a,b,c); mend the row"),
             std::string::npos);
-  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3"), std::string::npos);
   EXPECT_NE(refusal("a,b,c\n1,2,3,\n", ExitCode::kBadData).find(":2: \"\" is not a number"), std::string::npos);
   EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);
   EXPECT_NE(refusal("", ExitCode::kBadData).find("is empty"), std::string::npos);

@@ -9,7 +9,7 @@
 
 namespace godobject::command {
 
-/// Numbers of a CSV file, row by row. Lines that are empty or begin with # are passed over.
+/// Numbers of a CSV file, row by row; which of its lines count is told by CsvLines.
 struct CsvTable {
   std::size_t columns = 0;
   std::vector<double> values;      ///< rows x columns
@@ -19,10 +19,7 @@ struct CsvTable {
   std::span<const double> row(std::size_t i) const { return std::span(values).subspan(i * columns, columns); }
 };
 
-/// `text` without the blanks, tabs and carriage returns around it.
-std::string_view trimmed(std::string_view text);
-
-/// Reads a file whose first line names exactly `columns`. NaN and Inf are numbers here (`nan`, `inf`).
+/// Reads a file whose first line names exactly `columns`; numbers as read_number takes them.
 /// Throws Failure: kNoInput if it cannot be read, kBadData naming the line.
 CsvTable read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns);
 

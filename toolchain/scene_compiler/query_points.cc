@@ -1,16 +1,15 @@
 #include "toolchain/scene_compiler/query_points.h"
 
-#include <charconv>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/csv_table.h"
-#include "toolchain/command/failure.h"
+#include "toolchain/command/csv_lines.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -20,11 +19,8 @@ bool read_point(std::string_view line, Vector3& point) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t comma = line.find(',');
     if ((comma == std::string_view::npos) != (axis == 2)) return false;
-    std::string_view word = command::trimmed(line.substr(0, comma));
-    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), point[axis]);
-    if (error != std::errc() || end != word.data() + word.size() || word.empty() || !std::isfinite(point[axis]))
-      return false;
+    if (!command::read_number(command::trimmed(line.substr(0, comma)), point[axis])) return false;
+    if (!std::isfinite(point[axis])) return false;
     if (axis < 2) line.remove_prefix(comma + 1);
   }
   return true;
@@ -47,34 +43,25 @@ void append_row(std::string& text, std::string_view point_text, const Vector3& p
 
 std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points,
                            const std::filesystem::path& output, const Progress& progress) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(points, error);
-  std::ifstream stream(points);
-  if (error || !stream) {
-    throw command::Failure(command::ExitCode::kNoInput,
-                  fmt::format("{}: cannot be read; check the path and its permissions", points.string()));
-  }
+  command::CsvLines lines(points);
+  std::error_code unknown;  // of a pipe: no progress is shown
+  const std::uintmax_t size = std::filesystem::file_size(points, unknown);
   command::AtomicFile file(output);
   std::string text = "x,y,z,distance,nx,ny,nz,known\n";
-  std::string line;
   std::uint64_t rows = 0;
-  std::uintmax_t bytes = 0;
-  for (std::uint64_t number = 1; std::getline(stream, line); ++number) {
-    bytes += line.size() + 1;
-    const std::string_view row = command::trimmed(line);
-    if (row.empty() || (number == 1 && names_columns(row))) continue;
+  bool first = true;
+  for (std::string_view row; lines.next(row); first = false) {
+    if (first && names_columns(row)) continue;
     Vector3 point;
     if (!read_point(row, point)) {
-      throw command::Failure(command::ExitCode::kBadData,
-                    fmt::format("{}:{}: \"{}\" is not three finite numbers x,y,z; mend or drop the row",
-                                points.string(), number, row.substr(0, 60)));
+      lines.refuse(fmt::format("\"{}\" is not three finite numbers x,y,z; mend or drop the row", row.substr(0, 60)));
     }
     append_row(text, row, point, field);
     ++rows;
     if (text.size() > 1u << 20) {
       file.write(text);
       text.clear();
-      if (progress) progress(static_cast<double>(bytes) / static_cast<double>(size));
+      if (progress && !unknown) progress(static_cast<double>(lines.bytes()) / static_cast<double>(size));
     }
   }
   file.write(text);

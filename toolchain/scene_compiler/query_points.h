@@ -8,9 +8,9 @@
 
 namespace godobject::scene_compiler {
 
-/// Reads rows `x,y,z` in W [m] (a first row of names is skipped) and writes `x,y,z,distance,nx,ny,nz,known`. The
-/// numbers x, y, z appear as they came. Returns the number of rows. Throws Failure: kNoInput, kIo, or kBadData naming
-/// the line of the first bad row; then there is no output.
+/// Reads rows `x,y,z` in W [m] (a first row of names is skipped; lines as CsvLines tells them) and writes
+/// `x,y,z,distance,nx,ny,nz,known`. The numbers x, y, z appear as they came. Returns the number of rows. Throws
+/// Failure: kNoInput, kIo, or kBadData naming the line of the first bad row; then there is no output.
 std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points,
                            const std::filesystem::path& output, const Progress& progress);
 
