@@ -1,7 +1,7 @@
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/run.h"
@@ -34,8 +34,8 @@ between two the pivot goes straight and the rotation along the shorter arc, with
 std::string row(const godobject::path::Sample& sample) {
   const godobject::Vector3& p = sample.pose.translation;
   const godobject::Quaternion& q = sample.pose.rotation;
-  return fmt::format("{:.3f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f}\n", sample.t, p.x(), p.y(), p.z(), q.w(), q.x(),
-                     q.y(), q.z());
+  return fmt::format("{:.3f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f}\n", sample.t, p.x(), p.y(), p.z(),
+                     q.w(), q.x(), q.y(), q.z());
 }
 
 }  // namespace
