@@ -25,8 +25,8 @@ const char* const kFooter = R"(Example:
 
 POSES.csv holds t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row a millisecond. OUT.csv gets
 one row a cycle: device pose d, god-object pose g (after the cycle), spring force f [N] and torque t [Nm] on the device
-in W about the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside; at most
-the stored band), contacts, substeps, time of step #1 and of steps #2-#7, and a status:
+in W about the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside; at
+most the stored band), contacts, substeps, time of step #1 and of steps #2-#7, and a status:
   free          no contact, the god object is the device pose
   contact       constrained
   start_inside  the first pose penetrated and the god object is still on its way out: it moves out by a fifth of its
