@@ -9,7 +9,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kOk = 0,
     kNotFinite,       ///< any step: a NaN or Inf came in, or would have left the step
     kNotUnit,         ///< a quaternion further than 1e-3 from unit length
-    kImageTruncated,  ///< scene image: fewer bytes than it says it has, or more
+    kOutOfRange,      ///< a pose farther out than any scene reaches
+  kImageTruncated,  ///< scene image: fewer bytes than it says it has, or more
     kImageForeign,    ///< scene image: not one at all, or of another byte order
     kImageVersion,    ///< scene image: made by another version of the compiler
     kImageChecksum,   ///< scene image: a bit is wrong
@@ -24,6 +25,7 @@ constexpr const char* describe(Status status) noexcept {
     case Status::kOk: return "ok";
     case Status::kNotFinite: return "a number is not finite";
     case Status::kNotUnit: return "a quaternion is not of unit length";
+    case Status::kOutOfRange: return "a pose is farther out than any scene";
     case Status::kImageTruncated: return "the scene image is cut short or has bytes too many";
     case Status::kImageForeign: return "not a scene image of this machine's byte order";
     case Status::kImageVersion: return "the scene image was made by another version";

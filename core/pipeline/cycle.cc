@@ -17,8 +17,8 @@ const char* name(Outcome outcome) noexcept {
 
 namespace detail {
 
-Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, bool cut, bool slipping,
-              const Parameters& parameters, State& state, CycleReport& report) noexcept {
+Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, const Projection& step,
+              std::uint32_t substeps, const Parameters& parameters, State& state, CycleReport& report) noexcept {
   const Motion stretch = coupling_stretch(input.H_WD, H_WS);  // #6 (44), (45)
   const Wrench coupling =
       constraint_force(stretch, parameters.coupling_translation, parameters.coupling_rotation);  // (46)
@@ -28,17 +28,19 @@ Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& 
   if (!finite) return Status::kNotFinite;
 
   state.H_WS = H_WS;
-  state.slipping = slipping;
+  state.projection = step.next;
   const double penetration = contacts.depth - parameters.safety_distance;
-  if (penetration <= kOutside * parameters.voxel_size) state.inside = false;
+  // a first pose that penetrates is reported as such, however little it does
+  if (state.started && penetration <= kOutside * parameters.voxel_size) state.inside = false;
+  state.started = true;
   report.H_WS = H_WS;
   report.force = force;
   report.penetration = penetration;
   report.contacts = contacts.count;
-  report.substeps = 1;
+  report.substeps = substeps;
   if (state.inside) {
     report.outcome = Outcome::kStartInside;
-  } else if (cut) {
+  } else if (step.cut) {
     report.outcome = Outcome::kCut;
   } else {
     report.outcome = contacts.depth > 0.0 ? Outcome::kContact : Outcome::kFree;

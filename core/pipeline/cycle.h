@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/pipeline/constrained_motion.h"
@@ -36,10 +37,10 @@ const char* name(Outcome outcome) noexcept;
 
 /// Carried from cycle to cycle; written once, at the end of a cycle that went well.
 struct State {
-  Pose H_WS;              ///< the god object
-  bool started = false;   ///< H_WS means something
-  bool inside = false;    ///< it started in penetration and has not come out
-  bool slipping = false;  ///< friction of `corrected`
+  Pose H_WS;                   ///< the god object
+  bool started = false;        ///< a cycle has been finished
+  bool inside = false;         ///< it started in penetration and has not come out
+  ProjectionState projection;  ///< of `corrected`
 };
 
 /// What a cycle leaves for others to look at.
@@ -63,13 +64,16 @@ struct StepTimes {
 /// it. [voxels]
 inline constexpr double kOutside = 0.1;
 
+/// Of one cycle of `corrected`.
+inline constexpr std::uint32_t kMaxSubsteps = 8;
+
 namespace detail {
 
 inline std::int64_t read(const StepTimes* times) noexcept { return times != nullptr ? times->now_ns() : 0; }
 
 /// Steps #6 and #7, the finite check, and the only place where `state` changes.
-Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, bool cut, bool slipping,
-              const Parameters& parameters, State& state, CycleReport& report) noexcept;
+Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, const Projection& step,
+              std::uint32_t substeps, const Parameters& parameters, State& state, CycleReport& report) noexcept;
 
 }  // namespace detail
 
@@ -111,7 +115,7 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
     const Pose H_WS_unfiltered = H_WSc * set_matrix(step);                   //    (41), (42)
     H_WS = filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period);  // #5 (43)
   }
-  const Status status = detail::finish(input, H_WS, contacts, false, false, q, state, report);  // #6, #7 (44)-(46)
+  const Status status = detail::finish(input, H_WS, contacts, Projection{}, 1, q, state, report);  // #6, #7 (44)-(46)
   if (times != nullptr) {
     times->step1_ns = found_ns - begin_ns;
     times->solve_ns = times->now_ns() - found_ns;
@@ -119,35 +123,41 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
   return status;
 }
 
-/// One cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter. As above
-/// otherwise.
+/// One cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter. A motion
+/// that had to be cut is gone on with, up to kMaxSubsteps times d/2: 12 m/s at d = 3 mm. As above otherwise.
 template <bool kFriction, DistanceField Field>
 Status corrected_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                        State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
   const std::int64_t begin_ns = detail::read(times);
-  const Motion free = unconstrained_motion(state.H_WS, input.H_WD);  // #3 (32), (33)
-  const double travel = free.translation.norm() + q.mass.radius * free.rotation.norm();
-  const auto contacts =
-      penalty_contacts<DistancePenetration>(field, shell, state.H_WS, q.safety_distance, travel);  // #1 (1), (2)
-  const std::int64_t found_ns = detail::read(times);
-
-  Projection step;  // #2-#4
-  if (state.inside && !contacts.has_direction()) {
-    step.motion = free;  // swallowed, and the field does not say where out is: with the device
-  } else if constexpr (kFriction) {
-    const double viscous_step = q.friction.viscous / (q.stiffness * q.coupling_translation * q.period);
-    step = project_with_friction(free, contacts, q.safety_distance, q.correction_gain, q.mass,
-                                 {q.friction.static_ratio, q.friction.kinetic_ratio, viscous_step}, state.slipping);
-  } else {
-    step = project(free, contacts, q.safety_distance, q.correction_gain, q.mass);
-  }
-  const bool follows = !step.cut && contacts.depth <= 0.0;  // the device pose itself, without rounding
-  const Pose H_WS = follows ? input.H_WD : state.H_WS * set_matrix(step.motion);
+  const double viscous_step = q.friction.viscous / (q.stiffness * q.coupling_translation * q.period);
+  const ProjectionFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio, viscous_step};
+  std::int64_t step1_ns = 0;
+  std::uint32_t substeps = 0;
+  Pose H_WS = state.H_WS;
+  Projection step;
+  step.next = state.projection;
+  PenaltyContacts contacts;
+  do {
+    const Motion free = unconstrained_motion(H_WS, input.H_WD);  // #3 (32), (33)
+    const double travel = free.translation.norm() + q.mass.radius * free.rotation.norm();
+    const std::int64_t seek_ns = detail::read(times);
+    contacts = penalty_contacts<DistancePenetration>(field, shell, H_WS, q.safety_distance, travel);  // #1 (1), (2)
+    step1_ns += detail::read(times) - seek_ns;
+    if (state.inside && !contacts.has_direction()) {
+      step = Projection{};
+      step.motion = free;  // swallowed, and the field does not say where out is: with the device
+    } else {
+      step = project(free, contacts, q.safety_distance, q.correction_gain, q.mass, kFriction ? &friction : nullptr,
+                     step.next);  // #2-#4
+    }
+    const bool follows = !step.cut && contacts.depth <= 0.0;  // the device pose itself, without rounding
+    H_WS = follows ? input.H_WD : H_WS * set_matrix(step.motion);
+  } while (step.cut && ++substeps < kMaxSubsteps);
   const Status status =
-      detail::finish(input, H_WS, contacts, step.cut, step.slipping, q, state, report);  // #6, #7 (44)-(46)
+      detail::finish(input, H_WS, contacts, step, std::min(substeps + 1, kMaxSubsteps), q, state, report);  // #6, #7
   if (times != nullptr) {
-    times->step1_ns = found_ns - begin_ns;
-    times->solve_ns = times->now_ns() - found_ns;
+    times->step1_ns = step1_ns;
+    times->solve_ns = times->now_ns() - begin_ns - step1_ns;
   }
   return status;
 }

@@ -33,21 +33,24 @@ Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexce
 Status GodObject::update(const Input& input, CycleReport& report, StepTimes* times) noexcept {
   assert(cycle_ != nullptr && "start() comes first");
   constexpr double kUnit = 1e-3;
+  constexpr double kFarthest_m = 1e7;  // what a scene image may hold
   if (!input.H_WM.is_finite() || !input.velocity_W.translation.allFinite() || !input.velocity_W.rotation.allFinite()) {
     return refuse(Status::kNotFinite, state_, report);
   }
   const double length = input.H_WM.rotation.norm();
   if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return refuse(Status::kNotUnit, state_, report);
+  if (input.H_WM.translation.cwiseAbs().maxCoeff() > kFarthest_m) return refuse(Status::kOutOfRange, state_, report);
 
-  CycleInput cycle_input{input.H_WM * H_MB_, input.velocity_W};  // the product normalises the rotation
-  if (!state_.started) {
-    state_.H_WS = cycle_input.H_WD;
-    state_.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, state_.H_WS) < 0.0;
-    state_.slipping = false;
-    state_.started = true;
+  const CycleInput cycle_input{input.H_WM * H_MB_, input.velocity_W};  // the product normalises the rotation
+  State next = state_;
+  if (!next.started) {
+    next.H_WS = cycle_input.H_WD;
+    next.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, next.H_WS) < 0.0;
   }
-  const Status status = cycle_(scene_->voxelmap, scene_->pointshell, parameters_, cycle_input, state_, report, times);
-  return status == Status::kOk ? status : refuse(status, state_, report);
+  const Status status = cycle_(scene_->voxelmap, scene_->pointshell, parameters_, cycle_input, next, report, times);
+  if (status != Status::kOk) return refuse(status, state_, report);
+  state_ = next;
+  return Status::kOk;
 }
 
 }  // namespace godobject

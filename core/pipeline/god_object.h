@@ -33,8 +33,9 @@ class GodObject {
   /// One cycle, steps #1-#7. The first one after `start` or `reset` puts the god object at the device pose; if that
   /// penetrates, the outcome is kStartInside until it has come out: by eta p a cycle where the field gives a direction,
   /// with the device where it gives none.
-  /// kNotFinite, kNotUnit: the input is no pose, or would have led to a NaN; the god object is held, the force is zero,
-  /// the report's outcome is kBadInput. Cost: ALGORITHM's step #1 and less than 1 us for the others. Real-time safe.
+  /// kNotFinite, kNotUnit, kOutOfRange: the input is no pose, or would have led to a NaN; the god object is held, the
+  /// force is zero, the report's outcome is kBadInput. Cost: ALGORITHM's step #1 and less than 1 us for the others.
+  /// Real-time safe.
   Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
 
   /// The god object as a pose of the moving mesh's frame in W.

@@ -91,7 +91,7 @@ bool valid_settings(const format::Settings& s) noexcept {
 
 bool valid_grid(const format::Grid& g) noexcept {
   constexpr double kLarge = 1e7;
-  if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, kLarge)) return false;
+  if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, 1e6 * g.voxel_size)) return false;
   // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
   if (!in_range(g.lipschitz, 0.0, 2.0) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -227,6 +227,8 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
   if (!valid_settings(opened.settings) || !valid_grid(opened.grid) || !valid_body(opened.body))
     return Status::kImageValue;
+  // contacts begin at the safety distance: there the field must be known
+  if (opened.grid.band < opened.settings.safety_distance) return Status::kImageValue;
 
   const format::Grid& grid = opened.grid;
   const format::Body& body = opened.body;

@@ -30,6 +30,7 @@ SceneImage small_image() {
   description.surface_max = Vector3::Constant(0.01);
   description.voxel_size = 0.01;
   description.band = 0.01;
+  description.settings.safety_distance = 0.005;
   const test::SurfaceSamples box = test::sample_box(Vector3(0.01, 0.02, 0.03), 3);
   description.points = box.points;
   description.normals = box.normals;
@@ -68,7 +69,7 @@ TEST(Scene, ShowsWhatTheImageHolds) {
   EXPECT_EQ(scene.body.level_count, 3u);
   EXPECT_TRUE(scene.holds(format::Solver::kPaper));
   EXPECT_TRUE(scene.holds(format::Solver::kCorrected));
-  EXPECT_DOUBLE_EQ(scene.settings.safety_distance, 0.015);
+  EXPECT_DOUBLE_EQ(scene.settings.safety_distance, 0.005);
   EXPECT_EQ(scene.voxelmap.voxel_size(), 0.01);
   EXPECT_EQ(scene.voxelmap.band(), 0.01);
   EXPECT_NEAR(scene.voxelmap.sample(Vector3(0.01, 0.0, 0.0)).distance, 0.0, 1e-9);  // a node, rounded to float
@@ -275,6 +276,8 @@ constexpr Spoiled kNumbers[] = {
     {"no voxel", Status::kImageValue, GRID(x.voxel_size = 0.0)},
     {"negative voxel", Status::kImageValue, GRID(x.voxel_size = -0.01)},
     {"band under a voxel", Status::kImageValue, GRID(x.band = 0.5 * x.voxel_size)},
+    {"band without end", Status::kImageValue, GRID(x.band = 1e7)},
+    {"band below the safety distance", Status::kImageValue, SETTINGS(x.safety_distance = 0.1)},
     {"no brick position", Status::kImageValue, GRID(x.bricks[1] = 0)},
     {"negative brick positions", Status::kImageValue, GRID(x.bricks[1] = -2)},
     {"brick positions too many", Status::kImageValue, GRID(x.bricks[2] = format::kMaxBricksPerAxis + 1)},

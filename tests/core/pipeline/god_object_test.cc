@@ -177,6 +177,29 @@ TEST_F(GodObjectTest, ComesOutWhenItStartsInsideEvenBeyondTheBand) {
   }
 }
 
+TEST_F(GodObjectTest, CallsAFirstPoseThatPenetratesByItsNameHoweverLittleItDoes) {
+  for (const auto& [solver, friction] : kPipelines) {
+    GodObject god_object;
+    ASSERT_EQ(god_object.start(scene_, solver, friction), Status::kOk);
+    CycleReport report;
+    const double height = kWorldRadius + kBodyRadius - 0.05 * 0.003 - 0.0002;  // the points lie on chords of the ball
+    ASSERT_EQ(god_object.update({mesh_pose({0.0, 0.0, height}), Motion{}}, report), Status::kOk);
+    EXPECT_EQ(report.outcome, Outcome::kStartInside);
+  }
+}
+
+TEST_F(GodObjectTest, RefusesPosesBeyondAnySceneAndStartsWithTheNextGoodOne) {
+  GodObject god_object;
+  ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, false), Status::kOk);
+  CycleReport report;
+  EXPECT_EQ(god_object.update({mesh_pose({1e100, 0.0, 0.0}), Motion{}}, report), Status::kOutOfRange);
+  EXPECT_FALSE(god_object.state().started);
+  const Pose good = mesh_pose({0.0, 0.0, 0.2});
+  ASSERT_EQ(god_object.update({good, Motion{}}, report), Status::kOk);
+  EXPECT_EQ(report.outcome, Outcome::kFree);
+  EXPECT_NEAR((god_object.mesh_pose().translation - good.translation).norm(), 0.0, 1e-15);
+}
+
 TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   SceneDescription lean = balls();
   lean.normals.clear();
