@@ -7,8 +7,8 @@
 
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/scene_compiler/distance_transform.h"
 #include "toolchain/command/failure.h"
+#include "toolchain/scene_compiler/distance_transform.h"
 
 namespace godobject::scene_compiler {
 namespace {

@@ -173,24 +173,31 @@ TEST(MeshImport, CountsEdgesThatDisagree) {
 }
 
 TEST(MeshImport, RefusesWhatIsNoMeshWithFileAndCure) {
-  const auto expect = [](const std::pair<command::ExitCode, std::string>& refused, command::ExitCode code, const char* word) {
+  const auto expect = [](const std::pair<command::ExitCode, std::string>& refused, command::ExitCode code,
+                         const char* word) {
     EXPECT_EQ(refused.first, code) << refused.second;
     EXPECT_NE(refused.second.find(word), std::string::npos) << refused.second;
     EXPECT_NE(refused.second.find(';'), std::string::npos) << "no cure: " << refused.second;
   };
   expect(refusal("empty.ply", ""), command::ExitCode::kBadData, "empty");
-  expect(refusal("no_faces.ply", ascii_ply(kTetrahedronVertices, 4, "", 0)), command::ExitCode::kBadData, "no triangles");
-  expect(refusal("nan.ply", ascii_ply("nan 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData, "finite");
-  expect(refusal("inf.ply", ascii_ply("1e999 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData, "finite");
+  expect(refusal("no_faces.ply", ascii_ply(kTetrahedronVertices, 4, "", 0)), command::ExitCode::kBadData,
+         "no triangles");
+  expect(refusal("nan.ply", ascii_ply("nan 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData,
+         "finite");
+  expect(refusal("inf.ply", ascii_ply("1e999 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData,
+         "finite");
   expect(refusal("index.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 9\n", 1)), command::ExitCode::kBadData,
          "names vertex 9");
-  expect(refusal("short.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 2\n", 9)), command::ExitCode::kBadData, "ends before");
+  expect(refusal("short.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 2\n", 9)), command::ExitCode::kBadData,
+         "ends before");
   expect(refusal("word.ply", ascii_ply("a b c\n", 1, "3 0 1 2\n", 1)), command::ExitCode::kBadData, "number");
   expect(refusal("header.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"), command::ExitCode::kBadData, "header");
   expect(refusal("huge.ply", ascii_ply("1e9 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData,
          "beyond the limit");
-  expect(refusal("point.ply", ascii_ply("1 0 0\n1 0 0\n1 0 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData, "one point");
-  expect(refusal("line.ply", ascii_ply("0 0 0\n1 0 0\n2 0 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData, "degenerate");
+  expect(refusal("point.ply", ascii_ply("1 0 0\n1 0 0\n1 0 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData,
+         "one point");
+  expect(refusal("line.ply", ascii_ply("0 0 0\n1 0 0\n2 0 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData,
+         "degenerate");
   expect(refusal("mesh.off", "OFF\n"), command::ExitCode::kBadData, "PLY, STL or OBJ");
   expect(refusal("noise.stl", "this is no mesh"), command::ExitCode::kBadData, "noise.stl");
   expect(refusal("noise.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"), command::ExitCode::kBadData, "noise.obj");

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/distance_probe.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/field_slope.h"
 #include "toolchain/scene_compiler/seam_map.h"
 
@@ -94,9 +94,10 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
     const double coarser = largest > format::kMaxBricksPerAxis
                                ? largest / format::kMaxBricksPerAxis
                                : std::cbrt(static_cast<double>(positions) / static_cast<double>(kMaxBrickPositions));
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; "
-                                                  "take at least {:.2g} m, or check `scale`",
-                                                  (high_ - low_).maxCoeff(), voxel_size, 1.1 * coarser * voxel_size));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; "
+                                       "take at least {:.2g} m, or check `scale`",
+                                       (high_ - low_).maxCoeff(), voxel_size, 1.1 * coarser * voxel_size));
   }
   block_lattice_.size = moved(bricks_.size, {1, 1, 1});
 }
@@ -128,8 +129,8 @@ bool GridBuilder::is_boundary(const BrickPosition& p) const {
 void GridBuilder::require_free_boundary(bool inside, const BrickPosition& p) const {
   if (inside && is_boundary(p)) {
     throw command::Failure(command::ExitCode::kBadData,
-                  "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
-                  "mend its orientation or holes, or set surface = \"shell\"");
+                           "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
+                           "mend its orientation or holes, or set surface = \"shell\"");
   }
 }
 

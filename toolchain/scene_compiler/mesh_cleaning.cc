@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "toolchain/scene_compiler/components.h"
 #include "toolchain/command/failure.h"
+#include "toolchain/scene_compiler/components.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 
 namespace godobject::scene_compiler {
@@ -27,8 +27,9 @@ void measure_box(const std::vector<Vector3d>& vertices, const std::string& name,
   report.high = -report.low;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!vertices[i].allFinite()) {
-      throw command::Failure(command::ExitCode::kBadData,
-                    fmt::format("{}: vertex {} is not a finite number; repair the mesh and export it again", name, i));
+      throw command::Failure(
+          command::ExitCode::kBadData,
+          fmt::format("{}: vertex {} is not a finite number; repair the mesh and export it again", name, i));
     }
     report.low = report.low.cwiseMin(vertices[i]);
     report.high = report.high.cwiseMax(vertices[i]);
@@ -199,17 +200,19 @@ void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
 TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& report) {
   if (mesh.triangles.empty()) {
     throw command::Failure(command::ExitCode::kBadData,
-                  fmt::format("{}: holds no triangles; export a surface mesh, not points or lines", name));
+                           fmt::format("{}: holds no triangles; export a surface mesh, not points or lines", name));
   }
   if (mesh.triangles.size() > kMaxTriangles) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: {} triangles are more than the limit of {}; decimate the mesh",
-                                                  name, mesh.triangles.size(), kMaxTriangles));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: {} triangles are more than the limit of {}; decimate the mesh", name,
+                                       mesh.triangles.size(), kMaxTriangles));
   }
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       if (v >= mesh.vertices.size()) {
-        throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: a face names vertex {} of {}; export the mesh again", name,
-                                                      v, mesh.vertices.size()));
+        throw command::Failure(
+            command::ExitCode::kBadData,
+            fmt::format("{}: a face names vertex {} of {}; export the mesh again", name, v, mesh.vertices.size()));
       }
     }
   }
@@ -217,7 +220,8 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
   const double diagonal = (report.high - report.low).norm();
   report.weld_tolerance = kWeldTolerance * diagonal;
   if (!(diagonal > 0.0)) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: all vertices are one point; export the mesh again", name));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: all vertices are one point; export the mesh again", name));
   }
 
   const std::vector<std::uint32_t> standing = weld(mesh.vertices, report.weld_tolerance);
@@ -229,7 +233,8 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
       mesh.triangles, [&](const Triangle& t) { return has_no_area(mesh.vertices, t, report.weld_tolerance); });
   drop_duplicates(mesh.triangles, report);
   if (mesh.triangles.empty()) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: every triangle is degenerate; export the mesh again", name));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: every triangle is degenerate; export the mesh again", name));
   }
   const std::size_t before = mesh.vertices.size();
   drop_loose_vertices(mesh);

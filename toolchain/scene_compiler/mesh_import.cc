@@ -30,13 +30,16 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw command::Failure(command::ExitCode::kNoInput, fmt::format("{}: no such file; check `mesh` in the scene file", file.string()));
+    throw command::Failure(command::ExitCode::kNoInput,
+                           fmt::format("{}: no such file; check `mesh` in the scene file", file.string()));
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw command::Failure(command::ExitCode::kNoInput, fmt::format("{}: cannot be opened; check its permissions", file.string()));
+    throw command::Failure(command::ExitCode::kNoInput,
+                           fmt::format("{}: cannot be opened; check its permissions", file.string()));
   if (stream.peek() == std::ifstream::traits_type::eof()) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: the file is empty; export the mesh again", file.string()));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: the file is empty; export the mesh again", file.string()));
   }
 }
 
@@ -89,8 +92,9 @@ TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshRe
     // assimp 5.2 misreads some binary PLY files without a word: those have a reader of their own
     mesh = extension == ".ply" ? read_ply(file, report) : read_with_assimp(file, report);
   } catch (const std::exception& error) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: not a readable mesh ({}); export it again as binary PLY or STL",
-                                                  file.string(), error.what()));
+    throw command::Failure(
+        command::ExitCode::kBadData,
+        fmt::format("{}: not a readable mesh ({}); export it again as binary PLY or STL", file.string(), error.what()));
   }
   for (Eigen::Vector3d& v : mesh.vertices) v *= scale;
   return clean_mesh(std::move(mesh), file.string(), report);

@@ -41,10 +41,12 @@ Progress part_of(const Progress& progress, double begin, double end) {
 
 void check_arguments(std::uint32_t points, std::uint32_t levels) {
   if (points < 1 || points > format::kMaxPoints) {
-    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
+    throw command::Failure(command::ExitCode::kBadConfig,
+                           fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
   }
   if (levels < 1 || levels > format::kMaxLevels) {
-    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
+    throw command::Failure(command::ExitCode::kBadConfig,
+                           fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
   }
   const double deepest = std::max(1.0, 1.0 + std::floor(std::log(points / kCoarsest) / std::log(kLeastRefinement)));
   if (levels > deepest) {

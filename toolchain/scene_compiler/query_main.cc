@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   return command::run(app, argc, argv, [&] {
     const command::SceneImage image = command::SceneImage::read(scene);
     command::Progress line;
-    scene_compiler::query_points(image.scene.voxelmap, points, output, [&line](double done) { line.show("points", done); });
+    scene_compiler::query_points(image.scene.voxelmap, points, output,
+                                 [&line](double done) { line.show("points", done); });
   });
 }

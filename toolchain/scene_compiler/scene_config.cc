@@ -20,16 +20,19 @@ constexpr Range kRatio{0.0, 10.0};
 toml::table parse(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw command::Failure(command::ExitCode::kNoInput, fmt::format("{}: no such scene file; check the path", file.string()));
+    throw command::Failure(command::ExitCode::kNoInput,
+                           fmt::format("{}: no such scene file; check the path", file.string()));
   }
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& wrong) {
     if (wrong.source().begin.line == 0) {
-      throw command::Failure(command::ExitCode::kNoInput, fmt::format("{}: cannot be read; check its permissions", file.string()));
+      throw command::Failure(command::ExitCode::kNoInput,
+                             fmt::format("{}: cannot be read; check its permissions", file.string()));
     }
-    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
-                                                    std::string_view(wrong.description())));
+    throw command::Failure(command::ExitCode::kBadConfig,
+                           fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
+                                       std::string_view(wrong.description())));
   }
 }
 
@@ -37,8 +40,9 @@ void allow_tables(const toml::table& root, const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 6> kTables = {"still", "moving", "contact", "friction", "paper", "coupling"};
   for (const auto& [key, node] : root) {
     if (std::find(kTables.begin(), kTables.end(), key.str()) == kTables.end()) {
-      throw command::Failure(command::ExitCode::kBadConfig, fmt::format("{}:{}: {} is not a known table; known: {}", file.string(),
-                                                      key.source().begin.line, key.str(), fmt::join(kTables, ", ")));
+      throw command::Failure(command::ExitCode::kBadConfig,
+                             fmt::format("{}:{}: {} is not a known table; known: {}", file.string(),
+                                         key.source().begin.line, key.str(), fmt::join(kTables, ", ")));
     }
   }
 }

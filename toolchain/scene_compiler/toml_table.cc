@@ -14,8 +14,9 @@ TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem:
   if (node == nullptr) return;
   table_ = node->as_table();
   if (table_ == nullptr) {
-    throw command::Failure(command::ExitCode::kBadConfig, fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(),
-                                                    node->source().begin.line, name_, name_));
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(), node->source().begin.line, name_, name_));
   }
 }
 
