@@ -10,7 +10,6 @@
 #include "toolchain/command/failure.h"
 
 namespace godobject::command {
-
 namespace {
 
 /// Calls take(field) for each comma-separated field.
