@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/thin_places.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -50,6 +51,11 @@ TEST(Command, HelpShowsAnExampleAndVersion) {
   }
 }
 
+TEST(Command, HelpStatesTheRuleOfRefusal) {
+  EXPECT_NE(run(kScenec + " --help").output.find(std::string("A wall of a solid is\n") + kRefusalRule),
+            std::string::npos);
+}
+
 TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   const ScratchFolder folder;
   const std::string out = " -o " + folder.file("o.scene").string();
@@ -70,7 +76,9 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " " + good + " -o /dev/null", 74, "/dev/null: is a device");
   expect_refusal(kScenec + " " + good + out + " --report /dev", 74, "/dev: is a folder");
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
-  expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65, "x.scene");
+  expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65,
+                 "x.scene: is not a scene image (X.scene, made by godobject-scenec)");
+  expect_refusal(kQuery + " " + good + " p.csv -o o.csv", 65, "s.toml: is not a scene image");
   expect_refusal(kScenec + " --inspect /nowhere.scene", 66, "/nowhere.scene");
   expect_refusal(kQuery + " /nowhere.scene p.csv -o o.csv", 66, "/nowhere.scene");
 }
@@ -87,6 +95,9 @@ TEST(Command, CompilesInspectsAndQueries) {
   const Outcome compiled = run(kScenec + " " + scene + " -o " + image + " --report " + folder.file("r.json").string());
   EXPECT_EQ(compiled.exit_code, 0) << compiled.output;
   EXPECT_NE(compiled.output.find("floor of trilinear interpolation"), std::string::npos);
+  EXPECT_NE(compiled.output.find("points on the wrong side by more than 0.1 voxel: "), std::string::npos);
+  EXPECT_EQ(compiled.output.find(" 0.0 KiB saved"), std::string::npos) << compiled.output;
+  EXPECT_EQ(compiled.output.find(": -"), std::string::npos) << compiled.output;
   EXPECT_TRUE(std::filesystem::exists(folder.file("r.json")));
   EXPECT_EQ(run(kScenec + " --inspect " + image).exit_code, 0);
   const std::string points = folder.write("p.csv", "0,0,0.06\n").string();

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/command/failure.h"
+#include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/query_points.h"
 
 namespace godobject::scene_compiler {
@@ -133,6 +133,22 @@ TEST(FieldCheck, HoldsNodesToTheSmallerOfTenMicrometresAndAThousandthOfAVoxel) {
   EXPECT_FALSE(takes(1.1e-9, 1e-6));
 }
 
+TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
+  // too small a patch to refuse, but never silent
+  CompileReport report = compile({.still = "cube_100mm"});
+  EXPECT_EQ(report_text(report).find("thinner than one voxel"), std::string::npos);
+  report.thin.walls = {.samples = 9, .area = 3e-5, .smallest = 2e-3, .voxel_needed = 1e-3, .lost_area = 2e-5};
+  report.thin.walls.at = {0.01, 0.02, 0.03};
+  const std::string text = report_text(report);
+  EXPECT_NE(text.find("thinner than one voxel, lost by the field: 0.2 cm^2, at (0.01, 0.02, 0.03) m"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find(kRefusalRule), std::string::npos) << text;
+  EXPECT_EQ(report_json(report)["walls"]["area_thinner_than_a_voxel"], 2e-5);
+  EXPECT_NE(std::string(kRefusalRule).find(std::to_string(static_cast<int>(kRefusedFaces)) + " voxel faces"),
+            std::string::npos);
+}
+
 TEST_F(CompileScene, RefusalLeavesNoFileBehind) {
   try {
     compile({.still = "plate_2mm", .voxel_size = 0.005});
@@ -189,10 +205,18 @@ TEST_F(CompileScene, AnswersQueries) {
   EXPECT_EQ(line, "1e3,0,0,0.013,0,0,0,0");
 }
 
+TEST_F(CompileScene, TakesPointsAsOtherTablesAreTaken) {
+  compile({.still = "cube_100mm"});
+  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
+  for (const char* text : {"\xef\xbb\xbf+0.01,0,0\n0,0,0\n", "# made by hand\nx,y,z\n0,0,0\n\n# end\n1,1,1"}) {
+    EXPECT_EQ(query_points(image.scene.voxelmap, folder_.write("p.csv", text), folder_.file("d.csv"), {}), 2u) << text;
+  }
+}
+
 TEST_F(CompileScene, NamesTheLineOfABadRow) {
   compile({.still = "cube_100mm"});
   const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0"}) {
+  for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0", "+-1,0,0"}) {
     try {
       query_points(image.scene.voxelmap, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"),
                    folder_.file("d.csv"), {});

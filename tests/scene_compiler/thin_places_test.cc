@@ -28,11 +28,13 @@ TEST(ThinPlaces, ReportsAPlateOfOneAndAHalfVoxels) {
   EXPECT_NEAR(report.walls.smallest, 0.0015, 1e-9);
   EXPECT_NEAR(report.walls.voxel_needed, 0.00075, 1e-9);
   EXPECT_NEAR(report.walls.area, 0.01, 1e-3);
+  EXPECT_EQ(report.walls.lost_area, 0.0);
   EXPECT_NO_THROW(require_walls_that_last(report, 0.001, "plate"));
 }
 
 TEST(ThinPlaces, RefusesAPlateThatWouldBeLost) {
   const ThinReport report = look(plate(0.0005), 0.001);
+  EXPECT_NEAR(report.walls.lost_area, 0.01, 1e-3);
   try {
     require_walls_that_last(report, 0.001, "plate.ply");
     FAIL() << "took it";
@@ -75,6 +77,9 @@ TEST(ThinPlaces, DoesNotTakeAnEdgeForAWall) {
   wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {0, 3, 5}, {0, 5, 2}, {1, 2, 5}, {1, 5, 4}};
   const ThinReport report = look(wedge, 0.001);
   EXPECT_GT(report.walls.samples, 0u);
+  // thinner than a voxel over the first 2.5 mm of its 50 mm: said, though not refused
+  EXPECT_NEAR(report.walls.lost_area, 0.0025 * 0.05, 0.1 * 0.0025 * 0.05);
+  EXPECT_EQ(report.walls.lost_patch, 0.0);
   EXPECT_NO_THROW(require_walls_that_last(report, 0.001, "wedge"));
 }
 

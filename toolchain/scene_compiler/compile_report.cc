@@ -66,6 +66,8 @@ Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFacts& facts, double thi
           {"shell_thickness", thickness}};
 }
 
+/// Of walls or gaps; "at" is the middle of the thinnest, "patch_at" of the thinnest in the largest patch that lies
+/// between near-parallel faces.
 Json thin_json(const ThinPlaces& places) {
   Json json = {{"found", places.samples > 0}};
   if (places.samples == 0) return json;
@@ -73,6 +75,7 @@ Json thin_json(const ThinPlaces& places) {
   json["at"] = vector_json(places.at);
   json["area"] = places.area;
   json["voxel_needed"] = places.voxel_needed;
+  json["area_thinner_than_a_voxel"] = places.lost_area;
   json["largest_patch_thinner_than_a_voxel"] = places.lost_patch;
   if (places.lost_patch > 0.0) {
     json["patch_thickness"] = places.lost_thickness;
@@ -192,6 +195,7 @@ Json report_json(const CompileReport& report) {
           {"still", mesh_json(config.still, report.still, config.thickness)},
           {"moving", mesh_json(config.moving, report.moving, config.thickness)},
           {"walls", thin_json(report.thin.walls)},
+          {"walls_rule", kRefusalRule},
           {"gaps", thin_json(report.thin.gaps)},
           {"wall_sample_spacing", report.thin.sample_spacing},
           {"grid", grid_json(report.grid)},

@@ -37,6 +37,16 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
   return text;
 }
 
+/// What the field loses of it (walls) or closes (gaps).
+std::string lost_text(const ThinPlaces& p, const char* loss, double voxel_size) {
+  if (p.lost_area <= 0.0) return {};
+  const Eigen::Vector3d& at = p.lost_patch > 0.0 ? p.lost_at : p.at;
+  return fmt::format(
+      "        of that thinner than one voxel, {}: {:.3g} cm^2, at ({:.4g}, {:.4g}, {:.4g}) m; largest patch between "
+      "near-parallel faces {:.1f} voxel faces\n",
+      loss, 1e4 * p.lost_area, at.x(), at.y(), at.z(), p.lost_patch / (voxel_size * voxel_size));
+}
+
 std::string thin_text(const char* what, const ThinPlaces& p) {
   if (p.samples == 0) return fmt::format("{:<7} none thinner than two voxels\n", what);
   return fmt::format(
@@ -53,7 +63,10 @@ std::string report_text(const CompileReport& report) {
   std::string text = mesh_text("still", report.config.still, report.still);
   text += mesh_text("moving", report.config.moving, report.moving);
   text += thin_text("walls", report.thin.walls);
+  text += lost_text(report.thin.walls, "lost by the field", g.voxel_size);
+  if (report.thin.walls.lost_area > 0.0) text += fmt::format("        a wall is {}\n", kRefusalRule);
   text += thin_text("gaps", report.thin.gaps);
+  text += lost_text(report.thin.gaps, "closed by the field", g.voxel_size);
   text += fmt::format("field   {} x {} x {} voxels of {}, band {}, {} of {} bricks stored\n",
                       g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells,
                       g.bricks[2] * format::kBrickCells, millimetres(g.voxel_size), millimetres(g.band), g.brick_count,
@@ -65,16 +78,18 @@ std::string report_text(const CompileReport& report) {
         report.seams.at.z());
   }
   text += fmt::format(
-      "error   rms {} (floor of trilinear interpolation {}), largest {} ({}), wrong side {} ({}) of {} points\n",
-      millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.sign_errors,
-      e.floor_sign_errors, e.points);
+      "error   rms {} (floor of trilinear interpolation {}), largest {} (floor {}), on {} points\n"
+      "        points on the wrong side by more than 0.1 voxel: {}, the floor has {}\n",
+      millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.points,
+      e.sign_errors, e.floor_sign_errors);
   text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n",
                       report.body.body.point_count, report.body.body.level_count, millimetres(report.body.spacing),
                       millimetres(report.body.coverage));
   const Json left_out = report_json(report)["left_out"];
   for (const Json& item : left_out) {
-    text += fmt::format("left out {}: {:.1f} KiB saved\n", item["what"].get<std::string>(),
-                        item["bytes_saved"].get<double>() / 1024.0);
+    const double saved = item["bytes_saved"].get<double>();
+    if (saved <= 0.0) continue;  // a small grid may take more than it saves: the JSON says so
+    text += fmt::format("left out {}: {:.1f} KiB saved\n", item["what"].get<std::string>(), saved / 1024.0);
   }
   double total = 0.0;
   for (const auto& [phase, time] : report.seconds) total += time;

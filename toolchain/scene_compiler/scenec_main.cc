@@ -31,7 +31,11 @@ A scene file (TOML; lengths in metres, values in brackets are defaults, s is vox
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
 Meshes are PLY, STL or OBJ, found relative to the scene file.
 
-Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 file not found, 74 cannot write, 77 no right to write, 78 bad scene file.)";
+Walls and gaps of the still mesh thinner than two voxels are reported. A wall of a solid is
+{} (near-parallel: within 10 degrees).
+
+Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 file not found, 74 cannot write, 77 no right to write,
+78 bad scene file.)";
 
 struct Options {
   std::string scene_file;
@@ -88,6 +92,6 @@ int main(int argc, char** argv) {
   app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")
       ->check(CLI::IsMember({"paper", "corrected"}));
   app.add_option("--inspect", options.inspect, "print the facts of a compiled image as JSON");
-  app.footer(kFooter);
+  app.footer(fmt::format(kFooter, kRefusalRule));
   return godobject::command::run(app, argc, argv, [&options] { run_scenec(options); });
 }

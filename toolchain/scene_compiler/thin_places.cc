@@ -19,12 +19,11 @@ using Eigen::Vector3d;
 
 constexpr double kSpacing = 0.5;  // of samples, voxels
 constexpr double kMostSamples = 2e6;
-constexpr double kThin = 2.0;          // voxels
-constexpr double kLost = 1.0;          // voxels
-constexpr double kRounding = 1e-4;     // a plate of exactly two voxels is not thinner
-constexpr double kFacing = -0.9;       // cosine between the normals of two faces that make a wall
-constexpr double kParallel = -0.985;   // and of a wall that is no wedge: within 10 degrees
-constexpr double kRefusedArea = 12.0;  // voxel faces
+constexpr double kThin = 2.0;         // voxels
+constexpr double kLost = 1.0;         // voxels
+constexpr double kRounding = 1e-4;    // a plate of exactly two voxels is not thinner
+constexpr double kFacing = -0.9;      // cosine between the normals of two faces that make a wall
+constexpr double kParallel = -0.985;  // and of a wall that is no wedge: within 10 degrees
 
 struct Sample {
   Vector3d point;
@@ -170,7 +169,9 @@ ThinPlaces gather(const std::vector<std::optional<Thin>>& seen, double area_each
       places.smallest = thin->thickness;
       places.at = thin->middle;
     }
-    if (thin->parallel && thin->thickness < kLost * voxel_size * (1.0 - kRounding)) lost.push_back(*thin);
+    if (thin->thickness >= kLost * voxel_size * (1.0 - kRounding)) continue;
+    places.lost_area += 0.5 * area_each;
+    if (thin->parallel) lost.push_back(*thin);
   }
   places.area = 0.5 * area_each * static_cast<double>(places.samples);
   places.voxel_needed = places.smallest / kThin;
@@ -205,13 +206,14 @@ ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, cons
 
 void require_walls_that_last(const ThinReport& report, double voxel_size, const std::string& mesh_name) {
   const ThinPlaces& walls = report.walls;
-  if (walls.lost_patch <= kRefusedArea * voxel_size * voxel_size) return;
-  throw command::Failure(command::ExitCode::kBadData,
-                fmt::format("{}: a wall of {:.3g} m over {:.2g} m^2 near ({:.4g}, {:.4g}, {:.4g}) is thinner than the "
-                            "voxel of {:g} m and would be "
-                            "lost; set voxel_size = {:.2g} or smaller, or surface = \"shell\" to thicken it",
-                            mesh_name, walls.lost_thickness, walls.lost_patch, walls.lost_at.x(), walls.lost_at.y(),
-                            walls.lost_at.z(), voxel_size, 0.5 * walls.lost_thickness));
+  if (walls.lost_patch <= kRefusedFaces * voxel_size * voxel_size) return;
+  throw command::Failure(
+      command::ExitCode::kBadData,
+      fmt::format("{}: a wall of {:.3g} m over {:.2g} m^2 near ({:.4g}, {:.4g}, {:.4g}) is thinner than the "
+                  "voxel of {:g} m and would be "
+                  "lost; set voxel_size = {:.2g} or smaller, or surface = \"shell\" to thicken it",
+                  mesh_name, walls.lost_thickness, walls.lost_patch, walls.lost_at.x(), walls.lost_at.y(),
+                  walls.lost_at.z(), voxel_size, 0.5 * walls.lost_thickness));
 }
 
 }  // namespace godobject::scene_compiler
