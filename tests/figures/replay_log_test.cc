@@ -94,6 +94,23 @@ TEST_F(ReplayLogFile, GivesTheNearestRowAndNoneBeyondItsSpan) {
   EXPECT_EQ(row_at(log, 0.0006, file_).t, 0.001);
   EXPECT_THROW((void)row_at(log, 0.5, file_), Failure);
   EXPECT_THROW((void)row_at(log, -0.5, file_), Failure);
+  try {
+    (void)row_at(log, 0.5, file_);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), ExitCode::kBadData);
+    EXPECT_NE(std::string(failure.what()).find("choose a time within 0 .. 0.001 s"), std::string::npos);
+  }
+}
+
+TEST_F(ReplayLogFile, NamesMomentsByTimeOrByDepth) {
+  const ReplayLog log = read_replay_log(holding(kFirst + kSecond));
+  ReplayLog deeper = log;
+  deeper[1].depth = 0.002;
+  EXPECT_EQ(moment("deepest", {&log}), 0.0);
+  EXPECT_EQ(moment("deepest", {&log, &deeper}), 0.001);
+  EXPECT_EQ(moment("1.25", {&log}), 1.25);
+  EXPECT_FALSE(moment("1.25 s", {&log}));
+  EXPECT_FALSE(moment("nan", {&log}));
 }
 
 }  // namespace

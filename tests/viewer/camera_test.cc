@@ -19,7 +19,7 @@ struct Stage {
   Pose H_WS{Quaternion::Identity(), Vector3(0, 0, 0.03)};
   Pose H_WD{Quaternion::Identity(), Vector3(0, 0, 0.02)};
 
-  View view() const { return {.still = plate, .moving = body, .H_WD = H_WD, .H_WS = H_WS, .direction = {}}; }
+  View view() const { return {.still = plate, .moving = body, .placements = {{H_WD, H_WS}}, .direction = {}}; }
 };
 
 void expect_right_handed(const Camera& camera) {
@@ -58,6 +58,19 @@ TEST(Camera, SeesTheWholeMovingBodyInBothPoses) {
       EXPECT_LT(std::abs(ray.dot(camera.right)), depth * std::tan(kHalfView));
       EXPECT_LT(std::abs(ray.dot(camera.up)), depth * std::tan(kHalfView));
     }
+  }
+}
+
+TEST(Camera, SeesEveryPlacementThatIsToBeCompared) {
+  const Stage stage;
+  View view = stage.view();
+  const Pose aside{Quaternion::Identity(), Vector3(0.15, 0, 0.03)};
+  view.placements.push_back({stage.H_WD, aside});
+  const Camera camera = make_camera(view);
+  for (const Vector3& vertex : stage.body.vertices) {
+    const Vector3 ray = aside * vertex - camera.eye;
+    EXPECT_LT(std::abs(ray.dot(camera.right)), ray.dot(camera.forward) * std::tan(kHalfView));
+    EXPECT_LT(std::abs(ray.dot(camera.up)), ray.dot(camera.forward) * std::tan(kHalfView));
   }
 }
 

@@ -24,8 +24,8 @@ Picture picture() {
   p.camera.forward = Vector3(0, 1, 0);
   p.camera.right = Vector3(1, 0, 0);
   p.camera.up = Vector3(0, 0, 1);
-  p.H_WS = {exp_rotation(Vector3(0, 0, std::numbers::pi / 2)), Vector3(0, 0, 0.03)};
-  p.H_WD = {Quaternion::Identity(), Vector3(0, 0, 0.02)};
+  p.placement.H_WS = {exp_rotation(Vector3(0, 0, std::numbers::pi / 2)), Vector3(0, 0, 0.03)};
+  p.placement.H_WD = {Quaternion::Identity(), Vector3(0, 0, 0.02)};
   return p;
 }
 
@@ -98,6 +98,17 @@ TEST(Render, SaysWhatPovRaySaidAndLeavesNothingBehind) {
     EXPECT_NE(std::string(failure.what()).find("povray: failed"), std::string::npos);
   }
   EXPECT_FALSE(std::filesystem::exists(png));
+}
+
+TEST(SceneBodies, AskForTheSceneFileWhenGivenAnImage) {
+  try {
+    (void)read_scene_bodies("some/peg.scene");
+    FAIL();
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
+    EXPECT_NE(std::string(failure.what()).find("some/peg.scene: "), std::string::npos);
+    EXPECT_NE(std::string(failure.what()).find("give the scene file peg.toml"), std::string::npos);
+  }
 }
 
 TEST(SceneBodies, NameAFileThatIsNotThere) {

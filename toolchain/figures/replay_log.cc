@@ -87,11 +87,31 @@ const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::p
   const double end = log.back().t;
   if (!(t >= begin - kCycle && t <= end + kCycle)) {
     throw Failure(ExitCode::kBadData,
-                  fmt::format("{}: no cycle at {} s; it holds {} .. {} s", file.string(), t, begin, end));
+                  fmt::format("{}: no cycle at {} s; choose a time within {} .. {} s", file.string(), t, begin, end));
   }
   return *std::min_element(log.begin(), log.end(), [t](const ReplayRow& a, const ReplayRow& b) {
     return std::abs(a.t - t) < std::abs(b.t - t);
   });
+}
+
+const ReplayRow& deepest_row(const ReplayLog& log) {
+  return *std::max_element(log.begin(), log.end(),
+                           [](const ReplayRow& a, const ReplayRow& b) { return a.depth < b.depth; });
+}
+
+std::optional<double> moment(std::string_view name, const std::vector<const ReplayLog*>& logs) {
+  if (name == "deepest") {
+    const ReplayRow* deepest = &deepest_row(*logs.front());
+    for (const ReplayLog* log : logs) {
+      const ReplayRow& row = deepest_row(*log);
+      if (row.depth > deepest->depth) deepest = &row;
+    }
+    return deepest->t;
+  }
+  double t = 0.0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), t);
+  if (error != std::errc{} || end != name.data() + name.size() || !std::isfinite(t)) return std::nullopt;
+  return t;
 }
 
 }  // namespace godobject::figures

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/spatial/pose.h"
@@ -29,5 +31,12 @@ ReplayLog read_replay_log(const std::filesystem::path& file);
 /// The row whose time is nearest to t. Throws Failure (kBadData) naming `file` if t is more than a cycle off the log's
 /// span.
 const ReplayRow& row_at(const ReplayLog& log, double t, const std::filesystem::path& file);
+
+/// The first row in which the god object is deepest.
+const ReplayRow& deepest_row(const ReplayLog& log);
+
+/// A moment of a scene as people name it: a time in seconds ("1.2"), or "deepest", when any of these replays of the
+/// scene is deepest. Nothing if it is neither.
+std::optional<double> moment(std::string_view name, const std::vector<const ReplayLog*>& logs);
 
 }  // namespace godobject::figures

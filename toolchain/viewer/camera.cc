@@ -106,12 +106,15 @@ Vector3 choose_direction(const Subject& subject, int up_axis, const TriangleTree
 
 Camera make_camera(const View& view) {
   std::vector<Vector3> shown;
-  for (const Vector3& vertex : view.moving.vertices) {
-    shown.push_back(view.H_WS * vertex);
-    shown.push_back(view.H_WD * vertex);
+  for (const Placement& placement : view.placements) {
+    for (const Vector3& vertex : view.moving.vertices) {
+      shown.push_back(placement.H_WS * vertex);
+      shown.push_back(placement.H_WD * vertex);
+    }
   }
+  const Placement& first = view.placements.front();
   const TriangleTree still = tree_of(view.still, Pose());
-  const Vector3 place = nearest_place(view.moving, view.H_WS, still);
+  const Vector3 place = nearest_place(view.moving, first.H_WS, still);
   shown.push_back(place);
   const Vector3 center = middle(shown);
 
@@ -123,10 +126,10 @@ Camera make_camera(const View& view) {
   if (view.direction) {
     to_eye = toward_eye(*view.direction, view.up_axis);
   } else {
-    const Vector3 apart = view.H_WS.translation - view.H_WD.translation;
+    const Vector3 apart = first.H_WS.translation - first.H_WD.translation;
     const bool differ = apart.norm() > 1e-3 * radius;
     const Subject subject{place, differ ? apart.normalized() : (center - place).stableNormalized(), radius};
-    to_eye = choose_direction(subject, view.up_axis, still, tree_of(view.moving, view.H_WS));
+    to_eye = choose_direction(subject, view.up_axis, still, tree_of(view.moving, first.H_WS));
   }
 
   constexpr double kRoom = 1.03;

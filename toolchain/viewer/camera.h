@@ -26,20 +26,25 @@ struct ViewDirection {
   double elevation = 0.0;  ///< over the plane across `up` [rad]
 };
 
+/// Where the moving body is at a moment of a replay.
+struct Placement {
+  Pose H_WD;  ///< device
+  Pose H_WS;  ///< god object
+};
+
 /// What a camera is to show.
 struct View {
   const scene_compiler::TriangleMesh& still;
   const scene_compiler::TriangleMesh& moving;
-  Pose H_WD;                               ///< device
-  Pose H_WS;                               ///< god object
+  std::vector<Placement> placements;       ///< one or more; pictures to be compared take theirs from one camera
   int up_axis = 2;                         ///< 0 .. 2: x, y, z
   double zoom = 1.0;                       ///< 2: everything twice as large
   std::optional<ViewDirection> direction;  ///< chosen if not given
 };
 
-/// Frames the moving body in both poses and where it is nearest to the still one. A direction that is not given is the
-/// one of 72 around and three heights from which most of that place is seen, and the gap between the poses from the
-/// side.
+/// Frames the moving body in all poses and, of the first placement, where it is nearest to the still one. A direction
+/// that is not given is the one of 72 around and three heights from which most of that place is seen, and the gap
+/// between that placement's poses from the side.
 Camera make_camera(const View& view);
 
 }  // namespace godobject::viewer

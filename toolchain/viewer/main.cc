@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "toolchain/command/failure.h"
 #include "toolchain/command/progress.h"
@@ -28,15 +28,17 @@ namespace fs = std::filesystem;
 namespace viewer = godobject::viewer;
 
 const char* const kFooter = R"(Example:
-  godobject-view bunny-teapot.toml corrected.csv --at 0.6 --at 1.2 -o pictures --up y
+  godobject-view bunny-teapot.toml paper.csv corrected.csv --at 0.6 --at deepest -o pictures --up y
 
-The still body is green, the moving one red where the device has it and blue where the god object is. Without --camera a
-direction is chosen from which the contact is seen. A picture's name is that of the replay and its time: corrected_1.200.png,
-or what -o says if it ends in .png.)";
+The still body is green, the moving one red where the device has it and blue where the god object is. Several replays of a
+scene are pictured from one camera, each in a picture of its own. Without --camera a direction is chosen from which the
+contact is seen. A picture's name is that of the replay and the moment: corrected_0.600.png, corrected_deepest.png, or what
+-o says if it ends in .png. Prints the names of the pictures that it wrote.)";
 
 struct Options {
-  std::string scene, replay, output;
-  std::vector<double> times;
+  std::string scene, output;
+  std::vector<std::string> replays;
+  std::vector<std::string> moments;
   std::vector<double> camera;
   std::vector<double> cut;
   std::string up = "z";
@@ -48,8 +50,10 @@ std::pair<int, int> parse_size(const std::string& text) {
   int width = 0;
   int height = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 16 || height < 16 || width > 8192 || height > 8192) {
-    throw Failure(ExitCode::kUsage, fmt::format("--size {}: must be WIDTHxHEIGHT, 16 .. 8192 pixels each, such as 800x600", text));
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 16 || height < 16 || width > 8192 ||
+      height > 8192) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--size {}: must be WIDTHxHEIGHT, 16 .. 8192 pixels each, such as 800x600", text));
   }
   return {width, height};
 }
@@ -67,40 +71,72 @@ std::optional<viewer::Cut> cut(const std::vector<double>& numbers) {
   return viewer::Cut{Vector3(numbers[0], numbers[1], numbers[2]), normal.normalized()};
 }
 
-/// Where the picture of time t goes.
-fs::path picture_path(const Options& options, double t) {
+/// Where the picture of a replay at a moment goes.
+fs::path picture_path(const Options& options, const fs::path& replay, const std::string& moment) {
   const fs::path output = options.output;
   if (output.extension() == ".png") {
-    if (options.times.size() > 1) throw Failure(ExitCode::kUsage, "-o names one picture, but --at is given more than once; name a folder");
+    if (options.moments.size() * options.replays.size() > 1)
+      throw Failure(ExitCode::kUsage, "-o names one picture, but there are more replays or times; name a folder");
     return output;
   }
   std::error_code error;
   fs::create_directories(output, error);
   if (error) throw Failure(ExitCode::kIo, fmt::format("{}: cannot be made ({})", output.string(), error.message()));
-  return output / fmt::format("{}_{:.3f}.png", fs::path(options.replay).stem().string(), t);
+  return output / fmt::format("{}_{}.png", replay.stem().string(), moment);
+}
+
+/// What is pictured from one camera: the same moment of every replay.
+struct Moment {
+  std::string name;
+  std::vector<viewer::Placement> placements;
+};
+
+std::vector<Moment> read_moments(const Options& options) {
+  std::vector<godobject::figures::ReplayLog> logs;
+  for (const std::string& replay : options.replays) logs.push_back(godobject::figures::read_replay_log(replay));
+  std::vector<const godobject::figures::ReplayLog*> views;
+  for (const auto& log : logs) views.push_back(&log);
+  std::vector<Moment> moments;
+  for (const std::string& name : options.moments) {
+    const std::optional<double> t = godobject::figures::moment(name, views);
+    if (!t) throw Failure(ExitCode::kUsage, fmt::format("--at {}: must be a time [s] or the word deepest", name));
+    Moment moment{name == "deepest" ? name : fmt::format("{:.3f}", *t), {}};
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+      const auto& row = godobject::figures::row_at(logs[i], *t, options.replays[i]);
+      moment.placements.push_back({row.H_WD, row.H_WS});
+    }
+    moments.push_back(std::move(moment));
+  }
+  return moments;
 }
 
 void render_all(const Options& options) {
-  const auto log = godobject::figures::read_replay_log(options.replay);
+  const std::vector<Moment> moments = read_moments(options);
   const auto bodies = viewer::read_scene_bodies(options.scene);
   viewer::Picture picture;
   std::tie(picture.width, picture.height) = parse_size(options.size);
   picture.cut = cut(options.cut);
-  godobject::command::Progress progress;
-  for (std::size_t i = 0; i < options.times.size(); ++i) {
-    progress.show("pictures", static_cast<double>(i) / static_cast<double>(options.times.size()));
-    const auto& row = godobject::figures::row_at(log, options.times[i], options.replay);
-    picture.H_WD = row.H_WD;
-    picture.H_WS = row.H_WS;
-    picture.camera = viewer::make_camera({.still = bodies.still,
-                                          .moving = bodies.moving,
-                                          .H_WD = row.H_WD,
-                                          .H_WS = row.H_WS,
-                                          .up_axis = options.up[0] - 'x',
-                                          .zoom = options.camera.size() > 2 ? options.camera[2] : 1.0,
-                                          .direction = direction(options.camera)});
-    viewer::render(viewer::pov_text(bodies.still, bodies.moving, picture), picture.width, picture.height, picture_path(options, row.t));
+  std::vector<fs::path> written;
+  {
+    godobject::command::Progress progress;
+    const double all = static_cast<double>(moments.size() * options.replays.size());
+    for (const Moment& moment : moments) {
+      picture.camera = viewer::make_camera({.still = bodies.still,
+                                            .moving = bodies.moving,
+                                            .placements = moment.placements,
+                                            .up_axis = options.up[0] - 'x',
+                                            .zoom = options.camera.size() > 2 ? options.camera[2] : 1.0,
+                                            .direction = direction(options.camera)});
+      for (std::size_t i = 0; i < options.replays.size(); ++i) {
+        progress.show("pictures", static_cast<double>(written.size()) / all);
+        picture.placement = moment.placements[i];
+        const fs::path png = picture_path(options, options.replays[i], moment.name);
+        viewer::render(viewer::pov_text(bodies.still, bodies.moving, picture), picture.width, picture.height, png);
+        written.push_back(png);
+      }
+    }
   }
+  for (const fs::path& png : written) fmt::print("{}\n", png.string());
 }
 
 }  // namespace
@@ -110,15 +146,21 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   Options options;
   app.add_option("SCENE", options.scene, "scene file, TOML")->required();
-  app.add_option("REPLAY", options.replay, "output of godobject-replay, CSV")->required();
-  app.add_option("--at", options.times, "time to show [s]; may be given often")->required()->expected(1)->multi_option_policy(
-      CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("REPLAY", options.replays, "outputs of godobject-replay, CSV, of the same path")->required();
+  app.add_option("--at", options.moments, "time to show [s], or deepest: when the god object is; may be given often")
+      ->required()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("-o,--output", options.output, "folder, or one picture X.png")->required();
-  app.add_option("--camera", options.camera, "AZIMUTH,ELEVATION[,ZOOM]: from the body to the eye [degrees]; zoom 2 is twice as near")
+  app.add_option("--camera", options.camera,
+                 "AZIMUTH,ELEVATION[,ZOOM]: from the body to the eye [degrees]; zoom 2 is twice as near")
       ->delimiter(',')
       ->expected(2, 3);
-  app.add_option("--up", options.up, "axis of W that points up: x, y or z; default: z")->check(CLI::IsMember({"x", "y", "z"}));
-  app.add_option("--cut", options.cut, "X,Y,Z,NX,NY,NZ: cuts away the still body (closed) beyond this plane of W [m]")->delimiter(',')->expected(6);
+  app.add_option("--up", options.up, "axis of W that points up: x, y or z; default: z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option("--cut", options.cut, "X,Y,Z,NX,NY,NZ: cuts away the still body (closed) beyond this plane of W [m]")
+      ->delimiter(',')
+      ->expected(6);
   app.add_option("--size", options.size, "WIDTHxHEIGHT [pixels]; default: 800x600");
   return godobject::command::run(app, argc, argv, [&] { render_all(options); });
 }

@@ -116,8 +116,8 @@ std::string pov_text(const TriangleMesh& still, const TriangleMesh& moving, cons
   text += declare("Moving", moving);
   text += declare("Ghost", shrunk(moving));
   text += still_object(picture.cut);
-  text += fmt::format("object {{ Moving {} texture {{ Blue }} }}\n", matrix(picture.H_WS));
-  text += fmt::format("object {{ Ghost {} texture {{ Red }} no_shadow }}\n", matrix(picture.H_WD));
+  text += fmt::format("object {{ Moving {} texture {{ Blue }} }}\n", matrix(picture.placement.H_WS));
+  text += fmt::format("object {{ Ghost {} texture {{ Red }} no_shadow }}\n", matrix(picture.placement.H_WD));
   return text;
 }
 

@@ -19,8 +19,7 @@ struct Picture {
   int width = 800;  ///< [pixels]
   int height = 600;
   Camera camera;
-  Pose H_WD;               ///< drawn red and translucent
-  Pose H_WS;               ///< drawn blue
+  Placement placement;     ///< the device's pose is drawn red and translucent, the god object's blue
   std::optional<Cut> cut;  ///< the still mesh must be closed
 };
 

@@ -12,7 +12,8 @@ struct SceneBodies {
   scene_compiler::TriangleMesh moving;
 };
 
-/// Reads a scene file and imports both of its meshes. Throws Failure as the scene compiler does.
+/// Reads a scene file and imports both of its meshes. Throws Failure as the scene compiler does, and
+/// kBadData for a compiled image (X.scene).
 SceneBodies read_scene_bodies(const std::filesystem::path& scene_file);
 
 }  // namespace godobject::viewer
