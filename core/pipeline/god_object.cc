@@ -21,6 +21,7 @@ Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexce
     case Solver::kCorrected:
       cycle_ = friction ? &corrected_cycle<true, Voxelmap> : &corrected_cycle<false, Voxelmap>;
       break;
+    case Solver::kContact: return Status::kNotInImage;
   }
   scene_ = &scene;
   H_MB_ = scene.H_MB;

@@ -29,6 +29,7 @@ Parameters Parameters::make(const Scene& scene) noexcept {
   Parameters p;
   p.safety_distance = s.safety_distance;
   p.voxel_size = scene.grid.voxel_size;
+  p.margin = s.margin;
   p.stiffness = s.stiffness;
   p.damping = s.damping;
   p.coupling_translation = s.coupling_translation;

@@ -40,6 +40,7 @@ struct Parameters {
   double period = 1e-3;               ///< T [s]
   double safety_distance = 3e-3;      ///< d [m]
   double voxel_size = 2e-3;           ///< s [m]
+  double margin = 2e-5;               ///< m: gap that `contact` keeps [m]
   double correction_gain = 0.2;       ///< eta of eq (28) [1]
   double stiffness = 2000.0;          ///< k_D [N/m]
   double damping = 20.0;              ///< b_D [Ns/m]

@@ -11,6 +11,7 @@ struct FieldSample {
   double distance = 0.0;               ///< phi [m]; +band or -band where `known` is false
   Vector3 gradient = Vector3::Zero();  ///< grad phi in W, not normalised; 0 where `known` is false
   bool known = false;                  ///< the point lies within the stored band
+  double clearance = 0.0;              ///< no point nearer than this has a distance <= 0; 0 where none is known [m]
 };
 
 /// What the paper's step #1 reads (its Figure 3 g): the layer of the voxel around a point. Voxels are centred at the
@@ -22,13 +23,13 @@ struct LayerSample {
 
 /// A still body as steps #1-#7 see it: the compiled `Voxelmap`, or an analytic world in tests.
 ///
-/// `sample(p)`          distance and gradient at p_W.
+/// `sample(p)`          distance, gradient and clearance at p_W.
 /// `layer(p)`           the paper's integer layer at p_W.
 /// `lower_bound(c, r)`  no point x with |x - c| <= r is nearer to the surface: sample(x).distance is not below it, or
 /// is
 ///                      the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
 ///                      least 0 is known.
-/// `voxel_size()`       s [m];  `band()`  distances beyond it are not known [m];  `lipschitz()`  of `sample` [1], >= 1.
+/// `voxel_size()`       s [m];  `band()`  distances beyond it are not known [m].
 template <class F>
 concept DistanceField = requires(const F& field, const Vector3& p, double r) {
   { field.sample(p) }
@@ -40,8 +41,6 @@ concept DistanceField = requires(const F& field, const Vector3& p, double r) {
   { field.voxel_size() }
   noexcept->std::same_as<double>;
   { field.band() }
-  noexcept->std::same_as<double>;
-  { field.lipschitz() }
   noexcept->std::same_as<double>;
 };
 

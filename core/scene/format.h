@@ -15,9 +15,9 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr std::size_t kAlignment = 64;
-inline constexpr std::size_t kMaxSections = 16;
+inline constexpr std::size_t kMaxSections = 24;
 
 inline constexpr std::int32_t kMaxBricksPerAxis = 4096;
 inline constexpr std::uint32_t kMaxPoints = 1u << 22;
@@ -35,6 +35,17 @@ enum class SectionId : std::uint32_t {
   kNormals = 7,     ///< float x[n], y[n], z[n]: unit normals pointing into the body; left out unless `paper` may run
   kNodes = 8,       ///< Node[]: sphere tree in pre-order
   kProvenance = 9,  ///< UTF-8 JSON: what the compiler found and measured; the core never reads it
+  kRefined = 10,    ///< Refined[]; left out where no brick is refined
+
+  // The other direction, read by `contact` only; left out where the sample points alone are good enough:
+  // feature points of the still body against the moving body's distance.
+  kBodyGrid = 11,        ///< one Grid, in the body frame B
+  kBodyBrickIndex = 12,  ///< as kBrickIndex
+  kBodyBricks = 13,      ///< Brick[]
+  kBodyRefined = 14,     ///< Refined[]; left out where no brick is refined
+  kFeatures = 15,        ///< one Features
+  kFeaturePoints = 16,   ///< float x[n], y[n], z[n]: of the still body, relative to Features::origin, in tree order
+  kFeatureNodes = 17,    ///< Node[]: their sphere tree, centres relative to Features::origin
 };
 
 struct Header {
@@ -58,8 +69,9 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-enum class Solver : std::uint32_t { kPaper = 0, kCorrected = 1 };
-inline constexpr std::uint32_t kSolverCount = 2;
+enum class Solver : std::uint32_t { kPaper = 0, kCorrected = 1, kContact = 2 };
+inline constexpr std::uint32_t kSolverCount = 3;
+inline constexpr const char* kSolverNames[kSolverCount] = {"paper", "corrected", "contact"};
 
 /// What the scene file decides for the pipeline. SI units.
 struct Settings {
@@ -82,8 +94,8 @@ struct Settings {
 };
 static_assert(sizeof(Settings) == 112);
 
-/// The still body's signed distance: nodes on a lattice of edge `voxel_size`, kept in bricks of kBrickCells^3 cells.
-/// Node (i, j, k) stands at origin + voxel_size * (i, j, k).
+/// A body's signed distance: nodes on a lattice of edge `voxel_size`, kept in bricks of kBrickCells^3 cells.
+/// Node (i, j, k) stands at origin + voxel_size * (i, j, k). The still body's stands in W, the moving body's in B.
 struct Grid {
   double origin[3];
   double voxel_size;      ///< s [m]
@@ -93,7 +105,7 @@ struct Grid {
   double lipschitz;           ///< largest gradient norm of the trilinear field, seams (see Brick) left out [1]
   double lipschitz_seam;      ///< the same with seams [1]; equal where there is none
   std::int32_t bricks[3];     ///< brick positions along x, y, z
-  std::uint32_t brick_count;  ///< stored bricks
+  std::uint32_t brick_count;  ///< stored bricks, those of refinements included
 };
 static_assert(sizeof(Grid) == 120);
 
@@ -112,17 +124,21 @@ struct alignas(64) Brick {
 };
 static_assert(sizeof(Brick) == 512);
 
-/// One entry of the brick index.
-///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance; bits 0-29 the brick's
-///   number bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right
-///   by one:
+/// One entry of the brick index, or of a refinement.
+///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance;
+///               bit 29 = 0: bits 0-28 are the brick's number;
+///               bit 29 = 1: refined, bits 0-28 are the number of a Refined.
+///   bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right by
+///   one:
 ///               for every point of this brick position and every x within `r` of it, the stored field at x is at least
 ///               clearance - r (outside), whatever brick x lies in. Inside it is not read.
 namespace index_entry {
 inline constexpr std::uint32_t kFar = 1u << 31;
-inline constexpr std::uint32_t kInside = 1u << 30;    // with kFar
-inline constexpr std::uint32_t kSeamNear = 1u << 30;  // without kFar
-inline constexpr std::uint32_t kLow = kSeamNear - 1;
+inline constexpr std::uint32_t kInside = 1u << 30;      // with kFar
+inline constexpr std::uint32_t kSeamNear = 1u << 30;    // without kFar
+inline constexpr std::uint32_t kLow = kSeamNear - 1;    // with kFar: the clearance
+inline constexpr std::uint32_t kRefined = 1u << 29;     // without kFar
+inline constexpr std::uint32_t kNumber = kRefined - 1;  // without kFar: of a brick or a Refined
 
 /// `clearance` >= 0 [m]; what is decoded is at most one part in 4e6 smaller.
 constexpr std::uint32_t encode_far(bool inside, float clearance) noexcept {
@@ -130,6 +146,31 @@ constexpr std::uint32_t encode_far(bool inside, float clearance) noexcept {
 }
 constexpr float far_clearance(std::uint32_t entry) noexcept { return std::bit_cast<float>((entry & kLow) << 1); }
 }  // namespace index_entry
+
+/// Finest refinement: kMaxRefinement times halved.
+inline constexpr int kMaxRefinement = 4;
+
+/// A brick position where trilinear interpolation between its own nodes is not good enough: each octant (x fastest:
+/// ox + 2 oy + 4 oz) is a brick of kBrickCells^3 cells of half the edge, or refined again. Where an octant touches a
+/// coarser brick its nodes on the common face, edge or corner carry the coarser brick's interpolated value, so that the
+/// field is continuous. Every child is stored (never far), with the parent's kSeamNear and its own seam clearance.
+struct Refined {
+  std::uint32_t brick;     ///< the position's own nodes, as if it were not refined: what the paper's layers read
+  std::uint32_t child[8];  ///< index entries
+};
+static_assert(sizeof(Refined) == 36);
+
+/// Of the still body's feature points, what Body is for the sample points: where the sample points of the moving body
+/// alone could miss it (vertices, sharp edges, spikes).
+struct Features {
+  double origin[3];  ///< in W [m]
+  double radius;     ///< largest distance of a feature point from the origin [m], > 0
+  std::uint32_t point_count;
+  std::uint32_t node_count;
+  std::uint32_t level_count;
+  std::uint32_t reserved;  ///< 0
+};
+static_assert(sizeof(Features) == 48);
 
 /// Of the moving body. Body frame B: centre of mass, principal axes. Moving mesh frame M (scaled to metres).
 struct Body {

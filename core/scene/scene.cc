@@ -105,13 +105,14 @@ bool valid_grid(const format::Grid& g) noexcept {
   return true;
 }
 
-bool valid_index(std::span<const std::uint32_t> index, std::uint32_t brick_count) noexcept {
+bool valid_index(std::span<const std::uint32_t> index, std::size_t brick_count, std::size_t refined_count) noexcept {
   for (const std::uint32_t entry : index) {
     if (entry & format::index_entry::kFar) {
       if (!(format::index_entry::far_clearance(entry) <= 1e8f)) return false;
-    } else if ((entry & format::index_entry::kLow) >= brick_count) {
-      return false;
+      continue;
     }
+    const bool refined = (entry & format::index_entry::kRefined) != 0;
+    if ((entry & format::index_entry::kNumber) >= (refined ? refined_count : brick_count)) return false;
   }
   return true;
 }
@@ -136,13 +137,24 @@ bool valid_body(const format::Body& b) noexcept {
       !in_range(b.inertia[2], b.inertia[1], 1e12)) {
     return false;
   }
-  return in_range(b.radius, 1e-12, 1e6) && in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1 &&
-         b.point_count >= 1 && b.point_count <= format::kMaxPoints && b.node_count >= 1 &&
-         b.node_count <= 2 * b.point_count && b.level_count >= 1 && b.level_count <= format::kMaxLevels;
+  return in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1;
 }
 
+/// How many points, nodes and levels a tree has, and how far its points reach.
+struct TreeSize {
+  std::uint32_t point_count;
+  std::uint32_t node_count;
+  std::uint32_t level_count;
+  double radius;
+
+  bool valid() const noexcept {
+    return in_range(radius, 1e-12, 1e6) && point_count >= 1 && point_count <= format::kMaxPoints && node_count >= 1 &&
+           node_count <= 2 * point_count && level_count >= 1 && level_count <= format::kMaxLevels;
+  }
+};
+
 /// Structure of the tree: pre-order, depth bounded by level_count, children partition their parent's points in order.
-bool valid_nodes(std::span<const format::Node> nodes, const format::Body& body) noexcept {
+bool valid_nodes(std::span<const format::Node> nodes, const TreeSize& size) noexcept {
   struct Open {
     std::uint32_t skip;        // where the subtree ends
     std::uint32_t point_end;   // and its points
@@ -151,7 +163,7 @@ bool valid_nodes(std::span<const format::Node> nodes, const format::Body& body) 
   std::array<Open, format::kMaxLevels + 1> open{};
   std::uint32_t depth = 0;
   const auto count = static_cast<std::uint32_t>(nodes.size());
-  if (nodes[0].skip != count || nodes[0].first_point != 0 || nodes[0].point_count != body.point_count) return false;
+  if (nodes[0].skip != count || nodes[0].first_point != 0 || nodes[0].point_count != size.point_count) return false;
   for (std::uint32_t i = 0; i < count; ++i) {
     while (depth > 0 && open[depth - 1].skip == i) {
       --depth;
@@ -159,7 +171,7 @@ bool valid_nodes(std::span<const format::Node> nodes, const format::Body& body) 
     }
     const format::Node& node = nodes[i];
     if (!(node.radius >= 0.0f && node.radius <= 1e7f) || !all_finite(node.center, 3, 1e7f)) return false;
-    if (node.level != depth || node.leaf > 1 || depth >= body.level_count) return false;
+    if (node.level != depth || node.leaf > 1 || depth >= size.level_count) return false;
     if (node.skip <= i || node.skip > count || node.point_count == 0) return false;
     if (node.leaf == (node.skip == i + 1 ? 0 : 1)) return false;
     if (i > 0) {
@@ -210,6 +222,65 @@ void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x,
   z = y + n;
 }
 
+/// The sections that make up one voxelmap.
+struct MapSections {
+  SectionId grid, index, bricks, refined;
+};
+
+Status open_map(const Sections& sections, const MapSections& ids, format::Grid& grid, Voxelmap& map) noexcept {
+  if (!read_one(sections[ids.grid], grid)) return Status::kImageLayout;
+  if (!valid_grid(grid)) return Status::kImageValue;
+  const std::uint64_t positions = static_cast<std::uint64_t>(grid.bricks[0]) *
+                                  static_cast<std::uint64_t>(grid.bricks[1]) *
+                                  static_cast<std::uint64_t>(grid.bricks[2]);
+  const auto index = as_array<std::uint32_t>(sections[ids.index]);
+  const auto bricks = as_array<format::Brick>(sections[ids.bricks]);
+  const auto refined = as_array<format::Refined>(sections[ids.refined]);
+  if (sections[ids.index].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
+  if (sections[ids.bricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
+  if (sections[ids.refined].size() != refined.size_bytes()) return Status::kImageLayout;
+  if (!valid_index(index, bricks.size(), refined.size()) || !valid_bricks(bricks)) return Status::kImageValue;
+  map = Voxelmap(grid, index, bricks, refined);
+  return Status::kOk;
+}
+
+/// Sample or feature points with their sphere tree; `normals` may be absent.
+Status open_shell(std::span<const std::byte> points, std::span<const std::byte> normals,
+                  std::span<const std::byte> nodes, const TreeSize& size, Pointshell& shell) noexcept {
+  if (!size.valid()) return Status::kImageValue;
+  const std::size_t axes_bytes = std::size_t{3} * sizeof(float) * size.point_count;
+  if (points.size() != axes_bytes || nodes.size() != size.node_count * sizeof(format::Node))
+    return Status::kImageLayout;
+  if (normals.data() != nullptr && normals.size() != axes_bytes) return Status::kImageLayout;
+  shell.size = size.point_count;
+  set_axes(points, shell.size, shell.x, shell.y, shell.z);
+  if (normals.data() != nullptr) set_axes(normals, shell.size, shell.normal_x, shell.normal_y, shell.normal_z);
+  shell.nodes = as_array<format::Node>(nodes);
+  return valid_nodes(shell.nodes, size) && valid_points(shell, size.radius) ? Status::kOk : Status::kImageValue;
+}
+
+/// Feature points and the moving body's voxelmap: both or neither.
+Status open_features(const Sections& sections, Scene& scene) noexcept {
+  const auto bytes = sections[SectionId::kFeatures];
+  const bool map = sections[SectionId::kBodyGrid].data() != nullptr;
+  if (bytes.data() == nullptr) return map ? Status::kImageLayout : Status::kOk;
+  format::Features features{};
+  format::Grid grid{};
+  if (!read_one(bytes, features)) return Status::kImageLayout;
+  for (const double x : features.origin) {
+    if (!in_range(x, -1e7, 1e7)) return Status::kImageValue;
+  }
+  if (features.reserved != 0) return Status::kImageValue;
+  const Status status =
+      open_shell(sections[SectionId::kFeaturePoints], {}, sections[SectionId::kFeatureNodes],
+                 {features.point_count, features.node_count, features.level_count, features.radius}, scene.features);
+  if (status != Status::kOk) return status;
+  scene.features_origin = Vector3(features.origin[0], features.origin[1], features.origin[2]);
+  return open_map(sections,
+                  {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined},
+                  grid, scene.body_map);
+}
+
 }  // namespace
 
 Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
@@ -222,39 +293,25 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   if (status != Status::kOk) return status;
 
   Scene opened;
+  const format::Body& body = opened.body;
   if (!read_one(sections[SectionId::kSettings], opened.settings)) return Status::kImageLayout;
-  if (!read_one(sections[SectionId::kGrid], opened.grid)) return Status::kImageLayout;
   if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
-  if (!valid_settings(opened.settings) || !valid_grid(opened.grid) || !valid_body(opened.body))
-    return Status::kImageValue;
+  if (!valid_settings(opened.settings) || !valid_body(body)) return Status::kImageValue;
+
+  status = open_map(sections, {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined},
+                    opened.grid, opened.voxelmap);
+  if (status != Status::kOk) return status;
   // contacts begin at the safety distance: there the field must be known
   if (opened.grid.band < opened.settings.safety_distance) return Status::kImageValue;
 
-  const format::Grid& grid = opened.grid;
-  const format::Body& body = opened.body;
-  const auto index = as_array<std::uint32_t>(sections[SectionId::kBrickIndex]);
-  const auto bricks = as_array<format::Brick>(sections[SectionId::kBricks]);
-  const std::uint64_t positions = static_cast<std::uint64_t>(grid.bricks[0]) *
-                                  static_cast<std::uint64_t>(grid.bricks[1]) *
-                                  static_cast<std::uint64_t>(grid.bricks[2]);
-  const std::size_t axes_bytes = std::size_t{3} * sizeof(float) * body.point_count;
-  if (sections[SectionId::kBrickIndex].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
-  if (sections[SectionId::kBricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
-  if (sections[SectionId::kPoints].size() != axes_bytes) return Status::kImageLayout;
-  if (sections[SectionId::kNodes].size() != body.node_count * sizeof(format::Node)) return Status::kImageLayout;
   const auto normals = sections[SectionId::kNormals];
-  if (normals.data() != nullptr && normals.size() != axes_bytes) return Status::kImageLayout;
   if (normals.data() == nullptr && opened.holds(format::Solver::kPaper)) return Status::kImageLayout;
-  if (!valid_index(index, grid.brick_count) || !valid_bricks(bricks)) return Status::kImageValue;
+  status = open_shell(sections[SectionId::kPoints], normals, sections[SectionId::kNodes],
+                      {body.point_count, body.node_count, body.level_count, body.radius}, opened.pointshell);
+  if (status != Status::kOk) return status;
+  status = open_features(sections, opened);
+  if (status != Status::kOk) return status;
 
-  Pointshell& shell = opened.pointshell;
-  shell.size = body.point_count;
-  set_axes(sections[SectionId::kPoints], shell.size, shell.x, shell.y, shell.z);
-  if (normals.data() != nullptr) set_axes(normals, shell.size, shell.normal_x, shell.normal_y, shell.normal_z);
-  shell.nodes = as_array<format::Node>(sections[SectionId::kNodes]);
-  if (!valid_nodes(shell.nodes, body) || !valid_points(shell, body.radius)) return Status::kImageValue;
-
-  opened.voxelmap = Voxelmap(grid, index, bricks);
   opened.H_MB.rotation =
       Quaternion(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]).normalized();
   opened.H_MB.translation = Vector3(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);

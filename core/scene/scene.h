@@ -11,7 +11,8 @@
 
 namespace godobject {
 
-/// A validated scene image, read in place: settings, the still body's voxelmap, the moving body's pointshell and mass.
+/// A validated scene image, read in place: settings, the still body's voxelmap, the moving body's pointshell and mass,
+/// and where the image has it the other direction: feature points of the still body, voxelmap of the moving one.
 /// A view of the bytes it was opened on, which must stay where they are and unchanged.
 struct Scene {
   format::Settings settings{};
@@ -19,6 +20,9 @@ struct Scene {
   format::Body body{};
   Voxelmap voxelmap;
   Pointshell pointshell;
+  Voxelmap body_map;    ///< of the moving body, in B; only with features
+  Pointshell features;  ///< of the still body, in frame F: W shifted to `features_origin`
+  Vector3 features_origin = Vector3::Zero();
   Pose H_MB;                              ///< body frame (centre of mass, principal axes) in the moving mesh's frame
   std::span<const std::byte> provenance;  ///< UTF-8 JSON, for people
 
@@ -29,6 +33,7 @@ struct Scene {
   static Status open(std::span<const std::byte> image, Scene& scene) noexcept;
 
   format::Solver default_solver() const noexcept { return static_cast<format::Solver>(settings.default_solver); }
+  bool has_features() const noexcept { return features.size > 0; }
   bool holds(format::Solver solver) const noexcept {
     return (settings.solvers >> static_cast<std::uint32_t>(solver)) & 1u;
   }

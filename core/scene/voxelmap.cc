@@ -19,9 +19,10 @@ constexpr double kInterpolationError = 0.8660254037844387;
 }  // namespace
 
 Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
-                   std::span<const format::Brick> bricks) noexcept
+                   std::span<const format::Brick> bricks, std::span<const format::Refined> refined) noexcept
     : index_(index.data()),
       bricks_(bricks.data()),
+      refined_(refined.data()),
       origin_(grid.origin[0], grid.origin[1], grid.origin[2]),
       surface_min_(grid.surface_min[0], grid.surface_min[1], grid.surface_min[2]),
       surface_max_(grid.surface_max[0], grid.surface_max[1], grid.surface_max[2]),
@@ -57,17 +58,28 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   return true;
 }
 
+double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
+  return (surface_min_ - p_W).cwiseMax(p_W - surface_max_).cwiseMax(0.0).norm();
+}
+
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   FieldSample sample;
   sample.distance = band_;
   Cell cell;
-  if (!locate(p_W, cell)) return sample;
-  if (cell.entry & format::index_entry::kFar) {
-    if (cell.entry & format::index_entry::kInside) sample.distance = -band_;
+  if (!locate(p_W, cell)) {
+    sample.clearance = std::max(0.0, distance_to_box(p_W) - kInterpolationError * voxel_size_);
     return sample;
   }
-  const float* v =
-      bricks_[cell.entry & format::index_entry::kLow].value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
+  if (cell.entry & format::index_entry::kFar) {
+    if (cell.entry & format::index_entry::kInside) {
+      sample.distance = -band_;
+    } else {
+      sample.clearance = static_cast<double>(format::index_entry::far_clearance(cell.entry));
+    }
+    return sample;
+  }
+  const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
+  const float* v = brick.value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
   const float x00 = v[0] + cell.fx * (v[1] - v[0]);
   const float x10 = v[kStrideY] + cell.fx * (v[kStrideY + 1] - v[kStrideY]);
   const float x01 = v[kStrideZ] + cell.fx * (v[kStrideZ + 1] - v[kStrideZ]);
@@ -75,6 +87,13 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   const float y0 = x00 + cell.fy * (x10 - x00);
   const float y1 = x01 + cell.fy * (x11 - x01);
   const double distance = static_cast<double>(y0 + cell.fz * (y1 - y0));
+  if (distance > 0.0) {
+    sample.clearance = distance / lipschitz_;
+    if (cell.entry & format::index_entry::kSeamNear) {
+      sample.clearance =
+          std::max(distance / lipschitz_seam_, std::min(sample.clearance, static_cast<double>(brick.seam_clearance)));
+    }
+  }
   if (!(std::fabs(distance) < band_)) {
     if (distance < 0.0) sample.distance = -band_;
     return sample;
@@ -112,7 +131,8 @@ LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {
     return sample;
   }
   const int node = cell.x + ox + kStrideY * (cell.y + oy) + kStrideZ * (cell.z + oz);
-  const double layers = -static_cast<double>(bricks_[cell.entry & format::index_entry::kLow].value[node]) * per_voxel_;
+  const double layers =
+      -static_cast<double>(bricks_[cell.entry & format::index_entry::kNumber].value[node]) * per_voxel_;
   sample.layer = static_cast<int>(
       std::clamp(std::floor(layers + 0.5), -static_cast<double>(deepest), static_cast<double>(deepest)));
   return sample;
@@ -127,15 +147,14 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
   double bound = kNoBound;
   Cell cell;
   if (!locate(center_W, cell)) {
-    const Vector3 outside = (surface_min_ - center_W).cwiseMax(center_W - surface_max_).cwiseMax(0.0);
     // from the exact distance to the interpolated one: off by at most kInterpolationError voxels
-    bound = outside.norm() - kInterpolationError * voxel_size_ - radius;
+    bound = distance_to_box(center_W) - kInterpolationError * voxel_size_ - radius;
   } else if (cell.entry & format::index_entry::kFar) {
     if (cell.entry & format::index_entry::kInside) return kNoBound;
     bound = static_cast<double>(format::index_entry::far_clearance(cell.entry)) - radius;
   } else {
     if (cell.entry & format::index_entry::kSeamNear) {
-      const format::Brick& brick = bricks_[cell.entry & format::index_entry::kLow];
+      const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
       if (!(radius < static_cast<double>(brick.seam_clearance))) return kNoBound;
     }
     // Along the segment from the centre to any x of the ball the stored field falls by at most lipschitz_ a metre while

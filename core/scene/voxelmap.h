@@ -8,15 +8,15 @@
 
 namespace godobject {
 
-/// The compiled still body: trilinear value and gradient of signed distances stored in sparse bricks. A view; owns
-/// nothing. Real-time safe; every call looks at one brick (one index entry and at most 8 floats of it).
+/// A compiled body, still or moving: trilinear value and gradient of signed distances stored in sparse bricks. A view;
+/// owns nothing. Real-time safe; every call looks at one brick (one index entry and at most 8 floats of it).
 class Voxelmap {
  public:
   Voxelmap() = default;
 
   /// The parts must have been validated (Scene::open does) and must outlive the view.
-  Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
-           std::span<const format::Brick> bricks) noexcept;
+  Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
+           std::span<const format::Refined> refined) noexcept;
 
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return band_; }
@@ -24,6 +24,7 @@ class Voxelmap {
 
   /// Trilinear interpolation of the stored distances and its exact gradient at p_W. Outside the grid is free space
   /// (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts as outside.
+  /// The clearance is the distance over the Lipschitz constant, less where a seam is near, more beyond the band.
   FieldSample sample(const Vector3& p_W) const noexcept;
 
   /// The paper's voxel layer v = round(-phi(C) / s) at the centre C of the voxel (node) nearest to p_W; beyond the band
@@ -42,9 +43,11 @@ class Voxelmap {
   };
 
   bool locate(const Vector3& p_W, Cell& cell) const noexcept;
+  double distance_to_box(const Vector3& p_W) const noexcept;
 
   const std::uint32_t* index_ = nullptr;
   const format::Brick* bricks_ = nullptr;
+  const format::Refined* refined_ = nullptr;
   Vector3 origin_ = Vector3::Zero();
   Vector3 surface_min_ = Vector3::Zero();
   Vector3 surface_max_ = Vector3::Zero();

@@ -48,7 +48,7 @@ struct OneBrick {
     brick.seam_clearance = FLT_MAX;
   }
   float& node(int x, int y, int z) { return brick.value[x + 5 * (y + 5 * z)]; }
-  Voxelmap map() const { return {grid, std::span(&index, 1), std::span(&brick, 1)}; }
+  Voxelmap map() const { return {grid, std::span(&index, 1), std::span(&brick, 1), {}}; }
 };
 
 TEST(Voxelmap, InterpolatesACellByHand) {

@@ -162,7 +162,7 @@ TEST(DistanceGrid, SeamClearanceHoldsNoSeamCell) {
       for (int x = 0; x < g.bricks[0]; ++x) {
         const std::uint32_t entry = field.grid.index[static_cast<std::size_t>(x + g.bricks[0] * (y + g.bricks[1] * z))];
         if ((entry & format::index_entry::kFar) != 0) continue;
-        const format::Brick& brick = field.grid.bricks[entry & format::index_entry::kLow];
+        const format::Brick& brick = field.grid.bricks[entry & format::index_entry::kNumber];
         const Vector3d low = Vector3d(g.origin[0], g.origin[1], g.origin[2]) + 4.0 * s * Vector3d(x, y, z);
         bricks.push_back({low, &brick, (entry & format::index_entry::kSeamNear) != 0});
         for (int n = 0; n < 125; ++n) {  // along z only: the opening is horizontal

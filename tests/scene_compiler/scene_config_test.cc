@@ -36,7 +36,7 @@ TEST(SceneConfig, FillsInDefaultsAsMultiplesOfTheVoxel) {
   EXPECT_DOUBLE_EQ(config.thickness, 0.004);
   EXPECT_DOUBLE_EQ(config.settings.safety_distance, 0.003);
   EXPECT_DOUBLE_EQ(config.settings.margin, 2e-5);
-  EXPECT_EQ(config.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kCorrected));
+  EXPECT_EQ(config.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kContact));
   EXPECT_EQ(config.settings.solvers, 3u);
   EXPECT_EQ(config.settings.friction, 0u);
   EXPECT_DOUBLE_EQ(config.settings.paper_rotation_static, 0.2);

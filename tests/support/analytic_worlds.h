@@ -19,7 +19,10 @@ class AnalyticField {
  public:
   AnalyticField(Shape shape, double voxel_size) : shape_(shape), voxel_size_(voxel_size) {}
 
-  FieldSample sample(const Vector3& p) const noexcept { return {shape_.distance(p), shape_.gradient(p), true}; }
+  FieldSample sample(const Vector3& p) const noexcept { 
+    const double distance = shape_.distance(p);
+    return {distance, shape_.gradient(p), true, std::max(0.0, distance)};
+  }
   LayerSample layer(const Vector3& p) const noexcept {
     const Vector3 center = voxel_size_ * (p / voxel_size_).array().round().matrix();
     return {static_cast<int>(std::floor(0.5 - shape_.distance(center) / voxel_size_)), center - p};
@@ -30,7 +33,6 @@ class AnalyticField {
   }
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return 1e3; }
-  double lipschitz() const noexcept { return 1.0; }
 
  private:
   Shape shape_;

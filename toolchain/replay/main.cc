@@ -1,5 +1,4 @@
 #include <cfenv>
-#include <map>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "toolchain/command/progress.h"
 #include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
+#include "toolchain/command/solver_names.h"
 #include "toolchain/replay/replay.h"
 
 namespace {
@@ -17,8 +17,6 @@ namespace {
 using godobject::Solver;
 using godobject::command::ExitCode;
 using godobject::command::Failure;
-
-const std::map<std::string, Solver> kSolvers = {{"paper", Solver::kPaper}, {"corrected", Solver::kCorrected}};
 
 const char* const kFooter = R"(Example:
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o out.csv --solver corrected
@@ -62,14 +60,15 @@ int main(int argc, char** argv) {
   app.add_option("SCENE", scene_path, "scene image, X.scene")->required();
   app.add_option("POSES", poses_path, "device path, CSV")->required();
   app.add_option("-o,--output", out_path, "what to write, CSV")->required();
-  app.add_option("--solver", solver_name, "paper or corrected; default: the scene's")->check(CLI::IsMember(kSolvers));
+  app.add_option("--solver", solver_name, "contact, corrected or paper; default: the scene's")
+      ->check(CLI::IsMember(godobject::command::solver_names()));
   app.add_option("--friction", friction_name, "on or off; default: on if the scene has a friction table")
       ->check(CLI::IsMember({"on", "off"}));
 
   return godobject::command::run(app, argc, argv, [&] {
     const auto image = godobject::command::SceneImage::read(scene_path);
     const godobject::Scene& scene = image.scene;
-    const Solver solver = solver_name.empty() ? scene.default_solver() : kSolvers.at(solver_name);
+    const Solver solver = solver_name.empty() ? scene.default_solver() : *godobject::command::solver_of(solver_name);
     const bool has_friction = scene.settings.friction != 0;
     const bool friction = friction_name.empty() ? has_friction : friction_name == "on";
     if (friction && !has_friction) {

@@ -19,11 +19,17 @@ const char* name_of(format::SectionId id) {
     case format::SectionId::kNormals: return "normals";
     case format::SectionId::kNodes: return "nodes";
     case format::SectionId::kProvenance: return "provenance";
+    case format::SectionId::kRefined: return "refined";
+    case format::SectionId::kBodyGrid: return "body_grid";
+    case format::SectionId::kBodyBrickIndex: return "body_brick_index";
+    case format::SectionId::kBodyBricks: return "body_bricks";
+    case format::SectionId::kBodyRefined: return "body_refined";
+    case format::SectionId::kFeatures: return "features";
+    case format::SectionId::kFeaturePoints: return "feature_points";
+    case format::SectionId::kFeatureNodes: return "feature_nodes";
   }
   return "unknown";
 }
-
-const char* name_of(format::Solver solver) { return solver == format::Solver::kPaper ? "paper" : "corrected"; }
 
 Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -87,9 +93,9 @@ Json thin_json(const ThinPlaces& places) {
 Json settings_json(const format::Settings& s) {
   Json solvers = Json::array();
   for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
-    if ((s.solvers >> i & 1u) != 0) solvers.push_back(name_of(static_cast<format::Solver>(i)));
+    if ((s.solvers >> i & 1u) != 0) solvers.push_back(format::kSolverNames[i]);
   }
-  Json json = {{"solver", name_of(static_cast<format::Solver>(s.default_solver))},
+  Json json = {{"solver", format::kSolverNames[s.default_solver]},
                {"solvers_held", solvers},
                {"safety_distance", s.safety_distance},
                {"margin", s.margin},
@@ -182,8 +188,8 @@ Json left_out_json(const CompileReport& report) {
 Json report_json(const CompileReport& report) {
   const SceneConfig& config = report.config;
   Json settings = settings_json(config.settings);
-  if (report.only_solver) settings["solvers_held"] = Json::array({name_of(*report.only_solver)});
-  if (report.only_solver) settings["solver"] = name_of(*report.only_solver);
+  if (report.only_solver) settings["solvers_held"] = Json::array({format::kSolverNames[static_cast<std::size_t>(*report.only_solver)]});
+  if (report.only_solver) settings["solver"] = format::kSolverNames[static_cast<std::size_t>(*report.only_solver)];
   Json sections;
   for (const auto& [id, bytes] : report.sections) sections[name_of(id)] = bytes;
   Json body = body_json(report.body.body);

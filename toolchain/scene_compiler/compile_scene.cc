@@ -66,7 +66,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const DistanceGri
   sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
-  if (report.only_solver != format::Solver::kCorrected)
+  if (!report.only_solver || report.only_solver == format::Solver::kPaper)
     sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
   sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
   return sections;

@@ -49,7 +49,7 @@ class Places {
     const std::size_t position = stored_[random() % stored_.size()];
     const BrickPosition p = lattice_.position(position);
     Place place;
-    place.brick = grid_.index[position] & format::index_entry::kLow;
+    place.brick = grid_.index[position] & format::index_entry::kNumber;
     const double s = grid_.grid.voxel_size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       place.cell[axis] = static_cast<int>(random() % kBrickCells);

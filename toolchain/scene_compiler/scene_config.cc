@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "toolchain/command/failure.h"
+#include "toolchain/command/solver_names.h"
 #include "toolchain/scene_compiler/toml_table.h"
 
 namespace godobject::scene_compiler {
@@ -64,12 +65,11 @@ SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path&
 }
 
 std::uint32_t read_solver(const TomlTable& contact) {
-  const std::string solver = contact.text("solver", "corrected");
-  if (solver == "paper") return static_cast<std::uint32_t>(format::Solver::kPaper);
-  if (solver == "contact") contact.complain("solver", "= \"contact\" is not in this version; take corrected or paper");
-  if (solver != "corrected")
-    contact.complain("solver", fmt::format("= \"{}\" is not known; it must be corrected or paper", solver));
-  return static_cast<std::uint32_t>(format::Solver::kCorrected);
+  const std::string name = contact.text("solver", "contact");
+  const std::optional<format::Solver> solver = command::solver_of(name);
+  if (!solver)
+    contact.complain("solver", fmt::format("= \"{}\" is not known; it must be contact, corrected or paper", name));
+  return static_cast<std::uint32_t>(*solver);
 }
 
 void read_friction(const TomlTable& friction, format::Settings& settings) {

@@ -9,6 +9,7 @@
 #include "toolchain/command/progress.h"
 #include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
+#include "toolchain/command/solver_names.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
@@ -25,7 +26,7 @@ Example:
 A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
   [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s]
   [moving]    mesh, scale [1], surface [auto], points [5000], levels [7]
-  [contact]   solver [corrected|paper], safety_distance [1.5 s], margin [0.01 s]
+  [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s]
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
   [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
@@ -49,8 +50,7 @@ void compile(const Options& options) {
   CompileRequest request;
   request.scene_file = options.scene_file;
   request.output = options.output;
-  if (options.only_solver == "paper") request.only_solver = format::Solver::kPaper;
-  if (options.only_solver == "corrected") request.only_solver = format::Solver::kCorrected;
+  if (!options.only_solver.empty()) request.only_solver = godobject::command::solver_of(options.only_solver);
   for (const std::string& output : {options.output, options.report}) {
     if (!output.empty()) output_target(output);  // refused before the work, not after it
   }
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", options.output, "scene image to write");
   app.add_option("--report", options.report, "write what was found and measured as JSON");
   app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")
-      ->check(CLI::IsMember({"paper", "corrected"}));
+      ->check(CLI::IsMember(godobject::command::solver_names()));
   app.add_option("--inspect", options.inspect, "print the facts of a compiled image as JSON");
   app.footer(fmt::format(kFooter, kRefusalRule));
   return godobject::command::run(app, argc, argv, [&options] { run_scenec(options); });
