@@ -21,7 +21,7 @@ struct Field {
 
   Field(const SolidSurface& surface, double voxel_size)
       : grid(make_distance_grid(surface, voxel_size, default_band(voxel_size, 1.5 * voxel_size), {})),
-        map(grid.grid, grid.index, grid.bricks) {}
+        map(grid.grid, grid.index, grid.bricks, {}) {}
 };
 
 Field field_of(TriangleMesh mesh, double voxel_size, SurfaceKind kind = SurfaceKind::kAuto) {
