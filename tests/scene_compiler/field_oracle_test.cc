@@ -28,7 +28,7 @@ TEST_P(FieldOracle, StoresExactDistances) {
   const auto [name, scale, s] = GetParam();
   const SolidSurface surface(load(name, scale), SurfaceKind::kAuto, 2.0 * s);
   const DistanceGrid grid = make_distance_grid(surface, s, default_band(s, 1.5 * s), {});
-  const Voxelmap field(grid.grid, grid.index, grid.bricks);
+  const Voxelmap field(grid.grid, grid.index, grid.bricks, {});
   const TriangleMesh& mesh = surface.mesh();
   const BruteForce truth(mesh);
   const double band = grid.grid.band;
