@@ -1,21 +1,17 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/spatial/vector.h"
+#include "toolchain/report/analytic/field.h"
 
 namespace godobject::test {
 
 /// Exact signed distance to a ball about the origin [m].
 inline double ball_distance(const Vector3& p, double radius) { return p.norm() - radius; }
 
-/// Exact signed distance to an axis-aligned box about the origin [m].
-inline double box_distance(const Vector3& p, const Vector3& half_edges) {
-  const Vector3 q = p.cwiseAbs() - half_edges;
-  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
-}
+using analytic::box_distance;
 
 /// Sample points of a surface with unit normals that point into the body.
 struct SurfaceSamples {

@@ -2,58 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
 #include "core/pipeline/cycle.h"
-#include "core/scene/field.h"
 #include "core/scene/pointshell.h"
 #include "tests/support/analytic_shapes.h"
+#include "toolchain/report/analytic/field.h"
 
 namespace godobject::test {
 
-/// A DistanceField from an exact signed distance function `Shape::distance(p)`, with its gradient by
-/// `Shape::gradient(p)`. Layers are those of voxels centred at the multiples of the voxel size.
-template <class Shape>
-class AnalyticField {
- public:
-  AnalyticField(Shape shape, double voxel_size) : shape_(shape), voxel_size_(voxel_size) {}
-
-  FieldSample sample(const Vector3& p) const noexcept { 
-    const double distance = shape_.distance(p);
-    return {distance, shape_.gradient(p), true, std::max(0.0, distance)};
-  }
-  LayerSample layer(const Vector3& p) const noexcept {
-    const Vector3 center = voxel_size_ * (p / voxel_size_).array().round().matrix();
-    return {static_cast<int>(std::floor(0.5 - shape_.distance(center) / voxel_size_)), center - p};
-  }
-  double lower_bound(const Vector3& center, double radius) const noexcept {
-    const double bound = shape_.distance(center) - radius;
-    return bound >= 0.0 ? bound : -std::numeric_limits<double>::infinity();
-  }
-  double voxel_size() const noexcept { return voxel_size_; }
-  double band() const noexcept { return 1e3; }
-
- private:
-  Shape shape_;
-  double voxel_size_;
-};
-
-/// Solid where n.p < offset; n is a unit vector.
-struct HalfSpace {
-  Vector3 n = Vector3::UnitZ();
-  double offset = 0.0;
-  double distance(const Vector3& p) const noexcept { return n.dot(p) - offset; }
-  Vector3 gradient(const Vector3&) const noexcept { return n; }
-};
-
-/// A solid ball.
-struct Ball {
-  Vector3 center = Vector3::Zero();
-  double radius = 0.1;
-  double distance(const Vector3& p) const noexcept { return (p - center).norm() - radius; }
-  Vector3 gradient(const Vector3& p) const noexcept { return (p - center).normalized(); }
-};
+using analytic::AnalyticField;
+using analytic::Ball;
+using analytic::HalfSpace;
 
 /// Solid but for the gap |x| < half_width: two walls that face each other.
 struct Slot {
