@@ -7,6 +7,7 @@
 #include "core/pipeline/constraint_force.h"
 #include "core/pipeline/correction.h"
 #include "core/pipeline/device_force.h"
+#include "core/pipeline/least_constraint.h"
 #include "core/pipeline/parameters.h"
 #include "core/pipeline/penalty_contacts.h"
 #include "core/pipeline/projection.h"
@@ -41,6 +42,7 @@ struct State {
   bool started = false;        ///< a cycle has been finished
   bool inside = false;         ///< it started in penetration and has not come out
   ProjectionState projection;  ///< of `corrected`
+  ConstrainedStep contact;     ///< of `contact`: its last motion and what held it
 };
 
 /// What a cycle leaves for others to look at.

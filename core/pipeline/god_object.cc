@@ -5,6 +5,27 @@
 namespace godobject {
 namespace {
 
+/// The pipelines, all with one signature.
+template <bool kFriction>
+Status run_paper(const Scene& scene, const Parameters& q, const CycleInput& input, State& state, ContactWorkspace&,
+                 CycleReport& report, StepTimes* times) noexcept {
+  return paper_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
+}
+
+template <bool kFriction>
+Status run_corrected(const Scene& scene, const Parameters& q, const CycleInput& input, State& state, ContactWorkspace&,
+                     CycleReport& report, StepTimes* times) noexcept {
+  return corrected_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
+}
+
+template <bool kFriction>
+Status run_contact(const Scene& scene, const Parameters& q, const CycleInput& input, State& state,
+                   ContactWorkspace& workspace, CycleReport& report, StepTimes* times) noexcept {
+  const FeatureContacts<Voxelmap> features{scene.body_map, scene.features, scene.features_origin};
+  return contact_cycle<kFriction>(scene.voxelmap, scene.pointshell, scene.has_features() ? &features : nullptr, q,
+                                  input, state, workspace, report, times);
+}
+
 Status refuse(Status status, const State& state, CycleReport& report) noexcept {
   report = CycleReport{};
   report.H_WS = state.H_WS;
@@ -17,11 +38,9 @@ Status refuse(Status status, const State& state, CycleReport& report) noexcept {
 Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexcept {
   if (!scene.holds(solver) || (friction && scene.settings.friction == 0)) return Status::kNotInImage;
   switch (solver) {
-    case Solver::kPaper: cycle_ = friction ? &paper_cycle<true, Voxelmap> : &paper_cycle<false, Voxelmap>; break;
-    case Solver::kCorrected:
-      cycle_ = friction ? &corrected_cycle<true, Voxelmap> : &corrected_cycle<false, Voxelmap>;
-      break;
-    case Solver::kContact: return Status::kNotInImage;
+    case Solver::kPaper: cycle_ = friction ? &run_paper<true> : &run_paper<false>; break;
+    case Solver::kCorrected: cycle_ = friction ? &run_corrected<true> : &run_corrected<false>; break;
+    case Solver::kContact: cycle_ = friction ? &run_contact<true> : &run_contact<false>; break;
   }
   scene_ = &scene;
   H_MB_ = scene.H_MB;
@@ -48,7 +67,7 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
     next.H_WS = cycle_input.H_WD;
     next.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, next.H_WS) < 0.0;
   }
-  const Status status = cycle_(scene_->voxelmap, scene_->pointshell, parameters_, cycle_input, next, report, times);
+  const Status status = cycle_(*scene_, parameters_, cycle_input, next, workspace_, report, times);
   if (status != Status::kOk) return refuse(status, state_, report);
   state_ = next;
   return Status::kOk;

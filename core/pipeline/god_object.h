@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/pipeline/contact_cycle.h"
 #include "core/pipeline/cycle.h"
 #include "core/scene/scene.h"
 
@@ -10,7 +11,8 @@ using Solver = format::Solver;
 /// The god object of a compiled scene: one `update` a millisecond, from the device's pose to the force on the device.
 ///
 /// Poses are those of the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
-/// No allocation, no exceptions, no locks; about 1 KiB. The scene must outlive it.
+/// No allocation, no exceptions, no locks; about 600 KiB, most of them the contact solver's workspace, of which a cycle
+/// touches what its contacts need. The scene must outlive it.
 ///
 ///     GodObject god_object;
 ///     if (god_object.start(scene, scene.default_solver(), true) != Status::kOk) ...
@@ -31,8 +33,8 @@ class GodObject {
   void reset() noexcept { state_ = State{}; }
 
   /// One cycle, steps #1-#7. The first one after `start` or `reset` puts the god object at the device pose; if that
-  /// penetrates, the outcome is kStartInside until it has come out: by eta p a cycle where the field gives a direction,
-  /// with the device where it gives none.
+  /// penetrates, the outcome is kStartInside until it has come out: by a share of its depth a cycle where the field
+  /// gives a direction, with the device where it gives none.
   /// kNotFinite, kNotUnit, kOutOfRange: the input is no pose, or would have led to a NaN; the god object is held, the
   /// force is zero, the report's outcome is kBadInput. Cost: ALGORITHM's step #1 and less than 1 us for the others.
   /// Real-time safe.
@@ -45,8 +47,8 @@ class GodObject {
   const State& state() const noexcept { return state_; }
 
  private:
-  using Cycle = Status (*)(const Voxelmap&, const Pointshell&, const Parameters&, const CycleInput&, State&,
-                           CycleReport&, StepTimes*) noexcept;
+  using Cycle = Status (*)(const Scene&, const Parameters&, const CycleInput&, State&, ContactWorkspace&, CycleReport&,
+                           StepTimes*) noexcept;
 
   const Scene* scene_ = nullptr;
   Cycle cycle_ = nullptr;
@@ -54,6 +56,7 @@ class GodObject {
   Pose H_BM_;
   Parameters parameters_;
   State state_;
+  ContactWorkspace workspace_;
 };
 
 }  // namespace godobject

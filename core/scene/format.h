@@ -113,10 +113,11 @@ inline constexpr int kBrickCells = 4;                ///< cells along an edge of
 inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: neighbours share a face of nodes
 inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 
-/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], each exact to float rounding, not clamped to
-/// the band. A brick position is stored when a node is nearer than the band or its nodes differ in sign, so whatever
-/// lies within the band lies in a stored brick, and every change of sign does. Where an open mesh's sign jumps without
-/// a surface (winding number 1/2 across a hole) neighbouring nodes differ by more than the lattice edge: a *seam*.
+/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], each exact to float rounding but where a
+/// refinement meets what is coarser (see Refined), not clamped to the band. A brick position is stored when a node is
+/// nearer than the band or its nodes differ in sign, so whatever lies within the band lies in a stored brick, and every
+/// change of sign does. Where an open mesh's sign jumps without a surface (winding number 1/2 across a hole)
+/// neighbouring nodes differ by more than the lattice edge: a *seam*.
 struct alignas(64) Brick {
   float value[kBrickValues];
   float seam_clearance;  ///< no seam is nearer than this to any point of the brick [m]; FLT_MAX where none is near
@@ -152,8 +153,12 @@ inline constexpr int kMaxRefinement = 4;
 
 /// A brick position where trilinear interpolation between its own nodes is not good enough: each octant (x fastest:
 /// ox + 2 oy + 4 oz) is a brick of kBrickCells^3 cells of half the edge, or refined again. Where an octant touches a
-/// coarser brick its nodes on the common face, edge or corner carry the coarser brick's interpolated value, so that the
-/// field is continuous. Every child is stored (never far), with the parent's kSeamNear and its own seam clearance.
+/// coarser brick its nodes on the common face, edge or corner carry the coarser brick's interpolated value, and where
+/// it touches a position that is not stored that of its own position's nodes, so that the field is continuous. Every
+/// child is stored (never far), with the parent's kSeamNear and a seam clearance not below the parent's.
+///
+/// Refinements are numbered in the order in which a walk meets them: index entries ascending, each refinement before
+/// those of its children, children ascending. None is met twice, none is left out.
 struct Refined {
   std::uint32_t brick;     ///< the position's own nodes, as if it were not refined: what the paper's layers read
   std::uint32_t child[8];  ///< index entries

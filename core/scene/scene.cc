@@ -105,16 +105,45 @@ bool valid_grid(const format::Grid& g) noexcept {
   return true;
 }
 
-bool valid_index(std::span<const std::uint32_t> index, std::size_t brick_count, std::size_t refined_count) noexcept {
+bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
   for (const std::uint32_t entry : index) {
-    if (entry & format::index_entry::kFar) {
-      if (!(format::index_entry::far_clearance(entry) <= 1e8f)) return false;
-      continue;
-    }
-    const bool refined = (entry & format::index_entry::kRefined) != 0;
-    if ((entry & format::index_entry::kNumber) >= (refined ? refined_count : brick_count)) return false;
+    if ((entry & format::index_entry::kFar) != 0 && !(format::index_entry::far_clearance(entry) <= 1e8f)) return false;
   }
   return true;
+}
+
+/// Walks all refinements in the order that the format prescribes. Each is met once, at the number that is next: so none
+/// is out of reach, shared or contained in itself, and the walk is as long as index and refinements.
+bool valid_entries(std::span<const std::uint32_t> index, std::size_t brick_count,
+                   std::span<const format::Refined> refined) noexcept {
+  struct Open {
+    const format::Refined* refined;
+    std::size_t next_child;
+  };
+  std::array<Open, format::kMaxRefinement> open{};
+  std::size_t next = 0;
+  for (const std::uint32_t position : index) {
+    if ((position & format::index_entry::kFar) != 0) continue;
+    std::uint32_t entry = position;
+    std::size_t depth = 0;
+    while (true) {
+      if ((entry & format::index_entry::kFar) != 0) return false;
+      if (((entry ^ position) & format::index_entry::kSeamNear) != 0) return false;
+      const std::uint32_t number = entry & format::index_entry::kNumber;
+      if ((entry & format::index_entry::kRefined) == 0) {
+        if (number >= brick_count) return false;
+      } else {
+        if (number != next || next >= refined.size() || depth == open.size()) return false;
+        if (refined[next].brick >= brick_count) return false;
+        open[depth++] = {&refined[next++], 0};
+      }
+      while (depth > 0 && open[depth - 1].next_child == std::size(open[depth - 1].refined->child)) --depth;
+      if (depth == 0) break;
+      Open& parent = open[depth - 1];
+      entry = parent.refined->child[parent.next_child++];
+    }
+  }
+  return next == refined.size();
 }
 
 bool valid_bricks(std::span<const format::Brick> bricks) noexcept {
@@ -239,7 +268,8 @@ Status open_map(const Sections& sections, const MapSections& ids, format::Grid& 
   if (sections[ids.index].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
   if (sections[ids.bricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
   if (sections[ids.refined].size() != refined.size_bytes()) return Status::kImageLayout;
-  if (!valid_index(index, bricks.size(), refined.size()) || !valid_bricks(bricks)) return Status::kImageValue;
+  if (!valid_clearances(index) || !valid_entries(index, bricks.size(), refined) || !valid_bricks(bricks))
+    return Status::kImageValue;
   map = Voxelmap(grid, index, bricks, refined);
   return Status::kOk;
 }

@@ -1,6 +1,7 @@
 #include "core/scene/voxelmap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +14,10 @@ using format::kBrickNodes;
 constexpr int kStrideY = kBrickNodes;
 constexpr int kStrideZ = kBrickNodes * kBrickNodes;
 
-/// Largest error of trilinear interpolation of a 1-Lipschitz function, in voxels: half the cell's diagonal.
+/// Largest error of trilinear interpolation of a 1-Lipschitz function, in voxels: half the cell's diagonal. It holds
+/// for refinements too: nodes that carry a coarser brick's value weigh coarser nodes m, of mean x in all, so the error
+/// is at most the root of sum w_m |m - x|^2, which the halved edges leave below 3/4 (faces add 1/2, 1/8, ..., the cell
+/// itself 3/4 of its squared edge).
 constexpr double kInterpolationError = 0.8660254037844387;
 
 }  // namespace
@@ -58,6 +62,39 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   return true;
 }
 
+/// From a refined position to the cell of the octant, of the octant's octant, ... that holds the point. Gives the
+/// inverse of that cell's edge [1/m].
+double Voxelmap::descend(Cell& cell) const noexcept {
+  constexpr int kHalf = kBrickCells / 2;
+  std::array<double, 3> at = {cell.x + static_cast<double>(cell.fx), cell.y + static_cast<double>(cell.fy),
+                              cell.z + static_cast<double>(cell.fz)};  // cells of the brick; halving is exact
+  double per_cell = per_voxel_;
+  for (int level = 0; level < format::kMaxRefinement && (cell.entry & format::index_entry::kRefined) != 0; ++level) {
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const bool upper = at[axis] >= kHalf;
+      octant |= (upper ? 1u : 0u) << axis;
+      at[axis] = 2.0 * (upper ? at[axis] - kHalf : at[axis]);
+    }
+    cell.entry = refined_[cell.entry & format::index_entry::kNumber].child[octant];
+    per_cell *= 2.0;
+  }
+  // rounding to float may have moved the point onto the brick's upper face
+  cell.x = std::min(static_cast<int>(at[0]), kBrickCells - 1);
+  cell.y = std::min(static_cast<int>(at[1]), kBrickCells - 1);
+  cell.z = std::min(static_cast<int>(at[2]), kBrickCells - 1);
+  cell.fx = static_cast<float>(at[0] - cell.x);
+  cell.fy = static_cast<float>(at[1] - cell.y);
+  cell.fz = static_cast<float>(at[2] - cell.z);
+  return per_cell;
+}
+
+/// The own nodes of a position that is not far.
+const format::Brick& Voxelmap::unrefined(std::uint32_t entry) const noexcept {
+  const std::uint32_t number = entry & format::index_entry::kNumber;
+  return bricks_[(entry & format::index_entry::kRefined) != 0 ? refined_[number].brick : number];
+}
+
 double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
   return (surface_min_ - p_W).cwiseMax(p_W - surface_max_).cwiseMax(0.0).norm();
 }
@@ -78,6 +115,8 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     }
     return sample;
   }
+  double per_cell = per_voxel_;
+  if (cell.entry & format::index_entry::kRefined) per_cell = descend(cell);
   const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
   const float* v = brick.value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
   const float x00 = v[0] + cell.fx * (v[1] - v[0]);
@@ -108,7 +147,7 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   const float gy = (x10 - x00) + cell.fz * ((x11 - x01) - (x10 - x00));
   const float gz = y1 - y0;
   sample.distance = distance;
-  sample.gradient = per_voxel_ * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
+  sample.gradient = per_cell * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
   sample.known = true;
   return sample;
 }
@@ -131,8 +170,7 @@ LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {
     return sample;
   }
   const int node = cell.x + ox + kStrideY * (cell.y + oy) + kStrideZ * (cell.z + oz);
-  const double layers =
-      -static_cast<double>(bricks_[cell.entry & format::index_entry::kNumber].value[node]) * per_voxel_;
+  const double layers = -static_cast<double>(unrefined(cell.entry).value[node]) * per_voxel_;
   sample.layer = static_cast<int>(
       std::clamp(std::floor(layers + 0.5), -static_cast<double>(deepest), static_cast<double>(deepest)));
   return sample;
@@ -154,8 +192,8 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
     bound = static_cast<double>(format::index_entry::far_clearance(cell.entry)) - radius;
   } else {
     if (cell.entry & format::index_entry::kSeamNear) {
-      const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
-      if (!(radius < static_cast<double>(brick.seam_clearance))) return kNoBound;
+      // the whole position's clearance: no octant of it can be nearer
+      if (!(radius < static_cast<double>(unrefined(cell.entry).seam_clearance))) return kNoBound;
     }
     // Along the segment from the centre to any x of the ball the stored field falls by at most lipschitz_ a metre while
     // the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at least the band.

@@ -9,7 +9,8 @@
 namespace godobject {
 
 /// A compiled body, still or moving: trilinear value and gradient of signed distances stored in sparse bricks. A view;
-/// owns nothing. Real-time safe; every call looks at one brick (one index entry and at most 8 floats of it).
+/// owns nothing. Real-time safe; every call looks at one brick (one index entry, where the position is refined at most
+/// format::kMaxRefinement more entries, and at most 8 floats of the brick).
 class Voxelmap {
  public:
   Voxelmap() = default;
@@ -28,7 +29,8 @@ class Voxelmap {
   FieldSample sample(const Vector3& p_W) const noexcept;
 
   /// The paper's voxel layer v = round(-phi(C) / s) at the centre C of the voxel (node) nearest to p_W; beyond the band
-  /// that of the band's edge. Nothing more is stored for it.
+  /// that of the band's edge. Nothing more is stored for it: voxels have one size, so a refined position answers from
+  /// its own nodes.
   LayerSample layer(const Vector3& p_W) const noexcept;
 
   /// See DistanceField. Within the band from the Lipschitz constant, beyond it from the clearance kept in the brick
@@ -37,12 +39,14 @@ class Voxelmap {
 
  private:
   struct Cell {
-    std::uint32_t entry;  ///< of the brick index
+    std::uint32_t entry;  ///< of the brick index; of a refinement after `descend`
     int x, y, z;          ///< cell within the brick, 0 .. kBrickCells - 1
     float fx, fy, fz;     ///< position within the cell, 0 .. 1
   };
 
   bool locate(const Vector3& p_W, Cell& cell) const noexcept;
+  double descend(Cell& cell) const noexcept;
+  const format::Brick& unrefined(std::uint32_t entry) const noexcept;
   double distance_to_box(const Vector3& p_W) const noexcept;
 
   const std::uint32_t* index_ = nullptr;

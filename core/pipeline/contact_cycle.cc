@@ -1,0 +1,133 @@
+#include "core/pipeline/contact_cycle.h"
+
+#include <Eigen/Cholesky>
+
+namespace godobject {
+
+ContactLengths ContactLengths::make(const Parameters& q) noexcept {
+  ContactLengths lengths;
+  lengths.margin = q.margin;
+  lengths.least_margin = 0.25 * q.margin;
+  lengths.shortest_reach = 0.125 * q.voxel_size;
+  lengths.longest_reach = 1.5 * q.voxel_size;
+  lengths.largest_gain = 0.25 * q.voxel_size;
+  lengths.radius = q.mass.radius;
+  lengths.metric.gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
+  lengths.metric.tolerance = std::max(1e-3 * q.margin, 1e-6 * q.voxel_size);
+  lengths.metric.still = 1e-6 * q.voxel_size;
+  return lengths;
+}
+
+namespace detail {
+
+Selection select_rows(ContactWorkspace& workspace) noexcept {
+  constexpr std::uint32_t kDeepest = ContactRows::kCapacity / 2;
+  std::uint32_t count = 0;
+  for (const auto* near : {&workspace.samples, &workspace.features}) {
+    for (std::uint32_t k = 0; k < near->count; ++k) {
+      workspace.distances[count++] = static_cast<float>(near->point[k].distance);
+    }
+  }
+  if (count <= ContactRows::kCapacity) return {std::numeric_limits<double>::infinity(), 1};
+  float* const begin = workspace.distances.data();
+  std::nth_element(begin, begin + kDeepest, begin + count);
+  // strictly below: equal distances, as on a flat face, are spread
+  const double deepest = static_cast<double>(std::nextafter(begin[kDeepest], -std::numeric_limits<float>::infinity()));
+  const std::uint32_t room = ContactRows::kCapacity - kDeepest;
+  return {deepest, (count + room - 1) / room};
+}
+
+double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
+                     bool constrained) noexcept {
+  constexpr double kLargestTurn = 0.1;  // rad
+  const double turn = motion.rotation.norm();
+  const double travel = motion.translation.norm() + lengths.radius * turn;
+  const double room = std::max(around.left_out - lengths.margin, 0.5 * around.left_out);
+  double share = travel > room ? room / travel : 1.0;
+  if (constrained) {
+    // the rows are linear in r: half of |r|^2 R_max, what they neglect, stays within half of the reach
+    const double largest = std::min(kLargestTurn, std::sqrt(reach / lengths.radius));
+    if (share * turn > largest) share = largest / turn;
+  }
+  return share;
+}
+
+namespace {
+
+/// The damping b_D on the device's velocity along the active normals, as a change of the spring's contact forces, none
+/// of which may turn into a pull. `k` = k_D k_VC,x.
+Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velocity_W, double gyration, double k,
+               double damping_over_stiffness) noexcept {
+  Wrench out;
+  if (step.force_count == 0) return out;
+  std::array<const ContactForce*, 6> contact{};
+  Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
+  int count = 0;
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    int k_found = 0;
+    while (k_found < count && contact[static_cast<std::size_t>(k_found)]->id != step.forces[j].id) ++k_found;
+    if (k_found == count) contact[static_cast<std::size_t>(count++)] = &step.forces[j];
+    load[k_found] += step.forces[j].multiplier;
+  }
+  const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 6, 1> velocity;
+  velocity << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
+  Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int i = 0; i < count; ++i) {
+    const ContactForce& c = *contact[static_cast<std::size_t>(i)];
+    C.col(i) << c.normal, c.point.cross(c.normal) / gyration;
+  }
+  // normals may depend on each other where friction keeps them apart: a grain of regularisation
+  Eigen::Matrix<double, 6, 6> G = C.transpose() * C;
+  G.diagonal().array() += 1e-9;
+  const Eigen::Matrix<double, 6, 1> rate = G.llt().solve(C.transpose() * velocity);
+  Wrench wrench_S;
+  for (int i = 0; i < count; ++i) {
+    const ContactForce& c = *contact[static_cast<std::size_t>(i)];
+    const double change = std::max(0.0, load[i] - damping_over_stiffness * rate[i]) - load[i];
+    wrench_S.force += k * change * c.normal;
+    wrench_S.torque += k * change * c.point.cross(c.normal);
+  }
+  out.force = R_WS * wrench_S.force;
+  out.torque = R_WS * wrench_S.torque;
+  return out;
+}
+
+}  // namespace
+
+Status finish(const CycleInput& input, const ContactResult& result, bool inside, const Parameters& q, State& state,
+              CycleReport& report) noexcept {
+  const Motion stretch = coupling_stretch(input.H_WD, result.H_WS);                                // #6 (44), (45)
+  const Wrench coupling = constraint_force(stretch, q.coupling_translation, q.coupling_rotation);  // (46)
+  DeviceForce force;                                                                               // #7
+  force.spring_W.force = q.stiffness * input.H_WD.rotation._transformVector(coupling.force);
+  force.spring_W.torque = q.stiffness * input.H_WD.rotation._transformVector(coupling.torque);
+  const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
+  const Wrench damped = damping(result.step, result.H_WS, input.velocity_W, gyration,
+                                q.stiffness * q.coupling_translation, q.damping / q.stiffness);
+  force.total_W.force = force.spring_W.force + damped.force;
+  force.total_W.torque = force.spring_W.torque + damped.torque;
+  const bool finite = result.H_WS.is_finite() && force.total_W.force.allFinite() && force.total_W.torque.allFinite() &&
+                      force.spring_W.force.allFinite() && force.spring_W.torque.allFinite();
+  if (!finite) return Status::kNotFinite;
+
+  report.outcome = result.step.force_count > 0 ? Outcome::kContact : Outcome::kFree;
+  if (result.cut) report.outcome = Outcome::kCut;
+  if (result.dropped > 0) report.outcome = Outcome::kOverflow;
+  if (result.step.infeasible) report.outcome = Outcome::kInfeasible;
+  // a first pose that penetrates is reported as such, however little it does
+  if (inside || (state.inside && !state.started)) report.outcome = Outcome::kStartInside;
+  state.H_WS = result.H_WS;
+  state.contact = result.step;
+  state.inside = inside;
+  state.started = true;
+  report.H_WS = result.H_WS;
+  report.force = force;
+  report.penetration = -result.smallest;
+  report.contacts = result.step.contact_count;
+  report.substeps = result.substeps;
+  return Status::kOk;
+}
+
+}  // namespace detail
+}  // namespace godobject

@@ -1,0 +1,375 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/pipeline/contact_rows.h"
+#include "core/pipeline/cycle.h"
+#include "core/pipeline/least_constraint.h"
+#include "core/scene/field.h"
+#include "core/scene/pointshell.h"
+
+namespace godobject {
+
+/// The second direction: feature points of the still body against the moving body's distance.
+template <DistanceField BodyField>
+struct FeatureContacts {
+  const BodyField& map;      ///< in S
+  const Pointshell& points;  ///< in W, relative to `origin`
+  Vector3 origin_W = Vector3::Zero();
+};
+
+/// Memory of one cycle of `contact`; nothing in it survives the cycle. About 400 KiB, touched as far as used.
+struct ContactWorkspace {
+  /// A point that the motion of one sub-step may bring to a surface.
+  struct NearPoint {
+    std::uint32_t index;  ///< in its shell
+    double distance;      ///< stored, at the sub-step's start [m]
+    double clearance;     ///< FieldSample::clearance there [m]
+  };
+  /// Points of one direction.
+  struct NearPoints {
+    static constexpr std::uint32_t kCapacity = 8192;
+    std::array<NearPoint, kCapacity> point;
+    std::uint32_t count = 0;
+  };
+
+  ContactRows rows;
+  NearPoints samples;
+  NearPoints features;
+  std::array<float, 2 * NearPoints::kCapacity> distances;  ///< to select rows by
+};
+
+/// Lengths of the contact solver, all from the voxel edge s and the margin m.
+struct ContactLengths {
+  double margin;          ///< m: the gap that is kept
+  double least_margin;    ///< below it a gap may only grow
+  double shortest_reach;  ///< near points are those within the reach
+  double longest_reach;
+  double largest_gain;  ///< that a point which started inside moves out in a sub-step
+  double radius;        ///< R_max
+  CouplingMetric metric;
+
+  static ContactLengths make(const Parameters& q) noexcept;
+};
+
+namespace detail {
+
+/// What one sub-step knows about the surroundings at its start.
+struct Surroundings {
+  double left_out = std::numeric_limits<double>::infinity();  ///< |x| + R_max |r| up to which all other points are free
+  double smallest = std::numeric_limits<double>::infinity();  ///< stored distance of the near points
+  bool swallowed = false;     ///< a point lies inside where the field does not say which way is out
+  std::uint32_t dropped = 0;  ///< near points that found no room as rows
+};
+
+/// Identifies feature points among contacts.
+inline constexpr std::uint32_t kFeature = 1u << 31;
+
+/// A contact between a point P (in S) and a surface whose distance grows along `gradient_S` as P moves.
+struct ContactPoint {
+  Vector3 point_S;
+  Vector3 gradient_S;
+};
+
+/// Sample points: they move, the field stands in W.
+struct SampleDirection {
+  static constexpr std::uint32_t kId = 0;
+  static Pose pose(const Pose& H_WS, const Vector3&) noexcept { return H_WS; }
+  static ContactPoint contact(const Vector3& shell, const Vector3&, const Vector3& gradient,
+                              const Matrix3& R_field_shell) noexcept {
+    return {shell, R_field_shell.transpose() * gradient};
+  }
+  static double lever(const Vector3& shell, const Vector3&) noexcept { return shell.norm(); }
+};
+
+/// Feature points: they stand, the field moves with S. In S the point q moves by -(x + r x q).
+struct FeatureDirection {
+  static constexpr std::uint32_t kId = kFeature;
+  static Pose pose(const Pose& H_WS, const Vector3& origin_W) noexcept {
+    Pose H_WF;
+    H_WF.translation = origin_W;
+    return H_WS.inverse() * H_WF;
+  }
+  static ContactPoint contact(const Vector3&, const Vector3& field, const Vector3& gradient, const Matrix3&) noexcept {
+    return {field, -gradient};
+  }
+  static double lever(const Vector3&, const Vector3& field) noexcept { return field.norm(); }
+};
+
+inline Vector3 center_of(const format::Node& node) noexcept {
+  return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+          static_cast<double>(node.center[2])};
+}
+
+/// A row for a point at `distance` with the field's gradient; none where the gradient has no direction.
+inline void push_row(std::uint32_t id, const ContactPoint& contact, double distance, const ContactLengths& lengths,
+                     ContactRows& rows) noexcept {
+  constexpr double kFlat = 1e-3;
+  constexpr double kRecovery = 0.3;  // share of a lost margin that is regained at once
+  const double steepness = contact.gradient_S.norm();
+  if (!(steepness > kFlat)) return;
+  double need = (lengths.margin - distance) / steepness;
+  if (std::fabs(need) <= lengths.metric.tolerance) need = 0.0;  // it touches: what rests stays where it is
+  if (need > 0.0) need = std::min(kRecovery * need, lengths.largest_gain);
+  rows.push(id, contact.gradient_S / steepness, contact.point_S, need);
+}
+
+/// Step #1 of `contact`, one direction: all points that a motion with |x| + R_max |r| < `reach` might bring to the
+/// surface, those of them with a gradient as rows while there is room.
+template <class Direction, DistanceField Field>
+void find_near(const Field& field, const Pointshell& shell, const Pose& H, double reach, const ContactLengths& lengths,
+               ContactWorkspace::NearPoints& near, ContactRows& rows, Surroundings& around) noexcept {
+  // spheres come in single precision: they may be this much too small
+  constexpr double kRounding = 2e-6;
+  const Matrix3 R = H.rotation.toRotationMatrix();
+  const double per_radius = 1.0 / lengths.radius;
+  const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
+  near.count = 0;
+  for (std::uint32_t n = 0; n < node_count;) {
+    const format::Node& node = shell.nodes[n];
+    const Vector3 center = center_of(node);
+    const Vector3 center_field = R * center + H.translation;
+    const double radius = static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center.norm();
+    const double farthest = Direction::lever(center, center_field) + radius;
+    const double room = (field.sample(center_field).clearance - radius) / std::max(1.0, farthest * per_radius);
+    if (room >= reach) {
+      around.left_out = std::min(around.left_out, room);
+      n = node.skip;
+      continue;
+    }
+    if (node.leaf != 0) {
+      for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
+        const Vector3 p = shell.point(i);
+        const Vector3 p_field = R * p + H.translation;
+        const FieldSample sample = field.sample(p_field);
+        const double point_room = sample.clearance / std::max(1.0, Direction::lever(p, p_field) * per_radius);
+        if (point_room >= reach || near.count == ContactWorkspace::NearPoints::kCapacity) {
+          around.left_out = std::min(around.left_out, point_room);
+          around.dropped += point_room >= reach ? 0 : 1;
+          continue;
+        }
+        near.point[near.count++] = {i, sample.distance, sample.clearance};
+        around.smallest = std::min(around.smallest, sample.distance);
+        around.swallowed |= !sample.known && sample.distance < 0.0;
+        if (!sample.known) continue;
+        if (rows.full()) {
+          ++around.dropped;
+        } else {
+          push_row(Direction::kId | i, Direction::contact(p, p_field, sample.gradient, R), sample.distance, lengths,
+                   rows);
+        }
+      }
+    }
+    ++n;
+  }
+}
+
+/// Rows of the chosen near points of one direction: those not farther than `deepest`, and every `stride`-th of the
+/// others, which in the tree's order are spread over the surface.
+template <class Direction, DistanceField Field>
+void push_selected(const Field& field, const Pointshell& shell, const Pose& H, double deepest, std::uint32_t stride,
+                   const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
+                   ContactRows& rows) noexcept {
+  const Matrix3 R = H.rotation.toRotationMatrix();
+  std::uint32_t others = 0;
+  for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
+    const bool chosen = near.point[k].distance <= deepest || others++ % stride == 0;
+    if (!chosen) continue;
+    const Vector3 p = shell.point(near.point[k].index);
+    const Vector3 p_field = R * p + H.translation;
+    const FieldSample sample = field.sample(p_field);
+    if (!sample.known) continue;
+    push_row(Direction::kId | near.point[k].index, Direction::contact(p, p_field, sample.gradient, R), sample.distance,
+             lengths, rows);
+  }
+}
+
+/// Distance up to which near points are deepest (half of the rows' capacity), and the stride that spreads the rest over
+/// the other half.
+struct Selection {
+  double deepest;
+  std::uint32_t stride;
+};
+Selection select_rows(ContactWorkspace& workspace) noexcept;
+
+/// Free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it.
+template <DistanceField Field>
+bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1) noexcept {
+  constexpr int kBalls = 64;
+  const Vector3 way = p1 - p0;
+  const double length = way.norm();
+  double covered = c0;
+  for (int ball = 0; ball < kBalls; ++ball) {
+    if (covered + c1 >= length) return true;
+    const double clearance = field.sample(p0 + (covered / length) * way).clearance;
+    if (!(clearance > 0.0)) return false;
+    covered += clearance;
+  }
+  return false;
+}
+
+/// The certificate, one direction: no near point's chord from pose H0 to H1 meets the surface, and no gap shrinks below
+/// the least margin. Points that started inside are let out. `suspect`: the point that failed last, looked at first.
+template <DistanceField Field>
+bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1,
+                    const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
+                    std::uint32_t& suspect) noexcept {
+  const Matrix3 R0 = H0.rotation.toRotationMatrix();
+  const Matrix3 R1 = H1.rotation.toRotationMatrix();
+  const auto fails = [&](std::uint32_t k) noexcept {
+    const ContactWorkspace::NearPoint& start = near.point[k];
+    if (start.distance <= 0.0) return false;
+    const Vector3 p = shell.point(start.index);
+    const Vector3 p0 = R0 * p + H0.translation;
+    const Vector3 p1 = R1 * p + H1.translation;
+    if ((p1 - p0).norm() + lengths.least_margin <= start.clearance) return false;
+    const FieldSample end = field.sample(p1);
+    if (!(end.distance >= std::min(start.distance, lengths.least_margin))) return true;
+    return !chord_is_free(field, p0, start.clearance, p1, end.clearance);
+  };
+  if (suspect < near.count && fails(suspect)) return false;
+  for (std::uint32_t k = 0; k < near.count; ++k) {
+    if (!fails(k)) continue;
+    suspect = k;
+    return false;
+  }
+  return true;
+}
+
+/// Largest share of the motion that points left out and the linearisation allow.
+double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
+                     bool constrained) noexcept;
+
+/// What the sub-steps came to.
+struct ContactResult {
+  Pose H_WS;
+  ConstrainedStep step;
+  double smallest = 0.0;  ///< stored distance at the last sub-step's start
+  std::uint32_t substeps = 0;
+  std::uint32_t dropped = 0;
+  bool cut = false;
+};
+
+/// Steps #6 and #7, the finite check, and the only place where `state` changes.
+Status finish(const CycleInput& input, const ContactResult& result, bool inside, const Parameters& parameters,
+              State& state, CycleReport& report) noexcept;
+
+}  // namespace detail
+
+/// One cycle of `contact`: least-constraint motion over the contact points, in certified sub-steps; no filter.
+///
+/// Each sub-step (at most kMaxSubsteps, one in steady contact): near points and rows of both directions; the motion
+/// nearest to the device that all rows allow; shortened until no chord of any point meets a stored surface. What was
+/// shortened is gone on with.
+///
+/// Guarantee: a point whose stored distance is positive keeps it so, whatever the device does: points left out are free
+/// for the motion they are bounded for, the others' chords lie in free balls.
+///
+/// A first pose that penetrates is left by moving out along the gradients; where they contradict each other or the
+/// field does not know the way (deeper than the band), the god object goes with the device, without force, until it is
+/// free. `features` may be null. Real-time safe; times: step #1 holds every look-up, the certificate's as well.
+template <bool kFriction, DistanceField Field, DistanceField BodyField>
+Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* features,
+                     const Parameters& q, const CycleInput& input, State& state, ContactWorkspace& workspace,
+                     CycleReport& report, StepTimes* times = nullptr) noexcept {
+  using detail::FeatureDirection;
+  using detail::SampleDirection;
+  constexpr int kHalvings = 6;
+  const std::int64_t begin_ns = detail::read(times);
+  const ContactLengths lengths = ContactLengths::make(q);
+  const ContactFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio,
+                                 q.friction.viscous / (q.stiffness * q.coupling_translation * q.period)};
+  const Vector3 origin_W = features != nullptr ? features->origin_W : Vector3::Zero();
+  std::int64_t lookup_ns = 0;
+
+  detail::ContactResult result;
+  result.H_WS = state.H_WS;
+  result.step = state.contact;
+  Motion last = state.contact.motion;
+  bool inside = state.inside;
+  double reach =
+      std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
+                 lengths.shortest_reach, lengths.longest_reach);
+  do {
+    const Pose H0 = result.H_WS;
+    const Motion free = unconstrained_motion(H0, input.H_WD);  // #3 (32), (33)
+
+    const std::int64_t seek_ns = detail::read(times);  // #1
+    detail::Surroundings around;
+    workspace.rows.count = 0;
+    const Pose H0_features = FeatureDirection::pose(H0, origin_W);
+    detail::find_near<SampleDirection>(field, shell, H0, reach, lengths, workspace.samples, workspace.rows, around);
+    workspace.features.count = 0;
+    if (features != nullptr) {
+      detail::find_near<FeatureDirection>(features->map, features->points, H0_features, reach, lengths,
+                                          workspace.features, workspace.rows, around);
+    }
+    if (around.dropped > 0) {
+      const detail::Selection selection = detail::select_rows(workspace);
+      workspace.rows.count = 0;
+      detail::push_selected<SampleDirection>(field, shell, H0, selection.deepest, selection.stride, lengths,
+                                             workspace.samples, workspace.rows);
+      if (features != nullptr) {
+        detail::push_selected<FeatureDirection>(features->map, features->points, H0_features, selection.deepest,
+                                                selection.stride, lengths, workspace.features, workspace.rows);
+      }
+    }
+    lookup_ns += detail::read(times) - seek_ns;
+    result.smallest = std::min(around.smallest, around.left_out);
+    result.dropped = around.dropped;
+    inside &= around.smallest <= 0.0;
+
+    least_constraint(workspace.rows, free, lengths.metric, kFriction ? &friction : nullptr, last, result.step);  // #4
+    ++result.substeps;
+    if (inside && (around.swallowed || result.step.infeasible)) {  // nobody knows the way out: with the device
+      result.step = ConstrainedStep{};
+      result.H_WS = input.H_WD;
+      result.cut = false;
+      break;
+    }
+
+    Motion motion = result.step.motion;
+    double share = detail::allowed_share(motion, around, reach, lengths, workspace.rows.count > 0);
+    const bool follows = result.step.force_count == 0;
+    const std::int64_t check_ns = detail::read(times);  // the certificate
+    Pose H1;
+    std::uint32_t suspect_sample = 0, suspect_feature = 0;
+    int halvings = 0;
+    for (;; ++halvings) {
+      if (halvings > kHalvings) {
+        H1 = H0;
+        share = 0.0;
+        break;
+      }
+      motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
+      H1 = follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
+      const bool is_free = detail::motion_is_free(field, shell, H0, H1, lengths, workspace.samples, suspect_sample) &&
+                           (features == nullptr || detail::motion_is_free(features->map, features->points, H0_features,
+                                                                          FeatureDirection::pose(H1, origin_W), lengths,
+                                                                          workspace.features, suspect_feature));
+      if (is_free) break;
+      share *= 0.5;
+    }
+    lookup_ns += detail::read(times) - check_ns;
+    motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
+    result.step.motion = motion;
+    last = motion;
+    result.H_WS = H1;
+    result.cut = share < 1.0;
+    if (share == 0.0) break;
+    reach = std::min(2.0 * reach, lengths.longest_reach);
+  } while (result.cut && result.substeps < kMaxSubsteps);
+
+  const Status status = detail::finish(input, result, inside, q, state, report);  // #6, #7
+  if (times != nullptr) {
+    times->step1_ns = lookup_ns;
+    times->solve_ns = times->now_ns() - begin_ns - lookup_ns;
+  }
+  return status;
+}
+
+}  // namespace godobject

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/spatial/vector.h"
+
+namespace godobject {
+
+/// Linear constraints of one cycle on the motion (x, r) of the god object, in the body frame S, one a contact point:
+///     n . (x + r x P) >= need
+/// n is the unit direction in which the gap grows, P the point, need how much of it must be gained [m]; negative: how
+/// much may be lost. Single precision, one array a component: a scan over all rows is what the solver does most.
+struct ContactRows {
+  static constexpr std::uint32_t kCapacity = 2048;
+
+  std::uint32_t count = 0;
+  alignas(64) float normal_x[kCapacity];
+  alignas(64) float normal_y[kCapacity];
+  alignas(64) float normal_z[kCapacity];
+  alignas(64) float torque_x[kCapacity];  ///< P x n
+  alignas(64) float torque_y[kCapacity];
+  alignas(64) float torque_z[kCapacity];
+  alignas(64) float need[kCapacity];
+  float point_x[kCapacity];
+  float point_y[kCapacity];
+  float point_z[kCapacity];
+  std::uint32_t id[kCapacity];  ///< of the contact point, the same from cycle to cycle
+
+  bool full() const noexcept { return count == kCapacity; }
+
+  /// Not when full.
+  void push(std::uint32_t point_id, const Vector3& normal, const Vector3& point, double needed) noexcept {
+    const Vector3 torque = point.cross(normal);
+    const std::uint32_t i = count++;
+    normal_x[i] = static_cast<float>(normal.x());
+    normal_y[i] = static_cast<float>(normal.y());
+    normal_z[i] = static_cast<float>(normal.z());
+    torque_x[i] = static_cast<float>(torque.x());
+    torque_y[i] = static_cast<float>(torque.y());
+    torque_z[i] = static_cast<float>(torque.z());
+    point_x[i] = static_cast<float>(point.x());
+    point_y[i] = static_cast<float>(point.y());
+    point_z[i] = static_cast<float>(point.z());
+    need[i] = static_cast<float>(needed);
+    id[i] = point_id;
+  }
+
+  Vector3 normal(std::uint32_t i) const noexcept {
+    return {static_cast<double>(normal_x[i]), static_cast<double>(normal_y[i]), static_cast<double>(normal_z[i])};
+  }
+  Vector3 point(std::uint32_t i) const noexcept {
+    return {static_cast<double>(point_x[i]), static_cast<double>(point_y[i]), static_cast<double>(point_z[i])};
+  }
+};
+
+}  // namespace godobject

@@ -1,0 +1,190 @@
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace godobject {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// The point z nearest to a target in six dimensions that satisfies the inequalities c . z >= rhs added so far, by the
+/// dual active set method of Goldfarb and Idnani (Mathematical Programming 27, 1983) for the identity as Hessian.
+///
+/// Holds at most six inequalities, linearly independent, all met with equality, with multipliers >= 0:
+///     z = target + sum of multiplier_i c_i
+/// kept as C = Q R by Gram and Schmidt, twice: parallel, duplicated and redundant inequalities are no special case.
+/// `Tag` says what an inequality belongs to. No allocation; an addition costs about 50 ns and at most 7 exchanges.
+template <class Tag>
+class DualActiveSet {
+ public:
+  static constexpr int kCapacity = 6;
+
+  struct Inequality {
+    Vector6 gradient = Vector6::Zero();
+    double rhs = 0.0;
+    double multiplier = 0.0;
+    Tag tag{};
+  };
+
+  void start(const Vector6& target) noexcept {
+    target_ = target;
+    z_ = target;
+    size_ = 0;
+  }
+
+  const Vector6& z() const noexcept { return z_; }
+  int size() const noexcept { return size_; }
+  const Inequality& operator[](int i) const noexcept { return active_[i]; }
+  /// To change gradients and right-hand sides before `resolve`.
+  Inequality& at(int i) noexcept { return active_[i]; }
+
+  /// Puts an inequality into the set before `resolve`, as a guess that it will be active. False when full.
+  bool guess(const Inequality& inequality) noexcept {
+    if (size_ == kCapacity) return false;
+    active_[size_++] = inequality;
+    return true;
+  }
+
+  /// Solves again with all inequalities of the set as equalities; leaves out those that depend on others, then, one by
+  /// one, those with a negative multiplier.
+  void resolve() noexcept { resolve(target_); }
+
+  void resolve(const Vector6& target) noexcept {
+    target_ = target;
+    const int wanted = size_;
+    size_ = 0;
+    for (int i = 0; i < wanted; ++i) {
+      if (size_ != i) active_[size_] = active_[i];
+      if (orthogonalise(size_, active_[size_].gradient)) ++size_;
+    }
+    while (!solve_equalities()) {
+    }
+  }
+
+  /// Adds an inequality that z violates, and drops those that its multiplier drives out. False: no z satisfies it
+  /// together with the others; the set is left as it was.
+  bool add(const Inequality& inequality) noexcept {
+    const Inequality saved[kCapacity] = {active_[0], active_[1], active_[2], active_[3], active_[4], active_[5]};
+    const int saved_size = size_;
+    const double square = inequality.gradient.squaredNorm();
+    double gained = 0.0;  // multiplier of the new inequality
+    for (int exchange = 0; exchange <= kCapacity; ++exchange) {
+      Eigen::Matrix<double, kCapacity, 1> along;
+      Vector6 step = inequality.gradient;
+      project_out(step, along);
+      const double steepness = step.squaredNorm();
+      const bool dependent = size_ == kCapacity || steepness < kDependent * square;
+      Eigen::Matrix<double, kCapacity, 1> decrease;
+      back_substitute(along, decrease);
+      int leaves = -1;
+      double dual_step = 0.0;
+      for (int j = 0; j < size_; ++j) {
+        if (!(decrease[j] > 1e-12)) continue;
+        const double allowed = active_[j].multiplier / decrease[j];
+        if (leaves < 0 || allowed < dual_step) {
+          leaves = j;
+          dual_step = allowed;
+        }
+      }
+      const double violation = inequality.rhs - inequality.gradient.dot(z_);
+      const double primal_step = dependent ? 0.0 : violation / steepness;
+      if (dependent && leaves < 0) break;
+      const bool full = !dependent && (leaves < 0 || primal_step <= dual_step);
+      const double length = full ? primal_step : dual_step;
+      for (int j = 0; j < size_; ++j) active_[j].multiplier -= length * decrease[j];
+      gained += length;
+      if (!dependent) z_ += length * step;
+      if (full) {
+        active_[size_] = inequality;
+        active_[size_].multiplier = gained;
+        if (orthogonalise(size_, inequality.gradient)) ++size_;
+        for (int j = 0; j < size_; ++j)
+          active_[j].multiplier = active_[j].multiplier > 0.0 ? active_[j].multiplier : 0.0;
+        return true;
+      }
+      remove(leaves);
+    }
+    for (int j = 0; j < saved_size; ++j) active_[j] = saved[j];
+    size_ = saved_size;
+    resolve();
+    return false;
+  }
+
+ private:
+  static constexpr double kDependent = 1e-12;  // squared sine of the angle to the span of the others
+
+  /// `v` minus its part in the span; `along` = Q' v.
+  void project_out(Vector6& v, Eigen::Matrix<double, kCapacity, 1>& along) const noexcept {
+    for (int j = 0; j < size_; ++j) along[j] = 0.0;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int j = 0; j < size_; ++j) {
+        const double part = q_.col(j).dot(v);
+        v -= part * q_.col(j);
+        along[j] += part;
+      }
+    }
+  }
+
+  /// Column `k` of Q and R from the gradient; false if it depends on the columns before it.
+  bool orthogonalise(int k, const Vector6& gradient) noexcept {
+    Vector6 v = gradient;
+    Eigen::Matrix<double, kCapacity, 1> along;
+    project_out(v, along);
+    const double square = v.squaredNorm();
+    if (!(square > kDependent * gradient.squaredNorm())) return false;
+    const double length = std::sqrt(square);
+    for (int j = 0; j < k; ++j) r_(j, k) = along[j];
+    r_(k, k) = length;
+    q_.col(k) = v / length;
+    return true;
+  }
+
+  /// x = R^-1 y
+  void back_substitute(const Eigen::Matrix<double, kCapacity, 1>& y,
+                       Eigen::Matrix<double, kCapacity, 1>& x) const noexcept {
+    for (int i = size_ - 1; i >= 0; --i) {
+      double sum = y[i];
+      for (int j = i + 1; j < size_; ++j) sum -= r_(i, j) * x[j];
+      x[i] = sum / r_(i, i);
+    }
+  }
+
+  void remove(int k) noexcept {
+    for (int i = k; i + 1 < size_; ++i) active_[i] = active_[i + 1];
+    --size_;
+    const int after = size_;
+    for (size_ = k; size_ < after; ++size_) orthogonalise(size_, active_[size_].gradient);
+  }
+
+  /// R' R multiplier = rhs - C' target; drops the most negative multiplier and returns false if there is one.
+  bool solve_equalities() noexcept {
+    Eigen::Matrix<double, kCapacity, 1> y, multiplier;
+    z_ = target_;
+    for (int i = 0; i < size_; ++i) {
+      double sum = active_[i].rhs - active_[i].gradient.dot(target_);
+      for (int j = 0; j < i; ++j) sum -= r_(j, i) * y[j];
+      y[i] = sum / r_(i, i);
+      z_ += y[i] * q_.col(i);
+    }
+    back_substitute(y, multiplier);
+    int worst = -1;
+    for (int i = 0; i < size_; ++i) {
+      active_[i].multiplier = multiplier[i];
+      if (multiplier[i] < 0.0 && (worst < 0 || multiplier[i] < multiplier[worst])) worst = i;
+    }
+    if (worst < 0) return true;
+    remove(worst);
+    return false;
+  }
+
+  Vector6 target_ = Vector6::Zero();
+  Vector6 z_ = Vector6::Zero();
+  int size_ = 0;
+  Inequality active_[kCapacity];
+  Matrix6 q_ = Matrix6::Zero();
+  Matrix6 r_ = Matrix6::Zero();
+};
+
+}  // namespace godobject

@@ -1,0 +1,411 @@
+#include "core/pipeline/least_constraint.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "core/pipeline/dual_active_set.h"
+
+namespace godobject {
+namespace {
+
+constexpr std::uint32_t kNone = ~0u;
+constexpr int kMaxContacts = 12;
+
+/// A half space n . v >= need (direction zero) or (n - mu d) . v >= need - shift of the contact `contact`.
+struct Tag {
+  std::uint32_t row = kNone;
+  int contact = 0;  // with friction: index into Solver::contacts_
+  Vector3 slip = Vector3::Zero();
+};
+using ActiveSet = DualActiveSet<Tag>;
+
+/// A contact point that carries a force.
+struct Contact {
+  std::uint32_t row = kNone;
+  Vector3 normal;
+  Vector3 point;
+  double need = 0.0;
+  double ratio = 0.0;  // mu
+  double shift = 0.0;  // |slip| that the cone is shifted by
+};
+
+struct Slip {
+  double approach = 0.0;  // n . v
+  double speed = 0.0;     // |slip|
+  Vector3 direction = Vector3::Zero();
+};
+
+struct Worst {
+  std::uint32_t row = kNone;
+  double violation = 0.0;
+};
+
+class Solver {
+ public:
+  Solver(ContactRows& rows, const CouplingMetric& metric, const ContactFriction* friction, const Motion& last) noexcept
+      : rows_(rows), metric_(metric), friction_(friction), last_(last) {}
+
+  /// False: infeasible.
+  bool run(const Motion& wanted, ConstrainedStep& step) noexcept {
+    target_ << wanted.translation, metric_.gyration * wanted.rotation;
+    set_.start(transformed(target_));
+    guess(step);
+    bool feasible = true;
+    if (friction_ == nullptr) {
+      feasible = meet_rows(100);
+      take(step);
+    } else {
+      bool converged = false;
+      for (int round = 0; round < kRounds && feasible && !converged; ++round) {
+        feasible = meet_cones();
+        converged = follow_slip();
+      }
+      take(step);
+      step.unconverged = !converged;
+      release_contacts();
+      if (feasible && !converged) {
+        const Vector6 reached = motion_vector();
+        whitened_ = false;
+        set_.start(reached);
+        feasible = meet_rows(100);
+        step.motion = motion();
+      }
+    }
+    step.iterations = iterations_;
+    return feasible;
+  }
+
+ private:
+  static constexpr int kRounds = 12;
+  static constexpr int kAdditions = 40;    // a round
+  static constexpr double kSameWay = 0.9;  // cosine: a direction this near replaces the old one
+
+  // -- the six-dimensional space: z = (x, rho r), or L' z where viscous friction has made the metric H = L L'
+
+  Vector6 lifted(const Vector3& push, const Vector3& point) const noexcept {
+    Vector6 c;
+    c << push, point.cross(push) / metric_.gyration;
+    return whitened_ ? Vector6(whiten_ * c) : c;
+  }
+  Vector6 transformed(const Vector6& target) const noexcept { return whitened_ ? Vector6(whiten_ * target) : target; }
+  Vector6 motion_vector() const noexcept { return whitened_ ? Vector6(whiten_.transpose() * set_.z()) : set_.z(); }
+  Motion motion() const noexcept {
+    const Vector6 z = motion_vector();
+    return {z.head<3>(), z.tail<3>() / metric_.gyration};
+  }
+
+  // -- rows
+
+  /// The row that the motion violates most.
+  Worst worst_row(const Motion& m) const noexcept {
+    using Array = Eigen::Map<const Eigen::ArrayXf, Eigen::Aligned64>;
+    constexpr std::uint32_t kBlock = 64;
+    const Eigen::Vector3f x = m.translation.cast<float>();
+    const Eigen::Vector3f r = m.rotation.cast<float>();
+    float largest = -FLT_MAX;
+    std::uint32_t block = 0;
+    const auto violation = [&](std::uint32_t begin, std::uint32_t size) {
+      const auto n = static_cast<Eigen::Index>(size);
+      return Array(rows_.need + begin, n) -
+             (x.x() * Array(rows_.normal_x + begin, n) + x.y() * Array(rows_.normal_y + begin, n) +
+              x.z() * Array(rows_.normal_z + begin, n) + r.x() * Array(rows_.torque_x + begin, n) +
+              r.y() * Array(rows_.torque_y + begin, n) + r.z() * Array(rows_.torque_z + begin, n));
+    };
+    for (std::uint32_t begin = 0; begin < rows_.count; begin += kBlock) {
+      const float worst = violation(begin, std::min(kBlock, rows_.count - begin)).maxCoeff();
+      if (worst > largest) {
+        largest = worst;
+        block = begin;
+      }
+    }
+    Worst found;
+    found.violation = static_cast<double>(largest);
+    if (!(found.violation > metric_.tolerance)) return found;
+    Eigen::Index at = 0;
+    violation(block, std::min(kBlock, rows_.count - block)).maxCoeff(&at);
+    found.row = block + static_cast<std::uint32_t>(at);
+    return found;
+  }
+
+  bool is_active(std::uint32_t row) const noexcept {
+    for (int i = 0; i < set_.size(); ++i) {
+      if (set_[i].tag.row == row) return true;
+    }
+    return false;
+  }
+
+  ActiveSet::Inequality normal_inequality(std::uint32_t row) const noexcept {
+    ActiveSet::Inequality half_space;
+    half_space.gradient = lifted(rows_.normal(row), rows_.point(row));
+    half_space.rhs = static_cast<double>(rows_.need[row]);
+    half_space.tag.row = row;
+    return half_space;
+  }
+
+  /// Frictionless: adds rows until all are met.
+  bool meet_rows(int additions) noexcept {
+    for (int i = 0; i < additions; ++i) {
+      const Worst worst = worst_row(motion());
+      if (worst.row == kNone || is_active(worst.row)) return true;  // active: violated by rounding only
+      ++iterations_;
+      if (!set_.add(normal_inequality(worst.row))) return false;
+    }
+    return true;
+  }
+
+  // -- contacts with friction
+
+  Slip slip_of(const Contact& contact, const Motion& m) const noexcept {
+    const Vector3 v = m.translation + m.rotation.cross(contact.point);
+    Slip slip;
+    slip.approach = contact.normal.dot(v);
+    const Vector3 tangential = v - slip.approach * contact.normal;
+    slip.speed = tangential.norm();
+    if (slip.speed > metric_.still) slip.direction = tangential / slip.speed;
+    return slip;
+  }
+
+  ActiveSet::Inequality cone_inequality(int contact, const Vector3& slip) const noexcept {
+    const Contact& c = contacts_[static_cast<std::size_t>(contact)];
+    ActiveSet::Inequality half_space;
+    half_space.gradient = lifted(c.normal - c.ratio * slip, c.point);
+    half_space.rhs = c.need - c.ratio * c.shift;
+    half_space.tag = {c.row, contact, slip};
+    return half_space;
+  }
+
+  /// Takes a row out of the scan and gives it a cone; -1 if there is no room.
+  int open_contact(std::uint32_t row, double shift) noexcept {
+    if (contact_count_ == kMaxContacts) return -1;
+    Contact& c = contacts_[static_cast<std::size_t>(contact_count_)];
+    c.row = row;
+    c.normal = rows_.normal(row);
+    c.point = rows_.point(row);
+    c.need = static_cast<double>(rows_.need[row]);
+    const double moved = slip_of(c, last_).speed;
+    c.ratio = moved > metric_.still ? friction_->kinetic_ratio : friction_->static_ratio;
+    c.shift = shift < 0.0 ? moved : shift;
+    rows_.need[row] = -FLT_MAX;
+    return contact_count_++;
+  }
+
+  void release_contacts() noexcept {
+    for (int i = 0; i < contact_count_; ++i) {
+      const Contact& c = contacts_[static_cast<std::size_t>(i)];
+      rows_.need[c.row] = static_cast<float>(c.need);
+    }
+    contact_count_ = 0;
+  }
+
+  /// Contacts without a half space in the set go back to the rows.
+  void close_idle_contacts() noexcept {
+    int kept = 0;
+    for (int i = 0; i < contact_count_; ++i) {
+      const Contact c = contacts_[static_cast<std::size_t>(i)];
+      bool used = false;
+      for (int j = 0; j < set_.size(); ++j) {
+        if (set_[j].tag.contact != i) continue;
+        used = true;
+        set_.at(j).tag.contact = kept;
+      }
+      if (used) {
+        contacts_[static_cast<std::size_t>(kept++)] = c;
+      } else {
+        rows_.need[c.row] = static_cast<float>(c.need);
+      }
+    }
+    contact_count_ = kept;
+  }
+
+  /// With the shifts held: adds half spaces until all rows and cones are met.
+  bool meet_cones() noexcept {
+    for (int i = 0; i < kAdditions; ++i) {
+      const Motion m = motion();
+      Worst worst = worst_row(m);
+      int in_cone = -1;
+      Slip slip;
+      for (int k = 0; k < contact_count_; ++k) {
+        const Contact& c = contacts_[static_cast<std::size_t>(k)];
+        const Slip s = slip_of(c, m);
+        const double violation = c.need + c.ratio * (s.speed - c.shift) - s.approach;
+        if (violation > metric_.tolerance && violation > worst.violation) {
+          worst.violation = violation;
+          in_cone = k;
+          slip = s;
+        }
+      }
+      if (in_cone < 0 && worst.row == kNone) return true;
+      ++iterations_;
+      if (in_cone < 0) {
+        in_cone = open_contact(worst.row, 0.0);
+        if (in_cone < 0) return true;
+        Contact& c = contacts_[static_cast<std::size_t>(in_cone)];
+        slip = slip_of(c, m);
+        c.shift = slip.speed;
+        if (!set_.add(cone_inequality(in_cone, slip.direction))) return false;
+      } else {
+        const int single = single_half_space(in_cone);
+        if (single >= 0 && set_[single].tag.slip.dot(slip.direction) > kSameWay) {
+          set_.at(single) = cone_inequality(in_cone, slip.direction);
+          set_.resolve();
+        } else if (!set_.add(cone_inequality(in_cone, slip.direction))) {
+          return false;
+        }
+      }
+      close_idle_contacts();
+    }
+    return true;
+  }
+
+  /// The only half space of a contact, or -1.
+  int single_half_space(int contact) const noexcept {
+    int found = -1;
+    for (int j = 0; j < set_.size(); ++j) {
+      if (set_[j].tag.contact != contact) continue;
+      if (found >= 0) return -1;
+      found = j;
+    }
+    return found;
+  }
+
+  /// Shifts, ratios and directions from the motion found; true if nothing changed by more than the tolerance.
+  bool follow_slip() noexcept {
+    const Motion m = motion();
+    bool settled = true;
+    for (int k = 0; k < contact_count_; ++k) {
+      Contact& c = contacts_[static_cast<std::size_t>(k)];
+      const Slip slip = slip_of(c, m);
+      if (slip.speed > metric_.still && c.ratio > friction_->kinetic_ratio) {
+        c.ratio = friction_->kinetic_ratio;
+        settled = false;
+      }
+      settled &= c.ratio * std::fabs(slip.speed - c.shift) <= metric_.tolerance;
+      c.shift = slip.speed;
+      const int single = single_half_space(k);
+      if (single >= 0 && set_[single].tag.slip.dot(slip.direction) > kSameWay)
+        set_.at(single).tag.slip = slip.direction;
+    }
+    if (friction_->viscous_step > 0.0) settled &= follow_viscous();
+    if (settled) return true;
+    for (int j = 0; j < set_.size(); ++j) {
+      set_.at(j) = cone_inequality(set_[j].tag.contact, Vector3(set_[j].tag.slip));
+    }
+    set_.resolve(transformed(target_));
+    close_idle_contacts();
+    return false;
+  }
+
+  /// Viscous friction as part of the metric: H = I + mu_v sum of w_i T_i' T_i, w_i the contact's share of the load, T_i
+  /// the slip of the contact. True if it did not change.
+  bool follow_viscous() noexcept {
+    double load = 0.0;
+    for (int j = 0; j < set_.size(); ++j) load += set_[j].multiplier;
+    Matrix6 H = Matrix6::Identity();
+    for (int k = 0; k < contact_count_ && load > 0.0; ++k) {
+      const Contact& c = contacts_[static_cast<std::size_t>(k)];
+      double share = 0.0;
+      for (int j = 0; j < set_.size(); ++j) {
+        if (set_[j].tag.contact == k) share += set_[j].multiplier / load;
+      }
+      Matrix3 cross;  // v = x + r x P = x - P x r
+      cross << 0.0, -c.point.z(), c.point.y(), c.point.z(), 0.0, -c.point.x(), -c.point.y(), c.point.x(), 0.0;
+      Eigen::Matrix<double, 3, 6> velocity;
+      velocity << Matrix3::Identity(), -cross / metric_.gyration;
+      const Eigen::Matrix<double, 3, 6> tangential = velocity - c.normal * (c.normal.transpose() * velocity);
+      H += friction_->viscous_step * share * tangential.transpose() * tangential;
+    }
+    const bool same = whitened_ && (H - metric_matrix_).cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + friction_->viscous_step);
+    if (same) return true;
+    metric_matrix_ = H;
+    whiten_ = Eigen::LLT<Matrix6>(H).matrixL().solve(Matrix6::Identity());
+    whitened_ = true;
+    return false;
+  }
+
+  // -- from the last cycle, to the next
+
+  void guess(const ConstrainedStep& step) noexcept {
+    for (std::uint32_t i = 0; i < step.force_count; ++i) {
+      const ContactForce& force = step.forces[i];
+      const std::uint32_t* const end = rows_.id + rows_.count;
+      const std::uint32_t* const found = std::find(static_cast<const std::uint32_t*>(rows_.id), end, force.id);
+      if (found == end) continue;
+      const auto row = static_cast<std::uint32_t>(found - rows_.id);
+      if (friction_ == nullptr) {
+        set_.guess(normal_inequality(row));
+        continue;
+      }
+      int contact = -1;
+      for (int k = 0; k < contact_count_; ++k) {
+        if (contacts_[static_cast<std::size_t>(k)].row == row) contact = k;
+      }
+      if (contact < 0) contact = open_contact(row, -1.0);
+      if (contact < 0) continue;
+      const Vector3& normal = contacts_[static_cast<std::size_t>(contact)].normal;
+      Vector3 slip = force.slip - normal.dot(force.slip) * normal;
+      const double length = slip.norm();
+      slip = length > 0.5 ? Vector3(slip / length) : Vector3::Zero();
+      set_.guess(cone_inequality(contact, slip));
+    }
+    set_.resolve();
+    if (friction_ != nullptr) close_idle_contacts();
+  }
+
+  void take(ConstrainedStep& step) const noexcept {
+    step.motion = motion();
+    step.force_count = static_cast<std::uint32_t>(set_.size());
+    step.contact_count = 0;
+    for (int j = 0; j < set_.size(); ++j) {
+      ContactForce& force = step.forces[static_cast<std::size_t>(j)];
+      const std::uint32_t row = set_[j].tag.row;
+      bool counted = false;
+      for (int i = 0; i < j; ++i) counted |= set_[i].tag.row == row;
+      step.contact_count += counted ? 0 : 1;
+      force.id = rows_.id[row];
+      force.slip = set_[j].tag.slip;
+      force.point = rows_.point(row);
+      force.normal = rows_.normal(row);
+      force.ratio = friction_ == nullptr ? 0.0 : contacts_[static_cast<std::size_t>(set_[j].tag.contact)].ratio;
+      force.multiplier = set_[j].multiplier;
+    }
+  }
+
+  ContactRows& rows_;
+  const CouplingMetric& metric_;
+  const ContactFriction* friction_;
+  const Motion& last_;
+  Vector6 target_ = Vector6::Zero();
+  ActiveSet set_;
+  std::array<Contact, kMaxContacts> contacts_;
+  int contact_count_ = 0;
+  std::uint32_t iterations_ = 0;
+  bool whitened_ = false;
+  Matrix6 metric_matrix_ = Matrix6::Identity();
+  Matrix6 whiten_ = Matrix6::Identity();
+};
+
+}  // namespace
+
+void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
+                      const ContactFriction* friction, const Motion& last, ConstrainedStep& step) noexcept {
+  step.infeasible = false;
+  step.unconverged = false;
+  if (rows.count == 0) {
+    step = ConstrainedStep{};
+    step.motion = wanted;
+    return;
+  }
+  Solver solver(rows, metric, friction, last);
+  if (solver.run(wanted, step)) return;
+  for (std::uint32_t i = 0; i < rows.count; ++i) rows.need[i] = std::min(rows.need[i], 0.0f);
+  step.force_count = 0;
+  Solver again(rows, metric, friction, last);
+  again.run(wanted, step);
+  step.infeasible = true;
+}
+
+}  // namespace godobject
