@@ -105,11 +105,12 @@ inline Vector3 center_of(const format::Node& node) noexcept {
           static_cast<double>(node.center[2])};
 }
 
+inline constexpr double kFlat = 1e-3;     ///< a gradient this short has no direction
+inline constexpr double kRecovery = 0.3;  ///< share of a lost margin that is regained at once
+
 /// A row for a point at `distance` with the field's gradient; none where the gradient has no direction.
 inline void push_row(std::uint32_t id, const ContactPoint& contact, double distance, const ContactLengths& lengths,
                      ContactRows& rows) noexcept {
-  constexpr double kFlat = 1e-3;
-  constexpr double kRecovery = 0.3;  // share of a lost margin that is regained at once
   const double steepness = contact.gradient_S.norm();
   if (!(steepness > kFlat)) return;
   double need = (lengths.margin - distance) / steepness;
@@ -196,28 +197,38 @@ struct Selection {
 };
 Selection select_rows(ContactWorkspace& workspace) noexcept;
 
-/// Free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it.
+/// Where a motion was found not to be free.
+struct Obstacle {
+  std::uint32_t near = 0;  ///< number of the near point
+  double way = 1.0;        ///< share of its chord
+  FieldSample sample;      ///< there
+};
+
+/// Free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it; else the obstacle says where
+/// not.
 template <DistanceField Field>
-bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1) noexcept {
+bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1,
+                   Obstacle& obstacle) noexcept {
   constexpr int kBalls = 64;
   const Vector3 way = p1 - p0;
   const double length = way.norm();
   double covered = c0;
   for (int ball = 0; ball < kBalls; ++ball) {
     if (covered + c1 >= length) return true;
-    const double clearance = field.sample(p0 + (covered / length) * way).clearance;
-    if (!(clearance > 0.0)) return false;
-    covered += clearance;
+    obstacle.way = covered / length;
+    obstacle.sample = field.sample(p0 + obstacle.way * way);
+    if (!(obstacle.sample.clearance > 0.0)) return false;
+    covered += obstacle.sample.clearance;
   }
   return false;
 }
 
 /// The certificate, one direction: no near point's chord from pose H0 to H1 meets the surface, and no gap shrinks below
-/// the least margin. Points that started inside are let out. `suspect`: the point that failed last, looked at first.
+/// the least margin. Points that started inside are let out. The point of `obstacle` is looked at first.
 template <DistanceField Field>
 bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1,
                     const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
-                    std::uint32_t& suspect) noexcept {
+                    Obstacle& obstacle) noexcept {
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
   const auto fails = [&](std::uint32_t k) noexcept {
@@ -228,15 +239,38 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     const Vector3 p1 = R1 * p + H1.translation;
     if ((p1 - p0).norm() + lengths.least_margin <= start.clearance) return false;
     const FieldSample end = field.sample(p1);
-    if (!(end.distance >= std::min(start.distance, lengths.least_margin))) return true;
-    return !chord_is_free(field, p0, start.clearance, p1, end.clearance);
+    obstacle.near = k;
+    if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, obstacle)) return true;
+    obstacle.way = 1.0;
+    obstacle.sample = end;
+    return !(end.distance >= std::min(start.distance, lengths.least_margin));
   };
+  const std::uint32_t suspect = obstacle.near;
   if (suspect < near.count && fails(suspect)) return false;
   for (std::uint32_t k = 0; k < near.count; ++k) {
-    if (!fails(k)) continue;
-    suspect = k;
-    return false;
+    if (fails(k)) return false;
   }
+  return true;
+}
+
+/// The surface as it looks from the obstacle, as one more row of the same point: where two faces of the field meet in a
+/// valley, the gradient at the start knows only one of them. It asks for no more than the row at the start, so that
+/// resting stays possible. False if there is no room or no gradient.
+template <class Direction>
+bool push_obstacle(const Pointshell& shell, const Pose& H0, const Pose& H1, const ContactLengths& lengths,
+                   const ContactWorkspace::NearPoints& near, const Obstacle& obstacle, ContactRows& rows) noexcept {
+  if (rows.full() || !obstacle.sample.known || !(obstacle.sample.gradient.norm() > kFlat)) return false;
+  const ContactWorkspace::NearPoint& start = near.point[obstacle.near];
+  const Matrix3 R0 = H0.rotation.toRotationMatrix();
+  const Vector3 p = shell.point(start.index);
+  const Vector3 p0 = R0 * p + H0.translation;
+  const Vector3 way = obstacle.way * (H1 * p - p0);
+  const ContactPoint contact = Direction::contact(p, p0, obstacle.sample.gradient, R0);
+  const double steepness = contact.gradient_S.norm();
+  // from the obstacle back to the start the distance changes by the gradient there
+  const double need = (lengths.margin - obstacle.sample.distance + obstacle.sample.gradient.dot(way)) / steepness;
+  rows.push(Direction::kId | start.index, contact.gradient_S / steepness, contact.point_S,
+            std::min(need, std::max(0.0, kRecovery * (lengths.margin - start.distance))));
   return true;
 }
 
@@ -278,7 +312,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
                      CycleReport& report, StepTimes* times = nullptr) noexcept {
   using detail::FeatureDirection;
   using detail::SampleDirection;
-  constexpr int kHalvings = 6;
+  constexpr int kSecondLooks = 6;  // at what stood in the way
+  constexpr int kAttempts = 14;
   const std::int64_t begin_ns = detail::read(times);
   const ContactLengths lengths = ContactLengths::make(q);
   const ContactFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio,
@@ -323,7 +358,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.dropped = around.dropped;
     inside &= around.smallest <= 0.0;
 
-    least_constraint(workspace.rows, free, lengths.metric, kFriction ? &friction : nullptr, last, result.step);  // #4
+    const ContactFriction* const cone = kFriction ? &friction : nullptr;
+    least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);  // #4
     ++result.substeps;
     if (inside && (around.swallowed || result.step.infeasible)) {  // nobody knows the way out: with the device
       result.step = ConstrainedStep{};
@@ -332,30 +368,43 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       break;
     }
 
-    Motion motion = result.step.motion;
-    double share = detail::allowed_share(motion, around, reach, lengths, workspace.rows.count > 0);
-    const bool follows = result.step.force_count == 0;
-    const std::int64_t check_ns = detail::read(times);  // the certificate
+    double share = detail::allowed_share(result.step.motion, around, reach, lengths, workspace.rows.count > 0);
+    Motion motion;
     Pose H1;
-    std::uint32_t suspect_sample = 0, suspect_feature = 0;
-    int halvings = 0;
-    for (;; ++halvings) {
-      if (halvings > kHalvings) {
+    detail::Obstacle at_sample, at_feature;
+    for (int attempt = 0;; ++attempt) {
+      if (attempt == kAttempts) {
         H1 = H0;
+        motion = Motion{};
         share = 0.0;
         break;
       }
       motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
-      H1 = follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
-      const bool is_free = detail::motion_is_free(field, shell, H0, H1, lengths, workspace.samples, suspect_sample) &&
-                           (features == nullptr || detail::motion_is_free(features->map, features->points, H0_features,
-                                                                          FeatureDirection::pose(H1, origin_W), lengths,
-                                                                          workspace.features, suspect_feature));
-      if (is_free) break;
-      share *= 0.5;
+      H1 = result.step.force_count == 0 && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
+      const std::int64_t check_ns = detail::read(times);  // the certificate
+      const Pose H1_features = FeatureDirection::pose(H1, origin_W);
+      const bool samples_free = detail::motion_is_free(field, shell, H0, H1, lengths, workspace.samples, at_sample);
+      const bool features_free =
+          features == nullptr || detail::motion_is_free(features->map, features->points, H0_features, H1_features,
+                                                        lengths, workspace.features, at_feature);
+      lookup_ns += detail::read(times) - check_ns;
+      if (samples_free && features_free) break;
+      bool seen = attempt < kSecondLooks;
+      if (seen && !samples_free) {
+        seen = detail::push_obstacle<SampleDirection>(shell, H0, H1, lengths, workspace.samples, at_sample,
+                                                      workspace.rows);
+      }
+      if (seen && !features_free) {
+        seen = detail::push_obstacle<FeatureDirection>(features->points, H0_features, H1_features, lengths,
+                                                       workspace.features, at_feature, workspace.rows);
+      }
+      if (seen) {
+        least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);
+        share = detail::allowed_share(result.step.motion, around, reach, lengths, true);
+      } else {
+        share *= attempt < kSecondLooks ? 0.5 : 0.25;
+      }
     }
-    lookup_ns += detail::read(times) - check_ns;
-    motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
     result.step.motion = motion;
     last = motion;
     result.H_WS = H1;
