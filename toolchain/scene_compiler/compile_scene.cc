@@ -12,6 +12,8 @@
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/outer_surface.h"
+#include "toolchain/scene_compiler/still_features.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -52,8 +54,17 @@ std::vector<std::byte> bytes_of_one(const T& value) {
   return {bytes.begin(), bytes.end()};
 }
 
-std::vector<SectionBytes> lay_out(const CompileReport& report, const DistanceGrid& field, const MovingBody& body) {
+/// Everything that goes into the image but the provenance.
+struct SceneParts {
+  DistanceGrid field;
+  StillFeatures features;
+  DistanceGrid body_field;  ///< only with features
+};
+
+std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts& parts) {
   using format::SectionId;
+  const DistanceGrid& field = parts.field;
+  const MovingBody& body = report.body;
   format::Settings settings = report.config.settings;
   if (report.only_solver) {
     settings.solvers = 1u << static_cast<std::uint32_t>(*report.only_solver);
@@ -69,14 +80,25 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const DistanceGri
   if (!report.only_solver || report.only_solver == format::Solver::kPaper)
     sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
   sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
+  if (parts.features.points.empty()) return sections;
+  sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});
+  sections.push_back({SectionId::kBodyBrickIndex, bytes_of(parts.body_field.index)});
+  sections.push_back({SectionId::kBodyBricks, bytes_of(parts.body_field.bricks)});
+  sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
+  sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
+  sections.push_back({SectionId::kFeatureNodes, bytes_of(parts.features.nodes)});
   return sections;
+}
+
+bool has_inside(const DistanceGrid& field) {
+  return std::any_of(field.bricks.begin(), field.bricks.end(), [](const format::Brick& brick) {
+    return *std::min_element(std::begin(brick.value), std::end(brick.value)) < 0.0f;
+  });
 }
 
 /// A body that leaves no node inside would be no obstacle at all.
 void require_some_inside(const DistanceGrid& field, const std::string& mesh_name) {
-  for (const format::Brick& brick : field.bricks) {
-    if (*std::min_element(std::begin(brick.value), std::end(brick.value)) < 0.0f) return;
-  }
+  if (has_inside(field)) return;
   throw command::Failure(
       command::ExitCode::kBadData,
       fmt::format("{}: no node of the grid lies inside of it: it encloses nothing, or is smaller than a voxel; "
@@ -95,6 +117,20 @@ MovingBody sample_moving(const SceneConfig& config, const SolidSurface& surface,
   }
 }
 
+/// Whether the scene wants the second direction, and the image is for the solver that reads it.
+bool wants_features(const CompileReport& report) {
+  return report.config.both_directions &&
+         report.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
+}
+
+/// The moving mesh in its body frame.
+SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body, const SceneConfig& config) {
+  const Eigen::Isometry3d X_BM = body_pose(body).inverse();
+  TriangleMesh mesh = moving.mesh();
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = X_BM * vertex;
+  return SolidSurface(std::move(mesh), config.moving.surface, config.thickness);
+}
+
 /// The image is complete under a temporary name, read back and opened as the device does, before it gets its own.
 void write_image(const command::AlignedBytes& image, const std::filesystem::path& file) {
   command::AtomicFile output(file);
@@ -107,6 +143,21 @@ void write_image(const command::AlignedBytes& image, const std::filesystem::path
         fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
   }
   output.commit();
+}
+
+/// The second direction: feature points of the still body and the moving body's own field.
+void add_features(Phases& phases, const SolidSurface& still, const SolidSurface& moving, CompileReport& report,
+                  SceneParts& parts) {
+  const SceneConfig& config = report.config;
+  parts.features = phases.run("features", [&](const Progress&) {
+    const OuterSurface outer(still);
+    return make_still_features(outer.sharp_samples(config.between_points, format::kMaxPoints), 1.0);
+  });
+  if (parts.features.points.empty()) return;
+  parts.body_field = phases.run("body distances", [&](const Progress& p) {
+    const double band = default_band(config.body_voxel_size, config.settings.safety_distance);
+    return make_distance_grid(in_body_frame(moving, report.body.body, config), config.body_voxel_size, band, p);
+  });
 }
 
 }  // namespace
@@ -133,19 +184,21 @@ CompileReport compile_scene(const CompileRequest& request) {
   require_walls_that_last(report.thin, config.voxel_size, config.still.file.string());
 
   const double band = default_band(config.voxel_size, config.settings.safety_distance);
-  const DistanceGrid field =
+  SceneParts parts;
+  parts.field =
       phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
-  require_some_inside(field, config.still.file.string());
-  report.grid = field.grid;
-  report.seams = field.seams;
-  report.brick_positions = field.index.size();
+  require_some_inside(parts.field, config.still.file.string());
+  report.grid = parts.field.grid;
+  report.seams = parts.field.seams;
+  report.brick_positions = parts.field.index.size();
   report.body = phases.run("points", [&](const Progress& p) { return sample_moving(config, moving, p); });
+  if (wants_features(report)) add_features(phases, still, moving, report, parts);
 
-  std::vector<SectionBytes> sections = lay_out(report, field, report.body);
+  std::vector<SectionBytes> sections = lay_out(report, parts);
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
   report.field_error = phases.run("check", [&](const Progress& p) {
     const command::SceneImage image(make_image(sections), request.output.string());
-    return check_field(still, field, image.scene.voxelmap, kCheckedPoints, p);
+    return check_field(still, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });
   require_exact_nodes(report.field_error, config.voxel_size);
 

@@ -23,10 +23,8 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kCandidatesPerPoint = 6;
 constexpr std::uint32_t kLeastCandidates = 1000;
-constexpr double kEdgeCandidates = 4.0;   // per distance between points
-constexpr double kCoarsest = 8.0;         // samples of level 1
-constexpr double kLeastRefinement = 1.5;  // from level to level; keeps nodes below twice the points
-constexpr double kLeastRadius = 1e-9;     // [m], of a body of one point
+constexpr double kEdgeCandidates = 4.0;  // per distance between points
+constexpr double kLeastRadius = 1e-9;    // [m], of a body of one point
 constexpr std::uint32_t kCandidateSeed = 1;
 constexpr std::uint32_t kProbeSeed = 2;
 constexpr std::uint32_t kLeastProbes = 20000;
@@ -48,31 +46,13 @@ void check_arguments(std::uint32_t points, std::uint32_t levels) {
     throw command::Failure(command::ExitCode::kBadConfig,
                            fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
   }
-  const double deepest = std::max(1.0, 1.0 + std::floor(std::log(points / kCoarsest) / std::log(kLeastRefinement)));
+  const std::uint32_t deepest = most_levels(points);
   if (levels > deepest) {
     throw command::Failure(
         command::ExitCode::kBadConfig,
         fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
-                    levels, points, static_cast<int>(deepest),
-                    static_cast<int>(std::ceil(kCoarsest * std::pow(kLeastRefinement, levels - 1)))));
+                    levels, points, deepest, least_points(levels)));
   }
-}
-
-/// Samples of level 1 .. levels: a geometric progression from 8 to n.
-std::vector<std::uint32_t> level_sizes(std::uint32_t points, std::uint32_t levels) {
-  std::vector<std::uint32_t> sizes;
-  for (std::uint32_t k = 1; k < levels; ++k) {
-    const double exponent = static_cast<double>(k - 1) / static_cast<double>(levels - 1);
-    sizes.push_back(static_cast<std::uint32_t>(std::lround(kCoarsest * std::pow(points / kCoarsest, exponent))));
-  }
-  sizes.push_back(points);
-  return sizes;
-}
-
-std::vector<std::uint32_t> first_indices(std::size_t count) {
-  std::vector<std::uint32_t> indices;
-  for (std::uint32_t i = 0; i < count; ++i) indices.push_back(i);
-  return indices;
 }
 
 /// The samples that stay, and of them, as ascending indices, those of each level.
@@ -93,14 +73,10 @@ Sampling sample_in_levels(const OuterSurface& outer, const std::vector<std::uint
   candidates.insert(candidates.end(), sharp.begin(), sharp.end());
 
   const std::vector<std::uint32_t> kept =
-      eliminate(candidates, first_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 0.8));
+      eliminate(candidates, all_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 0.8));
   Sampling sampling;
   for (const std::uint32_t i : kept) sampling.samples.push_back(candidates[i]);
-  sampling.levels.push_back(first_indices(kept.size()));
-  for (std::size_t k = sizes.size() - 1; k > 0; --k) {
-    sampling.levels.push_back(eliminate(sampling.samples, sampling.levels.back(), spread.area, sizes[k - 1], {}));
-  }
-  std::reverse(sampling.levels.begin(), sampling.levels.end());
+  sampling.levels = nested_levels(sampling.samples, sizes, spread.area);
   return sampling;
 }
 
@@ -166,23 +142,18 @@ Eigen::Isometry3d set_mass(const BodyMesh& mesh, const std::vector<Vector3d>& po
   body.volume = moments.volume;
   body.inertia_from_points = from_points ? 1 : 0;
 
-  Eigen::Isometry3d X_MB = Eigen::Isometry3d::Identity();
-  X_MB.linear() = rotation.toRotationMatrix();
-  X_MB.translation() = moments.center;
-  return X_MB;
-}
-
-/// x[n], y[n], z[n] of values[order[0]], values[order[1]], ..
-std::vector<float> by_axis(const std::vector<Eigen::Vector3f>& values, const std::vector<std::uint32_t>& order) {
-  std::vector<float> axes;
-  axes.reserve(3 * order.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const std::uint32_t i : order) axes.push_back(values[i][axis]);
-  }
-  return axes;
+  return body_pose(body);
 }
 
 }  // namespace
+
+Eigen::Isometry3d body_pose(const format::Body& body) {
+  const double* q = body.rotation_MB;
+  Eigen::Isometry3d X_MB = Eigen::Isometry3d::Identity();
+  X_MB.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  X_MB.translation() = Eigen::Map<const Vector3d>(body.translation_MB);
+  return X_MB;
+}
 
 MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, std::uint32_t levels,
                             const std::function<void(double)>& progress) {

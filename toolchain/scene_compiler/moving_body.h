@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "core/scene/format.h"
 #include "toolchain/scene_compiler/solid_surface.h"
 
@@ -26,5 +28,8 @@ struct MovingBody {
 /// std::runtime_error naming the cure.
 MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, std::uint32_t levels,
                             const std::function<void(double)>& progress);
+
+/// Pose of the body frame B (centre of mass, principal axes) in the moving mesh's frame M, as the core reads it.
+Eigen::Isometry3d body_pose(const format::Body& body);
 
 }  // namespace godobject::scene_compiler

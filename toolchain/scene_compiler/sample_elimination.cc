@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/point_tree.h"
@@ -14,8 +15,10 @@ namespace {
 // anyway
 constexpr double kLimitFactor = 0.65;
 constexpr double kLimitExponent = 1.5;
-constexpr double kNothing = 1e-13;  // weight without neighbours, but for rounding
-constexpr double kWider = 1.5;      // growth of the radius once nobody has neighbours
+constexpr double kNothing = 1e-13;        // weight without neighbours, but for rounding
+constexpr double kCoarsest = 8.0;         // samples of level 1
+constexpr double kLeastRefinement = 1.5;  // from level to level
+constexpr double kWider = 1.5;            // growth of the radius once nobody has neighbours
 constexpr std::size_t kReportEvery = 1u << 16;
 
 /// Who crowds whom, and how much.
@@ -157,6 +160,41 @@ std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std
     chosen = crowd.survivors();
   }
   return chosen;
+}
+
+std::vector<std::uint32_t> all_indices(std::size_t count) {
+  std::vector<std::uint32_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0u);
+  return indices;
+}
+
+std::uint32_t most_levels(std::uint32_t points) {
+  const double deepest = 1.0 + std::floor(std::log(points / kCoarsest) / std::log(kLeastRefinement));
+  return static_cast<std::uint32_t>(std::max(1.0, deepest));
+}
+
+std::uint32_t least_points(std::uint32_t levels) {
+  return static_cast<std::uint32_t>(std::ceil(kCoarsest * std::pow(kLeastRefinement, levels - 1.0)));
+}
+
+std::vector<std::uint32_t> level_sizes(std::uint32_t points, std::uint32_t levels) {
+  std::vector<std::uint32_t> sizes;
+  for (std::uint32_t k = 1; k < levels; ++k) {
+    const double exponent = static_cast<double>(k - 1) / static_cast<double>(levels - 1);
+    sizes.push_back(static_cast<std::uint32_t>(std::lround(kCoarsest * std::pow(points / kCoarsest, exponent))));
+  }
+  sizes.push_back(points);
+  return sizes;
+}
+
+std::vector<std::vector<std::uint32_t>> nested_levels(std::span<const SurfaceSample> samples,
+                                                      const std::vector<std::uint32_t>& sizes, double area) {
+  std::vector<std::vector<std::uint32_t>> levels{all_indices(samples.size())};
+  for (std::size_t k = sizes.size() - 1; k > 0; --k) {
+    levels.push_back(eliminate(samples, levels.back(), area, sizes[k - 1], {}));
+  }
+  std::reverse(levels.begin(), levels.end());
+  return levels;
 }
 
 }  // namespace godobject::scene_compiler

@@ -25,4 +25,20 @@ double densest_disc_radius(double area, std::uint32_t count);
 std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen,
                                      double area, std::uint32_t count, const Progress& progress);
 
+/// 0, 1, .. count - 1.
+std::vector<std::uint32_t> all_indices(std::size_t count);
+
+/// The most hierarchy levels that `points` samples can have, and the fewest samples that `levels` need: from level to
+/// level they grow by half at least, which keeps a sphere tree's nodes below twice the points.
+std::uint32_t most_levels(std::uint32_t points);
+std::uint32_t least_points(std::uint32_t levels);
+
+/// Samples of level 1 .. levels: a geometric progression from 8 to `points`.
+std::vector<std::uint32_t> level_sizes(std::uint32_t points, std::uint32_t levels);
+
+/// Hierarchy levels of these `sizes` (ascending), each nested in the next by elimination; the last holds all samples.
+/// As ascending indices.
+std::vector<std::vector<std::uint32_t>> nested_levels(std::span<const SurfaceSample> samples,
+                                                      const std::vector<std::uint32_t>& sizes, double area);
+
 }  // namespace godobject::scene_compiler

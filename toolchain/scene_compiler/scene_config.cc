@@ -108,18 +108,22 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
 
   const TomlTable moving = table("moving");
-  moving.allow({"mesh", "scale", "points", "levels", "surface"});
+  moving.allow({"mesh", "scale", "points", "levels", "surface", "voxel_size"});
   config.moving = read_mesh(moving, folder);
+  config.body_voxel_size = moving.number("voxel_size", kVoxel, s);
   config.points = static_cast<std::uint32_t>(moving.whole_number("points", {1.0, format::kMaxPoints}, 5000));
   config.levels = static_cast<std::uint32_t>(moving.whole_number("levels", {1.0, format::kMaxLevels}, 7));
 
   format::Settings& settings = config.settings;
   const TomlTable contact = table("contact");
-  contact.allow({"solver", "safety_distance", "margin"});
+  contact.allow({"solver", "safety_distance", "margin", "both_directions", "between_points"});
   settings.default_solver = read_solver(contact);
   settings.solvers = (1u << format::kSolverCount) - 1;
   settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
   settings.margin = contact.number("margin", {1e-6 * s, s}, 0.01 * s);
+
+  config.both_directions = contact.flag("both_directions", true);
+  config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, 0.25 * s);
 
   read_friction(table("friction"), settings);
   read_paper(table("paper"), settings);

@@ -21,8 +21,11 @@ struct SceneConfig {
   double voxel_size = 0.0;  ///< s [m]
   double thickness = 0.0;   ///< of shells [m]
   Mesh moving;
+  double body_voxel_size = 0.0;  ///< of the moving body's own field [m]
   std::uint32_t points = 0;
   std::uint32_t levels = 0;
+  bool both_directions = true;  ///< feature points of the still body against the moving body's field
+  double between_points = 0.0;  ///< wanted bound of penetration that no point sees [m]
   format::Settings settings{};
 };
 

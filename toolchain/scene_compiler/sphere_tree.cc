@@ -134,4 +134,13 @@ SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
   return tree;
 }
 
+std::vector<float> by_axis(std::span<const Eigen::Vector3f> values, std::span<const std::uint32_t> order) {
+  std::vector<float> axes;
+  axes.reserve(3 * order.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::uint32_t i : order) axes.push_back(values[i][axis]);
+  }
+  return axes;
+}
+
 }  // namespace godobject::scene_compiler

@@ -22,4 +22,7 @@ struct SphereTree {
 SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
                              const std::vector<std::vector<std::uint32_t>>& levels);
 
+/// x[n], y[n], z[n] of values[order[0]], values[order[1]], ..
+std::vector<float> by_axis(std::span<const Eigen::Vector3f> values, std::span<const std::uint32_t> order);
+
 }  // namespace godobject::scene_compiler

@@ -60,6 +60,13 @@ std::int64_t TomlTable::whole_number(std::string_view key, Range range, std::int
   return value;
 }
 
+bool TomlTable::flag(std::string_view key, bool fallback) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  if (!node->is_boolean()) complain(key, "must be true or false");
+  return node->value<bool>().value_or(fallback);
+}
+
 void TomlTable::complain(std::string_view key, const std::string& what) const {
   const toml::node* node = find(key);
   const toml::source_index line = node != nullptr     ? node->source().begin.line

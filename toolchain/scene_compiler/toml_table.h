@@ -29,6 +29,7 @@ class TomlTable {
   double number(std::string_view key, Range range) const;  ///< no default
   double number(std::string_view key, Range range, double fallback) const;
   std::int64_t whole_number(std::string_view key, Range range, std::int64_t fallback) const;
+  bool flag(std::string_view key, bool fallback) const;
 
   /// "FILE:LINE: TABLE.KEY WHAT"
   [[noreturn]] void complain(std::string_view key, const std::string& what) const;
