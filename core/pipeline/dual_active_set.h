@@ -47,6 +47,11 @@ class DualActiveSet {
     return true;
   }
 
+  /// Takes one out before `resolve`.
+  void erase(int i) noexcept {
+    for (--size_; i < size_; ++i) active_[i] = active_[i + 1];
+  }
+
   /// Solves again with all inequalities of the set as equalities; leaves out those that depend on others, then, one by
   /// one, those with a negative multiplier.
   void resolve() noexcept { resolve(target_); }

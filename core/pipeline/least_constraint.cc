@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "core/pipeline/dual_active_set.h"
 
@@ -31,6 +32,8 @@ struct Contact {
   double need = 0.0;
   double ratio = 0.0;  // mu
   double shift = 0.0;  // |slip| that the cone is shifted by
+  double speed = 0.0;  // |slip| at the last Newton step
+  bool slips = false;
 };
 
 struct Slip {
@@ -59,10 +62,10 @@ class Solver {
       feasible = meet_rows(100);
       take(step);
     } else {
-      bool converged = false;
+      bool converged = polish();
       for (int round = 0; round < kRounds && feasible && !converged; ++round) {
         feasible = meet_cones();
-        converged = follow_slip();
+        converged = polish();
       }
       take(step);
       step.unconverged = !converged;
@@ -81,14 +84,18 @@ class Solver {
 
  private:
   static constexpr int kRounds = 12;
-  static constexpr int kAdditions = 40;    // a round
-  static constexpr double kSameWay = 0.9;  // cosine: a direction this near replaces the old one
+  static constexpr int kAdditions = 40;           // a round
+  static constexpr double kConeTolerance = 0.01;  // of the rows': cones are in double precision, and rest is exact
 
   // -- the six-dimensional space: z = (x, rho r), or L' z where viscous friction has made the metric H = L L'
 
-  Vector6 lifted(const Vector3& push, const Vector3& point) const noexcept {
+  Vector6 plain(const Vector3& push, const Vector3& point) const noexcept {
     Vector6 c;
     c << push, point.cross(push) / metric_.gyration;
+    return c;
+  }
+  Vector6 lifted(const Vector3& push, const Vector3& point) const noexcept {
+    const Vector6 c = plain(push, point);
     return whitened_ ? Vector6(whiten_ * c) : c;
   }
   Vector6 transformed(const Vector6& target) const noexcept { return whitened_ ? Vector6(whiten_ * target) : target; }
@@ -189,6 +196,7 @@ class Solver {
     const double moved = slip_of(c, last_).speed;
     c.ratio = moved > metric_.still ? friction_->kinetic_ratio : friction_->static_ratio;
     c.shift = shift < 0.0 ? moved : shift;
+    c.slips = false;
     rows_.need[row] = -FLT_MAX;
     return contact_count_++;
   }
@@ -225,15 +233,16 @@ class Solver {
   bool meet_cones() noexcept {
     for (int i = 0; i < kAdditions; ++i) {
       const Motion m = motion();
-      Worst worst = worst_row(m);
+      const Worst worst = worst_row(m);
+      double largest = worst.row == kNone ? kConeTolerance * metric_.tolerance : worst.violation;
       int in_cone = -1;
       Slip slip;
       for (int k = 0; k < contact_count_; ++k) {
         const Contact& c = contacts_[static_cast<std::size_t>(k)];
         const Slip s = slip_of(c, m);
         const double violation = c.need + c.ratio * (s.speed - c.shift) - s.approach;
-        if (violation > metric_.tolerance && violation > worst.violation) {
-          worst.violation = violation;
+        if (violation > largest) {
+          largest = violation;
           in_cone = k;
           slip = s;
         }
@@ -247,64 +256,171 @@ class Solver {
         slip = slip_of(c, m);
         c.shift = slip.speed;
         if (!set_.add(cone_inequality(in_cone, slip.direction))) return false;
-      } else {
-        const int single = single_half_space(in_cone);
-        if (single >= 0 && set_[single].tag.slip.dot(slip.direction) > kSameWay) {
-          set_.at(single) = cone_inequality(in_cone, slip.direction);
-          set_.resolve();
-        } else if (!set_.add(cone_inequality(in_cone, slip.direction))) {
-          return false;
-        }
+      } else if (!set_.add(cone_inequality(in_cone, slip.direction))) {
+        return false;
       }
       close_idle_contacts();
     }
     return true;
   }
 
-  /// The only half space of a contact, or -1.
-  int single_half_space(int contact) const noexcept {
-    int found = -1;
-    for (int j = 0; j < set_.size(); ++j) {
-      if (set_[j].tag.contact != contact) continue;
-      if (found >= 0) return -1;
-      found = j;
+  /// Newton's method on Coulomb's law itself, for contacts that each slip (one half space, the force opposes the slip,
+  /// the gap is met exactly) or stick (half spaces as equalities):
+  ///     z = z_d + sum f_j lambda_j,   g_j z = rhs_j,   f_j = n - mu d_j,   g_j = n (slipping) or f_j (sticking)
+  /// d_j = slip / |slip| turns with z: to first order a force -(mu lambda / |slip|) (slip across d_j), which goes into
+  /// the metric and vanishes at the solution. A contact whose force would pull leaves, the row violated most enters.
+  /// True if it ended where all is met; the half spaces, with the shifts that belong to the motion, are then the set.
+  /// Otherwise the set is the old one, with other shifts for the convex problem to go on from.
+  bool polish() noexcept {
+    constexpr int kSteps = 24;
+    const ActiveSet found = set_;
+    const std::array<Contact, kMaxContacts> found_contacts = contacts_;
+    const int found_count = contact_count_;
+    Motion m = motion();
+    for (int step = 0; step < kSteps; ++step) {
+      gather(m);
+      const Newton result = newton_step(m);
+      if (result == Newton::kFailed) break;
+      if (result != Newton::kConverged) continue;
+      const Worst worst = worst_row(m);
+      if (worst.row == kNone) {
+        const int size = set_.size();
+        for (int k = 0; k < contact_count_; ++k) {
+          Contact& c = contacts_[static_cast<std::size_t>(k)];
+          c.shift = c.speed;
+        }
+        resume();
+        if (set_.size() == size) return true;
+        break;
+      }
+      const int entering = set_.size() < ActiveSet::kCapacity ? open_contact(worst.row, 0.0) : -1;
+      if (entering < 0) break;
+      ++iterations_;
+      set_.guess(cone_inequality(entering, slip_of(contacts_[static_cast<std::size_t>(entering)], m).direction));
     }
-    return found;
-  }
-
-  /// Shifts, ratios and directions from the motion found; true if nothing changed by more than the tolerance.
-  bool follow_slip() noexcept {
-    const Motion m = motion();
-    bool settled = true;
+    release_contacts();
+    set_ = found;
+    contacts_ = found_contacts;
+    contact_count_ = found_count;
     for (int k = 0; k < contact_count_; ++k) {
       Contact& c = contacts_[static_cast<std::size_t>(k)];
-      const Slip slip = slip_of(c, m);
-      if (slip.speed > metric_.still && c.ratio > friction_->kinetic_ratio) {
-        c.ratio = friction_->kinetic_ratio;
-        settled = false;
-      }
-      settled &= c.ratio * std::fabs(slip.speed - c.shift) <= metric_.tolerance;
-      c.shift = slip.speed;
-      const int single = single_half_space(k);
-      if (single >= 0 && set_[single].tag.slip.dot(slip.direction) > kSameWay)
-        set_.at(single).tag.slip = slip.direction;
+      rows_.need[c.row] = -FLT_MAX;
+      c.shift = failures_ == 0 ? 0.0 : 0.5 * (c.shift + slip_of(c, motion()).speed);
     }
-    if (friction_->viscous_step > 0.0) settled &= follow_viscous();
-    if (settled) return true;
+    ++failures_;
+    resume();
+    return false;
+  }
+
+  /// Brings the half spaces up to date with the contacts' ratios and shifts.
+  void resume() noexcept {
     for (int j = 0; j < set_.size(); ++j) {
       set_.at(j) = cone_inequality(set_[j].tag.contact, Vector3(set_[j].tag.slip));
     }
     set_.resolve(transformed(target_));
     close_idle_contacts();
-    return false;
+  }
+
+  /// One half space a slipping contact, at its direction of slip; kinetic friction for what slips. A contact that slips
+  /// already keeps the direction that Newton's method gave it.
+  void gather(const Motion& m) noexcept {
+    for (int k = 0; k < contact_count_; ++k) {
+      Contact& c = contacts_[static_cast<std::size_t>(k)];
+      const Slip slip = slip_of(c, m);
+      const bool begins = !c.slips && slip.speed > metric_.still;
+      if (begins) {
+        c.slips = true;
+        c.speed = slip.speed;
+        c.ratio = friction_->kinetic_ratio;
+      }
+      int first = -1;
+      for (int j = 0; j < set_.size(); ++j) {
+        if (set_[j].tag.contact != k) continue;
+        if (c.slips && first >= 0) {
+          set_.at(first).multiplier += set_[j].multiplier;
+          set_.erase(j--);
+          continue;
+        }
+        if (begins) set_.at(j).tag.slip = slip.direction;
+        first = j;
+      }
+    }
+  }
+
+  enum class Newton { kConverged, kOn, kFailed };
+
+  /// From the motion `m` to the next.
+  Newton newton_step(Motion& m) noexcept {
+    using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
+    using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+    using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+    const int n = set_.size();
+    Columns F(6, n), G(6, n);
+    Column rhs(n);
+    Matrix6 H = viscous_metric();
+    for (int j = 0; j < n; ++j) {
+      const Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
+      const Vector3& slip = set_[j].tag.slip;
+      F.col(j) = plain(c.normal - c.ratio * slip, c.point);
+      G.col(j) = c.slips ? plain(c.normal, c.point) : Vector6(F.col(j));
+      rhs[j] = c.need;
+      if (c.slips) {
+        const Vector6 across = plain(c.normal.cross(slip), c.point);
+        H += (c.ratio * set_[j].multiplier / c.speed) * across * across.transpose();
+      }
+    }
+    const Eigen::LLT<Matrix6> metric(H);
+    const Columns X = metric.solve(F);
+    Vector6 z = metric.solve(target_);
+    Column multiplier(n);
+    if (n > 0) {
+      const Square S = G.transpose() * X;
+      multiplier = S.partialPivLu().solve(rhs - G.transpose() * z);
+      z += X * multiplier;
+    }
+    if (!z.allFinite()) return Newton::kFailed;
+    int pulls = -1;
+    for (int j = 0; j < n; ++j) {
+      if (multiplier[j] < 0.0 && (pulls < 0 || multiplier[j] < multiplier[pulls])) pulls = j;
+    }
+    if (pulls >= 0) {
+      set_.erase(pulls);
+      close_idle_contacts();
+      return Newton::kOn;
+    }
+    m = {z.head<3>(), z.tail<3>() / metric_.gyration};
+    Newton result = Newton::kConverged;
+    for (int j = 0; j < n; ++j) {
+      set_.at(j).multiplier = multiplier[j];
+      Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
+      const Slip slip = slip_of(c, m);
+      if (!c.slips) {
+        if (slip.speed > metric_.still) result = Newton::kOn;
+        continue;
+      }
+      // where the force of this step pointed; near rest that is known far better than the direction of slip
+      const Vector3 old = set_[j].tag.slip;
+      const double along = slip.speed * slip.direction.dot(old);
+      const Vector3 force = c.speed * old + (slip.speed * slip.direction - along * old);
+      const Vector3 direction = force.normalized();
+      const bool turned = c.ratio * multiplier[j] * (direction - slip.direction).norm() > metric_.tolerance ||
+                          c.ratio * multiplier[j] * (direction - old).norm() > metric_.tolerance;
+      if (turned) result = Newton::kOn;
+      set_.at(j).tag.slip = direction;
+      const double speed = slip.speed * slip.direction.dot(direction);
+      c.speed = speed > 0.25 * c.speed ? speed : 0.25 * c.speed;
+      if (!(c.speed > 0.25 * metric_.still)) return Newton::kFailed;  // it sticks
+    }
+    return result;
   }
 
   /// Viscous friction as part of the metric: H = I + mu_v sum of w_i T_i' T_i, w_i the contact's share of the load, T_i
-  /// the slip of the contact. True if it did not change.
-  bool follow_viscous() noexcept {
+  /// the slip of the contact.
+  Matrix6 viscous_metric() noexcept {
+    Matrix6 H = Matrix6::Identity();
+    if (!(friction_->viscous_step > 0.0)) return H;
     double load = 0.0;
     for (int j = 0; j < set_.size(); ++j) load += set_[j].multiplier;
-    Matrix6 H = Matrix6::Identity();
     for (int k = 0; k < contact_count_ && load > 0.0; ++k) {
       const Contact& c = contacts_[static_cast<std::size_t>(k)];
       double share = 0.0;
@@ -318,12 +434,9 @@ class Solver {
       const Eigen::Matrix<double, 3, 6> tangential = velocity - c.normal * (c.normal.transpose() * velocity);
       H += friction_->viscous_step * share * tangential.transpose() * tangential;
     }
-    const bool same = whitened_ && (H - metric_matrix_).cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + friction_->viscous_step);
-    if (same) return true;
-    metric_matrix_ = H;
     whiten_ = Eigen::LLT<Matrix6>(H).matrixL().solve(Matrix6::Identity());
     whitened_ = true;
-    return false;
+    return H;
   }
 
   // -- from the last cycle, to the next
@@ -383,8 +496,8 @@ class Solver {
   std::array<Contact, kMaxContacts> contacts_;
   int contact_count_ = 0;
   std::uint32_t iterations_ = 0;
+  int failures_ = 0;
   bool whitened_ = false;
-  Matrix6 metric_matrix_ = Matrix6::Identity();
   Matrix6 whiten_ = Matrix6::Identity();
 };
 
