@@ -22,6 +22,7 @@ struct DistanceGrid {
   format::Grid grid{};
   std::vector<std::uint32_t> index;
   std::vector<format::Brick> bricks;
+  std::vector<format::Refined> refined;
   SeamReport seams;
 };
 

@@ -1,0 +1,244 @@
+#include "toolchain/scene_compiler/brick_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "toolchain/scene_compiler/field_slope.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+using format::kBrickCells;
+using format::kBrickNodes;
+using format::kBrickValues;
+
+constexpr int kPositionUnits = BrickTree::kUnits * kBrickCells;
+
+int brick_units(int level) { return kPositionUnits >> level; }
+int cell_units(int level) { return BrickTree::kUnits >> level; }
+
+int position_of(int unit) { return unit >= 0 ? unit / kPositionUnits : -1; }
+
+}  // namespace
+
+BrickTree::BrickTree(const DistanceGrid& field)
+    : field_(field),
+      origin_(field.grid.origin[0], field.grid.origin[1], field.grid.origin[2]),
+      voxel_size_(field.grid.voxel_size),
+      lattice_{{field.grid.bricks[0], field.grid.bricks[1], field.grid.bricks[2]}},
+      index_(field.index),
+      places_(field.bricks.size()) {
+  for (std::size_t i = 0; i < index_.size(); ++i) {
+    if ((index_[i] & format::index_entry::kFar) != 0) continue;
+    const std::uint32_t brick = index_[i] & format::index_entry::kNumber;
+    const BrickPosition p = lattice_.position(i);
+    places_[brick] = {{kPositionUnits * p[0], kPositionUnits * p[1], kPositionUnits * p[2]}, 0, brick, false};
+  }
+}
+
+Vector3d BrickTree::low(std::uint32_t brick) const {
+  const Units& low = places_[brick].low;
+  return origin_ + voxel_size_ / kUnits * Vector3d(low[0], low[1], low[2]);
+}
+
+const format::Brick& BrickTree::exact(std::uint32_t brick) const {
+  return brick < field_.bricks.size() ? field_.bricks[brick] : fine_[brick - field_.bricks.size()].exact;
+}
+
+const format::Brick& BrickTree::stored(std::uint32_t brick) const {
+  return brick < field_.bricks.size() ? field_.bricks[brick] : fine_[brick - field_.bricks.size()].stored;
+}
+
+BrickTree::Units BrickTree::unit_cell(const Vector3d& p) const {
+  const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
+  return {static_cast<int>(std::floor(units[0])), static_cast<int>(std::floor(units[1])),
+          static_cast<int>(std::floor(units[2]))};
+}
+
+BrickTree::Leaf BrickTree::find(const Units& unit_cell) const {
+  const BrickPosition position = {position_of(unit_cell[0]), position_of(unit_cell[1]), position_of(unit_cell[2])};
+  if (!lattice_.contains(position)) return {};
+  std::uint32_t entry = index_[lattice_.number(position)];
+  if ((entry & format::index_entry::kFar) != 0) return {};
+  int level = 0;
+  while ((entry & format::index_entry::kRefined) != 0) {
+    const int half = brick_units(level + 1);
+    int octant = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) octant |= (unit_cell[axis] / half & 1) << axis;
+    entry = refined_[entry & format::index_entry::kNumber].child[octant];
+    ++level;
+  }
+  return {entry & format::index_entry::kNumber, level};
+}
+
+double BrickTree::interpolate(std::uint32_t brick, const std::array<double, 3>& units) const {
+  const Place& place = places_[brick];
+  const float* corner = stored(brick).value;
+  std::array<double, 3> at{};
+  constexpr std::array<int, 3> kStride = {1, kBrickNodes, kBrickNodes * kBrickNodes};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double cells = (units[axis] - place.low[axis]) / cell_units(place.level);
+    const int cell = std::clamp(static_cast<int>(cells), 0, kBrickCells - 1);
+    at[axis] = cells - cell;
+    corner += kStride[axis] * cell;
+  }
+  double sum = 0.0;
+  for (int c = 0; c < 8; ++c) {
+    const double weight = ((c & 1) != 0 ? at[0] : 1.0 - at[0]) * ((c & 2) != 0 ? at[1] : 1.0 - at[1]) *
+                          ((c & 4) != 0 ? at[2] : 1.0 - at[2]);
+    sum +=
+        weight * static_cast<double>(corner[kStride[0] * (c & 1) + kStride[1] * (c >> 1 & 1) + kStride[2] * (c >> 2)]);
+  }
+  return sum;
+}
+
+double BrickTree::interpolate(const Leaf& leaf, const Vector3d& p) const {
+  const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
+  return interpolate(leaf.brick, {units[0], units[1], units[2]});
+}
+
+std::size_t BrickTree::responsible(const Leaf& leaf, const Vector3d& p,
+                                   std::array<std::uint32_t, kMostResponsible>& bricks) const {
+  constexpr double kTouching = 1e-6;  // cells
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t brick) {
+    const auto end = bricks.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::find(bricks.begin(), end, brick) == end) bricks[count++] = brick;
+  };
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
+    const Leaf holding = find(unit_cell(p + kTouching * cell_edge(leaf.level) * side));
+    if (holding.brick != kNone) add(holding.brick);
+    const Leaf near = find(unit_cell(p + (1.0 + kTouching) * cell_edge(leaf.level) * side));
+    if (near.brick != kNone && near.level < leaf.level) add(near.brick);
+  }
+  return count;
+}
+
+std::array<BrickTree::Leaf, 8> BrickTree::leaves_about(std::uint32_t brick) const {
+  const Place& place = places_[brick];
+  std::array<Leaf, 8> leaves;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    Units cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cell[axis] = place.low[axis] + ((corner >> axis & 1) != 0 ? brick_units(place.level) : -1);
+    }
+    leaves[corner] = find(cell);
+  }
+  return leaves;
+}
+
+std::uint32_t& BrickTree::entry_of(std::uint32_t brick) {
+  const Place& place = places_[brick];
+  std::uint32_t* entry = &index_[lattice_.number(
+      {place.low[0] / kPositionUnits, place.low[1] / kPositionUnits, place.low[2] / kPositionUnits})];
+  for (int level = 0; level < place.level; ++level) {
+    const int half = brick_units(level + 1);
+    int octant = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) octant |= (place.low[axis] / half & 1) << axis;
+    entry = &refined_[*entry & format::index_entry::kNumber].child[octant];
+  }
+  return *entry;
+}
+
+void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants) {
+  std::uint32_t& entry = entry_of(brick);
+  const std::uint32_t seam_near = entry & format::index_entry::kSeamNear;
+  entry = seam_near | format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
+  places_[brick].halved = true;
+  const Place parent = places_[brick];
+  format::Refined refined{};
+  refined.brick = brick;
+  for (std::size_t octant = 0; octant < 8; ++octant) {
+    Place place = {parent.low, parent.level + 1, parent.root, false};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((octant >> axis & 1) != 0) place.low[axis] += brick_units(place.level);
+    }
+    refined.child[octant] = seam_near | brick_count();
+    places_.push_back(place);
+    fine_.push_back({octants[octant], octants[octant]});
+  }
+  refined_.push_back(refined);
+}
+
+/// Of the leaves that touch a node; a position that is not stored counts as coarse, with the values of `root`.
+BrickTree::Leaf BrickTree::coarsest_about(const Units& node, std::uint32_t root) const {
+  Leaf coarsest{kNone, format::kMaxRefinement + 1};
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    Units cell = node;
+    for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] -= (corner >> axis & 1) != 0 ? 0 : 1;
+    const Leaf leaf = find(cell);
+    if (leaf.brick == kNone) return {root, 0};
+    if (leaf.level < coarsest.level) coarsest = leaf;
+  }
+  return coarsest;
+}
+
+void BrickTree::join_brick(std::uint32_t brick) {
+  const Place& place = places_[brick];
+  Fine& fine = fine_[brick - field_.bricks.size()];
+  fine.stored = fine.exact;
+  const std::array<Leaf, 8> about = leaves_about(brick);
+  const auto coarser = [&place](const Leaf& leaf) { return leaf.brick == kNone || leaf.level < place.level; };
+  if (std::none_of(about.begin(), about.end(), coarser)) return;
+  for (int i = 0; i < kBrickValues; ++i) {
+    const std::array<int, 3> node = {i % kBrickNodes, i / kBrickNodes % kBrickNodes, i / (kBrickNodes * kBrickNodes)};
+    const bool outer = std::any_of(node.begin(), node.end(), [](int n) { return n % kBrickCells == 0; });
+    if (!outer) continue;
+    Units at{};
+    for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = place.low[axis] + cell_units(place.level) * node[axis];
+    const Leaf leaf = coarsest_about(at, place.root);
+    if (leaf.level >= place.level) continue;
+    fine.stored.value[i] = static_cast<float>(
+        interpolate(leaf.brick, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])}));
+  }
+}
+
+void BrickTree::join() {
+  for (int level = 1; level <= format::kMaxRefinement; ++level) {
+    std::vector<std::uint32_t> bricks;
+    for (std::uint32_t b = 0; b < brick_count(); ++b) {
+      if (places_[b].level == level) bricks.push_back(b);
+    }
+    parallel_for(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
+  }
+}
+
+std::uint32_t BrickTree::write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const {
+  if ((entry & format::index_entry::kRefined) == 0) return entry;
+  const format::Refined& from = refined_[entry & format::index_entry::kNumber];
+  const auto number = static_cast<std::uint32_t>(refined.size());
+  refined.push_back(from);
+  for (std::size_t octant = 0; octant < 8; ++octant) {
+    const std::uint32_t child = write_entry(from.child[octant], refined);
+    refined[number].child[octant] = child;
+  }
+  return (entry & ~format::index_entry::kNumber) | number;
+}
+
+void BrickTree::write(DistanceGrid& field) const {
+  FieldSlope positions(voxel_size_);
+  double steepest = 0.0;  // of the refined
+  for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    if (places_[b].halved) continue;
+    if (places_[b].level == 0) {
+      positions.add(stored(b));
+      continue;
+    }
+    FieldSlope slope(cell_edge(places_[b].level));
+    slope.add(stored(b));
+    steepest = std::max(steepest, slope.largest_with_seams());
+  }
+  field.grid.lipschitz = std::max(positions.largest(), steepest);
+  field.grid.lipschitz_seam = std::max(positions.largest_with_seams(), steepest);
+  field.refined.clear();
+  for (std::size_t i = 0; i < index_.size(); ++i) {
+    if ((index_[i] & format::index_entry::kFar) == 0) field.index[i] = write_entry(index_[i], field.refined);
+  }
+  field.bricks.reserve(field.bricks.size() + fine_.size());
+  for (const Fine& fine : fine_) field.bricks.push_back(fine.stored);
+  field.grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
+}
+
+}  // namespace godobject::scene_compiler

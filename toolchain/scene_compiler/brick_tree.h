@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "toolchain/scene_compiler/brick_lattice.h"
+#include "toolchain/scene_compiler/distance_grid.h"
+
+namespace godobject::scene_compiler {
+
+/// The bricks of a field while they are halved. Bricks are numbered: first those of the field, then octants in the
+/// order in which they were made. Places are counted in cells of the finest level ("units") from the lattice's origin.
+class BrickTree {
+ public:
+  static constexpr std::uint32_t kNone = ~0u;
+  static constexpr int kUnits = 1 << format::kMaxRefinement;  ///< along a voxel
+
+  static constexpr std::size_t kMostResponsible = 16;
+
+  using Units = std::array<int, 3>;
+
+  /// A brick that is not halved; kNone at a position that is not stored.
+  struct Leaf {
+    std::uint32_t brick = kNone;
+    int level = 0;
+  };
+
+  /// `field`, which must have no refinement yet, must outlive the tree and keep still until `write`.
+  explicit BrickTree(const DistanceGrid& field);
+
+  std::uint32_t brick_count() const { return static_cast<std::uint32_t>(places_.size()); }
+  int level(std::uint32_t brick) const { return places_[brick].level; }
+  std::uint32_t root(std::uint32_t brick) const { return places_[brick].root; }
+  bool is_leaf(std::uint32_t brick) const { return !places_[brick].halved; }
+  Eigen::Vector3d low(std::uint32_t brick) const;
+  double cell_edge(int level) const { return voxel_size_ / (1 << level); }
+
+  /// Its nodes as they are, and as `join` made them.
+  const format::Brick& exact(std::uint32_t brick) const;
+  const format::Brick& stored(std::uint32_t brick) const;
+
+  Units unit_cell(const Eigen::Vector3d& p) const;
+  Leaf find(const Units& unit_cell) const;
+
+  /// Trilinear interpolation of the stored nodes of `leaf`, which holds p [m].
+  double interpolate(const Leaf& leaf, const Eigen::Vector3d& p) const;
+
+  /// What must be halved for a better value at p in `leaf`: all leaves that hold p, and coarser ones within a cell,
+  /// whose values the nodes around p may have to carry.
+  std::size_t responsible(const Leaf& leaf, const Eigen::Vector3d& p,
+                          std::array<std::uint32_t, kMostResponsible>& bricks) const;
+
+  /// The leaves at the eight corners about a brick, outside of it: every leaf coarser than it that touches it is one.
+  std::array<Leaf, 8> leaves_about(std::uint32_t brick) const;
+
+  void halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants);
+
+  /// Makes the field continuous: nodes that touch something coarser take its value. Coarse to fine.
+  void join();
+
+  /// Into the field that the tree was made of; refinements numbered as the format wants them.
+  void write(DistanceGrid& field) const;
+
+ private:
+  struct Place {
+    Units low;
+    int level;
+    std::uint32_t root;  ///< brick of the whole position
+    bool halved;
+  };
+  struct Fine {
+    format::Brick exact, stored;
+  };
+
+  Leaf coarsest_about(const Units& node, std::uint32_t root) const;
+  void join_brick(std::uint32_t brick);
+  double interpolate(std::uint32_t brick, const std::array<double, 3>& units) const;
+  std::uint32_t& entry_of(std::uint32_t brick);
+  std::uint32_t write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const;
+
+  const DistanceGrid& field_;
+  Eigen::Vector3d origin_;
+  double voxel_size_;
+  BrickLattice lattice_;
+  std::vector<std::uint32_t> index_;
+  std::vector<format::Refined> refined_;
+  std::vector<Place> places_;
+  std::vector<Fine> fine_;  ///< of the octants
+};
+
+}  // namespace godobject::scene_compiler
