@@ -75,6 +75,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
   sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
   sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
+  if (!field.refined.empty()) sections.push_back({SectionId::kRefined, bytes_of(field.refined)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
   if (!report.only_solver || report.only_solver == format::Solver::kPaper)
@@ -188,6 +189,9 @@ CompileReport compile_scene(const CompileRequest& request) {
   parts.field =
       phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
   require_some_inside(parts.field, config.still.file.string());
+  report.refinement = phases.run("sharp edges", [&](const Progress& p) {
+    return refine(parts.field, still, config.field_tolerance * config.voxel_size, p);
+  });
   report.grid = parts.field.grid;
   report.seams = parts.field.seams;
   report.brick_positions = parts.field.index.size();

@@ -11,6 +11,7 @@
 #include "toolchain/scene_compiler/field_check.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 #include "toolchain/scene_compiler/moving_body.h"
+#include "toolchain/scene_compiler/refinement.h"
 #include "toolchain/scene_compiler/scene_config.h"
 #include "toolchain/scene_compiler/scene_image.h"
 #include "toolchain/scene_compiler/thin_places.h"
@@ -38,6 +39,7 @@ struct CompileReport {
   MeshFacts moving;
   ThinReport thin;
   format::Grid grid{};
+  RefinementReport refinement;
   SeamReport seams;
   std::uint64_t brick_positions = 0;
   MovingBody body;  ///< its arrays are moved into the image

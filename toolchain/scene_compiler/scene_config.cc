@@ -101,11 +101,12 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   SceneConfig config;
 
   const TomlTable still = table("still");
-  still.allow({"mesh", "scale", "voxel_size", "surface", "thickness"});
+  still.allow({"mesh", "scale", "voxel_size", "surface", "thickness", "field_tolerance"});
   config.still = read_mesh(still, folder);
   config.voxel_size = still.number("voxel_size", kVoxel);
   const double s = config.voxel_size;
   config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
+  config.field_tolerance = still.number("field_tolerance", {1e-3, 1e3}, 0.05);
 
   const TomlTable moving = table("moving");
   moving.allow({"mesh", "scale", "points", "levels", "surface", "voxel_size"});

@@ -24,7 +24,8 @@ Example:
   godobject-scenec teapot.toml -o teapot.scene --report teapot.json
 
 A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
-  [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s]
+  [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s],
+              field_tolerance at the surface, in voxels [0.05; large: bricks are never refined]
   [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s]
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
               both_directions [true]: also points of the still body against the moving body's field,
