@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "core/pipeline/dual_active_set.h"
 
@@ -47,6 +47,41 @@ struct Worst {
   double violation = 0.0;
 };
 
+/// A few linear equations, solved in place by Gauss' elimination with row pivoting.
+template <std::size_t kMost>
+struct SmallSystem {
+  int size = 0;
+  double matrix[kMost][kMost];
+  double rhs[kMost];  // then the solution
+
+  /// False if singular.
+  bool solve() noexcept {
+    constexpr double kSingular = 1e-14;
+    for (int k = 0; k < size; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < size; ++i) {
+        if (std::fabs(matrix[i][k]) > std::fabs(matrix[pivot][k])) pivot = i;
+      }
+      if (!(std::fabs(matrix[pivot][k]) > kSingular)) return false;
+      if (pivot != k) {
+        for (int j = k; j < size; ++j) std::swap(matrix[k][j], matrix[pivot][j]);
+        std::swap(rhs[k], rhs[pivot]);
+      }
+      const double inverse = 1.0 / matrix[k][k];
+      for (int i = k + 1; i < size; ++i) {
+        const double factor = matrix[i][k] * inverse;
+        for (int j = k + 1; j < size; ++j) matrix[i][j] -= factor * matrix[k][j];
+        rhs[i] -= factor * rhs[k];
+      }
+    }
+    for (int k = size - 1; k >= 0; --k) {
+      for (int j = k + 1; j < size; ++j) rhs[k] -= matrix[k][j] * rhs[j];
+      rhs[k] /= matrix[k][k];
+    }
+    return true;
+  }
+};
+
 class Solver {
  public:
   Solver(ContactRows& rows, const CouplingMetric& metric, const ContactFriction* friction, const Motion& last) noexcept
@@ -83,8 +118,8 @@ class Solver {
   }
 
  private:
-  static constexpr int kRounds = 12;
-  static constexpr int kAdditions = 40;           // a round
+  static constexpr int kRounds = 5;
+  static constexpr int kAdditions = 24;           // a round
   static constexpr double kConeTolerance = 0.01;  // of the rows': cones are in double precision, and rest is exact
 
   // -- the six-dimensional space: z = (x, rho r), or L' z where viscous friction has made the metric H = L L'
@@ -272,7 +307,7 @@ class Solver {
   /// True if it ended where all is met; the half spaces, with the shifts that belong to the motion, are then the set.
   /// Otherwise the set is the old one, with other shifts for the convex problem to go on from.
   bool polish() noexcept {
-    constexpr int kSteps = 24;
+    constexpr int kSteps = 14;
     const ActiveSet found = set_;
     const std::array<Contact, kMaxContacts> found_contacts = contacts_;
     const int found_count = contact_count_;
@@ -349,35 +384,50 @@ class Solver {
 
   enum class Newton { kConverged, kOn, kFailed };
 
-  /// From the motion `m` to the next.
+  /// From the motion `m` to the next. Unknowns: the multipliers, and for each slipping contact the force tau across its
+  /// slip, with tau = -(mu lambda / |slip|) (slip across).
   Newton newton_step(Motion& m) noexcept {
-    using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
-    using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-    using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+    constexpr std::size_t kMost = 2 * ActiveSet::kCapacity;
     const int n = set_.size();
-    Columns F(6, n), G(6, n);
-    Column rhs(n);
-    Matrix6 H = viscous_metric();
+    if (friction_->viscous_step > 0.0) follow_viscous();
+    const Vector6 target = transformed(target_);
+    std::array<Vector6, kMost> force;  // of unit size, in columns
+    std::array<Vector6, ActiveSet::kCapacity> row;
+    SmallSystem<kMost> system;
+    system.size = n;
+    std::array<int, ActiveSet::kCapacity> across{};  // column of tau
+    std::array<double, ActiveSet::kCapacity> compliance{};
     for (int j = 0; j < n; ++j) {
+      const auto at = static_cast<std::size_t>(j);
       const Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
       const Vector3& slip = set_[j].tag.slip;
-      F.col(j) = plain(c.normal - c.ratio * slip, c.point);
-      G.col(j) = c.slips ? plain(c.normal, c.point) : Vector6(F.col(j));
-      rhs[j] = c.need;
-      if (c.slips) {
-        const Vector6 across = plain(c.normal.cross(slip), c.point);
-        H += (c.ratio * set_[j].multiplier / c.speed) * across * across.transpose();
+      force[at] = lifted(c.normal - c.ratio * slip, c.point);
+      row[at] = c.slips ? lifted(c.normal, c.point) : force[at];
+      across[at] = -1;
+      const double stiffness = c.ratio * set_[j].multiplier;
+      if (c.slips && stiffness > 0.0) {
+        across[at] = system.size;
+        compliance[at] = c.speed / stiffness;
+        force[static_cast<std::size_t>(system.size++)] = lifted(c.normal.cross(slip), c.point);
       }
     }
-    const Eigen::LLT<Matrix6> metric(H);
-    const Columns X = metric.solve(F);
-    Vector6 z = metric.solve(target_);
-    Column multiplier(n);
-    if (n > 0) {
-      const Square S = G.transpose() * X;
-      multiplier = S.partialPivLu().solve(rhs - G.transpose() * z);
-      z += X * multiplier;
+    for (int j = 0; j < n; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
+      for (int k = 0; k < system.size; ++k) system.matrix[j][k] = row[at].dot(force[static_cast<std::size_t>(k)]);
+      system.rhs[j] = c.need - row[at].dot(target);
+      if (across[at] < 0) continue;
+      const int i = across[at];
+      const Vector6& e = force[static_cast<std::size_t>(i)];
+      for (int k = 0; k < system.size; ++k) system.matrix[i][k] = e.dot(force[static_cast<std::size_t>(k)]);
+      system.matrix[i][i] += compliance[at];
+      system.rhs[i] = -e.dot(target);
     }
+    if (!system.solve()) return Newton::kFailed;
+    Vector6 z = target;
+    for (int k = 0; k < system.size; ++k) z += system.rhs[k] * force[static_cast<std::size_t>(k)];
+    if (whitened_) z = whiten_.transpose() * z;
+    const double* const multiplier = system.rhs;
     if (!z.allFinite()) return Newton::kFailed;
     int pulls = -1;
     for (int j = 0; j < n; ++j) {
@@ -388,6 +438,10 @@ class Solver {
       close_idle_contacts();
       return Newton::kOn;
     }
+    // a motion that stands still is found, whatever direction a slip of nanometres may have
+    const bool settled =
+        (z.head<3>() - m.translation).squaredNorm() + (z.tail<3>() - metric_.gyration * m.rotation).squaredNorm() <=
+        metric_.tolerance * metric_.tolerance;
     m = {z.head<3>(), z.tail<3>() / metric_.gyration};
     Newton result = Newton::kConverged;
     for (int j = 0; j < n; ++j) {
@@ -395,32 +449,31 @@ class Solver {
       Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
       const Slip slip = slip_of(c, m);
       if (!c.slips) {
-        if (slip.speed > metric_.still) result = Newton::kOn;
+        if (slip.speed > metric_.still && !settled) result = Newton::kOn;
         continue;
       }
       // where the force of this step pointed; near rest that is known far better than the direction of slip
       const Vector3 old = set_[j].tag.slip;
       const double along = slip.speed * slip.direction.dot(old);
-      const Vector3 force = c.speed * old + (slip.speed * slip.direction - along * old);
-      const Vector3 direction = force.normalized();
+      const Vector3 pull = c.speed * old + (slip.speed * slip.direction - along * old);
+      const Vector3 direction = pull.normalized();
       const bool turned = c.ratio * multiplier[j] * (direction - slip.direction).norm() > metric_.tolerance ||
                           c.ratio * multiplier[j] * (direction - old).norm() > metric_.tolerance;
-      if (turned) result = Newton::kOn;
+      if (turned && !settled) result = Newton::kOn;
       set_.at(j).tag.slip = direction;
       const double speed = slip.speed * slip.direction.dot(direction);
       c.speed = speed > 0.25 * c.speed ? speed : 0.25 * c.speed;
-      if (!(c.speed > 0.25 * metric_.still)) return Newton::kFailed;  // it sticks
+      if (!settled && !(c.speed > 0.25 * metric_.still)) return Newton::kFailed;  // it sticks
     }
     return result;
   }
 
   /// Viscous friction as part of the metric: H = I + mu_v sum of w_i T_i' T_i, w_i the contact's share of the load, T_i
   /// the slip of the contact.
-  Matrix6 viscous_metric() noexcept {
-    Matrix6 H = Matrix6::Identity();
-    if (!(friction_->viscous_step > 0.0)) return H;
+  void follow_viscous() noexcept {
     double load = 0.0;
     for (int j = 0; j < set_.size(); ++j) load += set_[j].multiplier;
+    Matrix6 H = Matrix6::Identity();
     for (int k = 0; k < contact_count_ && load > 0.0; ++k) {
       const Contact& c = contacts_[static_cast<std::size_t>(k)];
       double share = 0.0;
@@ -436,7 +489,6 @@ class Solver {
     }
     whiten_ = Eigen::LLT<Matrix6>(H).matrixL().solve(Matrix6::Identity());
     whitened_ = true;
-    return H;
   }
 
   // -- from the last cycle, to the next
