@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "core/pipeline/contact_rows.h"
+#include "core/pipeline/least_constraint.h"
+
+namespace godobject::test {
+
+using SixVector = Eigen::Matrix<double, 6, 1>;
+
+/// Slow, simple solutions of the contact problem in z = (x, rho r), to compare the solver with. They take the rows' own
+/// single-precision numbers.
+struct SlowContact {
+  Eigen::Matrix<double, 3, 6> velocity;  ///< of the point: x + r x P
+  Vector3 normal;
+  SixVector gradient;  ///< of normal . velocity as the rows have it
+  double need = 0.0;
+};
+
+inline std::vector<SlowContact> slow_contacts(const ContactRows& rows, double gyration) {
+  std::vector<SlowContact> contacts(rows.count);
+  for (std::uint32_t i = 0; i < rows.count; ++i) {
+    SlowContact& c = contacts[i];
+    const Vector3 p(rows.point_x[i], rows.point_y[i], rows.point_z[i]);
+    Matrix3 turn;
+    turn << 0.0, p.z(), -p.y(), -p.z(), 0.0, p.x(), p.y(), -p.x(), 0.0;
+    c.velocity << Matrix3::Identity(), turn / gyration;
+    c.normal = Vector3(rows.normal_x[i], rows.normal_y[i], rows.normal_z[i]);
+    c.gradient << c.normal, Vector3(rows.torque_x[i], rows.torque_y[i], rows.torque_z[i]) / gyration;
+    c.need = static_cast<double>(rows.need[i]);
+  }
+  return contacts;
+}
+
+/// The point nearest to `target` with gradient . z >= need for all contacts, by trying every subset of up to six of
+/// them as equalities; none if there is no such point. For up to about 12 contacts.
+inline std::optional<SixVector> nearest_by_enumeration(const SixVector& target,
+                                                       const std::vector<SlowContact>& contacts, double tolerance) {
+  const auto count = static_cast<int>(contacts.size());
+  std::optional<SixVector> best;
+  for (unsigned subset = 0; subset < 1u << count; ++subset) {
+    std::vector<int> members;
+    for (int i = 0; i < count; ++i) {
+      if ((subset >> i & 1u) != 0u) members.push_back(i);
+    }
+    const auto size = static_cast<Eigen::Index>(members.size());
+    if (size > 6) continue;
+    Eigen::MatrixXd A(size, 6);
+    Eigen::VectorXd b(size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const SlowContact& c = contacts[static_cast<std::size_t>(members[static_cast<std::size_t>(k)])];
+      A.row(k) = c.gradient.transpose();
+      b[k] = c.need;
+    }
+    SixVector z = target;
+    if (size > 0) {
+      const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(A);
+      z += decomposition.solve(b - A * target);
+    }
+    bool meets_all = true;
+    for (const SlowContact& c : contacts) meets_all &= c.gradient.dot(z) >= c.need - tolerance;
+    if (meets_all && (!best || (z - target).norm() < (*best - target).norm())) best = z;
+  }
+  return best;
+}
+
+/// The same for any number of contacts by Hildreth's method, coordinate ascent on the multipliers; none if it has not
+/// settled to `settled` after `sweeps`.
+inline std::optional<SixVector> nearest_by_ascent(const SixVector& target, const std::vector<SlowContact>& contacts,
+                                                  double settled, int sweeps) {
+  std::vector<double> multiplier(contacts.size(), 0.0);
+  SixVector z = target;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const SlowContact& c = contacts[i];
+      const double change = std::max(-multiplier[i], (c.need - c.gradient.dot(z)) / c.gradient.squaredNorm());
+      multiplier[i] += change;
+      z += change * c.gradient;
+      largest = std::max(largest, std::fabs(change));
+    }
+    if (largest < settled) return z;
+  }
+  return std::nullopt;
+}
+
+/// Projection of a force on the cone |t| <= ratio n.
+inline Vector3 on_cone(const Vector3& force, const Vector3& normal, double ratio) {
+  const double n = normal.dot(force);
+  const Vector3 t = force - n * normal;
+  const double size = t.norm();
+  if (size <= ratio * n) return force;
+  if (ratio * size <= -n) return Vector3::Zero();
+  const double load = (n + ratio * size) / (1.0 + ratio * ratio);
+  return load * (normal + ratio / size * t);
+}
+
+struct SlowFriction {
+  SixVector z;
+  std::vector<Vector3> forces;
+  double residual = 0.0;  ///< largest change of a force by another iteration [m]
+};
+
+/// Coulomb's law with one ratio at all contacts, by the fixed point of de Saxce and Feng: each force in its turn
+/// becomes the projection on its cone of force - (velocity - need n + ratio |slip| n), damped by the contact's own
+/// inertia.
+inline SlowFriction coulomb_by_fixed_point(const SixVector& target, const std::vector<SlowContact>& contacts,
+                                           double ratio, double settled, int sweeps) {
+  SlowFriction out;
+  out.z = target;
+  out.forces.assign(contacts.size(), Vector3::Zero());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    out.residual = 0.0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const SlowContact& c = contacts[i];
+      const Vector3 v = c.velocity * out.z;
+      const double approach = c.normal.dot(v);
+      const double slip = (v - approach * c.normal).norm();
+      const double step = 0.5 / (c.velocity * c.velocity.transpose()).trace();
+      const Vector3 moved = out.forces[i] - step * (v + (ratio * slip - c.need) * c.normal);
+      const Vector3 change = on_cone(moved, c.normal, ratio) - out.forces[i];
+      out.forces[i] += change;
+      out.z += c.velocity.transpose() * change;
+      out.residual = std::max(out.residual, change.norm());
+    }
+    if (out.residual < settled) break;
+  }
+  return out;
+}
+
+}  // namespace godobject::test
