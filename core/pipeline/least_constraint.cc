@@ -314,7 +314,7 @@ class Solver {
     Motion m = motion();
     for (int step = 0; step < kSteps; ++step) {
       gather(m);
-      const Newton result = newton_step(m);
+      const Newton result = newton_step(step, m);
       if (result == Newton::kFailed) break;
       if (result != Newton::kConverged) continue;
       const Worst worst = worst_row(m);
@@ -356,9 +356,10 @@ class Solver {
     close_idle_contacts();
   }
 
-  /// One half space a slipping contact, at its direction of slip; kinetic friction for what slips. A contact that slips
-  /// already keeps the direction that Newton's method gave it.
+  /// One half space a slipping contact, against the force that its half spaces give: near rest that is known far better
+  /// than the direction of slip. Kinetic friction for what slips.
   void gather(const Motion& m) noexcept {
+    constexpr double kKnown = 0.1;
     for (int k = 0; k < contact_count_; ++k) {
       Contact& c = contacts_[static_cast<std::size_t>(k)];
       const Slip slip = slip_of(c, m);
@@ -368,17 +369,24 @@ class Solver {
         c.speed = slip.speed;
         c.ratio = friction_->kinetic_ratio;
       }
+      if (!begins) continue;
       int first = -1;
+      Vector3 pull = Vector3::Zero();
+      double load = 0.0;
       for (int j = 0; j < set_.size(); ++j) {
         if (set_[j].tag.contact != k) continue;
-        if (c.slips && first >= 0) {
-          set_.at(first).multiplier += set_[j].multiplier;
+        pull += set_[j].multiplier * set_[j].tag.slip;
+        load += set_[j].multiplier;
+        if (first < 0) {
+          first = j;
+        } else {
           set_.erase(j--);
-          continue;
         }
-        if (begins) set_.at(j).tag.slip = slip.direction;
-        first = j;
       }
+      if (first < 0) continue;
+      const double length = pull.norm();
+      set_.at(first).multiplier = load;
+      set_.at(first).tag.slip = length > kKnown * load ? Vector3(pull / length) : slip.direction;
     }
   }
 
@@ -386,7 +394,8 @@ class Solver {
 
   /// From the motion `m` to the next. Unknowns: the multipliers, and for each slipping contact the force tau across its
   /// slip, with tau = -(mu lambda / |slip|) (slip across).
-  Newton newton_step(Motion& m) noexcept {
+  Newton newton_step(int step, Motion& m) noexcept {
+    constexpr int kPatience = 2;
     constexpr std::size_t kMost = 2 * ActiveSet::kCapacity;
     const int n = set_.size();
     if (friction_->viscous_step > 0.0) follow_viscous();
@@ -429,30 +438,23 @@ class Solver {
     if (whitened_) z = whiten_.transpose() * z;
     const double* const multiplier = system.rhs;
     if (!z.allFinite()) return Newton::kFailed;
-    int pulls = -1;
-    for (int j = 0; j < n; ++j) {
-      if (multiplier[j] < 0.0 && (pulls < 0 || multiplier[j] < multiplier[pulls])) pulls = j;
-    }
-    if (pulls >= 0) {
-      set_.erase(pulls);
-      close_idle_contacts();
-      return Newton::kOn;
-    }
     // a motion that stands still is found, whatever direction a slip of nanometres may have
     const bool settled =
         (z.head<3>() - m.translation).squaredNorm() + (z.tail<3>() - metric_.gyration * m.rotation).squaredNorm() <=
         metric_.tolerance * metric_.tolerance;
     m = {z.head<3>(), z.tail<3>() / metric_.gyration};
     Newton result = Newton::kConverged;
+    int pulls = -1;
     for (int j = 0; j < n; ++j) {
-      set_.at(j).multiplier = multiplier[j];
+      if (multiplier[j] < 0.0 && (pulls < 0 || multiplier[j] < multiplier[pulls])) pulls = j;
+      set_.at(j).multiplier = std::max(0.0, multiplier[j]);
       Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
       const Slip slip = slip_of(c, m);
       if (!c.slips) {
         if (slip.speed > metric_.still && !settled) result = Newton::kOn;
         continue;
       }
-      // where the force of this step pointed; near rest that is known far better than the direction of slip
+      // where the force of this step pointed, for the same reason
       const Vector3 old = set_[j].tag.slip;
       const double along = slip.speed * slip.direction.dot(old);
       const Vector3 pull = c.speed * old + (slip.speed * slip.direction - along * old);
@@ -464,6 +466,12 @@ class Solver {
       const double speed = slip.speed * slip.direction.dot(direction);
       c.speed = speed > 0.25 * c.speed ? speed : 0.25 * c.speed;
       if (!settled && !(c.speed > 0.25 * metric_.still)) return Newton::kFailed;  // it sticks
+    }
+    // a pull means that the contact is not there, unless the directions do not fit yet
+    if (pulls >= 0 && (result == Newton::kConverged || step >= kPatience)) {
+      set_.erase(pulls);
+      close_idle_contacts();
+      return Newton::kOn;
     }
     return result;
   }
