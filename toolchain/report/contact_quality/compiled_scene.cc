@@ -1,0 +1,40 @@
+#include "toolchain/report/contact_quality/compiled_scene.h"
+
+#include <fmt/format.h>
+
+#include "toolchain/command/atomic_file.h"
+#include "toolchain/report/contact_quality/body.h"
+#include "toolchain/report/contact_quality/meshes.h"
+#include "toolchain/scene_compiler/compile_scene.h"
+
+namespace godobject::report {
+
+double shell_thickness(const WorldSettings& settings) { return 2.0 * settings.voxel_size; }
+
+std::filesystem::path still_file(const std::string& name, const std::filesystem::path& folder) {
+  return folder / (name + "-still.ply");
+}
+
+command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder) {
+  const WorldSettings& q = scene.settings;
+  write_ply(scene.still.mesh, still_file(name, folder));
+  command::AtomicFile toml(folder / (name + ".toml"));
+  toml.write(fmt::format(
+      "[still]\nmesh = \"{}\"\nscale = 1.0\nvoxel_size = {}\nsurface = \"{}\"\nthickness = {}\n"
+      "[moving]\nmesh = \"{}\"\nscale = 1.0\npoints = {}\nlevels = {}\n"
+      "[contact]\nsafety_distance = {}\nmargin = {}\n"
+      "[friction]\nstatic = {}\nkinetic = {}\n"
+      "[paper]\nrotation_static = {}\nrotation_kinetic = {}\n"
+      "[coupling]\nstiffness = {:.1f}\nrotational = {}\n",
+      std::filesystem::absolute(still_file(name, folder)).string(), q.voxel_size, scene.still.shell ? "shell" : "solid",
+      shell_thickness(q), std::filesystem::absolute(scene.body).string(), scene.points, kBodyLevels, q.safety_distance,
+      q.margin, q.friction_static, q.friction_kinetic, q.friction_static, q.friction_kinetic, q.stiffness,
+      q.coupling_rotation));
+  toml.commit();
+  const std::filesystem::path image = folder / (name + ".scene");
+  scene_compiler::compile_scene(
+      {.scene_file = folder / (name + ".toml"), .output = image, .only_solver = {}, .progress = {}});
+  return command::SceneImage::read(image);
+}
+
+}  // namespace godobject::report

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "toolchain/command/scene_image.h"
+#include "toolchain/scene_compiler/triangle_mesh.h"
+
+namespace godobject::report {
+
+/// What all worlds of the study share: the margin does not follow the voxels.
+struct WorldSettings {
+  double voxel_size = 0.002;       ///< s [m]
+  double safety_distance = 0.003;  ///< d [m]
+  double margin = 2e-5;            ///< m [m]
+  double stiffness = 2000.0;       ///< k_D [N/m]
+  double coupling_rotation = 0.025;
+  double friction_static = 0.2;
+  double friction_kinetic = 0.18;
+};
+
+/// A still body as the scene compiler takes it.
+struct CompiledStill {
+  scene_compiler::TriangleMesh mesh;
+  bool shell = false;  ///< thickened to two voxels
+};
+
+/// What a scene file says.
+struct SceneText {
+  CompiledStill still;
+  std::filesystem::path body;  ///< mesh of the moving body, in metres
+  std::uint32_t points = 0;
+  WorldSettings settings = {};
+};
+
+double shell_thickness(const WorldSettings& settings);
+
+/// Where `compile` puts the still body's mesh.
+std::filesystem::path still_file(const std::string& name, const std::filesystem::path& folder);
+
+/// Writes mesh and scene file NAME to `folder`, compiles them and reads the image.
+command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder);
+
+}  // namespace godobject::report

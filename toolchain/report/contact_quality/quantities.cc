@@ -1,0 +1,71 @@
+#include "toolchain/report/contact_quality/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "toolchain/report/contact_quality/signals.h"
+
+namespace godobject::report {
+namespace {
+
+constexpr std::nullopt_t kNone = std::nullopt;
+
+}  // namespace
+
+const std::vector<QuantitySpec>& quantities() {
+  using enum Quantity;
+  static const std::vector<QuantitySpec> kQuantities = {
+      {kPenetration, "penetration", "penetration (field)", "mm", 0.0, 4, false},
+      {kTruePenetrationSmooth, "true_penetration_smooth", "penetration (mesh), smooth", "s", 0.05, 3, false},
+      {kTruePenetrationSharp, "true_penetration_sharp", "penetration (mesh), sharp", "s", 0.05, 3, false},
+      {kCrossings, "crossings", "crossings of plate and sheet", "points", 0.0, 0, false},
+      {kOptimum, "optimum_distance", "distance to the optimum", "mm", 0.04, 4, false},
+      {kOptimumTight, "optimum_distance_tight", "same, slot, peg, L", "mm", 0.25, 4, false},
+      {kExcess, "optimum_excess", "longer than the best optimum", "mm", kNone, 4, false},
+      {kSlipTime, "slip_time", "late after an edge at 1 m/s", "ms", 20.0, 0, false},
+      {kDrag, "drag", "drag, frictionless", "N", 0.02, 4, false},
+      {kPull, "pull", "pull on retreat", "N", 0.0, 4, false},
+      {kRatio, "friction_ratio_error", "friction ratio, plane", "%", 0.5, 3, false},
+      {kRatioGroove, "friction_ratio_error_groove", "friction ratio, V-groove", "%", 1.0, 3, false},
+      {kDirection, "friction_direction_error", "friction direction", "deg", 0.5, 3, false},
+      {kDrift, "stick_drift", "stick drift, 8-12 Hz tremor", "um", 1.0, 3, false},
+      {kChatterPlain, "chatter_plain", "chatter, convex and flat", "N", 0.01, 4, false},
+      {kChatterElsewhere, "chatter_elsewhere", "chatter, elsewhere", "N", 0.1, 4, false},
+      {kMovedPose, "moved_pose", "turned, shifted 10 m: pose", "um", 1.0, 4, false},
+      {kMovedForce, "moved_force", "turned, shifted 10 m: force", "mN", 5.0, 4, false},
+      {kSolveMedian, "solve_median", "solver, median", "us", 0.5, 2, true},
+      {kSolveP99, "solve_p99", "solver, p99", "us", 3.0, 2, true},
+      {kFrictionMedian, "solve_friction_median", "with friction, median", "us", 3.0, 2, true},
+      {kFrictionP99, "solve_friction_p99", "with friction, p99", "us", 15.0, 2, true},
+      {kCycleMedian, "cycle_median", "whole cycle, median", "us", kNone, 2, true},
+      {kCycleP99, "cycle_p99", "whole cycle, p99", "us", kNone, 2, true},
+      {kSubstepsMean, "substeps_mean", "sub-steps, mean", "", kNone, 2, true},
+      {kSubstepsMax, "substeps_max", "sub-steps, most", "", kNone, 0, false},
+  };
+  return kQuantities;
+}
+
+const QuantitySpec& spec(Quantity id) {
+  const auto& all = quantities();
+  return *std::find_if(all.begin(), all.end(), [id](const QuantitySpec& q) { return q.id == id; });
+}
+
+std::optional<Verdict> judge(const std::vector<Measurement>& measurements, Quantity quantity, format::Solver solver) {
+  const QuantitySpec& wanted = spec(quantity);
+  Verdict verdict;
+  std::vector<double> values;
+  for (const Measurement& m : measurements) {
+    if (m.quantity != quantity || m.solver != solver) continue;
+    const bool worse = values.empty() || std::isnan(m.value) || m.value > verdict.value;
+    values.push_back(m.value);
+    if (wanted.median || !worse || std::isnan(verdict.value)) continue;
+    verdict.value = m.value;
+    verdict.worst_scene = m.scene + " (" + m.world + ")";
+  }
+  if (values.empty()) return std::nullopt;
+  if (wanted.median) verdict.value = percentile(values, 0.5);
+  verdict.held = !wanted.target || verdict.value <= *wanted.target;
+  return verdict;
+}
+
+}  // namespace godobject::report

@@ -1,0 +1,196 @@
+#include "toolchain/report/contact_quality/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <Eigen/Geometry>
+
+#include "toolchain/report/contact_quality/least_distance.h"
+
+namespace godobject::report {
+namespace {
+
+/// d exp(r) = [J_l(r) dr]x exp(r)
+Matrix3 left_jacobian(const Vector3& r) {
+  const double angle = r.norm();
+  Matrix3 skew;
+  skew << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
+  if (angle < 1e-6) return Matrix3::Identity() + 0.5 * skew;
+  const double a2 = angle * angle;
+  return Matrix3::Identity() + (1.0 - std::cos(angle)) / a2 * skew +
+         (angle - std::sin(angle)) / (a2 * angle) * skew * skew;
+}
+
+/// The free set seen from the device pose: eta = (x_e, rho r_e).
+class FreeSet {
+ public:
+  explicit FreeSet(const OptimumProblem& problem)
+      : problem_(problem), rho_(std::sqrt(problem.rho_squared)), R_DW_(problem.H_WD.rotation.conjugate()) {
+    for (const Vector3& p : problem.points_B) radius_ = std::max(radius_, p.norm());
+  }
+
+  Pose pose(const Vector6& eta) const {
+    return problem_.H_WD * set_matrix({eta.head<3>(), Vector3(eta.tail<3>() / rho_)});
+  }
+  Vector6 eta(const Pose& H_WS) const {
+    const Motion motion = get_motion(problem_.H_WD.inverse() * H_WS);
+    Vector6 result;
+    result << motion.translation, rho_ * motion.rotation;
+    return result;
+  }
+
+  /// How far a sample point moves at most with a step of length 1.
+  double reach() const { return 1.0 + radius_ / rho_; }
+
+  double violation(const Vector6& at) const {
+    const Pose H_WS = pose(at);
+    double worst = 0.0;
+    for (const Vector3& p : problem_.points_B) {
+      pieces_.clear();
+      problem_.pieces(H_WS * p, pieces_);
+      for (const analytic::Piece& piece : pieces_) worst = std::max(worst, -problem_.tolerance - piece.distance);
+    }
+    return worst;
+  }
+
+  /// Linearised constraints a.step >= -g of all pieces nearer than `cutoff`.
+  std::vector<HalfPlane> rows(const Vector6& at, double cutoff) const {
+    const Pose H_WS = pose(at);
+    const Vector3 r = at.tail<3>() / rho_;
+    const Quaternion R_DS = exp_rotation(r);
+    const Matrix3 jacobian = left_jacobian(r).transpose() / rho_;
+    std::vector<HalfPlane> result;
+    for (const Vector3& p : problem_.points_B) {
+      pieces_.clear();
+      problem_.pieces(H_WS * p, pieces_);
+      for (const analytic::Piece& piece : pieces_) {
+        if (piece.distance > cutoff || piece.gradient.isZero()) continue;
+        const Vector3 n_D = R_DW_._transformVector(piece.gradient);
+        HalfPlane row;
+        row.normal << n_D, jacobian * R_DS._transformVector(p).cross(n_D);
+        row.bound = -piece.distance - problem_.tolerance;
+        result.push_back(row);
+      }
+    }
+    return result;
+  }
+
+ private:
+  const OptimumProblem& problem_;
+  double rho_;
+  Quaternion R_DW_;
+  double radius_ = 0.0;
+  mutable std::vector<analytic::Piece> pieces_;
+};
+
+/// The step to the shortest eta + step that keeps the rows, with `proximity` |step|^2 added to the objective. Where the
+/// rows contradict each other they ask for less, down to not getting worse.
+LeastDistance proximal_step(std::vector<HalfPlane> rows, const Vector6& eta, double proximity) {
+  constexpr int kMaxHalvings = 4;
+  const Vector6 center = -eta / (1.0 + proximity);  // of the step
+  for (HalfPlane& row : rows) row.bound -= row.normal.dot(center);
+  for (int halving = 0;; ++halving) {
+    LeastDistance step = least_distance(rows);
+    if (step.feasible || halving > kMaxHalvings) {
+      step.x += center;
+      step.multiplier_sum *= 1.0 + proximity;
+      return step;
+    }
+    for (HalfPlane& row : rows) {
+      const double asked = row.bound + row.normal.dot(center);
+      if (asked > 0.0) row.bound -= (halving == kMaxHalvings ? 1.0 : 0.5) * asked;
+    }
+  }
+}
+
+}  // namespace
+
+double metric_distance(const Pose& H_WA, const Pose& H_WB, double rho_squared) {
+  const Motion motion = get_motion(H_WA.inverse() * H_WB);
+  return std::sqrt(motion.translation.squaredNorm() + rho_squared * motion.rotation.squaredNorm());
+}
+
+Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
+  constexpr int kMaxIterations = 300;
+  constexpr double kConverged_m = 1e-7;
+  constexpr double kLargestStep_m = 2e-3;
+  constexpr double kMaxProximity = 1e7;
+  const FreeSet free_set(problem);
+  Vector6 eta = free_set.eta(H_WS_start);
+  double violation = free_set.violation(eta);
+  double penalty = 0.1;  // [m]: the objective is in m^2
+  double proximity = 0.0;
+  Optimum optimum;
+  for (; optimum.iterations < kMaxIterations && !optimum.converged; ++optimum.iterations) {
+    const double cutoff = 2.0 * kLargestStep_m * free_set.reach();
+    LeastDistance step = proximal_step(free_set.rows(eta, cutoff), eta, proximity);
+    if (!step.feasible) break;
+    penalty = std::max(penalty, 4.0 * step.multiplier_sum);
+    const double length = step.x.norm();
+    const double share = std::min(1.0, kLargestStep_m / std::max(length, 1e-300));
+    if ((1.0 + proximity) * length < kConverged_m && violation < kConverged_m) {
+      optimum.converged = true;
+      break;
+    }
+    const Vector6 trial = eta + share * step.x;
+    const double trial_violation = free_set.violation(trial);
+    const double fallen = eta.squaredNorm() - trial.squaredNorm() + penalty * (violation - trial_violation);
+    const double predicted = eta.squaredNorm() - trial.squaredNorm() + penalty * share * violation;
+    if (fallen >= 0.1 * predicted && fallen >= 0.0) {
+      eta = trial;
+      violation = trial_violation;
+      proximity = proximity < 1e-2 ? 0.0 : 0.3 * proximity;
+    } else {
+      proximity = std::max(0.1, 3.0 * proximity);
+      if (proximity > kMaxProximity) break;
+    }
+  }
+  optimum.H_WS = free_set.pose(eta);
+  optimum.objective = eta.squaredNorm();
+  optimum.violation = violation;
+  return optimum;
+}
+
+OptimumGap optimum_gap(const OptimumProblem& problem, const Pose& H_WS, bool one_sided) {
+  constexpr double kPerturbation_m = 2e-4;
+  constexpr double kUsable_m = 1e-6;
+  const double rho = std::sqrt(problem.rho_squared);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+
+  std::vector<Pose> starts;
+  for (int i = 0; i < 4; ++i) {
+    const Vector3 x = kPerturbation_m * vector();
+    const Vector3 r = kPerturbation_m / rho * vector();
+    starts.push_back(H_WS * set_matrix({x, r}));
+  }
+  const Motion to_device = get_motion(H_WS.inverse() * problem.H_WD);
+  if (!one_sided) {
+    starts.push_back(H_WS * set_matrix({0.5 * to_device.translation, 0.5 * to_device.rotation}));
+    Pose lifted = problem.H_WD;
+    const Vector3 out = H_WS.translation - problem.H_WD.translation;
+    if (out.norm() > kUsable_m) {
+      const FreeSet free_set(problem);
+      for (int i = 0; i < 40 && free_set.violation(free_set.eta(lifted)) > 0.0; ++i) lifted.translation += 0.1 * out;
+      starts.push_back(lifted);
+    }
+  }
+
+  OptimumGap gap;
+  gap.distance = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity();
+  for (const Pose& start : starts) {
+    const Optimum optimum = polish(problem, start);
+    if (!optimum.converged || optimum.violation > kUsable_m) continue;
+    gap.known = true;
+    gap.distance = std::min(gap.distance, metric_distance(H_WS, optimum.H_WS, problem.rho_squared));
+    best = std::min(best, std::sqrt(optimum.objective));
+  }
+  gap.excess = metric_distance(H_WS, problem.H_WD, problem.rho_squared) - best;
+  return gap;
+}
+
+}  // namespace godobject::report

@@ -1,0 +1,50 @@
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "toolchain/command/progress.h"
+#include "toolchain/command/run.h"
+#include "toolchain/report/contact_quality/chapter.h"
+#include "toolchain/report/contact_quality/table.h"
+
+namespace {
+
+const char* const kFooter = R"(Example:
+  godobject-report --only contact --quick -o report
+
+Chapter `contact`: the solvers paper, corrected and contact in the same scenes along the same device paths. Writes
+DIR/contact_quality.csv (a row for each scene, world, solver and quantity) and DIR/contact_summary.csv (a row for each
+quantity), and prints the latter as a table. Worlds: `analytic` (exact distance), `moved` (the same, turned and shifted
+by 10 m), `compiled` (through the scene compiler; lengths in s are voxel edges). A solver's figure is its worst scene;
+times are medians over the scenes of each scene's median and 99th percentile, over cycles in contact, of steps #2-#7
+alone unless it says whole cycle. Targets are those of `contact`; a missed one does not change the exit code.
+
+The optimum is the pose S with all sample points at phi >= 0 that minimises |x|^2 + rho^2 |r|^2, (x, r) = log(S^-1 D),
+rho^2 = k_VC,r / k_VC,x. It may be a local one: a slow, independent method is started from around the god object, from
+half way to the device and from the device lifted out. `optimum_distance` is the metric distance from the god object to the
+nearest optimum found; `optimum_excess` is how much further from the device it is than the best one.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the quality of the solvers: tables of all of them side by side.", "godobject-report");
+  app.footer(kFooter);
+  std::string chapter = "contact";
+  godobject::report::ContactQualityRequest request;
+  request.meshes = GODOBJECT_MESH_FOLDER;
+  app.add_option("--only", chapter, "chapter to make")->check(CLI::IsMember({"contact"}));
+  app.add_flag("--quick", request.quick, "a few scenes, short: below a minute");
+  app.add_option("--scene", request.scene, "only scenes whose name holds this");
+  app.add_option("--meshes", request.meshes, "folder of bunny_npm.ply")->capture_default_str();
+  app.add_option("-o,--output", request.output, "folder of what is written")->required();
+  return godobject::command::run(app, argc, argv, [&] {
+    std::vector<godobject::report::Measurement> measurements;
+    {
+      godobject::command::Progress progress;
+      request.progress = [&](std::string_view phase, double done) { progress.show(phase, done); };
+      measurements = godobject::report::contact_quality(request);
+    }
+    fmt::print("{}", godobject::report::text_table(measurements));
+  });
+}
