@@ -411,7 +411,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.cut = share < 1.0;
     if (share == 0.0) break;
     reach = std::min(2.0 * reach, lengths.longest_reach);
-  } while (result.cut && result.substeps < kMaxSubsteps);
+  } while (result.cut && !inside && result.substeps < kMaxSubsteps);
 
   const Status status = detail::finish(input, result, inside, q, state, report);  // #6, #7
   if (times != nullptr) {

@@ -97,7 +97,8 @@ class Solver {
       feasible = meet_rows(100);
       take(step);
     } else {
-      bool converged = polish();
+      bool converged = crawls(step) && sticks();
+      if (!converged) converged = polish();
       for (int round = 0; round < kRounds && feasible && !converged; ++round) {
         feasible = meet_cones();
         converged = polish();
@@ -264,6 +265,36 @@ class Solver {
     contact_count_ = kept;
   }
 
+  /// Whether what carried the load in the last motion slipped by next to nothing of what friction held back, so that it
+  /// may come to rest now.
+  bool crawls(const ConstrainedStep& step) const noexcept {
+    constexpr double kCrawl = 0.02;
+    for (std::uint32_t i = 0; i < step.force_count; ++i) {
+      const ContactForce& force = step.forces[i];
+      const Vector3 v = last_.translation + last_.rotation.cross(force.point);
+      const double speed = (v - force.normal.dot(v) * force.normal).norm();
+      if (speed > metric_.still + kCrawl * friction_->kinetic_ratio * force.multiplier) return false;
+    }
+    return true;
+  }
+
+  /// Whether forces inside the cones can hold all that carries load at rest. Without shifts the convex problem says so
+  /// for certain, redundant contacts or not; Coulomb's law may have solutions that slip beside it, and rest is the one
+  /// to take.
+  bool sticks() noexcept {
+    for (int k = 0; k < contact_count_; ++k) contacts_[static_cast<std::size_t>(k)].shift = 0.0;
+    resume();
+    shifted_ = false;
+    const bool met = meet_cones();
+    shifted_ = true;
+    if (!met) return false;
+    const Motion m = motion();
+    for (int k = 0; k < contact_count_; ++k) {
+      if (slip_of(contacts_[static_cast<std::size_t>(k)], m).speed > metric_.still) return false;
+    }
+    return true;
+  }
+
   /// With the shifts held: adds half spaces until all rows and cones are met.
   bool meet_cones() noexcept {
     for (int i = 0; i < kAdditions; ++i) {
@@ -289,7 +320,7 @@ class Solver {
         if (in_cone < 0) return true;
         Contact& c = contacts_[static_cast<std::size_t>(in_cone)];
         slip = slip_of(c, m);
-        c.shift = slip.speed;
+        c.shift = shifted_ ? slip.speed : 0.0;
         if (!set_.add(cone_inequality(in_cone, slip.direction))) return false;
       } else if (!set_.add(cone_inequality(in_cone, slip.direction))) {
         return false;
@@ -322,7 +353,7 @@ class Solver {
         const int size = set_.size();
         for (int k = 0; k < contact_count_; ++k) {
           Contact& c = contacts_[static_cast<std::size_t>(k)];
-          c.shift = c.speed;
+          c.shift = c.slips ? slip_of(c, m).speed : 0.0;
         }
         resume();
         if (set_.size() == size) return true;
@@ -461,7 +492,10 @@ class Solver {
       const Vector3 direction = pull.normalized();
       const bool turned = c.ratio * multiplier[j] * (direction - slip.direction).norm() > metric_.tolerance ||
                           c.ratio * multiplier[j] * (direction - old).norm() > metric_.tolerance;
-      if (turned && !settled) result = Newton::kOn;
+      if (turned && !(settled && slip.speed <= metric_.tolerance)) {
+        if (settled) return Newton::kFailed;  // the force drives it: it sticks
+        result = Newton::kOn;
+      }
       set_.at(j).tag.slip = direction;
       const double speed = slip.speed * slip.direction.dot(direction);
       c.speed = speed > 0.25 * c.speed ? speed : 0.25 * c.speed;
@@ -557,6 +591,7 @@ class Solver {
   int contact_count_ = 0;
   std::uint32_t iterations_ = 0;
   int failures_ = 0;
+  bool shifted_ = true;
   bool whitened_ = false;
   Matrix6 whiten_ = Matrix6::Identity();
 };
