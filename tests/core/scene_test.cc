@@ -41,6 +41,23 @@ SceneImage small_image() {
   return test::build_scene_image(description);
 }
 
+/// The same ball with two positions refined, 0 and 2, and the last octant of the first one, 1.
+SceneImage refined_image() {
+  test::SceneDescription description;
+  description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
+  description.surface_min = Vector3::Constant(-0.01);
+  description.surface_max = Vector3::Constant(0.01);
+  description.voxel_size = 0.01;
+  description.band = 0.01;
+  description.settings.safety_distance = 0.005;
+  description.points = {Vector3(0.01, 0.0, 0.0)};
+  description.refined = [](const Vector3& center, double edge) {
+    if (edge > 0.03) return center.y() < 0.0 && center.z() < 0.0;  // two positions, side by side along x
+    return edge > 0.015 && center.norm() < 0.001;                  // the last octant of the first
+  };
+  return test::build_scene_image(description);
+}
+
 /// What the view holds, byte for byte.
 std::array<std::byte, sizeof(Scene)> bytes_of(const Scene& scene) {
   std::array<std::byte, sizeof(Scene)> bytes{};
@@ -337,6 +354,104 @@ constexpr Spoiled kTrees[] = {
     {"a centre NaN", Status::kImageValue, NODE(4, x.center[2] = std::numeric_limits<float>::quiet_NaN())},
 };
 INSTANTIATE_TEST_SUITE_P(Tree, SceneRefuses, ::testing::ValuesIn(kTrees));
+
+class SceneRefusesRefinements : public ::testing::TestWithParam<Spoiled> {};
+
+TEST_P(SceneRefusesRefinements, EvenWithRightChecksums) {
+  SceneImage image = refined_image();
+  EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
+  GetParam().spoil(image);
+  EXPECT_EQ(describe(open_over_another(image.bytes())), std::string(describe(GetParam().status)));
+}
+
+#define REFINED(N, CHANGE) ITEM(format::Refined, kRefined, N, CHANGE)
+constexpr std::uint32_t kToRefined = format::index_entry::kRefined;
+
+constexpr Spoiled kRefinements[] = {
+    {"a section cut short", Status::kImageLayout, SECTION(kRefined, x.bytes -= 4)},
+    {"no refinements", Status::kImageValue, SECTION(kRefined, x.id = static_cast<SectionId>(20))},
+    {"a brick number of its own nodes", Status::kImageValue, REFINED(1, x.brick = 1000)},
+    {"a brick number of an octant", Status::kImageValue, REFINED(2, x.child[7] = 1000)},
+    {"a refinement's number of an octant", Status::kImageValue, REFINED(2, x.child[7] = kToRefined | 3u)},
+    {"an octant that is not stored", Status::kImageValue, REFINED(2, x.child[0] |= format::index_entry::kFar)},
+    {"an octant that forgets the seam", Status::kImageValue, REFINED(0, x.child[0] |= format::index_entry::kSeamNear)},
+    {"a refinement of itself", Status::kImageValue, REFINED(0, x.child[7] = kToRefined)},
+    {"a cycle of two", Status::kImageValue, REFINED(1, x.child[3] = kToRefined)},
+    {"a refinement shared by two octants", Status::kImageValue, REFINED(0, x.child[6] = kToRefined | 1u)},
+    {"a refinement that none leads to", Status::kImageValue, REFINED(0, x.child[7] = 1)},
+    {"the second position before the first", Status::kImageValue,
+     [](SceneImage& i) {
+       auto* index = &section_item<std::uint32_t>(i, SectionId::kBrickIndex);
+       std::swap(index[0], index[1]);
+       test::seal(i);
+     }},
+};
+INSTANTIATE_TEST_SUITE_P(Refinement, SceneRefusesRefinements, ::testing::ValuesIn(kRefinements));
+
+/// A chain of refinements, each of the first octant of the one before, as deep as `depth`.
+SceneImage chain_image(int depth) {
+  SceneImage image = refined_image();
+  auto* index = &section_item<std::uint32_t>(image, SectionId::kBrickIndex);
+  auto* refined = &section_item<format::Refined>(image, SectionId::kRefined);
+  for (int i = 0; i < 3; ++i) {
+    std::fill(std::begin(refined[i].child), std::end(refined[i].child), 1u);
+    if (i + 1 < depth) refined[i].child[0] = kToRefined | static_cast<std::uint32_t>(i + 1);
+  }
+  index[1] = depth < 3 ? kToRefined | 2u : 1u;
+  test::seal(image);
+  return image;
+}
+
+TEST(Scene, TakesRefinementsOfRefinements) {
+  for (const int depth : {2, 3}) {
+    const SceneImage image = chain_image(depth);
+    EXPECT_EQ(open_over_another(image.bytes()), Status::kOk) << depth;
+  }
+}
+
+TEST(Scene, RefusesRefinementsTooDeep) {
+  test::SceneDescription description;
+  description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
+  description.surface_min = Vector3::Constant(-0.01);
+  description.surface_max = Vector3::Constant(0.01);
+  description.voxel_size = 0.01;
+  description.points = {Vector3(0.01, 0.0, 0.0)};
+  // the first octant of the first octant ..., as deep as the format goes, and one more position beside it
+  description.refined = [&description](const Vector3& center, double edge) {
+    const Vector3 low = description.surface_min - Vector3::Constant(0.05);  // band of four voxels, and one
+    return (center - low).cwiseAbs().maxCoeff() < 0.51 * edge ||
+           (edge > 0.03 && (center - low - 0.04 * Vector3::UnitX()).cwiseAbs().maxCoeff() < 0.51 * edge);
+  };
+  SceneImage image = test::build_scene_image(description);
+  auto* refined = &section_item<format::Refined>(image, SectionId::kRefined);
+  ASSERT_EQ(test::section_bytes(image, SectionId::kRefined).size(), 5 * sizeof(format::Refined));
+  EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
+  // the fifth becomes an octant of the fourth
+  section_item<std::uint32_t>(image, SectionId::kBrickIndex, 1) = refined[4].brick;
+  refined[3].child[7] = kToRefined | 4u;
+  test::seal(image);
+  EXPECT_EQ(open_over_another(image.bytes()), Status::kImageValue);
+}
+
+/// As above: a flipped bit behind a right checksum. The sanitizers judge.
+TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
+  SceneImage image = refined_image();
+  const auto bytes = test::section_bytes(image, SectionId::kRefined);
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};
+    bytes[bit / 8] ^= mask;
+    test::seal(image);
+    Scene scene;
+    if (Scene::open(image.bytes(), scene) == Status::kOk) {
+      for (int corner = 0; corner < 64; ++corner) {
+        const Vector3 p = 0.019 * (Vector3(corner & 3, corner >> 2 & 3, corner >> 4) - Vector3::Constant(1.5));
+        ASSERT_FALSE(std::isnan(scene.voxelmap.sample(p).distance)) << "bit " << bit;
+        ASSERT_FALSE(std::isnan(scene.voxelmap.lower_bound(p, 0.001))) << "bit " << bit;
+      }
+    }
+    bytes[bit / 8] ^= mask;
+  }
+}
 
 /// Every double from `first` on, one after the other.
 template <class T, SectionId kId>

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 
 #include "tests/support/analytic_shapes.h"
@@ -165,6 +167,79 @@ TEST(Voxelmap, ReproducesALinearFieldToFloatRounding) {
   }
 }
 
+/// A brick whose lowest octant is halved again: octant 0 is refined, octants 1 .. 7 of it and of the brick are bricks.
+struct HalvedTwice {
+  OneBrick one;
+  std::array<format::Brick, 17> bricks{};
+  std::array<format::Refined, 2> refined{};
+
+  HalvedTwice() {
+    one.index = format::index_entry::kRefined;
+    one.grid.brick_count = static_cast<std::uint32_t>(bricks.size());
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      refined[0].child[i] = i == 0 ? format::index_entry::kRefined | 1u : 1 + i;
+      refined[1].child[i] = 9 + i;
+    }
+    refined[0].brick = 0;
+    refined[1].brick = 1;
+    for (std::size_t i = 0; i < bricks.size(); ++i) {
+      std::fill(std::begin(bricks[i].value), std::end(bricks[i].value), 0.0625f * static_cast<float>(i));
+      bricks[i].seam_clearance = FLT_MAX;
+    }
+  }
+  Voxelmap map() const { return {one.grid, std::span(&one.index, 1), bricks, refined}; }
+};
+
+TEST(Voxelmap, DescendsToTheOctantThatHoldsThePoint) {
+  const HalvedTwice halved;  // a cube of 1 m: octants of 1/2 m, of the lowest one 1/4 m
+  const Voxelmap map = halved.map();
+  const auto number = [&map](const Vector3& p) { return 16.0 * map.sample(p).distance; };
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vector3 low(octant & 1, octant >> 1 & 1, octant >> 2);
+    if (octant > 0) {
+      EXPECT_EQ(number(0.5 * low), 1 + octant);  // an octant owns its lower faces
+      EXPECT_EQ(number(0.5 * low + Vector3::Constant(0.499)), 1 + octant);
+    }
+    EXPECT_EQ(number(0.25 * low), 9 + octant);
+    EXPECT_EQ(number(0.25 * low + Vector3::Constant(0.249)), 9 + octant);
+  }
+}
+
+TEST(Voxelmap, InterpolatesInTheHalvedCellByHand) {
+  HalvedTwice halved;
+  format::Brick& brick = halved.bricks[9 + 7];  // from (1/4, 1/4, 1/4), cells of 1/16 m
+  std::fill(std::begin(brick.value), std::end(brick.value), 0.0f);
+  brick.value[1 + 5 * (1 + 5 * 1)] = 1.0f;  // xyz in the first cell
+  const FieldSample sample = halved.map().sample(Vector3::Constant(0.25) + 0.0625 * Vector3(0.5, 0.25, 0.75));
+  EXPECT_EQ(sample.distance, 0.5 * 0.25 * 0.75);
+  EXPECT_EQ(sample.gradient, 16.0 * Vector3(0.25 * 0.75, 0.5 * 0.75, 0.5 * 0.25));
+}
+
+TEST(Voxelmap, TakesLayersFromTheUnrefinedNodes) {
+  HalvedTwice halved;
+  std::fill(std::begin(halved.bricks[0].value), std::end(halved.bricks[0].value), -0.5f);
+  EXPECT_EQ(halved.map().layer(Vector3(0.3, 0.1, 0.6)).layer, 2);
+  EXPECT_NEAR((halved.map().layer(Vector3(0.3, 0.1, 0.6)).to_center - Vector3(-0.05, -0.1, -0.1)).norm(), 0.0, 1e-7);
+}
+
+TEST(Voxelmap, KnowsNoBoundWhereAHalvedPositionIsNearASeam) {
+  HalvedTwice halved;
+  for (format::Brick& brick : halved.bricks) {
+    std::fill(std::begin(brick.value), std::end(brick.value), 3.0f);
+    brick.seam_clearance = 0.5f;
+  }
+  EXPECT_NEAR(halved.map().lower_bound(Vector3::Constant(0.3), 1.0), 2.0, kAllowance) << "not marked in the index";
+  EXPECT_NEAR(halved.map().sample(Vector3::Constant(0.3)).clearance, 3.0, kAllowance);
+  halved.one.grid.lipschitz_seam = 100.0;
+  halved.one.index |= format::index_entry::kSeamNear;
+  for (format::Refined& refined : halved.refined) {
+    for (std::uint32_t& child : refined.child) child |= format::index_entry::kSeamNear;
+  }
+  EXPECT_NEAR(halved.map().lower_bound(Vector3::Constant(0.3), 0.25), 2.75, kAllowance);
+  EXPECT_EQ(halved.map().lower_bound(Vector3::Constant(0.3), 0.5), -kInfinity);
+  EXPECT_EQ(halved.map().sample(Vector3::Constant(0.3)).clearance, 0.5);
+}
+
 /// A union of balls and boxes, turned: 1-Lipschitz, with edges and saddles.
 class RandomShapes {
  public:
@@ -173,6 +248,7 @@ class RandomShapes {
     half_edges_ = Vector3::Constant(0.012) + 0.006 * Vector3(uniform(), uniform(), uniform());
     turn_ = exp_rotation(2.0 * Vector3(uniform(), uniform(), uniform()));
   }
+  const Vector3* centers() const { return centers_; }
   double uniform() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
   double operator()(const Vector3& p) const {
     return std::min({test::ball_distance(p - centers_[0], 0.01), test::ball_distance(p - centers_[1], 0.006),
@@ -186,19 +262,41 @@ class RandomShapes {
   Quaternion turn_;
 };
 
+/// Seeds from kRefinedFrom on have bricks refined along the surface.
+constexpr unsigned kRefinedFrom = 9;
+
 class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
  protected:
   VoxelmapOfRandomShapes()
-      : shapes_(GetParam()),
-        image_(test::build_scene_image(still_body(shapes_, Vector3::Constant(0.055), 0.002, 0.008))),
-        map_(test::open_scene(image_).voxelmap) {}
+      : shapes_(GetParam()), image_(image_of(GetParam(), *this)), map_(test::open_scene(image_).voxelmap) {}
+
+  /// Built once a seed.
+  static const test::SceneImage& image_of(unsigned seed, const VoxelmapOfRandomShapes& fixture) {
+    static std::map<unsigned, test::SceneImage> images;
+    const auto found = images.find(seed);
+    if (found != images.end()) return found->second;
+    return images.emplace(seed, test::build_scene_image(fixture.description())).first->second;
+  }
+
+  test::SceneDescription description() const {
+    auto description = still_body(shapes_, Vector3::Constant(0.055), 0.002, 0.008);
+    if (GetParam() >= kRefinedFrom) {
+      // around two points of the surface, once where it is far off, four times where it is near: levels differ by one
+      const Vector3 first = shapes_.centers()[0] + Vector3(0.0, 0.006, 0.008);
+      const Vector3 second = shapes_.centers()[1] + Vector3(0.006, 0.0, 0.0);
+      description.refined = [first, second](const Vector3& center, double edge) {
+        return std::min((center - first).norm(), (center - second).norm()) < 2.6 * edge;
+      };
+    }
+    return description;
+  }
 
   Vector3 random_point(double reach) {
     return reach * Vector3(shapes_.uniform(), shapes_.uniform(), shapes_.uniform());
   }
 
   RandomShapes shapes_;
-  test::SceneImage image_;
+  const test::SceneImage& image_;
   Voxelmap map_;
 };
 
@@ -274,7 +372,7 @@ TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, 9u));
+INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, kRefinedFrom + 2u));
 
 TEST(Voxelmap, NumbersTheLayersByHand) {
   OneBrick one;  // voxels of 1/4 m around the nodes; the surface stands at x = 1/2

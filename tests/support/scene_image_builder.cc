@@ -28,6 +28,7 @@ struct StoredField {
   format::Grid grid{};
   std::vector<std::uint32_t> index;
   std::vector<format::Brick> bricks;
+  std::vector<format::Refined> refined;
 };
 
 format::Grid frame_grid(const SceneDescription& description) {
@@ -87,11 +88,110 @@ double steepest(const format::Brick& brick) {
   return std::sqrt(steepest_squared);
 }
 
+/// Refines stored positions. Slow and plain: what a node carries is worked out anew from the definition, however deep.
+class Octants {
+ public:
+  Octants(const SceneDescription& description, StoredField& field) : description_(description), field_(field) {}
+
+  /// Gives the largest gradient of the octants.
+  double store() {
+    for (std::size_t i = 0; i < field_.index.size(); ++i) {
+      if ((field_.index[i] & format::index_entry::kFar) != 0) continue;
+      const auto nx = static_cast<std::size_t>(field_.grid.bricks[0]);
+      const auto ny = static_cast<std::size_t>(field_.grid.bricks[1]);
+      const Vector3 at(static_cast<double>(i % nx), static_cast<double>(i / nx % ny), static_cast<double>(i / nx / ny));
+      field_.index[i] = store(origin() + brick_edge(0) * at, 0, field_.index[i]);
+    }
+    return slope_;
+  }
+
+ private:
+  Vector3 origin() const { return Vector3(field_.grid.origin[0], field_.grid.origin[1], field_.grid.origin[2]); }
+  double cell_edge(int level) const { return field_.grid.voxel_size / (1 << level); }
+  double brick_edge(int level) const { return kBrickCells * cell_edge(level); }
+
+  bool is_refined(const Vector3& low, int level) const {
+    const double edge = brick_edge(level);
+    return level < format::kMaxRefinement && description_.refined(low + Vector3::Constant(0.5 * edge), edge);
+  }
+
+  std::uint32_t store(const Vector3& low, int level, std::uint32_t own) {
+    if (!is_refined(low, level)) return own;
+    const std::size_t number = field_.refined.size();
+    field_.refined.push_back({own, {}});
+    for (int octant = 0; octant < 8; ++octant) {
+      const Vector3 corner = low + brick_edge(level + 1) * Vector3(octant & 1, octant >> 1 & 1, octant >> 2);
+      const auto child = static_cast<std::uint32_t>(field_.bricks.size());
+      field_.bricks.push_back(brick(corner, level + 1));
+      slope_ = std::max(slope_, steepest(field_.bricks.back()) / cell_edge(level + 1));
+      const std::uint32_t entry = store(corner, level + 1, child);
+      field_.refined[number].child[octant] = entry;
+    }
+    return format::index_entry::kRefined | static_cast<std::uint32_t>(number);
+  }
+
+  format::Brick brick(const Vector3& low, int level) const {
+    format::Brick brick{};
+    brick.seam_clearance = FLT_MAX;
+    for (int i = 0; i < format::kBrickValues; ++i) {
+      const Vector3 node(i % kBrickNodes, i / kBrickNodes % kBrickNodes, i / kBrickNodes / kBrickNodes);
+      brick.value[i] = static_cast<float>(node_value(low + cell_edge(level) * node, level));
+    }
+    return brick;
+  }
+
+  /// How often the bricks around p are refined; -1 where nothing is stored.
+  int level_at(const Vector3& p) const {
+    Vector3 low = ((p - origin()) / brick_edge(0)).array().floor();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (low[axis] < 0.0 || low[axis] >= field_.grid.bricks[axis]) return -1;
+    }
+    const double position = low[0] + field_.grid.bricks[0] * (low[1] + field_.grid.bricks[1] * low[2]);
+    if ((field_.index[static_cast<std::size_t>(position)] & format::index_entry::kFar) != 0) return -1;
+    low = origin() + brick_edge(0) * low;
+    int level = 0;
+    for (; is_refined(low, level); ++level) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] >= low[axis] + brick_edge(level + 1)) low[axis] += brick_edge(level + 1);
+      }
+    }
+    return level;
+  }
+
+  /// Exact, unless something coarser touches the node.
+  double node_value(const Vector3& node, int level) const {
+    Vector3 beside = node;
+    int coarsest = level;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3 side(2 * (corner & 1) - 1, 2 * (corner >> 1 & 1) - 1, 2 * (corner >> 2) - 1);
+      const Vector3 near = node + 0.25 * cell_edge(format::kMaxRefinement) * side;
+      const int found = std::max(0, level_at(near));
+      if (found >= coarsest) continue;
+      coarsest = found;
+      beside = near;
+    }
+    if (coarsest == level) return description_.distance(node);
+    const double edge = cell_edge(coarsest);
+    const Vector3 cell = ((beside - origin()) / edge).array().floor();
+    const Vector3 at = ((node - origin()) / edge - cell).cwiseMax(0.0).cwiseMin(1.0);
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3 up(corner & 1, corner >> 1 & 1, corner >> 2);
+      const double weight = (up.array() * at.array() + (1.0 - up.array()) * (1.0 - at.array())).prod();
+      if (weight > 1e-9) sum += weight * node_value(origin() + edge * (cell + up), coarsest);
+    }
+    return sum;
+  }
+
+  const SceneDescription& description_;
+  StoredField& field_;
+  double slope_ = 0.0;
+};
+
 StoredField store_field(const SceneDescription& description) {
   StoredField field;
   field.grid = frame_grid(description);
   format::Grid& grid = field.grid;
-  double steepest_edge = 0.0;
   for (int z = 0; z < grid.bricks[2]; ++z) {
     for (int y = 0; y < grid.bricks[1]; ++y) {
       for (int x = 0; x < grid.bricks[0]; ++x) {
@@ -102,7 +202,6 @@ StoredField store_field(const SceneDescription& description) {
         if (lowest < grid.band && highest > -grid.band) {
           field.index.push_back(static_cast<std::uint32_t>(field.bricks.size()));
           field.bricks.push_back(brick);
-          steepest_edge = std::max(steepest_edge, steepest(brick));
           continue;
         }
         // from the nearest node to any point of the brick, then from the exact distance to the interpolated one
@@ -112,8 +211,10 @@ StoredField store_field(const SceneDescription& description) {
       }
     }
   }
-  grid.lipschitz =
-      steepest_edge / grid.voxel_size * (1.0 + 1e-6);  // single precision differences are taken again later
+  double slope = 0.0;
+  for (const format::Brick& brick : field.bricks) slope = std::max(slope, steepest(brick) / grid.voxel_size);
+  if (description.refined) slope = std::max(slope, Octants(description, field).store());
+  grid.lipschitz = slope * (1.0 + 1e-6);  // single precision differences are taken again later
   grid.lipschitz_seam = grid.lipschitz;
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   return field;
@@ -272,6 +373,7 @@ SceneImage build_scene_image(const SceneDescription& description) {
   parts.push_back(part(SectionId::kGrid, std::span(&field.grid, 1)));
   parts.push_back(part(SectionId::kBrickIndex, std::span(field.index)));
   parts.push_back(part(SectionId::kBricks, std::span(field.bricks)));
+  if (!field.refined.empty()) parts.push_back(part(SectionId::kRefined, std::span(field.refined)));
   parts.push_back(part(SectionId::kBody, std::span(&stored.body, 1)));
   parts.push_back(part(SectionId::kPoints, std::span(points)));
   if (!description.normals.empty()) {

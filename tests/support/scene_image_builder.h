@@ -38,6 +38,9 @@ struct SceneDescription {
   Vector3 surface_max = Vector3::Zero();
   double voxel_size = 0.005;
   double band = 0.0;  ///< 0: four voxels
+  /// Whether the brick that is the cube of `edge` about `center` is refined; asked of stored positions, then of their
+  /// octants. Empty: none is.
+  std::function<bool(const Vector3& center, double edge)> refined;
 
   std::vector<Vector3> points;    ///< in the body frame B; the image may hold them in another order
   std::vector<Vector3> normals;   ///< unit, pointing into the body, one a point; empty: left out, and `paper` with them

@@ -25,10 +25,11 @@ using format::kBrickCells;
 using format::kBrickNodes;
 using format::kBrickValues;
 
-constexpr double kSlack = 0.85;    // of the tolerance: surface samples stand half a cell apart
-constexpr double kSpacing = 0.5;   // of surface samples, in cells
-constexpr double kStepOff = 1e-3;  // from the surface, in cells: tells the body's surface from what lies within it
-constexpr double kSteepest = 1.9;  // of the refined field; Scene::open takes gradients up to 2
+constexpr double kSlack = 0.85;       // of the tolerance: between the points that are looked at it may be worse
+constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
+constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
+constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
+constexpr double kSteepest = 1.95;    // of the refined field; Scene::open takes gradients up to 2
 constexpr int kFineNodes = 2 * kBrickCells + 1;
 
 /// What a look at the surface found.
@@ -78,22 +79,36 @@ class SurfaceCheck {
     bool missed = false;
     for (const double side : {-0.5, 0.5}) {
       Corners raised = corners;
-      for (Vector3d& corner : raised) corner += side * surface_.thickness() * normal;
+      for (Vector3d& corner : raised) corner += side * surface_.thickness() * sides.normal;
       missed = check_piece(raised, sides) || missed;
     }
     return missed;
   }
 
   bool check_piece(const Corners& corners, Sides& sides) {
+    bool missed = divide(corners, sides);
     const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
-    bool missed = false;
-    for (const Vector3d& corner : corners) missed = check_point(corner, center, sides) || missed;
-    return divide(corners, sides) || missed;
+    for (std::size_t i = 0; i < 3; ++i) missed = walk(corners[i], corners[(i + 1) % 3], center, sides) || missed;
+    return missed;
   }
 
-  /// Into four, until the points stand close enough for the bricks that they are in.
+  /// Along an edge, from end to end.
+  bool walk(const Vector3d& from, const Vector3d& to, const Vector3d& center, Sides& sides) {
+    const double length = (to - from).norm();
+    bool missed = false;
+    for (double way = 0.0; way < length;) {
+      const Vector3d p = from + way / length * (to - from);
+      const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(p));
+      missed = check_point(p, leaf, center, sides) || missed;
+      way += kEdgeSpacing * tree_.cell_edge(leaf.level);
+    }
+    return check_point(to, tree_.find(tree_.unit_cell(to)), center, sides) || missed;
+  }
+
+  /// Into four, until the pieces are as small as the cells of the bricks that they are in.
   bool divide(const Corners& corners, Sides& sides) {
     const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
+    const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(center));
     double longest = 0.0;
     Corners middles;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -101,9 +116,8 @@ class SurfaceCheck {
       longest = std::max(longest, (next - corners[i]).norm());
       middles[i] = 0.5 * (corners[i] + next);
     }
-    if (longest <= kSpacing * tree_.cell_edge(tree_.find(tree_.unit_cell(center)).level)) return false;
+    if (longest <= kFaceSpacing * tree_.cell_edge(leaf.level)) return check_point(center, leaf, center, sides);
     bool missed = false;
-    for (const Vector3d& middle : middles) missed = check_point(middle, center, sides) || missed;
     for (const Corners& part :
          {Corners{corners[0], middles[0], middles[2]}, Corners{middles[0], corners[1], middles[1]},
           Corners{middles[2], middles[1], corners[2]}, middles}) {
@@ -112,9 +126,8 @@ class SurfaceCheck {
     return missed;
   }
 
-  /// `center` of the triangle that p stands on the rim of.
-  bool check_point(const Vector3d& p, const Vector3d& center, Sides& sides) {
-    const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(p));
+  /// `leaf` holds p, `center` is a point of the same triangle off its rim.
+  bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
     if (leaf.brick == BrickTree::kNone || std::abs(tree_.interpolate(leaf, p)) <= tolerance_) return false;
     std::array<std::uint32_t, BrickTree::kMostResponsible> responsible{};
     const std::size_t count = tree_.responsible(leaf, p, responsible);
@@ -140,7 +153,8 @@ class SurfaceCheck {
   /// Not where a triangle runs within the body, of itself or of another component.
   static bool bounds_the_body(const Vector3d& p, const Vector3d& center, double cell_edge, Sides& sides) {
     const Vector3d inward = center - p;
-    const Vector3d beside = p + inward * std::min(1.0, kSpacing * cell_edge / inward.norm());
+    const double length = inward.norm();
+    const Vector3d beside = length > 0.0 ? Vector3d(p + inward * std::min(1.0, 0.5 * cell_edge / length)) : p;
     const Vector3d step = kStepOff * cell_edge * sides.normal;
     return (sides.above.signed_distance(beside + step) < 0.0) != (sides.below.signed_distance(beside - step) < 0.0);
   }
@@ -228,16 +242,19 @@ class Refinement {
     while (true) {
       const bool whole = triangles.size() == all.size();
       Misses misses = SurfaceCheck(surface_, tree, barred, kSlack * tolerance_).run(triangles, progress);
-      if (misses.bricks.empty() && whole) break;
-      if (misses.bricks.empty()) {
+      std::vector<std::uint32_t> wanted = std::move(misses.bricks);
+      if (wanted.empty() && !whole) {
         triangles = all;  // a neighbour's halving may have changed what was good
         continue;
       }
-      halve(tree, with_coarser_neighbours(tree, std::move(misses.bricks)), barred);
+      if (wanted.empty()) {
+        if (!beside_steep(tree, barred, wanted)) return false;
+        if (wanted.empty()) break;
+      }
+      halve(tree, with_coarser_neighbours(tree, std::move(wanted)), barred);
       tree.join();
       triangles = std::move(misses.triangles);
     }
-    if (bar_steep(tree)) return false;
     tree.write(field_);
     report_.refined = field_.refined.size();
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
@@ -276,18 +293,26 @@ class Refinement {
     barred.resize(tree.brick_count());
   }
 
-  /// A coarse brick's values beside finer exact ones may be steep; where too steep, the whole position stays coarse.
-  bool bar_steep(const BrickTree& tree) {
-    bool any = false;
+  /// A coarse brick's values beside finer exact ones may be steep; where too steep, halve it too. False if that cannot
+  /// be: then the whole position is barred.
+  bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, std::vector<std::uint32_t>& wanted) {
+    bool possible = true;
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
       if (tree.level(b) == 0 || !tree.is_leaf(b)) continue;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
       slope.add(tree.stored(b));
       if (slope.largest_with_seams() <= kSteepest) continue;
+      bool found = false;
+      for (const BrickTree::Leaf& leaf : tree.leaves_about(b)) {
+        if (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(b) || barred[leaf.brick]) continue;
+        if (std::find(wanted.begin(), wanted.end(), leaf.brick) == wanted.end()) wanted.push_back(leaf.brick);
+        found = true;
+      }
+      if (found) continue;
       barred_[tree.root(b)] = true;
-      any = true;
+      possible = false;
     }
-    return any;
+    return possible;
   }
 
   DistanceGrid& field_;

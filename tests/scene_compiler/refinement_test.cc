@@ -1,0 +1,254 @@
+#include "toolchain/scene_compiler/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/scene/voxelmap.h"
+#include "tests/scene_compiler/brute_force.h"
+#include "tests/scene_compiler/simple_meshes.h"
+#include "tests/scene_compiler/test_meshes.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTolerance = 0.05;  // voxels
+
+struct Field {
+  DistanceGrid coarse, grid;
+  RefinementReport report;
+  Voxelmap coarse_map, map;
+
+  Field(const SolidSurface& surface, double s, double tolerance = kTolerance)
+      : coarse(make_distance_grid(surface, s, default_band(s, 1.5 * s), {})),
+        grid(coarse),
+        report(refine(grid, surface, tolerance * s, {})),
+        coarse_map(coarse.grid, coarse.index, coarse.bricks, {}),
+        map(grid.grid, grid.index, grid.bricks, grid.refined) {}
+};
+
+/// Any rotation, anywhere within a voxel.
+Eigen::Isometry3d any_motion(std::mt19937_64& random, double s) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.rotate(
+      Eigen::AngleAxisd(3.14 * unit(random), Vector3d(unit(random), unit(random), unit(random)).normalized()));
+  motion.pretranslate(s * Vector3d(unit(random), unit(random), unit(random)));
+  return motion;
+}
+
+/// A prism along y with its sharp edge on the y axis, opening by `angle` [rad] towards +x.
+TriangleMesh wedge(double angle, double length, double width) {
+  const double half = length * std::tan(0.5 * angle);
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0},     {length, 0, -half},     {length, 0, half},
+                   {0, width, 0}, {length, width, -half}, {length, width, half}};
+  mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {1, 5, 4}, {1, 2, 5}, {0, 4, 3}, {0, 1, 4}, {0, 5, 2}, {0, 3, 5}};
+  return mesh;
+}
+
+/// Faces, edges and corners of a mesh whose every triangle bounds the body.
+double worst_at_surface(const Voxelmap& field, const TriangleMesh& mesh, int per_triangle) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  double worst = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]];
+    const Vector3d b = mesh.vertices[t[1]];
+    const Vector3d c = mesh.vertices[t[2]];
+    for (int i = 0; i < per_triangle; ++i) {
+      double u = unit(random);
+      double v = i % 2 == 0 ? 0.0 : unit(random);  // half of them on an edge
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      worst = std::max(worst, std::abs(field.sample(a + u * (b - a) + v * (c - a)).distance));
+    }
+    for (const Vector3d& corner : {a, b, c}) worst = std::max(worst, std::abs(field.sample(corner).distance));
+  }
+  return worst;
+}
+
+/// How far points of the stored zero level are from the mesh, by looking at every triangle.
+double worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int points) {
+  const BruteForce truth(mesh);
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double s = field.voxel_size();
+  double worst = 0.0;
+  int found = 0;
+  for (int i = 0; i < points; ++i) {
+    const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+    const double u = std::abs(unit(random));
+    const Vector3d on_edge = mesh.vertices[t[0]] + u * (mesh.vertices[t[1]] - mesh.vertices[t[0]]);
+    Vector3d from = on_edge + 1.5 * s * Vector3d(unit(random), unit(random), unit(random));
+    Vector3d to = on_edge + 1.5 * s * Vector3d(unit(random), unit(random), unit(random));
+    const double sign = field.sample(from).distance < 0.0 ? -1.0 : 1.0;
+    if (sign * field.sample(to).distance >= 0.0) continue;
+    for (int k = 0; k < 40; ++k) {
+      const Vector3d middle = 0.5 * (from + to);
+      (sign * field.sample(middle).distance >= 0.0 ? from : to) = middle;
+    }
+    ++found;
+    worst = std::max(worst, truth.distance(from));
+  }
+  EXPECT_GT(found, points / 20);
+  return worst;
+}
+
+/// Nowhere in the stored bricks may the field jump: pairs of points a millionth of a voxel apart, most of them astride
+/// the faces, edges and corners of cells of all sizes.
+double largest_jump(const Field& field, int pairs) {
+  const format::Grid& g = field.grid.grid;
+  const double s = g.voxel_size;
+  const Vector3d origin(g.origin[0], g.origin[1], g.origin[2]);
+  std::vector<std::size_t> refined;
+  for (std::size_t i = 0; i < field.grid.index.size(); ++i) {
+    const std::uint32_t entry = field.grid.index[i];
+    if ((entry & format::index_entry::kFar) == 0 && (entry & format::index_entry::kRefined) != 0) refined.push_back(i);
+  }
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  double largest = 0.0;
+  for (int i = 0; i < pairs && !refined.empty(); ++i) {
+    const std::size_t at = refined[random() % refined.size()];
+    const auto nx = static_cast<std::size_t>(g.bricks[0]);
+    const auto ny = static_cast<std::size_t>(g.bricks[1]);
+    const Vector3d brick(static_cast<double>(at % nx), static_cast<double>(at / nx % ny),
+                         static_cast<double>(at / nx / ny));
+    Vector3d units = 64.0 * brick + Vector3d(unit(random), unit(random), unit(random)) * 64.0;  // cells of s / 16
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell = 4 << (random() % 5);  // bricks of every level
+      if (random() % 2 == 0) units[axis] = std::round(units[axis] / cell) * cell;
+    }
+    const Vector3d p = origin + s / 16.0 * units;
+    const Vector3d apart = 1e-6 * s * Vector3d(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+    const FieldSample ahead = field.map.sample(p + apart);
+    const FieldSample behind = field.map.sample(p - apart);
+    if (!ahead.known || !behind.known) continue;
+    largest = std::max(largest, std::abs(ahead.distance - behind.distance) - g.lipschitz_seam * 2.0 * apart.norm());
+  }
+  return largest;
+}
+
+/// Floats of a few voxels, and where in a cell a point is.
+constexpr double kFloatRounding = 3e-6;  // voxels
+
+void expect_true_surface(const TriangleMesh& mesh, double s, const char* what, int per_triangle = 400) {
+  const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
+  const Field field(surface, s);
+  const double at_surface = worst_at_surface(field.map, mesh, per_triangle) / s;
+  const double zero_level = worst_of_zero_level(field.map, mesh, 4000) / s;
+  EXPECT_LE(at_surface, kTolerance) << what;
+  EXPECT_LE(zero_level, kTolerance) << what;
+  EXPECT_LE(largest_jump(field, 40000), kFloatRounding * s) << what;
+  EXPECT_LE(field.grid.grid.lipschitz, 2.0) << what;
+  std::printf(
+      "%-12s unrefined: field at the surface off by %.3f s at most; refined: %.3f s, its zero level %.3f s; "
+      "bricks %zu -> %zu, lipschitz %.3f -> %.3f\n",
+      what, worst_at_surface(field.coarse_map, mesh, per_triangle) / s, at_surface, zero_level,
+      field.coarse.bricks.size(), field.grid.bricks.size(), field.coarse.grid.lipschitz, field.grid.grid.lipschitz);
+}
+
+TEST(Refinement, MakesATurnedBoxTrue) {
+  std::mt19937_64 random(14);
+  for (int i = 0; i < 3; ++i) {
+    expect_true_surface(test::moved(test::box_mesh({0.04, 0.03, 0.05}), any_motion(random, 0.004)), 0.004, "box");
+  }
+}
+
+TEST(Refinement, MakesABoxAlongTheLatticeTrue) {
+  expect_true_surface(test::box_mesh({0.04, 0.03, 0.05}), 0.004, "aligned box");
+}
+
+TEST(Refinement, MakesSharpWedgesTrue) {
+  std::mt19937_64 random(15);
+  for (const int degrees : {60, 30}) {
+    const TriangleMesh mesh = wedge(degrees * std::numbers::pi / 180.0, 0.03, 0.02);
+    expect_true_surface(test::moved(mesh, any_motion(random, 0.002)), 0.002, degrees == 60 ? "wedge 60" : "wedge 30");
+  }
+}
+
+TEST(Refinement, MakesAnEngineeredPartTrue) { expect_true_surface(load("bracket", 1.0), 0.004, "bracket", 60); }
+
+/// The teapot is open at its spout, where seams keep bricks as they are, and its parts run into one another.
+TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
+  const double s = 0.004;
+  const SolidSurface surface(load("teapot", 0.037), SurfaceKind::kAuto, 2.0 * s);
+  const Field field(surface, s);
+  EXPECT_GT(field.grid.refined.size(), 100u);
+  EXPECT_LE(largest_jump(field, 100000), kFloatRounding * s);
+  EXPECT_LE(field.grid.grid.lipschitz, 2.0);
+  EXPECT_EQ(field.grid.grid.lipschitz_seam, field.coarse.grid.lipschitz_seam);
+}
+
+TEST(Refinement, LeavesEveryPositionsOwnNodes) {
+  std::mt19937_64 random(16);
+  const SolidSurface surface(test::moved(test::box_mesh({0.04, 0.03, 0.05}), any_motion(random, 0.004)),
+                             SurfaceKind::kSolid, 0.008);
+  const Field field(surface, 0.004);
+  std::uniform_real_distribution<double> unit(-0.05, 0.05);
+  for (int i = 0; i < 100000; ++i) {
+    const Vector3d p(unit(random), unit(random), unit(random));
+    ASSERT_EQ(field.map.layer(p).layer, field.coarse_map.layer(p).layer);
+  }
+}
+
+TEST(Refinement, KeepsLowerBoundsAndClearancesTrue) {
+  std::mt19937_64 random(17);
+  const SolidSurface surface(test::moved(wedge(1.0, 0.03, 0.02), any_motion(random, 0.002)), SurfaceKind::kSolid,
+                             0.004);
+  const Field field(surface, 0.002);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int bounded = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3d center = 0.04 * Vector3d(unit(random), unit(random), unit(random));
+    const double radius = 0.01 * std::pow(unit(random), 2);
+    const double bound = field.map.lower_bound(center, radius);
+    const double clearance = field.map.sample(center).clearance;
+    if (bound >= 0.0) ++bounded;
+    for (int k = 0; k < 30; ++k) {
+      const Vector3d direction = Vector3d(unit(random), unit(random), unit(random)).normalized();
+      if (bound >= 0.0) {
+        ASSERT_GE(field.map.sample(center + radius * std::cbrt(std::abs(unit(random))) * direction).distance,
+                  std::min(bound, field.map.band()) - 1e-8);
+      }
+      if (clearance <= 0.0) continue;
+      ASSERT_GT(field.map.sample(center + 0.999 * clearance * std::abs(unit(random)) * direction).distance + 1e-9, 0.0);
+    }
+  }
+  EXPECT_GT(bounded, 1000);
+}
+
+TEST(Refinement, LeavesWhatIsGoodEnough) {
+  const SolidSurface surface(test::box_mesh({0.04, 0.03, 0.05}), SurfaceKind::kSolid, 0.008);
+  const Field field(surface, 0.004, 1000.0);
+  EXPECT_TRUE(field.grid.refined.empty());
+  EXPECT_EQ(field.grid.bricks.size(), field.coarse.bricks.size());
+  EXPECT_EQ(field.grid.index, field.coarse.index);
+  EXPECT_EQ(field.grid.grid.lipschitz, field.coarse.grid.lipschitz);
+  EXPECT_EQ(field.report.bricks[0], field.coarse.bricks.size());
+}
+
+TEST(Refinement, GivesTheSameEveryTime) {
+  const SolidSurface surface(load("bracket", 1.0), SurfaceKind::kAuto, 0.008);
+  const Field one(surface, 0.004);
+  const Field other(surface, 0.004);
+  ASSERT_EQ(one.grid.bricks.size(), other.grid.bricks.size());
+  EXPECT_EQ(one.grid.index, other.grid.index);
+  EXPECT_EQ(
+      std::memcmp(one.grid.bricks.data(), other.grid.bricks.data(), one.grid.bricks.size() * sizeof(format::Brick)), 0);
+  EXPECT_EQ(std::memcmp(one.grid.refined.data(), other.grid.refined.data(),
+                        one.grid.refined.size() * sizeof(format::Refined)),
+            0);
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler
