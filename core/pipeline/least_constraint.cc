@@ -104,6 +104,7 @@ class Solver {
         converged = polish();
       }
       take(step);
+      if (converged && rests()) step.motion = Motion{};
       step.unconverged = !converged;
       release_contacts();
       if (feasible && !converged) {
@@ -289,6 +290,16 @@ class Solver {
     shifted_ = true;
     if (!met) return false;
     const Motion m = motion();
+    for (int k = 0; k < contact_count_; ++k) {
+      if (slip_of(contacts_[static_cast<std::size_t>(k)], m).speed > metric_.still) return false;
+    }
+    return true;
+  }
+
+  /// All contacts stick, and the tolerances explain what is left of the motion: then it is none, or rest would creep.
+  bool rests() const noexcept {
+    const Motion m = motion();
+    if (contact_count_ == 0 || motion_vector().norm() > metric_.tolerance) return false;
     for (int k = 0; k < contact_count_; ++k) {
       if (slip_of(contacts_[static_cast<std::size_t>(k)], m).speed > metric_.still) return false;
     }
