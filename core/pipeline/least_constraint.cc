@@ -99,15 +99,15 @@ class Solver {
     } else {
       bool converged = crawls(step) && sticks();
       if (!converged) converged = polish();
-      for (int round = 0; round < kRounds && feasible && !converged; ++round) {
-        feasible = meet_cones();
+      for (int round = 0; round < kRounds && !converged; ++round) {
+        meet_cones();  // with shifts that are too small the cones may contradict each other where the rows do not
         converged = polish();
       }
       take(step);
       if (converged && rests()) step.motion = Motion{};
       step.unconverged = !converged;
       release_contacts();
-      if (feasible && !converged) {
+      if (!converged) {
         const Vector6 reached = motion_vector();
         whitened_ = false;
         set_.start(reached);
@@ -367,7 +367,10 @@ class Solver {
           c.shift = c.slips ? slip_of(c, m).speed : 0.0;
         }
         resume();
-        if (set_.size() == size) return true;
+        const Motion held = motion();
+        const double moved = (held.translation - m.translation).squaredNorm() +
+                             (metric_.gyration * (held.rotation - m.rotation)).squaredNorm();
+        if (set_.size() == size && moved <= metric_.tolerance * metric_.tolerance) return true;
         break;
       }
       const int entering = set_.size() < ActiveSet::kCapacity ? open_contact(worst.row, 0.0) : -1;
@@ -485,7 +488,8 @@ class Solver {
         (z.head<3>() - m.translation).squaredNorm() + (z.tail<3>() - metric_.gyration * m.rotation).squaredNorm() <=
         metric_.tolerance * metric_.tolerance;
     m = {z.head<3>(), z.tail<3>() / metric_.gyration};
-    Newton result = Newton::kConverged;
+    // the shares of viscous friction are those of the step before
+    Newton result = settled || !(friction_->viscous_step > 0.0) ? Newton::kConverged : Newton::kOn;
     int pulls = -1;
     for (int j = 0; j < n; ++j) {
       if (multiplier[j] < 0.0 && (pulls < 0 || multiplier[j] < multiplier[pulls])) pulls = j;
