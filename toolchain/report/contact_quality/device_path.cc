@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kPeriod_s = 1e-3;
 constexpr double kPress_s = 0.4;
-constexpr double kClear_m = 2e-3;
 
 struct Offset {
   double into = 0.0;
@@ -38,7 +37,9 @@ DevicePath sampled(const Placement& placement, double duration, const std::funct
   return path;
 }
 
-double pressed(double t, double depth) { return -kClear_m + (depth + kClear_m) * smooth_step(t / kPress_s); }
+double pressed(const Placement& placement, double t, double depth) {
+  return -placement.clear + (depth + placement.clear) * smooth_step(t / kPress_s);
+}
 
 /// Distance gone at t after a start from rest to `speed`, smooth, within `rise`.
 double run_up(double t, double speed, double rise) {
@@ -80,7 +81,8 @@ Placement touch(Placement placement, const std::vector<Vector3>& points_C,
 
 DevicePath press(const Placement& placement, double depth) {
   constexpr double kHold_s = 0.2;
-  DevicePath path = sampled(placement, kPress_s + kHold_s, [&](double t) { return Offset{.into = pressed(t, depth)}; });
+  DevicePath path =
+      sampled(placement, kPress_s + kHold_s, [&](double t) { return Offset{.into = pressed(placement, t, depth)}; });
   path.begin = cycles(0.6 * kPress_s);
   path.checkpoints = {cycles(0.7 * kPress_s), cycles(kPress_s), path.end - 1};
   return path;
@@ -90,7 +92,7 @@ DevicePath slide(const Placement& placement, double depth, double speed, double 
   constexpr double kRise_s = 0.05;
   constexpr double kSettle_s = 0.15;
   DevicePath path = sampled(placement, kPress_s + kSettle_s + duration, [&](double t) {
-    return Offset{.into = pressed(t, depth), .along = run_up(t - kPress_s, speed, kRise_s)};
+    return Offset{.into = pressed(placement, t, depth), .along = run_up(t - kPress_s, speed, kRise_s)};
   });
   path.begin = cycles(kPress_s + kSettle_s);
   path.checkpoints = {path.begin, (path.begin + path.end) / 2, path.end - 1};
@@ -105,7 +107,8 @@ DevicePath slip_off(const Placement& placement, double depth, double speed) {
   constexpr double kHold_s = 0.06;
   const double way_s = (kTo_m - kFrom_m) / speed + 0.5 * kRise_s;
   DevicePath path = sampled(placement, kPress_s + way_s + kHold_s, [&](double t) {
-    return Offset{.into = pressed(t, depth), .along = std::min(kTo_m, kFrom_m + run_up(t - kPress_s, speed, kRise_s))};
+    return Offset{.into = pressed(placement, t, depth),
+                  .along = std::min(kTo_m, kFrom_m + run_up(t - kPress_s, speed, kRise_s))};
   });
   path.begin = cycles(kPress_s + (kMeasured_m - kFrom_m) / speed + 0.5 * kRise_s);
   for (std::size_t k = path.begin; k < path.end; ++k) path.checkpoints.push_back(k);
@@ -113,11 +116,11 @@ DevicePath slip_off(const Placement& placement, double depth, double speed) {
 }
 
 DevicePath retreat(const Placement& placement, double depth) {
-  constexpr double kClear = 6e-3;
   constexpr double kSpeed = 0.2;
-  const double way_s = 1.875 * (depth + kClear) / kSpeed;  // the smooth step's largest slope
+  const double way_s = 1.875 * (depth + placement.clear) / kSpeed;  // the smooth step's largest slope
   DevicePath path = sampled(placement, kPress_s + way_s + 0.02, [&](double t) {
-    return Offset{.into = pressed(t, depth) - (depth + kClear) * smooth_step((t - kPress_s) / way_s)};
+    return Offset{.into =
+                      pressed(placement, t, depth) - (depth + placement.clear) * smooth_step((t - kPress_s) / way_s)};
   });
   path.begin = cycles(kPress_s);
   return path;
@@ -131,7 +134,7 @@ DevicePath turn(const Placement& placement, double depth, double angle) {
   DevicePath path = sampled(placement, kPress_s + turn_s, [&](double t) {
     const double since = std::max(0.0, t - kPress_s);
     return Offset{
-        .into = pressed(t, depth),
+        .into = pressed(placement, t, depth),
         .angle = angle * smooth_step(since / kRise_s) * std::sin(2.0 * std::numbers::pi * kFrequency * since)};
   });
   path.begin = cycles(kPress_s);
@@ -145,12 +148,12 @@ DevicePath tremor(const Placement& placement, double depth, double duration) {
   constexpr double kEncoder_m = 5e-6;
   constexpr double kEncoder_rad = kEncoder_m / 0.1;
   constexpr double kAmplitude_m = 1e-4;
-  constexpr double kAmplitude_rad = 1e-3;
+  constexpr double kAmplitude_rad = 1e-4;
   constexpr double kSettle_s = 1.0;
   constexpr int kSlowest = 8;
   constexpr int kFastest = 12;
-  DevicePath path =
-      sampled(placement, kPress_s + kSettle_s + duration, [&](double t) { return Offset{.into = pressed(t, depth)}; });
+  DevicePath path = sampled(placement, kPress_s + kSettle_s + duration,
+                            [&](double t) { return Offset{.into = pressed(placement, t, depth)}; });
   path.begin = cycles(kPress_s + kSettle_s);
   for (std::size_t k = cycles(kPress_s); k < path.end; ++k) {
     const double t = kPeriod_s * static_cast<double>(k) - kPress_s;

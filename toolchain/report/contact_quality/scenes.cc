@@ -177,6 +177,7 @@ SceneSpec in_slot() {
   scene.placement = {.H_OC = at(Vector3(0.0, 0.0, -0.02), Vector3(0.0, 0.5 * kPi, 0.0)),
                      .into = Vector3::UnitX(),
                      .along = Vector3::UnitY(),
+                     .clear = 4e-4,
                      .axis = Vector3::UnitZ()};
   scene.motions = {.press = true, .slide = true, .turn = true, .retreat = true};
   scene.tight = true;
@@ -187,6 +188,7 @@ SceneSpec in_hole() {
   SceneSpec scene{.name = "peg-hole", .body = BodyShape::kPeg, .solid = hole()};
   scene.placement = {.H_OC = at(Vector3(0.0, 0.0, -0.0095)),
                      .into = Vector3(0.9, 0.0, -0.4).normalized(),
+                     .clear = 1e-4,
                      .axis = Vector3(0.0, 1.0, 0.0)};
   scene.motions = {.press = true, .turn = true, .retreat = true};
   scene.voxel_size = kPegVoxel;
