@@ -493,6 +493,8 @@ class Solver {
     int pulls = -1;
     for (int j = 0; j < n; ++j) {
       if (multiplier[j] < 0.0 && (pulls < 0 || multiplier[j] < multiplier[pulls])) pulls = j;
+      const double changed = std::fabs(multiplier[j] - set_[j].multiplier);
+      if (friction_->viscous_step > 0.0 && changed > metric_.tolerance) result = Newton::kOn;
       set_.at(j).multiplier = std::max(0.0, multiplier[j]);
       Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
       const Slip slip = slip_of(c, m);
