@@ -154,6 +154,19 @@ Json error_json(const FieldError& e, double voxel_size) {
           {"largest_node_error_beyond_float_rounding", e.largest_node_excess}};
 }
 
+Json refinement_json(const CompileReport& report) {
+  const ErrorNorms& near = report.field_error.near;
+  return {{"tolerance_in_voxels", report.config.field_tolerance},
+          {"bricks_by_halvings", report.refinement.bricks},
+          {"bytes", report.refinement.bytes()},
+          {"nearer_than_half_a_voxel",
+           {{"points", near.points},
+            {"rms", near.rms},
+            {"largest", near.largest},
+            {"unrefined_rms", near.floor_rms},
+            {"unrefined_largest", near.floor_largest}}}};
+}
+
 std::uint64_t section_bytes(const CompileReport& report, format::SectionId id) {
   for (const auto& [section, bytes] : report.sections) {
     if (section == id) return bytes;
@@ -210,6 +223,7 @@ Json report_json(const CompileReport& report) {
             {"largest_jump", report.seams.largest_jump},
             {"at", vector_json(report.seams.at)}}},
           {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
+          {"refinement", refinement_json(report)},
           {"body", body},
           {"section_bytes", sections},
           {"left_out", left_out_json(report)}};
@@ -226,6 +240,7 @@ Json full_report_json(const CompileReport& report) {
   }
   seconds["total"] = total;
   json["seconds"] = seconds;
+  json["look_up_nanoseconds"] = {{"unrefined", report.look_up.unrefined}, {"refined", report.look_up.refined}};
   return json;
 }
 

@@ -189,7 +189,7 @@ CompileReport compile_scene(const CompileRequest& request) {
   parts.field =
       phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
   require_some_inside(parts.field, config.still.file.string());
-  report.refinement = phases.run("sharp edges", [&](const Progress& p) {
+  report.refinement = phases.run(kRefinementPhase, [&](const Progress& p) {
     return refine(parts.field, still, config.field_tolerance * config.voxel_size, p);
   });
   report.grid = parts.field.grid;
@@ -202,6 +202,7 @@ CompileReport compile_scene(const CompileRequest& request) {
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
   report.field_error = phases.run("check", [&](const Progress& p) {
     const command::SceneImage image(make_image(sections), request.output.string());
+    report.look_up = time_look_ups(parts.field, image.scene.voxelmap);
     return check_field(still, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });
   require_exact_nodes(report.field_error, config.voxel_size);

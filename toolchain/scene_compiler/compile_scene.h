@@ -18,6 +18,9 @@
 
 namespace godobject::scene_compiler {
 
+/// Name of the phase that refines the field.
+inline constexpr const char* kRefinementPhase = "sharp edges";
+
 struct CompileRequest {
   std::filesystem::path scene_file;
   std::filesystem::path output;
@@ -44,6 +47,7 @@ struct CompileReport {
   std::uint64_t brick_positions = 0;
   MovingBody body;  ///< its arrays are moved into the image
   FieldError field_error;
+  LookUpTime look_up;
   std::vector<std::pair<format::SectionId, std::uint64_t>> sections;  ///< bytes, provenance left out
   std::uint64_t image_bytes = 0;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase

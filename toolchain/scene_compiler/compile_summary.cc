@@ -55,6 +55,22 @@ std::string thin_text(const char* what, const ThinPlaces& p) {
       what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
 }
 
+std::string refinement_text(const CompileReport& report) {
+  const ErrorNorms& near = report.field_error.near;
+  std::string text = fmt::format(
+      "edges   off seams, nearer than half a voxel: rms {} (unrefined {}), largest {} (unrefined {}), on {} points\n",
+      millimetres(near.rms), millimetres(near.floor_rms), millimetres(near.largest), millimetres(near.floor_largest),
+      near.points);
+  double seconds = 0.0;
+  for (const auto& [phase, time] : report.seconds) seconds += phase == kRefinementPhase ? time : 0.0;
+  text += fmt::format("        bricks halved 0, 1, 2, ... times: {}; {:.1f} KiB and {:.2f} s for refinement\n",
+                      fmt::join(report.refinement.bricks, ", "),
+                      static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
+  text += fmt::format("        a look-up takes {:.0f} ns, in refined bricks {:.0f} ns\n", report.look_up.unrefined,
+                      report.look_up.refined);
+  return text;
+}
+
 }  // namespace
 
 std::string report_text(const CompileReport& report) {
@@ -82,6 +98,7 @@ std::string report_text(const CompileReport& report) {
       "        points on the wrong side by more than 0.1 voxel: {}, the floor has {}\n",
       millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.points,
       e.sign_errors, e.floor_sign_errors);
+  text += refinement_text(report);
   text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n",
                       report.body.body.point_count, report.body.body.level_count, millimetres(report.body.spacing),
                       millimetres(report.body.coverage));

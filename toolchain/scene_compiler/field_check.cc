@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -19,14 +20,16 @@ using format::kBrickCells;
 using format::kBrickNodes;
 
 constexpr double kSignSlack = 0.1;           // voxels
+constexpr double kNear = 0.5;                // voxels
 constexpr double kNodeError = 1e-5;          // [m]
 constexpr double kNodeErrorInVoxels = 1e-3;  // what binds below a voxel of a centimetre
 constexpr double kFloatRounding = 0x1p-24;   // of a value, relative
 constexpr double kOnSeam = 1e-6;             // |w - 1/2| below it: which sign is right is decided by rounding
 
-/// A point in a stored brick: cell and place within it.
+/// A point in a stored position: cell of its own nodes and place within it.
 struct Place {
-  std::size_t brick;
+  std::uint32_t entry;       // of the brick index
+  Vector3d position;         // its first node
   std::array<int, 3> cell;   // within the brick
   std::array<double, 3> at;  // within the cell, 0 .. 1
   Vector3d low;              // the cell's first node
@@ -49,13 +52,14 @@ class Places {
     const std::size_t position = stored_[random() % stored_.size()];
     const BrickPosition p = lattice_.position(position);
     Place place;
-    place.brick = grid_.index[position] & format::index_entry::kNumber;
+    place.entry = grid_.index[position];
     const double s = grid_.grid.voxel_size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       place.cell[axis] = static_cast<int>(random() % kBrickCells);
       place.at[axis] = unit();
       const auto k = static_cast<Eigen::Index>(axis);
-      place.low[k] = grid_.grid.origin[axis] + s * (kBrickCells * p[axis] + place.cell[axis]);
+      place.position[k] = grid_.grid.origin[axis] + s * kBrickCells * p[axis];
+      place.low[k] = place.position[k] + s * place.cell[axis];
       place.point[k] = place.low[k] + s * place.at[axis];
     }
     return place;
@@ -69,13 +73,57 @@ class Places {
 
 struct PointError {
   double exact, stored, floor, node, node_excess;
+
+  void add_node(const SolidSurface& surface, const Vector3d& at, double exact_value, float stored_value) {
+    const auto value = static_cast<double>(stored_value);
+    const bool undecided = value * exact_value < 0.0 && std::abs(surface.winding_number(at) - 0.5) < kOnSeam;
+    const double off = undecided ? std::abs(std::abs(value) - std::abs(exact_value)) : std::abs(value - exact_value);
+    node = std::max(node, off);
+    node_excess = std::max(node_excess, off - kFloatRounding * std::abs(exact_value));
+  }
 };
+
+bool is_refined(std::uint32_t entry) { return (entry & format::index_entry::kRefined) != 0; }
+
+std::uint32_t own_brick(const DistanceGrid& grid, std::uint32_t entry) {
+  const std::uint32_t number = entry & format::index_entry::kNumber;
+  return is_refined(entry) ? grid.refined[number].brick : number;
+}
+
+/// Nodes of the octant that holds the point; those within it are exact, those on its faces may not be.
+void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, const Place& place, DistanceProbe& probe,
+                      PointError& error) {
+  std::uint32_t entry = place.entry;
+  Vector3d low = place.position;
+  double edge = grid.grid.voxel_size;
+  while (is_refined(entry)) {
+    edge *= 0.5;
+    std::size_t octant = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (place.point[axis] < low[axis] + kBrickCells * edge) continue;
+      low[axis] += kBrickCells * edge;
+      octant |= std::size_t{1} << axis;
+    }
+    entry = grid.refined[entry & format::index_entry::kNumber].child[octant];
+  }
+  const Vector3d cell = ((place.point - low) / edge).array().floor().max(0.0).min(kBrickCells - 1.0);
+  for (int step = 0; step < 8; ++step) {
+    const int corner = step ^ (step >> 1);
+    const Vector3d node = cell + Vector3d(corner & 1, corner >> 1 & 1, corner >> 2);
+    if (node.minCoeff() < 0.5 || node.maxCoeff() > kBrickCells - 0.5) continue;
+    const auto index = static_cast<std::size_t>(node.x() + kBrickNodes * (node.y() + kBrickNodes * node.z()));
+    const Vector3d at = low + edge * node;
+    error.add_node(surface, at, probe.signed_distance(at),
+                   grid.bricks[entry & format::index_entry::kNumber].value[index]);
+  }
+}
 
 PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field, const Place& place) {
   DistanceProbe probe(surface);
   PointError error{};
   error.exact = probe.signed_distance(place.point);
   error.stored = field.sample(place.point).distance;
+  const format::Brick& own = grid.bricks[own_brick(grid, place.entry)];
   const double s = grid.grid.voxel_size;
   for (int step = 0; step < 8; ++step) {
     const int corner = step ^ (step >> 1);  // Gray code: one edge at a time
@@ -87,13 +135,30 @@ PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const 
     error.floor += weight * exact;
     const int index = place.cell[0] + offset[0] +
                       kBrickNodes * (place.cell[1] + offset[1] + kBrickNodes * (place.cell[2] + offset[2]));
-    const auto stored = static_cast<double>(grid.bricks[place.brick].value[index]);
-    const bool undecided = stored * exact < 0.0 && std::abs(surface.winding_number(node) - 0.5) < kOnSeam;
-    const double off = undecided ? std::abs(std::abs(stored) - std::abs(exact)) : std::abs(stored - exact);
-    error.node = std::max(error.node, off);
-    error.node_excess = std::max(error.node_excess, off - kFloatRounding * std::abs(exact));
+    error.add_node(surface, node, exact, own.value[index]);
   }
+  if (is_refined(place.entry)) add_octant_nodes(surface, grid, place, probe, error);
   return error;
+}
+
+ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<Place>& places,
+                      const DistanceGrid& grid) {
+  ErrorNorms norms;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const bool on_seam = grid.bricks[own_brick(grid, places[i].entry)].seam_clearance <= 0.0f;
+    if (on_seam || std::abs(errors[i].exact) >= kNear * grid.grid.voxel_size) continue;
+    const double error = std::abs(errors[i].stored - errors[i].exact);
+    const double floor = std::abs(errors[i].floor - errors[i].exact);
+    ++norms.points;
+    norms.rms += error * error;
+    norms.floor_rms += floor * floor;
+    norms.largest = std::max(norms.largest, error);
+    norms.floor_largest = std::max(norms.floor_largest, floor);
+  }
+  const double count = std::max(1.0, static_cast<double>(norms.points));
+  norms.rms = std::sqrt(norms.rms / count);
+  norms.floor_rms = std::sqrt(norms.floor_rms / count);
+  return norms;
 }
 
 }  // namespace
@@ -129,10 +194,39 @@ FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, co
     total.largest_node_error = std::max(total.largest_node_error, e.node);
     total.largest_node_excess = std::max(total.largest_node_excess, e.node_excess);
   }
+  total.near = near_norms(errors, drawn, grid);
   const double count = std::max(1.0, static_cast<double>(errors.size()));
   total.rms = std::sqrt(total.rms / count);
   total.floor_rms = std::sqrt(total.floor_rms / count);
   return total;
+}
+
+LookUpTime time_look_ups(const DistanceGrid& grid, const Voxelmap& field) {
+  constexpr int kRounds = 20;
+  constexpr std::size_t kPoints = 5000;
+  const Places places(grid);
+  std::array<std::vector<Vector3d>, 2> points;  // unrefined, refined
+  std::mt19937_64 random(20160903);
+  for (std::size_t i = 0; !places.empty() && i < 100 * kPoints; ++i) {
+    const Place place = places.draw(random);
+    auto& list = points[is_refined(place.entry) ? 1 : 0];
+    if (list.size() < kPoints && field.sample(place.point).known) list.push_back(place.point);
+  }
+  std::array<double, 2> best{};
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    for (int round = 0; round < kRounds && !points[kind].empty(); ++round) {
+      double sum = 0.0;
+      const auto begin = std::chrono::steady_clock::now();
+      for (const Vector3d& p : points[kind]) {
+        const FieldSample sample = field.sample(p);
+        sum += sample.distance + sample.gradient.x();
+      }
+      const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - begin;
+      const double each = time.count() / static_cast<double>(points[kind].size());
+      if (std::isfinite(sum) && (round == 0 || each < best[kind])) best[kind] = each;
+    }
+  }
+  return {best[0], best[1]};
 }
 
 void require_exact_nodes(const FieldError& error, double voxel_size) {

@@ -11,6 +11,9 @@ struct RefinementReport {
   std::array<std::uint64_t, format::kMaxRefinement + 1>
       bricks{};               ///< that are looked up, by how often they were halved
   std::uint64_t refined = 0;  ///< bricks halved
+
+  /// What the octants take in the image.
+  std::uint64_t bytes() const { return refined * (8 * sizeof(format::Brick) + sizeof(format::Refined)); }
 };
 
 /// Halves the bricks of `field` where the stored distance misses the surface of a solid, or the offset surface of a
