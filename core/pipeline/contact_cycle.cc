@@ -115,8 +115,7 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
   if (result.cut) report.outcome = Outcome::kCut;
   if (result.dropped > 0) report.outcome = Outcome::kOverflow;
   if (result.step.infeasible) report.outcome = Outcome::kInfeasible;
-  // a first pose that penetrates is reported as such, however little it does
-  if (inside || (state.inside && !state.started)) report.outcome = Outcome::kStartInside;
+  if (inside) report.outcome = Outcome::kStartInside;
   state.H_WS = result.H_WS;
   state.contact = result.step;
   state.inside = inside;

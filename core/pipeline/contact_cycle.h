@@ -356,7 +356,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     lookup_ns += detail::read(times) - seek_ns;
     result.smallest = std::min(around.smallest, around.left_out);
     result.dropped = around.dropped;
-    inside &= around.smallest <= 0.0;
+    // a point inside has no clearance, so it is near; the first pose is judged by both directions
+    inside = (inside || !(state.started || result.substeps > 0)) && around.smallest <= 0.0;
 
     const ContactFriction* const cone = kFriction ? &friction : nullptr;
     least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);  // #4
