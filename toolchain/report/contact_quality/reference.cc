@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -23,12 +24,26 @@ Matrix3 left_jacobian(const Vector3& r) {
          (angle - std::sin(angle)) / (a2 * angle) * skew * skew;
 }
 
-/// The free set seen from the device pose: eta = (x_e, rho r_e).
+constexpr double kLargestStep_m = 2e-3;
+
+/// What a pose is like: how deep it is, and a.step >= -g for whatever a step may bring to a surface.
+struct Constraints {
+  double violation = 0.0;
+  std::vector<HalfPlane> rows;
+};
+
+/// The free set seen from the device pose: eta = (x_e, rho r_e). Points that are far from all surfaces are not looked
+/// at again before the body has come far enough; distances grow by less than twice the way.
 class FreeSet {
  public:
   explicit FreeSet(const OptimumProblem& problem)
-      : problem_(problem), rho_(std::sqrt(problem.rho_squared)), R_DW_(problem.H_WD.rotation.conjugate()) {
-    for (const Vector3& p : problem.points_B) radius_ = std::max(radius_, p.norm());
+      : problem_(problem),
+        rho_(std::sqrt(problem.rho_squared)),
+        R_DW_(problem.H_WD.rotation.conjugate()),
+        wake_(problem.points_B.size(), 0.0) {
+    double radius = 0.0;
+    for (const Vector3& p : problem.points_B) radius = std::max(radius, p.norm());
+    reach_ = 1.0 + radius / rho_;
   }
 
   Pose pose(const Vector6& eta) const {
@@ -41,38 +56,32 @@ class FreeSet {
     return result;
   }
 
-  /// How far a sample point moves at most with a step of length 1.
-  double reach() const { return 1.0 + radius_ / rho_; }
-
-  double violation(const Vector6& at) const {
-    const Pose H_WS = pose(at);
-    double worst = 0.0;
-    for (const Vector3& p : problem_.points_B) {
-      pieces_.clear();
-      problem_.pieces(H_WS * p, pieces_);
-      for (const analytic::Piece& piece : pieces_) worst = std::max(worst, -problem_.tolerance - piece.distance);
-    }
-    return worst;
-  }
-
-  /// Linearised constraints a.step >= -g of all pieces nearer than `cutoff`.
-  std::vector<HalfPlane> rows(const Vector6& at, double cutoff) const {
+  Constraints look(const Vector6& at) {
+    const double cutoff = 2.0 * kLargestStep_m * reach_;
+    way_ += reach_ * (at - last_).norm();
+    last_ = at;
     const Pose H_WS = pose(at);
     const Vector3 r = at.tail<3>() / rho_;
     const Quaternion R_DS = exp_rotation(r);
     const Matrix3 jacobian = left_jacobian(r).transpose() / rho_;
-    std::vector<HalfPlane> result;
-    for (const Vector3& p : problem_.points_B) {
+    Constraints result;
+    for (std::size_t i = 0; i < wake_.size(); ++i) {
+      if (way_ < wake_[i]) continue;
+      const Vector3& p = problem_.points_B[i];
       pieces_.clear();
       problem_.pieces(H_WS * p, pieces_);
+      double nearest = std::numeric_limits<double>::infinity();
       for (const analytic::Piece& piece : pieces_) {
+        nearest = std::min(nearest, piece.distance);
         if (piece.distance > cutoff || piece.gradient.isZero()) continue;
         const Vector3 n_D = R_DW_._transformVector(piece.gradient);
         HalfPlane row;
         row.normal << n_D, jacobian * R_DS._transformVector(p).cross(n_D);
-        row.bound = -piece.distance - problem_.tolerance;
-        result.push_back(row);
+        row.bound = -piece.distance;
+        result.rows.push_back(row);
       }
+      result.violation = std::max(result.violation, -nearest);
+      wake_[i] = way_ + 0.5 * (nearest - cutoff);
     }
     return result;
   }
@@ -81,8 +90,11 @@ class FreeSet {
   const OptimumProblem& problem_;
   double rho_;
   Quaternion R_DW_;
-  double radius_ = 0.0;
-  mutable std::vector<analytic::Piece> pieces_;
+  double reach_ = 1.0;  ///< how far a sample point moves at most with a step of length 1
+  double way_ = 0.0;    ///< that sample points have gone at most [m]
+  Vector6 last_ = Vector6::Zero();
+  std::vector<double> wake_;  ///< way after which a point is looked at again [m]
+  std::vector<analytic::Piece> pieces_;
 };
 
 /// The step to the shortest eta + step that keeps the rows, with `proximity` |step|^2 added to the objective. Where the
@@ -115,32 +127,31 @@ double metric_distance(const Pose& H_WA, const Pose& H_WB, double rho_squared) {
 Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
   constexpr int kMaxIterations = 300;
   constexpr double kConverged_m = 1e-7;
-  constexpr double kLargestStep_m = 2e-3;
   constexpr double kMaxProximity = 1e7;
-  const FreeSet free_set(problem);
+  FreeSet free_set(problem);
   Vector6 eta = free_set.eta(H_WS_start);
-  double violation = free_set.violation(eta);
+  Constraints here = free_set.look(eta);
   double penalty = 0.1;  // [m]: the objective is in m^2
   double proximity = 0.0;
   Optimum optimum;
-  for (; optimum.iterations < kMaxIterations && !optimum.converged; ++optimum.iterations) {
-    const double cutoff = 2.0 * kLargestStep_m * free_set.reach();
-    LeastDistance step = proximal_step(free_set.rows(eta, cutoff), eta, proximity);
+  for (; optimum.iterations < kMaxIterations; ++optimum.iterations) {
+    const LeastDistance step = proximal_step(here.rows, eta, proximity);
     if (!step.feasible) break;
     penalty = std::max(penalty, 4.0 * step.multiplier_sum);
     const double length = step.x.norm();
-    const double share = std::min(1.0, kLargestStep_m / std::max(length, 1e-300));
-    if ((1.0 + proximity) * length < kConverged_m && violation < kConverged_m) {
+    if ((1.0 + proximity) * length < kConverged_m && here.violation < kConverged_m) {
       optimum.converged = true;
       break;
     }
+    const double share = length > kLargestStep_m ? kLargestStep_m / length : 1.0;
     const Vector6 trial = eta + share * step.x;
-    const double trial_violation = free_set.violation(trial);
-    const double fallen = eta.squaredNorm() - trial.squaredNorm() + penalty * (violation - trial_violation);
-    const double predicted = eta.squaredNorm() - trial.squaredNorm() + penalty * share * violation;
+    Constraints there = free_set.look(trial);
+    const double nearer = eta.squaredNorm() - trial.squaredNorm();
+    const double fallen = nearer + penalty * (here.violation - there.violation);
+    const double predicted = nearer + penalty * share * here.violation;
     if (fallen >= 0.1 * predicted && fallen >= 0.0) {
       eta = trial;
-      violation = trial_violation;
+      here = std::move(there);
       proximity = proximity < 1e-2 ? 0.0 : 0.3 * proximity;
     } else {
       proximity = std::max(0.1, 3.0 * proximity);
@@ -149,7 +160,7 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
   }
   optimum.H_WS = free_set.pose(eta);
   optimum.objective = eta.squaredNorm();
-  optimum.violation = violation;
+  optimum.violation = here.violation;
   return optimum;
 }
 
@@ -173,8 +184,9 @@ OptimumGap optimum_gap(const OptimumProblem& problem, const Pose& H_WS, bool one
     Pose lifted = problem.H_WD;
     const Vector3 out = H_WS.translation - problem.H_WD.translation;
     if (out.norm() > kUsable_m) {
-      const FreeSet free_set(problem);
-      for (int i = 0; i < 40 && free_set.violation(free_set.eta(lifted)) > 0.0; ++i) lifted.translation += 0.1 * out;
+      FreeSet free_set(problem);
+      for (int i = 0; i < 40 && free_set.look(free_set.eta(lifted)).violation > 0.0; ++i)
+        lifted.translation += 0.1 * out;
       starts.push_back(lifted);
     }
   }

@@ -18,7 +18,6 @@ struct OptimumProblem {
   std::vector<Vector3> points_B;  ///< all sample points of the moving body
   DistancePieces pieces;
   double rho_squared = 0.025;  ///< k_VC,r / k_VC,x [m^2]
-  double tolerance = 0.0;      ///< distances down to minus this are held to be free [m]
 };
 
 struct Optimum {
