@@ -56,7 +56,8 @@ Vector3d at(const std::vector<float>& axes, std::size_t i) {
 Made make(const TriangleMesh& mesh, std::uint32_t points, std::uint32_t levels, SurfaceKind kind = SurfaceKind::kAuto,
           double thickness = 0.002) {
   const SolidSurface surface(mesh, kind, thickness);
-  Made made{make_moving_body(surface, points, levels, {}), {}, {}};
+  const OuterSurface outer(surface);
+  Made made{make_moving_body(outer, sample_moving_body(outer, points, levels, {})), {}, {}};
   const format::Body& body = made.moving.body;
   const Eigen::Quaterniond rotation(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]);
   const Vector3d translation(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);
@@ -419,7 +420,7 @@ TEST(MovingBody, IsTheSameEveryTime) {
 TEST(MovingBody, ProgressAscendsToOne) {
   const SolidSurface surface(box_mesh(kEdges), SurfaceKind::kAuto, 0.001);
   double last = 0.0;
-  make_moving_body(surface, 500, 3, [&last](double done) {
+  sample_moving_body(OuterSurface(surface), 500, 3, [&last](double done) {
     EXPECT_GE(done, last);
     last = done;
   });

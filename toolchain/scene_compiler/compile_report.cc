@@ -174,6 +174,28 @@ std::uint64_t section_bytes(const CompileReport& report, format::SectionId id) {
   return 0;
 }
 
+Json second_direction_json(const CompileReport& report) {
+  const SecondDirection& second = report.second;
+  Json json = {{"sought", second.sought}};
+  if (!second.sought) return json;
+  std::uint64_t bytes = 0;
+  for (const auto& [id, section] : report.sections) {
+    if (id >= format::SectionId::kBodyGrid && id <= format::SectionId::kFeatureNodes) bytes += section;
+  }
+  json["bound"] = second.between.bound;
+  json["moving_fall"] = second.between.moving_fall;
+  json["still_fall"] = second.between.still_fall;
+  json["wanted"] = report.config.between_points;
+  json["added_points"] = second.added_points;
+  json["features"] = second.features.point_count;
+  json["feature_corners"] = second.corners;
+  json["features_on_edges"] = second.on_edges;
+  json["features_on_faces"] = second.on_faces;
+  json["bytes"] = bytes;
+  if (second.features.point_count > 0) json["body_grid"] = grid_json(second.grid);
+  return json;
+}
+
 Json left_out_json(const CompileReport& report) {
   const format::Grid& g = report.grid;
   std::uint64_t nodes = 1;
@@ -225,6 +247,7 @@ Json report_json(const CompileReport& report) {
           {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
           {"refinement", refinement_json(report)},
           {"body", body},
+          {"between_points", second_direction_json(report)},
           {"section_bytes", sections},
           {"left_out", left_out_json(report)}};
 }

@@ -13,6 +13,7 @@
 #include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/outer_surface.h"
+#include "toolchain/scene_compiler/second_direction.h"
 #include "toolchain/scene_compiler/still_features.h"
 
 namespace godobject::scene_compiler {
@@ -85,6 +86,8 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});
   sections.push_back({SectionId::kBodyBrickIndex, bytes_of(parts.body_field.index)});
   sections.push_back({SectionId::kBodyBricks, bytes_of(parts.body_field.bricks)});
+  if (!parts.body_field.refined.empty())
+    sections.push_back({SectionId::kBodyRefined, bytes_of(parts.body_field.refined)});
   sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
   sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
   sections.push_back({SectionId::kFeatureNodes, bytes_of(parts.features.nodes)});
@@ -107,9 +110,11 @@ void require_some_inside(const DistanceGrid& field, const std::string& mesh_name
                   mesh_name));
 }
 
-MovingBody sample_moving(const SceneConfig& config, const SolidSurface& surface, const Progress& progress) {
+/// `work` on the moving mesh; its errors get the mesh's name.
+template <class Work>
+auto naming_moving_mesh(const SceneConfig& config, Work&& work) {
   try {
-    return make_moving_body(surface, config.points, config.levels, progress);
+    return work();
   } catch (const command::Failure&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -146,19 +151,16 @@ void write_image(const command::AlignedBytes& image, const std::filesystem::path
   output.commit();
 }
 
-/// The second direction: feature points of the still body and the moving body's own field.
-void add_features(Phases& phases, const SolidSurface& still, const SolidSurface& moving, CompileReport& report,
-                  SceneParts& parts) {
-  const SceneConfig& config = report.config;
-  parts.features = phases.run("features", [&](const Progress&) {
-    const OuterSurface outer(still);
-    return make_still_features(outer.sharp_samples(config.between_points, format::kMaxPoints), 1.0);
-  });
-  if (parts.features.points.empty()) return;
-  parts.body_field = phases.run("body distances", [&](const Progress& p) {
-    const double band = default_band(config.body_voxel_size, config.settings.safety_distance);
-    return make_distance_grid(in_body_frame(moving, report.body.body, config), config.body_voxel_size, band, p);
-  });
+/// Features of the still body, and more points of the moving one where its own are too few to do with them.
+StillFeatures find_features(const SolidSurface& still, const OuterSurface& moving, MovingSampling& sampling,
+                            CompileReport& report, const Progress& progress) {
+  const OuterSurface outer(still);
+  const BothDirections both = see_both_directions(outer, moving, report.config.between_points, sampling, progress);
+  const StillFeatures features = make_still_features(both.features, both.area);
+  report.second = {
+      true, both.between, both.added_points, features.corners, features.on_edges, features.on_faces, features.header,
+      {}};
+  return features;
 }
 
 }  // namespace
@@ -195,8 +197,22 @@ CompileReport compile_scene(const CompileRequest& request) {
   report.grid = parts.field.grid;
   report.seams = parts.field.seams;
   report.brick_positions = parts.field.index.size();
-  report.body = phases.run("points", [&](const Progress& p) { return sample_moving(config, moving, p); });
-  if (wants_features(report)) add_features(phases, still, moving, report, parts);
+  const OuterSurface outer(moving);
+  MovingSampling sampling = phases.run("points", [&](const Progress& p) {
+    return naming_moving_mesh(config, [&] { return sample_moving_body(outer, config.points, config.levels, p); });
+  });
+  if (wants_features(report)) {
+    parts.features = phases.run("between points",
+                                [&](const Progress& p) { return find_features(still, outer, sampling, report, p); });
+  }
+  report.body = phases.run("body", [&](const Progress&) { return make_moving_body(outer, sampling); });
+  if (!parts.features.points.empty()) {
+    parts.body_field = phases.run("body distances", [&](const Progress& p) {
+      const double body_band = default_band(config.body_voxel_size, config.settings.safety_distance);
+      return make_distance_grid(in_body_frame(moving, report.body.body, config), config.body_voxel_size, body_band, p);
+    });
+    report.second.grid = parts.body_field.grid;
+  }
 
   std::vector<SectionBytes> sections = lay_out(report, parts);
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());

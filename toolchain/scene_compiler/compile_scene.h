@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "toolchain/scene_compiler/between_points.h"
 #include "toolchain/scene_compiler/distance_grid.h"
 #include "toolchain/scene_compiler/field_check.h"
 #include "toolchain/scene_compiler/mesh_import.h"
@@ -34,6 +35,18 @@ struct MeshFacts {
   std::vector<SolidSurface::Component> components;
 };
 
+/// Feature points of the still body against the moving body's field, and what neither direction sees.
+struct SecondDirection {
+  bool sought = false;             ///< wanted by the scene, and by the solver that the image is for
+  BetweenPoints between;           ///< only if sought
+  std::uint32_t added_points = 0;  ///< of the moving body, beyond those asked for
+  std::uint32_t corners = 0;       ///< features at sharp vertices of the still body
+  std::uint32_t on_edges = 0;      ///< on its sharp edges and rims
+  std::uint32_t on_faces = 0;      ///< where it bends away too tightly
+  format::Features features{};     ///< point_count = 0: none needed, the image holds no second direction
+  format::Grid grid{};             ///< of the moving body's field
+};
+
 /// Everything that the compiler found and measured.
 struct CompileReport {
   SceneConfig config;
@@ -46,6 +59,7 @@ struct CompileReport {
   SeamReport seams;
   std::uint64_t brick_positions = 0;
   MovingBody body;  ///< its arrays are moved into the image
+  SecondDirection second;
   FieldError field_error;
   LookUpTime look_up;
   std::vector<std::pair<format::SectionId, std::uint64_t>> sections;  ///< bytes, provenance left out

@@ -55,6 +55,31 @@ std::string thin_text(const char* what, const ThinPlaces& p) {
       what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
 }
 
+std::string second_direction_text(const CompileReport& report) {
+  const SecondDirection& second = report.second;
+  if (!second.sought) return "between points of the moving body: not looked at, the still body gives no features\n";
+  const BetweenPoints& between = second.between;
+  std::string text =
+      fmt::format("        {} of them added where the moving surface is sharp or bends\n", second.added_points);
+  if (second.features.point_count > 0) {
+    text += fmt::format(
+        "features {} of the still body: {} corners, {} on edges, {} on bent faces; "
+        "the moving body's field has {} bricks of {}\n",
+        second.features.point_count, second.corners, second.on_edges, second.on_faces, second.grid.brick_count,
+        millimetres(second.grid.voxel_size));
+  } else {
+    text += "features none needed\n";
+  }
+  text += fmt::format("between points no deeper than {}: moving surface {}, still surface {}; wanted {}\n",
+                      millimetres(between.bound), millimetres(between.moving_fall), millimetres(between.still_fall),
+                      millimetres(report.config.between_points));
+  if (between.bound > report.config.between_points) {
+    text += fmt::format("        missed by {}: set moving.points higher, or contact.between_points\n",
+                        millimetres(between.bound - report.config.between_points));
+  }
+  return text;
+}
+
 std::string refinement_text(const CompileReport& report) {
   const ErrorNorms& near = report.field_error.near;
   std::string text = fmt::format(
@@ -102,6 +127,7 @@ std::string report_text(const CompileReport& report) {
   text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n",
                       report.body.body.point_count, report.body.body.level_count, millimetres(report.body.spacing),
                       millimetres(report.body.coverage));
+  text += second_direction_text(report);
   const Json left_out = report_json(report)["left_out"];
   for (const Json& item : left_out) {
     const double saved = item["bytes_saved"].get<double>();

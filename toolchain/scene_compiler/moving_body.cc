@@ -31,12 +31,6 @@ constexpr std::uint32_t kLeastProbes = 20000;
 constexpr std::uint32_t kMostProbes = 1u << 20;
 constexpr std::size_t kProbeBlock = 256;
 
-/// Maps the 0 .. 1 of a part of the work to begin .. end of the whole.
-Progress part_of(const Progress& progress, double begin, double end) {
-  if (!progress) return {};
-  return [&progress, begin, end](double done) { progress(begin + done * (end - begin)); };
-}
-
 void check_arguments(std::uint32_t points, std::uint32_t levels) {
   if (points < 1 || points > format::kMaxPoints) {
     throw command::Failure(command::ExitCode::kBadConfig,
@@ -55,32 +49,7 @@ void check_arguments(std::uint32_t points, std::uint32_t levels) {
   }
 }
 
-/// The samples that stay, and of them, as ascending indices, those of each level.
-struct Sampling {
-  std::vector<SurfaceSample> samples;
-  std::vector<std::vector<std::uint32_t>> levels;
-};
-
-Sampling sample_in_levels(const OuterSurface& outer, const std::vector<std::uint32_t>& sizes,
-                          const Progress& progress) {
-  const std::uint32_t points = sizes.back();
-  OuterSurface::Spread spread = outer.spread(std::max(kCandidatesPerPoint * points, kLeastCandidates), kCandidateSeed,
-                                             part_of(progress, 0.0, 0.4));
-  std::vector<SurfaceSample>& candidates = spread.samples;
-  const auto most_sharp = static_cast<std::uint32_t>(candidates.size());
-  const double distance = 2.0 * densest_disc_radius(spread.area, points);
-  const std::vector<SurfaceSample> sharp = outer.sharp_samples(distance / kEdgeCandidates, most_sharp);
-  candidates.insert(candidates.end(), sharp.begin(), sharp.end());
-
-  const std::vector<std::uint32_t> kept =
-      eliminate(candidates, all_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 0.8));
-  Sampling sampling;
-  for (const std::uint32_t i : kept) sampling.samples.push_back(candidates[i]);
-  sampling.levels = nested_levels(sampling.samples, sizes, spread.area);
-  return sampling;
-}
-
-std::vector<Vector3d> points_of(const std::vector<SurfaceSample>& samples) {
+std::vector<Vector3d> points_of(std::span<const SurfaceSample> samples) {
   std::vector<Vector3d> points;
   points.reserve(samples.size());
   for (const SurfaceSample& sample : samples) points.push_back(sample.point);
@@ -98,30 +67,6 @@ double median_neighbour_distance(const std::vector<SurfaceSample>& samples, cons
   const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
   std::nth_element(squared.begin(), middle, squared.end());
   return std::sqrt(*middle);
-}
-
-/// Largest distance of the outer surface to its nearest sample, on fresh draws. Those furthest off are looked at first:
-/// the first one that is not buried decides.
-double largest_gap(const OuterSurface& outer, const std::vector<SurfaceSample>& samples, const PointTree& tree) {
-  const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
-  const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);
-  std::vector<std::pair<double, std::uint32_t>> far_first(probes.size());
-  parallel_for(probes.size(), [&](std::size_t i) {
-    far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
-  });
-  std::sort(far_first.begin(), far_first.end());
-  for (std::size_t begin = 0; begin < far_first.size(); begin += kProbeBlock) {
-    std::vector<SurfaceSample> block;
-    for (std::size_t i = begin; i < std::min(begin + kProbeBlock, far_first.size()); ++i) {
-      block.push_back(probes[far_first[i].second]);
-    }
-    const std::vector<std::uint8_t> are_outer = outer.are_outer(block);
-    const auto found = std::find(are_outer.begin(), are_outer.end(), 1);
-    if (found != are_outer.end()) {
-      return std::sqrt(-far_first[begin + static_cast<std::size_t>(found - are_outer.begin())].first);
-    }
-  }
-  return 0.0;
 }
 
 /// Mass of the enclosed volume, or else of the points; fills the body's frame, inertia and volume.
@@ -155,17 +100,62 @@ Eigen::Isometry3d body_pose(const format::Body& body) {
   return X_MB;
 }
 
-MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, std::uint32_t levels,
-                            const std::function<void(double)>& progress) {
+MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t points, std::uint32_t levels,
+                                  const Progress& progress) {
   check_arguments(points, levels);
+  OuterSurface::Spread spread = outer.spread(std::max(kCandidatesPerPoint * points, kLeastCandidates), kCandidateSeed,
+                                             part_of(progress, 0.0, 0.4));
+  std::vector<SurfaceSample>& candidates = spread.samples;
+  const auto most_sharp = static_cast<std::uint32_t>(candidates.size());
+  const double distance = 2.0 * densest_disc_radius(spread.area, points);
+  const std::vector<SurfaceSample> sharp = outer.sharp_samples(distance / kEdgeCandidates, most_sharp);
+  candidates.insert(candidates.end(), sharp.begin(), sharp.end());
+
+  MovingSampling sampling{{}, points, levels, spread.area};
+  for (const std::uint32_t i :
+       eliminate(candidates, all_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 1.0))) {
+    sampling.samples.push_back(candidates[i]);
+  }
+  if (progress) progress(1.0);
+  return sampling;
+}
+
+/// Those furthest off are looked at first: the first one that is not buried decides.
+double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> samples) {
+  const PointTree tree(points_of(samples));
+  const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
+  const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);
+  std::vector<std::pair<double, std::uint32_t>> far_first(probes.size());
+  parallel_for(probes.size(), [&](std::size_t i) {
+    far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
+  });
+  std::sort(far_first.begin(), far_first.end());
+  for (std::size_t begin = 0; begin < far_first.size(); begin += kProbeBlock) {
+    std::vector<SurfaceSample> block;
+    for (std::size_t i = begin; i < std::min(begin + kProbeBlock, far_first.size()); ++i) {
+      block.push_back(probes[far_first[i].second]);
+    }
+    const std::vector<std::uint8_t> are_outer = outer.are_outer(block);
+    const auto found = std::find(are_outer.begin(), are_outer.end(), 1);
+    if (found != are_outer.end()) {
+      return std::sqrt(-far_first[begin + static_cast<std::size_t>(found - are_outer.begin())].first);
+    }
+  }
+  return 0.0;
+}
+
+MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling) {
   MovingBody moving;
-  moving.level_sizes = level_sizes(points, levels);
-  const OuterSurface outer(surface);
-  const Sampling sampling = sample_in_levels(outer, moving.level_sizes, progress);
   const std::vector<Vector3d> points_M = points_of(sampling.samples);
+  moving.level_sizes = level_sizes(sampling.points, sampling.levels);
+  const std::span<const SurfaceSample> spread = std::span(sampling.samples).first(sampling.points);
+  std::vector<std::vector<std::uint32_t>> levels = nested_levels(spread, moving.level_sizes, sampling.area);
+  levels.back() = all_indices(points_M.size());
+  moving.level_sizes.back() = static_cast<std::uint32_t>(points_M.size());
 
   format::Body& body = moving.body;
-  const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_M, body).inverse();
+  // samples that were added crowd at edges: they carry no mass
+  const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_of(spread), body).inverse();
   std::vector<Eigen::Vector3f> points_B;
   std::vector<Eigen::Vector3f> normals_B;
   double radius = kLeastRadius;
@@ -174,19 +164,17 @@ MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, s
     normals_B.push_back((X_BM.linear() * sample.inward).cast<float>());
     radius = std::max(radius, points_B.back().cast<double>().norm());
   }
-  SphereTree tree = build_sphere_tree(points_B, sampling.levels);
+  SphereTree tree = build_sphere_tree(points_B, levels);
   moving.points = by_axis(points_B, tree.order);
   moving.normals = by_axis(normals_B, tree.order);
   moving.nodes = std::move(tree.nodes);
   body.radius = radius * (1.0 + 1e-12);
-  body.point_count = points;
+  body.point_count = moving.level_sizes.back();
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());
-  body.level_count = levels;
+  body.level_count = sampling.levels;
 
-  const PointTree point_tree(points_M);
-  moving.spacing = median_neighbour_distance(sampling.samples, point_tree);
-  moving.coverage = largest_gap(outer, sampling.samples, point_tree);
-  if (progress) progress(1.0);
+  moving.spacing = median_neighbour_distance(sampling.samples, PointTree(points_M));
+  moving.coverage = largest_gap(outer, sampling.samples);
   return moving;
 }
 

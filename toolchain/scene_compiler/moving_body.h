@@ -1,15 +1,25 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "core/scene/format.h"
-#include "toolchain/scene_compiler/solid_surface.h"
+#include "toolchain/scene_compiler/outer_surface.h"
+#include "toolchain/scene_compiler/parallel.h"
+#include "toolchain/scene_compiler/surface_sample.h"
 
 namespace godobject::scene_compiler {
+
+/// Samples of the moving surface, in the mesh's frame M: `points` spread evenly, behind them any that were added.
+struct MovingSampling {
+  std::vector<SurfaceSample> samples;
+  std::uint32_t points = 0;
+  std::uint32_t levels = 0;
+  double area = 0.0;  ///< of the outer surface [m^2]
+};
 
 /// What of the moving mesh goes into the image.
 struct MovingBody {
@@ -23,11 +33,17 @@ struct MovingBody {
       0.0;  ///< largest distance of the (outer) surface from its nearest sample point, on fresh samples [m]
 };
 
-/// Spreads `points` samples over the outer surface (Poisson disk by sample elimination), in `levels` nested levels,
-/// with inward normals, sphere tree and mass properties. Deterministic. `progress` gets 0 .. 1; may be empty. Throws
-/// std::runtime_error naming the cure.
-MovingBody make_moving_body(const SolidSurface& surface, std::uint32_t points, std::uint32_t levels,
-                            const std::function<void(double)>& progress);
+/// Spreads `points` samples over the outer surface (Poisson disk by sample elimination), enough for `levels` nested
+/// levels. Deterministic. `progress` gets 0 .. 1; may be empty. Throws std::runtime_error naming the cure.
+MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t points, std::uint32_t levels,
+                                  const Progress& progress);
+
+/// The samples in nested levels (added ones in the last), with inward normals, sphere tree and mass properties.
+/// Deterministic.
+MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling);
+
+/// Largest distance of the outer surface to its nearest sample, on fresh draws [m].
+double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> samples);
 
 /// Pose of the body frame B (centre of mass, principal axes) in the moving mesh's frame M, as the core reads it.
 Eigen::Isometry3d body_pose(const format::Body& body);

@@ -24,7 +24,9 @@ class OuterSurface {
   /// Reads `surface` later on: it must stay alive.
   explicit OuterSurface(const SolidSurface& surface);
 
+  const SolidSurface& surface() const { return surface_; }
   const BodyMesh& body() const { return body_; }
+  double area() const { return patches_.area(); }  ///< of the whole surface, buried parts included [m^2]
 
   /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 ..
   /// 1; may be empty. Cost: a winding number a draw. Throws std::runtime_error if (nearly) nothing of the mesh is outer

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace godobject::scene_compiler {
@@ -49,6 +50,11 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
         for (std::size_t i = begin; i < end; ++i) work(i);
       },
       progress);
+}
+
+Progress part_of(Progress progress, double begin, double end) {
+  if (!progress) return {};
+  return [progress = std::move(progress), begin, end](double done) { progress(begin + done * (end - begin)); };
 }
 
 }  // namespace godobject::scene_compiler

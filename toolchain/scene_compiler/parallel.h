@@ -15,4 +15,7 @@ void parallel_chunks(std::size_t count, std::size_t chunk, const std::function<v
 /// Runs work(i) for i = 0 .. count - 1, likewise.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work, const Progress& progress = {});
 
+/// Maps the 0 .. 1 of a part of the work to begin .. end of the whole; empty if `progress` is.
+Progress part_of(Progress progress, double begin, double end);
+
 }  // namespace godobject::scene_compiler

@@ -34,10 +34,11 @@ class PointTree {
         });
   }
 
-  /// Of the points with accept(index), the nearest; of equally near ones the first.
+  /// Of the points with accept(index) nearer than `radius`, the nearest; of equally near ones the first.
   template <class Accept>
-  Nearest nearest(const Eigen::Vector3d& p, const Accept& accept) const {
+  Nearest nearest(const Eigen::Vector3d& p, double radius, const Accept& accept) const {
     Nearest best;
+    best.squared_distance = radius * radius;
     descend(
         p, Range{0, 0, size()}, [&best] { return best.squared_distance; },
         [&](std::uint32_t index, double squared) {
@@ -46,6 +47,11 @@ class PointTree {
           if (nearer && accept(index)) best = {index, squared};
         });
     return best;
+  }
+
+  template <class Accept>
+  Nearest nearest(const Eigen::Vector3d& p, const Accept& accept) const {
+    return nearest(p, std::numeric_limits<double>::infinity(), accept);
   }
 
   Nearest nearest(const Eigen::Vector3d& p) const {
