@@ -35,6 +35,14 @@ TEST(Judge, TakesTheMedianOfTimes) {
   EXPECT_TRUE(verdict->held);
 }
 
+TEST(Judge, NamesNoSceneWhereNothingIsWrong) {
+  const auto verdict =
+      judge({{"ball", "moved", Solver::kContact, Quantity::kCrossings, 0.0}}, Quantity::kCrossings, Solver::kContact);
+  ASSERT_TRUE(verdict);
+  EXPECT_TRUE(verdict->held);
+  EXPECT_EQ(verdict->worst_scene, "");
+}
+
 TEST(Judge, SaysNothingOfWhatWasNotMeasured) {
   EXPECT_FALSE(judge(some(), Quantity::kDrag, Solver::kContact));
   EXPECT_FALSE(judge(some(), Quantity::kOptimum, Solver::kCorrected));

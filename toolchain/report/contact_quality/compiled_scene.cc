@@ -33,7 +33,7 @@ command::SceneImage compile(const std::string& name, const SceneText& scene, con
   toml.commit();
   const std::filesystem::path image = folder / (name + ".scene");
   scene_compiler::compile_scene(
-      {.scene_file = folder / (name + ".toml"), .output = image, .only_solver = {}, .progress = {}});
+      {.scene_file = folder / (name + ".toml"), .output = image, .only_solver = scene.only_solver, .progress = {}});
   return command::SceneImage::read(image);
 }
 

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "core/scene/format.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/scene_compiler/triangle_mesh.h"
 
@@ -32,6 +34,7 @@ struct SceneText {
   std::filesystem::path body;  ///< mesh of the moving body, in metres
   std::uint32_t points = 0;
   WorldSettings settings = {};
+  std::optional<format::Solver> only_solver = {};
 };
 
 double shell_thickness(const WorldSettings& settings);

@@ -97,7 +97,8 @@ class Study {
     const OptimumProblem problem{.H_WD = c.H_WD,
                                  .points_B = world_.points_B(),
                                  .pieces = [this](const Vector3& p, auto& out) { world_.pieces(p, out); },
-                                 .rho_squared = kRhoSquared};
+                                 .rho_squared = kRhoSquared,
+                                 .largest_step = scene_.voxel_size};
     return optimum_gap(problem, c.H_WS, scene_.one_sided);
   }
 

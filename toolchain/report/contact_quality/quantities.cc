@@ -60,7 +60,7 @@ std::optional<Verdict> judge(const std::vector<Measurement>& measurements, Quant
     values.push_back(m.value);
     if (wanted.median || !worse || std::isnan(verdict.value)) continue;
     verdict.value = m.value;
-    verdict.worst_scene = m.scene + " (" + m.world + ")";
+    if (m.value != 0.0) verdict.worst_scene = m.scene + " (" + m.world + ")";
   }
   if (values.empty()) return std::nullopt;
   if (wanted.median) verdict.value = percentile(values, 0.5);

@@ -64,7 +64,7 @@ struct Measurement {
 /// A quantity of one solver over all scenes.
 struct Verdict {
   double value = 0.0;
-  std::string worst_scene;  ///< where the value is the worst one
+  std::string worst_scene;  ///< where the value is the worst one; empty for 0
   bool held = true;         ///< true where there is no target
 };
 

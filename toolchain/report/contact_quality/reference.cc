@@ -24,8 +24,6 @@ Matrix3 left_jacobian(const Vector3& r) {
          (angle - std::sin(angle)) / (a2 * angle) * skew * skew;
 }
 
-constexpr double kLargestStep_m = 2e-3;
-
 /// What a pose is like: how deep it is, and a.step >= -g for whatever a step may bring to a surface.
 struct Constraints {
   double violation = 0.0;
@@ -57,7 +55,7 @@ class FreeSet {
   }
 
   Constraints look(const Vector6& at) {
-    const double cutoff = 2.0 * kLargestStep_m * reach_;
+    const double cutoff = 2.0 * problem_.largest_step * reach_;
     way_ += reach_ * (at - last_).norm();
     last_ = at;
     const Pose H_WS = pose(at);
@@ -143,7 +141,7 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
       optimum.converged = true;
       break;
     }
-    const double share = length > kLargestStep_m ? kLargestStep_m / length : 1.0;
+    const double share = length > problem.largest_step ? problem.largest_step / length : 1.0;
     const Vector6 trial = eta + share * step.x;
     Constraints there = free_set.look(trial);
     const double nearer = eta.squaredNorm() - trial.squaredNorm();

@@ -17,7 +17,8 @@ struct OptimumProblem {
   Pose H_WD;
   std::vector<Vector3> points_B;  ///< all sample points of the moving body
   DistancePieces pieces;
-  double rho_squared = 0.025;  ///< k_VC,r / k_VC,x [m^2]
+  double rho_squared = 0.025;   ///< k_VC,r / k_VC,x [m^2]
+  double largest_step = 0.002;  ///< trust region [m]: about what a surface is straight over
 };
 
 struct Optimum {
