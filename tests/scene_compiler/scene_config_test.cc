@@ -46,6 +46,19 @@ TEST(SceneConfig, FillsInDefaultsAsMultiplesOfTheVoxel) {
   EXPECT_EQ(config.levels, 7u);
 }
 
+TEST(SceneConfig, ReadsTheSecondDirection) {
+  const SceneConfig plain = read(std::string(kStill) + kMoving);
+  EXPECT_TRUE(plain.both_directions);
+  EXPECT_DOUBLE_EQ(plain.between_points, 0.0005);
+  EXPECT_DOUBLE_EQ(plain.body_voxel_size, 0.002);
+  const SceneConfig said = read(std::string(kStill) + kMoving +
+                                "voxel_size = 0.001\n[contact]\nboth_directions = false\nbetween_points = 1e-4\n");
+  EXPECT_FALSE(said.both_directions);
+  EXPECT_DOUBLE_EQ(said.between_points, 1e-4);
+  EXPECT_DOUBLE_EQ(said.body_voxel_size, 0.001);
+  expect_refused(std::string(kStill) + kMoving + "[contact]\nboth_directions = 1\n", ":7", "contact.both_directions");
+}
+
 TEST(SceneConfig, ReadsEveryKey) {
   const SceneConfig config = read(
       "[still]\nmesh = \"m/a.ply\"\nscale = 2\nvoxel_size = 0.001\nsurface = \"shell\"\nthickness = 0.003\n"

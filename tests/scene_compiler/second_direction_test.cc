@@ -21,7 +21,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kDense = 150000;  // draws on each surface, apart from the compiler's own
+constexpr std::uint32_t kDense = 40000;  // draws on each surface, apart from the compiler's own
 constexpr std::uint32_t kDenseSeed = 4711;
 
 /// A surface with dense draws, vertices and points along all its edges.
@@ -169,26 +169,57 @@ double deepest_unseen(const Bodies& bodies, int poses, const Vector3d& target, d
 TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndTeapot) {
   Bodies bodies(load("teapot", 0.037), load("bunny_npm", 0.0161497));
   bodies.look(5587, 0.0005);
-  EXPECT_LE(deepest_unseen(bodies, 12, {0.0, 0.03, 0.0}, 0.05), bodies.both.between.bound);
+  EXPECT_LE(deepest_unseen(bodies, 3, {0.0, 0.03, 0.0}, 0.05), bodies.both.between.bound);
 }
 
-TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndPlate) {
-  Bodies bodies(load("plate_2mm", 1.0), load("bunny_npm", 0.0161497));
-  bodies.look(5587, 0.00025);
-  EXPECT_LE(deepest_unseen(bodies, 6, {0.05, 0.05, 0.0}, 0.2), bodies.both.between.bound);
+/// A wedge along y with its edge on top, at z = 0: `half_width` below it by `height`.
+TriangleMesh knife_mesh(double length, double half_width, double height) {
+  const double y = 0.5 * length;
+  return {{{0.0, -y, 0.0},
+           {0.0, y, 0.0},
+           {-half_width, -y, -height},
+           {half_width, -y, -height},
+           {-half_width, y, -height},
+           {half_width, y, -height}},
+          {{0, 3, 5}, {0, 5, 1}, {0, 1, 4}, {0, 4, 2}, {2, 4, 5}, {2, 5, 3}, {0, 2, 3}, {1, 5, 4}}};
 }
 
-TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndSheet) {
-  Bodies bodies(load("sheet_open", 1.0), load("bunny_npm", 0.0161497), SurfaceKind::kShell, 0.002);
-  bodies.look(5587, 0.00025);
-  EXPECT_LE(deepest_unseen(bodies, 6, {0.05, 0.05, 0.0}, 0.2), bodies.both.between.bound);
+/// Needles side by side, their tips at x = 0.
+TriangleMesh comb_mesh() {
+  TriangleMesh comb;
+  for (int i = 0; i < 4; ++i) {
+    Isometry3d aside = Isometry3d::Identity();
+    aside.translation() = Vector3d(0.0, 0.004 * i, 0.0);
+    const TriangleMesh tooth = test::moved(test::needle_mesh(0.02, 0.001), aside);
+    comb = i == 0 ? tooth : test::joined(comb, tooth);
+  }
+  return comb;
 }
 
-TEST(SecondDirection, HoldsItsBoundBetweenPegAndHole) {
-  Bodies bodies(load("hole_round", 1.0), load("peg_round", 1.0));
-  bodies.look(6000, 0.000125);
-  EXPECT_LE(deepest_unseen(bodies, 6, {0.0, 0.0, 0.0}, 0.05), bodies.both.between.bound);
+class Tools : public testing::TestWithParam<int> {
+ protected:
+  static TriangleMesh tool() {
+    if (GetParam() == 0) return test::needle_mesh(0.02, 0.001);
+    if (GetParam() == 1) return comb_mesh();
+    return knife_mesh(0.02, 0.002, 0.01);
+  }
+};
+
+/// Samples 3 mm apart, between which any of the tools would go in unseen.
+TEST_P(Tools, EnterNoBoxDeeperThanTheBound) {
+  Bodies bodies(tool(), test::box_mesh({0.03, 0.02, 0.025}));
+  bodies.look(400, 0.0005);
+  ASSERT_FALSE(bodies.both.features.empty());
+  EXPECT_LE(deepest_unseen(bodies, 15, Vector3d::Zero(), 0.004), bodies.both.between.bound);
 }
+
+TEST_P(Tools, EnterNoCoarseBallDeeperThanTheBound) {
+  Bodies bodies(tool(), test::ball_mesh(0.015, 6));
+  bodies.look(400, 0.0005);
+  EXPECT_LE(deepest_unseen(bodies, 15, Vector3d::Zero(), 0.004), bodies.both.between.bound);
+}
+
+INSTANTIATE_TEST_SUITE_P(SpikeCombKnife, Tools, testing::Range(0, 3));
 
 }  // namespace
 }  // namespace godobject::scene_compiler

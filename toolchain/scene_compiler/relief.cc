@@ -9,10 +9,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCoarsePerReach = 4.0;  // coarse places over the reach
-constexpr double kFineBelow = 2.0;       // coarse spacings: a fall over more is seen well enough by the coarse cloud
+constexpr double kCoarsePerReach = 5.0;  // coarse places over the reach
+constexpr double kFineBelow = 2.5;       // coarse spacings: a fall over more is seen well enough by the coarse cloud
 constexpr std::uint32_t kLeastCoarse = 4000;
-constexpr std::uint32_t kMostCoarse = 1u << 16;
+constexpr std::uint32_t kMostCoarse = 1u << 18;
 constexpr std::uint64_t kMostFine = 1u << 19;  // draws, most of which are not near rough places
 constexpr std::uint32_t kMostSharp = 1u << 17;
 constexpr std::uint32_t kBlock = 1u << 16;
@@ -70,7 +70,7 @@ std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const 
     if (is_rough[i] != 0) rough_points.push_back(places_[i].point);
   }
   const PointTree rough(rough_points);
-  const double near = fine_below_ / kFineBelow;
+  const double near = 2.0 * fine_below_ / kFineBelow;  // random places leave holes
   std::vector<SurfaceSample> fine;
   const std::uint32_t draws = draws_for(outer.area(), resolution.fine, kMostFine);
   const std::uint32_t blocks = draws / kBlock + 1;
