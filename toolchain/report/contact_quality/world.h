@@ -33,7 +33,7 @@ class World {
   virtual double depth(const Pose& H_WS) const = 0;
 
   /// Deepest sample point in the mesh that was compiled [m]; the same as `depth` where there is no mesh. Only points
-  /// within a voxel of the stored surface are looked at.
+  /// within half a voxel of the stored surface are looked at.
   virtual double true_depth(const Pose& H_WS) const = 0;
 
   virtual const Pose& H_MB() const = 0;
