@@ -131,6 +131,7 @@ SceneSpec on_edge(BodyShape body) {
                      .axis = Vector3(0.0, 0.6, 0.8)};
   scene.motions = {.press = true, .turn = true, .retreat = true};
   scene.plain = body != BodyShape::kL && body != BodyShape::kBunny;
+  scene.tight = body == BodyShape::kL;
   scene.sharp = true;
   return scene;
 }

@@ -48,7 +48,7 @@ struct SceneSpec {
   double angle = 0.25;           ///< of turns [rad]
   double friction_ratio = 0.18;  ///< expected of sliding: tangential over normal spring force
   bool groove = false;
-  bool tight = false;                     ///< slot, peg, L: opposite contacts
+  bool tight = false;                     ///< slot, peg, L: the wider target for the optimum
   bool plain = false;                     ///< convex body on a flat or convex one
   bool sharp = false;                     ///< still body with convex edges or corners at the contact
   bool one_sided = false;                 ///< a thin wall: the best pose cannot be reached
