@@ -18,7 +18,7 @@ using analytic::Solid;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kKinetic = 0.18;
-constexpr double kPlateHalf = 0.1;
+constexpr double kPlateHalf = 0.3;         // no dash gets round it
 constexpr double kPlateThickness = 0.004;  // two voxels
 constexpr double kBallRadius = 0.05;
 constexpr double kSlotGap = 0.031;
