@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/figures/replay_rows.h"
 #include "toolchain/command/failure.h"
 #include "toolchain/figures/page.h"
 
@@ -64,13 +65,21 @@ TEST_F(Plan, IsRefusedNamingTheKey) {
 }
 
 TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
-  for (const char* name : {"paper_1.200.png", "figure.png", "paper.csv"}) std::ofstream(folder_ / "peg" / name) << "x";
+  for (const char* name : {"paper_1.200.png", "contact_1.200.png", "paper_deepest.png", "sketch.png", "figure.png"})
+    std::ofstream(folder_ / "peg" / name) << "x";
+  const ReplayLog log = {replay_row(1.2, 7.5, 0.0001, 5, 9e3, 100), replay_row(1.201, 2.0, 0.003, 5, 20e3, 400)};
+  const Figure figure{.title = "", .voxel_size = 0.002, .markers = {}, .series = {{"paper", log}, {"contact", log}}};
   const std::string html =
-      page(read_plan(holding(kScene)), {{"peg", "paper", 0.002, {}, {}}}, {"MISSED & lost"}, folder_);
+      page(read_plan(holding(kScene)), {figure}, {{"peg", "paper", 0.002, {}, {}}, {"peg", "contact", 0.002, {}, {}}},
+           {"MISSED & lost"}, folder_);
   EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
   EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
   EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);
-  EXPECT_NE(html.find("paper, 1.200 s"), std::string::npos);
+  EXPECT_NE(html.find("paper, 1.200 s: depth 0.100 mm, force 7.5 N"), std::string::npos);
+  EXPECT_NE(html.find("paper, 1.201 s (when any is deepest): depth 3.000 mm, force 2.0 N"), std::string::npos);
+  EXPECT_LT(html.find("<figcaption>contact, 1.200"), html.find("<figcaption>paper, 1.200"));
+  EXPECT_LT(html.find("<figcaption>paper, 1.200"), html.find("<figcaption>paper, 1.201"));
+  EXPECT_NE(html.find("<figcaption>sketch.png"), std::string::npos);
   EXPECT_NE(html.find("href=\"peg/paper.csv\""), std::string::npos);
   EXPECT_EQ(html.find("<figcaption>figure"), std::string::npos);
 }

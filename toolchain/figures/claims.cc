@@ -1,52 +1,107 @@
 #include "toolchain/figures/claims.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace godobject::figures {
 namespace {
 
 constexpr double kSolve_us = 5.0;
 
+/// Something that is claimed of a solver's run in a scene. `missed` says by how much it is not so; empty: it is so.
+struct Claim {
+  std::string (*missed)(const Entry& entry);
+  std::string (*holds)(const std::vector<const Entry*>& entries);  ///< in words; empty: they do not show it
+};
+
+std::string penetration(const Entry& e) {
+  const Statistics& s = e.statistics;
+  if (e.solver == "contact" ? s.penetration_max <= 0.0 : s.penetration_max < e.voxel_size) return "";
+  return fmt::format("the god object penetrates {} {:.3f} mm, {:.2f} voxels, at {:.3f} s ({})",
+                     s.depth_is_bound ? "at least" : "up to", 1e3 * s.penetration_max, s.penetration_max / e.voxel_size,
+                     s.penetration_at, e.solver == "contact" ? "contact: a gap is kept" : "paper: below one voxel");
+}
+
+std::string penetration_holds(const std::vector<const Entry*>& entries) {
+  const auto deeper = [](const Entry* a, const Entry* b) {
+    return a->statistics.penetration_max < b->statistics.penetration_max;
+  };
+  const double deepest = (*std::max_element(entries.begin(), entries.end(), deeper))->statistics.penetration_max;
+  if (deepest > 0.0) return "penetration below one voxel";
+  return fmt::format("no penetration, the smallest gap is {:.4f} mm", -1e3 * deepest);
+}
+
+std::string pop_through(const Entry& e) {
+  if (!e.crossing || e.crossing->distance < e.voxel_size) return "";
+  return fmt::format("the god object goes {:.1f} mm behind the surface, at {:.3f} s (paper: it does not pop through)",
+                     1e3 * e.crossing->distance, e.crossing->t);
+}
+
+std::string pop_through_holds(const std::vector<const Entry*>& entries) {
+  const bool shown =
+      std::any_of(entries.begin(), entries.end(), [](const Entry* e) { return e->crossing.has_value(); });
+  return shown ? "no pop-through" : "";
+}
+
+std::string solve_time(const Entry& e) {
+  const Times& solve = e.statistics.solve;
+  if (solve.p99 <= kSolve_us) return "";
+  return fmt::format("steps #2-#7 take {:.2f} us in the median, {:.2f} us in the 99th percentile (paper: around 5 us)",
+                     solve.p50, solve.p99);
+}
+
+std::string cycle_time(const Entry& e) {
+  const Statistics& s = e.statistics;
+  if (s.over_1ms == 0) return "";
+  return fmt::format(
+      "{} of {} cycles took longer than 1 ms (paper: none; a machine without real-time scheduling can do that by "
+      "itself)",
+      s.over_1ms, s.cycles);
+}
+
+constexpr Claim kClaims[] = {
+    {penetration, penetration_holds},
+    {pop_through, pop_through_holds},
+    {solve_time, [](const std::vector<const Entry*>&) { return std::string("#2-#7 within 5 us (99th percentile)"); }},
+    {cycle_time, [](const std::vector<const Entry*>&) { return std::string("every cycle below 1 ms"); }},
+};
+
+/// What holds of one solver in all of its scenes.
+std::string held(const std::vector<const Entry*>& entries) {
+  std::vector<std::string> words;
+  for (const Claim& claim : kClaims) {
+    const bool missed =
+        std::any_of(entries.begin(), entries.end(), [&](const Entry* e) { return !claim.missed(*e).empty(); });
+    std::string word = missed ? "" : claim.holds(entries);
+    if (!word.empty()) words.push_back(std::move(word));
+  }
+  return words.empty() ? "none of the claims" : fmt::format("{}", fmt::join(words, "; "));
+}
+
 }  // namespace
 
 std::vector<std::string> judge(const std::vector<Entry>& entries) {
-  std::vector<std::string> depth;
-  std::vector<std::string> solve;
-  std::vector<std::string> cycle;
+  std::vector<std::string> sentences;
+  std::vector<std::string_view> solvers;
   for (const Entry& e : entries) {
-    const Statistics& s = e.statistics;
-    const std::string who = fmt::format("{}, solver {}", e.scene, e.solver);
-    if (s.penetration_max >= e.voxel_size) {
-      depth.push_back(fmt::format(
-          "MISSED {}: the god object penetrates {} {:.2f} mm, {:.1f} voxels, at {:.3f} s (paper: below one voxel)", who,
-          s.depth_is_bound ? "at least" : "up to", 1e3 * s.penetration_max, s.penetration_max / e.voxel_size,
-          s.penetration_at));
-    }
-    if (e.crossing && e.crossing->distance >= e.voxel_size) {
-      depth.push_back(fmt::format(
-          "MISSED {}: the god object goes {:.1f} mm behind the surface, at {:.3f} s (paper: it does not pop through)",
-          who, 1e3 * e.crossing->distance, e.crossing->t));
-    }
-    if (s.solve.p99 > kSolve_us) {
-      solve.push_back(fmt::format(
-          "MISSED {}: steps #2-#7 take {:.2f} us in the median, {:.2f} us in the 99th percentile (paper: around 5 us)",
-          who, s.solve.p50, s.solve.p99));
-    }
-    if (s.over_1ms > 0) {
-      cycle.push_back(fmt::format(
-          "MISSED {}: {} of {} cycles took longer than 1 ms (paper: none; a machine without real-time scheduling can "
-          "do that by itself)",
-          who, s.over_1ms, s.cycles));
+    if (std::find(solvers.begin(), solvers.end(), e.solver) == solvers.end()) solvers.push_back(e.solver);
+  }
+  for (const Claim& claim : kClaims) {
+    for (const Entry& e : entries) {
+      const std::string what = claim.missed(e);
+      if (!what.empty()) sentences.push_back(fmt::format("MISSED {}, solver {}: {}", e.scene, e.solver, what));
     }
   }
-  std::string met;
-  if (depth.empty()) met += " penetration below one voxel;";
-  if (solve.empty()) met += " steps #2-#7 within 5 us (99th percentile);";
-  if (cycle.empty()) met += " every cycle below 1 ms;";
-  std::vector<std::string> sentences = std::move(depth);
-  sentences.insert(sentences.end(), solve.begin(), solve.end());
-  sentences.insert(sentences.end(), cycle.begin(), cycle.end());
-  if (!met.empty()) sentences.push_back(fmt::format("Met by every scene and solver:{}", met.substr(0, met.size() - 1)));
+  for (const std::string_view solver : solvers) {
+    std::vector<const Entry*> own;
+    for (const Entry& e : entries) {
+      if (e.solver == solver) own.push_back(&e);
+    }
+    sentences.push_back(fmt::format("HOLDS in every scene, solver {}: {}", solver, held(own)));
+  }
   return sentences;
 }
 

@@ -14,8 +14,8 @@ struct Marker {
   double t = 0.0;  ///< [s]
 };
 
-/// The paper's Figure 8 made anew: a column for each solver, one below the other force, torque, penetration of the god
-/// object (with the voxel edge), colliding points, and time of step #1 and of #2-#7.
+/// The paper's Figure 8 made anew, all solvers in each panel, a colour each: one below the other force, torque,
+/// penetration of the god object (with the voxel edge), points in contact, and time of step #1 and of #2-#7.
 struct Figure {
   struct Series {
     std::string solver;
@@ -25,7 +25,7 @@ struct Figure {
   std::string title;
   double voxel_size = 0.0;  ///< [m]
   std::vector<Marker> markers;
-  std::vector<Series> series;  ///< one or more
+  std::vector<Series> series;  ///< one or more; later ones are drawn over earlier ones
 };
 
 /// The picture as a program for gnuplot, data included, that writes `png`.

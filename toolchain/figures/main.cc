@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/progress.h"
@@ -25,12 +25,14 @@ namespace command = godobject::command;
 namespace fs = std::filesystem;
 
 const char* const kFooter = R"(Example:
-  godobject-figures figures.toml --images images --solvers paper,corrected -o out
+  godobject-figures figures.toml --images images --solvers paper,corrected,contact -o out
 
 FIGURES.toml holds tables [[scene]] with the keys name, image, title, text and, if wanted, markers =
 { A = 0.4 } [s] and barrier = [x, y, z, nx, ny, nz]: the god object is to stay on that side of a plane of W [m]. For each of them
 OUT/NAME/SOLVER.csv (of godobject-replay) and IMAGES/IMAGE.scene (of godobject-scenec) must be there. Writes OUT/NAME/figure.png
-with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table and which of the paper's claims are missed.
+with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table, what is missed of the paper's claims and of
+what contact promises, and what holds; the CSV table has more columns than the printed one. Pictures OUT/NAME/SOLVER_MOMENT.png
+(of godobject-view) are shown if they are there.
 Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.)";
 
 struct Options {
@@ -48,10 +50,12 @@ void make_figures(const Options& options) {
   const fs::path output = options.output;
   const std::vector<ScenePlan> plans = read_plan(options.plan);
   std::vector<Entry> entries;
+  std::vector<Figure> figures;
   {
     command::Progress progress;
     for (const ScenePlan& plan : plans) {
-      progress.show("figures", static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
+      progress.show("figures",
+                    static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
       const auto image = command::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
       const godobject::Scene& scene = image.scene;
       Figure figure{.title = plan.title, .voxel_size = scene.grid.voxel_size, .markers = plan.markers, .series = {}};
@@ -63,11 +67,12 @@ void make_figures(const Options& options) {
         figure.series.push_back({solver, std::move(log)});
       }
       draw(figure, output / plan.name / "figure.png");
+      figures.push_back(std::move(figure));
     }
   }
   const std::vector<std::string> verdicts = judge(entries);
   write(output / "statistics.csv", csv_table(entries));
-  write(output / "index.html", page(plans, entries, verdicts, output));
+  write(output / "index.html", page(plans, figures, entries, verdicts, output));
   fmt::print("{}\n", text_table(entries));
   for (const std::string& verdict : verdicts) fmt::print("{}\n", verdict);
 }
@@ -80,7 +85,9 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("FIGURES", options.plan, "what to show, TOML")->required();
   app.add_option("--images", options.images, "folder of the scene images")->required();
-  app.add_option("--solvers", options.solvers, "SOLVER[,SOLVER ...]: a column each")->delimiter(',')->required();
+  app.add_option("--solvers", options.solvers, "SOLVER[,SOLVER ...]: a colour each, the last on top")
+      ->delimiter(',')
+      ->required();
   app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")->required();
   return command::run(app, argc, argv, [&] { make_figures(options); });
 }

@@ -31,14 +31,24 @@ Statistics statistics(const ReplayLog& log, double band) {
   std::vector<double> step1;
   std::vector<double> solve;
   double sum = 0.0;
+  const ReplayRow* previous = nullptr;
   for (const ReplayRow& row : log) {
+    const double force_step = previous == nullptr ? 0.0 : (row.wrench.force - previous->wrench.force).norm();
+    previous = &row;
+    if (force_step > result.force_step) {
+      result.force_step = force_step;
+      result.force_step_at = row.t;
+    }
+    result.cut += row.status == "cut" ? 1u : 0u;
+    result.overflow += row.status == "overflow" ? 1u : 0u;
+    result.infeasible += row.status == "infeasible" ? 1u : 0u;
     if (row.step1_ns + row.solve_ns > kMillisecond_ns) ++result.over_1ms;
     if (row.contacts <= 0.0 && row.depth <= 0.0) continue;
     ++result.contact_cycles;
     step1.push_back(row.step1_ns);
     solve.push_back(row.solve_ns);
     sum += std::max(row.depth, 0.0);
-    if (row.depth > result.penetration_max) {
+    if (result.contact_cycles == 1 || row.depth > result.penetration_max) {
       result.penetration_max = row.depth;
       result.penetration_at = row.t;
     }

@@ -25,15 +25,21 @@ struct Times {
 struct Statistics {
   std::size_t cycles = 0;
   std::size_t contact_cycles = 0;
-  double penetration_max = 0.0;   ///< [m]
+  double penetration_max = 0.0;   ///< over the cycles in contact; negative: a gap was kept. 0 without contact [m]
   double penetration_at = 0.0;    ///< time of it [s]
   bool depth_is_bound = false;    ///< it reaches the band of stored distances: the true depth may be larger
   double penetration_mean = 0.0;  ///< over the cycles in contact, depths below zero counted as zero [m]
   double peak_force = 0.0;        ///< [N]
+  double force_step = 0.0;        ///< largest change of the force from one cycle to the next [N]
+  double force_step_at = 0.0;     ///< time of it [s]
   double peak_contacts = 0.0;
   Times step1;               ///< #1
   Times solve;               ///< #2-#7
   std::size_t over_1ms = 0;  ///< of all cycles, those whose #1-#7 took longer than 1 ms
+  // of all cycles, those with this status
+  std::size_t cut = 0;
+  std::size_t overflow = 0;
+  std::size_t infeasible = 0;
 };
 
 /// `band`: distances are stored up to it [m].

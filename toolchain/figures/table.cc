@@ -7,7 +7,16 @@
 namespace godobject::figures {
 namespace {
 
+constexpr const char* kColumnsExplained =
+    "depth: deepest sample point in contact (below 0: a gap); behind: beyond the plate's face; step: largest change of "
+    "the\nforce in a cycle; points: of paper and corrected those that collide, of contact those that carry; cycles "
+    "cut, "
+    "with\noverflow (ovf) or infeasible (inf); times in us";
+
 std::string us(double time) { return fmt::format("{:.2f}", time); }
+
+/// Negative where a gap was kept [mm].
+std::string depth(const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }
 
 /// Furthest behind the scene's barrier [mm].
 std::string behind(const Entry& e) {
@@ -18,28 +27,33 @@ std::string behind(const Entry& e) {
 
 const std::vector<Column>& columns() {
   static const std::vector<Column> kColumns = {
-      {"scene", "scene", [](const Entry& e) { return e.scene; }},
-      {"solver", "solver", [](const Entry& e) { return e.solver; }},
-      {"depth max mm", "penetration_max_mm",
-       [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }},
+      {"scene", "scene", [](const Entry& e) { return e.scene; }, true},
+      {"solver", "solver", [](const Entry& e) { return e.solver; }, true},
+      {"depth mm", "penetration_max_mm", depth, true},
       {"mean mm", "penetration_mean_mm",
        [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
-      {"max vox", "penetration_max_voxels",
+      {"voxels", "penetration_max_voxels",
        [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_max / e.voxel_size); }},
-      {"mean vox", "penetration_mean_voxels",
+      {"mean", "penetration_mean_voxels",
        [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
       {"at band", "penetration_at_band",
        [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
-      {"behind mm", "furthest_behind_barrier_mm", behind},
-      {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }},
-      {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); }},
-      {"#1 p50 us", "step1_p50_us", [](const Entry& e) { return us(e.statistics.step1.p50); }},
-      {"p99", "step1_p99_us", [](const Entry& e) { return us(e.statistics.step1.p99); }},
+      {"behind mm", "furthest_behind_barrier_mm", behind, true},
+      {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }, true},
+      {"step N", "largest_force_step_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.force_step); },
+       true},
+      {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); },
+       true},
+      {"cut", "cycles_cut", [](const Entry& e) { return fmt::format("{}", e.statistics.cut); }, true},
+      {"ovf", "cycles_overflow", [](const Entry& e) { return fmt::format("{}", e.statistics.overflow); }, true},
+      {"inf", "cycles_infeasible", [](const Entry& e) { return fmt::format("{}", e.statistics.infeasible); }, true},
+      {"#1 p50", "step1_p50_us", [](const Entry& e) { return us(e.statistics.step1.p50); }, true},
+      {"p99", "step1_p99_us", [](const Entry& e) { return us(e.statistics.step1.p99); }, true},
       {"max", "step1_max_us", [](const Entry& e) { return us(e.statistics.step1.max); }},
-      {"#2-#7 p50 us", "solve_p50_us", [](const Entry& e) { return us(e.statistics.solve.p50); }},
-      {"p99", "solve_p99_us", [](const Entry& e) { return us(e.statistics.solve.p99); }},
+      {"#2-#7 p50", "solve_p50_us", [](const Entry& e) { return us(e.statistics.solve.p50); }, true},
+      {"p99", "solve_p99_us", [](const Entry& e) { return us(e.statistics.solve.p99); }, true},
       {"max", "solve_max_us", [](const Entry& e) { return us(e.statistics.solve.max); }},
-      {">1 ms", "cycles_over_1ms", [](const Entry& e) { return fmt::format("{}", e.statistics.over_1ms); }},
+      {">1ms", "cycles_over_1ms", [](const Entry& e) { return fmt::format("{}", e.statistics.over_1ms); }, true},
   };
   return kColumns;
 }
@@ -47,6 +61,7 @@ const std::vector<Column>& columns() {
 std::string text_table(const std::vector<Entry>& entries) {
   std::vector<std::string> lines(entries.size() + 1);
   for (const Column& column : columns()) {
+    if (!column.narrow) continue;
     std::vector<std::string> cells = {column.heading};
     for (const Entry& entry : entries) cells.push_back(column.value(entry));
     std::size_t width = 0;
@@ -59,7 +74,7 @@ std::string text_table(const std::vector<Entry>& entries) {
   }
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
-  return text;
+  return text + kColumnsExplained + "\n";
 }
 
 std::string csv_table(const std::vector<Entry>& entries) {

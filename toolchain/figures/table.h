@@ -12,13 +12,16 @@ struct Column {
   const char* heading;
   const char* name;
   std::string (*value)(const Entry& entry);
+  bool narrow = false;  ///< also in the table for a terminal
 };
 
 /// scene, solver, penetration in mm and in voxels (whether it reached the band: then it is a lower bound), how far the
-/// god object went behind the scene's barrier, peak force, peak colliding points, times, cycles over 1 ms.
+/// god object went behind the scene's barrier, peak force and largest step of it, peak colliding points, cycles by
+/// status, times, cycles over 1 ms.
 const std::vector<Column>& columns();
 
-/// For a terminal: columns padded with blanks, headings first.
+/// For a terminal of 120 characters: the narrow columns padded with blanks, headings first, then a line that explains
+/// them.
 std::string text_table(const std::vector<Entry>& entries);
 
 /// The same numbers as CSV; the first line names the columns.
