@@ -1,6 +1,6 @@
 #include "core/pipeline/contact_cycle.h"
 
-#include <Eigen/Cholesky>
+#include "core/pipeline/small_system.h"
 
 namespace godobject {
 
@@ -61,32 +61,39 @@ Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velo
   Wrench out;
   if (step.force_count == 0) return out;
   std::array<const ContactForce*, 6> contact{};
-  Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
+  std::array<double, 6> load{};
   int count = 0;
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
-    int k_found = 0;
-    while (k_found < count && contact[static_cast<std::size_t>(k_found)]->id != step.forces[j].id) ++k_found;
-    if (k_found == count) contact[static_cast<std::size_t>(count++)] = &step.forces[j];
-    load[k_found] += step.forces[j].multiplier;
+    int found = 0;
+    while (found < count && contact[static_cast<std::size_t>(found)]->id != step.forces[j].id) ++found;
+    if (found == count) contact[static_cast<std::size_t>(count++)] = &step.forces[j];
+    load[static_cast<std::size_t>(found)] += step.forces[j].multiplier;
   }
   const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
-  Eigen::Matrix<double, 6, 1> velocity;
-  velocity << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
-  Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
+  const Vector3 v = R_WS.transpose() * velocity_W.translation;
+  const Vector3 w = gyration * (R_WS.transpose() * velocity_W.rotation);
+  std::array<Vector3, 6> turn;  // of the rows, over rho
+  SmallSystem<6> rate;          // least squares: the velocity's part along the normals
+  rate.size = count;
   for (int i = 0; i < count; ++i) {
-    const ContactForce& c = *contact[static_cast<std::size_t>(i)];
-    C.col(i) << c.normal, c.point.cross(c.normal) / gyration;
+    const auto at = static_cast<std::size_t>(i);
+    const Vector3& normal = contact[at]->normal;
+    turn[at] = contact[at]->point.cross(normal) / gyration;
+    for (int j = 0; j <= i; ++j) {
+      const auto other = static_cast<std::size_t>(j);
+      rate.matrix[i][j] = rate.matrix[j][i] = normal.dot(contact[other]->normal) + turn[at].dot(turn[other]);
+    }
+    // normals may depend on each other where friction keeps them apart: a grain of regularisation
+    rate.matrix[i][i] += 1e-9;
+    rate.rhs[i] = normal.dot(v) + turn[at].dot(w);
   }
-  // normals may depend on each other where friction keeps them apart: a grain of regularisation
-  Eigen::Matrix<double, 6, 6> G = C.transpose() * C;
-  G.diagonal().array() += 1e-9;
-  const Eigen::Matrix<double, 6, 1> rate = G.llt().solve(C.transpose() * velocity);
+  if (!rate.solve()) return out;
   Wrench wrench_S;
   for (int i = 0; i < count; ++i) {
-    const ContactForce& c = *contact[static_cast<std::size_t>(i)];
-    const double change = std::max(0.0, load[i] - damping_over_stiffness * rate[i]) - load[i];
-    wrench_S.force += k * change * c.normal;
-    wrench_S.torque += k * change * c.point.cross(c.normal);
+    const auto at = static_cast<std::size_t>(i);
+    const double change = std::max(0.0, load[at] - damping_over_stiffness * rate.rhs[i]) - load[at];
+    wrench_S.force += k * change * contact[at]->normal;
+    wrench_S.torque += k * change * gyration * turn[at];
   }
   out.force = R_WS * wrench_S.force;
   out.torque = R_WS * wrench_S.torque;
