@@ -62,13 +62,24 @@ TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   EXPECT_EQ(image.bytes.span().size(), report.image_bytes);
   EXPECT_TRUE(image.scene.holds(format::Solver::kPaper));
   EXPECT_TRUE(image.scene.holds(format::Solver::kCorrected));
-  EXPECT_EQ(image.scene.pointshell.size, 300u);
+  EXPECT_EQ(image.scene.pointshell.size, 300u + report.second.added_points);
   EXPECT_NE(image.scene.pointshell.normal_x, nullptr);
   EXPECT_LE(report.field_error.largest_node_error, 1e-5);
   EXPECT_LE(report.field_error.largest_node_excess, report.field_error.largest_node_error);
   EXPECT_LE(report.field_error.rms, 1.001 * report.field_error.floor_rms);
   EXPECT_LE(report.field_error.sign_errors, report.field_error.floor_sign_errors);
   EXPECT_GE(report.field_error.points, 10000u);
+}
+
+TEST_F(CompileScene, LeavesTheSecondDirectionOutWhereNobodyReadsIt) {
+  compile({});
+  EXPECT_TRUE(command::SceneImage::read(folder_.file("out.scene")).scene.has_features());
+  compile({.more = "[contact]\nboth_directions = false\n"});
+  EXPECT_FALSE(command::SceneImage::read(folder_.file("out.scene")).scene.has_features());
+  compile({}, "paper.scene", format::Solver::kPaper);
+  const command::SceneImage paper = command::SceneImage::read(folder_.file("paper.scene"));
+  EXPECT_FALSE(paper.scene.has_features());
+  EXPECT_EQ(paper.scene.pointshell.size, 300u);
 }
 
 TEST_F(CompileScene, GivesTheSameBytesEveryTime) {
@@ -99,7 +110,7 @@ TEST_F(CompileScene, InspectShowsWhatWasCompiled) {
   EXPECT_EQ(json["settings"]["solver"], "corrected");
   EXPECT_DOUBLE_EQ(json["settings"]["friction"]["kinetic"], 0.27);
   EXPECT_DOUBLE_EQ(json["grid"]["voxel_size"], 0.004);
-  EXPECT_EQ(json["body"]["points"], 300);
+  EXPECT_GE(json["body"]["points"], 300);
   EXPECT_GT(json["sections"]["bricks"]["bytes"], 0);
   EXPECT_TRUE(json["provenance"]["walls"].contains("found"));
   EXPECT_FALSE(json["provenance"].contains("seconds"));

@@ -28,7 +28,7 @@ struct FieldError {
   double floor_largest = 0.0;     ///< [m]
   std::uint64_t sign_errors = 0;  ///< wrong side although further than a tenth of a voxel from the surface
   std::uint64_t floor_sign_errors = 0;
-  ErrorNorms near;                   ///< where the exact distance is below half a voxel, off seams
+  ErrorNorms near{};                 ///< where the exact distance is below half a voxel, off seams
   double largest_node_error = 0.0;   ///< of a stored value at the nodes around those points [m]
   double largest_node_excess = 0.0;  ///< the same beyond what rounding the exact value to float may make of it [m]
 };
