@@ -39,7 +39,8 @@ class ReplayTest : public testing::Test {
     d.settings.friction = friction ? 1 : 0;
     d.settings.friction_static = 0.2;
     d.settings.friction_kinetic = 0.18;
-    d.settings.default_solver = static_cast<std::uint32_t>(format::Solver::kCorrected);
+    d.settings.solvers = (1u << format::kSolverCount) - 1u;
+    d.settings.default_solver = static_cast<std::uint32_t>(format::Solver::kContact);
     const SceneImage image = build_scene_image(d);
     std::ofstream(folder_ / "balls.scene", std::ios::binary)
         .write(reinterpret_cast<const char*>(image.bytes().data()), static_cast<std::streamsize>(image.bytes().size()));
@@ -84,7 +85,9 @@ class ReplayTest : public testing::Test {
   std::string output_;
 };
 
-constexpr std::size_t kDepth = 21, kStep1 = 24, kSolve = 25, kStatus = 26, kGodZ = 10, kForceZ = 17;
+constexpr const char* kSolvers[] = {"paper", "corrected", "contact"};
+constexpr std::size_t kDepth = 21, kContacts = 22, kSubsteps = 23, kStep1 = 24, kSolve = 25, kStatus = 26, kGodZ = 10,
+                      kForceZ = 17;
 
 TEST_F(ReplayTest, WritesOneRowACycleWithTheColumnsOfTheContract) {
   write_path();
@@ -106,9 +109,27 @@ TEST_F(ReplayTest, WritesOneRowACycleWithTheColumnsOfTheContract) {
   EXPECT_NE(output_.find("floating-point exceptions: none"), std::string::npos);
 }
 
+TEST_F(ReplayTest, KeepsAGapWithTheSolverContactWhichIsTheScenesDefault) {
+  write_path();
+  ASSERT_EQ(run("--friction off"), 0) << output_;
+  const auto table = rows();
+  ASSERT_EQ(table.size(), 301u);
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    ASSERT_LT(std::stod(table[i][kDepth]), 0.0) << "row " << i;
+    ASSERT_TRUE(table[i][kStatus] == "contact" || table[i][kStatus] == "free") << table[i][kStatus];
+  }
+  EXPECT_EQ(table[1][kStatus], "free");
+  EXPECT_EQ(table[300][kStatus], "free");
+  EXPECT_EQ(table[151][kStatus], "contact");
+  EXPECT_EQ(table[151][kSubsteps], "1");
+  EXPECT_GE(std::stoi(table[151][kContacts]), 1);
+  EXPECT_LE(std::stoi(table[151][kContacts]), 3);
+  EXPECT_NEAR(std::stod(table[151][kForceZ]), 2000.0 * 0.010, 2000.0 * 0.0005);
+}
+
 TEST_F(ReplayTest, IsTheSameToTheLastBitApartFromTiming) {
   write_path();
-  for (const std::string solver : {"paper", "corrected"}) {
+  for (const std::string solver : kSolvers) {
     ASSERT_EQ(run("--solver " + solver, "a.csv"), 0) << output_;
     ASSERT_EQ(run("--solver " + solver, "b.csv"), 0) << output_;
     auto a = rows("a.csv");
@@ -153,16 +174,20 @@ TEST_F(ReplayTest, RefusesTimesThatAreNotOneMillisecondApart) {
 
 TEST_F(ReplayTest, StartsInsideWithItsStatus) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.07,1,0,0,0\n0.001,0,0,0.07,1,0,0,0\n";
-  ASSERT_EQ(run("--solver corrected"), 0) << output_;
-  EXPECT_EQ(rows()[1][kStatus], "start_inside");
-  EXPECT_EQ(output_.find("at least"), std::string::npos) << output_;
+  for (const std::string solver : kSolvers) {
+    ASSERT_EQ(run("--solver " + solver), 0) << output_;
+    EXPECT_EQ(rows()[1][kStatus], "start_inside") << solver;
+    EXPECT_EQ(output_.find("at least"), std::string::npos) << output_;
+  }
 }
 
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.02,1,0,0,0\n";
-  ASSERT_EQ(run("--solver corrected"), 0) << output_;
-  EXPECT_NE(output_.find("deepest at least "), std::string::npos) << output_;
-  EXPECT_NE(output_.find("(the stored band)"), std::string::npos) << output_;
+  for (const std::string solver : kSolvers) {
+    ASSERT_EQ(run("--solver " + solver), 0) << output_;
+    EXPECT_NE(output_.find("deepest at least "), std::string::npos) << output_;
+    EXPECT_NE(output_.find("(the stored band)"), std::string::npos) << output_;
+  }
 }
 
 TEST_F(ReplayTest, EndsWithTheExitCodesOfTheContract) {
@@ -170,7 +195,7 @@ TEST_F(ReplayTest, EndsWithTheExitCodesOfTheContract) {
   EXPECT_EQ(run("--solver nonsense"), 64);
   EXPECT_EQ(run("--unknown"), 64);
   EXPECT_EQ(run("--help"), 0);
-  EXPECT_NE(output_.find("Example:"), std::string::npos);
+  EXPECT_NE(output_.find("Examples:"), std::string::npos);
   EXPECT_NE(output_.find("infeasible"), std::string::npos);
   EXPECT_NE(output_.find("neither limited nor smoothed"), std::string::npos);
   EXPECT_EQ(run("--version"), 0);

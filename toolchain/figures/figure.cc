@@ -19,16 +19,16 @@ constexpr double kMicrosecond_ns = 1e3;
 struct Panel {
   const char* label;
   double (*value)(const ReplayRow& row);
-  bool logarithmic = false;
+  double lowest = 0.0;  ///< of a logarithmic axis; 0: linear
 };
 
 constexpr std::array<Panel, 6> kPanels = {{
     {"force [N]", [](const ReplayRow& r) { return r.wrench.force.norm(); }},
     {"torque [Nm]", [](const ReplayRow& r) { return r.wrench.torque.norm(); }},
     {"penetration [mm]", [](const ReplayRow& r) { return 1e3 * std::max(r.depth, 0.0); }},
-    {"points", [](const ReplayRow& r) { return r.contacts; }, true},
-    {"#1 [us]", [](const ReplayRow& r) { return r.step1_ns / kMicrosecond_ns; }, true},
-    {"#2-#7 [us]", [](const ReplayRow& r) { return r.solve_ns / kMicrosecond_ns; }, true},
+    {"points", [](const ReplayRow& r) { return r.contacts; }, 0.7},
+    {"#1 [us]", [](const ReplayRow& r) { return r.step1_ns / kMicrosecond_ns; }, 0.1},
+    {"#2-#7 [us]", [](const ReplayRow& r) { return r.solve_ns / kMicrosecond_ns; }, 0.1},
 }};
 constexpr std::size_t kPenetration = 2;
 
@@ -87,8 +87,8 @@ std::string panel_text(const Figure& figure, std::size_t row) {
   std::string text = marker_text(figure.markers, row == 0);
   text += fmt::format("set ylabel '{}'\n", panel.label);
   const double highest = top(figure, panel, depth ? 1.1 * voxel_mm : 1e-3);
-  if (panel.logarithmic) {
-    text += fmt::format("set logscale y\nset yrange [*:{:.6g}]\n", 2.0 * highest);
+  if (panel.lowest > 0.0) {
+    text += fmt::format("set logscale y\nset yrange [{}:{:.6g}]\n", panel.lowest, 2.0 * highest);
   } else {
     text += fmt::format("unset logscale y\nset yrange [0:{:.6g}]\n", highest);
   }

@@ -18,22 +18,31 @@ using godobject::Solver;
 using godobject::command::ExitCode;
 using godobject::command::Failure;
 
-const char* const kFooter = R"(Example:
-  godobject-replay bunny_teapot.scene bunny_teapot.csv -o out.csv --solver corrected
+const char* const kFooter = R"(Examples:
+  godobject-replay bunny_teapot.scene bunny_teapot.csv -o contact.csv
+  godobject-replay bunny_teapot.scene bunny_teapot.csv -o paper.csv --solver paper --friction off
+
+Solvers: contact, the least-constraint motion over all contact points, in sub-steps that never let a point through a surface;
+corrected, one projection from one wrench for all contacts; paper, the published heuristic, to compare with.
 
 POSES.csv holds t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row a millisecond. OUT.csv gets
 one row a cycle: device pose d, god-object pose g (after the cycle), spring force f [N] and torque t [Nm] on the device
-in W about the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside; at
-most the stored band), contacts, substeps, time of step #1 and of steps #2-#7, and a status:
-  free          no contact, the god object is the device pose
-  contact       constrained
-  start_inside  the first pose penetrated and the god object is still on its way out: it moves out by a fifth of its
-                depth a cycle where the field gives a direction, and goes with the device where it gives none
-  cut           the motion was shortened so as not to jump over the surface
-  overflow      more contacts than fit; infeasible: constraints without a solution (neither happens with paper and
-                corrected)
+in W about the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside, negative: a
+gap; at most the stored band), contacts (contact: points that carry a force; otherwise: points that collide), substeps, time
+of the look-ups (step #1 and, with contact, its certificate) and of the rest of #2-#7, and a status:
+  free          nothing holds the god object: it is the device pose
+  contact       constrained; with contact: rows are active in the solution
+  start_inside  the first pose penetrated and the god object is still on its way out: where the field gives a direction it
+                moves out, with contact by up to a quarter of a voxel a cycle, otherwise by a fifth of its depth; where the
+                field does not know the way it goes with the device, without force
+  cut           the motion could not be finished in eight sub-steps, or something stood in its way: the god object goes on
+                in the next cycle
+  overflow      contact only: more points near the surface than the rows hold; those left out of the solution are still
+                looked at before the god object moves
+  infeasible    contact only: the gaps asked for cannot all be had at once; none was allowed to shrink
   bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, force and torque
                 are zero, exit 65 at the end
+Of several that apply in a cycle the one that stands later in this order is told: cut, overflow, infeasible, start_inside.
 Forces are neither limited nor smoothed here: that is left to the controller that drives the device.)";
 
 /// The field knows no depth beyond its band.

@@ -20,8 +20,10 @@ using namespace godobject::command;
 using namespace godobject::scene_compiler;
 
 constexpr const char* kFooter = R"(
-Example:
+Examples:
   godobject-scenec teapot.toml -o teapot.scene --report teapot.json
+  godobject-scenec teapot.toml -o teapot.scene --only-solver contact
+  godobject-scenec --inspect teapot.scene
 
 A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
   [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s],

@@ -27,12 +27,13 @@ using godobject::command::Failure;
 namespace fs = std::filesystem;
 namespace viewer = godobject::viewer;
 
-const char* const kFooter = R"(Example:
-  godobject-view bunny-teapot.toml paper.csv corrected.csv --at 0.6 --at deepest -o pictures --up y
+const char* const kFooter = R"(Examples:
+  godobject-view bunny-teapot.toml paper.csv corrected.csv contact.csv --at 0.6 --at deepest -o pictures --up y
+  godobject-view peg-hole.toml contact.csv --at 1.9 -o tilted.png --cut 0,0,0,0,-1,0 --camera -80,20
 
 The still body is green, the moving one red where the device has it and blue where the god object is. Several replays of a
 scene are pictured from one camera, each in a picture of its own. Without --camera a direction is chosen from which the
-contact is seen. A picture's name is that of the replay and the moment: corrected_0.600.png, corrected_deepest.png, or what
+contact is seen. A picture's name is that of the replay and the moment: contact_0.600.png, contact_deepest.png, or what
 -o says if it ends in .png. Prints the names of the pictures that it wrote.)";
 
 struct Options {
