@@ -8,7 +8,7 @@ namespace godobject::figures {
 namespace {
 
 constexpr const char* kColumnsExplained =
-    "depth: deepest sample point in contact (below 0: a gap); behind: beyond the plate's face; step: largest change of "
+    "depth: deepest sample point in contact (below 0: a gap); behind: beyond the plate, in mm; step: largest change of "
     "the\nforce in a cycle; points: of paper and corrected those that collide, of contact those that carry; cycles "
     "cut, "
     "with\noverflow (ovf) or infeasible (inf); times in us";
@@ -38,7 +38,7 @@ const std::vector<Column>& columns() {
        [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
       {"at band", "penetration_at_band",
        [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
-      {"behind mm", "furthest_behind_barrier_mm", behind, true},
+      {"behind", "furthest_behind_barrier_mm", behind, true},
       {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }, true},
       {"step N", "largest_force_step_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.force_step); },
        true},
