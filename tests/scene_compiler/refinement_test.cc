@@ -21,7 +21,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTolerance = 0.05;  // voxels
+constexpr double kTolerance = 0.05;             // voxels: into the body
+constexpr double kOff = kHeldOff * kTolerance;  // and off it
 
 struct Field {
   DistanceGrid coarse, grid;
@@ -56,11 +57,20 @@ TriangleMesh wedge(double angle, double length, double width) {
   return mesh;
 }
 
+/// The largest miss to either side [m].
+struct Worst {
+  double into = 0.0;
+  double off = 0.0;
+
+  /// `depth` > 0: the stored surface is inside of the body there.
+  void add(double depth) { (depth > 0.0 ? into : off) = std::max(depth > 0.0 ? into : off, std::abs(depth)); }
+};
+
 /// Faces, edges and corners of a mesh whose every triangle bounds the body.
-double worst_at_surface(const Voxelmap& field, const TriangleMesh& mesh, int per_triangle) {
+Worst worst_at_surface(const Voxelmap& field, const TriangleMesh& mesh, int per_triangle) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  double worst = 0.0;
+  Worst worst;
   for (const auto& t : mesh.triangles) {
     const Vector3d a = mesh.vertices[t[0]];
     const Vector3d b = mesh.vertices[t[1]];
@@ -69,20 +79,20 @@ double worst_at_surface(const Voxelmap& field, const TriangleMesh& mesh, int per
       double u = unit(random);
       double v = i % 2 == 0 ? 0.0 : unit(random);  // half of them on an edge
       if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
-      worst = std::max(worst, std::abs(field.sample(a + u * (b - a) + v * (c - a)).distance));
+      worst.add(field.sample(a + u * (b - a) + v * (c - a)).distance);
     }
-    for (const Vector3d& corner : {a, b, c}) worst = std::max(worst, std::abs(field.sample(corner).distance));
+    for (const Vector3d& corner : {a, b, c}) worst.add(field.sample(corner).distance);
   }
   return worst;
 }
 
 /// How far points of the stored zero level are from the mesh, by looking at every triangle.
-double worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int points) {
+Worst worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int points) {
   const BruteForce truth(mesh);
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const double s = field.voxel_size();
-  double worst = 0.0;
+  Worst worst;
   int found = 0;
   for (int i = 0; i < points; ++i) {
     const auto& t = mesh.triangles[random() % mesh.triangles.size()];
@@ -97,7 +107,8 @@ double worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int 
       (sign * field.sample(middle).distance >= 0.0 ? from : to) = middle;
     }
     ++found;
-    worst = std::max(worst, truth.distance(from));
+    const bool inside = std::abs(truth.winding_number(from)) > 0.5;  // whichever way the mesh winds
+    worst.add(inside ? truth.distance(from) : -truth.distance(from));
   }
   EXPECT_GT(found, points / 20);
   return worst;
@@ -144,22 +155,26 @@ constexpr double kFloatRounding = 3e-6;  // voxels
 void expect_true_surface(const TriangleMesh& mesh, double s, const char* what, int per_triangle = 400) {
   const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
   const Field field(surface, s);
-  const double at_surface = worst_at_surface(field.map, mesh, per_triangle) / s;
-  const double zero_level = worst_of_zero_level(field.map, mesh, 4000) / s;
-  EXPECT_LE(at_surface, kTolerance) << what;
-  EXPECT_LE(zero_level, kTolerance) << what;
+  const Worst before = worst_at_surface(field.coarse_map, mesh, per_triangle);
+  const Worst at_surface = worst_at_surface(field.map, mesh, per_triangle);
+  const Worst zero_level = worst_of_zero_level(field.map, mesh, 4000);
+  EXPECT_LE(at_surface.into, kTolerance * s) << what;
+  EXPECT_LE(at_surface.off, kOff * s) << what;
+  EXPECT_LE(zero_level.into, kTolerance * s) << what;
+  EXPECT_LE(zero_level.off, 1.5 * kOff * s) << what;  // in a re-entrant edge the distance grows slower than the way
   EXPECT_LE(largest_jump(field, 40000), kFloatRounding * s) << what;
   EXPECT_LE(field.grid.grid.lipschitz, 2.0) << what;
   std::printf(
-      "%-12s unrefined: field at the surface off by %.3f s at most; refined: %.3f s, its zero level %.3f s; "
-      "bricks %zu -> %zu, lipschitz %.3f -> %.3f\n",
-      what, worst_at_surface(field.coarse_map, mesh, per_triangle) / s, at_surface, zero_level,
-      field.coarse.bricks.size(), field.grid.bricks.size(), field.coarse.grid.lipschitz, field.grid.grid.lipschitz);
+      "%-12s into and off the body at the surface, unrefined: %.3f, %.3f s; refined: %.3f, %.3f s, its zero level "
+      "%.3f, %.3f s; bricks %zu -> %zu, lipschitz %.3f -> %.3f\n",
+      what, before.into / s, before.off / s, at_surface.into / s, at_surface.off / s, zero_level.into / s,
+      zero_level.off / s, field.coarse.bricks.size(), field.grid.bricks.size(), field.coarse.grid.lipschitz,
+      field.grid.grid.lipschitz);
 }
 
 TEST(Refinement, MakesATurnedBoxTrue) {
   std::mt19937_64 random(14);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
     expect_true_surface(test::moved(test::box_mesh({0.04, 0.03, 0.05}), any_motion(random, 0.004)), 0.004, "box");
   }
 }
@@ -176,17 +191,17 @@ TEST(Refinement, MakesSharpWedgesTrue) {
   }
 }
 
-TEST(Refinement, MakesAnEngineeredPartTrue) { expect_true_surface(load("bracket", 1.0), 0.004, "bracket", 60); }
+TEST(Refinement, MakesAnEngineeredPartTrue) { expect_true_surface(load("bracket", 1.0), 0.006, "bracket", 60); }
 
 /// The teapot is open at its spout, where seams keep bricks as they are, and its parts run into one another.
 TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
-  const double s = 0.004;
+  const double s = 0.006;
   const SolidSurface surface(load("teapot", 0.037), SurfaceKind::kAuto, 2.0 * s);
   const Field field(surface, s);
   EXPECT_GT(field.grid.refined.size(), 100u);
-  EXPECT_LE(largest_jump(field, 100000), kFloatRounding * s);
+  EXPECT_LE(largest_jump(field, 60000), kFloatRounding * s);
   EXPECT_LE(field.grid.grid.lipschitz, 2.0);
-  EXPECT_EQ(field.grid.grid.lipschitz_seam, field.coarse.grid.lipschitz_seam);
+  EXPECT_LE(field.grid.grid.lipschitz_seam, std::max(2.0, field.coarse.grid.lipschitz_seam));
 }
 
 TEST(Refinement, LeavesEveryPositionsOwnNodes) {
@@ -238,9 +253,9 @@ TEST(Refinement, LeavesWhatIsGoodEnough) {
 }
 
 TEST(Refinement, GivesTheSameEveryTime) {
-  const SolidSurface surface(load("bracket", 1.0), SurfaceKind::kAuto, 0.008);
-  const Field one(surface, 0.004);
-  const Field other(surface, 0.004);
+  const SolidSurface surface(load("bracket", 1.0), SurfaceKind::kAuto, 0.016);
+  const Field one(surface, 0.008);
+  const Field other(surface, 0.008);
   ASSERT_EQ(one.grid.bricks.size(), other.grid.bricks.size());
   EXPECT_EQ(one.grid.index, other.grid.index);
   EXPECT_EQ(

@@ -72,9 +72,9 @@ BrickTree::Leaf BrickTree::find(const Units& unit_cell) const {
   return {entry & format::index_entry::kNumber, level};
 }
 
-double BrickTree::interpolate(std::uint32_t brick, const std::array<double, 3>& units) const {
-  const Place& place = places_[brick];
-  const float* corner = stored(brick).value;
+double BrickTree::interpolate(const Place& place, const format::Brick& brick,
+                              const std::array<double, 3>& units) const {
+  const float* corner = brick.value;
   std::array<double, 3> at{};
   constexpr std::array<int, 3> kStride = {1, kBrickNodes, kBrickNodes * kBrickNodes};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -95,23 +95,40 @@ double BrickTree::interpolate(std::uint32_t brick, const std::array<double, 3>& 
 
 double BrickTree::interpolate(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return interpolate(leaf.brick, {units[0], units[1], units[2]});
+  return interpolate(places_[leaf.brick], stored(leaf.brick), {units[0], units[1], units[2]});
 }
 
-std::size_t BrickTree::responsible(const Leaf& leaf, const Vector3d& p,
-                                   std::array<std::uint32_t, kMostResponsible>& bricks) const {
+double BrickTree::interpolate_exact(const Leaf& leaf, const Vector3d& p) const {
+  const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
+  return interpolate(places_[leaf.brick], exact(leaf.brick), {units[0], units[1], units[2]});
+}
+
+std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p,
+                               std::array<std::uint32_t, kMostAbout>& bricks) const {
   constexpr double kTouching = 1e-6;  // cells
   std::size_t count = 0;
-  const auto add = [&](std::uint32_t brick) {
-    const auto end = bricks.begin() + static_cast<std::ptrdiff_t>(count);
-    if (std::find(bricks.begin(), end, brick) == end) bricks[count++] = brick;
-  };
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3d side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
-    const Leaf holding = find(unit_cell(p + kTouching * cell_edge(leaf.level) * side));
-    if (holding.brick != kNone) add(holding.brick);
-    const Leaf near = find(unit_cell(p + (1.0 + kTouching) * cell_edge(leaf.level) * side));
-    if (near.brick != kNone && near.level < leaf.level) add(near.brick);
+    const Leaf about = find(unit_cell(p + kTouching * cell_edge(leaf.level) * side));
+    const auto end = bricks.begin() + static_cast<std::ptrdiff_t>(count);
+    if (about.brick != kNone && std::find(bricks.begin(), end, about.brick) == end) bricks[count++] = about.brick;
+  }
+  return count;
+}
+
+std::size_t BrickTree::coarser_about(const Leaf& leaf, const Vector3d& p,
+                                     std::array<std::uint32_t, kMostAbout>& bricks) const {
+  const Units unit = unit_cell(p);
+  const int edge = cell_units(leaf.level);
+  std::size_t count = 0;
+  for (int neighbour = 0; neighbour < 27; ++neighbour) {
+    const std::array<int, 3> step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
+    Units cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] = unit[axis] + edge * step[axis];
+    const Leaf about = find(cell);
+    const auto end = bricks.begin() + static_cast<std::ptrdiff_t>(count);
+    if (about.brick == kNone || about.level >= leaf.level) continue;
+    if (std::find(bricks.begin(), end, about.brick) == end) bricks[count++] = about.brick;
   }
   return count;
 }
@@ -191,7 +208,8 @@ void BrickTree::join_brick(std::uint32_t brick) {
     const Leaf leaf = coarsest_about(at, place.root);
     if (leaf.level >= place.level) continue;
     fine.stored.value[i] = static_cast<float>(
-        interpolate(leaf.brick, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])}));
+        interpolate(places_[leaf.brick], stored(leaf.brick),
+                    {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])}));
   }
 }
 

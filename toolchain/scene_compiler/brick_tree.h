@@ -16,7 +16,7 @@ class BrickTree {
   static constexpr std::uint32_t kNone = ~0u;
   static constexpr int kUnits = 1 << format::kMaxRefinement;  ///< along a voxel
 
-  static constexpr std::size_t kMostResponsible = 16;
+  static constexpr std::size_t kMostAbout = 27;  ///< leaves that touch a cell of the finest of them
 
   using Units = std::array<int, 3>;
 
@@ -43,13 +43,16 @@ class BrickTree {
   Units unit_cell(const Eigen::Vector3d& p) const;
   Leaf find(const Units& unit_cell) const;
 
-  /// Trilinear interpolation of the stored nodes of `leaf`, which holds p [m].
+  /// Trilinear interpolation of the nodes of `leaf`, which holds p [m]: of the stored and of the exact ones.
   double interpolate(const Leaf& leaf, const Eigen::Vector3d& p) const;
+  double interpolate_exact(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
-  /// What must be halved for a better value at p in `leaf`: all leaves that hold p, and coarser ones within a cell,
-  /// whose values the nodes around p may have to carry.
-  std::size_t responsible(const Leaf& leaf, const Eigen::Vector3d& p,
-                          std::array<std::uint32_t, kMostResponsible>& bricks) const;
+  /// All leaves that hold p, `leaf` among them. Returns how many.
+  std::size_t holding(const Leaf& leaf, const Eigen::Vector3d& p, std::array<std::uint32_t, kMostAbout>& bricks) const;
+
+  /// Leaves coarser than `leaf` that the nodes of its cell around p touch: `join` lets those nodes carry their values.
+  std::size_t coarser_about(const Leaf& leaf, const Eigen::Vector3d& p,
+                            std::array<std::uint32_t, kMostAbout>& bricks) const;
 
   /// The leaves at the eight corners about a brick, outside of it: every leaf coarser than it that touches it is one.
   std::array<Leaf, 8> leaves_about(std::uint32_t brick) const;
@@ -75,7 +78,7 @@ class BrickTree {
 
   Leaf coarsest_about(const Units& node, std::uint32_t root) const;
   void join_brick(std::uint32_t brick);
-  double interpolate(std::uint32_t brick, const std::array<double, 3>& units) const;
+  double interpolate(const Place& place, const format::Brick& brick, const std::array<double, 3>& units) const;
   std::uint32_t& entry_of(std::uint32_t brick);
   std::uint32_t write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const;
 

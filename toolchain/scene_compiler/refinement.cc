@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -105,36 +106,39 @@ class SurfaceCheck {
     return check_point(to, tree_.find(tree_.unit_cell(to)), center, sides) || missed;
   }
 
-  /// Into four, until the pieces are as small as the cells of the bricks that they are in.
+  /// In two across the longest edge, so that slivers take few, until the pieces are as small as the cells of the bricks
+  /// that they are in.
   bool divide(const Corners& corners, Sides& sides) {
     const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
     const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(center));
-    double longest = 0.0;
-    Corners middles;
+    std::size_t longest = 0;
+    std::array<double, 3> squared{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3d& next = corners[(i + 1) % 3];
-      longest = std::max(longest, (next - corners[i]).norm());
-      middles[i] = 0.5 * (corners[i] + next);
+      squared[i] = (corners[(i + 1) % 3] - corners[i]).squaredNorm();
+      if (squared[i] > squared[longest]) longest = i;
     }
-    if (longest <= kFaceSpacing * tree_.cell_edge(leaf.level)) return check_point(center, leaf, center, sides);
-    bool missed = false;
-    for (const Corners& part :
-         {Corners{corners[0], middles[0], middles[2]}, Corners{middles[0], corners[1], middles[1]},
-          Corners{middles[2], middles[1], corners[2]}, middles}) {
-      missed = divide(part, sides) || missed;
+    if (std::sqrt(squared[longest]) <= kFaceSpacing * tree_.cell_edge(leaf.level)) {
+      return check_point(center, leaf, center, sides);
     }
-    return missed;
+    Corners one = corners;
+    Corners other = corners;
+    one[longest] = other[(longest + 1) % 3] = 0.5 * (corners[longest] + corners[(longest + 1) % 3]);
+    const bool missed = divide(one, sides);
+    return divide(other, sides) || missed;
   }
+
+  bool good(double stored) const { return stored <= tolerance_ && stored >= -kHeldOff * tolerance_; }
 
   /// `leaf` holds p, `center` is a point of the same triangle off its rim.
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
-    if (leaf.brick == BrickTree::kNone || std::abs(tree_.interpolate(leaf, p)) <= tolerance_) return false;
-    std::array<std::uint32_t, BrickTree::kMostResponsible> responsible{};
-    const std::size_t count = tree_.responsible(leaf, p, responsible);
+    if (leaf.brick == BrickTree::kNone || good(tree_.interpolate(leaf, p))) return false;
+    std::array<std::uint32_t, BrickTree::kMostAbout> about{};
+    const std::size_t count =
+        good(tree_.interpolate_exact(leaf, p)) ? tree_.coarser_about(leaf, p, about) : tree_.holding(leaf, p, about);
     bool possible = false;
     bool known = true;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t brick = responsible[i];
+      const std::uint32_t brick = about[i];
       if (barred_[brick] || tree_.level(brick) == format::kMaxRefinement) continue;
       possible = true;
       known = known && marked_[brick].load(std::memory_order_relaxed);
@@ -143,7 +147,7 @@ class SurfaceCheck {
     if (known) return true;
     if (!bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides)) return false;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t brick = responsible[i];
+      const std::uint32_t brick = about[i];
       if (barred_[brick] || tree_.level(brick) == format::kMaxRefinement) continue;
       marked_[brick].store(true, std::memory_order_relaxed);
     }
@@ -172,57 +176,116 @@ struct Octants {
   bool seamed = false;
 };
 
-Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32_t brick) {
-  std::array<float, kFineNodes * kFineNodes * kFineNodes> nodes{};
-  const format::Brick& parent = tree.exact(brick);
-  const double edge = 0.5 * tree.cell_edge(tree.level(brick));
-  const Vector3d low = tree.low(brick);
-  DistanceProbe probe(surface);
-  const auto number = [](int x, int y, int z) {
-    return static_cast<std::size_t>(x + kFineNodes * (y + kFineNodes * z));
-  };
-  for (int z = 0; z < kFineNodes; ++z) {
-    for (int row = 0; row < kFineNodes; ++row) {
-      const int y = z % 2 == 0 ? row : kFineNodes - 1 - row;  // back and forth, so that each step is short
-      for (int column = 0; column < kFineNodes; ++column) {
-        const int x = row % 2 == 0 ? column : kFineNodes - 1 - column;
-        const bool known = x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
-        nodes[number(x, y, z)] = known ? parent.value[x / 2 + kBrickNodes * (y / 2 + kBrickNodes * (z / 2))]
-                                       : static_cast<float>(probe.signed_distance(low + edge * Vector3d(x, y, z)));
-      }
+/// Exact signed distances at the nodes of a brick's octants. A node is on the side of a neighbour that is further from
+/// every solid's triangle than from the node, as far as the side can be trusted without a winding number: so few are
+/// needed.
+class FineNodes {
+ public:
+  FineNodes(const SolidSurface& surface, const format::Brick& parent, const Vector3d& low, double edge)
+      : surface_(surface), low_(low), edge_(edge) {
+    const bool no_shells = surface.shell_triangles().empty();
+    for (int i = 0; i < kCount; ++i) measure(i, parent, no_shells);
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(), [this](int a, int b) {
+      return to_solids_[at(a)] != to_solids_[at(b)] ? to_solids_[at(a)] > to_solids_[at(b)] : a < b;
+    });
+    for (const int i : order_) {
+      if (trusted_[at(i)] < 0.0) decide(i);
     }
   }
+
+  float value(int x, int y, int z) const {
+    const std::size_t i = at(number(x, y, z));
+    if (given_[i]) return value_[i];
+    return static_cast<float>(
+        std::min(inside_[i] ? -to_solids_[i] : to_solids_[i], to_shells_[i] - 0.5 * surface_.thickness()));
+  }
+
+ private:
+  static constexpr int kCount = kFineNodes * kFineNodes * kFineNodes;
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static int number(int x, int y, int z) { return x + kFineNodes * (y + kFineNodes * z); }
+  static std::array<int, 3> place(int i) {
+    return {i % kFineNodes, i / kFineNodes % kFineNodes, i / (kFineNodes * kFineNodes)};
+  }
+  Vector3d point(int i) const {
+    const auto [x, y, z] = place(i);
+    return low_ + edge_ * Vector3d(x, y, z);
+  }
+
+  void measure(int i, const format::Brick& parent, bool no_shells) {
+    const auto [x, y, z] = place(i);
+    trusted_[at(i)] = -1.0;
+    given_[at(i)] = x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
+    if (given_[at(i)]) value_[at(i)] = parent.value[x / 2 + kBrickNodes * (y / 2 + kBrickNodes * (z / 2))];
+    if (given_[at(i)] && no_shells) {
+      to_solids_[at(i)] = std::abs(static_cast<double>(value_[at(i)]));
+      inside_[at(i)] = value_[at(i)] < 0.0f;
+      if (surface_.sealed()) trusted_[at(i)] = std::numeric_limits<double>::infinity();
+      return;
+    }
+    // the last node in x, y or z is a neighbour: its distance bounds this one's
+    const int before = x > 0 ? i - 1 : y > 0 ? i - kFineNodes : i - kFineNodes * kFineNodes;
+    const Vector3d p = point(i);
+    to_solids_[at(i)] = surface_.distance_to_solids(p, i > 0 ? (to_solids_[at(before)] + edge_) * kRoundedUp : -1.0);
+    to_shells_[at(i)] = surface_.distance_to_shells(p, i > 0 ? (to_shells_[at(before)] + edge_) * kRoundedUp : -1.0);
+  }
+
+  /// Those further from the solids come first.
+  void decide(int i) {
+    const auto [x, y, z] = place(i);
+    for (int step = 0; step < 27; ++step) {
+      const int dx = step % 3 - 1;
+      const int dy = step / 3 % 3 - 1;
+      const int dz = step / 9 - 1;
+      const auto within = [](int n) { return n >= 0 && n < kFineNodes; };
+      if (!within(x + dx) || !within(y + dy) || !within(z + dz)) continue;
+      const std::size_t near = at(number(x + dx, y + dy, z + dz));
+      const double way = edge_ * std::sqrt(static_cast<double>(dx * dx + dy * dy + dz * dz)) * kRoundedUp;
+      const double trusted = trusted_[near] - way;
+      if (trusted <= trusted_[at(i)] || trusted < 0.0 || to_solids_[near] <= way) continue;
+      trusted_[at(i)] = trusted;
+      inside_[at(i)] = inside_[near];
+    }
+    if (trusted_[at(i)] >= 0.0) return;
+    const Vector3d p = point(i);
+    const double winding_number = surface_.winding_number(p);
+    inside_[at(i)] = winding_number > 0.5;
+    trusted_[at(i)] = surface_.constant_side_path(p, winding_number);
+  }
+
+  static constexpr double kRoundedUp = 1.0 + 1e-6;  // given values are floats
+
+  const SolidSurface& surface_;
+  Vector3d low_;
+  double edge_;
+  std::array<double, kCount> to_solids_{};
+  std::array<double, kCount> to_shells_{};
+  std::array<double, kCount> trusted_{};  ///< how far from the node its side holds without a surface; negative: unknown
+  std::array<float, kCount> value_{};
+  std::array<bool, kCount> given_{};
+  std::array<bool, kCount> inside_{};
+  std::array<int, kCount> order_{};
+};
+
+Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32_t brick) {
+  const format::Brick& parent = tree.exact(brick);
+  const double edge = 0.5 * tree.cell_edge(tree.level(brick));
+  const FineNodes nodes(surface, parent, tree.low(brick), edge);
   Octants octants;
   for (int octant = 0; octant < 8; ++octant) {
     format::Brick& child = octants.bricks[static_cast<std::size_t>(octant)];
     child.seam_clearance = parent.seam_clearance;
     for (int node = 0; node < kBrickValues; ++node) {
-      const int x = node % kBrickNodes + kBrickCells * (octant & 1);
-      const int y = node / kBrickNodes % kBrickNodes + kBrickCells * (octant >> 1 & 1);
-      const int z = node / (kBrickNodes * kBrickNodes) + kBrickCells * (octant >> 2);
-      child.value[node] = nodes[number(x, y, z)];
+      child.value[node] = nodes.value(node % kBrickNodes + kBrickCells * (octant & 1),
+                                      node / kBrickNodes % kBrickNodes + kBrickCells * (octant >> 1 & 1),
+                                      node / (kBrickNodes * kBrickNodes) + kBrickCells * (octant >> 2));
     }
     for_each_cell(
         child, [&](const CellEdges& edges, int, int, int) { octants.seamed = octants.seamed || edges.on_seam(edge); });
   }
   return octants;
-}
-
-/// Bricks that are asked for, and the coarser ones about them that must be halved first; coarse before fine.
-std::vector<std::uint32_t> with_coarser_neighbours(const BrickTree& tree, std::vector<std::uint32_t> wanted) {
-  std::vector<bool> listed(tree.brick_count());
-  for (const std::uint32_t b : wanted) listed[b] = true;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    for (const BrickTree::Leaf& leaf : tree.leaves_about(wanted[i])) {
-      if (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(wanted[i]) || listed[leaf.brick]) continue;
-      listed[leaf.brick] = true;
-      wanted.push_back(leaf.brick);
-    }
-  }
-  std::sort(wanted.begin(), wanted.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return tree.level(a) != tree.level(b) ? tree.level(a) < tree.level(b) : a < b;
-  });
-  return wanted;
 }
 
 class Refinement {
@@ -251,7 +314,7 @@ class Refinement {
         if (!beside_steep(tree, barred, wanted)) return false;
         if (wanted.empty()) break;
       }
-      halve(tree, with_coarser_neighbours(tree, std::move(wanted)), barred);
+      halve(tree, wanted, barred);
       tree.join();
       triangles = std::move(misses.triangles);
     }
@@ -280,11 +343,7 @@ class Refinement {
     });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const std::uint32_t brick = wanted[i];
-      bool possible = !barred[brick] && !octants[i].seamed;
-      for (const BrickTree::Leaf& leaf : tree.leaves_about(brick)) {
-        possible = possible && (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(brick));
-      }
-      if (possible) {
+      if (!barred[brick] && !octants[i].seamed) {
         tree.halve(brick, octants[i].bricks);
       } else {
         barred[brick] = true;

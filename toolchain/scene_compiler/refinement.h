@@ -16,11 +16,16 @@ struct RefinementReport {
   std::uint64_t bytes() const { return refined * (8 * sizeof(format::Brick) + sizeof(format::Refined)); }
 };
 
+/// Tolerances: how far outside of the surface the stored one may be.
+inline constexpr double kHeldOff = 5.0;
+
 /// Halves the bricks of `field` where the stored distance misses the surface of a solid, or the offset surface of a
-/// shell, by more than `tolerance` [m], down to format::kMaxRefinement times: sharp edges, corners, thin walls and
-/// narrow gaps. Judged on the surface itself, where the exact distance is 0, at all edges and vertices of the mesh and
-/// in between at half a cell's spacing. Neighbouring bricks differ by one halving at most. Left as they are: bricks
-/// that touch a seam, and those in which one would appear.
+/// shell, down to format::kMaxRefinement times: where it says free at more than `tolerance` [m] (convex edges and
+/// corners, thin walls, which a touching body would sink into) or solid at more than kHeldOff times as much (re-entrant
+/// edges, narrow gaps, where it would be held off). Judged on the surface itself, where the exact distance is 0, at all
+/// edges and vertices of the mesh and in between at a cell's spacing. A neighbour is halved only where its values on
+/// the common face spoil the finer brick's or are too steep for it. Left as they are: bricks that touch a seam, and
+/// those in which one would appear.
 ///
 /// Deterministic. Updates the constants of `field.grid` with it. Throws Failure (kBadData) naming the cure where the
 /// bricks would be more than kMaxBricks.

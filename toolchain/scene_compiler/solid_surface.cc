@@ -198,6 +198,7 @@ const std::vector<std::uint32_t>& SolidSurface::component_of_triangle() const { 
 double SolidSurface::thickness() const { return impl_->thickness; }
 const TriangleTree& SolidSurface::solid_triangles() const { return impl_->solids; }
 const TriangleTree& SolidSurface::shell_triangles() const { return impl_->shells; }
+bool SolidSurface::sealed() const { return impl_->boundary.edges.empty(); }
 double SolidSurface::winding_number(const Vector3d& p) const { return impl_->winding_number(p); }
 
 double SolidSurface::distance_to_solids(const Vector3d& p, double hint) const {
@@ -218,7 +219,7 @@ double SolidSurface::signed_distance(const Vector3d& p, double hint) const {
 
 double SolidSurface::constant_side_path(const Vector3d& p, double winding_number) const {
   const OpenBoundary& boundary = impl_->boundary;
-  if (boundary.edges.empty()) return kInfinity;
+  if (sealed()) return kInfinity;
   const double margin = std::abs(winding_number - 0.5) - kDipoleError;
   if (margin <= 0.0) return 0.0;
   // after a path x r the distance is (1 - x) r at least: x / (1 - x)^2 = 4 pi margin r / L =: k

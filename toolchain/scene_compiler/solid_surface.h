@@ -50,6 +50,9 @@ class SolidSurface {
   /// Generalised winding number of the solid components: 1 inside, 0 outside of closed ones.
   double winding_number(const Eigen::Vector3d& p) const;
 
+  /// Whether the solid components together have no open boundary.
+  bool sealed() const;
+
   /// How far one may go from p, without crossing a solid's triangle, before the winding number can pass 1/2 [m]. Along
   /// such a path the winding number changes by at most L / (4 pi r^2) a metre, L the length of the open boundary and r
   /// the distance from it (Biot and Savart); infinity where the solids are sealed.
