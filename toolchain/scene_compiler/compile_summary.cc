@@ -91,8 +91,11 @@ std::string refinement_text(const CompileReport& report) {
   text += fmt::format("        bricks halved 0, 1, 2, ... times: {}; {:.1f} KiB and {:.2f} s for refinement\n",
                       fmt::join(report.refinement.bricks, ", "),
                       static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
-  text += fmt::format("        a look-up takes {:.0f} ns, in refined bricks {:.0f} ns\n", report.look_up.unrefined,
-                      report.look_up.refined);
+  const auto look_up_text = [](double time) {
+    return time > 0.0 ? fmt::format("{:.0f} ns", time) : std::string("(none)");
+  };
+  text += fmt::format("        a look-up takes {} in bricks that are not refined, {} in refined ones\n",
+                      look_up_text(report.look_up.unrefined), look_up_text(report.look_up.refined));
   return text;
 }
 

@@ -20,7 +20,7 @@ struct SceneConfig {
   Mesh still;
   double voxel_size = 0.0;       ///< s [m]
   double thickness = 0.0;        ///< of shells [m]
-  double field_tolerance = 0.0;  ///< of the still body's field at its surface [voxels]
+  double field_tolerance = 0.0;  ///< depth of the stored surface in the still body; off it 5 times as much [voxels]
   Mesh moving;
   double body_voxel_size = 0.0;  ///< of the moving body's own field [m]
   std::uint32_t points = 0;
