@@ -59,6 +59,13 @@ TEST(SceneConfig, ReadsTheSecondDirection) {
   expect_refused(std::string(kStill) + kMoving + "[contact]\nboth_directions = 1\n", ":7", "contact.both_directions");
 }
 
+TEST(SceneConfig, ReadsTheFieldsTolerance) {
+  EXPECT_DOUBLE_EQ(read(std::string(kStill) + kMoving).field_tolerance, 0.05);
+  EXPECT_DOUBLE_EQ(read(std::string(kStill) + "field_tolerance = 0.2\n" + kMoving).field_tolerance, 0.2);
+  expect_refused(std::string(kStill) + "field_tolerance = 0\n" + kMoving, ":4:", "still.field_tolerance");
+  expect_refused(std::string(kStill) + "field_tolerance = \"fine\"\n" + kMoving, ":4:", "still.field_tolerance");
+}
+
 TEST(SceneConfig, ReadsEveryKey) {
   const SceneConfig config = read(
       "[still]\nmesh = \"m/a.ply\"\nscale = 2\nvoxel_size = 0.001\nsurface = \"shell\"\nthickness = 0.003\n"
