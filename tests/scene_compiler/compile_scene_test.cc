@@ -107,7 +107,7 @@ TEST_F(CompileScene, OnlySolverStripsNormalsAndSaysSo) {
 TEST_F(CompileScene, InspectShowsWhatWasCompiled) {
   compile({.more = "[friction]\nstatic = 0.3\n"});
   const Json json = inspect_json(command::SceneImage::read(folder_.file("out.scene")));
-  EXPECT_EQ(json["settings"]["solver"], "corrected");
+  EXPECT_EQ(json["settings"]["solver"], "contact");
   EXPECT_DOUBLE_EQ(json["settings"]["friction"]["kinetic"], 0.27);
   EXPECT_DOUBLE_EQ(json["grid"]["voxel_size"], 0.004);
   EXPECT_GE(json["body"]["points"], 300);

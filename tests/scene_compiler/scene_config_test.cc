@@ -37,7 +37,7 @@ TEST(SceneConfig, FillsInDefaultsAsMultiplesOfTheVoxel) {
   EXPECT_DOUBLE_EQ(config.settings.safety_distance, 0.003);
   EXPECT_DOUBLE_EQ(config.settings.margin, 2e-5);
   EXPECT_EQ(config.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kContact));
-  EXPECT_EQ(config.settings.solvers, 3u);
+  EXPECT_EQ(config.settings.solvers, 7u);
   EXPECT_EQ(config.settings.friction, 0u);
   EXPECT_DOUBLE_EQ(config.settings.paper_rotation_static, 0.2);
   EXPECT_DOUBLE_EQ(config.settings.paper_rotation_kinetic, 0.18);
@@ -49,7 +49,7 @@ TEST(SceneConfig, FillsInDefaultsAsMultiplesOfTheVoxel) {
 TEST(SceneConfig, ReadsTheSecondDirection) {
   const SceneConfig plain = read(std::string(kStill) + kMoving);
   EXPECT_TRUE(plain.both_directions);
-  EXPECT_DOUBLE_EQ(plain.between_points, 0.0005);
+  EXPECT_DOUBLE_EQ(plain.between_points, 0.002);
   EXPECT_DOUBLE_EQ(plain.body_voxel_size, 0.002);
   const SceneConfig said = read(std::string(kStill) + kMoving +
                                 "voxel_size = 0.001\n[contact]\nboth_directions = false\nbetween_points = 1e-4\n");
@@ -102,7 +102,6 @@ TEST(SceneConfig, RefusesWithLineAndKey) {
   expect_refused(still + moving + "points = 2.5\n", ":6:", "moving.points");
   expect_refused(still + moving + "points = 0\n", ":6:", "moving.points");
   expect_refused(still + moving + "levels = 99\n", ":6:", "moving.levels");
-  expect_refused(still + moving + "[contact]\nsolver = \"contact\"\n", ":7:", "not in this version");
   expect_refused(still + moving + "[contact]\nsolver = \"best\"\n", ":7:", "contact.solver");
   expect_refused(still + moving + "[contact]\nmargin = 0.1\n", ":7:", "contact.margin");
   expect_refused(still + moving + "[friction]\nkinetic = 0.1\n", ":6:", "friction.static is missing");

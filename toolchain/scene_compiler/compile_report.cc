@@ -223,7 +223,8 @@ Json left_out_json(const CompileReport& report) {
 Json report_json(const CompileReport& report) {
   const SceneConfig& config = report.config;
   Json settings = settings_json(config.settings);
-  if (report.only_solver) settings["solvers_held"] = Json::array({format::kSolverNames[static_cast<std::size_t>(*report.only_solver)]});
+  if (report.only_solver)
+    settings["solvers_held"] = Json::array({format::kSolverNames[static_cast<std::size_t>(*report.only_solver)]});
   if (report.only_solver) settings["solver"] = format::kSolverNames[static_cast<std::size_t>(*report.only_solver)];
   Json sections;
   for (const auto& [id, bytes] : report.sections) sections[name_of(id)] = bytes;

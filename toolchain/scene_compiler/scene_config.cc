@@ -124,7 +124,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   settings.margin = contact.number("margin", {1e-6 * s, s}, 0.01 * s);
 
   config.both_directions = contact.flag("both_directions", true);
-  config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, 0.25 * s);
+  config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, s);
 
   read_friction(table("friction"), settings);
   read_paper(table("paper"), settings);

@@ -31,7 +31,7 @@ A scene file (TOML; lengths in metres, values in brackets are defaults, s is vox
   [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s]
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
               both_directions [true]: also points of the still body against the moving body's field,
-              between_points [0.25 s]: how deep bodies may meet where no point sees it; points are added for it
+              between_points [s]: how deep bodies may meet where no point sees it; points are added for it
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
   [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
