@@ -1,6 +1,6 @@
 #include "core/pipeline/contact_cycle.h"
 
-#include "core/pipeline/small_system.h"
+#include "core/pipeline/dual_active_set.h"
 
 namespace godobject {
 
@@ -8,6 +8,7 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   ContactLengths lengths;
   lengths.margin = q.margin;
   lengths.least_margin = 0.25 * q.margin;
+  lengths.rounding = std::min(1e-6 * q.voxel_size, 0.1 * lengths.least_margin);
   lengths.shortest_reach = 0.125 * q.voxel_size;
   lengths.longest_reach = 1.5 * q.voxel_size;
   lengths.largest_gain = 0.25 * q.voxel_size;
@@ -54,49 +55,43 @@ double allowed_share(const Motion& motion, const Surroundings& around, double re
 
 namespace {
 
-/// The damping b_D on the device's velocity along the active normals, as a change of the spring's contact forces, none
-/// of which may turn into a pull. `k` = k_D k_VC,x.
+/// The damping b_D on the device's velocity along the active normals, as a change of the spring's contact forces.
+/// With the normals' rows as the columns of C and the spring's loads on them, C load - (b_D / k_D) v is projected on
+/// the cone of what the normals can push: the change is never larger than b_D |(v, rho omega)|, is continuous, and no
+/// contact pulls. `k` = k_D k_VC,x.
 Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velocity_W, double gyration, double k,
                double damping_over_stiffness) noexcept {
   Wrench out;
   if (step.force_count == 0) return out;
-  std::array<const ContactForce*, 6> contact{};
-  std::array<double, 6> load{};
-  int count = 0;
-  for (std::uint32_t j = 0; j < step.force_count; ++j) {
-    int found = 0;
-    while (found < count && contact[static_cast<std::size_t>(found)]->id != step.forces[j].id) ++found;
-    if (found == count) contact[static_cast<std::size_t>(count++)] = &step.forces[j];
-    load[static_cast<std::size_t>(found)] += step.forces[j].multiplier;
-  }
   const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
-  const Vector3 v = R_WS.transpose() * velocity_W.translation;
-  const Vector3 w = gyration * (R_WS.transpose() * velocity_W.rotation);
-  std::array<Vector3, 6> turn;  // of the rows, over rho
-  SmallSystem<6> rate;          // least squares: the velocity's part along the normals
-  rate.size = count;
-  for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Vector3& normal = contact[at]->normal;
-    turn[at] = contact[at]->point.cross(normal) / gyration;
-    for (int j = 0; j <= i; ++j) {
-      const auto other = static_cast<std::size_t>(j);
-      rate.matrix[i][j] = rate.matrix[j][i] = normal.dot(contact[other]->normal) + turn[at].dot(turn[other]);
+  Vector6 asked;  // (b_D / k_D) v
+  asked << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
+  asked *= damping_over_stiffness;
+  std::array<Vector6, 6> row;
+  Vector6 load = Vector6::Zero();
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    const ContactForce& force = step.forces[j];
+    row[j] << force.normal, force.point.cross(force.normal) / gyration;
+    load += force.multiplier * row[j];
+  }
+  struct NoTag {};
+  DualActiveSet<NoTag> set;
+  set.start(asked - load);
+  const double tolerance = 1e-12 * (asked.norm() + load.norm());
+  for (int round = 0; round < 4 * DualActiveSet<NoTag>::kCapacity; ++round) {
+    DualActiveSet<NoTag>::Inequality worst;
+    double violation = tolerance;
+    for (std::uint32_t j = 0; j < step.force_count; ++j) {
+      const double here = -row[j].dot(set.z());
+      if (!(here > violation)) continue;
+      violation = here;
+      worst.gradient = row[j];
     }
-    // normals may depend on each other where friction keeps them apart: a grain of regularisation
-    rate.matrix[i][i] += 1e-9;
-    rate.rhs[i] = normal.dot(v) + turn[at].dot(w);
+    if (!(violation > tolerance) || !set.add(worst)) break;
   }
-  if (!rate.solve()) return out;
-  Wrench wrench_S;
-  for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const double change = std::max(0.0, load[at] - damping_over_stiffness * rate.rhs[i]) - load[at];
-    wrench_S.force += k * change * contact[at]->normal;
-    wrench_S.torque += k * change * gyration * turn[at];
-  }
-  out.force = R_WS * wrench_S.force;
-  out.torque = R_WS * wrench_S.torque;
+  const Vector6 change = k * (set.z() - asked);
+  out.force = R_WS * change.head<3>();
+  out.torque = gyration * (R_WS * change.tail<3>());
   return out;
 }
 

@@ -22,7 +22,7 @@ struct FeatureContacts {
   Vector3 origin_W = Vector3::Zero();
 };
 
-/// Memory of one cycle of `contact`; nothing in it survives the cycle. About 400 KiB, touched as far as used.
+/// Memory of one cycle of `contact`; nothing in it survives the cycle. About 540 KiB, touched as far as used.
 struct ContactWorkspace {
   /// A point that the motion of one sub-step may bring to a surface.
   struct NearPoint {
@@ -46,6 +46,7 @@ struct ContactWorkspace {
 /// Lengths of the contact solver, all from the voxel edge s and the margin m.
 struct ContactLengths {
   double margin;          ///< m: the gap that is kept
+  double rounding;        ///< of stored distances: a gap this much smaller is no smaller
   double least_margin;    ///< below it a gap may only grow
   double shortest_reach;  ///< near points are those within the reach
   double longest_reach;
@@ -148,14 +149,19 @@ void find_near(const Field& field, const Pointshell& shell, const Pose& H, doubl
         const Vector3 p_field = R * p + H.translation;
         const FieldSample sample = field.sample(p_field);
         const double point_room = sample.clearance / std::max(1.0, Direction::lever(p, p_field) * per_radius);
-        if (point_room >= reach || near.count == ContactWorkspace::NearPoints::kCapacity) {
+        if (point_room >= reach) {
           around.left_out = std::min(around.left_out, point_room);
-          around.dropped += point_room >= reach ? 0 : 1;
+          continue;
+        }
+        around.smallest = std::min(around.smallest, sample.distance);
+        around.swallowed |= !sample.known && sample.distance < 0.0;
+        if (near.count == ContactWorkspace::NearPoints::kCapacity) {
+          around.left_out = std::min(around.left_out, point_room);
+          around.swallowed |= sample.distance <= 0.0;  // nothing will bring it out
+          ++around.dropped;
           continue;
         }
         near.point[near.count++] = {i, sample.distance, sample.clearance};
-        around.smallest = std::min(around.smallest, sample.distance);
-        around.swallowed |= !sample.known && sample.distance < 0.0;
         if (!sample.known) continue;
         if (rows.full()) {
           ++around.dropped;
@@ -201,6 +207,7 @@ Selection select_rows(ContactWorkspace& workspace) noexcept;
 struct Obstacle {
   std::uint32_t near = 0;  ///< number of the near point
   double way = 1.0;        ///< share of its chord
+  bool exhausted = false;  ///< nothing in the way so far: free up to `way`, and no more balls
   FieldSample sample;      ///< there
 };
 
@@ -220,6 +227,7 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
     if (!(obstacle.sample.clearance > 0.0)) return false;
     covered += obstacle.sample.clearance;
   }
+  obstacle.exhausted = true;
   return false;
 }
 
@@ -231,6 +239,7 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
                     Obstacle& obstacle) noexcept {
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
+  obstacle.exhausted = false;
   const auto fails = [&](std::uint32_t k) noexcept {
     const ContactWorkspace::NearPoint& start = near.point[k];
     if (start.distance <= 0.0) return false;
@@ -243,7 +252,7 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, obstacle)) return true;
     obstacle.way = 1.0;
     obstacle.sample = end;
-    return !(end.distance >= std::min(start.distance, lengths.least_margin));
+    return !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, lengths.least_margin));
   };
   const std::uint32_t suspect = obstacle.near;
   if (suspect < near.count && fails(suspect)) return false;
@@ -381,7 +390,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
         break;
       }
       motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
-      H1 = result.step.force_count == 0 && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
+      H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
       const std::int64_t check_ns = detail::read(times);  // the certificate
       const Pose H1_features = FeatureDirection::pose(H1, origin_W);
       const bool samples_free = detail::motion_is_free(field, shell, H0, H1, lengths, workspace.samples, at_sample);
@@ -390,6 +399,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
                                                         lengths, workspace.features, at_feature);
       lookup_ns += detail::read(times) - check_ns;
       if (samples_free && features_free) break;
+      if (at_sample.exhausted || at_feature.exhausted) {
+        if (at_sample.exhausted) share *= at_sample.way;
+        if (at_feature.exhausted) share *= at_feature.way;
+        continue;
+      }
       bool seen = attempt < kSecondLooks;
       if (seen && !samples_free) {
         seen = detail::push_obstacle<SampleDirection>(shell, H0, H1, lengths, workspace.samples, at_sample,
@@ -400,7 +414,9 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
                                                        workspace.features, at_feature, workspace.rows);
       }
       if (seen) {
+        const bool infeasible = result.step.infeasible;
         least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);
+        result.step.infeasible |= infeasible;
         share = detail::allowed_share(result.step.motion, around, reach, lengths, true);
       } else {
         share *= attempt < kSecondLooks ? 0.5 : 0.25;

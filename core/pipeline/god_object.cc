@@ -61,7 +61,9 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
   if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return refuse(Status::kNotUnit, state_, report);
   if (input.H_WM.translation.cwiseAbs().maxCoeff() > kFarthest_m) return refuse(Status::kOutOfRange, state_, report);
 
-  const CycleInput cycle_input{input.H_WM * H_MB_, input.velocity_W};  // the product normalises the rotation
+  Pose H_WM = input.H_WM;
+  H_WM.rotation.coeffs() /= length;
+  const CycleInput cycle_input{H_WM * H_MB_, input.velocity_W};
   State next = state_;
   if (!next.started) {
     next.H_WS = cycle_input.H_WD;

@@ -61,6 +61,7 @@ class Solver {
     if (friction_ == nullptr) {
       feasible = meet_rows(100);
       take(step);
+      step.follows = set_.size() == 0;
     } else {
       bool converged = crawls(step) && sticks();
       if (!converged) converged = polish();
@@ -69,6 +70,7 @@ class Solver {
         converged = polish();
       }
       take(step);
+      step.follows = converged && set_.size() == 0;
       if (converged && rests()) step.motion = Motion{};
       step.unconverged = !converged;
       release_contacts();
@@ -297,11 +299,10 @@ class Solver {
         Contact& c = contacts_[static_cast<std::size_t>(in_cone)];
         slip = slip_of(c, m);
         c.shift = shifted_ ? slip.speed : 0.0;
-        if (!set_.add(cone_inequality(in_cone, slip.direction))) return false;
-      } else if (!set_.add(cone_inequality(in_cone, slip.direction))) {
-        return false;
       }
+      const bool added = set_.add(cone_inequality(in_cone, slip.direction));
       close_idle_contacts();
+      if (!added) return false;
     }
     return true;
   }
@@ -587,6 +588,7 @@ void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMet
   if (rows.count == 0) {
     step = ConstrainedStep{};
     step.motion = wanted;
+    step.follows = true;
     return;
   }
   Solver solver(rows, metric, friction, last);

@@ -102,16 +102,18 @@ double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   FieldSample sample;
   sample.distance = band_;
+  // from where nothing is stored any way to the surface enters stored bricks at a value of at least the band
+  const double beyond_band = band_ / lipschitz_seam_;
   Cell cell;
   if (!locate(p_W, cell)) {
-    sample.clearance = std::max(0.0, distance_to_box(p_W) - kInterpolationError * voxel_size_);
+    sample.clearance = std::max(beyond_band, distance_to_box(p_W) - kInterpolationError * voxel_size_);
     return sample;
   }
   if (cell.entry & format::index_entry::kFar) {
     if (cell.entry & format::index_entry::kInside) {
       sample.distance = -band_;
     } else {
-      sample.clearance = static_cast<double>(format::index_entry::far_clearance(cell.entry));
+      sample.clearance = std::max(beyond_band, static_cast<double>(format::index_entry::far_clearance(cell.entry)));
     }
     return sample;
   }
@@ -127,10 +129,12 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   const float y1 = x01 + cell.fy * (x11 - x01);
   const double distance = static_cast<double>(y0 + cell.fz * (y1 - y0));
   if (distance > 0.0) {
-    sample.clearance = distance / lipschitz_;
+    // a straight way may leave the stored bricks, and enters them again at a value of at least the band
+    const double bound = std::min(distance, band_);
+    sample.clearance = bound / lipschitz_;
     if (cell.entry & format::index_entry::kSeamNear) {
       sample.clearance =
-          std::max(distance / lipschitz_seam_, std::min(sample.clearance, static_cast<double>(brick.seam_clearance)));
+          std::max(bound / lipschitz_seam_, std::min(sample.clearance, static_cast<double>(brick.seam_clearance)));
     }
   }
   if (!(std::fabs(distance) < band_)) {

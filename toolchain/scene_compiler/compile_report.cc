@@ -182,7 +182,8 @@ Json second_direction_json(const CompileReport& report) {
   for (const auto& [id, section] : report.sections) {
     if (id >= format::SectionId::kBodyGrid && id <= format::SectionId::kFeatureNodes) bytes += section;
   }
-  json["bound"] = second.between.bound;
+  json["bound"] = second.between.bound + second.slack;
+  json["body_field_slack"] = second.slack;
   json["moving_fall"] = second.between.moving_fall;
   json["still_fall"] = second.between.still_fall;
   json["wanted"] = report.config.between_points;

@@ -157,10 +157,26 @@ StillFeatures find_features(const SolidSurface& still, const OuterSurface& movin
   const OuterSurface outer(still);
   const BothDirections both = see_both_directions(outer, moving, report.config.between_points, sampling, progress);
   const StillFeatures features = make_still_features(both.features, both.area);
-  report.second = {
-      true, both.between, both.added_points, features.corners, features.on_edges, features.on_faces, features.header,
-      {}};
+  SecondDirection& second = report.second;
+  second.sought = true;
+  second.between = both.between;
+  second.added_points = both.added_points;
+  second.corners = features.corners;
+  second.on_edges = features.on_edges;
+  second.on_faces = features.on_faces;
+  second.features = features.header;
   return features;
+}
+
+/// How much smaller the moving body is in its field, in voxels: what refinement may hold off at its edges (kHeldOff
+/// tolerances). A still edge that lies in the plane of a face in contact would catch on that otherwise.
+double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
+
+/// The field of the body made smaller by `slack` [m].
+void shrink(DistanceGrid& field, double slack) {
+  for (format::Brick& brick : field.bricks) {
+    for (float& value : brick.value) value += static_cast<float>(slack);
+  }
 }
 
 }  // namespace
@@ -209,7 +225,12 @@ CompileReport compile_scene(const CompileRequest& request) {
   if (!parts.features.points.empty()) {
     parts.body_field = phases.run("body distances", [&](const Progress& p) {
       const double body_band = default_band(config.body_voxel_size, config.settings.safety_distance);
-      return make_distance_grid(in_body_frame(moving, report.body.body, config), config.body_voxel_size, body_band, p);
+      const SolidSurface body = in_body_frame(moving, report.body.body, config);
+      DistanceGrid field = make_distance_grid(body, config.body_voxel_size, body_band, part_of(p, 0.0, 0.5));
+      refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(p, 0.5, 1.0));
+      report.second.slack = slack_of(config.field_tolerance) * config.body_voxel_size;
+      shrink(field, report.second.slack);
+      return field;
     });
     report.second.grid = parts.body_field.grid;
   }

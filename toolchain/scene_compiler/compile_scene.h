@@ -43,6 +43,7 @@ struct SecondDirection {
   std::uint32_t corners = 0;       ///< features at sharp vertices of the still body
   std::uint32_t on_edges = 0;      ///< on its sharp edges and rims
   std::uint32_t on_faces = 0;      ///< where it bends away too tightly
+  double slack = 0.0;              ///< that the moving body's field is of a body smaller by [m]
   format::Features features{};     ///< point_count = 0: none needed, the image holds no second direction
   format::Grid grid{};             ///< of the moving body's field
 };

@@ -70,12 +70,13 @@ std::string second_direction_text(const CompileReport& report) {
   } else {
     text += "features none needed\n";
   }
-  text += fmt::format("between points no deeper than {}: moving surface {}, still surface {}; wanted {}\n",
-                      millimetres(between.bound), millimetres(between.moving_fall), millimetres(between.still_fall),
-                      millimetres(report.config.between_points));
-  if (between.bound > report.config.between_points) {
+  const double bound = between.bound + second.slack;
+  text += fmt::format("between points no deeper than {}: moving surface {}, still surface {}, field {}; wanted {}\n",
+                      millimetres(bound), millimetres(between.moving_fall), millimetres(between.still_fall),
+                      millimetres(second.slack), millimetres(report.config.between_points));
+  if (bound > report.config.between_points) {
     text += fmt::format("        missed by {}: set moving.points higher, or contact.between_points\n",
-                        millimetres(between.bound - report.config.between_points));
+                        millimetres(bound - report.config.between_points));
   }
   return text;
 }

@@ -334,6 +334,29 @@ TEST(ContactCycle, CountsWhatDoesNotFitAndStillLetsNothingThrough) {
   EXPECT_TRUE(overflow);
 }
 
+/// Neighbouring points of one flat would turn a slow rotation into large opposite forces, were each damped by itself.
+TEST(ContactCycle, DampsByNoMoreThanTheVelocityAsksFor) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body(31);  // points 1 to 2 mm apart
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.016}));
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const double gyration = std::sqrt(run.parameters.coupling_rotation);
+  for (int i = 0; i < 500; ++i) {
+    const Motion velocity{0.1 * vector(), vector()};
+    ASSERT_EQ(
+        run.step(at({1e-4 * i, 0.0, 0.012}, {2e-4 * std::sin(0.1 * i), 2e-4 * std::cos(0.13 * i), 0.0}), velocity),
+        Status::kOk);
+    const DeviceForce& force = run.report.force;
+    const Vector3 change = force.total_W.force - force.spring_W.force;
+    const Vector3 turn = (force.total_W.torque - force.spring_W.torque) / gyration;
+    const double speed = std::hypot(velocity.translation.norm(), gyration * velocity.rotation.norm());
+    ASSERT_LE(std::hypot(change.norm(), turn.norm()), run.parameters.damping * speed * 1.000001) << i;
+    ASSERT_GE(force.total_W.force.z(), -1e-9) << i;
+  }
+}
+
 /// Turned and shifted by ten metres the world is the same.
 TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
   const SampledBody body = box_body(7);
