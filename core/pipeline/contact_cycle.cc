@@ -67,6 +67,7 @@ Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velo
   Vector6 asked;  // (b_D / k_D) v
   asked << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
   asked *= damping_over_stiffness;
+  if (asked.isZero(0.0)) return out;
   std::array<Vector6, 6> row;
   Vector6 load = Vector6::Zero();
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
