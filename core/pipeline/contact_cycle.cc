@@ -11,6 +11,7 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.rounding = std::min(1e-6 * q.voxel_size, 0.1 * lengths.least_margin);
   lengths.shortest_reach = 0.125 * q.voxel_size;
   lengths.longest_reach = 1.5 * q.voxel_size;
+  lengths.opening = 0.5 * q.margin;
   lengths.largest_gain = 0.25 * q.voxel_size;
   lengths.radius = q.mass.radius;
   lengths.metric.gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
@@ -42,9 +43,9 @@ double allowed_share(const Motion& motion, const Surroundings& around, double re
                      bool constrained) noexcept {
   constexpr double kLargestTurn = 0.1;  // rad
   const double turn = motion.rotation.norm();
-  const double travel = motion.translation.norm() + lengths.radius * turn;
+  const double way = travel(motion, lengths);
   const double room = std::max(around.left_out - lengths.margin, 0.5 * around.left_out);
-  double share = travel > room ? room / travel : 1.0;
+  double share = way > room ? room / way : 1.0;
   if (constrained) {
     // the rows are linear in r: half of |r|^2 R_max, what they neglect, stays within half of the reach
     const double largest = std::min(kLargestTurn, std::sqrt(reach / lengths.radius));

@@ -50,6 +50,7 @@ struct ContactLengths {
   double least_margin;    ///< below it a gap may only grow
   double shortest_reach;  ///< near points are those within the reach
   double longest_reach;
+  double opening;       ///< a gap this much wider than the margin is no contact
   double largest_gain;  ///< that a point which started inside moves out in a sub-step
   double radius;        ///< R_max
   CouplingMetric metric;
@@ -287,6 +288,31 @@ bool push_obstacle(const Pointshell& shell, const Pose& H0, const Pose& H1, cons
 double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
                      bool constrained) noexcept;
 
+/// |x| + R_max |r|: no sample point goes further.
+inline double travel(const Motion& motion, const ContactLengths& lengths) noexcept {
+  return motion.translation.norm() + lengths.radius * motion.rotation.norm();
+}
+
+/// Whether a point that holds the god object back has left the surface at pose H: it came round an edge, where its row
+/// holds no longer, and the motion could go on.
+template <DistanceField Field, DistanceField BodyField>
+bool has_opened(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* features, const Pose& H,
+                const ContactLengths& lengths, const ConstrainedStep& step) noexcept {
+  const double open = lengths.margin + lengths.opening;
+  for (std::uint32_t i = 0; i < step.force_count; ++i) {
+    const std::uint32_t id = step.forces[i].id;
+    double distance = 0.0;
+    if ((id & kFeature) == 0) {
+      distance = field.sample(H * shell.point(id)).distance;
+    } else if (features != nullptr) {
+      const Vector3 feature_W = features->origin_W + features->points.point(id & ~kFeature);
+      distance = features->map.sample(H.inverse() * feature_W).distance;
+    }
+    if (distance > open) return true;
+  }
+  return false;
+}
+
 /// What the sub-steps came to.
 struct ContactResult {
   Pose H_WS;
@@ -335,6 +361,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   result.step = state.contact;
   Motion last = state.contact.motion;
   bool inside = state.inside;
+  bool opened = false;
   double reach =
       std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
                  lengths.shortest_reach, lengths.longest_reach);
@@ -428,7 +455,15 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.cut = share < 1.0;
     if (share == 0.0) break;
     reach = std::min(2.0 * reach, lengths.longest_reach);
-  } while (result.cut && !inside && result.substeps < kMaxSubsteps);
+    opened = false;
+    if (!result.cut && result.step.force_count > 0 && detail::travel(motion, lengths) > lengths.opening) {
+      const std::int64_t look_ns = detail::read(times);
+      opened = detail::has_opened(field, shell, features, H1, lengths, result.step);
+      lookup_ns += detail::read(times) - look_ns;
+    }
+  } while ((result.cut || opened) && !inside && result.substeps < kMaxSubsteps);
+  // whether a point slipped is a matter of the whole cycle
+  if (result.substeps > 1) result.step.motion = get_motion(state.H_WS.inverse() * result.H_WS);
 
   const Status status = detail::finish(input, result, inside, q, state, report);  // #6, #7
   if (times != nullptr) {

@@ -33,7 +33,9 @@ struct Contact {
   double ratio = 0.0;  // mu
   double shift = 0.0;  // |slip| that the cone is shifted by
   double speed = 0.0;  // |slip| at the last Newton step
+  int reversals = 0;   // Newton steps in a row at which the slip went with the force
   bool slips = false;
+  bool held = false;  // by three half spaces, whatever its slip was
 };
 
 struct Slip {
@@ -69,6 +71,7 @@ class Solver {
         meet_cones();  // with shifts that are too small the cones may contradict each other where the rows do not
         converged = polish();
       }
+      if (converged) come_to_rest();
       take(step);
       step.follows = converged && set_.size() == 0;
       if (converged && rests()) step.motion = Motion{};
@@ -87,6 +90,7 @@ class Solver {
   }
 
  private:
+  static constexpr double kHalfRootThree = 0.8660254037844386;
   static constexpr int kRounds = 5;
   static constexpr int kAdditions = 24;           // a round
   static constexpr double kConeTolerance = 0.01;  // of the rows': cones are in double precision, and rest is exact
@@ -189,18 +193,25 @@ class Solver {
     return half_space;
   }
 
+  /// Static friction for a point that did not slip in the last motion.
+  double ratio_of(const Contact& c) const noexcept {
+    return slip_of(c, last_).speed > metric_.still ? friction_->kinetic_ratio : friction_->static_ratio;
+  }
+
   /// Takes a row out of the scan and gives it a cone; -1 if there is no room.
   int open_contact(std::uint32_t row, double shift) noexcept {
     if (contact_count_ == kMaxContacts) return -1;
     Contact& c = contacts_[static_cast<std::size_t>(contact_count_)];
     c.row = row;
-    c.normal = rows_.normal(row);
+    c.normal = rows_.normal(row).normalized();  // single precision would let a slip of nanometres lean
     c.point = rows_.point(row);
     c.need = static_cast<double>(rows_.need[row]);
     const double moved = slip_of(c, last_).speed;
-    c.ratio = moved > metric_.still ? friction_->kinetic_ratio : friction_->static_ratio;
+    c.ratio = ratio_of(c);
+    c.reversals = 0;
     c.shift = shift < 0.0 ? moved : shift;
     c.slips = false;
+    c.held = false;
     rows_.need[row] = -FLT_MAX;
     return contact_count_++;
   }
@@ -273,6 +284,29 @@ class Solver {
     return true;
   }
 
+  /// A motion that the tolerances may explain ends, if forces inside the cones can hold it.
+  void come_to_rest() noexcept {
+    if (contact_count_ == 0 || motion_vector().norm() > metric_.tolerance || rests()) return;
+    const Found found = save();
+    if (!sticks()) restore(found);
+  }
+
+  struct Found {
+    ActiveSet set;
+    std::array<Contact, kMaxContacts> contacts;
+    int contact_count;
+  };
+
+  Found save() const noexcept { return {set_, contacts_, contact_count_}; }
+
+  void restore(const Found& found) noexcept {
+    release_contacts();
+    set_ = found.set;
+    contacts_ = found.contacts;
+    contact_count_ = found.contact_count;
+    for (int k = 0; k < contact_count_; ++k) rows_.need[contacts_[static_cast<std::size_t>(k)].row] = -FLT_MAX;
+  }
+
   /// With the shifts held: adds half spaces until all rows and cones are met.
   bool meet_cones() noexcept {
     for (int i = 0; i < kAdditions; ++i) {
@@ -315,17 +349,19 @@ class Solver {
   /// True if it ended where all is met; the half spaces, with the shifts that belong to the motion, are then the set.
   /// Otherwise the set is the old one, with other shifts for the convex problem to go on from.
   bool polish() noexcept {
-    constexpr int kSteps = 14;
-    const ActiveSet found = set_;
-    const std::array<Contact, kMaxContacts> found_contacts = contacts_;
-    const int found_count = contact_count_;
+    constexpr int kSteps = 24;
+    constexpr int kPatience = 2;
+    const Found found = save();
     Motion m = motion();
+    bool fits = false;
     for (int step = 0; step < kSteps; ++step) {
       gather(m);
-      const Newton result = newton_step(step, m);
+      const Newton result = newton_step(fits || step >= kPatience, m);
       if (result == Newton::kFailed) break;
-      if (result != Newton::kConverged) continue;
+      fits = result != Newton::kOn;
+      if (result == Newton::kOn) continue;
       const Worst worst = worst_row(m);
+      if (worst.row == kNone && result == Newton::kSettled) continue;
       if (worst.row == kNone) {
         const int size = set_.size();
         for (int k = 0; k < contact_count_; ++k) {
@@ -344,13 +380,9 @@ class Solver {
       ++iterations_;
       set_.guess(cone_inequality(entering, slip_of(contacts_[static_cast<std::size_t>(entering)], m).direction));
     }
-    release_contacts();
-    set_ = found;
-    contacts_ = found_contacts;
-    contact_count_ = found_count;
+    restore(found);
     for (int k = 0; k < contact_count_; ++k) {
       Contact& c = contacts_[static_cast<std::size_t>(k)];
-      rows_.need[c.row] = -FLT_MAX;
       c.shift = failures_ == 0 ? 0.0 : 0.5 * (c.shift + slip_of(c, motion()).speed);
     }
     ++failures_;
@@ -367,6 +399,12 @@ class Solver {
     close_idle_contacts();
   }
 
+  int half_spaces_of(int contact) const noexcept {
+    int count = 0;
+    for (int j = 0; j < set_.size(); ++j) count += set_[j].tag.contact == contact ? 1 : 0;
+    return count;
+  }
+
   /// One half space a slipping contact, against the force that its half spaces give: near rest that is known far better
   /// than the direction of slip. Kinetic friction for what slips.
   void gather(const Motion& m) noexcept {
@@ -374,13 +412,16 @@ class Solver {
     for (int k = 0; k < contact_count_; ++k) {
       Contact& c = contacts_[static_cast<std::size_t>(k)];
       const Slip slip = slip_of(c, m);
-      const bool begins = !c.slips && slip.speed > metric_.still;
+      const bool begins = !c.slips && !c.held && slip.speed > metric_.still;
       if (begins) {
         c.slips = true;
         c.speed = slip.speed;
         c.ratio = friction_->kinetic_ratio;
       }
-      if (!begins) continue;
+      if (!begins) {
+        c.held = !c.slips && half_spaces_of(k) == 3;
+        continue;
+      }
       int first = -1;
       Vector3 pull = Vector3::Zero();
       double load = 0.0;
@@ -401,12 +442,12 @@ class Solver {
     }
   }
 
-  enum class Newton { kConverged, kOn, kFailed };
+  /// kSettled: the motion is found, the directions of slip are not.
+  enum class Newton { kConverged, kSettled, kOn, kFailed };
 
   /// From the motion `m` to the next. Unknowns: the multipliers, and for each slipping contact the force tau across its
   /// slip, with tau = -(mu lambda / |slip|) (slip across).
-  Newton newton_step(int step, Motion& m) noexcept {
-    constexpr int kPatience = 2;
+  Newton newton_step(bool fits, Motion& m) noexcept {
     constexpr std::size_t kMost = 2 * ActiveSet::kCapacity;
     const int n = set_.size();
     if (friction_->viscous_step > 0.0) follow_viscous();
@@ -449,6 +490,8 @@ class Solver {
     if (whitened_) z = whiten_.transpose() * z;
     const double* const multiplier = system.rhs;
     if (!z.allFinite()) return Newton::kFailed;
+    // a pull means that a contact is not there, unless the directions of slip do not fit yet
+    if (fits && drop_first_to_vanish(multiplier)) return Newton::kOn;
     // a motion that stands still is found, whatever direction a slip of nanometres may have
     const bool settled =
         (z.head<3>() - m.translation).squaredNorm() + (z.tail<3>() - metric_.gyration * m.rotation).squaredNorm() <=
@@ -456,12 +499,10 @@ class Solver {
     m = {z.head<3>(), z.tail<3>() / metric_.gyration};
     // the shares of viscous friction are those of the step before
     Newton result = settled || !(friction_->viscous_step > 0.0) ? Newton::kConverged : Newton::kOn;
-    int pulls = -1;
     for (int j = 0; j < n; ++j) {
-      if (multiplier[j] < 0.0 && (pulls < 0 || multiplier[j] < multiplier[pulls])) pulls = j;
       const double changed = std::fabs(multiplier[j] - set_[j].multiplier);
       if (friction_->viscous_step > 0.0 && changed > metric_.tolerance) result = Newton::kOn;
-      set_.at(j).multiplier = std::max(0.0, multiplier[j]);
+      set_.at(j).multiplier = multiplier[j];
       Contact& c = contacts_[static_cast<std::size_t>(set_[j].tag.contact)];
       const Slip slip = slip_of(c, m);
       if (!c.slips) {
@@ -471,26 +512,132 @@ class Solver {
       // where the force of this step pointed, for the same reason
       const Vector3 old = set_[j].tag.slip;
       const double along = slip.speed * slip.direction.dot(old);
-      const Vector3 pull = c.speed * old + (slip.speed * slip.direction - along * old);
+      Vector3 pull = c.speed * old + (slip.speed * slip.direction - along * old);
+      pull -= c.normal.dot(pull) * c.normal;  // rounding grows where the slip is much larger than the speed it had
       const Vector3 direction = pull.normalized();
       const bool turned = c.ratio * multiplier[j] * (direction - slip.direction).norm() > metric_.tolerance ||
                           c.ratio * multiplier[j] * (direction - old).norm() > metric_.tolerance;
-      if (turned && !(settled && slip.speed <= metric_.tolerance)) {
-        if (settled) return Newton::kFailed;  // the force drives it: it sticks
-        result = Newton::kOn;
-      }
+      if (turned && !(settled && slip.speed <= metric_.tolerance)) result = settled ? Newton::kSettled : Newton::kOn;
       set_.at(j).tag.slip = direction;
       const double speed = slip.speed * slip.direction.dot(direction);
       c.speed = speed > 0.25 * c.speed ? speed : 0.25 * c.speed;
-      if (!settled && !(c.speed > 0.25 * metric_.still)) return Newton::kFailed;  // it sticks
+      c.reversals = speed < 0.0 ? c.reversals + 1 : 0;
     }
-    // a pull means that the contact is not there, unless the directions do not fit yet
-    if (pulls >= 0 && (result == Newton::kConverged || step >= kPatience)) {
-      set_.erase(pulls);
+    bool switched = false;
+    for (int k = 0; k < contact_count_; ++k) switched = hold_or_release(k) || switched;
+    if (switched) {
       close_idle_contacts();
       return Newton::kOn;
     }
+    if (result != Newton::kOn && drop_first_to_vanish(multiplier)) return Newton::kOn;
     return result;
+  }
+
+  /// On the way from the forces of the set to the new ones, stops where the first of them vanishes and lets it go.
+  /// False if none does. A contact that is held has one force.
+  bool drop_first_to_vanish(const double* multiplier) noexcept {
+    int first = -1;
+    double way = 1.0;
+    for (int j = 0; j < set_.size(); ++j) {
+      double from = set_[j].multiplier;
+      double to = multiplier[j];
+      if (contacts_[static_cast<std::size_t>(set_[j].tag.contact)].held) {
+        from = to = 0.0;
+        for (int i = 0; i < set_.size(); ++i) {
+          if (set_[i].tag.contact != set_[j].tag.contact) continue;
+          from += set_[i].multiplier;
+          to += multiplier[i];
+        }
+      }
+      if (!(to < 0.0)) continue;
+      from = std::max(0.0, from);
+      const double vanishes = from / (from - to);
+      if (first < 0 || vanishes < way) {
+        first = j;
+        way = vanishes;
+      }
+    }
+    if (first < 0) return false;
+    for (int j = 0; j < set_.size(); ++j) {
+      const double from = std::max(0.0, set_[j].multiplier);
+      set_.at(j).multiplier = std::max(0.0, from + way * (multiplier[j] - from));
+    }
+    const int contact = set_[first].tag.contact;
+    const bool held = contacts_[static_cast<std::size_t>(contact)].held;
+    for (int j = set_.size() - 1; j >= 0; --j) {
+      if (j == first || (held && set_[j].tag.contact == contact)) set_.erase(j);
+    }
+    close_idle_contacts();
+    return true;
+  }
+
+  /// A contact whose slip goes with its force instead of against it sticks: three half spaces hold it. One that is held
+  /// by a force outside of the cone begins to slip. True if either has happened.
+  bool hold_or_release(int contact) noexcept {
+    constexpr int kReversals = 2;
+    Contact& c = contacts_[static_cast<std::size_t>(contact)];
+    if (c.slips) {
+      if (c.reversals < kReversals || set_.size() + 2 > ActiveSet::kCapacity) return false;
+      int at = 0;
+      while (set_[at].tag.contact != contact) ++at;
+      const Vector3 along = set_[at].tag.slip;
+      const double load = set_[at].multiplier;
+      const Vector3 across = c.normal.cross(along);
+      c.slips = false;
+      c.held = true;
+      c.reversals = 0;
+      c.ratio = ratio_of(c);
+      set_.at(at) = cone_inequality(contact, along);
+      set_.at(at).multiplier = load;
+      (void)set_.guess(cone_inequality(contact, -0.5 * along + kHalfRootThree * across));
+      (void)set_.guess(cone_inequality(contact, -0.5 * along - kHalfRootThree * across));
+      return true;
+    }
+    return spread(contact);
+  }
+
+  /// The force of a contact that is held by three half spaces: where it lies in the cone, as three pushes about it;
+  /// else the contact begins to slip, and the answer is true.
+  bool spread(int contact) noexcept {
+    std::array<int, 3> at{};
+    std::size_t count = 0;
+    double load = 0.0;
+    Vector3 pull = Vector3::Zero();
+    for (int j = 0; j < set_.size(); ++j) {
+      if (set_[j].tag.contact != contact) continue;
+      if (count == at.size()) return false;
+      at[count++] = j;
+      load += set_[j].multiplier;
+      pull += set_[j].multiplier * set_[j].tag.slip;
+    }
+    const double length = pull.norm();
+    Contact& c = contacts_[static_cast<std::size_t>(contact)];
+    if (count < at.size()) return false;
+    if (!(load > 0.0)) {  // it would have to pull
+      for (std::size_t i = at.size(); i-- > 0;) set_.erase(at[i]);
+      return true;
+    }
+    const Vector3 along = length > 0.0 ? Vector3(pull / length) : Vector3(set_[at[0]].tag.slip);
+    if (length > load) {
+      set_.erase(at[2]);
+      set_.erase(at[1]);
+      c.slips = true;
+      c.held = false;
+      c.speed = metric_.still;
+      c.ratio = friction_->kinetic_ratio;
+      set_.at(at[0]).tag.slip = along;
+      set_.at(at[0]).multiplier = load;
+      return true;
+    }
+    const Vector3 across = c.normal.cross(along);
+    const double share = length / load;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      constexpr std::array<double, 3> kSine = {0.0, kHalfRootThree, -kHalfRootThree};
+      constexpr std::array<double, 3> kCosine = {1.0, -0.5, -0.5};
+      set_.at(at[i]).tag.slip = kCosine[i] * along + kSine[i] * across;
+      set_.at(at[i]).multiplier = load * (i == 0 ? 1.0 + 2.0 * share : 1.0 - share) / 3.0;
+    }
+    return false;
   }
 
   /// Viscous friction as part of the metric: H = I + mu_v sum of w_i T_i' T_i, w_i the contact's share of the load, T_i
