@@ -1,6 +1,7 @@
 #include "toolchain/report/contact_quality/reference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -163,7 +164,7 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
 }
 
 OptimumGap optimum_gap(const OptimumProblem& problem, const Pose& H_WS, bool one_sided) {
-  constexpr double kPerturbation_m = 2e-4;
+  constexpr std::array<double, 2> kPerturbations_m = {2e-5, 2e-4};  // the narrowest basins are a margin wide
   constexpr double kUsable_m = 1e-6;
   const double rho = std::sqrt(problem.rho_squared);
   std::mt19937 random(1);
@@ -171,10 +172,12 @@ OptimumGap optimum_gap(const OptimumProblem& problem, const Pose& H_WS, bool one
   const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
 
   std::vector<Pose> starts;
-  for (int i = 0; i < 4; ++i) {
-    const Vector3 x = kPerturbation_m * vector();
-    const Vector3 r = kPerturbation_m / rho * vector();
-    starts.push_back(H_WS * set_matrix({x, r}));
+  for (const double perturbation : kPerturbations_m) {
+    for (int i = 0; i < 4; ++i) {
+      const Vector3 x = perturbation * vector();
+      const Vector3 r = perturbation / rho * vector();
+      starts.push_back(H_WS * set_matrix({x, r}));
+    }
   }
   const Motion to_device = get_motion(H_WS.inverse() * problem.H_WD);
   if (!one_sided) {

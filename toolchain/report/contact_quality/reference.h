@@ -46,9 +46,9 @@ struct OptimumGap {
 };
 
 /// Local optima exist and a god object follows its history, so the reference is started from the god object's
-/// surroundings (four small perturbations, so that a saddle is left), from half way to the device, and from the
-/// device's orientation lifted out along the coupling. The last is left out where `one_sided`: beyond a thin wall there
-/// are better poses that cannot be reached.
+/// surroundings (four perturbations of the size of a margin and four ten times as large, so that a saddle is left),
+/// from half way to the device, and from the device's orientation lifted out along the coupling. The last is left out
+/// where `one_sided`: beyond a thin wall there are better poses that cannot be reached.
 OptimumGap optimum_gap(const OptimumProblem& problem, const Pose& H_WS, bool one_sided);
 
 }  // namespace godobject::report
