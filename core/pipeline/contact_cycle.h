@@ -349,12 +349,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   using detail::SampleDirection;
   constexpr int kSecondLooks = 6;  // at what stood in the way
   constexpr int kAttempts = 14;
-  const std::int64_t begin_ns = detail::read(times);
+  detail::begin(times);
   const ContactLengths lengths = ContactLengths::make(q);
   const ContactFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio,
                                  q.friction.viscous / (q.stiffness * q.coupling_translation * q.period)};
   const Vector3 origin_W = features != nullptr ? features->origin_W : Vector3::Zero();
-  std::int64_t lookup_ns = 0;
 
   detail::ContactResult result;
   result.H_WS = state.H_WS;
@@ -369,7 +368,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     const Pose H0 = result.H_WS;
     const Motion free = unconstrained_motion(H0, input.H_WD);  // #3 (32), (33)
 
-    const std::int64_t seek_ns = detail::read(times);  // #1
+    if (result.substeps > 0) detail::end(times, &StepTimes::solve_ns);  // #1
     detail::Surroundings around;
     workspace.rows.count = 0;
     const Pose H0_features = FeatureDirection::pose(H0, origin_W);
@@ -389,7 +388,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
                                                 selection.stride, lengths, workspace.features, workspace.rows);
       }
     }
-    lookup_ns += detail::read(times) - seek_ns;
+    detail::end(times, &StepTimes::step1_ns);
     result.smallest = std::min(around.smallest, around.left_out);
     result.dropped = around.dropped;
     // a point inside has no clearance, so it is near; the first pose is judged by both directions
@@ -418,14 +417,17 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
       motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
       H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
-      const std::int64_t check_ns = detail::read(times);  // the certificate
+      detail::end(times, &StepTimes::solve_ns);  // the certificate
       const Pose H1_features = FeatureDirection::pose(H1, origin_W);
       const bool samples_free = detail::motion_is_free(field, shell, H0, H1, lengths, workspace.samples, at_sample);
       const bool features_free =
           features == nullptr || detail::motion_is_free(features->map, features->points, H0_features, H1_features,
                                                         lengths, workspace.features, at_feature);
-      lookup_ns += detail::read(times) - check_ns;
-      if (samples_free && features_free) break;
+      const bool is_free = samples_free && features_free;
+      opened = is_free && share == 1.0 && detail::travel(motion, lengths) > lengths.opening &&
+               detail::has_opened(field, shell, features, H1, lengths, result.step);
+      detail::end(times, &StepTimes::step1_ns);
+      if (is_free) break;
       if (at_sample.exhausted || at_feature.exhausted) {
         if (at_sample.exhausted) share *= at_sample.way;
         if (at_feature.exhausted) share *= at_feature.way;
@@ -455,21 +457,12 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.cut = share < 1.0;
     if (share == 0.0) break;
     reach = std::min(2.0 * reach, lengths.longest_reach);
-    opened = false;
-    if (!result.cut && result.step.force_count > 0 && detail::travel(motion, lengths) > lengths.opening) {
-      const std::int64_t look_ns = detail::read(times);
-      opened = detail::has_opened(field, shell, features, H1, lengths, result.step);
-      lookup_ns += detail::read(times) - look_ns;
-    }
   } while ((result.cut || opened) && !inside && result.substeps < kMaxSubsteps);
   // whether a point slipped is a matter of the whole cycle
   if (result.substeps > 1) result.step.motion = get_motion(state.H_WS.inverse() * result.H_WS);
 
   const Status status = detail::finish(input, result, inside, q, state, report);  // #6, #7
-  if (times != nullptr) {
-    times->step1_ns = lookup_ns;
-    times->solve_ns = times->now_ns() - begin_ns - lookup_ns;
-  }
+  detail::end(times, &StepTimes::solve_ns);
   return status;
 }
 

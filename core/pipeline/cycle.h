@@ -55,11 +55,13 @@ struct CycleReport {
   Outcome outcome = Outcome::kFree;
 };
 
-/// Optional stopwatch: how long step #1 and steps #2-#7 took. The core has no clock of its own.
+/// Optional stopwatch: how long step #1 and steps #2-#7 took. The core has no clock of its own. Each stretch of time
+/// holds one reading of the clock: one of step #1 and one of the rest, in `contact` two of both a sub-step.
 struct StepTimes {
   std::int64_t (*now_ns)() noexcept = nullptr;
   std::int64_t step1_ns = 0;
   std::int64_t solve_ns = 0;
+  std::int64_t since_ns = 0;  ///< begin of the stretch that runs
 };
 
 /// The god object leaves `inside` once it is less than this deep; corrections approach the surface, they do not reach
@@ -71,7 +73,19 @@ inline constexpr std::uint32_t kMaxSubsteps = 8;
 
 namespace detail {
 
-inline std::int64_t read(const StepTimes* times) noexcept { return times != nullptr ? times->now_ns() : 0; }
+inline void begin(StepTimes* times) noexcept {
+  if (times == nullptr) return;
+  times->step1_ns = times->solve_ns = 0;
+  times->since_ns = times->now_ns();
+}
+
+/// Ends a stretch of time and begins the next.
+inline void end(StepTimes* times, std::int64_t StepTimes::*spent) noexcept {
+  if (times == nullptr) return;
+  const std::int64_t now_ns = times->now_ns();
+  times->*spent += now_ns - times->since_ns;
+  times->since_ns = now_ns;
+}
 
 /// Steps #6 and #7, the finite check, and the only place where `state` changes.
 Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, const Projection& step,
@@ -86,10 +100,10 @@ Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& 
 template <bool kFriction, DistanceField Field>
 Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                    State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
-  const std::int64_t begin_ns = detail::read(times);
+  detail::begin(times);
   const auto contacts =
       penalty_contacts<LayerPenetration>(field, shell, state.H_WS, q.safety_distance, 0.0);  // #1 (1), (2)
-  const std::int64_t found_ns = detail::read(times);
+  detail::end(times, &StepTimes::step1_ns);
 
   Pose H_WS = input.H_WD;  // region C
   if (contacts.depth > 0.0) {
@@ -118,10 +132,7 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
     H_WS = filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period);  // #5 (43)
   }
   const Status status = detail::finish(input, H_WS, contacts, Projection{}, 1, q, state, report);  // #6, #7 (44)-(46)
-  if (times != nullptr) {
-    times->step1_ns = found_ns - begin_ns;
-    times->solve_ns = times->now_ns() - found_ns;
-  }
+  detail::end(times, &StepTimes::solve_ns);
   return status;
 }
 
@@ -130,10 +141,9 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
 template <bool kFriction, DistanceField Field>
 Status corrected_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                        State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
-  const std::int64_t begin_ns = detail::read(times);
+  detail::begin(times);
   const double viscous_step = q.friction.viscous / (q.stiffness * q.coupling_translation * q.period);
   const ProjectionFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio, viscous_step};
-  std::int64_t step1_ns = 0;
   std::uint32_t substeps = 0;
   Pose H_WS = state.H_WS;
   Projection step;
@@ -142,9 +152,9 @@ Status corrected_cycle(const Field& field, const Pointshell& shell, const Parame
   do {
     const Motion free = unconstrained_motion(H_WS, input.H_WD);  // #3 (32), (33)
     const double travel = free.translation.norm() + q.mass.radius * free.rotation.norm();
-    const std::int64_t seek_ns = detail::read(times);
+    if (substeps > 0) detail::end(times, &StepTimes::solve_ns);
     contacts = penalty_contacts<DistancePenetration>(field, shell, H_WS, q.safety_distance, travel);  // #1 (1), (2)
-    step1_ns += detail::read(times) - seek_ns;
+    detail::end(times, &StepTimes::step1_ns);
     if (state.inside && !contacts.has_direction()) {
       step = Projection{};
       step.motion = free;  // swallowed, and the field does not say where out is: with the device
@@ -157,10 +167,7 @@ Status corrected_cycle(const Field& field, const Pointshell& shell, const Parame
   } while (step.cut && ++substeps < kMaxSubsteps);
   const Status status =
       detail::finish(input, H_WS, contacts, step, std::min(substeps + 1, kMaxSubsteps), q, state, report);  // #6, #7
-  if (times != nullptr) {
-    times->step1_ns = step1_ns;
-    times->solve_ns = times->now_ns() - begin_ns - step1_ns;
-  }
+  detail::end(times, &StepTimes::solve_ns);
   return status;
 }
 

@@ -13,12 +13,11 @@
 namespace godobject {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
 constexpr int kMaxContacts = 12;
 
 /// A half space n . v >= need (direction zero) or (n - mu d) . v >= need - shift of the contact `contact`.
 struct Tag {
-  std::uint32_t row = kNone;
+  std::uint32_t row = ContactRows::kNone;
   int contact = 0;  // with friction: index into Solver::contacts_
   Vector3 slip = Vector3::Zero();
 };
@@ -26,7 +25,7 @@ using ActiveSet = DualActiveSet<Tag>;
 
 /// A contact point that carries a force.
 struct Contact {
-  std::uint32_t row = kNone;
+  std::uint32_t row = ContactRows::kNone;
   Vector3 normal;
   Vector3 point;
   double need = 0.0;
@@ -42,11 +41,6 @@ struct Slip {
   double approach = 0.0;  // n . v
   double speed = 0.0;     // |slip|
   Vector3 direction = Vector3::Zero();
-};
-
-struct Worst {
-  std::uint32_t row = kNone;
-  double violation = 0.0;
 };
 
 class Solver {
@@ -115,36 +109,7 @@ class Solver {
 
   // -- rows
 
-  /// The row that the motion violates most.
-  Worst worst_row(const Motion& m) const noexcept {
-    using Array = Eigen::Map<const Eigen::ArrayXf, Eigen::Aligned64>;
-    constexpr std::uint32_t kBlock = 64;
-    const Eigen::Vector3f x = m.translation.cast<float>();
-    const Eigen::Vector3f r = m.rotation.cast<float>();
-    float largest = -FLT_MAX;
-    std::uint32_t block = 0;
-    const auto violation = [&](std::uint32_t begin, std::uint32_t size) {
-      const auto n = static_cast<Eigen::Index>(size);
-      return Array(rows_.need + begin, n) -
-             (x.x() * Array(rows_.normal_x + begin, n) + x.y() * Array(rows_.normal_y + begin, n) +
-              x.z() * Array(rows_.normal_z + begin, n) + r.x() * Array(rows_.torque_x + begin, n) +
-              r.y() * Array(rows_.torque_y + begin, n) + r.z() * Array(rows_.torque_z + begin, n));
-    };
-    for (std::uint32_t begin = 0; begin < rows_.count; begin += kBlock) {
-      const float worst = violation(begin, std::min(kBlock, rows_.count - begin)).maxCoeff();
-      if (worst > largest) {
-        largest = worst;
-        block = begin;
-      }
-    }
-    Worst found;
-    found.violation = static_cast<double>(largest);
-    if (!(found.violation > metric_.tolerance)) return found;
-    Eigen::Index at = 0;
-    violation(block, std::min(kBlock, rows_.count - block)).maxCoeff(&at);
-    found.row = block + static_cast<std::uint32_t>(at);
-    return found;
-  }
+  ContactRows::Violated worst_row(const Motion& m) const noexcept { return rows_.most_violated(m, metric_.tolerance); }
 
   bool is_active(std::uint32_t row) const noexcept {
     for (int i = 0; i < set_.size(); ++i) {
@@ -164,8 +129,8 @@ class Solver {
   /// Frictionless: adds rows until all are met.
   bool meet_rows(int additions) noexcept {
     for (int i = 0; i < additions; ++i) {
-      const Worst worst = worst_row(motion());
-      if (worst.row == kNone || is_active(worst.row)) return true;  // active: violated by rounding only
+      const ContactRows::Violated worst = worst_row(motion());
+      if (worst.row == ContactRows::kNone || is_active(worst.row)) return true;  // active: violated by rounding only
       ++iterations_;
       if (!set_.add(normal_inequality(worst.row))) return false;
     }
@@ -311,8 +276,8 @@ class Solver {
   bool meet_cones() noexcept {
     for (int i = 0; i < kAdditions; ++i) {
       const Motion m = motion();
-      const Worst worst = worst_row(m);
-      double largest = worst.row == kNone ? kConeTolerance * metric_.tolerance : worst.violation;
+      const ContactRows::Violated worst = worst_row(m);
+      double largest = worst.row == ContactRows::kNone ? kConeTolerance * metric_.tolerance : worst.violation;
       int in_cone = -1;
       Slip slip;
       for (int k = 0; k < contact_count_; ++k) {
@@ -325,7 +290,7 @@ class Solver {
           slip = s;
         }
       }
-      if (in_cone < 0 && worst.row == kNone) return true;
+      if (in_cone < 0 && worst.row == ContactRows::kNone) return true;
       ++iterations_;
       if (in_cone < 0) {
         in_cone = open_contact(worst.row, 0.0);
@@ -360,9 +325,9 @@ class Solver {
       if (result == Newton::kFailed) break;
       fits = result != Newton::kOn;
       if (result == Newton::kOn) continue;
-      const Worst worst = worst_row(m);
-      if (worst.row == kNone && result == Newton::kSettled) continue;
-      if (worst.row == kNone) {
+      const ContactRows::Violated worst = worst_row(m);
+      if (worst.row == ContactRows::kNone && result == Newton::kSettled) continue;
+      if (worst.row == ContactRows::kNone) {
         const int size = set_.size();
         for (int k = 0; k < contact_count_; ++k) {
           Contact& c = contacts_[static_cast<std::size_t>(k)];

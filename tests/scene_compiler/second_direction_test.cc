@@ -168,8 +168,15 @@ double deepest_unseen(const Bodies& bodies, int poses, const Vector3d& target, d
 
 TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndTeapot) {
   Bodies bodies(load("teapot", 0.037), load("bunny_npm", 0.0161497));
-  bodies.look(5587, 0.0005);
+  bodies.look(5587, 0.002);
   EXPECT_LE(deepest_unseen(bodies, 3, {0.0, 0.03, 0.0}, 0.05), bodies.both.between.bound);
+}
+
+TEST(SecondDirection, HoldsItsBoundBetweenPegAndHole) {
+  Bodies bodies(load("hole_round", 1.0), load("peg_round", 1.0));
+  bodies.look(3000, 0.001);
+  EXPECT_LE(bodies.both.between.bound, 0.001);
+  EXPECT_LE(deepest_unseen(bodies, 1, {0.0, 0.0, 0.05}, 0.02), bodies.both.between.bound);
 }
 
 /// A wedge along y with its edge on top, at z = 0: `half_width` below it by `height`.

@@ -3,25 +3,19 @@
 #include <array>
 #include <cfenv>
 #include <cmath>
-#include <ctime>
 
 #include <fmt/format.h>
 
 #include "core/pipeline/penalty_contacts.h"
 #include "toolchain/command/csv_table.h"
 #include "toolchain/command/failure.h"
+#include "toolchain/command/stopwatch.h"
 
 namespace godobject::replay {
 namespace {
 
 using command::ExitCode;
 using command::Failure;
-
-std::int64_t now_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{1000000000} * now.tv_sec + now.tv_nsec;
-}
 
 void append(std::string& row, const Vector3& v) {
   fmt::format_to(std::back_inserter(row), ",{},{},{}", v.x(), v.y(), v.z());
@@ -79,7 +73,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const Path& pat
   std::string row = std::string(kColumns) + "\n";
   write_row(row);
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
-    StepTimes times{.now_ns = &now_ns};
+    StepTimes times{.now_ns = command::stopwatch()};
     CycleReport report;
     std::feclearexcept(kWatched);
     const Status status = god_object.update({path.poses[i], Motion{}}, report, &times);

@@ -1,24 +1,15 @@
 #include "toolchain/report/contact_quality/recording.h"
 
-#include <chrono>
+#include "toolchain/command/stopwatch.h"
 
 namespace godobject::report {
-namespace {
-
-std::int64_t now_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
-
 std::vector<RecordedCycle> record(const World& world, Cycle cycle, const std::vector<Pose>& H_WD,
                                   std::size_t true_depth_every) {
   std::vector<RecordedCycle> cycles;
   cycles.reserve(H_WD.size());
   CycleReport report;
   for (const Pose& pose : H_WD) {
-    StepTimes times{.now_ns = &now_ns};
+    StepTimes times{.now_ns = command::stopwatch()};
     const Status status = cycle(pose, report, times);
     RecordedCycle row;
     row.H_WD = pose;
