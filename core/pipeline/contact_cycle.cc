@@ -11,7 +11,7 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.rounding = std::min(1e-6 * q.voxel_size, 0.1 * lengths.least_margin);
   lengths.shortest_reach = 0.125 * q.voxel_size;
   lengths.longest_reach = 1.5 * q.voxel_size;
-  lengths.opening = 0.5 * q.margin;
+  lengths.opening = 0.01 * q.voxel_size;
   lengths.largest_gain = 0.25 * q.voxel_size;
   lengths.radius = q.mass.radius;
   lengths.metric.gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);

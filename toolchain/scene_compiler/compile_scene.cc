@@ -151,13 +151,20 @@ void write_image(const command::AlignedBytes& image, const std::filesystem::path
   output.commit();
 }
 
+/// How much smaller the moving body is in its field, in voxels: what refinement may hold off at its edges (kHeldOff
+/// tolerances). A still edge that lies in the plane of a face in contact would catch on that otherwise.
+double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
+
 /// Features of the still body, and more points of the moving one where its own are too few to do with them.
 StillFeatures find_features(const SolidSurface& still, const OuterSurface& moving, MovingSampling& sampling,
                             CompileReport& report, const Progress& progress) {
-  const OuterSurface outer(still);
-  const BothDirections both = see_both_directions(outer, moving, report.config.between_points, sampling, progress);
-  const StillFeatures features = make_still_features(both.features, both.area);
+  const SceneConfig& config = report.config;
   SecondDirection& second = report.second;
+  second.slack = slack_of(config.field_tolerance) * config.body_voxel_size;
+  const double wanted = std::max(config.between_points - second.slack, 0.5 * config.between_points);
+  const OuterSurface outer(still);
+  const BothDirections both = see_both_directions(outer, moving, wanted, sampling, progress);
+  const StillFeatures features = make_still_features(both.features, both.area);
   second.sought = true;
   second.between = both.between;
   second.added_points = both.added_points;
@@ -165,12 +172,9 @@ StillFeatures find_features(const SolidSurface& still, const OuterSurface& movin
   second.on_edges = features.on_edges;
   second.on_faces = features.on_faces;
   second.features = features.header;
+  if (both.features.empty()) second.slack = 0.0;  // the field is not looked at
   return features;
 }
-
-/// How much smaller the moving body is in its field, in voxels: what refinement may hold off at its edges (kHeldOff
-/// tolerances). A still edge that lies in the plane of a face in contact would catch on that otherwise.
-double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
 
 /// The field of the body made smaller by `slack` [m].
 void shrink(DistanceGrid& field, double slack) {
@@ -228,7 +232,6 @@ CompileReport compile_scene(const CompileRequest& request) {
       const SolidSurface body = in_body_frame(moving, report.body.body, config);
       DistanceGrid field = make_distance_grid(body, config.body_voxel_size, body_band, part_of(p, 0.0, 0.5));
       refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(p, 0.5, 1.0));
-      report.second.slack = slack_of(config.field_tolerance) * config.body_voxel_size;
       shrink(field, report.second.slack);
       return field;
     });

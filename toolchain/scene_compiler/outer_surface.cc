@@ -1,6 +1,7 @@
 #include "toolchain/scene_compiler/outer_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,10 @@ constexpr double kStep = 1e-6;          // of the bounding box's diagonal: above
 constexpr double kMostNegative = 0.49;  // winding number outside; a flat open sheet has just -0.5 there and 0.5 inside
 constexpr double kLeastOuterPart = 4e-3;  // of the area; with less a mesh is taken for one without outside
 constexpr std::uint64_t kBlock = 1u << 16;
+constexpr std::size_t kRun = 256;  // samples that are asked for one after the other
+constexpr std::size_t kPieces = 64;
+constexpr double kLongestCell = 1.4;  // spacings
+constexpr double kLeastCell = 0.5;    // squared spacings; smaller ones get a draw in proportion to their area
 
 /// A number in 0 .. 1 for each (seed, index, dimension): a hash (splitmix64), so that draws can be made in any order.
 double uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
@@ -36,21 +41,32 @@ OuterSurface::OuterSurface(const SolidSurface& surface)
       sharp_(sharp_features(body_)),
       step_(kStep * body_.diagonal) {}
 
-bool OuterSurface::is_outer(const SurfaceSample& sample) const {
+bool OuterSurface::is_outer(const SurfaceSample& sample, Known& known) const {
   if (!surface_.shell_triangles().empty()) {
     const double half = body_.half_thickness;
     if (surface_.distance_to_shells(sample.point, half + step_) < half - step_) return false;
   }
   if (surface_.solid_triangles().empty()) return true;
   if (sample.on_shell) return surface_.winding_number(sample.point) < 0.5;
+  const Vector3d off = sample.point - step_ * sample.inward;
+  const Vector3d way = known.point - off;
+  TriangleTree::RayHit hit{};
+  if (way.norm() < known.reach && !surface_.solid_triangles().first_hit(off, way, 0.0, 1.0, hit)) return known.outer;
   // through its triangle the winding number grows by one: it passes one half if it was within one half of zero
-  const double outside = surface_.winding_number(sample.point - step_ * sample.inward);
-  return outside > -kMostNegative && outside < 0.5;
+  const double outside = surface_.winding_number(off);
+  const double margin = std::min(std::abs(outside - 0.5), std::abs(outside + kMostNegative));
+  known = {off, surface_.constant_side_path(off, 0.5 - margin), outside > -kMostNegative && outside < 0.5};
+  return known.outer;
 }
 
 std::vector<std::uint8_t> OuterSurface::are_outer(std::span<const SurfaceSample> samples) const {
   std::vector<std::uint8_t> outer(samples.size());
-  parallel_for(samples.size(), [&](std::size_t i) { outer[i] = is_outer(samples[i]) ? 1 : 0; });
+  parallel_chunks(samples.size(), kRun,
+                  [&](std::size_t begin, std::size_t end) {
+                    Known known;
+                    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i], known) ? 1 : 0;
+                  },
+                  {});
   return outer;
 }
 
@@ -73,6 +89,51 @@ std::vector<SurfaceSample> OuterSurface::draw(const Draws& draws, std::uint64_t 
 
 std::vector<SurfaceSample> OuterSurface::draw_all(std::uint32_t count, std::uint32_t seed) const {
   return draw({count, 2 * std::uint64_t{seed}}, 0, count);
+}
+
+std::vector<SurfaceSample> OuterSurface::draw_near(double spacing, std::uint32_t seed,
+                                                   const std::function<bool(const Vector3d&, double)>& near) const {
+  const CellDraws draws{spacing, 2 * std::uint64_t{seed}, near};
+  const std::size_t parts = patches_.size() / kPieces + 1;
+  std::vector<std::vector<SurfaceSample>> samples(parts);
+  parallel_for(parts, [&](std::size_t part) {
+    const std::size_t end = std::min((part + 1) * kPieces, patches_.size());
+    for (std::size_t piece = part * kPieces; piece < end; ++piece) {
+      draw_cell({piece, 0.0, 0.0, 1.0, 1.0}, draws, samples[part]);
+    }
+  });
+  std::vector<SurfaceSample> all;
+  for (const std::vector<SurfaceSample>& some : samples) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+/// Of pieces much smaller than the spacing only some get a draw.
+void OuterSurface::draw_cell(const Cell& cell, const CellDraws& draws, std::vector<SurfaceSample>& samples) const {
+  const auto point = [&](double u, double v) {
+    return patches_.at(cell.piece, cell.u + u * cell.size_u, cell.v + v * cell.size_v).point;
+  };
+  const std::array<Vector3d, 4> corners{point(0.0, 0.0), point(1.0, 0.0), point(0.0, 1.0), point(1.0, 1.0)};
+  const Vector3d center = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+  double radius = 0.0;
+  for (const Vector3d& corner : corners) radius = std::max(radius, (corner - center).norm());
+  if (!draws.near(center, radius)) return;
+  const double along_u = std::max((corners[1] - corners[0]).norm(), (corners[3] - corners[2]).norm());
+  const double along_v = std::max((corners[2] - corners[0]).norm(), (corners[3] - corners[1]).norm());
+  if (std::max(along_u, along_v) > kLongestCell * draws.spacing) {
+    Cell half = cell;
+    const bool across_u = along_u > along_v;
+    (across_u ? half.size_u : half.size_v) *= 0.5;
+    draw_cell(half, draws, samples);
+    (across_u ? half.u : half.v) += across_u ? half.size_u : half.size_v;
+    draw_cell(half, draws, samples);
+    return;
+  }
+  const auto key =
+      static_cast<std::uint64_t>((cell.u + cell.v * 0.754877666) * 0x1p40) + (std::uint64_t{cell.piece} << 20);
+  const double area = patches_.area(cell.piece) * cell.size_u * cell.size_v;
+  if (uniform(draws.seed, key, 0) * kLeastCell * draws.spacing * draws.spacing > area) return;
+  samples.push_back(patches_.at(cell.piece, cell.u + uniform(draws.seed, key, 1) * cell.size_u,
+                                cell.v + uniform(draws.seed, key, 2) * cell.size_v));
 }
 
 void OuterSurface::draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,11 @@ class OuterSurface {
   /// outer.
   std::vector<SurfaceSample> draw_all(std::uint32_t count, std::uint32_t seed) const;
 
+  /// Draws about `spacing` [m] apart, one in each cell of a grid on every piece of the surface, buried parts included,
+  /// where `near(centre, radius)` is true for the ball around a cell or around cells that hold it.
+  std::vector<SurfaceSample> draw_near(double spacing, std::uint32_t seed,
+                                       const std::function<bool(const Eigen::Vector3d&, double)>& near) const;
+
   /// Whether each sample parts inside from outside: 1 or 0.
   std::vector<std::uint8_t> are_outer(std::span<const SurfaceSample> samples) const;
 
@@ -45,6 +51,22 @@ class OuterSurface {
   std::vector<SurfaceSample> sharp_samples(double step, std::uint32_t most) const;
 
  private:
+  /// A place off the surface whose side is known.
+  struct Known {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    double reach = -1.0;  ///< of straight ways to places of the same side [m]
+    bool outer = false;
+  };
+  /// A part of a piece of the surface.
+  struct Cell {
+    std::size_t piece;
+    double u, v, size_u, size_v;  ///< in the unit square
+  };
+  struct CellDraws {
+    double spacing;
+    std::uint64_t seed;
+    const std::function<bool(const Eigen::Vector3d&, double)>& near;
+  };
   struct Draws {
     std::uint64_t count;
     std::uint64_t seed;
@@ -53,7 +75,8 @@ class OuterSurface {
   std::vector<SurfaceSample> draw(const Draws& draws, std::uint64_t begin, std::uint64_t end) const;
   void draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const;
   void append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const;
-  bool is_outer(const SurfaceSample& sample) const;
+  void draw_cell(const Cell& cell, const CellDraws& draws, std::vector<SurfaceSample>& samples) const;
+  bool is_outer(const SurfaceSample& sample, Known& known) const;
   SurfaceSample sharp_sample(const Eigen::Vector3d& at, const Eigen::Vector3d& outward, bool in_shell,
                              SurfaceSample::Place place) const;
 

@@ -7,17 +7,19 @@ namespace godobject::scene_compiler {
 PointTree::PointTree(std::span<const Eigen::Vector3d> points) {
   entries_.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) entries_.push_back({points[i], i});
-  build({0, 0, size()});
+  if (!entries_.empty()) build({0, 0, size()});
 }
 
 void PointTree::build(const Range& range) {
-  if (range.leaf()) return;
   Eigen::Vector3d low = entries_[range.begin].point;
   Eigen::Vector3d high = low;
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
     low = low.cwiseMin(entries_[i].point);
     high = high.cwiseMax(entries_[i].point);
   }
+  if (range.node >= boxes_.size()) boxes_.resize(range.node + 1);
+  boxes_[range.node] = {low, high};
+  if (range.leaf()) return;
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const auto at = [this](std::uint32_t i) { return entries_.begin() + static_cast<std::ptrdiff_t>(i); };

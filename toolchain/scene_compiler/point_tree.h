@@ -34,6 +34,13 @@ class PointTree {
         });
   }
 
+  /// visit(index, squared distance) for every point not further than `radius` from p, but those in boxes with
+  /// skip(low, high).
+  template <class Skip, class Visit>
+  void within(const Eigen::Vector3d& p, double radius, const Skip& skip, const Visit& visit) const {
+    if (size() > 0) descend_boxes(p, Range{0, 0, size()}, radius * radius, skip, visit);
+  }
+
   /// Of the points with accept(index) nearer than `radius`, the nearest; of equally near ones the first.
   template <class Accept>
   Nearest nearest(const Eigen::Vector3d& p, double radius, const Accept& accept) const {
@@ -70,6 +77,9 @@ class PointTree {
     double value = 0.0;
     int axis = 0;
   };
+  struct Box {
+    Eigen::Vector3d low, high;
+  };
   struct Range {
     std::uint32_t node, begin, end;
     Range lower() const { return {2 * node + 1, begin, middle()}; }
@@ -95,8 +105,27 @@ class PointTree {
     if (beyond * beyond <= bound()) descend(p, beyond < 0.0 ? range.upper() : range.lower(), bound, visit);
   }
 
+  template <class Skip, class Visit>
+  void descend_boxes(const Eigen::Vector3d& p, const Range& range, double bound, const Skip& skip,
+                     const Visit& visit) const {
+    const Box& box = boxes_[range.node];
+    if ((box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm() > bound || skip(box.low, box.high)) return;
+    if (range.leaf()) {
+      for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const double squared = (entries_[i].point - p).squaredNorm();
+        if (squared <= bound) visit(entries_[i].index, squared);
+      }
+      return;
+    }
+    const Cut& cut = cuts_[range.node];
+    const bool below = p[cut.axis] < cut.value;
+    descend_boxes(p, below ? range.lower() : range.upper(), bound, skip, visit);
+    descend_boxes(p, below ? range.upper() : range.lower(), bound, skip, visit);
+  }
+
   std::vector<Entry> entries_;
   std::vector<Cut> cuts_;
+  std::vector<Box> boxes_;  ///< of the points in each range
 };
 
 }  // namespace godobject::scene_compiler

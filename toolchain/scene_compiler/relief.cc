@@ -13,9 +13,8 @@ constexpr double kCoarsePerReach = 5.0;  // coarse places over the reach
 constexpr double kFineBelow = 2.5;       // coarse spacings: a fall over more is seen well enough by the coarse cloud
 constexpr std::uint32_t kLeastCoarse = 4000;
 constexpr std::uint32_t kMostCoarse = 1u << 18;
-constexpr std::uint64_t kMostFine = 1u << 19;  // draws, most of which are not near rough places
+constexpr double kSharpPart = 0.5;  // of the fine spacing, along edges
 constexpr std::uint32_t kMostSharp = 1u << 17;
-constexpr std::uint32_t kBlock = 1u << 16;
 constexpr double kRoughSlack = 0.8;  // a coarse cloud misses some of the fall
 constexpr double kFaceCosine = 0.7;  // of a shell's sample with its triangle, if not on a round
 
@@ -41,7 +40,7 @@ Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uin
   const std::uint32_t wanted = std::max(draws_for(outer.area(), coarse, kMostCoarse), kLeastCoarse);
   OuterSurface::Spread spread = outer.spread(wanted, seed, part_of(progress, 0.0, 0.3));
   area_ = spread.area;
-  const std::vector<SurfaceSample> sharp = outer.sharp_samples(resolution.fine, kMostSharp);
+  const std::vector<SurfaceSample> sharp = outer.sharp_samples(kSharpPart * resolution.fine, kMostSharp);
   spread.samples.insert(spread.samples.end(), sharp.begin(), sharp.end());
   coarse_ = add(outer, spread.samples);
   all_ = coarse_;
@@ -71,33 +70,30 @@ std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const 
   }
   const PointTree rough(rough_points);
   const double near = 2.0 * fine_below_ / kFineBelow;  // random places leave holes
+  const auto is_near = [&](const Vector3d& center, double radius) {
+    return rough.nearest(center, near + radius, [](std::uint32_t) { return true; }).index != PointTree::kNone;
+  };
+  const std::vector<SurfaceSample> drawn = outer.draw_near(resolution.fine, seed, is_near);
+  if (progress) progress(0.5);
+  const std::vector<std::uint8_t> are_outer = outer.are_outer(drawn);
   std::vector<SurfaceSample> fine;
-  const std::uint32_t draws = draws_for(outer.area(), resolution.fine, kMostFine);
-  const std::uint32_t blocks = draws / kBlock + 1;
-  for (std::uint32_t block = 0; block < blocks; ++block) {
-    const std::vector<SurfaceSample> drawn = outer.draw_all(draws / blocks, (seed << 8) + 1 + block);
-    std::vector<std::uint8_t> kept(drawn.size());
-    parallel_for(drawn.size(), [&](std::size_t i) {
-      kept[i] = rough.nearest(drawn[i].point).squared_distance < near * near ? 1 : 0;
-    });
-    std::vector<SurfaceSample> candidates;
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-      if (kept[i] != 0) candidates.push_back(drawn[i]);
-    }
-    const std::vector<std::uint8_t> are_outer = outer.are_outer(candidates);
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (are_outer[i] != 0) fine.push_back(candidates[i]);
-    }
-    if (progress) progress(static_cast<double>(block + 1) / blocks);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (are_outer[i] != 0) fine.push_back(drawn[i]);
   }
+  if (progress) progress(1.0);
   return fine;
+}
+
+double Relief::lowest(std::size_t i, const Vector3d& low, const Vector3d& high) const {
+  return depth_below(i, 0.5 * (low + high)) + 0.5 * (high - low).dot(inward_[i].cwiseAbs());
 }
 
 double Relief::fall(std::size_t i, double radius) const {
   const SurfaceSample& place = places_[i];
   double deepest = 0.0;
-  tree(radius).within(place.point, std::numbers::sqrt2 * radius, [&](std::uint32_t j, double squared_distance) {
-    const double depth = (places_[j].point - place.point).dot(inward_[i]);
+  const auto above = [&](const Vector3d& low, const Vector3d& high) { return lowest(i, low, high) <= deepest; };
+  tree(radius).within(place.point, std::numbers::sqrt2 * radius, above, [&](std::uint32_t j, double squared_distance) {
+    const double depth = depth_below(i, places_[j].point);
     if (depth <= deepest || squared_distance - depth * depth > radius * radius) return;
     if (same_side(place, places_[j])) deepest = depth;
   });
@@ -107,15 +103,23 @@ double Relief::fall(std::size_t i, double radius) const {
 double Relief::level_radius(std::size_t i, double fall, double limit) const {
   const SurfaceSample& place = places_[i];
   const auto radius_in = [&](const PointTree& tree, double most) {
-    const auto depth = [&](std::uint32_t j) { return (places_[j].point - place.point).dot(inward_[i]); };
-    const auto falls = [&](std::uint32_t j) { return depth(j) > fall && same_side(place, places_[j]); };
-    const PointTree::Nearest found = tree.nearest(place.point, std::hypot(most, 2.0 * fall), falls);
-    if (found.index == PointTree::kNone) return most;
-    const double below = depth(found.index);
-    return std::min(most, std::sqrt(std::max(0.0, found.squared_distance - below * below)));
+    const auto above = [&](const Vector3d& low, const Vector3d& high) {
+      if (lowest(i, low, high) <= fall) return true;
+      const Vector3d& at = place.point;
+      return (low - at).cwiseMax(at - high).cwiseMax(0.0).squaredNorm() >= 2.0 * most * most;
+    };
+    tree.within(place.point, std::numbers::sqrt2 * most, above, [&](std::uint32_t j, double squared_distance) {
+      const double depth = depth_below(i, places_[j].point);
+      if (depth <= fall || squared_distance >= 2.0 * most * most) return;
+      const double radius = std::sqrt(std::max(squared_distance - depth * depth, 0.5 * squared_distance));
+      if (radius < most && same_side(place, places_[j])) most = radius;
+    });
+    return most;
   };
   const double seen = radius_in(coarse_, limit);
-  return seen < fine_below_ ? radius_in(all_, seen) : seen;
+  const double near = std::min(seen, fine_below_);
+  const double fine = radius_in(all_, near);
+  return std::clamp(fine < near ? fine : seen, std::min(fall, limit), limit);
 }
 
 }  // namespace godobject::scene_compiler

@@ -30,7 +30,12 @@ class Relief {
   /// plane's normal there and on the place's side of the body; no more than the radius [m].
   double fall(std::size_t place, double radius) const;
 
-  /// How far from that normal the surface stays within `fall` below the plane; at most `limit` [m].
+  /// How far `point` lies below that plane, negative above it [m].
+  double depth_below(std::size_t place, const Eigen::Vector3d& point) const {
+    return (point - places_[place].point).dot(inward_[place]);
+  }
+
+  /// The largest radius, at most `limit`, over which the fall is no more than `fall` [m].
   double level_radius(std::size_t place, double fall, double limit) const;
 
   double area() const { return area_; }  ///< of the outer surface [m^2]
@@ -38,6 +43,9 @@ class Relief {
  private:
   /// The cloud to look at for a fall over `radius`.
   const PointTree& tree(double radius) const { return radius < fine_below_ ? all_ : coarse_; }
+
+  /// Depth below the plane that nothing in the box exceeds.
+  double lowest(std::size_t place, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
 
   PointTree add(const OuterSurface& outer, std::span<const SurfaceSample> samples);
   std::vector<SurfaceSample> fine_places(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,

@@ -68,7 +68,11 @@ void SurfacePatches::add_rounds() {
 SurfaceSample SurfacePatches::draw(double at, double u, double v) const {
   const auto found = std::upper_bound(cumulated_area_.begin(), cumulated_area_.end(), at * area());
   const auto i = static_cast<std::size_t>(found - cumulated_area_.begin());
-  const Patch& patch = patches_[std::min(i, patches_.size() - 1)];
+  return this->at(std::min(i, patches_.size() - 1), u, v);
+}
+
+SurfaceSample SurfacePatches::at(std::size_t piece, double u, double v) const {
+  const Patch& patch = patches_[piece];
   return patch.kind == Patch::Kind::kRound ? draw_on_round(rounds_[patch.index], u, v) : draw_on_triangle(patch, u, v);
 }
 

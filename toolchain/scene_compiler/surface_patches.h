@@ -24,6 +24,14 @@ class SurfacePatches {
   /// angle.
   SurfaceSample draw(double at, double u, double v) const;
 
+  std::size_t size() const { return patches_.size(); }
+  double area(std::size_t piece) const {
+    return cumulated_area_[piece] - (piece > 0 ? cumulated_area_[piece - 1] : 0.0);
+  }
+
+  /// The point of a piece at u and v (0 .. 1): equal areas of the unit square are equal parts of the piece's.
+  SurfaceSample at(std::size_t piece, double u, double v) const;
+
  private:
   struct Patch {
     enum class Kind : std::uint8_t { kSolid, kShellFront, kShellBack, kRound };
