@@ -129,6 +129,7 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
   report.penetration = -result.smallest;
   report.contacts = result.step.contact_count;
   report.substeps = result.substeps;
+  report.unconverged = result.step.unconverged;
   return Status::kOk;
 }
 

@@ -38,6 +38,7 @@ Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& 
   report.penetration = penetration;
   report.contacts = contacts.count;
   report.substeps = substeps;
+  report.unconverged = false;
   if (state.inside) {
     report.outcome = Outcome::kStartInside;
   } else if (step.cut) {

@@ -47,11 +47,13 @@ struct State {
 
 /// What a cycle leaves for others to look at.
 struct CycleReport {
-  Pose H_WS;                   ///< god object after the cycle, frame B
-  DeviceForce force;           ///< for the device, in W about the centre of mass
-  double penetration = 0.0;    ///< p = p_d - d of step #1, before the cycle's motion [m]
-  std::uint32_t contacts = 0;  ///< points with V > 0
+  Pose H_WS;          ///< god object after the cycle, frame B
+  DeviceForce force;  ///< for the device, in W about the centre of mass
+  /// p = p_d - d of step #1, before the cycle's motion [m]; `contact`: minus the smallest stored distance
+  double penetration = 0.0;
+  std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: points that hold the god object back
   std::uint32_t substeps = 0;
+  bool unconverged = false;  ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
   Outcome outcome = Outcome::kFree;
 };
 
@@ -68,7 +70,7 @@ struct StepTimes {
 /// it. [voxels]
 inline constexpr double kOutside = 0.1;
 
-/// Of one cycle of `corrected`.
+/// Of one cycle of `corrected` or `contact`.
 inline constexpr std::uint32_t kMaxSubsteps = 8;
 
 namespace detail {

@@ -36,8 +36,9 @@ class GodObject {
   /// penetrates, the outcome is kStartInside until it has come out: by a share of its depth a cycle where the field
   /// gives a direction, with the device where it gives none.
   /// kNotFinite, kNotUnit, kOutOfRange: the input is no pose, or would have led to a NaN; the god object is held, the
-  /// force is zero, the report's outcome is kBadInput. Cost: ALGORITHM's step #1 and less than 1 us for the others.
-  /// Real-time safe.
+  /// force is zero, the report's outcome is kBadInput. Cost: step #1's look-ups, about 60 ns each, and for the
+  /// rest 0.3 us (`paper` and `corrected` 0.5 us), with friction 1-2 us; more where many contacts begin to hold at
+  /// once. Real-time safe.
   Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
 
   /// The god object as a pose of the moving mesh's frame in W.

@@ -101,8 +101,10 @@ int main(int argc, char** argv) {
           [&](double share) { progress.show("replay", share); });
     }
     out.commit();
-    fmt::print("{}: {} cycles, {}, peak force {:.2f} N, floating-point exceptions:{}\n", out_path, summary.cycles,
+    const bool contact_friction = friction && solver == Solver::kContact;
+    fmt::print("{}: {} cycles, {}, peak force {:.2f} N,{} floating-point exceptions:{}\n", out_path, summary.cycles,
                depth_text(summary.deepest, scene.voxelmap.band()), summary.peak_force,
+               contact_friction ? fmt::format(" friction not found in {} cycles,", summary.unconverged) : "",
                float_exceptions(summary.float_exceptions));
     if (summary.bad_rows > 0) {
       throw Failure(ExitCode::kBadData, fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), "

@@ -86,6 +86,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const Path& pat
     const double depth =
         state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
     summary.deepest = std::max(summary.deepest, depth);
+    summary.unconverged += report.unconverged ? 1 : 0;
     summary.peak_force = std::max(summary.peak_force, report.force.spring_W.force.norm());
 
     Pose device = path.poses[i];

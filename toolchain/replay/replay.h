@@ -28,9 +28,10 @@ struct Summary {
   std::size_t cycles = 0;
   std::size_t bad_rows = 0;  ///< poses that were none
   std::size_t first_bad_line = 0;
-  double deepest = 0.0;      ///< largest depth of the god object [m]; the field tells none beyond its band
-  double peak_force = 0.0;   ///< [N]
-  int float_exceptions = 0;  ///< of FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW: those that a cycle raised
+  double deepest = 0.0;         ///< largest depth of the god object [m]; the field tells none beyond its band
+  double peak_force = 0.0;      ///< [N]
+  std::size_t unconverged = 0;  ///< cycles whose friction was not found to the tolerance
+  int float_exceptions = 0;     ///< of FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW: those that a cycle raised
 };
 
 /// Names of the columns of a replay, in their order, separated by commas.
