@@ -34,6 +34,11 @@ class BrickTree {
   std::uint32_t root(std::uint32_t brick) const { return places_[brick].root; }
   bool is_leaf(std::uint32_t brick) const { return !places_[brick].halved; }
   Eigen::Vector3d low(std::uint32_t brick) const;
+  /// Its lowest node in units, and its level.
+  std::array<int, 4> place(std::uint32_t brick) const {
+    const Place& p = places_[brick];
+    return {p.low[0], p.low[1], p.low[2], p.level};
+  }
   double cell_edge(int level) const { return voxel_size_ / (1 << level); }
 
   /// Its nodes as they are, and as `join` made them.

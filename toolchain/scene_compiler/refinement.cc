@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -170,6 +171,12 @@ class SurfaceCheck {
   std::vector<std::atomic<bool>> marked_;
 };
 
+bool holds_seam(const format::Brick& brick, double cell_edge) {
+  bool holds = false;
+  for_each_cell(brick, [&](const CellEdges& edges, int, int, int) { holds = holds || edges.on_seam(cell_edge); });
+  return holds;
+}
+
 /// The eight octants of a brick, nodes exact.
 struct Octants {
   std::array<format::Brick, 8> bricks{};
@@ -282,8 +289,7 @@ Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32
                                       node / kBrickNodes % kBrickNodes + kBrickCells * (octant >> 1 & 1),
                                       node / (kBrickNodes * kBrickNodes) + kBrickCells * (octant >> 2));
     }
-    for_each_cell(
-        child, [&](const CellEdges& edges, int, int, int) { octants.seamed = octants.seamed || edges.on_seam(edge); });
+    octants.seamed = octants.seamed || holds_seam(child, edge);
   }
   return octants;
 }
@@ -292,7 +298,10 @@ class Refinement {
  public:
   Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance)
       : field_(field), surface_(surface), tolerance_(tolerance), barred_(field.bricks.size()) {
-    for (std::size_t i = 0; i < field.bricks.size(); ++i) barred_[i] = field.bricks[i].seam_clearance <= 0.0f;
+    for (std::size_t i = 0; i < field.bricks.size(); ++i) {
+      const format::Brick& brick = field.bricks[i];
+      barred_[i] = brick.seam_clearance <= 0.0f && holds_seam(brick, field.grid.voxel_size);
+    }
   }
 
   /// False if some position had to be barred: begin again without it.
@@ -330,21 +339,27 @@ class Refinement {
 
  private:
   /// Halves what can be halved of `wanted` and bars the rest.
-  void halve(BrickTree& tree, const std::vector<std::uint32_t>& wanted, std::vector<bool>& barred) const {
+  void halve(BrickTree& tree, const std::vector<std::uint32_t>& wanted, std::vector<bool>& barred) {
     if (tree.brick_count() + 8 * wanted.size() > kMaxBricks) {
       throw command::Failure(command::ExitCode::kBadData,
                              fmt::format("a field_tolerance of {:g} m needs more than the limit of {} bricks; take a "
                                          "larger one, or a larger voxel_size",
                                          tolerance_, kMaxBricks));
     }
-    std::vector<Octants> octants(wanted.size());
-    parallel_for(wanted.size(), [&](std::size_t i) {
-      if (!barred[wanted[i]]) octants[i] = evaluate(surface_, tree, wanted[i]);
-    });
+    std::vector<Octants*> octants(wanted.size());
+    std::vector<std::size_t> unknown;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (barred[wanted[i]]) continue;
+      const auto [found, fresh] = known_.try_emplace(tree.place(wanted[i]));
+      octants[i] = &found->second;
+      if (fresh) unknown.push_back(i);
+    }
+    parallel_for(unknown.size(),
+                 [&](std::size_t i) { *octants[unknown[i]] = evaluate(surface_, tree, wanted[unknown[i]]); });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const std::uint32_t brick = wanted[i];
-      if (!barred[brick] && !octants[i].seamed) {
-        tree.halve(brick, octants[i].bricks);
+      if (!barred[brick] && !octants[i]->seamed) {
+        tree.halve(brick, octants[i]->bricks);
       } else {
         barred[brick] = true;
       }
@@ -377,7 +392,8 @@ class Refinement {
   DistanceGrid& field_;
   const SolidSurface& surface_;
   double tolerance_;
-  std::vector<bool> barred_;  // positions, by brick number
+  std::vector<bool> barred_;                     // positions, by brick number
+  std::map<std::array<int, 4>, Octants> known_;  // of bricks halved before a position had to be barred, by place
   RefinementReport report_;
 };
 
