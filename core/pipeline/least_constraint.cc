@@ -92,6 +92,8 @@ bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
   if (detail::solve_coulomb(set)) return true;
   for (int round = 0; round < kRounds; ++round) {
     follow_shifts(round == 0, set);
+    // a start for Newton's method, however it ends: cones with too small shifts may contradict each other where the
+    // rows do not
     detail::meet_cones(detail::Shift::kSlip, set);
     if (detail::solve_coulomb(set)) return true;
   }

@@ -40,6 +40,12 @@ ViolatedCone most_violated_cone(const ContactSet& set, const Motion& m, double l
   return worst;
 }
 
+/// All rows and cones, to the rows' tolerance.
+bool is_met(const ContactSet& set, const Motion& m) noexcept {
+  return set.most_violated(m).row == ContactRows::kNone &&
+         most_violated_cone(set, m, set.metric().tolerance).contact < 0;
+}
+
 }  // namespace
 
 Additions meet_rows(ContactSet& set) noexcept {
@@ -88,8 +94,10 @@ bool crawls(const ContactSet& set, const ConstrainedStep& step) noexcept {
 bool sticks(ContactSet& set) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) set.contact(k).shift = 0.0;
   set.resolve();
-  if (meet_cones(Shift::kNone, set) == Additions::kContradictory) return false;
-  return is_slip_free(set, set.motion());
+  const Additions ended = meet_cones(Shift::kNone, set);
+  if (ended == Additions::kContradictory) return false;
+  const Motion m = set.motion();
+  return is_slip_free(set, m) && (ended == Additions::kMet || is_met(set, m));
 }
 
 bool rests(const ContactSet& set) noexcept {

@@ -9,7 +9,7 @@ namespace godobject::detail {
 /// How adding half spaces to the active set ended.
 enum class Additions : std::uint8_t {
   kMet,            ///< no inequality is violated
-  kExhausted,      ///< some may be, after the most additions
+  kExhausted,      ///< the most additions are made; what is met has not been looked at
   kContradictory,  ///< no motion meets all of them
 };
 
