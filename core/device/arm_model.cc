@@ -1,0 +1,55 @@
+#include "core/device/arm_model.h"
+
+#include <cmath>
+
+namespace godobject {
+namespace {
+
+bool is_finite(const LinkMass& body) noexcept {
+  return std::isfinite(body.mass) && body.com.allFinite() && body.inertia.allFinite();
+}
+
+bool is_finite(const ArmJoint& joint) noexcept {
+  const double sum = joint.a + joint.alpha + joint.d + joint.offset + joint.lower + joint.upper + joint.velocity +
+                     joint.torque + joint.rotor + joint.damping;
+  return std::isfinite(sum) && is_finite(joint.link);
+}
+
+bool is_unit(const Quaternion& rotation) noexcept { return std::fabs(rotation.norm() - 1.0) < 1e-6; }
+
+bool is_positive_semidefinite(const Matrix3& matrix, double tolerance) noexcept {
+  const auto minor = [&](int i, int j) { return matrix(i, i) * matrix(j, j) - matrix(i, j) * matrix(j, i); };
+  return matrix.diagonal().minCoeff() >= -tolerance && minor(0, 1) >= -tolerance * tolerance &&
+         minor(0, 2) >= -tolerance * tolerance && minor(1, 2) >= -tolerance * tolerance &&
+         matrix.determinant() >= -tolerance * tolerance * tolerance;
+}
+
+/// Both conditions in one: the second moments of the mass, trace(I)/2 - I, are positive semidefinite.
+bool is_inertia(const Matrix3& inertia) noexcept {
+  const double size = inertia.cwiseAbs().maxCoeff();
+  const double tolerance = 1e-6 * size;
+  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > tolerance) return false;
+  const Matrix3 second_moments = 0.5 * inertia.trace() * Matrix3::Identity() - inertia;
+  return is_positive_semidefinite(second_moments, tolerance);
+}
+
+}  // namespace
+
+Status validate(const ArmModel& model) noexcept {
+  if (model.joint_count < 1 || model.joint_count > kMaxJoints) return Status::kArmShape;
+  if (!model.H_WA.is_finite() || !model.H_FM.is_finite() || !model.gravity_W.allFinite() || !is_finite(model.payload)) {
+    return Status::kNotFinite;
+  }
+  if (!is_unit(model.H_WA.rotation) || !is_unit(model.H_FM.rotation)) return Status::kArmShape;
+  if (model.payload.mass < 0.0 || !is_inertia(model.payload.inertia)) return Status::kArmMass;
+  for (int i = 0; i < model.joint_count; ++i) {
+    const ArmJoint& joint = model.joints[static_cast<std::size_t>(i)];
+    if (!is_finite(joint)) return Status::kNotFinite;
+    if (!(joint.link.mass > 0.0) || joint.rotor < 0.0 || joint.damping < 0.0) return Status::kArmMass;
+    if (!is_inertia(joint.link.inertia)) return Status::kArmMass;
+    if (!(joint.lower < joint.upper) || !(joint.velocity > 0.0) || !(joint.torque > 0.0)) return Status::kArmLimits;
+  }
+  return Status::kOk;
+}
+
+}  // namespace godobject
