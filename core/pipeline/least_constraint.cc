@@ -25,15 +25,28 @@ int contact_of_row(std::uint32_t row, ContactSet& set) noexcept {
   return k;
 }
 
+/// The row of the force's point; of several, which a second look at an obstacle gives it, the one whose normal fits
+/// best.
+std::uint32_t row_of(const ContactForce& force, const ContactRows& rows) noexcept {
+  const std::uint32_t* const end = rows.id + rows.count;
+  std::uint32_t best = ContactRows::kNone;
+  double best_fit = 0.0;
+  for (const std::uint32_t* id = std::find(rows.id, end, force.id); id != end; id = std::find(id + 1, end, force.id)) {
+    const auto row = static_cast<std::uint32_t>(id - rows.id);
+    const double fit = rows.normal(row).dot(force.normal);
+    if (best != ContactRows::kNone && !(fit > best_fit)) continue;
+    best = row;
+    best_fit = fit;
+  }
+  return best;
+}
+
 /// The forces of the last step as a guess, as far as their points still have rows.
 void warm_start(const ConstrainedStep& step, ContactSet& set) noexcept {
-  const ContactRows& rows = set.rows();
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
     const ContactForce& force = step.forces[i];
-    const std::uint32_t* const end = rows.id + rows.count;
-    const std::uint32_t* const found = std::find(rows.id, end, force.id);
-    if (found == end) continue;
-    const auto row = static_cast<std::uint32_t>(found - rows.id);
+    const std::uint32_t row = row_of(force, set.rows());
+    if (row == ContactRows::kNone) continue;
     if (set.friction() == nullptr) {
       set.active().guess(set.row_half_space(row));
       continue;

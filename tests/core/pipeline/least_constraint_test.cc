@@ -250,6 +250,32 @@ void push_face(Problem& p, const Vector3& normal, double half, double height, in
   }
 }
 
+TEST(LeastConstraint, StartsEachForceOfAPointFromTheRowThatFits) {
+  // one point in a valley of two faces, as two rows: both hold it, and nothing is left to add the second time
+  for (const bool turned_round : {false, true}) {
+    Problem p;
+    const double side = turned_round ? -0.6 : 0.6;
+    p.rows->push(7, Vector3(side, 0.0, 0.8), Vector3::Zero(), 0.0);
+    p.rows->push(8, Vector3::UnitY(), Vector3(0.0, 0.0, kBody), -1.0);
+    p.rows->push(7, Vector3(-side, 0.0, 0.8), Vector3::Zero(), 0.0);
+    p.wanted.translation = Vector3(0.001, 0.0, -0.005);
+    const ConstrainedStep cold = p.solve();
+    EXPECT_EQ(cold.iterations, 2u);
+    EXPECT_EQ(cold.force_count, 2u);
+    const ConstrainedStep warm = p.solve(cold);
+    EXPECT_EQ(warm.iterations, 0u);
+    EXPECT_EQ(warm.force_count, 2u);
+    EXPECT_LT(distance(warm.motion, cold.motion), 1e-15);
+    const ContactFriction friction{0.1, 0.1, 0.0};
+    const ConstrainedStep cold_friction = p.solve(friction);
+    EXPECT_GT(cold_friction.iterations, 0u);
+    EXPECT_EQ(cold_friction.contact_count, 2u);
+    const ConstrainedStep warm_friction = p.solve(friction, cold_friction.motion, cold_friction);
+    EXPECT_EQ(warm_friction.iterations, 0u);
+    EXPECT_EQ(warm_friction.contact_count, 2u);
+  }
+}
+
 TEST(LeastConstraint, TakesDuplicatedRowsForOne) {
   Random random(14);
   for (int problem = 0; problem < 200; ++problem) {
