@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/pipeline/contact_forces.h"
 #include "core/pipeline/contact_set.h"
 #include "core/pipeline/coulomb_newton.h"
 #include "core/pipeline/shifted_cones.h"
@@ -11,6 +12,7 @@ namespace {
 
 using detail::Additions;
 using detail::Contact;
+using detail::ContactForces;
 using detail::ContactSet;
 
 constexpr int kRounds = 5;
@@ -61,26 +63,6 @@ void warm_start(const ConstrainedStep& step, ContactSet& set) noexcept {
   if (set.friction() != nullptr) set.close_idle();
 }
 
-void take(const ContactSet& set, ConstrainedStep& step) noexcept {
-  const detail::ActiveSet& active = set.active();
-  step.motion = set.motion();
-  step.force_count = static_cast<std::uint32_t>(active.size());
-  step.contact_count = 0;
-  for (int j = 0; j < active.size(); ++j) {
-    ContactForce& force = step.forces[static_cast<std::size_t>(j)];
-    const std::uint32_t row = active[j].tag.row;
-    bool counted = false;
-    for (int i = 0; i < j; ++i) counted |= active[i].tag.row == row;
-    step.contact_count += counted ? 0 : 1;
-    force.id = set.rows().id[row];
-    force.point = set.rows().point(row);
-    force.normal = set.rows().normal(row);
-    force.slip = active[j].tag.slip;
-    force.ratio = set.friction() == nullptr ? 0.0 : set.contact_of(j).ratio;
-    force.multiplier = active[j].multiplier;
-  }
-}
-
 /// Shifts for the convex problem to go on from where Newton's method failed: none at first, then towards the slip.
 void follow_shifts(bool first, ContactSet& set) noexcept {
   const Motion m = set.motion();
@@ -94,7 +76,10 @@ void follow_shifts(bool first, ContactSet& set) noexcept {
 /// False: infeasible.
 bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
   const bool feasible = detail::meet_rows(set) != Additions::kContradictory;
-  take(set, step);
+  ContactForces forces;
+  forces.append(set);
+  forces.store(set.metric().gyration, step);
+  step.motion = set.motion();
   step.follows = step.force_count == 0;
   return feasible;
 }
@@ -116,19 +101,23 @@ bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
 
 /// False: infeasible.
 bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
+  bool feasible = true;
   const bool converged = solve_friction(set, step);
   if (converged) detail::come_to_rest(set);
-  take(set, step);
+  ContactForces forces;
+  forces.append(set);
+  const bool rests = converged && detail::rests(set);
+  if (converged) {
+    set.close_all();
+  } else {  // the normals have the last word
+    set.restart_from_motion();
+    feasible = detail::meet_rows(set) != Additions::kContradictory;
+    forces.append(set);
+  }
+  forces.store(set.metric().gyration, step);
+  step.motion = rests ? Motion{} : set.motion();
   step.follows = converged && step.force_count == 0;
   step.unconverged = !converged;
-  if (converged) {
-    if (detail::rests(set)) step.motion = Motion{};
-    set.close_all();
-    return true;
-  }
-  set.restart_from_motion();
-  const bool feasible = detail::meet_rows(set) != Additions::kContradictory;
-  step.motion = set.motion();
   return feasible;
 }
 

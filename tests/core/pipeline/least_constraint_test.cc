@@ -521,12 +521,29 @@ CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, cons
   return worst;
 }
 
+/// The forces are what takes the wanted motion to the one found, converged or not; without viscous friction.
+void expect_balance(const Problem& p, const ConstrainedStep& step) {
+  SixVector sum = six(p.wanted, p.metric.gyration) - six(step.motion, p.metric.gyration);
+  double load = 0.0;
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    const ContactForce& f = step.forces[j];
+    EXPECT_GE(f.multiplier, 0.0);
+    const Vector3 force = f.multiplier * (f.normal - f.ratio * f.slip);
+    SixVector push;
+    push << force, f.point.cross(force) / p.metric.gyration;
+    sum += push;
+    load += f.multiplier;
+  }
+  EXPECT_LE(sum.norm(), p.metric.tolerance + 1e-7 * load);  // rows give their normals in single precision
+}
+
 /// What must hold of every result with friction.
 void expect_coulomb(const Problem& p, const ConstrainedStep& step, const ContactFriction& friction,
                     const Motion& last = {}) {
   ASSERT_TRUE(six(step.motion, p.metric.gyration).allFinite());
   ASSERT_LE(step.force_count, 6u);
   EXPECT_LE(p.worst_violation(step.motion), 1.2 * p.metric.tolerance);
+  if (friction.viscous_step == 0.0) expect_balance(p, step);
   if (step.unconverged) return;
   const CoulombErrors errors = coulomb_errors(p, step, friction, last);
   EXPECT_LE(errors.outside_cone, 1e-12);
@@ -694,6 +711,7 @@ struct Outcomes {
     ASSERT_TRUE(six(step.motion, p.metric.gyration).allFinite());
     ASSERT_LE(step.force_count, 6u);
     violation = std::max(violation, p.worst_violation(step.motion));
+    if (friction.viscous_step == 0.0) expect_balance(p, step);
     if (step.unconverged) return;
     const CoulombErrors e = coulomb_errors(p, step, friction, last);
     worst.outside_cone = std::max(worst.outside_cone, e.outside_cone);
