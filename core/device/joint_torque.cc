@@ -58,24 +58,29 @@ JointVector project_on_null_space(const SingularDirections& singular, const Join
   return x - singular.weighted.transpose() * (singular.directions * singular.inverse_share.cwiseProduct(along));
 }
 
-/// Depth in the band before a limit and speed towards it -> torque away from it.
-double limit_torque(double depth, double speed, double band, double stiffness, double damping) noexcept {
-  if (!(depth > 0.0)) return 0.0;
-  return stiffness * depth + damping * std::min(1.0, depth / band) * std::max(0.0, speed);
-}
-
-JointVector limit_springs(const ArmModel& model, const JointTorqueParameters& parameters,
-                          const TorqueRequest& request) noexcept {
+struct LimitSprings {
   JointVector torque = JointVector::Zero();
+  JointVector down_share = JointVector::Ones();  // what rendering may have of the room towards either limit
+  JointVector up_share = JointVector::Ones();
+};
+
+LimitSprings limit_springs(const ArmModel& model, const JointTorqueParameters& parameters,
+                           const TorqueRequest& request) noexcept {
+  LimitSprings springs;
   const double band = parameters.limit_band;
   for (int i = 0; i < model.joint_count; ++i) {
     const ArmJoint& joint = model.joints[static_cast<std::size_t>(i)];
-    const double stiffness = parameters.limit_stiffness[i];
-    const double damping = parameters.limit_damping[i];
-    torque[i] = limit_torque(joint.lower + band - request.q[i], -request.qd[i], band, stiffness, damping) -
-                limit_torque(request.q[i] - joint.upper + band, request.qd[i], band, stiffness, damping);
+    // depth in the band before a limit and speed towards it -> torque away from it
+    const auto push = [&](double depth, double speed, double& share) {
+      if (!(depth > 0.0)) return 0.0;
+      const double towards_limit = std::min(1.0, depth / band);
+      share = 1.0 - kLargestShare * towards_limit;
+      return parameters.limit_stiffness[i] * depth + parameters.limit_damping[i] * towards_limit * std::max(0.0, speed);
+    };
+    springs.torque[i] = push(joint.lower + band - request.q[i], -request.qd[i], springs.down_share[i]) -
+                        push(request.q[i] - joint.upper + band, request.qd[i], springs.up_share[i]);
   }
-  return torque;
+  return springs;
 }
 
 /// How far each joint's torque may still go down and up.
@@ -144,7 +149,8 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   }
 
   JointVector torque = result.gravity;
-  torque += Room(limits, torque).clip(limit_springs(model, parameters, request), kLargestShare);
+  const LimitSprings springs = limit_springs(model, parameters, request);
+  torque += Room(limits, torque).clip(springs.torque, kLargestShare);
 
   JointVector qd = JointVector::Zero();
   qd.head(model.joint_count) = request.qd.head(model.joint_count);
@@ -158,7 +164,10 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   const Vector6 along = singular.directions.transpose() * wanted;
   const Vector6 shown = singular.directions * singular.share.cwiseProduct(along);
   const JointVector rendered = singular.weighted.transpose() * shown;
-  const double scale = Room(limits, torque).factor(rendered, 1.0);
+  Room for_rendering(limits, torque);
+  for_rendering.down.array() *= springs.down_share.array();
+  for_rendering.up.array() *= springs.up_share.array();
+  const double scale = for_rendering.factor(rendered, 1.0);
   torque += scale * rendered;
   if (!torque.allFinite() || !std::isfinite(scale) || !shown.allFinite()) return Status::kNotFinite;
 
