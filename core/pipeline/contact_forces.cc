@@ -3,69 +3,92 @@
 #include <Eigen/Geometry>
 
 namespace godobject::detail {
+namespace {
 
-void ContactForces::append(const ContactSet& set) noexcept {
-  const ActiveSet& active = set.active();
-  for (int j = 0; j < active.size(); ++j) {
-    Generator& generator = forces_[count_++];
-    generator.row = active[j].tag.row;
-    ContactForce& force = generator.force;
-    force.id = set.rows().id[generator.row];
-    force.point = set.rows().point(generator.row);
-    force.normal = set.rows().normal(generator.row);
-    force.slip = active[j].tag.slip;
-    force.ratio = set.contact_count() == 0 ? 0.0 : set.contact_of(j).ratio;
-    force.multiplier = active[j].multiplier;
-  }
+/// Of up to two active sets.
+struct Forces {
+  std::array<ContactForce, 2 * ActiveSet::kCapacity> force;
+  std::size_t count = 0;
+};
+
+void put(const ContactSet& set, int half_space, ContactForce& force) noexcept {
+  const ContactTag& tag = set.active()[half_space].tag;
+  force.id = set.rows().id[tag.row];
+  force.point = set.rows().point(tag.row);
+  force.normal = set.rows().normal(tag.row);
+  force.slip = tag.slip;
+  force.ratio = set.contact_count() == 0 ? 0.0 : set.contact_of(half_space).ratio;
+  force.multiplier = set.active()[half_space].multiplier;
 }
 
-void ContactForces::store(double gyration, ConstrainedStep& step) noexcept {
-  if (count_ > step.forces.size()) reduce(gyration);
-  step.force_count = static_cast<std::uint32_t>(count_);
+/// Two rows of one point, seen from two sides, are two.
+void count_contacts(ConstrainedStep& step) noexcept {
   step.contact_count = 0;
-  for (std::size_t j = 0; j < count_; ++j) {
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
     bool counted = false;
-    for (std::size_t i = 0; i < j; ++i) counted |= forces_[i].row == forces_[j].row;
+    for (std::uint32_t i = 0; i < j; ++i) {
+      counted |= step.forces[i].id == step.forces[j].id && step.forces[i].normal == step.forces[j].normal;
+    }
     step.contact_count += counted ? 0 : 1;
-    step.forces[j] = forces_[j].force;
   }
 }
 
 /// The point nearest to minus the sum among those that no generator violates, c . z >= 0, is zero, and its multipliers
 /// give the sum.
-void ContactForces::reduce(double gyration) noexcept {
+void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept {
   using Basis = DualActiveSet<std::size_t>;
-  constexpr int kMostExchanges = 4 * Basis::kCapacity;
+  constexpr int kMostAdditions = 4 * Basis::kCapacity;
   constexpr double kRounding = 1e-12;
-  std::array<Vector6, kMost> c;
+  std::array<Vector6, 2 * ActiveSet::kCapacity> c;
   Vector6 sum = Vector6::Zero();
-  for (std::size_t i = 0; i < count_; ++i) {
-    const ContactForce& force = forces_[i].force;
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const ContactForce& force = all.force[i];
     const Vector3 push = force.normal - force.ratio * force.slip;
     c[i] << push, force.point.cross(push) / gyration;
     sum += force.multiplier * c[i];
   }
   Basis basis;
   basis.start(-sum);
-  for (int exchange = 0; exchange < kMostExchanges; ++exchange) {
+  for (int additions = 0; additions < kMostAdditions; ++additions) {
     Basis::Inequality worst;
-    double violation = kRounding * sum.norm();
-    for (std::size_t i = 0; i < count_; ++i) {
+    const double limit = kRounding * sum.norm();
+    double violation = limit;
+    for (std::size_t i = 0; i < all.count; ++i) {
       const double here = -c[i].dot(basis.z());
       if (!(here > violation)) continue;
       violation = here;
       worst.gradient = c[i];
       worst.tag = i;
     }
-    if (worst.gradient.isZero(0.0) || !basis.add(worst)) break;
+    if (!(violation > limit) || !basis.add(worst)) break;
   }
-  const std::array<Generator, kMost> all = forces_;
-  count_ = static_cast<std::size_t>(basis.size());
-  for (std::size_t j = 0; j < count_; ++j) {
-    const Basis::Inequality& chosen = basis[static_cast<int>(j)];
-    forces_[j] = all[chosen.tag];
-    forces_[j].force.multiplier = chosen.multiplier;
+  step.force_count = static_cast<std::uint32_t>(basis.size());
+  for (int j = 0; j < basis.size(); ++j) {
+    ContactForce& force = step.forces[static_cast<std::size_t>(j)];
+    force = all.force[basis[j].tag];
+    force.multiplier = basis[j].multiplier;
   }
+}
+
+}  // namespace
+
+void take_forces(const ContactSet& set, ConstrainedStep& step) noexcept {
+  step.force_count = static_cast<std::uint32_t>(set.active().size());
+  for (std::uint32_t j = 0; j < step.force_count; ++j) put(set, static_cast<int>(j), step.forces[j]);
+  count_contacts(step);
+}
+
+void add_forces(const ContactSet& set, ConstrainedStep& step) noexcept {
+  Forces all;
+  for (; all.count < step.force_count; ++all.count) all.force[all.count] = step.forces[all.count];
+  for (int j = 0; j < set.active().size(); ++j) put(set, j, all.force[all.count++]);
+  if (all.count > step.forces.size()) {
+    store_sum(all, set.metric().gyration, step);
+  } else {
+    step.force_count = static_cast<std::uint32_t>(all.count);
+    for (std::size_t j = 0; j < all.count; ++j) step.forces[j] = all.force[j];
+  }
+  count_contacts(step);
 }
 
 }  // namespace godobject::detail

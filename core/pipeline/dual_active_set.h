@@ -22,7 +22,10 @@ class DualActiveSet {
   static constexpr int kCapacity = 6;
 
   struct Inequality {
-    Vector6 gradient = Vector6::Zero();
+    // one by one: a loop would become a string instruction, which is slow for so few
+    Inequality() noexcept { gradient << 0.0, 0.0, 0.0, 0.0, 0.0, 0.0; }
+
+    Vector6 gradient;
     double rhs = 0.0;
     double multiplier = 0.0;
     Tag tag{};
@@ -188,8 +191,8 @@ class DualActiveSet {
   Vector6 z_ = Vector6::Zero();
   int size_ = 0;
   Inequality active_[kCapacity];
-  Matrix6 q_ = Matrix6::Zero();
-  Matrix6 r_ = Matrix6::Zero();
+  Matrix6 q_;
+  Matrix6 r_;
 };
 
 }  // namespace godobject

@@ -12,7 +12,6 @@ namespace {
 
 using detail::Additions;
 using detail::Contact;
-using detail::ContactForces;
 using detail::ContactSet;
 
 constexpr int kRounds = 5;
@@ -63,7 +62,7 @@ void warm_start(const ConstrainedStep& step, ContactSet& set) noexcept {
   if (set.friction() != nullptr) set.close_idle();
 }
 
-/// Shifts for the convex problem to go on from where Newton's method failed: none at first, then towards the slip.
+/// Shifts for the convex problem to go on with where Newton's method failed: none at first, then towards the slip.
 void follow_shifts(bool first, ContactSet& set) noexcept {
   const Motion m = set.motion();
   for (int k = 0; k < set.contact_count(); ++k) {
@@ -76,9 +75,7 @@ void follow_shifts(bool first, ContactSet& set) noexcept {
 /// False: infeasible.
 bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
   const bool feasible = detail::meet_rows(set) != Additions::kContradictory;
-  ContactForces forces;
-  forces.append(set);
-  forces.store(set.metric().gyration, step);
+  detail::take_forces(set, step);
   step.motion = set.motion();
   step.follows = step.force_count == 0;
   return feasible;
@@ -87,37 +84,32 @@ bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
 /// Coulomb's law to the tolerance; false after the last round.
 bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
   if (detail::crawls(set, last) && detail::sticks(set)) return true;
-  if (detail::solve_coulomb(set)) return true;
-  for (int round = 0; round < kRounds; ++round) {
-    follow_shifts(round == 0, set);
-    // a start for Newton's method, however it ends: cones with too small shifts may contradict each other where the
-    // rows do not
-    detail::meet_cones(detail::Shift::kSlip, set);
+  for (int round = 0; round <= kRounds; ++round) {
+    // from the second on a start for Newton's method, however it ends: cones with too small shifts may contradict each
+    // other where the rows do not
+    if (round > 0) detail::meet_cones(detail::Shift::kSlip, set);
     if (detail::solve_coulomb(set)) return true;
+    follow_shifts(round == 0, set);
   }
-  follow_shifts(false, set);
   return false;
 }
 
 /// False: infeasible.
 bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
-  bool feasible = true;
   const bool converged = solve_friction(set, step);
   if (converged) detail::come_to_rest(set);
-  ContactForces forces;
-  forces.append(set);
-  const bool rests = converged && detail::rests(set);
-  if (converged) {
-    set.close_all();
-  } else {  // the normals have the last word
-    set.restart_from_motion();
-    feasible = detail::meet_rows(set) != Additions::kContradictory;
-    forces.append(set);
-  }
-  forces.store(set.metric().gyration, step);
-  step.motion = rests ? Motion{} : set.motion();
+  detail::take_forces(set, step);
   step.follows = converged && step.force_count == 0;
   step.unconverged = !converged;
+  if (converged) {
+    step.motion = detail::rests(set) ? Motion{} : set.motion();
+    set.close_all();
+    return true;
+  }
+  set.restart_from_motion();  // the normals have the last word
+  const bool feasible = detail::meet_rows(set) != Additions::kContradictory;
+  detail::add_forces(set, step);
+  step.motion = set.motion();
   return feasible;
 }
 
