@@ -22,8 +22,10 @@ class DualActiveSet {
   static constexpr int kCapacity = 6;
 
   struct Inequality {
-    // one by one: a loop would become a string instruction, which is slow for so few
+    // element by element: a loop would become a string instruction, which is slow for so few
     Inequality() noexcept { gradient << 0.0, 0.0, 0.0, 0.0, 0.0, 0.0; }
+    Inequality(const Vector6& c, double b, double lambda, const Tag& of) noexcept
+        : gradient(c), rhs(b), multiplier(lambda), tag(of) {}
 
     Vector6 gradient;
     double rhs = 0.0;

@@ -16,6 +16,12 @@ using detail::ContactSet;
 
 constexpr int kRounds = 5;
 
+static_assert(detail::kMostRowAdditions == kMostAdditions);
+// rest, Newton's method once and in each round, the rounds' cones, the last word (more than coming to rest takes)
+static_assert(detail::kMostConeAdditions + (1 + kRounds) * detail::kMostNewtonSteps +
+                  kRounds * detail::kMostConeAdditions + detail::kMostRowAdditions ==
+              kMostFrictionAdditions);
+
 /// The contact of the row, opened with the shift of the last motion if it is not yet.
 int contact_of_row(std::uint32_t row, ContactSet& set) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
@@ -81,7 +87,7 @@ bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
   return feasible;
 }
 
-/// Coulomb's law to the tolerance; false after the last round.
+/// Coulomb's law to the tolerance; false after the last round. The steps 1 to 3 of `least_constraint`.
 bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
   if (detail::crawls(set, last) && detail::sticks(set)) return true;
   for (int round = 0; round <= kRounds; ++round) {

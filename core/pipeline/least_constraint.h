@@ -28,11 +28,13 @@ struct ContactForce {
 
 /// What `least_constraint` finds; also what it starts from in the next cycle.
 struct ConstrainedStep {
-  Motion motion;                       ///< of the god object, in S
-  std::array<ContactForce, 6> forces;  ///< active, at most six: motion - wanted = their sum in the coupling's metric
+  Motion motion;  ///< of the god object, in S
+  /// Active, at most six: motion - wanted is their sum in the coupling's metric, viscous friction aside; converged or
+  /// not.
+  std::array<ContactForce, 6> forces;
   std::uint32_t force_count = 0;
-  std::uint32_t contact_count = 0;  ///< different points among them
-  std::uint32_t iterations = 0;     ///< inequalities added
+  std::uint32_t contact_count = 0;  ///< different rows among them
+  std::uint32_t iterations = 0;     ///< inequalities added; where infeasible, by the second attempt
   bool follows = false;             ///< nothing holds it: the motion is the wanted one
   bool infeasible = false;          ///< not all needs could be met; gaps were only kept from shrinking
   bool unconverged = false;         ///< friction after the last round is not Coulomb's to the tolerance
@@ -44,6 +46,10 @@ struct CouplingMetric {
   double tolerance = 2e-8;  ///< a need met up to this is met [m]
   double still = 2e-9;      ///< slip below this is rest [m]
 };
+
+/// Most inequalities that one attempt of `least_constraint` adds, without and with friction.
+inline constexpr int kMostAdditions = 100;
+inline constexpr int kMostFrictionAdditions = 388;
 
 /// The motion (x, r) nearest to `wanted` in the metric of the virtual coupling, |x|^2 + rho^2 |r|^2, that meets all
 /// rows (Gauss' principle of least constraint; the multipliers are then the contact forces that the device displays,
@@ -58,14 +64,31 @@ struct CouplingMetric {
 /// Modelling 28, 1998). With the shift mu |slip| held fixed this is the projection of `wanted` on the intersection of
 /// the cones n . v >= need - shift + mu |slip|, again convex; each cone is the intersection of the half spaces
 /// (n - mu d) . v >= need - shift over all directions d, and only those that are violated are ever made, so it runs
-/// through the same active set: a contact that slips has one such half space, one that sticks has up to three. The
-/// shift follows in an outer iteration, which converges by mu^2 / (1 + mu^2) a round and is right at once in steady
-/// sliding. Static friction holds for a point that did not slip in the motion `last`, kinetic friction for the others
-/// and for those that begin to slip now. If the rounds do not suffice, the normals have the last word.
+/// through the same active set: a contact that slips has one such half space, one that sticks has up to three. Static
+/// friction holds for a point that did not slip in the motion `last`, kinetic friction for the others and for those
+/// that begin to slip now. In this order:
 ///
-/// Bounded: at most 100 additions without, 330 with friction, twice that where infeasible (seen: up to 27 and 154). No
-/// allocation. `rows.need` is restored but for infeasible rows. `step` holds the last cycle's result as the warm start.
-/// About 0.3 us without and 1 us with friction for 100 rows.
+/// 1. Rest. If what carried the load slipped by next to nothing, the cones without shifts say whether forces can hold
+///    it where it is; if so they do.
+/// 2. Newton's method on Coulomb's law itself, from the active set. A slipping contact whose slip goes with its force
+///    twice in a row is held by three half spaces; a held one whose force leaves the cone is released to slip. On the
+///    way from one set of forces to the next the first that vanishes is dropped, so that contacts leave one at a time;
+///    a row that is violated enters.
+/// 3. Where that fails: the convex problem with other shifts, first none, then halfway towards the slip, and Newton's
+///    method from its solution; five rounds. With the shifts held the convex problem alone would converge to the law by
+///    mu^2 / (1 + mu^2) a round.
+/// 4. A motion that the tolerances may explain comes to rest if the cones without shifts can hold it.
+/// 5. If the rounds do not suffice (`unconverged`), the normals have the last word: all rows are met, and the
+///    forces are those of the cones and of these rows together.
+///
+/// Bounded: at most 100 additions without and 388 with friction (kMostAdditions, kMostFrictionAdditions), twice that
+/// where infeasible (seen in random problems: up to 27 and 196); an addition is one scan of the rows and at most
+/// seven exchanges. Newton's method takes at most 144 steps, each a scan and a system of at most twelve equations. No
+/// allocation. `rows.need` is restored but for infeasible rows. `step` holds the last cycle's result as the warm start;
+/// of several rows with its id a force goes to the one whose normal fits best.
+///
+/// Time in the recorded scenes, warm: 20 rows 0.3 to 0.4 us without (99 %: 0.7 us), 1.1 to 2 us with friction (99 %: 4
+/// us, against a handle's rim 27 us); 1100 rows 2.5 us and 7 us (99 %: 15 us and 40 us).
 void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
                       const ContactFriction* friction, const Motion& last, ConstrainedStep& step) noexcept;
 

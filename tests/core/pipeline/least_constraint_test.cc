@@ -708,6 +708,7 @@ struct Outcomes {
     unconverged += step.unconverged ? 1 : 0;
     infeasible += step.infeasible ? 1 : 0;
     iterations = std::max(iterations, step.iterations);
+    EXPECT_LE(step.iterations, static_cast<std::uint32_t>(kMostFrictionAdditions));
     ASSERT_TRUE(six(step.motion, p.metric.gyration).allFinite());
     ASSERT_LE(step.force_count, 6u);
     violation = std::max(violation, p.worst_violation(step.motion));
