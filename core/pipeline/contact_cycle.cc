@@ -7,6 +7,7 @@ namespace godobject {
 ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   ContactLengths lengths;
   lengths.margin = q.margin;
+  lengths.wanted_margin = 0.8 * q.margin;
   lengths.least_margin = 0.25 * q.margin;
   lengths.rounding = std::min(1e-6 * q.voxel_size, 0.1 * lengths.least_margin);
   lengths.shortest_reach = 0.125 * q.voxel_size;

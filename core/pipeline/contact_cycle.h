@@ -47,6 +47,7 @@ struct ContactWorkspace {
 struct ContactLengths {
   double margin;          ///< m: the gap that is kept
   double rounding;        ///< of stored distances: a gap this much smaller is no smaller
+  double wanted_margin;   ///< below it a gap may only grow, unless looking at the surface again does not help
   double least_margin;    ///< below it a gap may only grow
   double shortest_reach;  ///< near points are those within the reach
   double longest_reach;
@@ -235,7 +236,7 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
 /// The certificate, one direction: no near point's chord from pose H0 to H1 meets the surface, and no gap shrinks below
 /// the least margin. Points that started inside are let out. The point of `obstacle` is looked at first.
 template <DistanceField Field>
-bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1,
+bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1, double kept,
                     const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
                     Obstacle& obstacle) noexcept {
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
@@ -247,13 +248,13 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     const Vector3 p = shell.point(start.index);
     const Vector3 p0 = R0 * p + H0.translation;
     const Vector3 p1 = R1 * p + H1.translation;
-    if ((p1 - p0).norm() + lengths.least_margin <= start.clearance) return false;
+    if ((p1 - p0).norm() + kept <= start.clearance) return false;
     const FieldSample end = field.sample(p1);
     obstacle.near = k;
     if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, obstacle)) return true;
     obstacle.way = 1.0;
     obstacle.sample = end;
-    return !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, lengths.least_margin));
+    return !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, kept));
   };
   const std::uint32_t suspect = obstacle.near;
   if (suspect < near.count && fails(suspect)) return false;
@@ -293,24 +294,54 @@ inline double travel(const Motion& motion, const ContactLengths& lengths) noexce
   return motion.translation.norm() + lengths.radius * motion.rotation.norm();
 }
 
-/// Whether a point that holds the god object back has left the surface at pose H: it came round an edge, where its row
-/// holds no longer, and the motion could go on.
+/// How the surface looks at the points that hold the god object back where the motion from H0 to H1 has brought them.
+struct Arrival {
+  bool opened = false;     ///< one has left it: it came round an edge, where its row holds no longer
+  double overshoot = 0.0;  ///< see `arrive`
+};
+
+/// Along the way v the energy of the coupling falls at first by |v|^2 a unit of way. Where the contact forces at the
+/// end, whose multipliers lambda the rows know, point backwards, it rises there by
+///     -sum of lambda (n_1 - n_0) . (p_1 - p_0) = overshoot |v|^2,
+/// and by the secant it is least at 1 / (1 + overshoot) of the way. Above 1 the god object would go to and fro in a
+/// valley of the field for ever.
 template <DistanceField Field, DistanceField BodyField>
-bool has_opened(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* features, const Pose& H,
-                const ContactLengths& lengths, const ConstrainedStep& step) noexcept {
+Arrival arrive(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* features, const Pose& H0,
+               const Pose& H1, const ContactLengths& lengths, const ConstrainedStep& step) noexcept {
+  const Motion& v = step.motion;
+  const double gyration = lengths.metric.gyration;
+  const double squared_way = v.translation.squaredNorm() + gyration * gyration * v.rotation.squaredNorm();
   const double open = lengths.margin + lengths.opening;
+  Arrival arrival;
+  double rise = 0.0;
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
-    const std::uint32_t id = step.forces[i].id;
+    const ContactForce& force = step.forces[i];
+    Vector3 normal_W = H0.rotation._transformVector(force.normal);
+    Vector3 way_W;
+    Vector3 gradient_W;
     double distance = 0.0;
-    if ((id & kFeature) == 0) {
-      distance = field.sample(H * shell.point(id)).distance;
+    if ((force.id & kFeature) == 0) {
+      const Vector3 p = shell.point(force.id);
+      const Vector3 p1_W = H1 * p;
+      const FieldSample sample = field.sample(p1_W);
+      way_W = p1_W - H0 * p;
+      gradient_W = sample.gradient;
+      distance = sample.distance;
     } else if (features != nullptr) {
-      const Vector3 feature_W = features->origin_W + features->points.point(id & ~kFeature);
-      distance = features->map.sample(H.inverse() * feature_W).distance;
+      const Vector3 q_W = features->origin_W + features->points.point(force.id & ~kFeature);
+      const FieldSample sample = features->map.sample(H1.inverse() * q_W);
+      way_W = H1 * (H0.inverse() * q_W) - q_W;
+      gradient_W = -H1.rotation._transformVector(sample.gradient);
+      distance = sample.distance;
+    } else {
+      continue;
     }
-    if (distance > open) return true;
+    arrival.opened |= distance > open;
+    const double steepness = gradient_W.norm();
+    if (steepness > kFlat) rise -= force.multiplier * (gradient_W / steepness - normal_W).dot(way_W);
   }
-  return false;
+  if (rise > 0.0 && squared_way > 0.0) arrival.overshoot = rise / squared_way;
+  return arrival;
 }
 
 /// What the sub-steps came to.
@@ -333,7 +364,8 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
 ///
 /// Each sub-step (at most kMaxSubsteps, one in steady contact): near points and rows of both directions; the motion
 /// nearest to the device that all rows allow; shortened until no chord of any point meets a stored surface. What was
-/// shortened is gone on with.
+/// shortened is gone on with, and so is a motion that brought a contact round an edge. One that would go beyond the
+/// bottom of a valley of the field ends there.
 ///
 /// Guarantee: a point whose stored distance is positive keeps it so, whatever the device does: points left out are free
 /// for the motion they are bounded for, the others' chords lie in free balls.
@@ -349,6 +381,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   using detail::SampleDirection;
   constexpr int kSecondLooks = 6;  // at what stood in the way
   constexpr int kAttempts = 14;
+  constexpr double kOvershoot = 0.5;
   detail::begin(times);
   const ContactLengths lengths = ContactLengths::make(q);
   const ContactFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio,
@@ -408,6 +441,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     Motion motion;
     Pose H1;
     detail::Obstacle at_sample, at_feature;
+    bool shortened = false;
+    opened = false;
     for (int attempt = 0;; ++attempt) {
       if (attempt == kAttempts) {
         H1 = H0;
@@ -419,15 +454,26 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
       detail::end(times, &StepTimes::solve_ns);  // the certificate
       const Pose H1_features = FeatureDirection::pose(H1, origin_W);
-      const bool samples_free = detail::motion_is_free(field, shell, H0, H1, lengths, workspace.samples, at_sample);
+      const double kept = attempt < kSecondLooks ? lengths.wanted_margin : lengths.least_margin;
+      const bool samples_free =
+          detail::motion_is_free(field, shell, H0, H1, kept, lengths, workspace.samples, at_sample);
       const bool features_free =
-          features == nullptr || detail::motion_is_free(features->map, features->points, H0_features, H1_features,
+          features == nullptr || detail::motion_is_free(features->map, features->points, H0_features, H1_features, kept,
                                                         lengths, workspace.features, at_feature);
       const bool is_free = samples_free && features_free;
-      opened = is_free && share == 1.0 && detail::travel(motion, lengths) > lengths.opening &&
-               detail::has_opened(field, shell, features, H1, lengths, result.step);
+      detail::Arrival arrival;
+      if (is_free && share == 1.0 && detail::travel(motion, lengths) > lengths.metric.tolerance) {
+        arrival = detail::arrive(field, shell, features, H0, H1, lengths, result.step);
+      }
       detail::end(times, &StepTimes::step1_ns);
+      if (arrival.overshoot > kOvershoot) {
+        share = 1.0 / (1.0 + arrival.overshoot);
+        shortened = true;
+        continue;
+      }
+      opened = arrival.opened;
       if (is_free) break;
+      shortened = false;
       if (at_sample.exhausted || at_feature.exhausted) {
         if (at_sample.exhausted) share *= at_sample.way;
         if (at_feature.exhausted) share *= at_feature.way;
@@ -454,7 +500,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.step.motion = motion;
     last = motion;
     result.H_WS = H1;
-    result.cut = share < 1.0;
+    result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
     reach = std::min(2.0 * reach, lengths.longest_reach);
   } while ((result.cut || opened) && !inside && result.substeps < kMaxSubsteps);

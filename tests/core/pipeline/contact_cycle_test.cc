@@ -25,6 +25,16 @@ struct Groove {
   Vector3 gradient(const Vector3& p) const noexcept { return side(p.x()); }
 };
 
+/// A floor with ripples along x, as an interpolated field has beside an oblique edge. The distance is a lower bound.
+struct Ripples {
+  static constexpr double kHeight = 2e-5;                 // amplitude [m]
+  static constexpr double kNumber = 2.0 * M_PI / 2.5e-4;  // [1/m]
+  static constexpr double kSlope = kHeight * kNumber;     // largest
+  double scale = 1.0 / std::sqrt(1.0 + kSlope * kSlope);
+  double distance(const Vector3& p) const noexcept { return scale * (p.z() - kHeight * std::cos(kNumber * p.x())); }
+  Vector3 gradient(const Vector3& p) const noexcept { return {scale * kSlope * std::sin(kNumber * p.x()), 0.0, scale}; }
+};
+
 template <bool kFriction, DistanceField Field>
 Status run_alone(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                  State& state, CycleReport& report, StepTimes* times) {
@@ -131,6 +141,26 @@ TEST(ContactCycle, StaysOnItsSideOfAPlateThatTheDeviceTeleportsThrough) {
     ASSERT_GT(run.state.H_WS.translation.z(), 0.02);
   }
   EXPECT_NEAR(run.state.H_WS.translation.z(), 0.002 + kBallRadius, 2e-4);
+}
+
+TEST(ContactCycle, ComesToRestInAValleyThatIsMuchNarrowerThanTheCouplingIsStretched) {
+  const AnalyticField<Ripples> field({}, kVoxel);
+  const SampledBody body({{Vector3(0.0, 0.0, -0.01)}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  ContactRun<Ripples> run(field, body, at({0.0, 0.0, 0.02}));
+  const Pose device = at({4e-5, 0.0, 0.005});  // 5 mm deep, beside a ripple's top: the radius there is 0.08 mm
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+  }
+  const Vector3 rest = run.state.H_WS.translation;
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_LT((run.state.H_WS.translation - rest).norm(), 5.0 * 2e-8);  // the tolerance of contacts
+  }
+  // in the valley: the surface's normal there points to the device, to what the coupling of rotation gives way
+  const Vector3 p = run.state.H_WS * Vector3(0.0, 0.0, -0.01);
+  EXPECT_GT(std::cos(Ripples::kNumber * p.x()), -1.0);
+  EXPECT_LT(std::cos(Ripples::kNumber * p.x()), -0.9);
 }
 
 TEST(ContactCycle, HoldsABallBetweenTwoWalls) {

@@ -116,6 +116,15 @@ LeastDistance proximal_step(std::vector<HalfPlane> rows, const Vector6& eta, dou
   }
 }
 
+/// The surface as it was seen from where a step was refused, `way` from here: in a valley its other side. Rows that do
+/// not hold here belong to another side of an edge, where they say nothing.
+void add_cuts(const std::vector<HalfPlane>& there, const Vector6& way, std::vector<HalfPlane>& here) {
+  for (HalfPlane row : there) {
+    row.bound += row.normal.dot(way);
+    if (row.bound <= 0.0) here.push_back(row);
+  }
+}
+
 }  // namespace
 
 double metric_distance(const Pose& H_WA, const Pose& H_WB, double rho_squared) {
@@ -153,8 +162,13 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
       here = std::move(there);
       proximity = proximity < 1e-2 ? 0.0 : 0.3 * proximity;
     } else {
+      add_cuts(there.rows, trial - eta, here.rows);
       proximity = std::max(0.1, 3.0 * proximity);
-      if (proximity > kMaxProximity) break;
+      if (proximity > kMaxProximity) {
+        // steps of all lengths down to nanometres have failed to bring it nearer: a ripple's bottom
+        optimum.converged = here.violation < kConverged_m;
+        break;
+      }
     }
   }
   optimum.H_WS = free_set.pose(eta);
