@@ -75,7 +75,7 @@ TriangleMesh corner_mesh() {
 }
 TriangleMesh slot_mesh() {
   const double h = 0.5 * kSlotGap;
-  return cell_solid({{{-h - 0.02, -h, h, h + 0.02}, {-0.06, 0.06}, {-0.09, -0.07, 0.02}}},
+  return cell_solid({{{-h - 0.02, -h, h, h + 0.02}, {-0.06, 0.1}, {-0.09, -0.07, 0.02}}},  // as long as the slide
                     [](int i, int, int k) { return k == 0 || i != 1; });
 }
 TriangleMesh plate_mesh() {
