@@ -40,8 +40,8 @@ class WorkspaceMapping {
   /// `kNotFinite`: the pose is not; nothing has changed. Cost: 100 ns. Real-time safe.
   Status update(const Pose& H_RM, bool closed, double period) noexcept;
 
-  /// The moving mesh in the scene.
-  const Pose& H_WM() const noexcept { return H_WM_; }
+  /// H_WM: the moving mesh in the scene.
+  const Pose& scene_pose() const noexcept { return H_WM_; }
 
   /// Velocity of the tool's origin and angular velocity, in R -> the same of the moving mesh, in W; zero while open.
   Motion velocity_in_scene(const Motion& velocity_R) const noexcept;

@@ -27,10 +27,10 @@ TEST(WorkspaceMapping, IdentityLeavesEverythingAsItIs) {
   Random random(1);
   const Pose start = set_matrix(random.motion(0.5, 3.0));
   WorkspaceMapping mapping({}, start);
-  EXPECT_LT(distance(mapping.H_WM(), start), 1e-14);
+  EXPECT_LT(distance(mapping.scene_pose(), start), 1e-14);
   const Pose next = set_matrix(random.motion(0.5, 3.0));
   ASSERT_EQ(mapping.update(next, true, kPeriod), Status::kOk);
-  EXPECT_LT(distance(mapping.H_WM(), next), 1e-14);
+  EXPECT_LT(distance(mapping.scene_pose(), next), 1e-14);
   const Wrench F = {random.in_cube(5.0), random.in_cube(1.0)};
   EXPECT_LT((mapping.wrench_at_hand(F).force - F.force).norm(), 1e-14);
   EXPECT_LT((mapping.wrench_at_hand(F).torque - F.torque).norm(), 1e-14);
@@ -43,12 +43,12 @@ TEST(WorkspaceMapping, ScalesTranslationsAndKeepsAngles) {
   Pose H_RM;
   H_RM.translation = Vector3(0.1, 0.0, 0.2);
   WorkspaceMapping mapping(parameters, H_RM);
-  EXPECT_LT((mapping.H_WM().translation - Vector3(1.0, 2.4, 3.8)).norm(), 1e-14);
+  EXPECT_LT((mapping.scene_pose().translation - Vector3(1.0, 2.4, 3.8)).norm(), 1e-14);
   H_RM.translation.x() += 0.01;
   H_RM.rotation = exp_rotation(Vector3(0.3, 0.0, 0.0));  // about x of the room, y of the scene
   ASSERT_EQ(mapping.update(H_RM, true, kPeriod), Status::kOk);
-  EXPECT_LT((mapping.H_WM().translation - Vector3(1.0, 2.44, 3.8)).norm(), 1e-14);
-  const Quaternion turned = mapping.H_WM().rotation * parameters.H_WR.rotation.conjugate();
+  EXPECT_LT((mapping.scene_pose().translation - Vector3(1.0, 2.44, 3.8)).norm(), 1e-14);
+  const Quaternion turned = mapping.scene_pose().rotation * parameters.H_WR.rotation.conjugate();
   EXPECT_LT((log_rotation(turned) - Vector3(0.0, 0.3, 0.0)).norm(), 1e-14);
 }
 
@@ -71,9 +71,9 @@ TEST(WorkspaceMapping, PowerAtTheHandIsPowerInTheScene) {
     Pose moved = H_RM;
     moved.translation += kStep * velocity_R.translation;
     moved.rotation = exp_rotation(kStep * velocity_R.rotation) * H_RM.rotation;
-    const Pose before = mapping.H_WM();
+    const Pose before = mapping.scene_pose();
     ASSERT_EQ(mapping.update(moved, true, kPeriod), Status::kOk);
-    const Pose after = mapping.H_WM();
+    const Pose after = mapping.scene_pose();
     ASSERT_LT(((after.translation - before.translation) / kStep - velocity_W.translation).norm(), 1e-8);
     ASSERT_LT((log_rotation(after.rotation * before.rotation.conjugate()) / kStep - velocity_W.rotation).norm(), 1e-8);
 
@@ -92,7 +92,7 @@ TEST(WorkspaceMapping, StiffnessAtTheHandIsScaleSquaredOfTheScenes) {
     parameters.scale = scale;
     Pose H_RM;
     WorkspaceMapping mapping(parameters, H_RM);
-    const Pose rest = mapping.H_WM();
+    const Pose rest = mapping.scene_pose();
     const Vector3 hand(0.003, -0.001, 0.002);
     const Vector3 turn(0.001, 0.002, -0.003);
     H_RM.translation = hand;
@@ -100,7 +100,7 @@ TEST(WorkspaceMapping, StiffnessAtTheHandIsScaleSquaredOfTheScenes) {
     ASSERT_EQ(mapping.update(H_RM, true, kPeriod), Status::kOk);
     const double k = 1000.0;
     const double k_r = 25.0;
-    const Pose& H_WM = mapping.H_WM();
+    const Pose& H_WM = mapping.scene_pose();
     const Wrench F_W = {-k * (H_WM.translation - rest.translation),
                         -k_r * log_rotation(H_WM.rotation * rest.rotation.conjugate())};
     const Wrench F_R = mapping.wrench_at_hand(F_W);
@@ -115,7 +115,7 @@ TEST(WorkspaceMapping, ClutchingMovesNeitherPoseNorForceAtOnce) {
   const WorkspaceMappingParameters parameters = any_parameters(random);
   WorkspaceMapping mapping(parameters, H_RM);
   const Wrench F_W = {Vector3(3.0, -4.0, 12.0), Vector3(0.3, 0.4, 1.2)};
-  Pose last = mapping.H_WM();
+  Pose last = mapping.scene_pose();
   Wrench last_wrench = mapping.wrench_at_hand(F_W);
   int changes = 0;
   bool closed = true;
@@ -126,18 +126,18 @@ TEST(WorkspaceMapping, ClutchingMovesNeitherPoseNorForceAtOnce) {
     const Motion step = random.motion(1e-4, 1e-3);
     H_RM = H_RM * set_matrix(step);
     ASSERT_EQ(mapping.update(H_RM, closed, kPeriod), Status::kOk);
-    const Motion moved = get_motion(last.inverse() * mapping.H_WM());
+    const Motion moved = get_motion(last.inverse() * mapping.scene_pose());
     if (closed && was_closed) {
       ASSERT_NEAR(moved.translation.norm(), parameters.scale * step.translation.norm(), 1e-13);
       ASSERT_NEAR(moved.rotation.norm(), step.rotation.norm(), 1e-13);
     } else {
-      ASSERT_LT(distance(last, mapping.H_WM()), 1e-13) << k;
+      ASSERT_LT(distance(last, mapping.scene_pose()), 1e-13) << k;
     }
     const Wrench wrench = mapping.wrench_at_hand(F_W);
     // a 200th of the whole, the fade time being 200 cycles
     ASSERT_LE((wrench.force - last_wrench.force).norm(), parameters.scale * 13.0 / 200.0 * (1.0 + 1e-9));
     ASSERT_LE((wrench.torque - last_wrench.torque).norm(), 1.3 / 200.0 * (1.0 + 1e-9));
-    last = mapping.H_WM();
+    last = mapping.scene_pose();
     last_wrench = wrench;
   }
   EXPECT_GT(changes, 100);
@@ -151,13 +151,13 @@ TEST(WorkspaceMapping, OpenClutchIsAtRestAndWithoutForceInTheEnd) {
   EXPECT_NEAR(mapping.engagement(), 0.0, 1e-12);
   EXPECT_LT(mapping.wrench_at_hand({Vector3::Ones(), Vector3::Ones()}).force.norm(), 1e-12);
   EXPECT_EQ(mapping.velocity_in_scene({Vector3::Ones(), Vector3::Ones()}).translation.norm(), 0.0);
-  EXPECT_LT(distance(mapping.H_WM(), Pose()), 1e-15);
+  EXPECT_LT(distance(mapping.scene_pose(), Pose()), 1e-15);
 }
 
 TEST(WorkspaceMapping, ManyClutchingsDoNotDrift) {
   Random random(4);
   WorkspaceMapping mapping(any_parameters(random), Pose());
-  const Pose start = mapping.H_WM();
+  const Pose start = mapping.scene_pose();
   const Pose other = set_matrix(random.motion(0.5, 3.0));
   // there and back, with the clutch opened and closed at either end
   for (int k = 0; k < 100000; ++k) {
@@ -167,8 +167,8 @@ TEST(WorkspaceMapping, ManyClutchingsDoNotDrift) {
       ASSERT_EQ(mapping.update(end, true, kPeriod), Status::kOk);
     }
   }
-  EXPECT_LT(distance(mapping.H_WM(), start), 1e-10);
-  EXPECT_NEAR(mapping.H_WM().rotation.norm(), 1.0, 1e-14);
+  EXPECT_LT(distance(mapping.scene_pose(), start), 1e-10);
+  EXPECT_NEAR(mapping.scene_pose().rotation.norm(), 1.0, 1e-14);
 }
 
 TEST(WorkspaceMapping, RefusesAPoseThatIsNotFinite) {
@@ -177,7 +177,7 @@ TEST(WorkspaceMapping, RefusesAPoseThatIsNotFinite) {
   bad.rotation.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(mapping.update(bad, false, kPeriod), Status::kNotFinite);
   EXPECT_EQ(mapping.engagement(), 1.0);
-  EXPECT_LT(distance(mapping.H_WM(), Pose()), 1e-15);
+  EXPECT_LT(distance(mapping.scene_pose(), Pose()), 1e-15);
 }
 
 }  // namespace
