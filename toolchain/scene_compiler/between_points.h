@@ -1,11 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/relief.h"
 #include "toolchain/scene_compiler/surface_sample.h"
 
@@ -13,73 +13,93 @@
 ///
 /// The moving body A has sample points on its surface, the still body B feature points on its own; no sample point is
 /// inside B, no feature point inside A, and so it was along the whole motion from a pose clear of each other. Let D be
-/// the largest depth of either surface within the other body, x a point of A's and y of B's surface where it is met.
+/// the largest depth of either surface within the other body so far, met at x of A's surface, and y of B's the nearest
+/// to x (or the other way round).
 ///
-/// 1. Depth changes by at most a metre a metre, so D <= distance(x, sample points), and D <= distance(y, features).
-/// 2. Whatever of B lies deeper than D has never met A's surface, so it is outside of A; and the other way round. Where
-///    balls of radius D fit into both bodies at x and y, the straight way inward from y therefore leaves A after D at
-///    most, at a point that is D deep in B: x and y face each other along one axis, D apart, each the other's nearest.
-/// 3. Seen along that axis, let `a` be how far A's surface falls away from x within the distance r of the nearest
-///    sample point on x's side, and `b` B's from y within the same r. The sample point is at most `a` further out than
-///    x, and would be inside B if it were less than D - b further out: D <= a + b. With a feature point at distance r
-///    of y it is the same.
+/// 1. Depth changes by at most a metre a metre, so D <= distance(x, sample points).
+/// 2. A ball of radius D around x is in B. Whatever of B lies deeper than D has never met A's surface, so it is outside
+///    of A: x and y face each other along one axis, D apart. If a ball of radius D fits into A at x, y is D deep in A,
+///    too, and D <= distance(y, features).
+/// 3. Let p be a sample point at distance r_p from the axis, no more than alpha further out than x. If B's surface
+///    falls by no more than beta from y within r_p, p would be in B were D > alpha + beta. With a feature point q at
+///    r_q, no more than beta further out than y, it is the same if A's surface falls by no more than alpha within r_q.
 ///
-/// Places are of two kinds, then, for given D: covered directly (a point nearer than D), or held by their fall. Let r_A
-/// be the distance of the sample point from the axis at x, r_B that of the feature point from the axis at y; neither
-/// lies further below the place than its alpha or beta. If all of A's places that are not covered directly have a <=
-/// alpha over stretch r_A, and all of B's b <= beta over r_B / stretch, or over A's largest r_A, whichever is smaller,
-/// then D <= alpha + beta: point 3 holds for the sample point of a pair with stretch r_A <= r_B, otherwise for the
-/// feature point. The stretch lets the points along an edge of B serve the faces beside it: they are hardly further
-/// from a place there than the edge is.
-/// The falls are measured on the meshes themselves (Relief), at places drawn apart from those that points were added
-/// for.
+/// A place is covered directly, then, if a point is nearer than D. Of the others let R be the distance of the nearest
+/// point that serves it (as p or q in 3) from its axis, and L the radius within which the surface falls by no more than
+/// alpha or beta. D <= alpha + beta for a pair with R_x <= L_y or R_y <= L_x. With any increasing function s it is
+/// enough that s(R_x) <= L_x for all x, and that R_y <= s(L_y) for all y with L_y < max R_x: where R_x > L_y, this
+/// gives R_y <= s(L_y) <= s(R_x) <= L_x. We take s(R) = hypot(R, h): beside an edge of B, L is the distance from it,
+/// and points not further apart along it than 2 h serve the faces that meet there.
+///
+/// R and L are measured on the meshes themselves (Relief), at places drawn apart from those that points were added for.
+/// What this does not see: bodies thinner than 2 D, where surface on the far side meets; and what lies between places.
 namespace godobject::scene_compiler {
 
-/// What a place leaves to its fall.
-struct Gap {
-  double distance;  ///< to the nearest point [m]; infinity where there is none
-  double reach;     ///< of the nearest point that serves it from its normal, as far as it was looked [m]
-  double fall;      ///< of the surface over the stretched reach [m]
+/// Why no more was looked for.
+enum class Stopped : std::uint8_t {
+  kReached,  ///< what is wanted holds
+  kPoints,   ///< as many points of a body as may be
+  kPlaces,   ///< too fine for the number of places that are looked at
+  kRounds,   ///< places left over after all rounds
 };
 
+/// What holds.
 struct BetweenPoints {
+  double bound = std::numeric_limits<double>::infinity();  ///< D [m]; infinity: none is known
+  double moving_fall = 0.0;                                ///< alpha [m]
+  double still_fall = 0.0;                                 ///< beta [m]
+  Stopped stopped = Stopped::kReached;
+};
+
+/// What is to hold.
+struct Target {
   double bound = 0.0;        ///< D [m]
   double moving_fall = 0.0;  ///< alpha [m]
-  double still_fall = 0.0;   ///< beta [m]
+  double still_fall = 0.0;   ///< beta, D - alpha [m]
+  double edge = 0.0;         ///< h [m]
+
+  /// A stricter or looser one with the same s: what a stricter one holds, a looser one does, too.
+  Target scaled(double by) const { return {by * bound, by * moving_fall, by * still_fall, edge}; }
+  /// Point 3 needs the bodies to be solid from the fall down to D; twice that, so that steep walls are met.
+  Relief::Fall moving() const { return {moving_fall, 2.0 * bound}; }
+  Relief::Fall still() const { return {still_fall, 2.0 * bound}; }
+  double stretched(double reach) const { return std::hypot(reach, edge); }  ///< s
+  double unstretched(double level) const { return level > edge ? std::sqrt(level * level - edge * edge) : 0.0; }
 };
 
-/// The smallest D with alpha + beta <= D. `reach`: how far B was looked at [m]; A's places that reach further count as
-/// held by nothing but points nearer than D.
-BetweenPoints bound_between(std::span<const Gap> moving, std::span<const Gap> still, double reach);
-
-/// The largest reach of those not nearer than `direct` to a point [m].
-double largest_reach(std::span<const Gap> gaps, double direct);
-
-inline constexpr double kStretch = 1.25;  ///< of the moving body's reaches; 1 / kStretch of the still one's
-
-/// How gaps are looked at.
-struct Look {
-  double fall;     ///< a point serves a place on its side that is no further below it [m]
-  double limit;    ///< of the reach [m]
-  double stretch;  ///< of the reach
+/// The places for which it does not hold.
+struct Open {
+  std::vector<std::uint8_t> is_open;  ///< by place: 1 or 0
+  std::size_t count = 0;
+  double reach = 0.0;  ///< largest R of the others that are not covered directly [m]
 };
 
-/// The gap of each place of `relief` between `points`.
-std::vector<Gap> gaps_of(const Relief& relief, std::span<const SurfaceSample> points, const Look& look);
+/// A's places without a point nearer than D that lack s(R) <= L, or R <= `limit` [m]; of those in `among` only, if it
+/// is not empty.
+Open open_moving(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double limit,
+                 std::span<const std::uint8_t> among = {});
 
-/// What is asked of the points on a surface.
+/// B's places without a point nearer than D that lack R <= s(L), and L >= `reach`, A's largest R [m]; likewise.
+Open open_still(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double reach,
+                std::span<const std::uint8_t> among = {});
+
+enum class Side : std::uint8_t { kMoving, kStill };
+
+/// What is asked of the points that are added to a surface.
 struct Demand {
-  double direct;    ///< a point no further than this covers any place [m]
-  double fall;      ///< otherwise over the stretched reach of its point a place must not fall by more [m]
-  double limit;     ///< nor need the reach be less than this [m]
-  double stretch;   ///< of the reach
-  bool everywhere;  ///< otherwise places that do not fall so far over the limit need no point at all
+  Side side;
+  Target target;
+  double reach;  ///< A: largest R; B: the largest L that matters [m]
+  double sharp;  ///< distance of points on edges from any place there [m]
 };
 
-/// Places of `relief` that, added to `points`, meet the demand; the sharpest first, not more than `most`. `gaps`
-/// between the points where they are known, by place, or empty: then only places whose gap does not meet the demand are
-/// looked at. Deterministic.
-std::vector<SurfaceSample> points_to_add(const Relief& relief, std::span<const SurfaceSample> points,
-                                         const Demand& demand, std::span<const Gap> gaps, std::size_t most);
+/// Places of `relief`, the sharpest first, not more than `most`, that meet the demand at the `open` ones when they are
+/// added. Deterministic.
+std::vector<SurfaceSample> points_to_add(const Relief& relief, std::span<const std::uint8_t> open, const Demand& demand,
+                                         std::size_t most);
+
+/// How many points it takes to meet the demand on a surface without any, estimated at each `stride`-th coarse place;
+/// `dense`: points that are there anyhow [1/m^2].
+double estimated_points(const Relief& relief, const Demand& demand, double dense, std::size_t stride);
 
 }  // namespace godobject::scene_compiler

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -55,6 +56,17 @@ std::string thin_text(const char* what, const ThinPlaces& p) {
       what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
 }
 
+const char* reason(Stopped stopped) {
+  switch (stopped) {
+    case Stopped::kReached: break;
+    case Stopped::kPoints:
+      return "as many points as a body may have; set moving.points or contact.between_points higher";
+    case Stopped::kPlaces: return "the bodies are too large to look at so closely; set contact.between_points higher";
+    case Stopped::kRounds: return "places were left over; set moving.points or contact.between_points higher";
+  }
+  return "the field of the moving body takes too much; set moving.voxel_size lower, or contact.between_points higher";
+}
+
 std::string second_direction_text(const CompileReport& report) {
   const SecondDirection& second = report.second;
   if (!second.sought) return "between points of the moving body: not looked at, the still body gives no features\n";
@@ -71,13 +83,14 @@ std::string second_direction_text(const CompileReport& report) {
     text += "features none needed\n";
   }
   const double bound = between.bound + second.slack;
-  text += fmt::format("between points no deeper than {}: moving surface {}, still surface {}, field {}; wanted {}\n",
-                      millimetres(bound), millimetres(between.moving_fall), millimetres(between.still_fall),
-                      millimetres(second.slack), millimetres(report.config.between_points));
-  if (bound > report.config.between_points) {
-    text += fmt::format("        missed by {}: set moving.points higher, or contact.between_points\n",
-                        millimetres(bound - report.config.between_points));
+  if (std::isfinite(bound)) {
+    text += fmt::format("between points no deeper than {}: moving surface {}, still surface {}, field {}; wanted {}\n",
+                        millimetres(bound), millimetres(between.moving_fall), millimetres(between.still_fall),
+                        millimetres(second.slack), millimetres(report.config.between_points));
+  } else {
+    text += "between points no bound is known\n";
   }
+  if (bound > report.config.between_points) text += fmt::format("        missed: {}\n", reason(between.stopped));
   return text;
 }
 
