@@ -213,10 +213,15 @@ struct Obstacle {
   FieldSample sample;      ///< there
 };
 
+/// Look-ups of the certificate that a cycle has left, about a millisecond's: what they do not cover is not gone.
+struct Budget {
+  int balls = 1 << 14;
+};
+
 /// Free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it; else the obstacle says where
 /// not.
 template <DistanceField Field>
-bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1,
+bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1, Budget& budget,
                    Obstacle& obstacle) noexcept {
   constexpr int kBalls = 64;
   const Vector3 way = p1 - p0;
@@ -225,6 +230,8 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
   for (int ball = 0; ball < kBalls; ++ball) {
     if (covered + c1 >= length) return true;
     obstacle.way = covered / length;
+    if (budget.balls <= 0) break;
+    --budget.balls;
     obstacle.sample = field.sample(p0 + obstacle.way * way);
     if (!(obstacle.sample.clearance > 0.0)) return false;
     covered += obstacle.sample.clearance;
@@ -237,7 +244,7 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
 /// the least margin. Points that started inside are let out. The point of `obstacle` is looked at first.
 template <DistanceField Field>
 bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1, double kept,
-                    const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
+                    const ContactLengths& lengths, const ContactWorkspace::NearPoints& near, Budget& budget,
                     Obstacle& obstacle) noexcept {
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
@@ -251,7 +258,7 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     if ((p1 - p0).norm() + kept <= start.clearance) return false;
     const FieldSample end = field.sample(p1);
     obstacle.near = k;
-    if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, obstacle)) return true;
+    if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, budget, obstacle)) return true;
     obstacle.way = 1.0;
     obstacle.sample = end;
     return !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, kept));
@@ -368,7 +375,10 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
 /// bottom of a valley of the field ends there.
 ///
 /// Guarantee: a point whose stored distance is positive keeps it so, whatever the device does: points left out are free
-/// for the motion they are bounded for, the others' chords lie in free balls.
+/// for the motion they are bounded for, the others' chords lie in free balls. (Not before the first pose's penetration
+/// is left, see below.)
+///
+/// Bounds: a look-up a point and attempt (at most 14 a sub-step), Budget::balls for the chords, 7 solves a sub-step.
 ///
 /// A first pose that penetrates is left by moving out along the gradients; where they contradict each other or the
 /// field does not know the way (deeper than the band), the god object goes with the device, without force, until it is
@@ -394,6 +404,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   Motion last = state.contact.motion;
   bool inside = state.inside;
   bool opened = false;
+  Motion whole;
+  detail::Budget budget;
   double reach =
       std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
                  lengths.shortest_reach, lengths.longest_reach);
@@ -441,6 +453,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     Motion motion;
     Pose H1;
     detail::Obstacle at_sample, at_feature;
+    int looks = kSecondLooks;
     bool shortened = false;
     opened = false;
     for (int attempt = 0;; ++attempt) {
@@ -454,12 +467,12 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
       detail::end(times, &StepTimes::solve_ns);  // the certificate
       const Pose H1_features = FeatureDirection::pose(H1, origin_W);
-      const double kept = attempt < kSecondLooks ? lengths.wanted_margin : lengths.least_margin;
+      const double kept = looks > 0 ? lengths.wanted_margin : lengths.least_margin;
       const bool samples_free =
-          detail::motion_is_free(field, shell, H0, H1, kept, lengths, workspace.samples, at_sample);
+          detail::motion_is_free(field, shell, H0, H1, kept, lengths, workspace.samples, budget, at_sample);
       const bool features_free =
           features == nullptr || detail::motion_is_free(features->map, features->points, H0_features, H1_features, kept,
-                                                        lengths, workspace.features, at_feature);
+                                                        lengths, workspace.features, budget, at_feature);
       const bool is_free = samples_free && features_free;
       detail::Arrival arrival;
       if (is_free && share == 1.0 && detail::travel(motion, lengths) > lengths.metric.tolerance) {
@@ -475,19 +488,22 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       if (is_free) break;
       shortened = false;
       if (at_sample.exhausted || at_feature.exhausted) {
-        if (at_sample.exhausted) share *= at_sample.way;
-        if (at_feature.exhausted) share *= at_feature.way;
+        const double way =
+            std::min(at_sample.exhausted ? at_sample.way : 1.0, at_feature.exhausted ? at_feature.way : 1.0);
+        share *= attempt < kSecondLooks ? way : std::min(way, 0.25);
         continue;
       }
-      bool seen = attempt < kSecondLooks;
-      if (seen && !samples_free) {
+      bool seen = false;
+      if (looks > 0 && !samples_free) {
         seen = detail::push_obstacle<SampleDirection>(shell, H0, H1, lengths, workspace.samples, at_sample,
                                                       workspace.rows);
       }
-      if (seen && !features_free) {
+      if (looks > 0 && !features_free) {
         seen = detail::push_obstacle<FeatureDirection>(features->points, H0_features, H1_features, lengths,
-                                                       workspace.features, at_feature, workspace.rows);
+                                                       workspace.features, at_feature, workspace.rows) ||
+               seen;
       }
+      looks = seen ? looks - 1 : 0;
       if (seen) {
         const bool infeasible = result.step.infeasible;
         least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);
@@ -499,13 +515,15 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     }
     result.step.motion = motion;
     last = motion;
+    whole.translation += motion.translation;
+    whole.rotation += motion.rotation;
     result.H_WS = H1;
     result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
     reach = std::min(2.0 * reach, lengths.longest_reach);
-  } while ((result.cut || opened) && !inside && result.substeps < kMaxSubsteps);
-  // whether a point slipped is a matter of the whole cycle
-  if (result.substeps > 1) result.step.motion = get_motion(state.H_WS.inverse() * result.H_WS);
+  } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps);
+  // whether a point slipped is a matter of the whole cycle; the sum keeps the slip of a point that stuck at nought
+  if (result.substeps > 1) result.step.motion = whole;
 
   const Status status = detail::finish(input, result, inside, q, state, report);  // #6, #7
   detail::end(times, &StepTimes::solve_ns);

@@ -14,6 +14,7 @@ namespace godobject {
 namespace {
 
 constexpr std::uint32_t kLanes = 8;
+constexpr std::uint32_t kBlock = 64;
 using Lanes __attribute__((vector_size(kLanes * sizeof(float)))) = float;
 
 struct Largest {
@@ -29,7 +30,6 @@ float violation(const ContactRows& rows, std::uint32_t i, const float (&m)[6]) n
 /// Over the first `count` rows, a multiple of kLanes.
 GODOBJECT_VECTOR_WIDTHS
 Largest largest_violation(const ContactRows& rows, std::uint32_t count, const float (&m)[6]) noexcept {
-  constexpr std::uint32_t kBlock = 64;
   Largest found{-FLT_MAX, 0};
   for (std::uint32_t begin = 0; begin < count; begin += kBlock) {
     const std::uint32_t end = begin + kBlock < count ? begin + kBlock : count;
@@ -70,7 +70,13 @@ ContactRows::Violated ContactRows::most_violated(const Motion& motion, double to
     found.row = kNone;
   } else if (found.row == kNone) {
     found.row = largest.block;
-    while (violation(*this, found.row, m) < largest.violation) ++found.row;
+    float most = -FLT_MAX;
+    for (std::uint32_t i = largest.block; i < largest.block + kBlock && i < even; ++i) {
+      const float here = violation(*this, i, m);
+      if (!(here > most)) continue;
+      most = here;
+      found.row = i;
+    }
   }
   return found;
 }

@@ -135,6 +135,7 @@ double metric_distance(const Pose& H_WA, const Pose& H_WB, double rho_squared) {
 Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
   constexpr int kMaxIterations = 300;
   constexpr double kConverged_m = 1e-7;
+  constexpr double kStagnated_m = 2e-5;  // of the stretch, where gradients jump: 3 mrad of its direction at 7 mm
   constexpr double kMaxProximity = 1e7;
   FreeSet free_set(problem);
   Vector6 eta = free_set.eta(H_WS_start);
@@ -166,7 +167,7 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
       proximity = std::max(0.1, 3.0 * proximity);
       if (proximity > kMaxProximity) {
         // steps of all lengths down to nanometres have failed to bring it nearer: a ripple's bottom
-        optimum.converged = here.violation < kConverged_m;
+        optimum.converged = (1.0 + proximity) * length < kStagnated_m && here.violation < kConverged_m;
         break;
       }
     }
