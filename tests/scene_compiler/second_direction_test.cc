@@ -193,7 +193,7 @@ double deepest_unseen(const Bodies& bodies, int poses, const Vector3d& target, d
 
 TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndTeapot) {
   Bodies bodies(load("teapot", 0.037), load("bunny_npm", 0.0161497));
-  bodies.look(5587, 0.0005);
+  bodies.look(5587, 0.0012);  // tighter than the demo's; half a millimetre takes minutes
   EXPECT_LE(deepest_unseen(bodies, 3, {0.0, 0.03, 0.0}, 0.05), bodies.both.between.bound);
 }
 
