@@ -213,9 +213,10 @@ struct Obstacle {
   FieldSample sample;      ///< there
 };
 
-/// Look-ups of the certificate that a cycle has left, about a millisecond's: what they do not cover is not gone.
+/// Look-ups of the certificate that a cycle has left: what they do not cover is not gone. A flat face of a thousand
+/// points that slides by a millimetre a cycle takes 50000; with less the god object would fall behind for good.
 struct Budget {
-  int balls = 1 << 14;
+  int balls = 1 << 17;
 };
 
 /// Free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it; else the obstacle says where

@@ -194,6 +194,17 @@ TEST(ContactCycle, DoesNotDragAndDoesNotPullWithoutFriction) {
   }
 }
 
+TEST(ContactCycle, KeepsUpWithAFlatFaceThatSlidesAtAMetreASecond) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body(33);  // a thousand points below
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.015 + kMargin}));
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_EQ(run.step(at({1e-3 * i, 0.0, 0.008})), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+    EXPECT_NEAR(run.state.H_WS.translation.x(), 1e-3 * i, 1e-6);
+  }
+}
+
 TEST(ContactCycle, SlidesWithTheKineticRatioOpposedToTheSlip) {
   const AnalyticField<HalfSpace> field({}, kVoxel);
   const SampledBody body = box_body();
