@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAim = 0.78;  // of what is wanted, for points that are added: places between others are a little worse
 constexpr double kStrict = 0.82;  // of what is wanted: places that hold no more than this get points, too
-constexpr int kRounds = 8;        // of adding; each looks at other places than the one before
+constexpr int kRounds = 14;       // of adding; each looks at other places than the one before
 constexpr std::uint32_t kFirstSeed = 11;
 constexpr double kEdge = 0.6;       // h, of what is wanted
 constexpr double kSharp = 0.5;      // of the aim, between any place on an edge and a point
