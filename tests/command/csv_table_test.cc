@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::command {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/command/failure.h"
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/query_points.h"
 

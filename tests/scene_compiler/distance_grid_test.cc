@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/voxelmap.h"
+#include "firmware/command/failure.h"
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/distance_transform.h"
 
 namespace godobject::scene_compiler {

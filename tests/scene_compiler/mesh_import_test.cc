@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "firmware/command/failure.h"
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/polygon.h"
 
 namespace godobject::scene_compiler {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "firmware/command/failure.h"
 #include "toolchain/command/csv_lines.h"
-#include "toolchain/command/failure.h"
 
 namespace godobject::command {
 namespace {

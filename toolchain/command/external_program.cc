@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 extern char** environ;
 

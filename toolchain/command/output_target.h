@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::command {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::command {
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/progress.h"
-#include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/figures/claims.h"
 #include "toolchain/figures/figure.h"

@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::figures {
 namespace {

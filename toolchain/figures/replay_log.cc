@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/replay/replay.h"
 
 namespace godobject::figures {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::path {
 namespace {

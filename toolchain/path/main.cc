@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/run.h"
 #include "toolchain/path/keyframes.h"
 #include "toolchain/path/trajectory.h"
 

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/command/failure.h"
+#include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/command/progress.h"
-#include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/command/solver_names.h"
 #include "toolchain/replay/replay.h"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/pipeline/penalty_contacts.h"
+#include "firmware/command/failure.h"
 #include "toolchain/command/csv_table.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/command/stopwatch.h"
 
 namespace godobject::replay {

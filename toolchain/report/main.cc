@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/command/run.h"
 #include "toolchain/command/progress.h"
-#include "toolchain/command/run.h"
 #include "toolchain/report/contact_quality/chapter.h"
 #include "toolchain/report/contact_quality/table.h"
 

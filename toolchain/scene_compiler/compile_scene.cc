@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "firmware/command/failure.h"
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/outer_surface.h"
 #include "toolchain/scene_compiler/second_direction.h"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/distance_probe.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/components.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 

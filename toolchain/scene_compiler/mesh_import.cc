@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <assimp/Importer.hpp>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/ply_reader.h"
 #include "toolchain/scene_compiler/polygon.h"
 

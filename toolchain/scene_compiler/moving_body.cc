@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/mass_properties.h"
 #include "toolchain/scene_compiler/outer_surface.h"
 #include "toolchain/scene_compiler/parallel.h"

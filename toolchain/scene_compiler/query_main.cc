@@ -1,7 +1,7 @@
 #include <string>
 
+#include "firmware/command/run.h"
 #include "toolchain/command/progress.h"
-#include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/scene_compiler/query_points.h"
 

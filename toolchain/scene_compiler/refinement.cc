@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/brick_tree.h"
 #include "toolchain/scene_compiler/distance_probe.h"

@@ -5,13 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
+#include "firmware/command/toml_table.h"
 #include "toolchain/command/solver_names.h"
-#include "toolchain/scene_compiler/toml_table.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
+using command::TomlTable;
 using Range = TomlTable::Range;
 
 constexpr Range kScale{1e-9, 1e9};

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "firmware/command/failure.h"
+#include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
-#include "toolchain/command/run.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/command/solver_names.h"
 #include "toolchain/scene_compiler/compile_report.h"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
+#include "firmware/command/run.h"
 #include "toolchain/command/progress.h"
-#include "toolchain/command/run.h"
 #include "toolchain/figures/replay_log.h"
 #include "toolchain/viewer/camera.h"
 #include "toolchain/viewer/pov_text.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 #include "toolchain/scene_compiler/scene_config.h"
 

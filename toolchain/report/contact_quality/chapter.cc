@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "firmware/command/failure.h"
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/failure.h"
 #include "toolchain/command/work_folder.h"
 #include "toolchain/report/contact_quality/measure.h"
 #include "toolchain/report/contact_quality/scenes.h"

@@ -1,12 +1,12 @@
-#include "toolchain/scene_compiler/toml_table.h"
+#include "firmware/command/toml_table.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::command {
 
 TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem::path file)
     : name_(std::move(name)), file_(std::move(file)) {
@@ -14,9 +14,8 @@ TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem:
   if (node == nullptr) return;
   table_ = node->as_table();
   if (table_ == nullptr) {
-    throw command::Failure(
-        command::ExitCode::kBadConfig,
-        fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(), node->source().begin.line, name_, name_));
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(),
+                                                    node->source().begin.line, name_, name_));
   }
 }
 
@@ -73,7 +72,7 @@ void TomlTable::complain(std::string_view key, const std::string& what) const {
                                   : table_ != nullptr ? table_->source().begin.line
                                                       : 0;
   const std::string where = line == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line);
-  throw command::Failure(command::ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
+  throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
 }
 
 void TomlTable::require_in_range(std::string_view key, double value, Range range) const {
@@ -81,4 +80,4 @@ void TomlTable::require_in_range(std::string_view key, double value, Range range
   complain(key, fmt::format("= {:g} is out of range; it must be from {:g} to {:g}", value, range.low, range.high));
 }
 
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::command

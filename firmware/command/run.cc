@@ -1,4 +1,4 @@
-#include "toolchain/command/run.h"
+#include "firmware/command/run.h"
 
 #include <cstdio>
 #include <exception>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/failure.h"
+#include "firmware/command/failure.h"
 
 namespace godobject::command {
 namespace {

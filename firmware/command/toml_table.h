@@ -8,9 +8,9 @@
 
 #include <toml++/toml.h>
 
-namespace godobject::scene_compiler {
+namespace godobject::command {
 
-/// One table of a scene file, read key by key; every complaint is a Failure (kBadConfig) naming file, line and key.
+/// One table of a TOML file, read key by key; every complaint is a Failure (kBadConfig) naming file, line and key.
 class TomlTable {
  public:
   struct Range {
@@ -43,4 +43,4 @@ class TomlTable {
   std::filesystem::path file_;
 };
 
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::command
