@@ -2,15 +2,12 @@
 
 #include <array>
 
+#include "core/device/joint_vector.h"
 #include "core/spatial/pose.h"
 #include "core/status.h"
 
 namespace godobject {
 
-inline constexpr int kMaxJoints = 7;
-
-/// One number a joint; those from the arm's joint count on are zero.
-using JointVector = Eigen::Matrix<double, kMaxJoints, 1>;
 using JointMatrix = Eigen::Matrix<double, kMaxJoints, kMaxJoints>;
 
 /// Mass, centre of mass and inertia tensor about the centre of mass of a rigid body, all in the body's own frame.

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace godobject {
+
+inline constexpr int kMaxJoints = 7;
+
+/// One number a joint; those from the arm's joint count on are zero.
+using JointVector = Eigen::Matrix<double, kMaxJoints, 1>;
+
+}  // namespace godobject

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/device/joint_vector.h"
+
+namespace godobject::hal {
+
+/// What a drive says of itself.
+enum class DriveState : std::uint8_t {
+  kOff,          ///< no torque, brake closed: what a drive is in until it is enabled, and after a quick stop has ended
+  kEnabled,      ///< torque follows the command, brake open
+  kQuickStop,    ///< the drive brings its joint to rest by itself, then closes its brake
+  kFault,        ///< the drive has tripped: no torque, brake closing; left by a reset only
+  kUnavailable,  ///< it does not answer
+};
+
+/// What the drives are asked for.
+enum class PowerRequest : std::uint8_t {
+  kOff,        ///< no torque, brakes closed
+  kEnable,     ///< torque follows the command, brakes open
+  kQuickStop,  ///< come to rest by the drives' own means, then brakes
+  kReset,      ///< leave kFault for kOff
+};
+
+/// Joint side, SI; entries from the joint count on are zero. What is not fresh keeps its last value.
+struct JointReading {
+  JointVector position = JointVector::Zero();   ///< [rad]
+  JointVector torque = JointVector::Zero();     ///< as the drive measures it [Nm]
+  std::array<std::uint32_t, kMaxJoints> age{};  ///< cycles since position and state came; 0: in this one
+  std::array<DriveState, kMaxJoints> state{};
+  bool emergency_stop = false;  ///< the emergency stop is pressed, or its line is dead
+  bool enable_switch = false;   ///< the operator holds the enable switch
+};
+
+struct JointCommand {
+  JointVector torque = JointVector::Zero();  ///< [Nm]; a drive that is not enabled ignores it
+  PowerRequest power = PowerRequest::kOff;
+};
+
+/// The joints as the control cycle sees them: one `receive` and one `send` a cycle, in this order. Both never block,
+/// allocate or throw. Power requests are levels, not edges: they are repeated each cycle, and the drives get there
+/// when they can.
+class JointDrives {
+ public:
+  virtual ~JointDrives() = default;
+
+  virtual int joint_count() const noexcept = 0;
+
+  /// Takes what has come since the last call.
+  virtual void receive(JointReading& reading) noexcept = 0;
+
+  /// Torques for this cycle. False: not all of them could be handed over; counted by the caller as lost.
+  virtual bool send(const JointCommand& command) noexcept = 0;
+
+  /// From the sample of a position to the torque that answers it [s]: t_d of the stability figures, without the hold's
+  /// half period.
+  virtual double delay() const noexcept = 0;
+
+ protected:
+  JointDrives() = default;
+  JointDrives(const JointDrives&) = default;
+  JointDrives& operator=(const JointDrives&) = default;
+};
+
+}  // namespace godobject::hal
