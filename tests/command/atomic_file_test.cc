@@ -1,16 +1,15 @@
 #include "toolchain/command/atomic_file.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "firmware/command/failure.h"
+#include "tests/support/ordinary_user.h"
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/work_folder.h"
 
@@ -47,6 +46,7 @@ class AtomicFileTest : public testing::Test {
         EXPECT_NE(std::string(failure.what()).find(file.string()), std::string::npos) << failure.what();
       }
     };
+    expect([&] { output_target(file); });
     expect([&] { AtomicFile output(file); });
     expect([&] { WorkFolder output(file); });
   }
@@ -67,6 +67,31 @@ TEST_F(AtomicFileTest, AppearsWholeOrNotAtAll) {
   file.commit();
   EXPECT_EQ(fs::file_size(path), 5u);
   expect_refusal(folder_ / "absent" / "out.txt", ExitCode::kIo, "choose a folder that exists");
+  expect_refusal(path / "out.txt", ExitCode::kIo, "choose a folder that exists");
+}
+
+TEST_F(AtomicFileTest, NeedsNoFolderInTheName) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  write("out.txt");
+  fs::current_path(before);
+  EXPECT_EQ(fs::file_size(folder_ / "out.txt"), 5u);
+}
+
+TEST_F(AtomicFileTest, MakesFoldersOfOutputsWhereItMay) {
+  make_output_folder(folder_ / "a" / "b");
+  make_output_folder(folder_ / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
+  write(folder_ / "file");
+  for (const fs::path& bad : {folder_ / "file", folder_ / "file" / "below"}) {
+    try {
+      make_output_folder(bad);
+      ADD_FAILURE() << "made " << bad;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), ExitCode::kIo) << failure.what();
+      EXPECT_NE(std::string(failure.what()).find(bad.string()), std::string::npos) << failure.what();
+    }
+  }
 }
 
 TEST_F(AtomicFileTest, ReplacesNothingButRegularFiles) {
@@ -114,31 +139,21 @@ TEST_F(AtomicFileTest, TellsForbiddenFromFailed) {
     EXPECT_EQ(output_failure("o", "x", error).exit_code(), ExitCode::kIo);
 }
 
-/// Rights do not bind the superuser: there the test acts as another user for as long as it lasts.
-class AsOrdinaryUser {
- public:
-  AsOrdinaryUser() : user_(::geteuid()), changed_(user_ == 0 && ::seteuid(kNobody) == 0) {}
-  ~AsOrdinaryUser() {
-    if (changed_ && ::seteuid(user_) != 0) std::abort();
-  }
-  AsOrdinaryUser(const AsOrdinaryUser&) = delete;
-  AsOrdinaryUser& operator=(const AsOrdinaryUser&) = delete;
-
-  bool holds() const { return ::geteuid() != 0; }
-
- private:
-  static constexpr uid_t kNobody = 65534;
-  uid_t user_;
-  bool changed_;
-};
-
 TEST_F(AtomicFileTest, EndsWithItsOwnCodeWhereOneMayNotWrite) {
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_exec);
   bool bound = false;
   {
-    const AsOrdinaryUser user;
+    const test::AsOrdinaryUser user;
     bound = user.holds();
     if (bound) expect_refusal(folder_ / "out.txt", ExitCode::kNoPermission, "choose a folder that you may write to");
+    for (const fs::path& folder : {folder_, folder_ / "new"}) {
+      try {
+        if (bound) make_output_folder(folder);
+        EXPECT_FALSE(bound) << "made " << folder;
+      } catch (const Failure& failure) {
+        EXPECT_EQ(failure.exit_code(), ExitCode::kNoPermission) << failure.what();
+      }
+    }
   }
   fs::permissions(folder_, fs::perms::owner_all);
   if (!bound) GTEST_SKIP() << "not run: as the superuser, who cannot become another user here, every folder is open";

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 
 namespace godobject::command {
 
@@ -22,12 +23,9 @@ bool read_number(std::string_view word, double& value) {
   return error == std::errc{} && end == word.data() + word.size();
 }
 
-CsvLines::CsvLines(const std::filesystem::path& file) : file_(file), stream_(file) {
-  std::error_code error;
-  if (!stream_ || std::filesystem::is_directory(file, error)) {
-    throw Failure(ExitCode::kNoInput,
-                  fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
-  }
+CsvLines::CsvLines(const std::filesystem::path& file) : file_(file) {
+  require_input(file);
+  stream_.open(file);
 }
 
 bool CsvLines::next(std::string_view& content) {

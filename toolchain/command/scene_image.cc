@@ -4,11 +4,11 @@
 #include <cstring>
 #include <fstream>
 #include <new>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 
 namespace godobject::command {
 
@@ -39,13 +39,9 @@ SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std:
 }
 
 SceneImage SceneImage::read(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  require_regular_input(file, "make it with godobject-scenec, or check the path");
+  const std::uintmax_t size = std::filesystem::file_size(file);
   std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) {
-    throw Failure(ExitCode::kNoInput,
-                  fmt::format("{}: cannot be read; check the path and its permissions", file.string()));
-  }
   constexpr std::uintmax_t kLargest = std::uintmax_t{8} << 30;
   if (size > kLargest)
     throw Failure(

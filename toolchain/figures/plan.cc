@@ -13,6 +13,7 @@
 #include <toml++/toml.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 
 namespace godobject::figures {
 namespace {
@@ -25,8 +26,8 @@ using command::Failure;
 }
 
 toml::table parse(const std::filesystem::path& file) {
+  command::require_input(file);
   std::ifstream stream(file);
-  if (!stream) throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; check the path", file.string()));
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   try {
     return toml::parse(text, file.string());

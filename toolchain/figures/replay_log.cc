@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 #include "toolchain/replay/replay.h"
 
 namespace godobject::figures {
@@ -58,9 +59,8 @@ bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
 }  // namespace
 
 ReplayLog read_replay_log(const std::filesystem::path& file) {
+  command::require_input(file, "make it with godobject-replay, or check the path");
   std::ifstream stream(file);
-  if (!stream)
-    throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; make it with godobject-replay", file.string()));
   const auto refuse = [&](std::size_t line, std::string_view what) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}:{}: {}; make it again with godobject-replay", file.string(), line, what));

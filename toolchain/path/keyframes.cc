@@ -14,6 +14,7 @@
 #include <toml++/toml.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 
 namespace godobject::path {
 namespace {
@@ -159,8 +160,8 @@ Keyframes parse_keyframes(std::string_view text, std::string_view name) {
 }
 
 Keyframes read_keyframes(const std::filesystem::path& file) {
+  command::require_input(file);
   std::ifstream stream(file);
-  if (!stream) throw Failure(ExitCode::kNoInput, fmt::format("{}: cannot be read; check the path", file.string()));
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   return parse_keyframes(text, file.string());
 }

@@ -9,6 +9,7 @@
 #include <assimp/Importer.hpp>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 #include "toolchain/scene_compiler/ply_reader.h"
 #include "toolchain/scene_compiler/polygon.h"
 
@@ -28,15 +29,8 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
         command::ExitCode::kBadData,
         fmt::format("{}: not a PLY, STL or OBJ file by its name; export the mesh as one of them", file.string()));
   }
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw command::Failure(command::ExitCode::kNoInput,
-                           fmt::format("{}: no such file; check `mesh` in the scene file", file.string()));
-  }
+  command::require_regular_input(file, "check `mesh` in the scene file: it is found relative to that");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw command::Failure(command::ExitCode::kNoInput,
-                           fmt::format("{}: cannot be opened; check its permissions", file.string()));
   if (stream.peek() == std::ifstream::traits_type::eof()) {
     throw command::Failure(command::ExitCode::kBadData,
                            fmt::format("{}: the file is empty; export the mesh again", file.string()));

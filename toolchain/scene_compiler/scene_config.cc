@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 #include "firmware/command/toml_table.h"
 #include "toolchain/command/solver_names.h"
+#include "toolchain/command/stiffness.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -20,18 +22,10 @@ constexpr Range kVoxel{1e-8, 1e4};
 constexpr Range kRatio{0.0, 10.0};
 
 toml::table parse(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw command::Failure(command::ExitCode::kNoInput,
-                           fmt::format("{}: no such scene file; check the path", file.string()));
-  }
+  command::require_regular_input(file);
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& wrong) {
-    if (wrong.source().begin.line == 0) {
-      throw command::Failure(command::ExitCode::kNoInput,
-                             fmt::format("{}: cannot be read; check its permissions", file.string()));
-    }
     throw command::Failure(command::ExitCode::kBadConfig,
                            fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
                                        std::string_view(wrong.description())));
@@ -132,7 +126,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   const TomlTable coupling = table("coupling");
   coupling.allow({"stiffness", "damping", "rotational"});
-  settings.stiffness = coupling.number("stiffness", {1e-6, 1e8}, 2000.0);
+  settings.stiffness = coupling.number("stiffness", command::kStiffness, 2000.0);
   settings.damping = coupling.number("damping", {0.0, 1e6}, 20.0);
   settings.coupling_translation = 1.0;  // the spring along the translation is k_D itself
   settings.coupling_rotation = coupling.number("rotational", {1e-15, 1e9}, 0.025);
