@@ -24,6 +24,7 @@ int fail(const CLI::App& app, ExitCode exit_code, std::string message) {
 }  // namespace
 
 int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
+  app.get_formatter()->column_width(38);  // names of options and values in one line with what they mean
   app.set_version_flag("--version", app.get_name() + " " GODOBJECT_VERSION);
   try {
     app.parse(argc, argv);

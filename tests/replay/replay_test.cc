@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -181,6 +182,43 @@ TEST_F(ReplayTest, StartsInsideWithItsStatus) {
   }
 }
 
+TEST_F(ReplayTest, CountsTheCyclesThatDidNotGoAsWished) {
+  // thirty poses inside, then a leap through the whole ball, which no sub-steps can finish in one cycle
+  std::ofstream path(folder_ / "path.csv");
+  path << "t,px,py,pz,qw,qx,qy,qz\n";
+  for (int k = 0; k < 40; ++k) path << fmt::format("{},0,0,{},1,0,0,0\n", 1e-3 * k, k < 30 ? 0.07 : -0.3);
+  path.close();
+  for (const std::string solver : kSolvers) {
+    ASSERT_EQ(run("--solver " + solver), 0) << output_;
+    std::map<std::string, int> count;
+    for (const auto& row : rows()) ++count[row.back()];
+    EXPECT_GT(count["start_inside"], 1);
+    const std::string said = fmt::format("; overflow {}, cut {}, infeasible {}, start_inside {}", count["overflow"],
+                                         count["cut"], count["infeasible"], count["start_inside"]);
+    EXPECT_NE(output_.find(said), std::string::npos) << said << "\n" << output_;
+    EXPECT_EQ(output_.find("friction not found in ") != std::string::npos, solver == "contact") << output_;
+  }
+}
+
+TEST_F(ReplayTest, TakesAnotherStiffness) {
+  write_path();
+  ASSERT_EQ(run("--friction off", "scene.csv"), 0) << output_;
+  ASSERT_EQ(run("--friction off --stiffness 500", "soft.csv"), 0) << output_;
+  const auto scene = rows("scene.csv");
+  const auto soft = rows("soft.csv");
+  ASSERT_EQ(scene.size(), soft.size());
+  for (std::size_t i = 1; i < scene.size(); ++i) {
+    // the motion does not depend on it, and the force is in proportion to it: 2000 N/m in the scene
+    ASSERT_EQ(scene[i][kGodZ], soft[i][kGodZ]);
+    ASSERT_NEAR(std::stod(soft[i][kForceZ]), 0.25 * std::stod(scene[i][kForceZ]), 1e-9);
+  }
+  EXPECT_GT(std::stod(soft[151][kForceZ]), 1.0);
+  for (const std::string bad : {"0", "-1", "1e9", "nan", "inf", "2000N", "\"\""}) {
+    EXPECT_EQ(run("--stiffness=" + bad), 64) << bad << ": " << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  }
+}
+
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.02,1,0,0,0\n";
   for (const std::string solver : kSolvers) {
@@ -198,8 +236,12 @@ TEST_F(ReplayTest, EndsWithTheExitCodesOfTheContract) {
   EXPECT_NE(output_.find("Examples:"), std::string::npos);
   EXPECT_NE(output_.find("infeasible"), std::string::npos);
   EXPECT_NE(output_.find("neither limited nor smoothed"), std::string::npos);
+  EXPECT_NE(output_.find("Exit codes: 0 done, 64 usage"), std::string::npos);
+  EXPECT_EQ(output_.find("TEXT"), std::string::npos) << "says not what is wanted: " << output_;
   EXPECT_EQ(run("--version"), 0);
+  EXPECT_NE(output_.find("godobject-replay"), std::string::npos);
   EXPECT_EQ(run("", "absent/out.csv"), 74);
+  EXPECT_NE(output_.find("there is no folder absent; make it"), std::string::npos) << output_;
   write_scene(false);
   EXPECT_EQ(run("--friction on"), 78);
   EXPECT_EQ(run("--friction off"), 0) << output_;

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/command/input_file.h"
 #include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/figures/claims.h"
@@ -33,7 +35,10 @@ OUT/NAME/SOLVER.csv (of godobject-replay) and IMAGES/IMAGE.scene (of godobject-s
 with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table, what is missed of the paper's claims and of
 what contact promises, and what holds; the CSV table has more columns than the printed one. Pictures OUT/NAME/SOLVER_MOMENT.png
 (of godobject-view) are shown if they are there.
-Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.)";
+Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.
+
+Exit codes: 0 done (whatever is missed), 64 usage, 65 bad image, replay or TOML, 66 an input is missing or may not be read,
+70 gnuplot fails or is not installed, 74 cannot write, 77 no right to write, 78 bad key.)";
 
 struct Options {
   std::string plan, images, output;
@@ -48,7 +53,15 @@ void write(const fs::path& file, const std::string& text) {
 
 void make_figures(const Options& options) {
   const fs::path output = options.output;
+  const fs::path statistics_file = output / "statistics.csv";
+  const fs::path page_file = output / "index.html";
+  for (const fs::path& file : {statistics_file, page_file}) command::output_target(file);  // refused before the work
   const std::vector<ScenePlan> plans = read_plan(options.plan);
+  for (const ScenePlan& plan : plans) {
+    for (const std::string& solver : options.solvers)
+      command::require_input(output / plan.name / (solver + ".csv"), "make it with godobject-replay");
+    command::output_target(output / plan.name / "figure.png");
+  }
   std::vector<Entry> entries;
   std::vector<Figure> figures;
   {
@@ -71,8 +84,8 @@ void make_figures(const Options& options) {
     }
   }
   const std::vector<std::string> verdicts = judge(entries);
-  write(output / "statistics.csv", csv_table(entries));
-  write(output / "index.html", page(plans, figures, entries, verdicts, output));
+  write(statistics_file, csv_table(entries));
+  write(page_file, page(plans, figures, entries, verdicts, output));
   fmt::print("{}\n", text_table(entries));
   for (const std::string& verdict : verdicts) fmt::print("{}\n", verdict);
 }
@@ -83,11 +96,14 @@ int main(int argc, char** argv) {
   CLI::App app("Statistics and figures of replays: tables, plots, one HTML page.", "godobject-figures");
   app.footer(kFooter);
   Options options;
-  app.add_option("FIGURES", options.plan, "what to show, TOML")->required();
-  app.add_option("--images", options.images, "folder of the scene images")->required();
-  app.add_option("--solvers", options.solvers, "SOLVER[,SOLVER ...]: a colour each, the last on top")
+  app.add_option("FIGURES.toml", options.plan, "what to show")->required()->type_name("");
+  app.add_option("--images", options.images, "folder of the scene images")->required()->type_name("FOLDER");
+  app.add_option("--solvers", options.solvers, "names of the replays to show: a colour each, the last on top")
       ->delimiter(',')
-      ->required();
-  app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")->required();
+      ->required()
+      ->type_name("SOLVER[,SOLVER ...]");
+  app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")
+      ->required()
+      ->type_name("OUT");
   return command::run(app, argc, argv, [&] { make_figures(options); });
 }

@@ -5,6 +5,7 @@
 
 #include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/path/keyframes.h"
 #include "toolchain/path/trajectory.h"
 
@@ -29,7 +30,10 @@ KEYFRAMES.toml:
   rotation_deg = [0, 0, 2]     # amplitude as a rotation vector in W, about the pivot
 
 POSES.csv gets t,px,py,pz,qw,qx,qy,qz, one row a millisecond: the moving mesh's frame in W. Each keyframe is a place of rest;
-between two the pivot goes straight and the rotation along the shorter arc, with the least jerk (10 u^3 - 15 u^4 + 6 u^5).)";
+between two the pivot goes straight and the rotation along the shorter arc, with the least jerk (10 u^3 - 15 u^4 + 6 u^5).
+
+Exit codes: 0 done, 64 usage, 65 not TOML, 66 KEYFRAMES.toml is missing or may not be read, 74 cannot write, 77 no right to write,
+78 bad key.)";
 
 std::string row(const godobject::path::Sample& sample) {
   const godobject::Vector3& p = sample.pose.translation;
@@ -44,10 +48,11 @@ int main(int argc, char** argv) {
   CLI::App app("Makes a device path, one pose a millisecond, from keyframes.", "godobject-path");
   app.footer(kFooter);
   std::string keyframes_path, out_path;
-  app.add_option("KEYFRAMES", keyframes_path, "keyframes, TOML")->required();
-  app.add_option("-o,--output", out_path, "what to write, CSV")->required();
+  app.add_option("KEYFRAMES.toml", keyframes_path, "places, times, oscillations")->required()->type_name("");
+  app.add_option("-o,--output", out_path, "device path to write")->required()->type_name("POSES.csv");
 
   return godobject::command::run(app, argc, argv, [&] {
+    godobject::command::output_target(out_path);  // refused before anything is read
     const godobject::path::Keyframes motion = godobject::path::read_keyframes(keyframes_path);
     godobject::command::AtomicFile out(out_path);
     out.write("t,px,py,pz,qw,qx,qy,qz\n");

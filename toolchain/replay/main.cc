@@ -1,4 +1,5 @@
 #include <cfenv>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -7,9 +8,11 @@
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/command/solver_names.h"
+#include "toolchain/command/stiffness.h"
 #include "toolchain/replay/replay.h"
 
 namespace {
@@ -21,6 +24,7 @@ using godobject::command::Failure;
 const char* const kFooter = R"(Examples:
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o contact.csv
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o paper.csv --solver paper --friction off
+  godobject-replay bunny_teapot.scene bunny_teapot.csv -o soft.csv --stiffness 500
 
 Solvers: contact, the least-constraint motion over all contact points, in sub-steps that never let a point through a surface;
 corrected, one projection from one wrench for all contacts; paper, the published heuristic, to compare with.
@@ -28,7 +32,8 @@ corrected, one projection from one wrench for all contacts; paper, the published
 POSES.csv holds t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row a millisecond. OUT.csv gets
 one row a cycle: device pose d, god-object pose g (after the cycle), spring force f [N] and torque t [Nm] on the device
 in W about the moving body's centre of mass, depth [m] of the god object's deepest sample point (positive inside, negative: a
-gap; at most the stored band), contacts (contact: points that carry a force; otherwise: points that collide), substeps, time
+gap; at most the stored band), contacts (contact: rows that carry a force, a point seen from two
+sides has two; otherwise: points that collide), substeps, time
 of the look-ups (step #1 and, with contact, its certificate) and of the rest of #2-#7, and a status:
   free          nothing holds the god object: it is the device pose
   contact       constrained; with contact: rows are active in the solution
@@ -43,12 +48,35 @@ of the look-ups (step #1 and, with contact, its certificate) and of the rest of 
   bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, force and torque
                 are zero, exit 65 at the end
 Of several that apply in a cycle the one that stands later in this order is told: cut, overflow, infeasible, start_inside.
-Forces are neither limited nor smoothed here: that is left to the controller that drives the device.)";
+Forces are neither limited nor smoothed here: that is left to the controller that drives the device.
+The last line printed counts the cycles of the last four, and those of contact in which friction did not reach Coulomb's law to
+the tolerance (gaps are kept all the same).
+
+Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is whole then), 66 an input is missing or
+may not be read, 74 cannot write, 77 no right to write, 78 --friction on for a scene without friction.)";
 
 /// The field knows no depth beyond its band.
 std::string depth_text(double deepest, double band) {
   if (deepest < band) return fmt::format("deepest {:.3f} mm", 1e3 * deepest);
   return fmt::format("deepest at least {:.3f} mm (the stored band)", 1e3 * band);
+}
+
+/// How many cycles did not go as wished.
+std::string outcomes_text(const godobject::replay::Summary& summary, bool contact_friction) {
+  using godobject::Outcome;
+  std::string text;
+  for (const Outcome outcome : {Outcome::kOverflow, Outcome::kCut, Outcome::kInfeasible, Outcome::kStartInside})
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name(outcome), summary.count(outcome));
+  if (contact_friction) text += fmt::format(", friction not found in {} cycles", summary.unconverged);
+  return text;
+}
+
+/// k_D in place of the scene's.
+double checked_stiffness(double stiffness) {
+  const auto& range = godobject::command::kStiffness;
+  if (stiffness >= range.low && stiffness <= range.high) return stiffness;
+  throw Failure(ExitCode::kUsage, fmt::format("--stiffness {:g}: must be from {:g} to {:g} N/m, such as 2000",
+                                              stiffness, range.low, range.high));
 }
 
 std::string float_exceptions(int raised) {
@@ -66,16 +94,23 @@ int main(int argc, char** argv) {
                "godobject-replay");
   app.footer(kFooter);
   std::string scene_path, poses_path, out_path, solver_name, friction_name;
-  app.add_option("SCENE", scene_path, "scene image, X.scene")->required();
-  app.add_option("POSES", poses_path, "device path, CSV")->required();
-  app.add_option("-o,--output", out_path, "what to write, CSV")->required();
+  std::optional<double> stiffness;
+  app.add_option("X.scene", scene_path, "scene image, made by godobject-scenec")->required()->type_name("");
+  app.add_option("POSES.csv", poses_path, "device path, one row a millisecond")->required()->type_name("");
+  app.add_option("-o,--output", out_path, "cycles to write, one row each")->required()->type_name("OUT.csv");
   app.add_option("--solver", solver_name, "contact, corrected or paper; default: the scene's")
-      ->check(CLI::IsMember(godobject::command::solver_names()));
+      ->check(CLI::IsMember(godobject::command::solver_names()))
+      ->type_name("SOLVER");
   app.add_option("--friction", friction_name, "on or off; default: on if the scene has a friction table")
-      ->check(CLI::IsMember({"on", "off"}));
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("on|off");
+  app.add_option("--stiffness", stiffness, "k_D [N/m], 1e-6 to 1e8, in place of the scene's coupling.stiffness")
+      ->type_name("NUMBER");
 
   return godobject::command::run(app, argc, argv, [&] {
-    const auto image = godobject::command::SceneImage::read(scene_path);
+    godobject::command::output_target(out_path);  // refused before anything is read
+    auto image = godobject::command::SceneImage::read(scene_path);
+    if (stiffness) image.scene.settings.stiffness = checked_stiffness(*stiffness);
     const godobject::Scene& scene = image.scene;
     const Solver solver = solver_name.empty() ? scene.default_solver() : *godobject::command::solver_of(solver_name);
     const bool has_friction = scene.settings.friction != 0;
@@ -102,10 +137,9 @@ int main(int argc, char** argv) {
     }
     out.commit();
     const bool contact_friction = friction && solver == Solver::kContact;
-    fmt::print("{}: {} cycles, {}, peak force {:.2f} N,{} floating-point exceptions:{}\n", out_path, summary.cycles,
+    fmt::print("{}: {} cycles, {}, peak force {:.2f} N; {}; floating-point exceptions:{}\n", out_path, summary.cycles,
                depth_text(summary.deepest, scene.voxelmap.band()), summary.peak_force,
-               contact_friction ? fmt::format(" friction not found in {} cycles,", summary.unconverged) : "",
-               float_exceptions(summary.float_exceptions));
+               outcomes_text(summary, contact_friction), float_exceptions(summary.float_exceptions));
     if (summary.bad_rows > 0) {
       throw Failure(ExitCode::kBadData, fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), "
                                                     "the first of {} such rows; the god object was "

@@ -80,6 +80,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const Path& pat
     summary.float_exceptions |= std::fetestexcept(kWatched);
 
     ++summary.cycles;
+    ++summary.by_outcome[static_cast<std::size_t>(report.outcome)];
     if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];
     const State& state = god_object.state();
     // before the first good row there is no god object to measure

@@ -23,7 +23,10 @@ alone unless it says whole cycle. Targets are those of `contact`; a missed one d
 The optimum is the pose S with all sample points at phi >= 0 that minimises |x|^2 + rho^2 |r|^2, (x, r) = log(S^-1 D),
 rho^2 = k_VC,r / k_VC,x. It may be a local one: a slow, independent method is started from around the god object, from
 half way to the device and from the device lifted out. `optimum_distance` is the metric distance from the god object to the
-nearest optimum found; `optimum_excess` is how much further from the device it is than the best one.)";
+nearest optimum found; `optimum_excess` is how much further from the device it is than the best one.
+
+Exit codes: 0 done (whatever is missed), 64 usage, 65 bad mesh, 66 the bunny's mesh is missing or may not be read, 74 cannot
+write, 77 no right to write.)";
 
 }  // namespace
 
@@ -32,12 +35,18 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   std::string chapter = "contact";
   godobject::report::ContactQualityRequest request;
-  request.meshes = GODOBJECT_MESH_FOLDER;
-  app.add_option("--only", chapter, "chapter to make")->check(CLI::IsMember({"contact"}));
+  request.meshes = "toolchain/scenes/meshes";
+  app.add_option("--only", chapter, "chapter to make; default: contact")
+      ->check(CLI::IsMember({"contact"}))
+      ->type_name("CHAPTER");
   app.add_flag("--quick", request.quick, "a few scenes, short: below a minute");
-  app.add_option("--scene", request.scene, "only scenes whose name holds this");
-  app.add_option("--meshes", request.meshes, "folder of bunny_npm.ply")->capture_default_str();
-  app.add_option("-o,--output", request.output, "folder of what is written")->required();
+  app.add_option("--scene", request.scene, "only scenes whose name holds this; default: all")->type_name("PART");
+  app.add_option("--meshes", request.meshes, "folder of bunny_npm.ply, the moving body of some scenes")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  app.add_option("-o,--output", request.output, "folder of what is written; made where it is not there")
+      ->required()
+      ->type_name("DIR");
   return godobject::command::run(app, argc, argv, [&] {
     std::vector<godobject::report::Measurement> measurements;
     {

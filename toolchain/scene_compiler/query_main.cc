@@ -1,6 +1,7 @@
 #include <string>
 
 #include "firmware/command/run.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
 #include "toolchain/scene_compiler/query_points.h"
@@ -14,7 +15,7 @@ Example:
 POINTS.csv holds rows x,y,z in the still mesh's frame, in metres. OUT.csv gets x,y,z,distance,nx,ny,nz,known:
 known = 1 within the stored band, n the outward normal; known = 0 beyond it: distance is plus or minus the band, n is 0.
 
-Exit codes: 0 done, 64 usage, 65 bad image or row, 66 file not found, 74 cannot write, 77 no right to write.)";
+Exit codes: 0 done, 64 usage, 65 bad image or row, 66 an input is missing or may not be read, 74 cannot write, 77 no right to write.)";
 
 }  // namespace
 
@@ -24,11 +25,12 @@ int main(int argc, char** argv) {
   std::string scene;
   std::string points;
   std::string output;
-  app.add_option("X.scene", scene, "scene image")->required();
-  app.add_option("POINTS.csv", points, "points to look up")->required();
-  app.add_option("-o,--output", output, "CSV file to write")->required();
+  app.add_option("X.scene", scene, "scene image, made by godobject-scenec")->required()->type_name("");
+  app.add_option("POINTS.csv", points, "points to look up")->required()->type_name("");
+  app.add_option("-o,--output", output, "distances to write")->required()->type_name("OUT.csv");
   app.footer(kFooter);
   return command::run(app, argc, argv, [&] {
+    command::output_target(output);  // refused before anything is read
     const command::SceneImage image = command::SceneImage::read(scene);
     command::Progress line;
     scene_compiler::query_points(image.scene.voxelmap, points, output,

@@ -40,15 +40,16 @@ Meshes are PLY, STL or OBJ, found relative to the scene file.
 Walls and gaps of the still mesh thinner than two voxels are reported. A wall of a solid is
 {} (near-parallel: within 10 degrees).
 
-Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 file not found, 74 cannot write, 77 no right to write,
-78 bad scene file.)";
+Exit codes: 0 done, 64 usage, 65 bad mesh or image, 66 an input is missing or may not be read, 74 cannot write, 77 no right to
+write, 78 bad scene file.)";
 
 struct Options {
   std::string scene_file;
   std::string output;
   std::string report;
   std::string only_solver;
-  std::string inspect;
+  bool inspects = false;
+  std::string inspected;  ///< if it follows --inspect; SCENE otherwise
 };
 
 void compile(const Options& options) {
@@ -73,14 +74,19 @@ void compile(const Options& options) {
   fmt::print("{}", report_text(report));
 }
 
-void run_scenec(const Options& options) {
-  const bool compiles = !options.scene_file.empty() || !options.output.empty();
-  if (!options.inspect.empty()) {
-    if (compiles)
-      throw Failure(ExitCode::kUsage, "--inspect takes no scene file and no output; see godobject-scenec --help");
-    fmt::print("{}\n", inspect_json(SceneImage::read(options.inspect)).dump(2));
-    return;
+/// `--inspect X.scene`, or `X.scene --inspect`.
+void inspect(const Options& options) {
+  const std::string& image = options.inspected.empty() ? options.scene_file : options.inspected;
+  if (image.empty()) throw Failure(ExitCode::kUsage, "--inspect X.scene: the image is missing; name one");
+  const bool compiles = !options.output.empty() || !options.report.empty() || !options.only_solver.empty();
+  if (compiles || (!options.inspected.empty() && !options.scene_file.empty())) {
+    throw Failure(ExitCode::kUsage, "--inspect takes one image and nothing else; see godobject-scenec --help");
   }
+  fmt::print("{}\n", inspect_json(SceneImage::read(image)).dump(2));
+}
+
+void run_scenec(const Options& options) {
+  if (options.inspects) return inspect(options);
   if (options.scene_file.empty()) throw Failure(ExitCode::kUsage, "SCENE.toml is missing; see godobject-scenec --help");
   if (options.output.empty()) throw Failure(ExitCode::kUsage, "-o OUT.scene is missing; see godobject-scenec --help");
   compile(options);
@@ -91,12 +97,19 @@ void run_scenec(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Compiles a scene file and its meshes into one scene image for the controller.", "godobject-scenec"};
   Options options;
-  app.add_option("SCENE.toml", options.scene_file, "scene file");
-  app.add_option("-o,--output", options.output, "scene image to write");
-  app.add_option("--report", options.report, "write what was found and measured as JSON");
-  app.add_option("--only-solver", options.only_solver, "leave out what other solvers read")
-      ->check(CLI::IsMember(godobject::command::solver_names()));
-  app.add_option("--inspect", options.inspect, "print the facts of a compiled image as JSON");
+  app.add_option("SCENE.toml", options.scene_file, "scene file: meshes and settings")->type_name("");
+  app.add_option("-o,--output", options.output, "scene image to write")->type_name("OUT.scene");
+  app.add_option("--report", options.report, "also write what was found and measured")->type_name("REPORT.json");
+  app.add_option("--only-solver", options.only_solver, "leave out what other solvers read; default: every solver's")
+      ->check(CLI::IsMember(godobject::command::solver_names()))
+      ->type_name("SOLVER");
+  const CLI::Option* inspect =
+      app.add_option("--inspect", options.inspected, "print the facts of a compiled image as JSON, nothing else")
+          ->expected(0, 1)
+          ->type_name("X.scene");
   app.footer(fmt::format(kFooter, kRefusalRule));
-  return godobject::command::run(app, argc, argv, [&options] { run_scenec(options); });
+  return godobject::command::run(app, argc, argv, [&] {
+    options.inspects = inspect->count() > 0;
+    run_scenec(options);
+  });
 }

@@ -12,6 +12,7 @@
 
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/figures/replay_log.h"
 #include "toolchain/viewer/camera.h"
@@ -34,7 +35,10 @@ const char* const kFooter = R"(Examples:
 The still body is green, the moving one red where the device has it and blue where the god object is. Several replays of a
 scene are pictured from one camera, each in a picture of its own. Without --camera a direction is chosen from which the
 contact is seen. A picture's name is that of the replay and the moment: contact_0.600.png, contact_deepest.png, or what
--o says if it ends in .png. Prints the names of the pictures that it wrote.)";
+-o says if it ends in .png. Prints the names of the pictures that it wrote. A picture takes some seconds.
+
+Exit codes: 0 done, 64 usage, 65 bad mesh or replay, or no such time in it, 66 an input is missing or may not be read, 70 POV-Ray
+fails or is not installed, 74 cannot write, 77 no right to write, 78 bad scene file.)";
 
 struct Options {
   std::string scene, output;
@@ -72,17 +76,20 @@ std::optional<viewer::Cut> cut(const std::vector<double>& numbers) {
   return viewer::Cut{Vector3(numbers[0], numbers[1], numbers[2]), normal.normalized()};
 }
 
+bool names_one_picture(const Options& options) { return fs::path(options.output).extension() == ".png"; }
+
+/// Refuses an output that cannot be written before anything is read or rendered; makes the folder.
+void prepare_output(const Options& options) {
+  if (!names_one_picture(options)) return godobject::command::make_output_folder(options.output);
+  if (options.moments.size() * options.replays.size() > 1)
+    throw Failure(ExitCode::kUsage, "-o names one picture, but there are more replays or times; name a folder");
+  godobject::command::output_target(options.output);
+}
+
 /// Where the picture of a replay at a moment goes.
 fs::path picture_path(const Options& options, const fs::path& replay, const std::string& moment) {
   const fs::path output = options.output;
-  if (output.extension() == ".png") {
-    if (options.moments.size() * options.replays.size() > 1)
-      throw Failure(ExitCode::kUsage, "-o names one picture, but there are more replays or times; name a folder");
-    return output;
-  }
-  std::error_code error;
-  fs::create_directories(output, error);
-  if (error) throw Failure(ExitCode::kIo, fmt::format("{}: cannot be made ({})", output.string(), error.message()));
+  if (names_one_picture(options)) return output;
   return output / fmt::format("{}_{}.png", replay.stem().string(), moment);
 }
 
@@ -112,6 +119,7 @@ std::vector<Moment> read_moments(const Options& options) {
 }
 
 void render_all(const Options& options) {
+  prepare_output(options);
   const std::vector<Moment> moments = read_moments(options);
   const auto bodies = viewer::read_scene_bodies(options.scene);
   viewer::Picture picture;
@@ -146,22 +154,30 @@ int main(int argc, char** argv) {
   CLI::App app("Renders pictures of a replay with POV-Ray.", "godobject-view");
   app.footer(kFooter);
   Options options;
-  app.add_option("SCENE", options.scene, "scene file, TOML")->required();
-  app.add_option("REPLAY", options.replays, "outputs of godobject-replay, CSV, of the same path")->required();
+  app.add_option("SCENE.toml", options.scene, "scene file: its meshes are drawn")->required()->type_name("");
+  app.add_option("REPLAY.csv", options.replays, "outputs of godobject-replay, of the same path")
+      ->required()
+      ->type_name("");
   app.add_option("--at", options.moments, "time to show [s], or deepest: when the god object is; may be given often")
       ->required()
+      ->type_name("TIME|deepest")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("-o,--output", options.output, "folder, or one picture X.png")->required();
+  app.add_option("-o,--output", options.output, "folder of the pictures (made where it is not there), or one picture")
+      ->required()
+      ->type_name("FOLDER|X.png");
   app.add_option("--camera", options.camera,
-                 "AZIMUTH,ELEVATION[,ZOOM]: from the body to the eye [degrees]; zoom 2 is twice as near")
+                 "from the body to the eye [degrees]; zoom 2 is twice as near; default: chosen, zoom 1")
+      ->type_name("AZIMUTH,ELEVATION[,ZOOM]")
       ->delimiter(',')
       ->expected(2, 3);
   app.add_option("--up", options.up, "axis of W that points up: x, y or z; default: z")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  app.add_option("--cut", options.cut, "X,Y,Z,NX,NY,NZ: cuts away the still body (closed) beyond this plane of W [m]")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->type_name("AXIS");
+  app.add_option("--cut", options.cut, "cuts away the still body (closed) beyond this plane of W [m]")
+      ->type_name("X,Y,Z,NX,NY,NZ")
       ->delimiter(',')
       ->expected(6);
-  app.add_option("--size", options.size, "WIDTHxHEIGHT [pixels]; default: 800x600");
+  app.add_option("--size", options.size, "[pixels]; default: 800x600")->type_name("WIDTHxHEIGHT");
   return godobject::command::run(app, argc, argv, [&] { render_all(options); });
 }

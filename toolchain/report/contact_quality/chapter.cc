@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/work_folder.h"
 #include "toolchain/report/contact_quality/measure.h"
 #include "toolchain/report/contact_quality/scenes.h"
@@ -37,16 +38,25 @@ std::vector<SceneSpec> chosen_scenes(const ContactQualityRequest& request) {
   return all;
 }
 
+/// Some scenes read a body's mesh: refused before the first scene, not in the midst of them.
+void require_meshes(const std::vector<SceneSpec>& chosen, const std::filesystem::path& folder) {
+  const bool reads =
+      std::any_of(chosen.begin(), chosen.end(), [](const SceneSpec& scene) { return scene.body == BodyShape::kBunny; });
+  if (reads) {
+    command::require_regular_input(folder / kBunnyMesh,
+                                   "name its folder with --meshes: toolchain/scenes/meshes of the sources has it");
+  }
+}
+
 }  // namespace
 
 std::vector<Measurement> contact_quality(const ContactQualityRequest& request) {
   const std::vector<SceneSpec> chosen = chosen_scenes(request);
-  std::error_code error;
-  std::filesystem::create_directories(request.output, error);
-  if (error) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be made: {}", request.output.string(), error.message()));
-  }
+  require_meshes(chosen, request.meshes);
+  command::make_output_folder(request.output);
   const std::filesystem::path table = request.output / "contact_quality.csv";
+  const std::filesystem::path summary = request.output / "contact_summary.csv";
+  command::output_target(summary);  // refused before the work, as the table is by its work folder
   const command::WorkFolder work(table);
   const Effort effort = request.quick ? Effort{.dashes = 5, .tremor_s = 2.0} : Effort{};
 
@@ -82,7 +92,7 @@ std::vector<Measurement> contact_quality(const ContactQualityRequest& request) {
     }
   }
   write(table, measurements_csv(measurements));
-  write(request.output / "contact_summary.csv", summary_csv(measurements));
+  write(summary, summary_csv(measurements));
   return measurements;
 }
 

@@ -330,7 +330,7 @@ scene_compiler::TriangleMesh body_mesh(BodyShape shape, const std::filesystem::p
     case BodyShape::kBunny: {
       constexpr double kScale = 0.0161497;
       scene_compiler::MeshReport report;
-      return scene_compiler::import_mesh(mesh_folder / "bunny_npm.ply", kScale, report);
+      return scene_compiler::import_mesh(mesh_folder / kBunnyMesh, kScale, report);
     }
     case BodyShape::kPeg: {
       const std::vector<TurnedCorner> profile = {

@@ -61,6 +61,8 @@ std::vector<SceneSpec> scenes();
 /// The still body's mesh in W.
 CompiledStill placed(const SceneSpec& scene);
 
+inline constexpr const char* kBunnyMesh = "bunny_npm.ply";
+
 /// The generated meshes of the moving bodies; the bunny's is read from `mesh_folder`.
 scene_compiler::TriangleMesh body_mesh(BodyShape shape, const std::filesystem::path& mesh_folder);
 std::uint32_t body_points(BodyShape shape);
