@@ -45,6 +45,8 @@ TEST(Command, HelpShowsAnExampleAndVersion) {
     const Outcome help = run(command + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("Example"), std::string::npos);
+    EXPECT_NE(help.output.find("Exit codes: 0 done, 64 usage"), std::string::npos);
+    EXPECT_EQ(help.output.find("TEXT"), std::string::npos) << "says not what is wanted: " << help.output;
     const Outcome version = run(command + " --version");
     EXPECT_EQ(version.exit_code, 0);
     EXPECT_NE(version.output.find("godobject-"), std::string::npos);
@@ -76,11 +78,21 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " " + good + " -o /dev/null", 74, "/dev/null: is a device");
   expect_refusal(kScenec + " " + good + out + " --report /dev", 74, "/dev: is a folder");
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
+  expect_refusal(kScenec + " " + good + " -o " + folder.file("s.toml").string() + "/o.scene", 74, "is no folder");
+  expect_refusal(kScenec + " " + good + out + " --report /nowhere/r.json", 74, "there is no folder /nowhere");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
+  expect_refusal(kScenec + " " + folder.file("").string() + out, 66, "is a folder");
+  expect_refusal(kScenec + " " + scene(still(folder.file("").string() + "x.ply/") + moving) + out, 65, "x.ply/");
+  std::filesystem::create_directory(folder.file("f.ply"));
+  expect_refusal(kScenec + " " + scene(still("f.ply") + moving) + out, 66, "f.ply: is a folder");
+  expect_refusal(kScenec + " --inspect", 64, "the image is missing");
+  expect_refusal(kScenec + " --inspect a.scene b.scene", 64, "--inspect takes one image");
+  expect_refusal(kScenec + " --inspect a.scene" + out, 64, "--inspect takes one image");
   expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65,
                  "x.scene: is not a scene image (X.scene, made by godobject-scenec)");
   expect_refusal(kQuery + " " + good + " p.csv -o o.csv", 65, "s.toml: is not a scene image");
   expect_refusal(kScenec + " --inspect /nowhere.scene", 66, "/nowhere.scene");
-  expect_refusal(kQuery + " /nowhere.scene p.csv -o o.csv", 66, "/nowhere.scene");
+  expect_refusal(kQuery + " /nowhere.scene p.csv -o o.csv", 66, "/nowhere.scene: no such file");
 }
 
 TEST(Command, CompilesInspectsAndQueries) {
@@ -99,7 +111,12 @@ TEST(Command, CompilesInspectsAndQueries) {
   EXPECT_EQ(compiled.output.find(" 0.0 KiB saved"), std::string::npos) << compiled.output;
   EXPECT_EQ(compiled.output.find(": -"), std::string::npos) << compiled.output;
   EXPECT_TRUE(std::filesystem::exists(folder.file("r.json")));
-  EXPECT_EQ(run(kScenec + " --inspect " + image).exit_code, 0);
+  const Outcome inspected = run(kScenec + " --inspect " + image);
+  EXPECT_EQ(inspected.exit_code, 0);
+  EXPECT_EQ(inspected.output.find("{"), 0u);
+  EXPECT_EQ(run(kScenec + " " + image + " --inspect").output, inspected.output);
+  expect_refusal(kQuery + " " + image + " " + folder.file("q.csv").string() + " -o o.csv", 66, "q.csv: no such file");
+  expect_refusal(kQuery + " " + image + " p.csv -o /nowhere/o.csv", 74, "there is no folder /nowhere");
   const std::string points = folder.write("p.csv", "0,0,0.06\n").string();
   EXPECT_EQ(run(kQuery + " " + image + " " + points + " -o " + folder.file("d.csv").string()).exit_code, 0);
 }

@@ -1,11 +1,14 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "firmware/command/failure.h"
@@ -151,13 +154,68 @@ TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
   report.thin.walls = {.samples = 9, .area = 3e-5, .smallest = 2e-3, .voxel_needed = 1e-3, .lost_area = 2e-5};
   report.thin.walls.at = {0.01, 0.02, 0.03};
   const std::string text = report_text(report);
-  EXPECT_NE(text.find("thinner than one voxel, lost by the field: 0.2 cm^2, at (0.01, 0.02, 0.03) m"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("thinner than one voxel: 0.2 cm^2, too thin for the field to hold, bodies may pass there; at (0.01, "
+                "0.02, 0.03) m"),
+      std::string::npos)
       << text;
   EXPECT_NE(text.find(kRefusalRule), std::string::npos) << text;
   EXPECT_EQ(report_json(report)["walls"]["area_thinner_than_a_voxel"], 2e-5);
   EXPECT_NE(std::string(kRefusalRule).find(std::to_string(static_cast<int>(kRefusedFaces)) + " voxel faces"),
             std::string::npos);
+}
+
+TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
+  const CompileReport report = compile({.still = "cube_100mm"});
+  ASSERT_GT(report.refinement.refined, 0u);
+  const std::string image = slurp(folder_.file("out.scene"));
+  const Json index = inspect_json(command::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
+  std::uint64_t positions = 0;
+  std::uint64_t stored = 0;
+  for (std::uint64_t at = index["offset"];
+       at < index["offset"].get<std::uint64_t>() + index["bytes"].get<std::uint64_t>(); at += sizeof(std::uint32_t)) {
+    std::uint32_t entry = 0;
+    std::memcpy(&entry, image.data() + at, sizeof(entry));
+    ++positions;
+    if ((entry & format::index_entry::kFar) == 0) ++stored;
+  }
+  const std::string text = report_text(report);
+  EXPECT_NE(text.find(fmt::format(": {} of {} positions stored", stored, positions)), std::string::npos) << text;
+  EXPECT_NE(text.find(fmt::format("{} finer bricks", report.grid.brick_count - stored)), std::string::npos) << text;
+}
+
+TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
+  const CompileReport good = compile({.still = "cube_100mm"});
+  const std::string text = report_text(good);
+  const std::string verdict = verdict_text(good);
+  EXPECT_EQ(verdict.find("ready: the field is within its tolerance"), 0u) << verdict;
+  EXPECT_EQ(text.substr(text.size() - verdict.size() - 1), verdict + "\n");
+  EXPECT_EQ(verdict.find('\n'), std::string::npos);
+
+  const auto expect_limit = [&good](auto spoil, const std::string& words) {
+    CompileReport report = good;
+    spoil(report);
+    const std::string said = verdict_text(report);
+    EXPECT_EQ(said.find("ready, with limits: "), 0u) << said;
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_EQ(said.find(';'), std::string::npos) << "one limit: " << said;
+  };
+  // 5 times the tolerance of 0.05 voxels of 4 mm is 1 mm
+  expect_limit([](CompileReport& r) { r.field_error.near.largest = 1.2e-3; }, "0.30 voxels off near the surface (0.25");
+  expect_limit([](CompileReport& r) { r.thin.walls.samples = 3; }, "walls thinner than two voxels");
+  expect_limit(
+      [](CompileReport& r) {
+        r.thin.walls.samples = 3;
+        r.thin.walls.lost_area = 1e-5;
+      },
+      "walls thinner than a voxel, which bodies may pass");
+  expect_limit([](CompileReport& r) { r.thin.gaps.samples = 3; }, "gaps thinner than two voxels");
+  expect_limit([](CompileReport& r) { r.seams.cells = 1; }, "the mesh is open");
+  expect_limit([](CompileReport& r) { r.second.sought = false; }, "nobody looks between the points");
+  expect_limit([](CompileReport& r) { r.second.between.bound = 0.006 - r.second.slack; },
+               "6 mm deep between the points (4 mm");
+  expect_limit([](CompileReport& r) { r.second.between.bound = std::numeric_limits<double>::infinity(); },
+               "no bound is known");
 }
 
 TEST_F(CompileScene, RefusalLeavesNoFileBehind) {

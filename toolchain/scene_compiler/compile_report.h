@@ -16,7 +16,10 @@ Json report_json(const CompileReport& report);
 /// The same with sizes of the whole image and seconds of each phase.
 Json full_report_json(const CompileReport& report);
 
-/// A screenful for people.
+/// One line for people: ready, and what is not as the scene wishes or what the voxels are too coarse for.
+std::string verdict_text(const CompileReport& report);
+
+/// A screenful for people; the verdict comes last.
 std::string report_text(const CompileReport& report);
 
 /// The facts of a compiled image.

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,11 +20,11 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
       std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.inside_out; });
   const Eigen::Vector3d size = 1e3 * (r.high - r.low);
   std::string text =
-      fmt::format("{:<7} {}: {} triangles, {:.1f} x {:.1f} x {:.1f} mm, {} component(s): {} solid, {} shell\n", role,
+      fmt::format("{:<8} {}: {} triangles, {:.1f} x {:.1f} x {:.1f} mm, {} component(s): {} solid, {} shell\n", role,
                   mesh.name, r.triangles, size.x(), size.y(), size.z(), facts.components.size(),
                   static_cast<std::ptrdiff_t>(facts.components.size()) - shells, shells);
   const auto note = [&text](std::uint64_t count, const char* what) {
-    if (count > 0) text += fmt::format("        {} {}\n", count, what);
+    if (count > 0) text += fmt::format("         {} {}\n", count, what);
   };
   note(r.boundary_edges, "boundary edges: open, the side is told by the winding number");
   note(r.nonmanifold_edges, "edges of more than two triangles");
@@ -38,20 +40,20 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
   return text;
 }
 
-/// What the field loses of it (walls) or closes (gaps).
+/// What is too thin for the lattice: `loss` says what comes of it.
 std::string lost_text(const ThinPlaces& p, const char* loss, double voxel_size) {
   if (p.lost_area <= 0.0) return {};
   const Eigen::Vector3d& at = p.lost_patch > 0.0 ? p.lost_at : p.at;
   return fmt::format(
-      "        of that thinner than one voxel, {}: {:.3g} cm^2, at ({:.4g}, {:.4g}, {:.4g}) m; largest patch between "
+      "         of that thinner than one voxel: {:.3g} cm^2, {}; at ({:.4g}, {:.4g}, {:.4g}) m; largest patch between "
       "near-parallel faces {:.1f} voxel faces\n",
-      loss, 1e4 * p.lost_area, at.x(), at.y(), at.z(), p.lost_patch / (voxel_size * voxel_size));
+      1e4 * p.lost_area, loss, at.x(), at.y(), at.z(), p.lost_patch / (voxel_size * voxel_size));
 }
 
 std::string thin_text(const char* what, const ThinPlaces& p) {
-  if (p.samples == 0) return fmt::format("{:<7} none thinner than two voxels\n", what);
+  if (p.samples == 0) return fmt::format("{:<8} none thinner than two voxels\n", what);
   return fmt::format(
-      "{:<7} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m: would need voxel_size "
+      "{:<8} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m: would need voxel_size "
       "= {:.2g}\n",
       what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
 }
@@ -67,16 +69,27 @@ const char* reason(Stopped stopped) {
   return "the field of the moving body takes too much; set moving.voxel_size lower, or contact.between_points higher";
 }
 
+std::string points_text(const CompileReport& report) {
+  const format::Body& body = report.body.body;
+  const std::uint32_t added = report.second.added_points;
+  return fmt::format(
+      "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends; {} apart, no "
+      "place "
+      "of the surface further than {} from one\n",
+      body.point_count, body.level_count, body.point_count - added, added, millimetres(report.body.spacing),
+      millimetres(report.body.coverage));
+}
+
 std::string second_direction_text(const CompileReport& report) {
   const SecondDirection& second = report.second;
-  if (!second.sought) return "between points of the moving body: not looked at, the still body gives no features\n";
+  if (!second.sought) return "between  the points: not looked at; the still body gives no features\n";
   const BetweenPoints& between = second.between;
-  std::string text =
-      fmt::format("        {} of them added where the moving surface is sharp or bends\n", second.added_points);
+  std::string text;
   if (second.features.point_count > 0) {
     text += fmt::format(
-        "features {} of the still body: {} corners, {} on edges, {} on bent faces; "
-        "the moving body's field has {} bricks of {}\n",
+        "features {} points of the still body, looked up in the moving body's own field: {} at corners, {} on edges, "
+        "{} "
+        "on bent faces\n         that field has {} bricks, finer ones included, voxels of {}\n",
         second.features.point_count, second.corners, second.on_edges, second.on_faces, second.grid.brick_count,
         millimetres(second.grid.voxel_size));
   } else {
@@ -84,66 +97,125 @@ std::string second_direction_text(const CompileReport& report) {
   }
   const double bound = between.bound + second.slack;
   if (std::isfinite(bound)) {
-    text += fmt::format("between points no deeper than {}: moving surface {}, still surface {}, field {}; wanted {}\n",
-                        millimetres(bound), millimetres(between.moving_fall), millimetres(between.still_fall),
-                        millimetres(second.slack), millimetres(report.config.between_points));
+    text += fmt::format(
+        "between  the points, where none looks, bodies meet no deeper than {} ({} wanted): the moving surface gives "
+        "{}, "
+        "the still one {}, the moving body's field {}\n",
+        millimetres(bound), millimetres(report.config.between_points), millimetres(between.moving_fall),
+        millimetres(between.still_fall), millimetres(second.slack));
   } else {
-    text += "between points no bound is known\n";
+    text += "between  the points no bound is known\n";
   }
-  if (bound > report.config.between_points) text += fmt::format("        missed: {}\n", reason(between.stopped));
+  if (bound > report.config.between_points) text += fmt::format("         missed: {}\n", reason(between.stopped));
   return text;
 }
 
-std::string refinement_text(const CompileReport& report) {
-  const ErrorNorms& near = report.field_error.near;
+std::string field_text(const CompileReport& report) {
+  const format::Grid& g = report.grid;
+  constexpr std::uint64_t kOctants = 8;
+  const std::uint64_t finer = kOctants * report.refinement.refined;
   std::string text = fmt::format(
-      "edges   off seams, nearer than half a voxel: rms {} (unrefined {}), largest {} (unrefined {}), on {} points\n",
-      millimetres(near.rms), millimetres(near.floor_rms), millimetres(near.largest), millimetres(near.floor_largest),
-      near.points);
+      "field    {} x {} x {} voxels of {}, distances kept up to {} from the surface (the band): {} of {} positions "
+      "stored, "
+      "a brick of {} x {} x {} voxels each; {} finer bricks beside\n",
+      g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells,
+      millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.brick_positions,
+      format::kBrickCells, format::kBrickCells, format::kBrickCells, finer);
+  if (report.seams.cells > 0) {
+    text += fmt::format(
+        "         seams, where holes of the mesh leave the side open, in {} cells: the distance jumps by up to {}, at "
+        "({:.4g}, {:.4g}, {:.4g}) m\n",
+        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
+        report.seams.at.z());
+  }
+  return text;
+}
+
+std::string error_text(const CompileReport& report) {
+  const FieldError& e = report.field_error;
+  const ErrorNorms& near = e.near;
+  return fmt::format(
+      "error    of the stored distance against the mesh, at {} random points of the band: rms {}, largest {}\n"
+      "         the floor of trilinear interpolation, what these voxels leave without finer bricks: rms {}, largest "
+      "{}\n"
+      "         points on the wrong side by more than 0.1 voxel: {}, the floor has {}\n"
+      "         nearer than half a voxel to the surface, off seams, at {} points: rms {} (floor {}), largest {} (floor "
+      "{})\n",
+      e.points, millimetres(e.rms), millimetres(e.largest), millimetres(e.floor_rms), millimetres(e.floor_largest),
+      e.sign_errors, e.floor_sign_errors, near.points, millimetres(near.rms), millimetres(near.floor_rms),
+      millimetres(near.largest), millimetres(near.floor_largest));
+}
+
+std::string refinement_text(const CompileReport& report) {
   double seconds = 0.0;
   for (const auto& [phase, time] : report.seconds) seconds += phase == kRefinementPhase ? time : 0.0;
-  text += fmt::format("        bricks halved 0, 1, 2, ... times: {}; {:.1f} KiB and {:.2f} s for refinement\n",
-                      fmt::join(report.refinement.bricks, ", "),
-                      static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
+  std::string text = fmt::format(
+      "finer    bricks by how often they were halved, 0, 1, 2, ... times: {}; {:.1f} KiB, {:.2f} s\n",
+      fmt::join(report.refinement.bricks, ", "), static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
   const auto look_up_text = [](double time) {
     return time > 0.0 ? fmt::format("{:.0f} ns", time) : std::string("(none)");
   };
-  text += fmt::format("        a look-up takes {} in bricks that are not refined, {} in refined ones\n",
+  text += fmt::format("         a look-up takes {} in bricks that are not halved, {} in finer ones\n",
                       look_up_text(report.look_up.unrefined), look_up_text(report.look_up.refined));
   return text;
 }
 
+/// Walls or gaps.
+std::string thin_limit(const ThinPlaces& places, const char* what, const char* loss) {
+  if (places.lost_area > 0.0) return fmt::format("{} thinner than a voxel, {}", what, loss);
+  return places.samples > 0 ? fmt::format("{} thinner than two voxels", what) : std::string();
+}
+
+/// What of the image is not as wished.
+std::vector<std::string> limits(const CompileReport& report) {
+  const ErrorNorms& near = report.field_error.near;
+  const double s = report.grid.voxel_size;
+  const double off = kHeldOff * report.config.field_tolerance;  // what refinement may leave on either side
+  std::vector<std::string> found;
+  if (near.largest > off * s)
+    found.push_back(
+        fmt::format("the field is up to {:.2f} voxels off near the surface ({:.2f} wanted)", near.largest / s, off));
+  found.push_back(thin_limit(report.thin.walls, "walls", "which bodies may pass"));
+  found.push_back(thin_limit(report.thin.gaps, "gaps", "which may be closed"));
+  if (report.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
+  const SecondDirection& second = report.second;
+  const double bound = second.between.bound + second.slack;
+  if (!second.sought) {
+    found.push_back("nobody looks between the points");
+  } else if (bound > report.config.between_points) {
+    found.push_back(std::isfinite(bound) ? fmt::format("bodies may meet {} deep between the points ({} wanted)",
+                                                       millimetres(bound), millimetres(report.config.between_points))
+                                         : std::string("no bound is known between the points"));
+  }
+  std::erase(found, "");
+  return found;
+}
+
 }  // namespace
 
+std::string verdict_text(const CompileReport& report) {
+  const std::vector<std::string> found = limits(report);
+  if (!found.empty()) return fmt::format("ready, with limits: {}", fmt::join(found, "; "));
+  return fmt::format(
+      "ready: the field is within its tolerance near the surface, no wall or gap is too thin, bodies meet no deeper "
+      "than {} "
+      "between the points",
+      millimetres(report.second.between.bound + report.second.slack));
+}
+
 std::string report_text(const CompileReport& report) {
-  const format::Grid& g = report.grid;
-  const FieldError& e = report.field_error;
+  const double voxel_size = report.grid.voxel_size;
   std::string text = mesh_text("still", report.config.still, report.still);
   text += mesh_text("moving", report.config.moving, report.moving);
   text += thin_text("walls", report.thin.walls);
-  text += lost_text(report.thin.walls, "lost by the field", g.voxel_size);
-  if (report.thin.walls.lost_area > 0.0) text += fmt::format("        a wall is {}\n", kRefusalRule);
+  text += lost_text(report.thin.walls, "too thin for the field to hold, bodies may pass there", voxel_size);
+  if (report.thin.walls.lost_area > 0.0) text += fmt::format("         a wall is {}\n", kRefusalRule);
   text += thin_text("gaps", report.thin.gaps);
-  text += lost_text(report.thin.gaps, "closed by the field", g.voxel_size);
-  text += fmt::format("field   {} x {} x {} voxels of {}, band {}, {} of {} bricks stored\n",
-                      g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells,
-                      g.bricks[2] * format::kBrickCells, millimetres(g.voxel_size), millimetres(g.band), g.brick_count,
-                      report.brick_positions);
-  if (report.seams.cells > 0) {
-    text += fmt::format(
-        "        seams in {} cells where holes leave the side open, largest jump {} at ({:.4g}, {:.4g}, {:.4g}) m\n",
-        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
-        report.seams.at.z());
-  }
-  text += fmt::format(
-      "error   rms {} (floor of trilinear interpolation {}), largest {} (floor {}), on {} points\n"
-      "        points on the wrong side by more than 0.1 voxel: {}, the floor has {}\n",
-      millimetres(e.rms), millimetres(e.floor_rms), millimetres(e.largest), millimetres(e.floor_largest), e.points,
-      e.sign_errors, e.floor_sign_errors);
+  text += lost_text(report.thin.gaps, "too thin for the field to hold, solid may stand there", voxel_size);
+  text += field_text(report);
+  text += error_text(report);
   text += refinement_text(report);
-  text += fmt::format("points  {} in {} levels, spacing {}, surface at most {} from a point\n",
-                      report.body.body.point_count, report.body.body.level_count, millimetres(report.body.spacing),
-                      millimetres(report.body.coverage));
+  text += points_text(report);
   text += second_direction_text(report);
   const Json left_out = report_json(report)["left_out"];
   for (const Json& item : left_out) {
@@ -153,8 +225,8 @@ std::string report_text(const CompileReport& report) {
   }
   double total = 0.0;
   for (const auto& [phase, time] : report.seconds) total += time;
-  text += fmt::format("image   {:.1f} KiB, {:.2f} s\n", static_cast<double>(report.image_bytes) / 1024.0, total);
-  return text;
+  text += fmt::format("image    {:.1f} KiB, {:.2f} s\n", static_cast<double>(report.image_bytes) / 1024.0, total);
+  return text + verdict_text(report) + "\n";
 }
 
 }  // namespace godobject::scene_compiler
