@@ -1,0 +1,195 @@
+#include "sim/arm_dynamics.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace godobject::sim {
+namespace {
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Of a mass at `r`, about the origin.
+Matrix3 point_inertia(double mass, const Vector3& r) noexcept {
+  return mass * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
+}
+
+/// Two bodies as one; b stands in a's frame at (R, p).
+LinkMass join(const LinkMass& a, const LinkMass& b, const Matrix3& R, const Vector3& p) noexcept {
+  LinkMass both;
+  both.mass = a.mass + b.mass;
+  const Vector3 b_com = p + R * b.com;
+  both.com = (a.mass * a.com + b.mass * b_com) / both.mass;
+  both.inertia = a.inertia + point_inertia(a.mass, a.com - both.com) + R * b.inertia * R.transpose() +
+                 point_inertia(b.mass, b_com - both.com);
+  return both;
+}
+
+}  // namespace
+
+ArmDynamics::ArmDynamics(const ArmModel& model) noexcept
+    : joint_count_(model.joint_count),
+      R_WA_(model.H_WA.rotation.normalized().toRotationMatrix()),
+      p_WA_(model.H_WA.translation),
+      R_FM_(model.H_FM.rotation.normalized().toRotationMatrix()),
+      p_FM_(model.H_FM.translation),
+      gravity_W_(model.gravity_W) {
+  assert(validate(model) == Status::kOk);
+  for (int i = 0; i < joint_count_; ++i) {
+    const ArmJoint& joint = model.joints[at(i)];
+    links_[at(i)] = {joint.a,     joint.d,   joint.offset, std::sin(joint.alpha), std::cos(joint.alpha),
+                     joint.rotor, joint.link};
+  }
+  LinkMass& last = links_[at(joint_count_ - 1)].body;
+  last = join(last, model.payload, R_FM_, p_FM_);
+}
+
+void ArmDynamics::set_posture(const JointVector& q, ArmPosture& posture) const noexcept {
+  // Craig's eq (3.6) column by column: x and y of the link are x of the one before and u, turned by theta
+  Matrix3 R = R_WA_;
+  Vector3 p = Vector3::Zero();
+  for (int i = 0; i < joint_count_; ++i) {
+    const Link& link = links_[at(i)];
+    const Vector3 x = R.col(0);
+    const Vector3 u = link.cos_alpha * R.col(1) + link.sin_alpha * R.col(2);
+    const Vector3 z = link.cos_alpha * R.col(2) - link.sin_alpha * R.col(1);
+    const double c = std::cos(link.offset + q[i]);
+    const double s = std::sin(link.offset + q[i]);
+    p += link.a * x + link.d * z;
+    R.col(0) = c * x + s * u;
+    R.col(1) = c * u - s * x;
+    R.col(2) = z;
+    posture.axis_W[at(i)] = z;
+    posture.moment_W[at(i)] = p.cross(z);
+    const Vector3 com = p + R * link.body.com;
+    posture.mass_moment_W[at(i)] = link.body.mass * com;
+    posture.inertia_W[at(i)].noalias() = R * link.body.inertia * R.transpose() + point_inertia(link.body.mass, com);
+  }
+  posture.R_WM = R * R_FM_;
+  posture.p_AM_W = p + R * p_FM_;
+
+  posture.mass.setZero();
+  double mass = 0.0;
+  Vector3 mass_moment = Vector3::Zero();
+  Matrix3 inertia = Matrix3::Zero();
+  for (int j = joint_count_ - 1; j >= 0; --j) {
+    mass += links_[at(j)].body.mass;
+    mass_moment += posture.mass_moment_W[at(j)];
+    inertia += posture.inertia_W[at(j)];
+    // momentum of all that joint j moves, at unit speed
+    const Vector3& z = posture.axis_W[at(j)];
+    const Vector3& m = posture.moment_W[at(j)];
+    const Vector3 linear = mass * m + z.cross(mass_moment);
+    const Vector3 angular = inertia * z + mass_moment.cross(m);
+    for (int i = 0; i <= j; ++i) {
+      const double entry = posture.axis_W[at(i)].dot(angular) + posture.moment_W[at(i)].dot(linear);
+      posture.mass(i, j) = entry;
+      posture.mass(j, i) = entry;
+    }
+    posture.mass(j, j) += links_[at(j)].rotor;
+  }
+}
+
+JointVector ArmDynamics::bias_torque(const ArmPosture& posture, const JointVector& qd) const noexcept {
+  // twist of the link and its rate; the base that accelerates upwards stands for gravity
+  Vector3 w = Vector3::Zero();
+  Vector3 v = Vector3::Zero();
+  Vector3 w_rate = Vector3::Zero();
+  Vector3 v_rate = -gravity_W_;
+  std::array<Vector3, kMaxJoints> force;
+  std::array<Vector3, kMaxJoints> torque;
+  for (int i = 0; i < joint_count_; ++i) {
+    const Vector3 z = qd[i] * posture.axis_W[at(i)];
+    const Vector3 m = qd[i] * posture.moment_W[at(i)];
+    w_rate += w.cross(z);
+    v_rate += w.cross(m) + v.cross(z);
+    w += z;
+    v += m;
+    const double mass = links_[at(i)].body.mass;
+    const Vector3& mass_moment = posture.mass_moment_W[at(i)];
+    const Matrix3& inertia = posture.inertia_W[at(i)];
+    const Vector3 linear = mass * v + w.cross(mass_moment);
+    const Vector3 angular = inertia * w + mass_moment.cross(v);
+    force[at(i)] = mass * v_rate + w_rate.cross(mass_moment) + w.cross(linear);
+    torque[at(i)] = inertia * w_rate + mass_moment.cross(v_rate) + w.cross(angular) + v.cross(linear);
+  }
+  JointVector bias = JointVector::Zero();
+  Vector3 force_sum = Vector3::Zero();
+  Vector3 torque_sum = Vector3::Zero();
+  for (int i = joint_count_ - 1; i >= 0; --i) {
+    force_sum += force[at(i)];
+    torque_sum += torque[at(i)];
+    bias[i] = posture.axis_W[at(i)].dot(torque_sum) + posture.moment_W[at(i)].dot(force_sum);
+  }
+  return bias;
+}
+
+Pose ArmDynamics::tool_pose(const ArmPosture& posture) const noexcept {
+  return {Quaternion(posture.R_WM), p_WA_ + posture.p_AM_W};
+}
+
+Motion ArmDynamics::tool_velocity(const ArmPosture& posture, const JointVector& qd) const noexcept {
+  Motion velocity;
+  for (int i = 0; i < joint_count_; ++i) {
+    velocity.rotation += qd[i] * posture.axis_W[at(i)];
+    velocity.translation += qd[i] * posture.moment_W[at(i)];
+  }
+  velocity.translation += velocity.rotation.cross(posture.p_AM_W);
+  return velocity;
+}
+
+JointVector ArmDynamics::tool_torque(const ArmPosture& posture, const Wrench& wrench_W) const noexcept {
+  const Vector3 torque = wrench_W.torque + posture.p_AM_W.cross(wrench_W.force);
+  JointVector joints = JointVector::Zero();
+  for (int i = 0; i < joint_count_; ++i) {
+    joints[i] = posture.axis_W[at(i)].dot(torque) + posture.moment_W[at(i)].dot(wrench_W.force);
+  }
+  return joints;
+}
+
+double ArmDynamics::kinetic_energy(const ArmPosture& posture, const JointVector& qd) const noexcept {
+  return 0.5 * qd.dot(posture.mass * qd);
+}
+
+double ArmDynamics::potential_energy(const ArmPosture& posture) const noexcept {
+  Vector3 mass_moment = Vector3::Zero();
+  for (int i = 0; i < joint_count_; ++i) mass_moment += posture.mass_moment_W[at(i)];
+  return -gravity_W_.dot(mass_moment);
+}
+
+void MovingJoints::factor(const JointMatrix& mass, int joint_count, const std::array<bool, kMaxJoints>& held) noexcept {
+  joint_count_ = joint_count;
+  held_ = held;
+  for (int j = 0; j < joint_count_; ++j) {
+    if (held_[at(j)]) {
+      lower_.row(j).head(j).setZero();
+      inverse_[j] = 0.0;  // and with it the column below
+      continue;
+    }
+    double pivot = mass(j, j);
+    std::array<double, kMaxJoints> scaled;  // row j of L times the diagonal
+    for (int k = 0; k < j; ++k) {
+      double entry = held_[at(k)] ? 0.0 : mass(j, k);
+      for (int l = 0; l < k; ++l) entry -= scaled[at(l)] * lower_(k, l);
+      scaled[at(k)] = entry;
+      lower_(j, k) = entry * inverse_[k];
+      pivot -= entry * lower_(j, k);
+    }
+    inverse_[j] = 1.0 / pivot;
+  }
+}
+
+JointVector MovingJoints::solve(const JointVector& b) const noexcept {
+  JointVector x = JointVector::Zero();
+  for (int i = 0; i < joint_count_; ++i) {
+    double sum = held_[at(i)] ? 0.0 : b[i];
+    for (int k = 0; k < i; ++k) sum -= lower_(i, k) * x[k];
+    x[i] = sum;
+  }
+  for (int i = joint_count_ - 1; i >= 0; --i) {
+    x[i] *= inverse_[i];
+    for (int k = i + 1; k < joint_count_; ++k) x[i] -= lower_(k, i) * x[k];
+  }
+  return x;
+}
+
+}  // namespace godobject::sim

@@ -1,0 +1,144 @@
+#include "sim/direct_drives.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace godobject::sim {
+namespace {
+
+constexpr std::size_t at(std::int64_t i) noexcept { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+DirectDrives::DirectDrives(Plant& plant, std::span<const JointHardwareParameters> joints, const DriveTiming& timing,
+                           std::span<const DriveFault> script) noexcept
+    : plant_(plant), timing_(timing), script_(script) {
+  assert(plant.now_ns() == 0 && static_cast<int>(joints.size()) >= plant.joint_count());
+  assert(timing.period_ns > 0 && timing.delay_ns >= 0 && timing.delay_ns <= 8 * timing.period_ns);
+  delivered_.fill(-1);
+  for (int i = 0; i < joint_count(); ++i) {
+    hardware_[at(i)] = JointHardware(joints[at(i)]);
+    counter_[at(i)] = joints[at(i)].counter_at_zero;
+  }
+  begin_cycle();
+}
+
+const DriveFault* DirectDrives::fault(FaultKind kind, int joint) const noexcept {
+  return find_fault(script_, kind, joint, cycle());
+}
+
+/// As a driver follows a counter: by differences, which a wrap does not disturb.
+double DirectDrives::read_position(int i) noexcept {
+  const JointHardware& joint = hardware_[at(i)];
+  const double q = plant_.positions()[i];
+  const double step = joint.parameters().encoder_step;
+  if (!(step > 0.0)) return q;
+  const std::int32_t now = joint.counter(q);
+  counts_[at(i)] +=
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(now) - static_cast<std::uint32_t>(counter_[at(i)]));
+  counter_[at(i)] = now;
+  return step * (static_cast<double>(counts_[at(i)]) + 0.5);
+}
+
+void DirectDrives::begin_cycle() noexcept {
+  const std::int64_t k = cycle();
+  Sample& sample = samples_[at(k % kHistory)];
+  const Sample& before = samples_[at((k + kHistory - 1) % kHistory)];
+  for (int i = 0; i < joint_count(); ++i) {
+    JointHardware& joint = hardware_[at(i)];
+    joint.set_supply(fault(FaultKind::kSupplyLost, i) == nullptr, now_ns());
+    if (fault(FaultKind::kDriveTrips, i) != nullptr) joint.trip(now_ns());
+    if (fault(FaultKind::kDriveDisabled, i) != nullptr) joint.disable(now_ns());
+
+    sample.position[i] = read_position(i);
+    const DriveFault* stuck = fault(FaultKind::kEncoderStuck, i);
+    if (stuck != nullptr && k > stuck->first_cycle) sample.position[i] = before.position[i];
+    if (const DriveFault* jump = fault(FaultKind::kEncoderJump, i)) sample.position[i] += jump->value;
+    if (fault(FaultKind::kEncoderNotFinite, i) != nullptr) {
+      sample.position[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    sample.torque[i] = joint.motor_torque();
+    sample.state[at(i)] = joint.state();
+  }
+}
+
+void DirectDrives::receive(hal::JointReading& reading) noexcept {
+  const std::int64_t k = cycle();
+  for (int i = 0; i < joint_count(); ++i) {
+    const DriveFault* late = fault(FaultKind::kReadingLate, i);
+    const std::int64_t age = late == nullptr ? 0 : static_cast<std::int64_t>(late->value);
+    const std::int64_t newest = k - std::clamp<std::int64_t>(age, 0, kHistory - 1);
+    const Sample& sample = samples_[at(std::max<std::int64_t>(newest, 0) % kHistory)];
+    const bool answers = sample.state[at(i)] != hal::DriveState::kUnavailable;
+    if (!answers) last_.state[at(i)] = hal::DriveState::kUnavailable;
+    if (newest > delivered_[at(i)] && answers && fault(FaultKind::kReadingLost, i) == nullptr) {
+      delivered_[at(i)] = newest;
+      last_.position[i] = sample.position[i];
+      last_.torque[i] = sample.torque[i];
+      last_.state[at(i)] = sample.state[at(i)];
+    }
+    last_.age[at(i)] = static_cast<std::uint32_t>(k - delivered_[at(i)]);
+  }
+  last_.emergency_stop = emergency_stop_ || fault(FaultKind::kEmergencyStop, kAllJoints) != nullptr;
+  last_.enable_switch = enable_switch_ && fault(FaultKind::kEnableReleased, kAllJoints) == nullptr;
+  reading = last_;
+}
+
+bool DirectDrives::send(const hal::JointCommand& command) noexcept {
+  ++counters_.commands;
+  // a controller that sends more often than the drives take in replaces what it sent last
+  const bool full = end_pending_ - first_pending_ == kHistory;
+  Pending& pending = pending_[at((full ? end_pending_ - 1 : end_pending_) % kHistory)];
+  if (!full) ++end_pending_;
+  pending = {std::max(now_ns(), cycle() * timing_.period_ns + timing_.delay_ns), command, {}};
+  bool sent = true;
+  for (int i = 0; i < joint_count(); ++i) {
+    double& torque = pending.command.torque[i];
+    if (!std::isfinite(torque)) {
+      ++counters_.not_finite;
+      torque = 0.0;
+    }
+    const bool fails = fault(FaultKind::kSendFails, i) != nullptr;
+    pending.dropped[at(i)] = fails || fault(FaultKind::kCommandLost, i) != nullptr;
+    if (pending.dropped[at(i)]) ++counters_.dropped;
+    if (fails) sent = false;
+  }
+  return sent;
+}
+
+void DirectDrives::apply_commands() noexcept {
+  for (; first_pending_ < end_pending_; ++first_pending_) {
+    const Pending& pending = pending_[at(first_pending_ % kHistory)];
+    if (pending.at_ns > now_ns()) return;
+    for (int i = 0; i < joint_count(); ++i) {
+      if (pending.dropped[at(i)]) continue;
+      hardware_[at(i)].command(pending.command.power, pending.command.torque[i], now_ns());
+    }
+  }
+}
+
+/// One step of the plant, or up to `ns` if that is nearer, or to where the next command arrives.
+void DirectDrives::run_to(std::int64_t ns) noexcept {
+  apply_commands();
+  JointLoad load;
+  for (int i = 0; i < joint_count(); ++i) {
+    hardware_[at(i)].update(now_ns(), plant_.positions()[i], plant_.velocities()[i]);
+    load.motor[i] = hardware_[at(i)].motor_torque();
+    load.brake[i] = hardware_[at(i)].brake_torque();
+  }
+  std::int64_t next_ns = std::min(ns, (now_ns() / Plant::kStep_ns + 1) * Plant::kStep_ns);
+  if (first_pending_ < end_pending_) next_ns = std::min(next_ns, pending_[at(first_pending_ % kHistory)].at_ns);
+  plant_.step(next_ns - now_ns(), load);
+}
+
+void DirectDrives::advance_to(std::int64_t ns) noexcept {
+  while (now_ns() < ns) {
+    const std::int64_t next_cycle_ns = (cycle() + 1) * timing_.period_ns;
+    run_to(std::min(ns, next_cycle_ns));
+    if (now_ns() == next_cycle_ns) begin_cycle();
+  }
+}
+
+}  // namespace godobject::sim
