@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include <kdl/chain.hpp>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "core/device/dynamics.h"
 #include "tests/support/arms.h"
+#include "tests/support/kdl_arm.h"
 
 namespace godobject {
 namespace {
@@ -18,24 +18,14 @@ namespace {
 using test::Arm;
 using test::Random;
 
-KDL::Vector to_kdl(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-KDL::Frame to_kdl(const Pose& H) {
-  const Quaternion& q = H.rotation;
-  return {KDL::Rotation::Quaternion(q.x(), q.y(), q.z(), q.w()), to_kdl(H.translation)};
-}
-
-KDL::RigidBodyInertia to_kdl(const LinkMass& body) {
-  const Matrix3& I = body.inertia;
-  const KDL::RotationalInertia inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
-  return KDL::RigidBodyInertia(body.mass, to_kdl(body.com), inertia);
-}
-
-/// The same arm in Orocos KDL, from the same numbers and nothing else.
+/// The same arm in Orocos KDL.
 class Oracle {
  public:
   explicit Oracle(const ArmModel& model)
-      : chain_(make_chain(model)), pose_(chain_), jacobian_(chain_), dynamics_(chain_, to_kdl(model.gravity_W)) {}
+      : chain_(test::make_chain(model)),
+        pose_(chain_),
+        jacobian_(chain_),
+        dynamics_(chain_, test::to_kdl(model.gravity_W)) {}
 
   void expect_equal(const ArmModel& model, const JointVector& q) {
     constexpr double kTolerance = 1e-9;  // of metres, Nm and kg m^2 in the hundreds at most
@@ -74,20 +64,6 @@ class Oracle {
   }
 
  private:
-  static KDL::Chain make_chain(const ArmModel& model) {
-    KDL::Chain chain;
-    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), to_kdl(model.H_WA)));
-    for (int i = 0; i < model.joint_count; ++i) {
-      const ArmJoint& joint = model.joints.at(static_cast<std::size_t>(i));
-      const KDL::Frame before = KDL::Frame::DH_Craig1989(joint.a, joint.alpha, joint.d, joint.offset);
-      chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), before));
-      chain.addSegment(
-          KDL::Segment(KDL::Joint(KDL::Joint::RotZ, 1, 0, joint.rotor), KDL::Frame::Identity(), to_kdl(joint.link)));
-    }
-    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), to_kdl(model.H_FM), to_kdl(model.payload)));
-    return chain;
-  }
-
   KDL::Chain chain_;
   KDL::ChainFkSolverPos_recursive pose_;
   KDL::ChainJntToJacSolver jacobian_;
