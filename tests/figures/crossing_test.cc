@@ -2,9 +2,11 @@
 
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/scene_image_builder.h"
+#include "toolchain/figures/scene_facts.h"
 
 namespace godobject::figures {
 namespace {
@@ -43,6 +45,20 @@ TEST(Crossing, IsZeroOnTheRightSide) {
   const Scene scene = test::open_scene(image);
   const Barrier floor{.point = Vector3::Zero(), .normal = Vector3(0, 0, 1)};
   EXPECT_EQ(furthest_crossing({at(0.0, Vector3::Zero(), 0.05)}, scene, floor).distance, 0.0);
+}
+
+TEST(SceneFacts, AreThoseOfTheImage) {
+  const test::SceneImage image = dumbbell();
+  Scene scene = test::open_scene(image);
+  scene.grid.voxel_size = 0.0005;
+  scene.settings.friction = 0;
+  EXPECT_EQ(scene_facts(scene), fmt::format("Voxels of 0.5 mm, 2 points of the moving body in {} levels, no friction.",
+                                            scene.body.level_count));
+  scene.settings.friction = 1;
+  scene.settings.friction_static = 0.2;
+  scene.settings.friction_kinetic = 0.18;
+  const std::string facts = scene_facts(scene);
+  EXPECT_NE(facts.find("friction 0.2 (static) and 0.18 (kinetic)."), std::string::npos) << facts;
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ TEST_F(Plan, IsRead) {
 
 TEST_F(Plan, IsRefusedNamingTheKey) {
   expect_refused("[[scene]\n", ExitCode::kBadData, "plan.toml:1");
-  expect_refused("[[scene]]\nname = 'peg'\n", ExitCode::kBadConfig, "scene.image");
+  expect_refused("[[scene]]\nname = 'peg'\n", ExitCode::kBadConfig, "scene.image: is missing; write image = ");
+  expect_refused("[[scene]]\nname = 3\n", ExitCode::kBadConfig, "scene.name: must be a text");
   expect_refused(kScene + "colour = 3\n", ExitCode::kBadConfig, "scene.colour");
   expect_refused(kScene + "markers = { A = 'now' }\n", ExitCode::kBadConfig, "scene.markers.A");
   expect_refused(kScene + "barrier = [0, 0, 1]\n", ExitCode::kBadConfig, "scene.barrier");
@@ -68,12 +69,18 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   for (const char* name : {"paper_1.200.png", "contact_1.200.png", "paper_deepest.png", "sketch.png", "figure.png"})
     std::ofstream(folder_ / "peg" / name) << "x";
   const ReplayLog log = {replay_row(1.2, 7.5, 0.0001, 5, 9e3, 100), replay_row(1.201, 2.0, 0.003, 5, 20e3, 400)};
-  const Figure figure{.title = "", .voxel_size = 0.002, .markers = {}, .series = {{"paper", log}, {"contact", log}}};
+  const Figure figure{.title = "",
+                      .facts = "8 points & more.",
+                      .voxel_size = 0.002,
+                      .markers = {},
+                      .series = {{"paper", log}, {"contact", log}}};
   const std::string html =
       page(read_plan(holding(kScene)), {figure}, {{"peg", "paper", 0.002, {}, {}}, {"peg", "contact", 0.002, {}, {}}},
            {"MISSED & lost"}, folder_);
   EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
   EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
+  EXPECT_NE(html.find("<p>8 points &amp; more.</p>"), std::string::npos);
+  EXPECT_NE(html.find("<th>behind [mm]</th>"), std::string::npos);
   EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);
   EXPECT_NE(html.find("paper, 1.200 s: depth 0.100 mm, force 7.5 N"), std::string::npos);
   EXPECT_NE(html.find("paper, 1.201 s (when any is deepest): depth 3.000 mm, force 2.0 N"), std::string::npos);

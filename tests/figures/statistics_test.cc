@@ -161,6 +161,17 @@ TEST(Table, HasTheSameFieldsInEveryLine) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 3 * static_cast<std::ptrdiff_t>(columns().size() - 1));
 }
 
+TEST(Table, HeadsLengthsForcesAndTimesWithTheirUnits) {
+  for (const Column& column : columns()) {
+    const std::string name = column.name;
+    const std::string heading = column.heading;
+    for (const auto& [ending, unit] :
+         {std::pair("_mm", "[mm]"), {"_n", "[N]"}, {"_us", "[us]"}, {"_voxels", "[voxels]"}}) {
+      EXPECT_TRUE(!name.ends_with(ending) || heading.ends_with(unit)) << name << ": " << heading;
+    }
+  }
+}
+
 TEST(Table, LinesUpOnATerminalOf120Characters) {
   Entry widest = entry(-0.003, 1234.56, 1234);
   widest.scene = "bunny-teapot";

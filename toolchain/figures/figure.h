@@ -23,6 +23,7 @@ struct Figure {
   };
 
   std::string title;
+  std::string facts = {};   ///< of the scene, for the page
   double voxel_size = 0.0;  ///< [m]
   std::vector<Marker> markers;
   std::vector<Series> series;  ///< one or more; later ones are drawn over earlier ones

@@ -17,6 +17,7 @@
 #include "toolchain/figures/figure.h"
 #include "toolchain/figures/page.h"
 #include "toolchain/figures/plan.h"
+#include "toolchain/figures/scene_facts.h"
 #include "toolchain/figures/statistics.h"
 #include "toolchain/figures/table.h"
 
@@ -71,7 +72,11 @@ void make_figures(const Options& options) {
                     static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
       const auto image = command::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
       const godobject::Scene& scene = image.scene;
-      Figure figure{.title = plan.title, .voxel_size = scene.grid.voxel_size, .markers = plan.markers, .series = {}};
+      Figure figure{.title = plan.title,
+                    .facts = scene_facts(scene),
+                    .voxel_size = scene.grid.voxel_size,
+                    .markers = plan.markers,
+                    .series = {}};
       for (const std::string& solver : options.solvers) {
         ReplayLog log = read_replay_log(output / plan.name / (solver + ".csv"));
         Entry entry{plan.name, solver, figure.voxel_size, statistics(log, scene.grid.band), {}};

@@ -63,10 +63,13 @@ std::string table_html(const std::vector<Entry>& entries) {
     text += "</tr>\n";
   }
   return text +
-         "</table></div>\n<p>Force step: largest change of the force from one cycle to the next. Points: of paper and "
-         "corrected those that collide, of contact those that carry. Cut, ovf, inf: cycles whose motion could not be "
-         "finished, with more near points than fit (overflow), with constraints without a solution (infeasible). The "
-         "same as <a href=\"statistics.csv\">CSV</a>.</p>\n";
+         "</table></div>\n<p>Depth: of the deepest sample point in contact, below 0 a gap; behind: beyond the plate. "
+         "Force "
+         "step: largest change of the force from one cycle to the next. Points: of paper and corrected those that "
+         "collide, of contact rows that carry a force. Cut, overflow, infeasible: cycles whose motion could not be "
+         "finished, with more near points than fit, with constraints without a solution. #1: look-ups; #2-#7: the rest "
+         "of a cycle; p50, p99: what half, 99 % of the cycles in contact stay below. The same as <a "
+         "href=\"statistics.csv\">CSV</a>.</p>\n";
 }
 
 std::string list(const std::vector<std::string>& sentences) {
@@ -119,9 +122,9 @@ std::string scene_html(const ScenePlan& plan, const Figure& figure, const std::v
                        const std::filesystem::path& folder) {
   const std::string name = escaped(plan.name);
   std::string text = fmt::format(
-      "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" "
+      "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p>{3}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" "
       "alt=\"{1}\"></a></p>\n",
-      name, escaped(plan.title), escaped(plan.text));
+      name, escaped(plan.title), escaped(plan.text), escaped(figure.facts));
   text += "<div class=\"pictures\">\n";
   for (const Picture& picture : pictures(folder / plan.name)) {
     text += fmt::format(

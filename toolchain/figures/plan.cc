@@ -39,7 +39,8 @@ toml::table parse(const std::filesystem::path& file) {
 
 std::string text_of(const std::filesystem::path& file, const toml::table& table, std::string_view key) {
   const auto value = table[key].value<std::string>();
-  if (!value || value->empty()) refuse(file, table, fmt::format("scene.{}: must be a text", key));
+  if (!table.contains(key)) refuse(file, table, fmt::format("scene.{0}: is missing; write {0} = \"...\"", key));
+  if (!value || value->empty()) refuse(file, table, fmt::format("scene.{}: must be a text in quotes", key));
   return *value;
 }
 

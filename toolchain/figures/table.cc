@@ -8,10 +8,9 @@ namespace godobject::figures {
 namespace {
 
 constexpr const char* kColumnsExplained =
-    "depth: deepest sample point in contact (below 0: a gap); behind: beyond the plate, in mm; step: largest change of "
-    "the\nforce in a cycle; points: of paper and corrected those that collide, of contact those that carry; cycles "
-    "cut, "
-    "with\noverflow (ovf) or infeasible (inf); times in us";
+    "depth: deepest sample point in contact (below 0: a gap); behind: beyond the plate; step: largest change of the\n"
+    "force in a cycle; points: of paper and corrected those that collide, of contact rows that carry a force; cycles "
+    "cut,\nwith overflow (ovf) or infeasible (inf), over 1 ms; times of #1 and #2-#7 in us";
 
 std::string us(double time) { return fmt::format("{:.2f}", time); }
 
@@ -27,33 +26,36 @@ std::string behind(const Entry& e) {
 
 const std::vector<Column>& columns() {
   static const std::vector<Column> kColumns = {
-      {"scene", "scene", [](const Entry& e) { return e.scene; }, true},
-      {"solver", "solver", [](const Entry& e) { return e.solver; }, true},
-      {"depth mm", "penetration_max_mm", depth, true},
-      {"mean mm", "penetration_mean_mm",
+      {"scene", "scene", [](const Entry& e) { return e.scene; }, "scene"},
+      {"solver", "solver", [](const Entry& e) { return e.solver; }, "solver"},
+      {"depth [mm]", "penetration_max_mm", depth, "depth mm"},
+      {"mean depth [mm]", "penetration_mean_mm",
        [](const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_mean); }},
-      {"voxels", "penetration_max_voxels",
+      {"depth [voxels]", "penetration_max_voxels",
        [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_max / e.voxel_size); }},
-      {"mean", "penetration_mean_voxels",
+      {"mean depth [voxels]", "penetration_mean_voxels",
        [](const Entry& e) { return fmt::format("{:.2f}", e.statistics.penetration_mean / e.voxel_size); }},
-      {"at band", "penetration_at_band",
+      {"deeper than stored", "penetration_at_band",
        [](const Entry& e) { return std::string(e.statistics.depth_is_bound ? "yes" : "no"); }},
-      {"behind", "furthest_behind_barrier_mm", behind, true},
-      {"force N", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); }, true},
-      {"step N", "largest_force_step_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.force_step); },
-       true},
+      {"behind [mm]", "furthest_behind_barrier_mm", behind, "behind mm"},
+      {"force [N]", "peak_force_n", [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.peak_force); },
+       "force N"},
+      {"force step [N]", "largest_force_step_n",
+       [](const Entry& e) { return fmt::format("{:.1f}", e.statistics.force_step); }, "step N"},
       {"points", "peak_contacts", [](const Entry& e) { return fmt::format("{:.0f}", e.statistics.peak_contacts); },
-       true},
-      {"cut", "cycles_cut", [](const Entry& e) { return fmt::format("{}", e.statistics.cut); }, true},
-      {"ovf", "cycles_overflow", [](const Entry& e) { return fmt::format("{}", e.statistics.overflow); }, true},
-      {"inf", "cycles_infeasible", [](const Entry& e) { return fmt::format("{}", e.statistics.infeasible); }, true},
-      {"#1 p50", "step1_p50_us", [](const Entry& e) { return us(e.statistics.step1.p50); }, true},
-      {"p99", "step1_p99_us", [](const Entry& e) { return us(e.statistics.step1.p99); }},
-      {"max", "step1_max_us", [](const Entry& e) { return us(e.statistics.step1.max); }},
-      {"#2-#7 p50", "solve_p50_us", [](const Entry& e) { return us(e.statistics.solve.p50); }, true},
-      {"p99", "solve_p99_us", [](const Entry& e) { return us(e.statistics.solve.p99); }, true},
-      {"max", "solve_max_us", [](const Entry& e) { return us(e.statistics.solve.max); }},
-      {">1ms", "cycles_over_1ms", [](const Entry& e) { return fmt::format("{}", e.statistics.over_1ms); }, true},
+       "points"},
+      {"cut", "cycles_cut", [](const Entry& e) { return fmt::format("{}", e.statistics.cut); }, "cut"},
+      {"overflow", "cycles_overflow", [](const Entry& e) { return fmt::format("{}", e.statistics.overflow); }, "ovf"},
+      {"infeasible", "cycles_infeasible", [](const Entry& e) { return fmt::format("{}", e.statistics.infeasible); },
+       "inf"},
+      {"#1 p50 [us]", "step1_p50_us", [](const Entry& e) { return us(e.statistics.step1.p50); }, "#1 p50"},
+      {"#1 p99 [us]", "step1_p99_us", [](const Entry& e) { return us(e.statistics.step1.p99); }},
+      {"#1 max [us]", "step1_max_us", [](const Entry& e) { return us(e.statistics.step1.max); }},
+      {"#2-#7 p50 [us]", "solve_p50_us", [](const Entry& e) { return us(e.statistics.solve.p50); }, "#2-#7 p50"},
+      {"#2-#7 p99 [us]", "solve_p99_us", [](const Entry& e) { return us(e.statistics.solve.p99); }, "p99"},
+      {"#2-#7 max [us]", "solve_max_us", [](const Entry& e) { return us(e.statistics.solve.max); }},
+      {"cycles over 1 ms", "cycles_over_1ms", [](const Entry& e) { return fmt::format("{}", e.statistics.over_1ms); },
+       ">1ms"},
   };
   return kColumns;
 }
@@ -61,8 +63,8 @@ const std::vector<Column>& columns() {
 std::string text_table(const std::vector<Entry>& entries) {
   std::vector<std::string> lines(entries.size() + 1);
   for (const Column& column : columns()) {
-    if (!column.narrow) continue;
-    std::vector<std::string> cells = {column.heading};
+    if (column.narrow == nullptr) continue;
+    std::vector<std::string> cells = {column.narrow};
     for (const Entry& entry : entries) cells.push_back(column.value(entry));
     std::size_t width = 0;
     for (const std::string& cell : cells) width = std::max(width, cell.size());

@@ -7,12 +7,12 @@
 
 namespace godobject::figures {
 
-/// One column of the table: its heading (for people), its name (in the CSV file), an entry's value.
+/// One column of the table: its heading with the unit (on the page), its name (in the CSV file), an entry's value.
 struct Column {
   const char* heading;
   const char* name;
   std::string (*value)(const Entry& entry);
-  bool narrow = false;  ///< also in the table for a terminal
+  const char* narrow = nullptr;  ///< its heading in the table for a terminal; null: not there
 };
 
 /// scene, solver, penetration in mm and in voxels (whether it reached the band: then it is a lower bound), how far the
