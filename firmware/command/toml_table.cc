@@ -29,17 +29,23 @@ void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
 }
 
 std::string TomlTable::text(std::string_view key, const char* fallback) const {
+  return find(key) == nullptr ? fallback : text(key);
+}
+
+std::string TomlTable::text(std::string_view key, Example example) const {
   const toml::node* node = find(key);
-  if (node == nullptr && fallback != nullptr) return fallback;
-  if (node == nullptr) complain(key, "is missing and has no default");
+  if (node == nullptr) miss(key, example.text.empty() ? "\"...\"" : example.text);
   const auto value = node->value<std::string>();
   if (!value) complain(key, "must be a text in quotes");
   return *value;
 }
 
-double TomlTable::number(std::string_view key, Range range) const {
+double TomlTable::number(std::string_view key, Range range, Example example) const {
   const toml::node* node = find(key);
-  if (node == nullptr) complain(key, "is missing and has no default");
+  if (node == nullptr) {
+    const std::string any = fmt::format("a number from {:g} to {:g}", range.low, range.high);
+    miss(key, example.text.empty() ? any : example.text);
+  }
   if (!node->is_number()) complain(key, "must be a number");
   const double value = node->value<double>().value_or(0.0);
   require_in_range(key, value, range);
@@ -73,6 +79,10 @@ void TomlTable::complain(std::string_view key, const std::string& what) const {
                                                       : 0;
   const std::string where = line == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line);
   throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
+}
+
+void TomlTable::miss(std::string_view key, std::string_view example) const {
+  complain(key, fmt::format("is missing and has no default; below [{}] write {} = {}", name_, key, example));
 }
 
 void TomlTable::require_in_range(std::string_view key, double value, Range range) const {

@@ -17,6 +17,11 @@ class TomlTable {
     double low, high;
   };
 
+  /// What a user may write for a key that has no default: told where it is missing.
+  struct Example {
+    std::string_view text;
+  };
+
   /// `name` may be absent from `root`: then the table is empty and complaints give no line.
   TomlTable(const toml::table& root, std::string name, std::filesystem::path file);
 
@@ -25,8 +30,9 @@ class TomlTable {
   /// Throws for the first key that is not one of `keys`.
   void allow(std::initializer_list<std::string_view> keys) const;
 
-  std::string text(std::string_view key, const char* fallback = nullptr) const;
-  double number(std::string_view key, Range range) const;  ///< no default
+  std::string text(std::string_view key, const char* fallback) const;
+  std::string text(std::string_view key, Example example = {}) const;            ///< no default
+  double number(std::string_view key, Range range, Example example = {}) const;  ///< no default
   double number(std::string_view key, Range range, double fallback) const;
   std::int64_t whole_number(std::string_view key, Range range, std::int64_t fallback) const;
   bool flag(std::string_view key, bool fallback) const;
@@ -36,6 +42,7 @@ class TomlTable {
 
  private:
   const toml::node* find(std::string_view key) const { return table_ == nullptr ? nullptr : table_->get(key); }
+  [[noreturn]] void miss(std::string_view key, std::string_view example) const;
   void require_in_range(std::string_view key, double value, Range range) const;
 
   const toml::table* table_ = nullptr;

@@ -61,13 +61,16 @@ rotation_deg = [0, 90, 0]
 TEST(Keyframes, RefuseWhatIsNotToml) { expect_refused("[[keyframe]]\nt = = 1\n", ExitCode::kBadData, "motion.toml:2"); }
 
 TEST(Keyframes, RefuseAnUnknownKeyByName) {
-  expect_refused("pivto = [0, 0, 0]\n" + kTwo, ExitCode::kBadConfig, "pivto");
+  expect_refused("pivto = [0, 0, 0]\n" + kTwo, ExitCode::kBadConfig,
+                 "pivto: unknown key; known here: pivot, keyframe, oscillation");
   expect_refused(kTwo + "postion = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe.postion");
 }
 
 TEST(Keyframes, RefuseAMissingKeyByName) {
-  expect_refused("[[keyframe]]\nt = 0.0\n", ExitCode::kBadConfig, "keyframe.position");
-  expect_refused("[[keyframe]]\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe.t");
+  expect_refused("[[keyframe]]\nt = 0.0\n", ExitCode::kBadConfig,
+                 "keyframe.position: is missing; write position = [3 numbers]");
+  expect_refused("[[keyframe]]\nposition = [0, 0, 0]\n", ExitCode::kBadConfig,
+                 "keyframe.t: is missing; write t = NUMBER");
 }
 
 TEST(Keyframes, RefuseASingleOneAndNone) {

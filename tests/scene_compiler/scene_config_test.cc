@@ -89,10 +89,12 @@ TEST(SceneConfig, ReadsEveryKey) {
 TEST(SceneConfig, RefusesWithLineAndKey) {
   const std::string still = kStill;
   const std::string moving = kMoving;
-  expect_refused(still + "voxelsize = 1\n" + moving, ":4:", "still.voxelsize");
-  expect_refused("[still]\nvoxel_size = 0.002\n" + moving, ":1:", "still.mesh is missing");
-  expect_refused("[still]\nmesh = \"a.ply\"\n" + moving, ":1:", "still.voxel_size is missing");
-  expect_refused(still, "scene.toml", "moving.mesh is missing");
+  expect_refused(still + "voxelsize = 1\n" + moving,
+                 ":4:", "still.voxelsize is not a known key; known here: mesh, scale, voxel_size, ");
+  expect_refused("[still]\nvoxel_size = 0.002\n" + moving,
+                 ":1:", "still.mesh is missing and has no default; below [still] write mesh = \"teapot.ply\"");
+  expect_refused("[still]\nmesh = \"a.ply\"\n" + moving, ":1:", "below [still] write voxel_size = 0.002");
+  expect_refused(still, "scene.toml", "below [moving] write mesh = ");
   expect_refused("[still]\nmesh = \"a.ply\"\nvoxel_size = -1\n" + moving, ":3:", "still.voxel_size");
   expect_refused("[still]\nmesh = \"a.ply\"\nvoxel_size = nan\n" + moving, ":3:", "still.voxel_size");
   expect_refused("[still]\nmesh = \"a.ply\"\nvoxel_size = \"2 mm\"\n" + moving, ":3:", "must be a number");
@@ -104,10 +106,10 @@ TEST(SceneConfig, RefusesWithLineAndKey) {
   expect_refused(still + moving + "levels = 99\n", ":6:", "moving.levels");
   expect_refused(still + moving + "[contact]\nsolver = \"best\"\n", ":7:", "contact.solver");
   expect_refused(still + moving + "[contact]\nmargin = 0.1\n", ":7:", "contact.margin");
-  expect_refused(still + moving + "[friction]\nkinetic = 0.1\n", ":6:", "friction.static is missing");
+  expect_refused(still + moving + "[friction]\nkinetic = 0.1\n", ":6:", "below [friction] write static = 0.2");
   expect_refused(still + moving + "[friction]\nstatic = 0.1\nkinetic = 0.2\n", ":8:", "friction.kinetic");
   expect_refused(still + moving + "[coupling]\nstiffness = 0\n", ":7:", "coupling.stiffness");
-  expect_refused(still + moving + "[colour]\nred = 1\n", ":6:", "colour");
+  expect_refused(still + moving + "[colour]\nred = 1\n", ":6:", "colour is not a known table; known: still, moving, ");
   expect_refused("still = 3\n" + moving, ":1:", "still");
   expect_refused(still + "mesh = \"again.ply\"\n", ":4:", "not TOML");
 }

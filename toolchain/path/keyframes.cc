@@ -11,6 +11,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "firmware/command/failure.h"
@@ -39,7 +40,7 @@ class Table {
   void allow_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, node] : table_) {
       if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-        refuse(key.str(), "unknown key; see godobject-path --help");
+        refuse(key.str(), fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
     }
   }
 
@@ -47,7 +48,8 @@ class Table {
 
   double number(std::string_view key) const {
     const std::optional<double> value = table_[key].value<double>();
-    if (!value) refuse(key, has(key) ? "must be a number" : "is missing");
+    if (!value)
+      refuse(key, has(key) ? std::string("must be a number") : fmt::format("is missing; write {} = NUMBER", key));
     if (!std::isfinite(*value)) refuse(key, "must be finite");
     return *value;
   }
@@ -58,7 +60,8 @@ class Table {
   std::array<double, kSize> numbers(std::string_view key) const {
     const toml::array* array = table_[key].as_array();
     if (array == nullptr || array->size() != kSize) {
-      refuse(key, has(key) ? fmt::format("must be {} numbers in brackets", kSize) : std::string("is missing"));
+      refuse(key, has(key) ? fmt::format("must be {} numbers in brackets", kSize)
+                           : fmt::format("is missing; write {} = [{} numbers]", key, kSize));
     }
     std::array<double, kSize> values{};
     for (std::size_t i = 0; i < kSize; ++i) {

@@ -45,7 +45,7 @@ void allow_tables(const toml::table& root, const std::filesystem::path& file) {
 
 SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path& folder) {
   SceneConfig::Mesh mesh;
-  mesh.name = table.text("mesh");
+  mesh.name = table.text("mesh", TomlTable::Example{"\"teapot.ply\""});
   mesh.file = folder / mesh.name;
   mesh.scale = table.number("scale", kScale, 1.0);
   const std::string surface = table.text("surface", "auto");
@@ -71,7 +71,7 @@ void read_friction(const TomlTable& friction, format::Settings& settings) {
   friction.allow({"static", "kinetic", "viscous"});
   if (!friction.present()) return;
   settings.friction = 1;
-  settings.friction_static = friction.number("static", kRatio);
+  settings.friction_static = friction.number("static", kRatio, TomlTable::Example{"0.2"});
   settings.friction_kinetic =
       friction.number("kinetic", {0.0, settings.friction_static}, 0.9 * settings.friction_static);
   settings.friction_viscous = friction.number("viscous", {0.0, 1e6}, 0.0);
@@ -98,7 +98,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   const TomlTable still = table("still");
   still.allow({"mesh", "scale", "voxel_size", "surface", "thickness", "field_tolerance"});
   config.still = read_mesh(still, folder);
-  config.voxel_size = still.number("voxel_size", kVoxel);
+  config.voxel_size = still.number("voxel_size", kVoxel, TomlTable::Example{"0.002"});
   const double s = config.voxel_size;
   config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
   config.field_tolerance = still.number("field_tolerance", {1e-3, 1e3}, 0.05);
