@@ -51,14 +51,16 @@ struct CycleReport {
   DeviceForce force;  ///< for the device, in W about the centre of mass
   /// p = p_d - d of step #1, before the cycle's motion [m]; `contact`: minus the smallest stored distance
   double penetration = 0.0;
-  std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: points that hold the god object back
+  std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force, two of one point are two
   std::uint32_t substeps = 0;
   bool unconverged = false;  ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
   Outcome outcome = Outcome::kFree;
 };
 
-/// Optional stopwatch: how long step #1 and steps #2-#7 took. The core has no clock of its own. Each stretch of time
-/// holds one reading of the clock: one of step #1 and one of the rest, in `contact` two of both a sub-step.
+/// Optional stopwatch: how long step #1 and steps #2-#7 of one cycle took, all its sub-steps and attempts together
+/// (`contact`: the look-ups of the certificate count as step #1). The core has no clock of its own. Each stretch of
+/// time holds one reading of the clock: one of step #1 and one of the rest in `paper`; one of both a sub-step in
+/// `corrected`; in `contact` one of both a sub-step and one of both for each of its attempts at a motion.
 struct StepTimes {
   std::int64_t (*now_ns)() noexcept = nullptr;
   std::int64_t step1_ns = 0;
