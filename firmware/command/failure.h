@@ -11,6 +11,7 @@ enum class ExitCode : int {
   kUsage = 64,
   kBadData = 65,
   kNoInput = 66,
+  kUnavailable = 69,
   kInternal = 70,
   kIo = 74,
   kNoPermission = 77,

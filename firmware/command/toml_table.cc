@@ -1,6 +1,7 @@
 #include "firmware/command/toml_table.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,22 @@ TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem:
     throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {} must be a table: write [{}]", file_.string(),
                                                     node->source().begin.line, name_, name_));
   }
+}
+
+std::vector<TomlTable> TomlTable::each(const toml::table& root, const std::string& name,
+                                       const std::filesystem::path& file) {
+  std::vector<TomlTable> tables;
+  const toml::node* node = root.get(name);
+  if (node == nullptr) return tables;
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->empty() || !array->is_homogeneous<toml::table>()) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {} must be an array of tables: write [[{}]]", file.string(),
+                                                    node->source().begin.line, name, name));
+  }
+  for (const toml::node& element : *array) {
+    tables.push_back(TomlTable(element.as_table(), fmt::format("{}[{}]", name, tables.size() + 1), file));
+  }
+  return tables;
 }
 
 void TomlTable::allow(std::initializer_list<std::string_view> keys) const {
@@ -54,6 +71,20 @@ double TomlTable::number(std::string_view key, Range range, Example example) con
 
 double TomlTable::number(std::string_view key, Range range, double fallback) const {
   return find(key) == nullptr ? fallback : number(key, range);
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, Range range) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) miss(key, fmt::format("an array of {} numbers", count));
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->size() != count) complain(key, fmt::format("must be an array of {} numbers", count));
+  std::vector<double> values;
+  for (const toml::node& element : *array) {
+    if (!element.is_number()) complain(key, fmt::format("must be an array of {} numbers", count));
+    values.push_back(element.value<double>().value_or(0.0));
+    require_in_range(key, values.back(), range);
+  }
+  return values;
 }
 
 std::int64_t TomlTable::whole_number(std::string_view key, Range range, std::int64_t fallback) const {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <toml++/toml.h>
 
@@ -25,7 +26,12 @@ class TomlTable {
   /// `name` may be absent from `root`: then the table is empty and complaints give no line.
   TomlTable(const toml::table& root, std::string name, std::filesystem::path file);
 
+  /// The tables of an array, [[name]], in their order; complaints count them from 1. Empty if `root` has none.
+  static std::vector<TomlTable> each(const toml::table& root, const std::string& name,
+                                     const std::filesystem::path& file);
+
   bool present() const { return table_ != nullptr; }
+  bool has(std::string_view key) const { return find(key) != nullptr; }
 
   /// Throws for the first key that is not one of `keys`.
   void allow(std::initializer_list<std::string_view> keys) const;
@@ -34,6 +40,7 @@ class TomlTable {
   std::string text(std::string_view key, Example example = {}) const;            ///< no default
   double number(std::string_view key, Range range, Example example = {}) const;  ///< no default
   double number(std::string_view key, Range range, double fallback) const;
+  std::vector<double> numbers(std::string_view key, std::size_t count, Range range) const;  ///< no default
   std::int64_t whole_number(std::string_view key, Range range, std::int64_t fallback) const;
   bool flag(std::string_view key, bool fallback) const;
 
@@ -41,6 +48,9 @@ class TomlTable {
   [[noreturn]] void complain(std::string_view key, const std::string& what) const;
 
  private:
+  TomlTable(const toml::table* table, std::string name, std::filesystem::path file)
+      : table_(table), name_(std::move(name)), file_(std::move(file)) {}
+
   const toml::node* find(std::string_view key) const { return table_ == nullptr ? nullptr : table_->get(key); }
   [[noreturn]] void miss(std::string_view key, std::string_view example) const;
   void require_in_range(std::string_view key, double value, Range range) const;

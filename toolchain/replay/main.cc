@@ -7,11 +7,11 @@
 
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
+#include "firmware/command/solver_names.h"
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
-#include "toolchain/command/solver_names.h"
 #include "toolchain/command/stiffness.h"
 #include "toolchain/replay/replay.h"
 

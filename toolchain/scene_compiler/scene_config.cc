@@ -1,14 +1,10 @@
 #include "toolchain/scene_compiler/scene_config.h"
 
-#include <algorithm>
-#include <array>
-
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/input_file.h"
+#include "firmware/command/solver_names.h"
+#include "firmware/command/toml_file.h"
 #include "firmware/command/toml_table.h"
-#include "toolchain/command/solver_names.h"
 #include "toolchain/command/stiffness.h"
 
 namespace godobject::scene_compiler {
@@ -20,28 +16,6 @@ using Range = TomlTable::Range;
 constexpr Range kScale{1e-9, 1e9};
 constexpr Range kVoxel{1e-8, 1e4};
 constexpr Range kRatio{0.0, 10.0};
-
-toml::table parse(const std::filesystem::path& file) {
-  command::require_regular_input(file);
-  try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& wrong) {
-    throw command::Failure(command::ExitCode::kBadConfig,
-                           fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
-                                       std::string_view(wrong.description())));
-  }
-}
-
-void allow_tables(const toml::table& root, const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 6> kTables = {"still", "moving", "contact", "friction", "paper", "coupling"};
-  for (const auto& [key, node] : root) {
-    if (std::find(kTables.begin(), kTables.end(), key.str()) == kTables.end()) {
-      throw command::Failure(command::ExitCode::kBadConfig,
-                             fmt::format("{}:{}: {} is not a known table; known: {}", file.string(),
-                                         key.source().begin.line, key.str(), fmt::join(kTables, ", ")));
-    }
-  }
-}
 
 SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path& folder) {
   SceneConfig::Mesh mesh;
@@ -89,8 +63,8 @@ void read_paper(const TomlTable& paper, format::Settings& settings) {
 }  // namespace
 
 SceneConfig read_scene_config(const std::filesystem::path& file) {
-  const toml::table root = parse(file);
-  allow_tables(root, file);
+  const toml::table root = command::parse_toml_file(file);
+  command::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   const std::filesystem::path folder = file.parent_path();
   SceneConfig config;

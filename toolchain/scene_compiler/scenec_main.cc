@@ -5,11 +5,11 @@
 
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
+#include "firmware/command/solver_names.h"
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
-#include "toolchain/command/solver_names.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 

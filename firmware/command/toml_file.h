@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
+
+#include <toml++/toml.h>
+
+namespace godobject::command {
+
+/// What a TOML file holds. Throws Failure: kNoInput if it cannot be read, kBadConfig with its line if it is not TOML.
+toml::table parse_toml_file(const std::filesystem::path& file);
+
+/// Throws Failure (kBadConfig) for the first entry at the top that is not one of `tables`.
+void allow_tables(const toml::table& root, const std::filesystem::path& file,
+                  std::initializer_list<std::string_view> tables);
+
+}  // namespace godobject::command
