@@ -13,7 +13,7 @@ struct Arm {
   JointTorqueParameters parameters;
 };
 
-/// Of firmware/devices/<name>.toml. Throws if the file cannot be read, lacks a number or has keys that nobody reads.
+/// Of firmware/devices/<name>.toml. Throws as firmware::read_device_file.
 Arm read_arm(std::string_view name);
 inline Arm lwr() { return read_arm("lwr"); }
 inline Arm desktop6() { return read_arm("desktop6"); }

@@ -1,0 +1,146 @@
+#include "firmware/configuration/controller_file.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/device/kinematics.h"
+#include "core/device/velocity_estimator.h"
+#include "firmware/command/solver_names.h"
+#include "firmware/command/toml_file.h"
+#include "firmware/command/toml_table.h"
+#include "firmware/configuration/pose_key.h"
+
+namespace godobject::firmware {
+namespace {
+
+using command::TomlTable;
+
+/// A path as the file means it; empty stays empty.
+std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
+  return path.empty() ? std::filesystem::path() : file.parent_path() / path;
+}
+
+void read_scene(const TomlTable& table, const std::filesystem::path& file, ControllerConfig& config) {
+  table.allow({"image", "solver", "friction"});
+  config.scene.image = beside(file, table.text("image", ""));
+  if (table.has("solver")) {
+    const std::string name = table.text("solver");
+    config.scene.solver = command::solver_of(name);
+    if (!config.scene.solver) {
+      table.complain("solver", fmt::format("= \"{}\" is not known; it must be contact, corrected or paper", name));
+    }
+  }
+  if (table.has("friction")) config.scene.friction = table.flag("friction", false);
+}
+
+void read_workspace(const TomlTable& table, ControllerConfig& config) {
+  table.allow({"turn", "posture", "start", "scale"});
+  ControllerConfig::Workspace& workspace = config.workspace;
+  if (table.has("turn")) workspace.turn = read_rotation(table, "turn");
+  const ArmModel& arm = config.device.model;
+  const std::vector<double> posture =
+      table.numbers("posture", static_cast<std::size_t>(arm.joint_count), {-10.0, 10.0});
+  for (std::size_t i = 0; i < posture.size(); ++i) {
+    const ArmJoint& joint = arm.joints[i];
+    if (posture[i] < joint.lower || posture[i] > joint.upper) {
+      table.complain("posture", fmt::format("= {:g} of joint {} is beyond its limits, {:g} to {:g}", posture[i], i + 1,
+                                            joint.lower, joint.upper));
+    }
+    workspace.posture[static_cast<Eigen::Index>(i)] = posture[i];
+  }
+  if (table.has("start")) workspace.start = read_pose(table, "start");
+  workspace.scale = table.number("scale", {1e-3, 1e3}, 1.0);
+}
+
+void read_limits(const TomlTable& table, ControllerConfig::Limits& limits) {
+  table.allow({"force", "torque", "speed", "speed_stop", "turn", "turn_stop", "joint_speed", "joint_speed_stop",
+               "torque_rate"});
+  limits.force = table.number("force", {1e-3, 1e4}, limits.force);
+  limits.torque = table.number("torque", {1e-4, 1e4}, limits.torque);
+  limits.speed = table.number("speed", {1e-3, 100.0}, limits.speed);
+  limits.speed_stop = table.number("speed_stop", {1.05 * limits.speed, 200.0}, 1.5 * limits.speed);
+  limits.turn = table.number("turn", {1e-2, 1e3}, limits.turn);
+  limits.turn_stop = table.number("turn_stop", {1.05 * limits.turn, 2e3}, 1.5 * limits.turn);
+  limits.joint_speed = table.number("joint_speed", {0.05, 1.0}, limits.joint_speed);
+  limits.joint_speed_stop =
+      table.number("joint_speed_stop", {1.05 * limits.joint_speed, 1.4}, 1.25 * limits.joint_speed);
+  limits.torque_rate = table.number("torque_rate", {1e-4, 0.05}, limits.torque_rate);
+}
+
+void read_start(const TomlTable& table, ControllerConfig::Start& start) {
+  table.allow({"wait", "sign_test", "push", "motion"});
+  start.wait = table.number("wait", {0.1, 60.0}, start.wait);
+  start.sign_test = table.flag("sign_test", start.sign_test);
+  start.push = table.number("push", {1e-3, 0.2}, start.push);
+  start.motion = table.number("motion", {1e-5, 0.02}, start.motion);
+}
+
+}  // namespace
+
+ControllerConfig read_controller_file(const std::filesystem::path& file) {
+  const toml::table root = command::parse_toml_file(file, "controller file");
+  command::allow_tables(
+      root, file,
+      {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "telemetry", "simulation"});
+  const auto table = [&](const char* name) { return TomlTable(root, name, file); };
+  ControllerConfig config;
+  read_scene(table("scene"), file, config);
+
+  const TomlTable device = table("device");
+  device.allow({"file"});
+  config.device = read_device_file(beside(file, device.text("file")));
+
+  read_workspace(table("workspace"), config);
+
+  const TomlTable loop = table("loop");
+  loop.allow({"real_time", "cpu", "priority", "velocity_window"});
+  config.loop.real_time = loop.flag("real_time", config.loop.real_time);
+  config.loop.cpu = static_cast<int>(loop.whole_number("cpu", {-1, 1023}, config.loop.cpu));
+  config.loop.priority = static_cast<int>(loop.whole_number("priority", {1, 98}, config.loop.priority));
+  config.loop.velocity_window = static_cast<int>(
+      loop.whole_number("velocity_window", {2, VelocityEstimator::kMaxWindow}, config.loop.velocity_window));
+
+  read_limits(table("limits"), config.limits);
+
+  const TomlTable engage = table("engage");
+  engage.allow({"force", "ramp"});
+  config.engage.force = engage.number("force", {1e-3, config.limits.force}, config.engage.force);
+  config.engage.ramp = engage.number("ramp", {0.02, 10.0}, config.engage.ramp);
+
+  read_start(table("start"), config.start);
+
+  const TomlTable gains = table("gains");
+  gains.allow({"margin"});
+  config.stability_margin = gains.number("margin", {1.0, 100.0}, config.stability_margin);
+
+  const TomlTable telemetry = table("telemetry");
+  telemetry.allow({"folder", "every"});
+  config.telemetry.folder = beside(file, telemetry.text("folder", ""));
+  config.telemetry.every = static_cast<int>(telemetry.whole_number("every", {1, 1000}, config.telemetry.every));
+
+  const TomlTable simulation = table("simulation");
+  simulation.allow({"path", "begin", "delay"});
+  config.simulation.path = beside(file, simulation.text("path", ""));
+  config.simulation.begin = simulation.number("begin", {0.0, 1e5}, config.simulation.begin);
+  config.simulation.delay = simulation.number("delay", {0.0, 8e-3}, config.simulation.delay);
+  return config;
+}
+
+WorkspaceMappingParameters place(const ControllerConfig::Workspace& workspace, Device& device) {
+  WorkspaceMappingParameters mapping;
+  mapping.scale = workspace.scale;
+  mapping.H_WR.rotation = workspace.turn;
+  const Pose H_RM = forward_kinematics(device.model, workspace.posture).H_WM;
+  mapping.H_WR.translation =
+      workspace.start.translation - workspace.scale * workspace.turn._transformVector(H_RM.translation);
+  // the scene's rotation is R_WR R_RM R_MG, G the mesh's frame as it is to be held
+  Pose H_MG;
+  H_MG.rotation = (workspace.turn * H_RM.rotation).conjugate() * workspace.start.rotation;
+  H_MG.rotation.normalize();
+  regrip(H_MG, device);
+  return mapping;
+}
+
+}  // namespace godobject::firmware

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/device/joint_torque.h"
+
+namespace godobject::firmware {
+
+/// An arm and how it is driven, as a file in firmware/devices says it.
+struct Device {
+  std::string name;
+  ArmModel model;
+  JointTorqueParameters torque;
+};
+
+/// Reads and validates a device file; its keys stand at the top of firmware/devices/*.toml. No key has a default.
+/// Throws command::Failure: kNoInput if the file cannot be read, kBadConfig naming file, line and key.
+Device read_device_file(const std::filesystem::path& file);
+
+/// The device with the moving mesh held otherwise: `H_MG` is the mesh's frame in what the file calls M, which it
+/// replaces. The payload stays where it is.
+void regrip(const Pose& H_MG, Device& device);
+
+}  // namespace godobject::firmware

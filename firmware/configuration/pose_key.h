@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/spatial/pose.h"
+#include "firmware/command/toml_table.h"
+
+namespace godobject::firmware {
+
+/// [x, y, z, qw, qx, qy, qz]; a rotation within 1e-3 of unit length is normalised, any other refused.
+Pose read_pose(const command::TomlTable& table, std::string_view key);
+
+/// [qw, qx, qy, qz], the same.
+Quaternion read_rotation(const command::TomlTable& table, std::string_view key);
+
+}  // namespace godobject::firmware

@@ -1,0 +1,143 @@
+#include "firmware/control_cycle.h"
+
+#include <algorithm>
+
+namespace godobject::firmware {
+
+ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
+    : setup_(setup),
+      drives_(drives),
+      position_check_(*setup.arm, kPeriod),
+      velocity_(setup.velocity_window, kPeriod),
+      supervisor_(*setup.arm, setup.supervisor),
+      limiter_(*setup.arm, setup.torque) {}
+
+// clang-format off: the steps stand in a column
+void ControlCycle::run_once(const LoopEvents& events) noexcept {
+  drives_.receive(reading_);
+  if (!supervisor_.follows_positions()) position_check_.restart();
+  position_check_.update(reading_, qd_, limiter_.pushed(), events.skipped, positions_);
+  Status status = estimate_velocity(events.skipped);
+  const ArmKinematics kinematics = forward_kinematics(*setup_.arm, positions_.q);
+  if (status == Status::kOk) status = render(kinematics);          // mapping, #1 - #7, limits at the hand
+  if (status == Status::kOk) status = compute_torque(kinematics);  // J^T
+  const Decision decision = supervisor_.step(observe(events, status));
+  const JointVector torque = limiter_.apply(decision, computed_, qd_);
+  const bool sent = drives_.send({torque, decision.power});
+  // clang-format on
+  sends_failed_ = sent ? 0 : sends_failed_ + 1;
+  record_.torque = torque;
+  record_.status = status;
+  record_.H_RM = kinematics.H_WM;
+  keep(decision);
+  count(events);
+}
+
+/// Periods without a cycle are filled with positions in between, since the estimator wants one a period.
+Status ControlCycle::estimate_velocity(std::uint32_t skipped) noexcept {
+  if (!positions_.finite) return Status::kNotFinite;
+  if (skipped >= VelocityEstimator::kMaxWindow) {
+    velocity_.reset();
+  } else {
+    for (std::uint32_t k = 1; k <= skipped; ++k) {
+      const double share = static_cast<double>(k) / (skipped + 1);
+      const Status status = velocity_.update(last_q_ + share * (positions_.q - last_q_), qd_);
+      if (status != Status::kOk) return status;
+    }
+  }
+  last_q_ = positions_.q;
+  return velocity_.update(positions_.q, qd_);
+}
+
+/// From the tool's pose to the wrench that the hand is to feel.
+Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
+  const Pose& H_RM = kinematics.H_WM;  // the arm's world is the room
+  if (!mapping_) mapping_.emplace(setup_.mapping, H_RM);
+  if (const Status status = mapping_->update(H_RM, /*closed=*/true, kPeriod); status != Status::kOk) return status;
+  const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RM.translation), qd_);
+
+  const Pose& H_WM = mapping_->scene_pose();
+  const Vector3 p_MB_W = H_WM.rotation._transformVector(setup_.scene->H_MB.translation);
+  Motion velocity_W = mapping_->velocity_in_scene(velocity_R);  // of M's origin
+  velocity_W.translation += velocity_W.rotation.cross(p_MB_W);  // of the centre of mass
+  if (!supervisor_.renders()) god_object_.reset();
+  if (const Status status = god_object_.update({H_WM, velocity_W}, report_); status != Status::kOk) return status;
+
+  Wrench wrench_W = report_.force.total_W;          // about the centre of mass
+  wrench_W.torque += p_MB_W.cross(wrench_W.force);  // about M's origin
+  at_hand_ = limit_at_hand(setup_.hand, mapping_->wrench_at_hand(wrench_W), velocity_R);
+  return Status::kOk;
+}
+
+Status ControlCycle::compute_torque(const ArmKinematics& kinematics) noexcept {
+  TorqueRequest request;
+  request.q = positions_.q;
+  request.qd = qd_;
+  request.kinematics = kinematics;
+  request.F_W = at_hand_.wrench_R;
+  request.p_W = kinematics.H_WM.translation;
+  const Status status = joint_torque(*setup_.arm, *setup_.joint_torque, request, joint_torque_);
+  computed_.holding = joint_torque_.gravity;
+  computed_.rendered = joint_torque_.torque - joint_torque_.gravity;
+  return status;
+}
+
+Observation ControlCycle::observe(const LoopEvents& events, Status status) const noexcept {
+  Observation seen;
+  seen.drives = summarize(reading_, setup_.arm->joint_count);
+  seen.emergency_stop = reading_.emergency_stop;
+  seen.enable_switch = reading_.enable_switch;
+  seen.q = positions_.q;
+  seen.lost = positions_.lost;
+  seen.jumps = positions_.jumps;
+  seen.finite = positions_.finite;
+  seen.stuck = positions_.stuck;
+  for (int i = 0; i < setup_.arm->joint_count; ++i) {
+    const ArmJoint& joint = setup_.arm->joints[static_cast<std::size_t>(i)];
+    seen.beyond_joint_limit = seen.beyond_joint_limit || positions_.q[i] < joint.lower || positions_.q[i] > joint.upper;
+  }
+  seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_);
+  seen.status = status;
+  seen.contact_force =
+      at_hand_.wrench_R.force.norm() + at_hand_.wrench_R.torque.norm() / setup_.joint_torque->rotation_length;
+  seen.inside = report_.outcome == Outcome::kStartInside;
+  seen.overrun_ns = events.overrun_ns;
+  seen.sends_failed = sends_failed_;
+  seen.end_requested = events.end_requested;
+  seen.reset_requested = events.reset_requested;
+  return seen;
+}
+
+void ControlCycle::keep(const Decision& decision) noexcept {
+  record_.mode = supervisor_.mode();
+  record_.fault = supervisor_.fault();
+  record_.q = positions_.q;
+  record_.qd = qd_;
+  if (mapping_) record_.H_WM = mapping_->scene_pose();
+  record_.god_object_W = god_object_.mesh_pose();
+  record_.share = decision.share;
+  record_.wrench_R = {decision.share * joint_torque_.rendered_W.force,
+                      decision.share * joint_torque_.rendered_W.torque};
+  record_.penetration = report_.penetration;
+  record_.contacts = report_.contacts;
+  record_.lost = positions_.lost;
+  record_.outcome = report_.outcome;
+}
+
+void ControlCycle::count(const LoopEvents& events) noexcept {
+  const auto add = [](bool happened) -> std::uint64_t { return happened ? 1 : 0; };
+  const bool rendering = record_.share > 0.0;
+  counters_.cycles += 1;
+  counters_.lost += add(positions_.lost > 0);
+  counters_.jumps += add(positions_.jumps > 0);
+  counters_.overruns += add(events.overrun_ns > 0);
+  counters_.skipped += events.skipped;
+  counters_.sends_failed += add(sends_failed_ > 0);
+  counters_.clipped += add(rendering && at_hand_.clipped);
+  counters_.slowed += add(rendering && at_hand_.slowed);
+  counters_.scaled += add(rendering && joint_torque_.scale < 1.0);
+  counters_.rate_limited += add(limiter_.rate_limited());
+  counters_.unconverged += add(rendering && report_.unconverged);
+}
+
+}  // namespace godobject::firmware

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/device/joint_torque.h"
+#include "core/device/velocity_estimator.h"
+#include "core/device/workspace_mapping.h"
+#include "core/pipeline/god_object.h"
+#include "firmware/hand_limits.h"
+#include "firmware/position_check.h"
+#include "firmware/supervisor.h"
+#include "firmware/torque_limiter.h"
+#include "hal/joint_drives.h"
+
+namespace godobject::firmware {
+
+/// What the loop around the cycle knows of it.
+struct LoopEvents {
+  std::int64_t overrun_ns = 0;  ///< by how much the cycle before was late to end
+  std::uint32_t skipped = 0;    ///< periods that passed without a cycle since then
+  bool end_requested = false;
+  bool reset_requested = false;
+};
+
+/// How often it had to be gone on with less than all.
+struct CycleCounters {
+  std::uint64_t cycles = 0;
+  std::uint64_t lost = 0;   ///< cycles without a fresh position of some joint
+  std::uint64_t jumps = 0;  ///< cycles with a position that cannot be
+  std::uint64_t overruns = 0;
+  std::uint64_t skipped = 0;  ///< periods
+  std::uint64_t sends_failed = 0;
+  std::uint64_t clipped = 0;       ///< cycles with a force or torque at the hand beyond its limit
+  std::uint64_t slowed = 0;        ///< with a hand that was too fast
+  std::uint64_t scaled = 0;        ///< in which the joints could not give all of the wrench
+  std::uint64_t rate_limited = 0;  ///< in which a torque changed by the most that it may
+  std::uint64_t unconverged = 0;   ///< in which friction was not found
+};
+
+/// What a cycle leaves for others to look at.
+struct CycleRecord {
+  Mode mode = Mode::kBoot;
+  Fault fault = Fault::kNone;
+  Status status = Status::kOk;
+  JointVector q = JointVector::Zero();       ///< checked [rad]
+  JointVector qd = JointVector::Zero();      ///< [rad/s]
+  JointVector torque = JointVector::Zero();  ///< sent [Nm]
+  Pose H_RM;                                 ///< the tool in the room
+  Pose H_WM;                                 ///< the moving mesh as the device holds it
+  Pose god_object_W;                         ///< the moving mesh as the god object holds it
+  Wrench wrench_R;                           ///< asked of the arm at M's origin, share included [N, Nm]
+  double share = 0.0;                        ///< of what is rendered
+  double penetration = 0.0;                  ///< as CycleReport [m]
+  std::uint32_t contacts = 0;
+  std::uint32_t lost = 0;
+  Outcome outcome = Outcome::kFree;
+};
+
+/// Constants of a session; scene, arm and torque parameters are validated and outlive the cycle.
+struct CycleSetup {
+  const Scene* scene = nullptr;
+  Solver solver = Solver::kContact;
+  bool friction = false;
+  const ArmModel* arm = nullptr;
+  const JointTorqueParameters* joint_torque = nullptr;
+  WorkspaceMappingParameters mapping;
+  int velocity_window = 4;
+  HandLimits hand;
+  TorqueLimits torque;
+  Supervisor::Parameters supervisor;
+};
+
+/// One millisecond of the controller: from the drives' positions to their torques. The same lines run in virtual time
+/// and in the real-time thread. About 600 KiB: static storage. No allocation, no exceptions, no locks.
+class ControlCycle {
+ public:
+  static constexpr double kPeriod = 1e-3;  ///< T [s], the core's
+
+  /// `setup` and `drives` outlive the cycle.
+  ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept;
+
+  /// kNotInImage: the scene was compiled without that solver, or without friction. Before the first `run_once`.
+  Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction); }
+
+  /// One cycle. Cost: that of GodObject::update and about 10 us. Real-time safe.
+  void run_once(const LoopEvents& events) noexcept;
+
+  const CycleRecord& record() const noexcept { return record_; }
+  const CycleCounters& counters() const noexcept { return counters_; }
+  const Supervisor& supervisor() const noexcept { return supervisor_; }
+
+ private:
+  Status estimate_velocity(std::uint32_t skipped) noexcept;
+  Status render(const ArmKinematics& kinematics) noexcept;
+  Status compute_torque(const ArmKinematics& kinematics) noexcept;
+  Observation observe(const LoopEvents& events, Status status) const noexcept;
+  void count(const LoopEvents& events) noexcept;
+  void keep(const Decision& decision) noexcept;
+
+  CycleSetup setup_;
+  hal::JointDrives& drives_;
+  PositionCheck position_check_;
+  VelocityEstimator velocity_;
+  Supervisor supervisor_;
+  TorqueLimiter limiter_;
+  std::optional<WorkspaceMapping> mapping_;  // from the first posture on
+  GodObject god_object_;
+
+  hal::JointReading reading_;
+  CheckedPositions positions_;
+  JointVector qd_ = JointVector::Zero();
+  JointVector last_q_ = JointVector::Zero();
+  CycleReport report_;
+  LimitedWrench at_hand_;
+  JointTorque joint_torque_;
+  ComputedTorque computed_;
+  std::uint32_t sends_failed_ = 0;
+  CycleRecord record_;
+  CycleCounters counters_;
+};
+
+}  // namespace godobject::firmware

@@ -1,0 +1,68 @@
+#include "firmware/position_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace godobject::firmware {
+
+PositionCheck::PositionCheck(const ArmModel& arm, double period) noexcept
+    : joint_count_(arm.joint_count), period_(period) {
+  for (int i = 0; i < joint_count_; ++i) {
+    const ArmJoint& joint = arm.joints[static_cast<std::size_t>(i)];
+    largest_step_[i] = kJumpOfVelocity * joint.velocity * period;
+    stuck_torque_[i] = kStuckTorque * joint.torque;
+  }
+}
+
+void PositionCheck::update(const hal::JointReading& reading, const JointVector& qd, const JointVector& pushed,
+                           std::uint32_t skipped, CheckedPositions& checked) noexcept {
+  checked = CheckedPositions();
+  const std::uint32_t periods = 1 + skipped;
+  for (int i = 0; i < joint_count_; ++i) {
+    const auto joint = static_cast<std::size_t>(i);
+    const double position = reading.position[i];
+    checked.finite = checked.finite && std::isfinite(position) && std::isfinite(reading.torque[i]);
+    checked.lost = std::max(checked.lost, reading.age[joint]);
+    if (!started_) {
+      accepted_[i] = q_[i] = position;
+      periods_[joint] = jumps_[joint] = 0;
+      continue;
+    }
+    periods_[joint] += periods;
+    const bool fresh = reading.age[joint] == 0;
+    // false for what is not a number
+    const bool possible = std::fabs(position - accepted_[i]) <= largest_step_[i] * periods_[joint];
+    if (fresh && possible) {
+      accepted_[i] = q_[i] = position;
+      periods_[joint] = jumps_[joint] = 0;
+    } else {
+      if (fresh) ++jumps_[joint];
+      q_[i] += qd[i] * period_ * periods;
+    }
+    checked.jumps = std::max(checked.jumps, jumps_[joint]);
+  }
+  started_ = checked.finite;
+  checked.q = q_;
+  checked.stuck = find_stuck(reading, pushed);
+}
+
+bool PositionCheck::find_stuck(const hal::JointReading& reading, const JointVector& pushed) noexcept {
+  if (in_window_ == 0) {
+    window_start_ = reading.position;
+    rests_.fill(true);
+  }
+  double largest = 0.0;
+  for (int i = 0; i < joint_count_; ++i) {
+    const double motion = std::fabs(reading.position[i] - window_start_[i]);
+    largest = std::max(largest, motion);
+    bool& rests = rests_[static_cast<std::size_t>(i)];
+    rests = rests && motion == 0.0 && std::fabs(pushed[i]) > stuck_torque_[i] &&
+            reading.age[static_cast<std::size_t>(i)] == 0;
+  }
+  if (++in_window_ < kWindow) return false;
+  in_window_ = 0;
+  const auto* first = rests_.begin();
+  return largest > kOtherMotion && std::any_of(first, first + joint_count_, [](bool rests) { return rests; });
+}
+
+}  // namespace godobject::firmware

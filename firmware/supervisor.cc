@@ -1,0 +1,258 @@
+#include "firmware/supervisor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace godobject::firmware {
+
+const char* name(Mode mode) noexcept {
+  switch (mode) {
+    case Mode::kBoot: return "boot";
+    case Mode::kZeroCheck: return "zero_check";
+    case Mode::kIdle: return "idle";
+    case Mode::kEnabling: return "enabling";
+    case Mode::kSignTest: return "sign_test";
+    case Mode::kArmed: return "armed";
+    case Mode::kEngaging: return "engaging";
+    case Mode::kRunning: return "running";
+    case Mode::kFade: return "fade";
+    case Mode::kStopping: return "stopping";
+    case Mode::kStopped: return "stopped";
+    case Mode::kResetting: return "resetting";
+    case Mode::kEnding: return "ending";
+    case Mode::kEnded: return "ended";
+  }
+  return "unknown";
+}
+
+const char* describe(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::kNone: return "none";
+    case Fault::kDrivesAbsent: return "not all drives answered; check power and wiring";
+    case Fault::kNotAtRest:
+      return "a joint moved, or stood beyond its limits, with its brake closed; check brakes and zeros";
+    case Fault::kPositionLost: return "a joint's position was lost three times in a row; check wiring and bus load";
+    case Fault::kPositionJump: return "a joint's position jumped; check its encoder";
+    case Fault::kNotFinite: return "a reading was not a finite number; check the drives' scaling";
+    case Fault::kEncoderStuck: return "a joint's position rested though it should have moved; check its encoder";
+    case Fault::kComputation: return "the cycle could not be computed; look at the telemetry's last rows";
+    case Fault::kOverruns: return "the loop was late too often; run godobject-controller doctor";
+    case Fault::kDriveLeft: return "a drive is not enabled; look at its own error";
+    case Fault::kSendFailed: return "torques could not be sent three times in a row; check the bus";
+    case Fault::kEmergencyStop: return "emergency stop; release it and reset";
+    case Fault::kEnableReleased: return "the enable switch was released; reset and hold it again";
+    case Fault::kJointLimit: return "a joint is beyond its position limit; move it back by hand and reset";
+    case Fault::kTooFast: return "hand or joint was faster than the speed to stop at; reset";
+    case Fault::kSignWrong: return "a joint moved against its torque; check its polarity and encoder";
+    case Fault::kSignUndecided:
+      return "a joint did not move when pushed; keep the hand still, check its brake and encoder";
+  }
+  return "unknown fault";
+}
+
+DriveSummary summarize(const hal::JointReading& reading, int joint_count) noexcept {
+  DriveSummary drives{true, true, true, false};
+  for (int i = 0; i < joint_count; ++i) {
+    const hal::DriveState state = reading.state[static_cast<std::size_t>(i)];
+    drives.all_answer = drives.all_answer && state != hal::DriveState::kUnavailable;
+    drives.all_enabled = drives.all_enabled && state == hal::DriveState::kEnabled;
+    drives.none_moves = drives.none_moves && state != hal::DriveState::kEnabled && state != hal::DriveState::kQuickStop;
+    drives.any_fault = drives.any_fault || state == hal::DriveState::kFault;
+  }
+  return drives;
+}
+
+Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept
+    : joint_count_(arm.joint_count),
+      parameters_(parameters),
+      sign_tested_(!parameters.sign_test),
+      sign_test_(arm, parameters.sign) {}
+
+Decision Supervisor::step(const Observation& seen) noexcept {
+  ++in_mode_;
+  const bool too_many_overruns = overruns_.update(seen.overrun_ns);
+  const Fault fault = find_fault(seen, too_many_overruns);
+  if (seen.end_requested && !ending_) {
+    ending_ = true;
+    end_step_ = share_ / kEndRamp;
+    if (mode_ == Mode::kEngaging || mode_ == Mode::kRunning) {
+      enter(Mode::kEnding);
+    } else if (powered() && mode_ != Mode::kFade) {
+      enter(Mode::kStopping);
+    } else if (mode_ != Mode::kFade && mode_ != Mode::kStopping) {
+      enter(Mode::kEnded);
+    }
+  }
+  if (fault == Fault::kPositionLost && powered()) {
+    if (mode_ != Mode::kFade) {
+      fault_ = fault;
+      enter(Mode::kFade);
+    }
+  } else if (fault != Fault::kNone) {
+    stop(fault);
+  }
+  advance(seen);
+  return decide(seen);
+}
+
+void Supervisor::enter(Mode mode) noexcept {
+  mode_ = mode;
+  in_mode_ = 1;
+}
+
+void Supervisor::stop(Fault fault) noexcept {
+  if (fault_ == Fault::kNone) fault_ = fault;
+  share_ = 0.0;
+  enter(powered() ? Mode::kStopping : Mode::kStopped);
+}
+
+/// What is wrong in this cycle, as far as it matters in this mode.
+Fault Supervisor::find_fault(const Observation& seen, bool too_many_overruns) const noexcept {
+  if (mode_ >= Mode::kStopping && mode_ != Mode::kEnding) return Fault::kNone;
+  if (!seen.finite && (mode_ != Mode::kBoot || seen.drives.all_answer)) return Fault::kNotFinite;
+  if (mode_ == Mode::kBoot) return Fault::kNone;
+  if (powered()) {
+    if (seen.emergency_stop) return Fault::kEmergencyStop;
+    if (!seen.enable_switch) return Fault::kEnableReleased;
+    if (seen.status != Status::kOk) return Fault::kComputation;
+    const bool enabled =
+        mode_ == Mode::kEnabling ? seen.drives.all_answer && !seen.drives.any_fault : seen.drives.all_enabled;
+    if (!enabled) return Fault::kDriveLeft;
+    if (seen.jumps >= 2) return Fault::kPositionJump;
+    if (seen.stuck) return Fault::kEncoderStuck;
+    if (seen.beyond_joint_limit) return Fault::kJointLimit;
+    if (seen.too_fast) return Fault::kTooFast;
+    if (too_many_overruns) return Fault::kOverruns;
+    if (seen.sends_failed >= 3) return Fault::kSendFailed;
+  } else {
+    if (!seen.drives.all_answer || seen.drives.any_fault) return Fault::kDriveLeft;
+    if (seen.jumps >= 2) return Fault::kPositionJump;
+  }
+  return seen.lost >= 3 ? Fault::kPositionLost : Fault::kNone;
+}
+
+bool Supervisor::moved(const Observation& seen, double more_than) const noexcept {
+  return (seen.q - reference_).head(joint_count_).cwiseAbs().maxCoeff() > more_than;
+}
+
+/// From mode to mode without a fault of `find_fault`.
+void Supervisor::advance(const Observation& seen) noexcept {
+  test_torque_.setZero();
+  switch (mode_) {
+    case Mode::kBoot:
+      if (seen.drives.all_answer && !seen.drives.any_fault && seen.lost == 0) {
+        reference_ = seen.q;
+        enter(Mode::kZeroCheck);
+      } else if (in_mode_ > parameters_.boot_cycles) {
+        stop(Fault::kDrivesAbsent);
+      }
+      break;
+    case Mode::kZeroCheck:
+      if (seen.beyond_joint_limit || moved(seen, kAtRest)) {
+        stop(Fault::kNotAtRest);
+      } else if (in_mode_ > kZeroCycles) {
+        enter(Mode::kIdle);
+      }
+      break;
+    case Mode::kIdle:
+      if (seen.enable_switch && !seen.emergency_stop) {
+        reference_ = seen.q;
+        sign_test_.restart();
+        enter(Mode::kEnabling);
+      }
+      break;
+    case Mode::kEnabling:
+      if (moved(seen, kMovesAway)) {
+        stop(Fault::kSignWrong);
+      } else if (seen.drives.all_enabled) {
+        enter(sign_tested_ ? Mode::kArmed : Mode::kSignTest);
+      } else if (in_mode_ > kEnableCycles) {
+        stop(Fault::kDriveLeft);
+      }
+      break;
+    case Mode::kSignTest: {
+      const SignTest::Result result = sign_test_.update(seen.q, test_torque_);
+      if (result == SignTest::Result::kPassed) {
+        sign_tested_ = true;
+        enter(Mode::kArmed);
+      } else if (result == SignTest::Result::kUndecided) {
+        stop(Fault::kSignUndecided);
+      } else if (result == SignTest::Result::kWrong || moved(seen, kMovesAway)) {
+        stop(Fault::kSignWrong);
+      }
+      break;
+    }
+    case Mode::kArmed:
+      if (!seen.inside && seen.contact_force < parameters_.engage_force) enter(Mode::kEngaging);
+      break;
+    case Mode::kEngaging:
+      share_ = std::min(1.0, (in_mode_ - 1.0) / parameters_.engage_cycles);
+      if (share_ >= 1.0) enter(Mode::kRunning);
+      break;
+    case Mode::kEnding:
+      share_ = std::max(0.0, share_ - end_step_);
+      if (in_mode_ > kEndRamp) enter(Mode::kStopping);
+      break;
+    case Mode::kFade:
+      if (in_mode_ > kFadeCycles) stop(fault_);
+      break;
+    case Mode::kStopping:
+      if ((in_mode_ > kHoldCycles && seen.drives.none_moves) || in_mode_ > (ending_ ? kEndStop : kFaultStop)) {
+        enter(ending_ ? Mode::kEnded : Mode::kStopped);
+      }
+      break;
+    case Mode::kStopped:
+      if (seen.reset_requested && !seen.enable_switch && !seen.emergency_stop) enter(Mode::kResetting);
+      break;
+    case Mode::kResetting:
+      if (seen.drives.all_answer && !seen.drives.any_fault) {
+        fault_ = Fault::kNone;
+        enter(Mode::kBoot);
+      } else if (in_mode_ > kFaultStop) {
+        enter(Mode::kStopped);
+      }
+      break;
+    case Mode::kRunning:
+    case Mode::kEnded: break;
+  }
+}
+
+Decision Supervisor::decide(const Observation& seen) const noexcept {
+  Decision decision;
+  switch (mode_) {
+    case Mode::kBoot:
+      if (seen.drives.any_fault) decision.power = hal::PowerRequest::kReset;
+      break;
+    case Mode::kResetting: decision.power = hal::PowerRequest::kReset; break;
+    case Mode::kEnabling:
+    case Mode::kSignTest:
+    case Mode::kArmed:
+    case Mode::kEngaging:
+    case Mode::kRunning:
+    case Mode::kEnding:
+      decision.power = hal::PowerRequest::kEnable;
+      decision.holds_arm = true;
+      decision.share = share_;
+      decision.test_torque = test_torque_;
+      break;
+    case Mode::kFade:
+      decision.power = hal::PowerRequest::kEnable;
+      decision.holds_arm = true;
+      decision.share = 1.0 - static_cast<double>(in_mode_) / kFadeCycles;
+      decision.of_last = true;
+      decision.rate_limited = false;
+      break;
+    case Mode::kStopping:
+      decision.power = in_mode_ <= kHoldCycles ? hal::PowerRequest::kEnable : hal::PowerRequest::kQuickStop;
+      decision.holds_arm = true;
+      decision.rate_limited = false;
+      break;
+    case Mode::kZeroCheck:
+    case Mode::kIdle:
+    case Mode::kStopped:
+    case Mode::kEnded: decision.rate_limited = false; break;
+  }
+  return decision;
+}
+
+}  // namespace godobject::firmware

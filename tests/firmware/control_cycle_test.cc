@@ -1,0 +1,317 @@
+#include "firmware/control_cycle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "core/device/dynamics.h"
+#include "core/device/kinematics.h"
+#include "tests/firmware/fake_drives.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/arms.h"
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject::firmware {
+namespace {
+
+/// A ball of 20 mm radius above a plate whose top is at z = 10 mm; k_D = 2000 N/m, b_D = 20 Ns/m.
+test::SceneImage ball_over_plate() {
+  const Vector3 half_edges(0.05, 0.05, 0.01);
+  const test::SurfaceSamples ball = test::sample_ball(0.02, 500);
+  test::SceneDescription description;
+  description.distance = [half_edges](const Vector3& p) { return test::box_distance(p, half_edges); };
+  description.surface_min = -half_edges;
+  description.surface_max = half_edges;
+  description.voxel_size = 0.002;
+  description.points = ball.points;
+  description.normals = ball.normals;
+  return test::build_scene_image(description);
+}
+
+/// The light-weight robot, bent; its tool at the start is 50 mm over the plate's middle, scene and room alike directed.
+class ControlCycleTest : public testing::Test {
+ protected:
+  ControlCycleTest() : image_(ball_over_plate()), scene_(test::open_scene(image_)), drives_(7) {
+    q0_ << 0.0, 0.5, 0.0, 1.4, 0.0, 0.9, 0.0;
+    setup_.scene = &scene_;
+    setup_.arm = &arm_.model;
+    setup_.joint_torque = &arm_.parameters;
+    setup_.supervisor.sign_test = false;
+    setup_.supervisor.engage_cycles = 20;
+    const Pose H_RM = forward_kinematics(arm_.model, q0_).H_WM;
+    setup_.mapping.H_WR.translation = Vector3(0.0, 0.0, 0.06) - H_RM.translation;
+    drives_.reading.position = q0_;
+  }
+
+  void make() {
+    cycle_ = std::make_unique<ControlCycle>(setup_, drives_);
+    ASSERT_EQ(cycle_->start(), Status::kOk);
+  }
+
+  /// One cycle, and what must hold in every one.
+  void step(const LoopEvents& events = {}) {
+    const JointVector before = drives_.sent.torque;
+    cycle_->run_once(events);
+    const JointVector& torque = drives_.sent.torque;
+    ASSERT_TRUE(torque.allFinite());
+    const Mode mode = cycle_->record().mode;
+    const bool free_rate = mode == Mode::kFade || mode >= Mode::kStopping;
+    for (int i = 0; i < 7; ++i) {
+      const double limit = arm_.model.joints[static_cast<std::size_t>(i)].torque;
+      ASSERT_LE(std::fabs(torque[i]), limit);
+      if (!free_rate) {
+        ASSERT_LE(std::fabs(torque[i] - before[i]), 0.05 * limit * (1.0 + 1e-12));
+      }
+    }
+  }
+
+  void run_to(Mode mode) {
+    for (int i = 0; i < 1000 && cycle_->record().mode != mode; ++i) step();
+    ASSERT_EQ(cycle_->record().mode, mode);
+  }
+
+  /// Joint positions with the tool moved by `offset` in the room, found with the transposed Jacobian's inverse.
+  JointVector moved(const Vector3& offset) const {
+    JointVector q = q0_;
+    const Pose start = forward_kinematics(arm_.model, q0_).H_WM;
+    for (int i = 0; i < 20; ++i) {
+      const ArmKinematics kinematics = forward_kinematics(arm_.model, q);
+      Eigen::Matrix<double, 6, 1> error;
+      error << start.translation + offset - kinematics.H_WM.translation,
+          log_rotation(start.rotation * kinematics.H_WM.rotation.conjugate());
+      const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+      q += J.transpose() * (J * J.transpose()).inverse() * error;
+    }
+    return q;
+  }
+
+  /// The tool goes down by `depth` in 200 cycles and stays there.
+  void press(double depth) {
+    for (int i = 1; i <= 200; ++i) {
+      drives_.reading.position = moved(Vector3(0.0, 0.0, -depth * i / 200.0));
+      step();
+    }
+    for (int i = 0; i < 30; ++i) step();
+  }
+
+  test::Arm arm_ = test::lwr();
+  test::SceneImage image_;
+  Scene scene_;
+  FakeDrives drives_;
+  CycleSetup setup_;
+  JointVector q0_ = JointVector::Zero();
+  std::unique_ptr<ControlCycle> cycle_;
+};
+
+TEST_F(ControlCycleTest, SendsNothingButGravityInFreeSpace) {
+  make();
+  run_to(Mode::kRunning);
+  for (int i = 0; i < 50; ++i) step();
+  const JointVector gravity = gravity_torque(arm_.model, forward_kinematics(arm_.model, q0_));
+  EXPECT_LT((drives_.sent.torque - gravity).norm(), 1e-9);
+  EXPECT_EQ(drives_.sent.power, hal::PowerRequest::kEnable);
+  EXPECT_LT((cycle_->record().H_WM.translation - Vector3(0.0, 0.0, 0.06)).norm(), 1e-12);
+}
+
+TEST_F(ControlCycleTest, RendersTheSpringOfAPressInJointTorques) {
+  make();
+  run_to(Mode::kRunning);
+  press(0.033);  // the ball's surface touches at 30 mm; 3 mm more
+  const CycleRecord& record = cycle_->record();
+  EXPECT_EQ(record.outcome, Outcome::kContact);
+  EXPECT_NEAR(record.wrench_R.force.z(), 2000.0 * 0.003, 0.1);
+  EXPECT_NEAR(record.wrench_R.force.head<2>().norm(), 0.0, 0.05);
+  const ArmKinematics kinematics = forward_kinematics(arm_.model, drives_.reading.position);
+  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  Eigen::Matrix<double, 6, 1> F;
+  F << record.wrench_R.force, record.wrench_R.torque;
+  const JointVector expected = gravity_torque(arm_.model, kinematics) + J.transpose() * F;
+  EXPECT_LT((drives_.sent.torque - expected).norm(), 1e-6);
+  EXPECT_NEAR(record.god_object_W.translation.z(), 0.03, 1e-4);
+}
+
+TEST_F(ControlCycleTest, MovesTheWrenchFromTheCentreOfMassToTheToolsOrigin) {
+  scene_.H_MB.translation = Vector3(0.0, 0.02, 0.0);  // in M
+  make();
+  run_to(Mode::kRunning);
+  press(0.033);
+  const CycleRecord& record = cycle_->record();
+  const Vector3 p_MB_W = record.H_WM.rotation._transformVector(scene_.H_MB.translation);
+  ASSERT_GT(record.wrench_R.force.norm(), 1.0);
+  EXPECT_LT((record.wrench_R.torque - p_MB_W.cross(record.wrench_R.force)).norm(), 0.02);
+}
+
+TEST_F(ControlCycleTest, KeepsForceAndTorqueAtTheHandWithinTheirLimits) {
+  setup_.hand.force = 4.0;
+  make();
+  run_to(Mode::kRunning);
+  press(0.040);
+  EXPECT_NEAR(cycle_->record().wrench_R.force.norm(), 4.0, 1e-9);
+  EXPECT_GT(cycle_->counters().clipped, 0u);
+}
+
+TEST_F(ControlCycleTest, FeelsTheSquareOfTheScaleAsStiffness) {
+  setup_.mapping.scale = 0.5;
+  const Pose H_RM = forward_kinematics(arm_.model, q0_).H_WM;
+  setup_.mapping.H_WR.translation = Vector3(0.0, 0.0, 0.06) - 0.5 * H_RM.translation;
+  make();
+  run_to(Mode::kRunning);
+  press(0.064);  // 60 mm until it touches, 4 mm more
+  EXPECT_NEAR(cycle_->record().wrench_R.force.z(), 0.25 * 2000.0 * 0.004, 0.05);
+}
+
+TEST_F(ControlCycleTest, ArmsInContactOnlyOnceTheToolIsWithdrawn) {
+  drives_.reading.position = moved(Vector3(0.0, 0.0, -0.035));
+  make();
+  run_to(Mode::kArmed);
+  const JointVector inside = drives_.reading.position;
+  for (int i = 0; i < 300; ++i) {
+    step();
+    ASSERT_EQ(cycle_->record().share, 0.0);
+    ASSERT_LT((drives_.sent.torque - gravity_torque(arm_.model, forward_kinematics(arm_.model, inside))).norm(), 1e-9);
+  }
+  for (int i = 0; i <= 200; ++i) {
+    drives_.reading.position = moved(Vector3(0.0, 0.0, -0.035 + 0.035 * i / 200.0));
+    step();
+  }
+  EXPECT_EQ(cycle_->record().mode, Mode::kRunning);
+}
+
+TEST_F(ControlCycleTest, EstimatesTheVelocityOverPeriodsThatWereSkipped) {
+  make();
+  run_to(Mode::kRunning);
+  for (int i = 0; i < 40; ++i) {
+    drives_.reading.position[0] += 1e-3 * 0.4;
+    step();
+  }
+  ASSERT_NEAR(cycle_->record().qd[0], 0.4, 1e-9);
+  drives_.reading.position[0] += 3e-3 * 0.4;
+  LoopEvents late;
+  late.overrun_ns = 2'100'000;
+  late.skipped = 2;
+  step(late);
+  EXPECT_NEAR(cycle_->record().qd[0], 0.4, 1e-9);
+  EXPECT_EQ(cycle_->counters().overruns, 1u);
+  EXPECT_EQ(cycle_->counters().skipped, 2u);
+}
+
+TEST_F(ControlCycleTest, StopsInTheCycleOfAReadingThatIsNotFinite) {
+  for (int joint = 0; joint < 7; ++joint) {
+    drives_ = FakeDrives(7);
+    drives_.reading.position = q0_;
+    make();
+    run_to(Mode::kRunning);
+    press(0.033);
+    const JointVector q = drives_.reading.position;
+    drives_.reading.position[joint] = std::numeric_limits<double>::quiet_NaN();
+    step();
+    EXPECT_EQ(cycle_->record().fault, Fault::kNotFinite);
+    const JointVector gravity = gravity_torque(arm_.model, forward_kinematics(arm_.model, q));
+    EXPECT_LT((drives_.sent.torque - gravity).norm(), 1e-9) << "the arm is held, nothing is rendered";
+    for (int i = 0; i < 50; ++i) step();
+    EXPECT_EQ(drives_.sent.power, hal::PowerRequest::kOff);
+  }
+}
+
+TEST_F(ControlCycleTest, PredictsOverOneJumpAndStopsAtTheSecond) {
+  make();
+  run_to(Mode::kRunning);
+  const double q = drives_.reading.position[3];
+  drives_.reading.position[3] = q + 0.01;
+  step();
+  EXPECT_EQ(cycle_->record().mode, Mode::kRunning);
+  EXPECT_NEAR(cycle_->record().q[3], q, 1e-12);
+  drives_.reading.position[3] = q;
+  step();
+  EXPECT_EQ(cycle_->record().fault, Fault::kNone);
+  drives_.reading.position[3] = q + 0.01;
+  step();
+  step();
+  EXPECT_EQ(cycle_->record().fault, Fault::kPositionJump);
+  EXPECT_EQ(cycle_->record().share, 0.0);
+}
+
+TEST_F(ControlCycleTest, FadesWhenAPositionIsLostThreeTimes) {
+  make();
+  run_to(Mode::kRunning);
+  press(0.033);
+  const JointVector held = drives_.sent.torque;
+  const JointVector gravity = gravity_torque(arm_.model, forward_kinematics(arm_.model, drives_.reading.position));
+  for (std::uint32_t k = 1; k <= 8; ++k) {
+    drives_.reading.age[2] = k;
+    step();
+    const double share = k <= 2 ? 1.0 : std::max(0.0, 1.0 - 0.2 * (k - 2));
+    EXPECT_LT((drives_.sent.torque - gravity - share * (held - gravity)).norm(), 1e-6) << k;
+  }
+  EXPECT_EQ(cycle_->record().mode, Mode::kStopping);
+}
+
+TEST_F(ControlCycleTest, CountsSendsThatFailAndStopsAtTheThirdInARow) {
+  make();
+  run_to(Mode::kRunning);
+  for (int i = 0; i < 30; ++i) {
+    drives_.fails_to_send = i % 3 != 0;
+    step();
+  }
+  EXPECT_EQ(cycle_->record().fault, Fault::kNone);
+  EXPECT_EQ(cycle_->counters().sends_failed, 20u);
+  drives_.fails_to_send = false;
+  step();
+  drives_.fails_to_send = true;
+  int cycles = 0;
+  while (cycle_->record().fault == Fault::kNone && cycles < 10) {
+    step();
+    ++cycles;
+  }
+  EXPECT_EQ(cycles, 4);
+  EXPECT_EQ(cycle_->record().fault, Fault::kSendFailed);
+}
+
+TEST_F(ControlCycleTest, StopsBeyondAJointLimitAndBeyondASpeed) {
+  make();
+  run_to(Mode::kRunning);
+  for (int i = 0; i < 5000 && cycle_->record().fault == Fault::kNone; ++i) {
+    drives_.reading.position[0] += 1e-3;  // 1 rad/s of 1.92
+    step();
+  }
+  EXPECT_EQ(cycle_->record().fault, Fault::kJointLimit);
+  EXPECT_NEAR(drives_.reading.position[0], arm_.model.joints[0].upper, 1.01e-3);
+
+  drives_ = FakeDrives(7);
+  drives_.reading.position = q0_;
+  make();
+  run_to(Mode::kRunning);
+  for (int i = 0; i < 100 && cycle_->record().fault == Fault::kNone; ++i) {
+    drives_.reading.position[0] += 2e-3;  // 2 rad/s of 1.92
+    step();
+  }
+  EXPECT_EQ(cycle_->record().fault, Fault::kTooFast);
+}
+
+TEST_F(ControlCycleTest, DoesNotAskForTheHeap) {
+  if (!test::AllocationGuard::works()) GTEST_SKIP() << "the sanitizer keeps malloc to itself";
+  make();
+  run_to(Mode::kRunning);
+  const JointVector above = moved(Vector3(0.0, 0.0, -0.025));
+  const JointVector below = moved(Vector3(0.01, 0.0, -0.035));
+  for (int i = 1; i <= 100; ++i) {
+    drives_.reading.position = q0_ + i / 100.0 * (above - q0_);
+    step();
+  }
+  const test::AllocationGuard guard;
+  std::uint64_t in_contact = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    drives_.reading.position = above + (0.5 - 0.5 * std::cos(2.0 * M_PI * i / 1000.0)) * (below - above);
+    cycle_->run_once({});
+    in_contact += cycle_->record().outcome == Outcome::kContact ? 1u : 0u;
+  }
+  EXPECT_EQ(guard.allocations() + guard.releases(), 0);
+  EXPECT_GT(in_contact, 30'000u);
+  EXPECT_EQ(cycle_->record().fault, Fault::kNone);
+}
+
+}  // namespace
+}  // namespace godobject::firmware

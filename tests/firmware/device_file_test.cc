@@ -1,0 +1,123 @@
+#include "firmware/configuration/device_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/device/dynamics.h"
+#include "firmware/command/failure.h"
+#include "tests/support/arms.h"
+
+namespace godobject::firmware {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+class DeviceFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ifstream stream(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+    text_.assign(std::istreambuf_iterator<char>(stream), {});
+    file_ = std::filesystem::path(testing::TempDir()) /
+            (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  /// The message with which the file is refused once `from` is `to`; empty if it is not.
+  std::string refusal(const std::string& from, const std::string& to) const {
+    std::string text = text_;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(file_) << text;
+    try {
+      read_device_file(file_);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), ExitCode::kBadConfig);
+      EXPECT_NE(std::string(failure.what()).find(file_.string()), std::string::npos) << failure.what();
+      return failure.what();
+    }
+    return {};
+  }
+
+  std::string text_;
+  std::filesystem::path file_;
+};
+
+TEST_F(DeviceFileTest, ReadsBothArms) {
+  const Device lwr = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml");
+  EXPECT_EQ(lwr.name, "lwr");
+  EXPECT_EQ(lwr.model.joint_count, 7);
+  EXPECT_EQ(lwr.model.joints[0].torque, 176.0);
+  EXPECT_EQ(lwr.model.joints[6].link.inertia(2, 2), 2.400e-04);
+  EXPECT_EQ(lwr.torque.null_damping[6], 0.02);
+  EXPECT_EQ(lwr.model.payload.mass, 0.5);
+  const Device desktop = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  EXPECT_EQ(desktop.model.joint_count, 6);
+  EXPECT_EQ(desktop.torque.singular_full, 0.016);
+}
+
+TEST_F(DeviceFileTest, RefusesWhatIsNotThere) {
+  try {
+    read_device_file("nowhere.toml");
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), ExitCode::kNoInput);
+  }
+}
+
+TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
+  EXPECT_EQ(refusal("velocity = 8.0", "velocity = 8.0 "), "");
+  for (const auto& [from, to, says] : std::initializer_list<std::array<const char*, 3>>{
+           {"velocity = 8.0", "velocity = nan", "joint[1].velocity = nan is out of range"},
+           {"velocity = 8.0", "velocity = -1.0", "joint[1].velocity = -1 is out of range"},
+           {"velocity = 8.0", "velocity = \"8\"", "joint[1].velocity must be a number"},
+           {"velocity = 8.0", "speed = 8.0", "joint[1].speed is not a known key"},
+           {"velocity = 8.0\n", "", "joint[1].velocity is missing"},
+           {"upper = 1.8", "upper = -0.4", "joint[2].upper = -0.4 is out of range"},
+           {"com = [0.06, 0.0, 0.0]", "com = [0.06, 0.0]", "joint[2].com must be an array of 3 numbers"},
+           {"2.003e-04, 2.003e-04", "2.003e-04, 9.003e-04", "joint[2].inertia is not possible"},
+           {"singular_full = 0.016", "singular_full = 0.004", "torque.singular_full = 0.004 is out of range"},
+           {"limit_band = 0.1", "limit_band = 1.06", "torque.limit_band = 1.06 is out of range"},
+           {"base = [0.0, 0.0, 0.0, 1.0", "base = [0.0, 0.0, 0.0, 1.1", "arm.base has a quaternion that is not"},
+           {"\n[payload]", "\n[cargo]", "cargo is not a known table"},
+           {"mass = 0.02\n", "mass = -0.02\n", "payload.mass = -0.02 is out of range"},
+           {"name = \"desktop6\"", "name = 6", "arm.name must be a text in quotes"},
+           {"\n[tool]", "\n[tool", "not TOML"},
+       }) {
+    const std::string message = refusal(from, to);
+    EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
+  }
+  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:37:"), std::string::npos)
+      << refusal("velocity = 8.0", "velocity = nan");
+}
+
+TEST_F(DeviceFileTest, RefusesTooManyJointsAndNone) {
+  const std::size_t first = text_.find("\n[[joint]]");
+  const std::string joint = text_.substr(first, text_.find("\n[[joint]]", first + 1) - first);
+  EXPECT_NE(refusal("\n[[joint]]", joint + joint + "\n[[joint]]").find("has 8 [[joint]] tables"), std::string::npos);
+  text_.erase(first, text_.find("\n[tool]") - first);
+  EXPECT_NE(refusal("\n[tool]", "\n[tool]").find("has 0 [[joint]] tables"), std::string::npos);
+}
+
+TEST_F(DeviceFileTest, HoldsAnotherMeshFrameWithTheSameMechanics) {
+  test::Random random(3);
+  Device device = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  device.model.payload.com = Vector3(0.01, 0.02, -0.03);
+  const Device before = device;
+  const Pose H_MG = set_matrix(random.motion(0.1, 3.0));
+  regrip(H_MG, device);
+  const JointVector q = test::random_positions(random, device.model);
+  const ArmKinematics kinematics = forward_kinematics(device.model, q);
+  const ArmKinematics kinematics_before = forward_kinematics(before.model, q);
+  const Pose H_WG = kinematics_before.H_WM * H_MG;
+  EXPECT_LT((kinematics.H_WM.translation - H_WG.translation).norm(), 1e-12);
+  EXPECT_LT((gravity_torque(device.model, kinematics) - gravity_torque(before.model, kinematics_before)).norm(), 1e-12);
+  EXPECT_LT((mass_matrix(device.model, kinematics) - mass_matrix(before.model, kinematics_before)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace godobject::firmware

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+
+#include "hal/joint_drives.h"
+
+namespace godobject::firmware {
+
+/// Drives of an arm whose joints are where a test puts them. They do what they are asked a cycle later; a test sets
+/// what else is read, and looks at what was sent.
+class FakeDrives final : public hal::JointDrives {
+ public:
+  explicit FakeDrives(int joint_count) : joint_count_(joint_count) { reading.enable_switch = true; }
+
+  int joint_count() const noexcept override { return joint_count_; }
+  void receive(hal::JointReading& out) noexcept override { out = reading; }
+  double delay() const noexcept override { return 1e-3; }
+
+  bool send(const hal::JointCommand& command) noexcept override {
+    sent = command;
+    ++sends;
+    using hal::DriveState;
+    for (int i = 0; i < joint_count_; ++i) {
+      DriveState& state = reading.state[static_cast<std::size_t>(i)];
+      switch (command.power) {
+        case hal::PowerRequest::kEnable:
+          if (state == DriveState::kOff) state = DriveState::kEnabled;
+          break;
+        case hal::PowerRequest::kReset:
+          if (state == DriveState::kFault) state = DriveState::kOff;
+          break;
+        case hal::PowerRequest::kOff:
+        case hal::PowerRequest::kQuickStop:
+          if (state == DriveState::kEnabled) state = DriveState::kOff;
+          break;
+      }
+    }
+    return !fails_to_send;
+  }
+
+  hal::JointReading reading;
+  hal::JointCommand sent;
+  int sends = 0;
+  bool fails_to_send = false;
+
+ private:
+  int joint_count_;
+};
+
+}  // namespace godobject::firmware

@@ -1,0 +1,437 @@
+#include "firmware/supervisor.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace godobject::firmware {
+namespace {
+
+using hal::PowerRequest;
+
+/// Three joints of 1 Nm; the sign test is left out unless asked for.
+ArmModel three_joints() {
+  ArmModel arm;
+  arm.joint_count = 3;
+  for (int i = 0; i < 3; ++i) arm.joints[static_cast<std::size_t>(i)].torque = 1.0;
+  return arm;
+}
+
+Supervisor::Parameters parameters(bool sign_test = false) {
+  Supervisor::Parameters p;
+  p.boot_cycles = 300;
+  p.engage_cycles = 10;
+  p.sign_test = sign_test;
+  return p;
+}
+
+/// A supervisor among drives that do what they are asked a cycle later.
+class Bench {
+ public:
+  explicit Bench(const Supervisor::Parameters& p = parameters()) : supervisor(three_joints(), p) {
+    seen.drives = {true, false, true, false};
+    seen.enable_switch = true;
+  }
+
+  const Decision& step() {
+    decision = supervisor.step(seen);
+    ++cycles;
+    if (!obeys) return decision;
+    switch (decision.power) {
+      case PowerRequest::kEnable:
+        seen.drives.all_enabled = true;
+        seen.drives.none_moves = false;
+        break;
+      case PowerRequest::kReset: seen.drives.any_fault = false; [[fallthrough]];
+      case PowerRequest::kOff:
+      case PowerRequest::kQuickStop:
+        seen.drives.all_enabled = false;
+        seen.drives.none_moves = true;
+        break;
+    }
+    return decision;
+  }
+
+  /// Steps until the mode is reached; how many it took, or -1 after 5000.
+  int run_to(Mode mode) {
+    for (int i = 0; i < 5000; ++i) {
+      if (supervisor.mode() == mode) return i;
+      step();
+    }
+    return -1;
+  }
+
+  Supervisor supervisor;
+  Observation seen;
+  Decision decision;
+  bool obeys = true;
+  int cycles = 0;
+};
+
+bool is_stop(const Decision& decision) {
+  return decision.share == 0.0 && !decision.of_last && !decision.rate_limited && decision.test_torque.isZero(0.0);
+}
+
+TEST(Supervisor, RunsFromBootToRunningWhenAllIsWell) {
+  Bench bench;
+  std::vector<Mode> modes{bench.supervisor.mode()};
+  bool powered_before_zero_check = false;
+  for (int i = 0; i < 400; ++i) {
+    const Decision& decision = bench.step();
+    if (i < static_cast<int>(Supervisor::kZeroCycles))
+      powered_before_zero_check |= decision.power != PowerRequest::kOff;
+    if (bench.supervisor.mode() != modes.back()) modes.push_back(bench.supervisor.mode());
+  }
+  EXPECT_FALSE(powered_before_zero_check);
+  EXPECT_EQ(modes, (std::vector<Mode>{Mode::kBoot, Mode::kZeroCheck, Mode::kIdle, Mode::kEnabling, Mode::kArmed,
+                                      Mode::kEngaging, Mode::kRunning}));
+  EXPECT_EQ(bench.decision.share, 1.0);
+  EXPECT_TRUE(bench.decision.holds_arm);
+  EXPECT_TRUE(bench.decision.rate_limited);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kNone);
+}
+
+TEST(Supervisor, RampsUpEvenly) {
+  Bench bench;
+  bench.run_to(Mode::kEngaging);
+  double before = 0.0;
+  while (bench.supervisor.mode() == Mode::kEngaging) {
+    const double share = bench.step().share;
+    EXPECT_NEAR(share - before, 0.1, 1e-12);
+    before = share;
+  }
+  EXPECT_NEAR(before, 1.0, 1e-12);
+}
+
+TEST(Supervisor, RendersNothingUntilTheContactForceIsSmall) {
+  Bench bench;
+  bench.seen.contact_force = 5.0;
+  bench.run_to(Mode::kArmed);
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(bench.step().share, 0.0);
+  bench.seen.contact_force = 0.0;
+  bench.seen.inside = true;
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(bench.step().share, 0.0);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kArmed);
+  bench.seen.inside = false;
+  bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kEngaging);
+}
+
+TEST(Supervisor, GivesNoPowerWithoutTheEnableSwitchOrInAnEmergencyStop) {
+  for (const bool pressed : {false, true}) {
+    Bench bench;
+    bench.seen.enable_switch = pressed;
+    bench.seen.emergency_stop = pressed;
+    for (int i = 0; i < 1000; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+    EXPECT_EQ(bench.supervisor.mode(), Mode::kIdle);
+  }
+}
+
+/// Rows of the table of faults: from the first cycle in which the cause is seen, how many it takes until nothing is
+/// rendered and until the quick stop is asked for.
+struct Row {
+  std::string what;
+  std::function<void(Observation&, int)> cause;  ///< sets the observation of cycle 1, 2, .. of the fault
+  Fault fault;
+  int most_cycles;  ///< of the table, from the cause to the STOP
+  bool fades = false;
+};
+
+class FaultTable : public testing::TestWithParam<Row> {};
+
+TEST_P(FaultTable, IsReactedToInTime) {
+  const Row& row = GetParam();
+  Bench bench;
+  ASSERT_GE(bench.run_to(Mode::kRunning), 0);
+  for (int i = 0; i < 20; ++i) bench.step();
+  ASSERT_EQ(bench.decision.share, 1.0);
+  double before = 1.0;
+  int stopped = 0;
+  for (int k = 1; k <= row.most_cycles && stopped == 0; ++k) {
+    row.cause(bench.seen, k);
+    const Decision& decision = bench.step();
+    if (is_stop(decision)) stopped = k;
+    if (row.fades) {
+      EXPECT_LE(decision.share, before);
+      EXPECT_TRUE(decision.share == 1.0 || decision.of_last || stopped > 0);
+    } else {
+      EXPECT_TRUE(stopped > 0 || decision.share == 1.0);
+    }
+    before = decision.share;
+  }
+  ASSERT_GT(stopped, 0) << "not within " << row.most_cycles << " cycles";
+  EXPECT_EQ(bench.supervisor.fault(), row.fault);
+  EXPECT_TRUE(bench.decision.holds_arm);
+
+  // the quick stop follows, then no power; whatever the cause does, it stays so
+  std::vector<PowerRequest> requests{bench.decision.power};
+  for (int i = 0; i < 2000; ++i) {
+    row.cause(bench.seen, row.most_cycles + 1 + i);
+    EXPECT_EQ(bench.step().share, 0.0);
+    if (bench.decision.power != requests.back()) requests.push_back(bench.decision.power);
+  }
+  EXPECT_EQ(requests, (std::vector<PowerRequest>{PowerRequest::kEnable, PowerRequest::kQuickStop, PowerRequest::kOff}));
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kStopped);
+  EXPECT_EQ(bench.supervisor.fault(), row.fault) << "the first fault is latched";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, FaultTable,
+    testing::Values(
+        Row{"position lost three times", [](Observation& o, int k) { o.lost = static_cast<std::uint32_t>(k); },
+            Fault::kPositionLost, 8, true},
+        Row{"encoder jumps twice", [](Observation& o, int k) { o.jumps = static_cast<std::uint32_t>(k); },
+            Fault::kPositionJump, 3},
+        Row{"not finite", [](Observation& o, int) { o.finite = false; }, Fault::kNotFinite, 1},
+        Row{"cycle not computed", [](Observation& o, int) { o.status = Status::kNotFinite; }, Fault::kComputation, 1},
+        Row{"encoder stuck", [](Observation& o, int) { o.stuck = true; }, Fault::kEncoderStuck, 1},
+        Row{"three overruns in a row", [](Observation& o, int) { o.overrun_ns = 1; }, Fault::kOverruns, 8},
+        Row{"one long overrun", [](Observation& o, int k) { o.overrun_ns = k == 1 ? 5'000'001 : 0; }, Fault::kOverruns,
+            8},
+        Row{"drive leaves enabled", [](Observation& o, int) { o.drives.all_enabled = false; }, Fault::kDriveLeft, 2},
+        Row{"sending fails three times",
+            [](Observation& o, int k) { o.sends_failed = static_cast<std::uint32_t>(k - 1); }, Fault::kSendFailed, 4},
+        Row{"emergency stop", [](Observation& o, int) { o.emergency_stop = true; }, Fault::kEmergencyStop, 2},
+        Row{"enable switch released", [](Observation& o, int) { o.enable_switch = false; }, Fault::kEnableReleased, 2},
+        Row{"joint limit", [](Observation& o, int) { o.beyond_joint_limit = true; }, Fault::kJointLimit, 5},
+        Row{"too fast", [](Observation& o, int) { o.too_fast = true; }, Fault::kTooFast, 5}),
+    [](const testing::TestParamInfo<Row>& row) {
+      std::string name = row.param.what;
+      for (char& c : name) c = c == ' ' ? '_' : c;
+      return name;
+    });
+
+TEST(Supervisor, GoesOnWhenAPositionIsLostOnceOrTwice) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  for (int i = 0; i < 3000; ++i) {
+    bench.seen.lost = static_cast<std::uint32_t>(i % 3);
+    ASSERT_EQ(bench.step().share, 1.0);
+  }
+}
+
+TEST(Supervisor, FadesInFiveCyclesFromTheThirdLoss) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  std::vector<double> shares;
+  for (std::uint32_t k = 1; k <= 8; ++k) {
+    bench.seen.lost = k;
+    shares.push_back(bench.step().share);
+    EXPECT_TRUE(bench.decision.holds_arm);
+    if (k < 8) {
+      EXPECT_EQ(bench.decision.power, PowerRequest::kEnable);
+    }
+  }
+  const std::vector<double> expected{1.0, 1.0, 0.8, 0.6, 0.4, 0.2, 0.0, 0.0};
+  ASSERT_EQ(shares.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(shares[i], expected[i], 1e-12) << i;
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kStopping);
+}
+
+TEST(Supervisor, FadesAndStopsThoughThePositionComesBack) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  for (std::uint32_t k = 1; k <= 3; ++k) {
+    bench.seen.lost = k;
+    bench.step();
+  }
+  bench.seen.lost = 0;
+  for (int i = 0; i < 10; ++i) bench.step();
+  EXPECT_EQ(bench.decision.share, 0.0);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kPositionLost);
+}
+
+TEST(Supervisor, StopsAtOnceWhenADriveGoesWhileItFades) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  for (std::uint32_t k = 1; k <= 4; ++k) {
+    bench.seen.lost = k;
+    bench.step();
+  }
+  bench.seen.drives.all_enabled = false;
+  EXPECT_TRUE(is_stop(bench.step()));
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kPositionLost) << "the first fault is latched";
+}
+
+TEST(Supervisor, ToleratesTenOverrunsASecondAndNotEleven) {
+  for (const int count : {10, 11}) {
+    Bench bench;
+    bench.run_to(Mode::kRunning);
+    for (int i = 0; i < 2000; ++i) {
+      bench.seen.overrun_ns = i % 1000 >= 2 * count || i % 2 == 0 ? 0 : 100'000;
+      bench.step();
+    }
+    EXPECT_EQ(bench.supervisor.fault(), count == 10 ? Fault::kNone : Fault::kOverruns) << count;
+  }
+}
+
+TEST(Supervisor, IgnoresOverrunsWithoutPower) {
+  Bench bench;
+  bench.seen.enable_switch = false;
+  bench.seen.overrun_ns = 9'000'000;
+  for (int i = 0; i < 1000; ++i) bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kIdle);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kNone);
+}
+
+TEST(Supervisor, RefusesDrivesThatDoNotAnswer) {
+  Bench bench;
+  bench.seen.drives.all_answer = false;
+  for (int i = 0; i < 299; ++i) bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kBoot);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kDrivesAbsent);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kStopped);
+}
+
+TEST(Supervisor, RefusesJointsThatMoveOrStandBeyondTheirLimitsWithBrakesClosed) {
+  for (const bool moves : {false, true}) {
+    Bench bench;
+    bench.run_to(Mode::kZeroCheck);
+    if (moves) {
+      bench.seen.q[2] = 0.006;
+    } else {
+      bench.seen.beyond_joint_limit = true;
+    }
+    EXPECT_EQ(bench.step().power, PowerRequest::kOff);
+    EXPECT_EQ(bench.supervisor.fault(), Fault::kNotAtRest);
+  }
+}
+
+TEST(Supervisor, StopsWhenADriveDoesNotBecomeEnabled) {
+  Bench bench;
+  bench.obeys = false;
+  bench.run_to(Mode::kEnabling);
+  int cycles = 0;
+  while (bench.supervisor.mode() == Mode::kEnabling && cycles < 3000) {
+    bench.step();
+    ++cycles;
+  }
+  EXPECT_EQ(cycles, static_cast<int>(Supervisor::kEnableCycles));
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
+}
+
+TEST(Supervisor, EndsFromRunningWithARampAndAQuickStopWithinTwoHundredCycles) {
+  for (const bool obeys : {true, false}) {
+    Bench bench;
+    bench.run_to(Mode::kRunning);
+    bench.seen.end_requested = true;
+    bench.obeys = obeys;
+    double before = 1.0;
+    std::vector<PowerRequest> requests;
+    int cycles = 0;
+    for (; cycles < 300 && bench.supervisor.mode() != Mode::kEnded; ++cycles) {
+      bench.step();
+      EXPECT_LE(before - bench.decision.share, 1.0 / Supervisor::kEndRamp + 1e-12);
+      EXPECT_LE(bench.decision.share, before);
+      before = bench.decision.share;
+      if (requests.empty() || requests.back() != bench.decision.power) requests.push_back(bench.decision.power);
+    }
+    EXPECT_LE(cycles, 200);
+    EXPECT_EQ(requests,
+              (std::vector<PowerRequest>{PowerRequest::kEnable, PowerRequest::kQuickStop, PowerRequest::kOff}));
+    EXPECT_EQ(bench.supervisor.fault(), Fault::kNone);
+  }
+}
+
+TEST(Supervisor, EndsWithinTwoHundredCyclesFromEveryMode) {
+  for (int start = 0; start < 460; start += 3) {
+    Bench bench;
+    for (int i = 0; i < start; ++i) {
+      if (i == 350) bench.seen.lost = 3;  // the last of them in FADE, STOP and stopped
+      bench.step();
+    }
+    bench.seen.end_requested = true;
+    const int cycles = bench.run_to(Mode::kEnded);
+    EXPECT_GE(cycles, 0) << start;
+    EXPECT_LE(cycles, 200) << start;
+    EXPECT_EQ(bench.step().power, PowerRequest::kOff);
+  }
+}
+
+TEST(Supervisor, StopsForAFaultWhileItEnds) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.seen.end_requested = true;
+  for (int i = 0; i < 10; ++i) bench.step();
+  bench.seen.emergency_stop = true;
+  EXPECT_TRUE(is_stop(bench.step()));
+  EXPECT_LE(bench.run_to(Mode::kEnded), 190);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kEmergencyStop);
+}
+
+TEST(Supervisor, IsResetByTheOperatorOnlyWithTheSwitchReleased) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.seen.emergency_stop = true;
+  bench.run_to(Mode::kStopped);
+  bench.seen.drives.any_fault = true;
+  bench.seen.reset_requested = true;
+  bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kStopped) << "emergency stop pressed";
+  bench.seen.emergency_stop = false;
+  bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kStopped) << "enable switch held";
+  bench.seen.enable_switch = false;
+  bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kResetting);
+  EXPECT_EQ(bench.decision.power, PowerRequest::kReset);
+  bench.seen.reset_requested = false;
+  EXPECT_GE(bench.run_to(Mode::kIdle), 0);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kNone);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+  bench.seen.enable_switch = true;
+  EXPECT_GE(bench.run_to(Mode::kRunning), 0);
+  EXPECT_EQ(bench.decision.share, 1.0);
+}
+
+TEST(Supervisor, StaysStoppedWithoutAReset) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.seen.enable_switch = false;
+  bench.run_to(Mode::kStopped);
+  bench.seen.enable_switch = true;
+  for (int i = 0; i < 3000; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+}
+
+TEST(Supervisor, StopsWhenAJointMovesAwayInTheSignTest) {
+  Bench bench(parameters(/*sign_test=*/true));
+  ASSERT_GE(bench.run_to(Mode::kSignTest), 0);
+  bench.step();
+  bench.seen.q[1] = 0.21;
+  EXPECT_TRUE(is_stop(bench.step()));
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kSignWrong);
+}
+
+TEST(Supervisor, ArmsOnlyAfterASignTestThatPassedAndTestsOnce) {
+  Bench bench(parameters(/*sign_test=*/true));
+  ASSERT_GE(bench.run_to(Mode::kSignTest), 0);
+  // joints that follow their torque
+  for (int i = 0; i < 5000 && bench.supervisor.mode() == Mode::kSignTest; ++i) {
+    bench.seen.q += 1e-2 * bench.step().test_torque;
+  }
+  ASSERT_EQ(bench.supervisor.mode(), Mode::kArmed);
+  EXPECT_TRUE(bench.decision.test_torque.isZero(0.0));
+  bench.seen.emergency_stop = true;
+  bench.run_to(Mode::kStopped);
+  bench.seen.emergency_stop = bench.seen.enable_switch = false;
+  bench.seen.reset_requested = true;
+  bench.run_to(Mode::kIdle);
+  bench.seen.enable_switch = true;
+  bench.run_to(Mode::kEnabling);
+  bench.step();
+  bench.step();
+  EXPECT_NE(bench.supervisor.mode(), Mode::kSignTest);
+}
+
+TEST(Supervisor, NamesEveryModeAndFault) {
+  for (int i = 0; i <= static_cast<int>(Mode::kEnded); ++i) EXPECT_STRNE(name(static_cast<Mode>(i)), "unknown");
+  for (int i = 0; i <= static_cast<int>(Fault::kSignUndecided); ++i) {
+    EXPECT_STRNE(describe(static_cast<Fault>(i)), "unknown fault");
+  }
+}
+
+}  // namespace
+}  // namespace godobject::firmware
