@@ -80,7 +80,7 @@ void read_start(const TomlTable& table, ControllerConfig::Start& start) {
 }  // namespace
 
 ControllerConfig read_controller_file(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file, "controller file");
+  const toml::table root = command::parse_toml_file(file);
   command::allow_tables(
       root, file,
       {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "telemetry", "simulation"});

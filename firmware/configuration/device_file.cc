@@ -86,7 +86,7 @@ void read_torque(const TomlTable& table, Device& device) {
 }  // namespace
 
 Device read_device_file(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file, "device file");
+  const toml::table root = command::parse_toml_file(file);
   command::allow_tables(root, file, {"arm", "torque", "joint", "tool", "payload"});
   Device device;
   const TomlTable arm(root, "arm", file);

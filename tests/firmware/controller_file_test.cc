@@ -108,7 +108,7 @@ TEST_F(ControllerFileTest, RefusesADeviceFileThatIsNotThere) {
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.exit_code(), ExitCode::kNoInput);
-    EXPECT_NE(std::string(failure.what()).find("nowhere.toml: no such device file"), std::string::npos);
+    EXPECT_NE(std::string(failure.what()).find("nowhere.toml"), std::string::npos);
   }
 }
 
