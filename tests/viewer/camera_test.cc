@@ -1,11 +1,17 @@
 #include "toolchain/viewer/camera.h"
 
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/viewer/boxes.h"
+#include "toolchain/scene_compiler/mesh_import.h"
+#include "toolchain/scene_compiler/triangle_tree.h"
 
 namespace godobject::viewer {
 namespace {
@@ -79,6 +85,28 @@ TEST(Camera, ChoosesToLookFromTheBodysSideOfThePlate) {
   const Camera camera = make_camera(stage.view());
   EXPECT_GT(camera.eye.z(), 0.03);
   EXPECT_LT(std::abs(camera.forward.z()), 0.5);  // the poses differ along z: seen from the side
+}
+
+TEST(Camera, LooksFromAsideAtAnEarInTheHandle) {
+  // the ear fits the handle: the place where they touch is seen from nowhere, and much of the way there is behind the
+  // body
+  scene_compiler::MeshReport report;
+  const std::filesystem::path meshes = GODOBJECT_MESH_FOLDER;
+  const auto teapot = scene_compiler::import_mesh(meshes / "teapot.ply", 0.037, report);
+  const auto bunny = scene_compiler::import_mesh(meshes / "bunny_npm.ply", 0.0161497, report);
+  const Pose H_WD{Quaternion(0.07492, 0.13961, -0.96715, -0.19878), Vector3(-0.11534, -0.09560, -0.07883)};
+  const Pose H_WS{Quaternion(0.07064, 0.12966, -0.96464, -0.21835), Vector3(-0.11692, -0.11086, -0.08246)};
+  const View view{.still = teapot, .moving = bunny, .placements = {{H_WD, H_WS}}, .up_axis = 1, .direction = {}};
+  const Vector3 eye = make_camera(view).eye;
+  std::vector<scene_compiler::TriangleTree::Triangle> triangles;
+  for (const auto& t : bunny.triangles)
+    triangles.push_back({H_WS * bunny.vertices[t[0]], H_WS * bunny.vertices[t[1]], H_WS * bunny.vertices[t[2]],
+                         static_cast<std::uint32_t>(triangles.size())});
+  const scene_compiler::TriangleTree body(std::move(triangles));
+  for (const Vector3& on_handle : {Vector3(-0.105, 0.02, 0.0), Vector3(-0.100, -0.01, 0.0)}) {
+    scene_compiler::TriangleTree::RayHit hit{};
+    EXPECT_FALSE(body.first_hit(on_handle, (eye - on_handle).normalized(), 0.0, 10.0, hit)) << on_handle.transpose();
+  }
 }
 
 TEST(Camera, ZoomBringsItNearer) {

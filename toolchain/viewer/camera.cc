@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "toolchain/scene_compiler/triangle_tree.h"
 
@@ -40,13 +41,22 @@ double furthest(const std::vector<Vector3>& points, const Vector3& from) {
   return radius;
 }
 
-/// The moving mesh's vertex that is nearest to the still surface.
-Vector3 nearest_place(const TriangleMesh& moving, const Pose& H_WS, const TriangleTree& still) {
-  Vector3 place = H_WS.translation;
+/// A mesh in W and its tree.
+struct PlacedMesh {
+  const TriangleMesh& mesh;
+  const Pose& pose;
+  const TriangleTree& tree;
+};
+
+/// The vertex of either mesh that is nearest to the other's surface: where a vertex touches a face it may be of either.
+Vector3 nearest_place(const PlacedMesh& a, const PlacedMesh& b) {
+  Vector3 place = a.pose.translation;
   TriangleTree::Nearest nearest{std::numeric_limits<double>::infinity(), Vector3::Zero(), 0};
-  for (const Vector3& vertex : moving.vertices) {
-    const Vector3 p = H_WS * vertex;
-    if (still.nearest(p, nearest.squared_distance, nearest)) place = p;
+  for (const auto& [from, to] : {std::pair(&a, &b), {&b, &a}}) {
+    for (const Vector3& vertex : from->mesh.vertices) {
+      const Vector3 p = from->pose * vertex;
+      if (to->tree.nearest(p, nearest.squared_distance, nearest)) place = p;
+    }
   }
   return place;
 }
@@ -86,13 +96,16 @@ struct Subject {
 Vector3 choose_direction(const Subject& subject, int up_axis, const TriangleTree& still, const TriangleTree& moving) {
   constexpr int kAround = 72;
   constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr double kSpreads[] = {0.05, 0.15, 0.3};  // the place itself may lie in a hole: then what is around it counts
   Vector3 best = Vector3::UnitX();
   double best_score = -1.0;
   for (const double elevation : {12.0 * kDegree, 25.0 * kDegree, 40.0 * kDegree}) {
     for (int i = 0; i < kAround; ++i) {
       const Vector3 v = toward_eye({2.0 * std::numbers::pi * i / kAround, elevation}, up_axis);
       const double sideways = 1.0 - std::abs(v.dot(subject.separation));
-      const double score = visible_share(subject.place, 0.05 * subject.size, v, still, moving) + 0.5 * sideways;
+      double score = 0.5 * sideways;
+      for (const double spread : kSpreads)
+        score += visible_share(subject.place, spread * subject.size, v, still, moving);
       if (score > best_score + 1e-9) {
         best_score = score;
         best = v;
@@ -113,8 +126,10 @@ Camera make_camera(const View& view) {
     }
   }
   const Placement& first = view.placements.front();
-  const TriangleTree still = tree_of(view.still, Pose());
-  const Vector3 place = nearest_place(view.moving, first.H_WS, still);
+  const Pose H_WW;
+  const TriangleTree still = tree_of(view.still, H_WW);
+  const TriangleTree moving = tree_of(view.moving, first.H_WS);
+  const Vector3 place = nearest_place({view.moving, first.H_WS, moving}, {view.still, H_WW, still});
   shown.push_back(place);
   const Vector3 center = middle(shown);
 
@@ -129,7 +144,7 @@ Camera make_camera(const View& view) {
     const Vector3 apart = first.H_WS.translation - first.H_WD.translation;
     const bool differ = apart.norm() > 1e-3 * radius;
     const Subject subject{place, differ ? apart.normalized() : (center - place).stableNormalized(), radius};
-    to_eye = choose_direction(subject, view.up_axis, still, tree_of(view.moving, first.H_WS));
+    to_eye = choose_direction(subject, view.up_axis, still, moving);
   }
 
   constexpr double kRoom = 1.03;
