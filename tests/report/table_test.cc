@@ -71,12 +71,17 @@ TEST(VerdictText, SaysByHowMuchATargetIsMissed) {
 }
 
 TEST(TextTable, HasOneLineForEachQuantityMeasured) {
-  EXPECT_EQ(text_table(some()),
+  const std::string text = text_table(some());
+  EXPECT_EQ(text.substr(0, text.find("4 scenes;")),
             "quantity                 unit  target   paper  corrected  contact  verdict on contact    worst scene of "
             "contact\n"
             "penetration (field)      mm         0       -          -   0.0000  missed by 2.0e-07 mm  ball (analytic)\n"
             "distance to the optimum  mm      0.04  1.5000          -   0.0612  missed by 0.0212 mm   box (compiled)\n"
             "solver, median           us       0.5       -          -     0.30  held\n");
+}
+
+TEST(TextTable, SaysWhatItsUnitMeans) {
+  EXPECT_NE(text_table(some()).find("\ns: edges of a voxel"), std::string::npos);
 }
 
 TEST(SummaryCsv, HasAllQuantitiesAndTheSameColumnsEverywhere) {

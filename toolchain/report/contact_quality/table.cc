@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -54,6 +56,19 @@ std::array<std::optional<Verdict>, kSolverCount> judge_all(const std::vector<Mea
   return verdicts;
 }
 
+/// What the table's words mean, and how much it stands on.
+std::string legend(const std::vector<Measurement>& measurements) {
+  std::set<std::pair<std::string, std::string>> scenes;
+  for (const Measurement& m : measurements) scenes.emplace(m.scene, m.world);
+  return fmt::format(
+      "{} scenes; a figure is that of the solver's worst scene, a time the median over the scenes (us: of steps #2-#7; "
+      "whole cycle: #1 too).\n"
+      "s: edges of a voxel of the scene; mesh: against the exact mesh, field: against the stored distances; optimum: "
+      "the "
+      "pose nearest to the\ndevice that does not penetrate; targets are those of contact.\n",
+      scenes.size());
+}
+
 constexpr auto kContact = static_cast<std::size_t>(Solver::kContact);
 
 }  // namespace
@@ -82,7 +97,7 @@ std::string text_table(const std::vector<Measurement>& measurements) {
     row.push_back(verdicts[kContact] && !quantity.median ? verdicts[kContact]->worst_scene : std::string());
     rows.push_back(std::move(row));
   }
-  return aligned(rows, 2);
+  return aligned(rows, 2) + legend(measurements);
 }
 
 std::string summary_csv(const std::vector<Measurement>& measurements) {
