@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -115,10 +116,14 @@ TEST_F(ReplayTest, KeepsAGapWithTheSolverContactWhichIsTheScenesDefault) {
   ASSERT_EQ(run("--friction off"), 0) << output_;
   const auto table = rows();
   ASSERT_EQ(table.size(), 301u);
+  double gap = 1.0;
   for (std::size_t i = 1; i < table.size(); ++i) {
     ASSERT_LT(std::stod(table[i][kDepth]), 0.0) << "row " << i;
+    gap = std::min(gap, -std::stod(table[i][kDepth]));
     ASSERT_TRUE(table[i][kStatus] == "contact" || table[i][kStatus] == "free") << table[i][kStatus];
   }
+  EXPECT_NE(output_.find(fmt::format("no point inside, smallest gap {:.4f} mm", 1e3 * gap)), std::string::npos)
+      << output_;
   EXPECT_EQ(table[1][kStatus], "free");
   EXPECT_EQ(table[300][kStatus], "free");
   EXPECT_EQ(table[151][kStatus], "contact");
@@ -217,6 +222,12 @@ TEST_F(ReplayTest, TakesAnotherStiffness) {
     EXPECT_EQ(run("--stiffness=" + bad), 64) << bad << ": " << output_;
     EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
   }
+}
+
+TEST_F(ReplayTest, SaysWhenNothingCameNear) {
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.5,1,0,0,0\n";
+  ASSERT_EQ(run(""), 0) << output_;
+  EXPECT_NE(output_.find("nothing came near"), std::string::npos) << output_;
 }
 
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {

@@ -55,8 +55,10 @@ the tolerance (gaps are kept all the same).
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is whole then), 66 an input is missing or
 may not be read, 74 cannot write, 77 no right to write, 78 --friction on for a scene without friction.)";
 
-/// The field knows no depth beyond its band.
+/// The field knows no depth, and no gap, beyond its band.
 std::string depth_text(double deepest, double band) {
+  if (deepest <= -band) return "nothing came near";
+  if (deepest < 0.0) return fmt::format("no point inside, smallest gap {:.4f} mm", -1e3 * deepest);
   if (deepest < band) return fmt::format("deepest {:.3f} mm", 1e3 * deepest);
   return fmt::format("deepest at least {:.3f} mm (the stored band)", 1e3 * band);
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,14 @@ Path read_path(const std::filesystem::path& file);
 struct Summary {
   std::size_t cycles = 0;
   std::array<std::size_t, static_cast<std::size_t>(Outcome::kInfeasible) + 1> by_outcome{};  ///< cycles of each
-  std::size_t bad_rows = 0;  ///< poses that were none
+  std::size_t bad_rows = 0;                                                                  ///< poses that were none
   std::size_t first_bad_line = 0;
-  double deepest = 0.0;         ///< largest depth of the god object [m]; the field tells none beyond its band
-  double peak_force = 0.0;      ///< [N]
-  std::size_t unconverged = 0;  ///< cycles whose friction was not found to the tolerance
-  int float_exceptions = 0;     ///< of FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW: those that a cycle raised
+  double deepest =
+      -std::numeric_limits<double>::infinity();  ///< largest depth of the god object, negative: the
+                                                 ///< smallest gap; the field tells none beyond its band [m]
+  double peak_force = 0.0;                       ///< [N]
+  std::size_t unconverged = 0;                   ///< cycles whose friction was not found to the tolerance
+  int float_exceptions = 0;  ///< of FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW: those that a cycle raised
 
   /// How many cycles went so.
   std::size_t count(Outcome outcome) const { return by_outcome[static_cast<std::size_t>(outcome)]; }
