@@ -13,6 +13,19 @@ Matrix3 point_inertia(double mass, const Vector3& r) noexcept {
   return mass * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
 }
 
+/// The same as R inertia R^T + point_inertia(mass, com), at half the cost: both are symmetric.
+void set_inertia(const Matrix3& R, const LinkMass& body, const Vector3& com, Matrix3& inertia_W) noexcept {
+  const Matrix3 turned = R * body.inertia;
+  const Vector3 moment = body.mass * com;
+  const double trace = moment.dot(com);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      inertia_W(i, j) = turned.row(i).dot(R.row(j)) - moment[i] * com[j] + (i == j ? trace : 0.0);
+      inertia_W(j, i) = inertia_W(i, j);
+    }
+  }
+}
+
 /// Two bodies as one; b stands in a's frame at (R, p).
 LinkMass join(const LinkMass& a, const LinkMass& b, const Matrix3& R, const Vector3& p) noexcept {
   LinkMass both;
@@ -62,7 +75,7 @@ void ArmDynamics::set_posture(const JointVector& q, ArmPosture& posture) const n
     posture.moment_W[at(i)] = p.cross(z);
     const Vector3 com = p + R * link.body.com;
     posture.mass_moment_W[at(i)] = link.body.mass * com;
-    posture.inertia_W[at(i)].noalias() = R * link.body.inertia * R.transpose() + point_inertia(link.body.mass, com);
+    set_inertia(R, link.body, com, posture.inertia_W[at(i)]);
   }
   posture.R_WM = R * R_FM_;
   posture.p_AM_W = p + R * p_FM_;

@@ -11,7 +11,9 @@ std::array<JointHardwareParameters, kMaxJoints> usual_hardware(const ArmModel& m
   constexpr double kBandwidth = 100.0;  // [rad/s]
   const ArmDynamics arm(model);
   ArmPosture posture;
-  arm.set_posture(JointVector::Zero(), posture);
+  JointVector q = JointVector::Zero();
+  for (int i = 0; i < model.joint_count; ++i) q[i] = 0.5 * model.joints[static_cast<std::size_t>(i)].upper;
+  arm.set_posture(q, posture);
   std::array<JointHardwareParameters, kMaxJoints> hardware;
   for (int i = 0; i < model.joint_count; ++i) {
     JointHardwareParameters& joint = hardware[static_cast<std::size_t>(i)];

@@ -26,7 +26,7 @@ struct JointHardwareParameters {
 };
 
 /// Figures for a device file's arm: encoders of 20 bits a turn, torques in permille of each joint's greatest, which is
-/// also what its brake holds; velocity loops of 100 rad/s for the inertia with all joints at zero.
+/// also what its brake holds; velocity loops of 100 rad/s, tuned with all joints halfway to their upper limits.
 std::array<JointHardwareParameters, kMaxJoints> usual_hardware(const ArmModel& model) noexcept;
 
 /// The power states of a drive, its brake and its loops, in time that is passed in. Real-time safe.

@@ -48,7 +48,7 @@ Motion sum(const Motion& a, double factor, const Motion& b) noexcept {
 void PlantWork::add(double seconds, const PlantWork& power) noexcept {
   motor += seconds * power.motor;
   hand += seconds * power.hand;
-  target += seconds * power.target;
+  operator_arm += seconds * power.operator_arm;
   load += seconds * power.load;
   friction += seconds * power.friction;
 }
@@ -57,12 +57,17 @@ Plant::Plant(const ArmModel& model, const JointVector& q, const JointVector& dry
              const OperatorHand& hand) noexcept
     : arm_(with_hand(model, hand.parameters())), hand_(hand), dry_friction_(dry_friction), q_(q) {
   for (int i = 0; i < model.joint_count; ++i) damping_[i] = model.joints[at(i)].damping;
+  if (hand.parameters().grip == Grip::kRigid) carried_W_.force = -hand.parameters().mass * model.gravity_W;
   arm_.set_posture(q_, posture_);
   hand_state_ = tool();
 }
 
 BodyState Plant::tool(const ArmPosture& posture, const JointVector& qd) const noexcept {
   return {arm_.tool_pose(posture), arm_.tool_velocity(posture, qd)};
+}
+
+JointVector Plant::gravity_torque() const noexcept {
+  return arm_.bias_torque(posture_, JointVector::Zero()) - arm_.tool_torque(posture_, carried_W_);
 }
 
 double Plant::arm_energy() const noexcept {
@@ -86,7 +91,8 @@ JointVector Plant::applied_torque(const Instant& instant, const JointVector& mot
   Wrench on_tool = tool_load_W_;
   rates.power.load = power(tool_load_W_, velocity);
   if (hand.grip != Grip::kNone) {
-    const HandWrenches wrenches = hand_.wrenches(instant.target, instant.hand, tool_state);
+    HandWrenches wrenches = hand_.wrenches(instant.target, instant.hand, tool_state);
+    wrenches.on_tool.force += carried_W_.force;
     on_tool.force += wrenches.on_tool.force;
     on_tool.torque += wrenches.on_tool.torque;
     rates.power.hand.head<3>() = wrenches.on_tool.force.cwiseProduct(velocity.translation);
@@ -94,9 +100,9 @@ JointVector Plant::applied_torque(const Instant& instant, const JointVector& mot
     if (hand.grip == Grip::kSpring) {
       rates.hand.translation = (wrenches.on_hand.force - wrenches.on_tool.force) / hand.mass;
       rates.hand.rotation = (wrenches.on_hand.torque - wrenches.on_tool.torque) / hand.inertia;
-      rates.power.target = power(wrenches.on_hand, instant.hand.velocity);
+      rates.power.operator_arm = power(wrenches.on_hand, instant.hand.velocity);
     } else {
-      rates.power.target = rates.power.hand.sum();
+      rates.power.operator_arm = rates.power.hand.sum();
     }
   }
   return applied + arm_.tool_torque(instant.posture, on_tool);
@@ -104,6 +110,7 @@ JointVector Plant::applied_torque(const Instant& instant, const JointVector& mot
 
 JointVector Plant::accelerations(const ArmPosture& posture, const JointVector& applied,
                                  const Stick& stick) const noexcept {
+  if (!stick.is_dry) return moving_.solve(applied);
   return stick.acceleration + moving_.solve(applied + stick.slip_torque - posture.mass * stick.acceleration);
 }
 
@@ -117,12 +124,14 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
   Stick stick;
   for (int i = 0; i < n; ++i) {
     stick.held[at(i)] = capacity[i] > 0.0;
-    if (stick.held[at(i)]) stick.acceleration[i] = to_rest[i];
+    if (!stick.held[at(i)]) continue;
+    stick.acceleration[i] = to_rest[i];
+    stick.is_dry = true;
   }
   // a few rounds as a rule; if they did not end, the next step would go on from there
   for (int round = 0;; ++round) {
     moving_.factor(posture_.mass, n, stick.held);
-    if (round == 4 * n) break;
+    if (!stick.is_dry || round == 4 * n) break;
     const JointVector qdd = accelerations(posture_, applied, stick);
     const JointVector needed = posture_.mass * qdd - applied;
     int exchanged = -1;
@@ -148,6 +157,7 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
 void Plant::finish(const Instant& instant, const JointVector& applied, const Stick& stick,
                    Rates& rates) const noexcept {
   rates.qdd = accelerations(instant.posture, applied, stick);
+  if (!stick.is_dry) return;
   for (int i = 0; i < joint_count(); ++i) {
     if (instant.qd[i] == 0.0) continue;
     const double dry =

@@ -11,10 +11,11 @@ namespace godobject::sim {
 /// Work since the start [J].
 struct PlantWork {
   JointVector motor = JointVector::Zero();  ///< of each motor on its joint
-  /// Of the hand on the tool, split by the axes of W: forces along x, y, z, then torques about them. With a rigid grip
-  /// of the target's spring and damper on hand and tool.
+  /// Of the hand on the tool, split by the axes of W: forces along x, y, z, then torques about them.
   Eigen::Matrix<double, 6, 1> hand = Eigen::Matrix<double, 6, 1>::Zero();
-  double target = 0.0;    ///< of the target's spring and damper on the hand, or with a rigid grip on hand and tool
+  /// Of the operator's arm on the hand: the target's spring and damper. With a rigid grip the hand is part of the tool,
+  /// this is the sum of `hand`, and what carries the hand's weight is in both.
+  double operator_arm = 0.0;
   double load = 0.0;      ///< of the load on the tool
   double friction = 0.0;  ///< of viscous and dry friction and of brakes; what they take is negative
 
@@ -60,9 +61,10 @@ class Plant {
   const PlantWork& work() const noexcept { return work_; }
 
   /// Torques that would hold the arm, without the hand, against gravity [Nm].
-  JointVector gravity_torque() const noexcept { return arm_.bias_torque(posture_, JointVector::Zero()); }
+  JointVector gravity_torque() const noexcept;
 
-  double arm_energy() const noexcept;  ///< kinetic and potential [J]
+  /// Kinetic and potential [J]; with a rigid grip the hand's mass is in it.
+  double arm_energy() const noexcept;
 
   /// Of the hand's springs and, unless the grip is rigid, of its mass [J].
   double hand_energy() const noexcept;
@@ -70,6 +72,7 @@ class Plant {
  private:
   /// Joints that are at rest, or come to it by the end of the step.
   struct Stick {
+    bool is_dry = false;  ///< there is dry friction at all
     std::array<bool, kMaxJoints> held{};
     JointVector acceleration = JointVector::Zero();  ///< of the held joints
     JointVector slip_torque = JointVector::Zero();   ///< of dry friction on the others
@@ -98,6 +101,7 @@ class Plant {
   JointVector damping_ = JointVector::Zero();
   JointVector dry_friction_;
   Wrench tool_load_W_;
+  Wrench carried_W_;  ///< with a rigid grip: the hand's weight, which its own arm carries
 
   std::int64_t now_ns_ = 0;
   JointVector q_;

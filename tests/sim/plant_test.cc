@@ -73,10 +73,12 @@ void expect_balance(Grip grip, const ArmModel& model, double torque, unsigned se
     // each time that a joint comes to rest or breaks away costs a term of the first order of a step
     EXPECT_NEAR(plant.arm_energy() - arm_before, on_arm, 3e-5 * turnover) << trial;
     if (grip == Grip::kSpring) {
-      EXPECT_NEAR(plant.hand_energy() - hand_before, work.target - work.hand.sum(), 3e-5 * turnover) << trial;
+      EXPECT_NEAR(plant.hand_energy() - hand_before, work.operator_arm - work.hand.sum(), 3e-5 * turnover) << trial;
     }
     EXPECT_LT(work.friction, 0.0);
-    EXPECT_LE(work.target, 0.0) << "a passive hand gives no energy";
+    if (grip == Grip::kSpring) {
+      EXPECT_LE(work.operator_arm, 0.0) << "a passive hand gives no energy";
+    }
   }
 }
 
@@ -156,7 +158,7 @@ TEST(DryFriction, BrakesStopAnArmForGood) {
     for (int i = 0; i < arm.model.joint_count; ++i) {
       load.brake[i] = arm.model.joints.at(static_cast<std::size_t>(i)).torque;
     }
-    for (int trial = 0; trial < 20; ++trial) {
+    for (int trial = 0; trial < 10; ++trial) {
       Plant plant(arm.model, 0.8 * test::random_positions(random, arm.model));
       plant.set_velocity(test::random_joints(random, arm.model, 2.0));
       double energy = plant.arm_energy();

@@ -1,0 +1,246 @@
+// The simulated loop against what theory says of it: energy that delay gives, and where it becomes unstable.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/device/dynamics.h"
+#include "core/device/stability.h"
+#include "sim/direct_drives.h"
+#include "tests/sim/one_joint.h"
+#include "tests/support/arms.h"
+
+namespace godobject::sim {
+namespace {
+
+using test::kPeriod_ns;
+
+constexpr double kPeriod = 1e-9 * kPeriod_ns;
+
+/// Drives that round nothing and are enabled from the start, so that theory holds to its last digit.
+std::array<JointHardwareParameters, kMaxJoints> ideal_hardware() {
+  std::array<JointHardwareParameters, kMaxJoints> hardware;
+  for (JointHardwareParameters& joint : hardware) {
+    joint.torque_limit = 1e6;
+    joint.brake_open_ns = 0;
+    joint.enable_ns = 0;
+  }
+  return hardware;
+}
+
+/// The virtual wall: a spring and damper on both sides along one direction of W through the place where the tool was.
+class Wall {
+ public:
+  Wall(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness, double damping)
+      : model_(model), direction_(direction), stiffness_(stiffness), damping_(damping) {
+    origin_ = forward_kinematics(model, q).H_WM.translation;
+  }
+  void shift(double distance) { origin_ += distance * direction_; }
+
+  double depth(const JointVector& q) const {
+    return direction_.dot(forward_kinematics(model_, q).H_WM.translation - origin_);
+  }
+
+  /// Joint torques, from positions as they are read.
+  JointVector torque(const JointVector& q) {
+    const ArmKinematics kinematics = forward_kinematics(model_, q);
+    const double x = direction_.dot(kinematics.H_WM.translation - origin_);
+    const double v = started_ ? (x - x_before_) / kPeriod : 0.0;
+    started_ = true;
+    x_before_ = x;
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    return J.topRows<3>().transpose() * (-(stiffness_ * x + damping_ * v) * direction_);
+  }
+
+ private:
+  ArmModel model_;
+  Vector3 direction_;
+  double stiffness_;
+  double damping_;
+  Vector3 origin_;
+  bool started_ = false;
+  double x_before_ = 0.0;
+};
+
+struct Loop {
+  DirectDrives& drives;
+  Wall& wall;
+  VirtualClock clock{drives};
+  std::int64_t deadline_ns = 0;
+  hal::JointReading reading{};
+
+  void run() {
+    drives.receive(reading);
+    EXPECT_TRUE(drives.send({wall.torque(reading.position), hal::PowerRequest::kEnable}));
+    deadline_ns += kPeriod_ns;
+    clock.sleep_until(deadline_ns);
+  }
+};
+
+ArmModel weightless(ArmModel model) {
+  model.gravity_W.setZero();  // its compensation would be sampled and delayed as well
+  return model;
+}
+
+/// A9: a hand moves the tool to and fro along the wall's direction; the work that the motors do in a period, more than
+/// nothing, is what delay and hold give. -> the delay [s]
+double measured_delay(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness,
+                      std::int64_t delay_ns, const std::array<JointHardwareParameters, kMaxJoints>& hardware) {
+  constexpr double kAmplitude = 4e-3;
+  constexpr int kSine = 1000;  // cycles a period
+  const double w = 2.0 * M_PI / (kSine * kPeriod);
+  HandParameters parameters;
+  parameters.grip = Grip::kSpring;
+  parameters.stiffness = 3000.0;
+  parameters.damping = 30.0;
+  std::vector<Pose> script(4 * kSine);
+  for (std::size_t i = 0; i < script.size(); ++i) {
+    const double time = kPeriod * static_cast<double>(i);
+    script[i] = forward_kinematics(model, q).H_WM;
+    script[i].translation += std::min(time, 1.0) * kAmplitude * std::sin(w * time) * direction;
+  }
+  Plant plant(model, q, JointVector::Zero(), OperatorHand(parameters, script));
+  DirectDrives drives(plant, hardware, {kPeriod_ns, delay_ns});
+  Wall wall(model, q, direction, stiffness, 0.0);
+  Loop loop{drives, wall};
+  while (loop.deadline_ns < 2 * kSine * kPeriod_ns) loop.run();
+
+  const double work_before = plant.work().motor.sum();
+  const double depth_before = wall.depth(plant.positions());
+  double in_phase = 0.0;
+  double out_of_phase = 0.0;
+  for (int i = 0; i < kSine; ++i) {
+    const double x = wall.depth(plant.positions());
+    in_phase += 2.0 / kSine * x * std::cos(w * kPeriod * i);
+    out_of_phase += 2.0 / kSine * x * std::sin(w * kPeriod * i);
+    loop.run();
+  }
+  const double square = in_phase * in_phase + out_of_phase * out_of_phase;
+  EXPECT_GT(square, 1e-6);
+  const double depth_after = wall.depth(plant.positions());
+  const double stored = 0.5 * stiffness * (depth_after * depth_after - depth_before * depth_before);
+  const double given = plant.work().motor.sum() - work_before + stored;
+  return given / (M_PI * w * square * stiffness) - 0.5 * kPeriod;
+}
+
+TEST(EnergyIdentity, MeasuresTheDelayOfOneAxis) {
+  const ArmModel model = weightless(test::one_joint(1.0, 2.0));
+  for (const std::int64_t delay_ns : {0L, 250'000L, 1'000'000L, 1'300'000L, 2'000'000L, 3'750'000L}) {
+    const double stated = 1e-9 * static_cast<double>(delay_ns);
+    const double exact =
+        measured_delay(model, JointVector::Zero(), Vector3::UnitY(), 1000.0, delay_ns, ideal_hardware());
+    EXPECT_NEAR(exact, stated, 2e-3 * (stated + 0.5 * kPeriod)) << delay_ns;
+    // rounded positions and torques store and give back, but do not delay; 4 Nm are 400 steps here
+    auto hardware = usual_hardware(model);
+    hardware[0].torque_step = 0.01;
+    const double rounded = measured_delay(model, JointVector::Zero(), Vector3::UnitY(), 1000.0, delay_ns, hardware);
+    EXPECT_NEAR(rounded, stated, 0.02 * (stated + 0.5 * kPeriod)) << delay_ns;
+    std::printf("[ measured ] %.4f, rounded %.4f of %.4f ms\n", 1e3 * exact, 1e3 * rounded, 1e3 * stated);
+  }
+}
+
+TEST(EnergyIdentity, MeasuresTheDelayOfTheArmInThreeDirections) {
+  const ArmModel model = weightless(test::lwr().model);
+  JointVector q = JointVector::Zero();
+  q.head<6>() << 0.2, 0.6, 0.3, 1.4, -0.4, 0.8;
+  for (const std::int64_t delay_ns : {500'000L, 1'000'000L, 2'200'000L}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double stated = 1e-9 * static_cast<double>(delay_ns);
+      const double delay = measured_delay(model, q, Vector3::Unit(axis), 1000.0, delay_ns, ideal_hardware());
+      EXPECT_NEAR(delay, stated, 0.02 * stated) << "axis " << axis;
+      std::printf("[ measured ] axis %d: %.4f of %.4f ms\n", axis, 1e3 * delay, 1e3 * stated);
+    }
+  }
+}
+
+/// What the spectral radius says of a loop, and what becomes of it in the simulation: logarithm of the growth of
+/// what is left of the motion between two stretches of `stretch` cycles, `apart` cycles apart.
+double grown(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness, double damping,
+             double delay, int settle, int stretch, int apart) {
+  Plant plant(model, q);
+  const auto hardware = ideal_hardware();
+  DirectDrives drives(plant, hardware, {kPeriod_ns, std::llround(1e9 * delay)});
+  Wall wall(model, q, direction, stiffness, damping);
+  wall.shift(1e-5);
+  Loop loop{drives, wall};
+  const auto swing = [&](int from) {
+    while (loop.deadline_ns < from * kPeriod_ns) loop.run();
+    double low = wall.depth(plant.positions());
+    double high = low;
+    while (loop.deadline_ns < (from + stretch) * kPeriod_ns) {
+      loop.run();
+      low = std::min(low, wall.depth(plant.positions()));
+      high = std::max(high, wall.depth(plant.positions()));
+    }
+    return high - low;
+  };
+  const double first = swing(settle);
+  return std::log(swing(settle + apart) / first);
+}
+
+TEST(ExactStability, OneAxisDecaysBelowAndGrowsAbove) {
+  for (const double damping : {0.0, 20.0, 200.0}) {
+    for (const double delay : {0.0, 0.5e-3, 1e-3, 1.7e-3}) {
+      AxisLoop axis;
+      axis.damping = 2.0;
+      axis.virtual_damping = damping;
+      axis.timing.delay = delay;
+      const double boundary = stability_boundary(axis);
+      const ArmModel model = weightless(test::one_joint(1.0, 2.0));
+      for (const double share : {0.98, 1.02}) {
+        const double growth =
+            grown(model, JointVector::Zero(), Vector3::UnitY(), share * boundary, damping, delay, 1000, 500, 4000);
+        if (share < 1.0) {
+          EXPECT_LT(growth, 0.0) << damping << " Ns/m, " << delay << " s";
+        }
+        if (share > 1.0) {
+          EXPECT_GT(growth, 0.0) << damping << " Ns/m, " << delay << " s";
+        }
+      }
+    }
+  }
+}
+
+TEST(ExactStability, ArmDecaysBelowAndGrowsAboveInThreeDirections) {
+  const ArmModel model = weightless(test::lwr().model);
+  JointVector q = JointVector::Zero();
+  q.head<6>() << 0.2, 0.6, 0.3, 1.4, -0.4, 0.8;
+  const ArmKinematics kinematics = forward_kinematics(model, q);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double damping : {0.0, 10.0}) {
+      ArmLoop arm;
+      arm.joint_count = model.joint_count;
+      arm.mass = mass_matrix(model, kinematics);
+      for (int i = 0; i < model.joint_count; ++i) {
+        arm.damping[i] = model.joints.at(static_cast<std::size_t>(i)).damping;
+      }
+      arm.jacobian.row(axis) = geometric_jacobian(kinematics, kinematics.H_WM.translation).row(axis);
+      arm.stiffness = 1000.0;
+      arm.tool_damping = damping;
+      arm.timing.delay = 1.3e-3;
+      const double boundary = stiffness_margin(arm) * arm.stiffness;
+      for (const double share : {0.98, 1.02}) {
+        arm.stiffness = share * boundary;
+        constexpr int kApart = 3000;
+        const double expected = kApart * std::log(spectral_radius(arm));
+        const double growth =
+            grown(model, q, Vector3::Unit(axis), arm.stiffness, damping, arm.timing.delay, 1500, 500, kApart);
+        // the greatest swing in half a second is read; the other modes of the arm are not quite gone
+        EXPECT_NEAR(growth, expected, 0.08 * std::fabs(expected));
+        std::printf("[ measured ] axis %d, B %g, K %.0f: e^%.4f of e^%.4f\n", axis, damping, arm.stiffness, growth,
+                    expected);
+        if (share < 1.0) {
+          EXPECT_LT(growth, 0.0);
+        }
+        if (share > 1.0) {
+          EXPECT_GT(growth, 0.0);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace godobject::sim
