@@ -69,6 +69,14 @@ void read_limits(const TomlTable& table, ControllerConfig::Limits& limits) {
   limits.torque_rate = table.number("torque_rate", {1e-4, 0.05}, limits.torque_rate);
 }
 
+void read_gains(const TomlTable& table, ControllerConfig::Gains& gains) {
+  table.allow({"stiffness", "damping", "rotational", "margin"});
+  if (table.has("stiffness")) gains.stiffness = table.number("stiffness", {1e-3, 1e6});
+  if (table.has("damping")) gains.damping = table.number("damping", {0.0, 1e5});
+  if (table.has("rotational")) gains.rotational = table.number("rotational", {1e-9, 100.0});
+  gains.margin = table.number("margin", {1.0, 100.0}, gains.margin);
+}
+
 void read_start(const TomlTable& table, ControllerConfig::Start& start) {
   table.allow({"wait", "sign_test", "push", "motion"});
   start.wait = table.number("wait", {0.1, 60.0}, start.wait);
@@ -111,9 +119,7 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
 
   read_start(table("start"), config.start);
 
-  const TomlTable gains = table("gains");
-  gains.allow({"margin"});
-  config.stability_margin = gains.number("margin", {1.0, 100.0}, config.stability_margin);
+  read_gains(table("gains"), config.gains);
 
   const TomlTable telemetry = table("telemetry");
   telemetry.allow({"folder", "every"});
@@ -128,19 +134,27 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   return config;
 }
 
-WorkspaceMappingParameters place(const ControllerConfig::Workspace& workspace, Device& device) {
-  WorkspaceMappingParameters mapping;
-  mapping.scale = workspace.scale;
-  mapping.H_WR.rotation = workspace.turn;
-  const Pose H_RM = forward_kinematics(device.model, workspace.posture).H_WM;
-  mapping.H_WR.translation =
+void set_gains(const ControllerConfig::Gains& gains, Scene& scene) noexcept {
+  format::Settings& settings = scene.settings;
+  settings.stiffness = gains.stiffness.value_or(settings.stiffness);
+  settings.damping = gains.damping.value_or(settings.damping);
+  settings.coupling_rotation = gains.rotational.value_or(settings.coupling_rotation);
+}
+
+Placement place(const ControllerConfig::Workspace& workspace, const Device& device, const Vector3& p_MB) {
+  Placement placement{{}, {}, device};
+  const Pose H_RT = forward_kinematics(device.model, workspace.posture).H_WM;
+  // the scene's rotation is R_WR R_RT R_TM
+  placement.H_TM.rotation = (workspace.turn * H_RT.rotation).conjugate() * workspace.start.rotation;
+  placement.H_TM.rotation.normalize();
+  placement.H_TM.translation = -placement.H_TM.rotation._transformVector(p_MB) / workspace.scale;
+  regrip(placement.H_TM, placement.device);
+  const Pose H_RM = H_RT * placement.H_TM;
+  placement.mapping.scale = workspace.scale;
+  placement.mapping.H_WR.rotation = workspace.turn;
+  placement.mapping.H_WR.translation =
       workspace.start.translation - workspace.scale * workspace.turn._transformVector(H_RM.translation);
-  // the scene's rotation is R_WR R_RM R_MG, G the mesh's frame as it is to be held
-  Pose H_MG;
-  H_MG.rotation = (workspace.turn * H_RM.rotation).conjugate() * workspace.start.rotation;
-  H_MG.rotation.normalize();
-  regrip(H_MG, device);
-  return mapping;
+  return placement;
 }
 
 }  // namespace godobject::firmware

@@ -20,8 +20,8 @@ struct ControllerConfig {
 
   Device device;
 
-  /// With the arm at `posture` the moving mesh is at `start` in the scene, held so that it is; the directions of the
-  /// room R are those of the scene W turned by `turn`, R_WR.
+  /// With the arm at `posture` the moving mesh is at `start` in the scene; `turn` takes directions of the room R to
+  /// those of the scene W, R_WR.
   struct Workspace {
     Quaternion turn = Quaternion::Identity();
     JointVector posture = JointVector::Zero();  ///< [rad]
@@ -61,7 +61,13 @@ struct ControllerConfig {
     double motion = 0.002;  ///< that is looked for [rad]
   } start;
 
-  double stability_margin = 1.25;  ///< factor by which the stiffness must be below the stability boundary [1]
+  /// Of the virtual coupling; none: the scene's.
+  struct Gains {
+    std::optional<double> stiffness;   ///< k_D [N/m]
+    std::optional<double> damping;     ///< b_D [Ns/m]
+    std::optional<double> rotational;  ///< k_VC,r [m^2]
+    double margin = 1.25;              ///< factor by which the stiffness must be below the stability boundary [1]
+  } gains;
 
   struct Telemetry {
     std::filesystem::path folder;  ///< empty: none is written
@@ -80,7 +86,18 @@ struct ControllerConfig {
 /// Throws command::Failure: kNoInput if the file cannot be read, kBadConfig naming file, line and key.
 ControllerConfig read_controller_file(const std::filesystem::path& file);
 
-/// How the workspace lies in the scene, and the device with the mesh held as that asks for.
-WorkspaceMappingParameters place(const ControllerConfig::Workspace& workspace, Device& device);
+/// The scene with the gains of the controller in place of its own.
+void set_gains(const ControllerConfig::Gains& gains, Scene& scene) noexcept;
+
+/// How the workspace lies in the scene.
+struct Placement {
+  WorkspaceMappingParameters mapping;
+  Pose H_TM;      ///< the moving mesh's frame in T, the tool's frame of the device file
+  Device device;  ///< with the tool's frame at the mesh's
+};
+
+/// The mesh is at `start` when the arm is at `posture`, and held by its centre of mass `p_MB` [m], in the scene: there
+/// the hand feels rotations without a lever.
+Placement place(const ControllerConfig::Workspace& workspace, const Device& device, const Vector3& p_MB);
 
 }  // namespace godobject::firmware

@@ -1,4 +1,4 @@
-#include "toolchain/command/csv_table.h"
+#include "firmware/command/csv_table.h"
 
 #include <gtest/gtest.h>
 

@@ -113,20 +113,29 @@ TEST_F(ControllerFileTest, RefusesADeviceFileThatIsNotThere) {
 }
 
 TEST_F(ControllerFileTest, PlacesTheMeshAtItsStartInThePosture) {
-  ControllerConfig config = read(std::string(kLeast) +
-                                 "turn = [0.5, 0.5, 0.5, 0.5]\nscale = 2.0\n"
-                                 "start = [0.1, -0.2, 0.3, 0.0, 0.6, 0.8, 0.0]\n");
-  Device device = config.device;
-  const WorkspaceMappingParameters parameters = place(config.workspace, device);
-  const Pose H_RM = forward_kinematics(device.model, config.workspace.posture).H_WM;
-  WorkspaceMapping mapping(parameters, H_RM);
+  const ControllerConfig config = read(std::string(kLeast) +
+                                       "turn = [0.5, 0.5, 0.5, 0.5]\nscale = 2.0\n"
+                                       "start = [0.1, -0.2, 0.3, 0.0, 0.6, 0.8, 0.0]\n");
+  const Vector3 p_MB(0.02, -0.04, 0.06);
+  const Placement placement = place(config.workspace, config.device, p_MB);
+  const Pose H_RT = forward_kinematics(config.device.model, config.workspace.posture).H_WM;
+  const Pose H_RM = forward_kinematics(placement.device.model, config.workspace.posture).H_WM;
+  WorkspaceMapping mapping(placement.mapping, H_RM);
   EXPECT_LT((mapping.scene_pose().translation - Vector3(0.1, -0.2, 0.3)).norm(), 1e-12);
   EXPECT_LT(mapping.scene_pose().rotation.angularDistance(Quaternion(0.0, 0.6, 0.8, 0.0)), 1e-7);
+  const Vector3 centre_W = mapping.scene_pose() * p_MB;
+
   // the turn takes x of the room to y of the scene; doubled
   Pose moved = H_RM;
   moved.translation.x() += 0.01;
   ASSERT_EQ(mapping.update(moved, true, 1e-3), Status::kOk);
   EXPECT_LT((mapping.scene_pose().translation - Vector3(0.1, -0.18, 0.3)).norm(), 1e-12);
+
+  // a turn of the hand about the tool's origin leaves the centre of mass where it is
+  Pose turned = H_RT;
+  turned.rotation = turned.rotation * exp_rotation(Vector3(0.3, -0.2, 0.5));
+  ASSERT_EQ(mapping.update(turned * placement.H_TM, true, 1e-3), Status::kOk);
+  EXPECT_LT((mapping.scene_pose() * p_MB - centre_W).norm(), 1e-12);
 }
 
 }  // namespace

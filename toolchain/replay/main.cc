@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
                     fmt::format("{}: was compiled without the solver {}; compile it again without --only-solver",
                                 scene_path, solver_name));
     }
-    const godobject::replay::Path path = godobject::replay::read_path(poses_path);
+    const godobject::command::PosePath path = godobject::command::read_pose_path(poses_path);
     godobject::command::AtomicFile out(out_path);
     godobject::replay::Summary summary;
     {

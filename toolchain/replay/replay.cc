@@ -2,13 +2,11 @@
 
 #include <array>
 #include <cfenv>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/pipeline/penalty_contacts.h"
 #include "firmware/command/failure.h"
-#include "toolchain/command/csv_table.h"
 #include "toolchain/command/stopwatch.h"
 
 namespace godobject::replay {
@@ -33,33 +31,7 @@ const char* const kColumns =
     "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
     "solve_ns,status";
 
-Path read_path(const std::filesystem::path& file) {
-  constexpr double kPeriod = 1e-3;
-  constexpr double kTolerance = 0.1 * kPeriod + 1e-9;  // and the rounding of t itself
-  constexpr std::array<std::string_view, 8> kPathColumns = {"t", "px", "py", "pz", "qw", "qx", "qy", "qz"};
-  const command::CsvTable table = command::read_csv(file, kPathColumns);
-  if (table.rows() == 0)
-    throw Failure(ExitCode::kBadData, fmt::format("{}: holds no pose; write one row a millisecond", file.string()));
-  Path path;
-  path.lines = table.lines;
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    const auto row = table.row(i);
-    if (!std::isfinite(row[0]) || (i > 0 && !(std::fabs(row[0] - path.t.back() - kPeriod) <= kTolerance))) {
-      throw Failure(ExitCode::kBadData,
-                    fmt::format("{}:{}: t = {} does not follow its predecessor by 1 ms within 10 %; resample the path "
-                                "to 1 kHz",
-                                file.string(), table.lines[i], row[0]));
-    }
-    Pose pose;
-    pose.translation = Vector3(row[1], row[2], row[3]);
-    pose.rotation = Quaternion(row[4], row[5], row[6], row[7]);
-    path.t.push_back(row[0]);
-    path.poses.push_back(pose);
-  }
-  return path;
-}
-
-Summary replay(const Scene& scene, Solver solver, bool friction, const Path& path,
+Summary replay(const Scene& scene, Solver solver, bool friction, const command::PosePath& path,
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;

@@ -2,28 +2,15 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "core/pipeline/god_object.h"
 #include "core/scene/scene.h"
-#include "core/spatial/pose.h"
+#include "firmware/command/pose_path.h"
 
 namespace godobject::replay {
-
-/// One device pose a millisecond, of the moving mesh's frame in W.
-struct Path {
-  std::vector<double> t;           ///< [s], as written in the file
-  std::vector<Pose> poses;         ///< as read: rotations not normalised, NaN and Inf possible
-  std::vector<std::size_t> lines;  ///< the file's line of each
-};
-
-/// Reads `t,px,py,pz,qw,qx,qy,qz`. Throws Failure: kNoInput, or kBadData naming the line if t does not increase by 1 ms
-/// within 10 %.
-Path read_path(const std::filesystem::path& file);
 
 /// What a replay leaves beside its rows.
 struct Summary {
@@ -47,7 +34,7 @@ extern const char* const kColumns;
 
 /// Runs the god object along the path, one cycle a row, and appends a CSV row a cycle to `rows` (header first).
 /// Everything but the two timing columns is a function of the input alone, to the last bit.
-Summary replay(const Scene& scene, Solver solver, bool friction, const Path& path,
+Summary replay(const Scene& scene, Solver solver, bool friction, const command::PosePath& path,
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress);
 
 }  // namespace godobject::replay

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "firmware/command/csv_lines.h"
 #include "toolchain/command/atomic_file.h"
-#include "toolchain/command/csv_lines.h"
 
 namespace godobject::scene_compiler {
 namespace {

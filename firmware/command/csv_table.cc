@@ -1,4 +1,4 @@
-#include "toolchain/command/csv_table.h"
+#include "firmware/command/csv_table.h"
 
 #include <algorithm>
 #include <string>
@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "firmware/command/csv_lines.h"
 #include "firmware/command/failure.h"
-#include "toolchain/command/csv_lines.h"
 
 namespace godobject::command {
 namespace {

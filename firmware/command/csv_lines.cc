@@ -1,4 +1,4 @@
-#include "toolchain/command/csv_lines.h"
+#include "firmware/command/csv_lines.h"
 
 #include <charconv>
 #include <system_error>

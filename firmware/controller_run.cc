@@ -1,0 +1,25 @@
+#include "firmware/controller_run.h"
+
+#include <algorithm>
+
+namespace godobject::firmware {
+
+bool refuses_to_start(Fault fault) noexcept {
+  return fault == Fault::kDrivesAbsent || fault == Fault::kNotAtRest || fault == Fault::kSignWrong ||
+         fault == Fault::kSignUndecided;
+}
+
+namespace detail {
+
+void watch(const CycleRecord& record, RunReport& report) noexcept {
+  if (!(record.share > 0.0)) return;
+  const double force = record.wrench_R.force.norm();
+  ++report.rendering;
+  if (force > 0.0) ++report.in_contact;
+  report.largest_force = std::max(report.largest_force, force);
+  report.largest_torque = std::max(report.largest_torque, record.wrench_R.torque.norm());
+  report.deepest = std::max(report.deepest, record.penetration);
+}
+
+}  // namespace detail
+}  // namespace godobject::firmware

@@ -1,0 +1,129 @@
+#include "firmware/gain_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/device/dynamics.h"
+#include "core/device/kinematics.h"
+#include "core/pipeline/parameters.h"
+#include "firmware/command/failure.h"
+
+namespace godobject::firmware {
+namespace {
+
+/// Halton's sequence: element `index` in base `base`, in (0, 1).
+double halton(int index, int base) noexcept {
+  double share = 1.0;
+  double value = 0.0;
+  for (int i = index; i > 0; i /= base) {
+    share /= base;
+    value += share * (i % base);
+  }
+  return value;
+}
+
+JointVector posture_near(const ArmModel& arm, const JointVector& posture, int index) noexcept {
+  constexpr std::array<int, kMaxJoints> kBases = {2, 3, 5, 7, 11, 13, 17};
+  JointVector q = posture;
+  for (int i = 0; i < arm.joint_count && index > 0; ++i) {
+    const ArmJoint& joint = arm.joints[static_cast<std::size_t>(i)];
+    const double low = std::max(joint.lower, posture[i] - kSpread);
+    const double high = std::min(joint.upper, posture[i] + kSpread);
+    q[i] = low + (high - low) * halton(index, kBases[static_cast<std::size_t>(i)]);
+  }
+  return q;
+}
+
+ArmLoop loop_at(const ArmModel& arm, const JointVector& q, const Vector3& p_MB, const FeltCoupling& felt,
+                const LoopTiming& timing) {
+  const ArmKinematics kinematics = forward_kinematics(arm, q);
+  ArmLoop loop;
+  loop.joint_count = arm.joint_count;
+  loop.mass = mass_matrix(arm, kinematics);
+  for (int i = 0; i < arm.joint_count; ++i) loop.damping[i] = arm.joints[static_cast<std::size_t>(i)].damping;
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM * p_MB);
+  loop.stiffness = felt.stiffness;
+  loop.rotation_stiffness = felt.rotation_stiffness;
+  loop.tool_damping = felt.damping;
+  loop.rotation_tool_damping = felt.rotation_damping;
+  loop.timing = timing;
+  return loop;
+}
+
+}  // namespace
+
+FeltCoupling FeltCoupling::of(const Scene& scene, double scale) noexcept {
+  const Parameters parameters = Parameters::make(scene);
+  const double translation = scale * scale * parameters.coupling_translation;
+  return {parameters.stiffness * translation, parameters.stiffness * parameters.coupling_rotation,
+          parameters.damping * translation, parameters.damping * parameters.coupling_rotation};
+}
+
+GainReport check_gains(const Scene& scene, const ArmModel& arm, const JointVector& posture, double scale,
+                       const LoopTiming& timing) {
+  const Parameters parameters = Parameters::make(scene);
+  const FeltCoupling felt = FeltCoupling::of(scene, scale);
+  const Vector3 p_MB = scene.H_MB.translation / scale;  // as the hand has it
+  GainReport report;
+  report.passivity_excess = std::numeric_limits<double>::infinity();
+  // the exact boundary takes twenty times as long as the radius at one stiffness, which finds the worst posture
+  double largest = -1.0;
+  for (int i = 0; i <= kPostures; ++i) {
+    const JointVector q = posture_near(arm, posture, i);
+    const ArmLoop loop = loop_at(arm, q, p_MB, felt, timing);
+    report.passivity_excess = std::min(report.passivity_excess, passivity_excess(loop));
+    ArmLoop stiffer = loop;
+    stiffer.stiffness *= kProbe;
+    stiffer.rotation_stiffness *= kProbe;
+    const double radius = spectral_radius(stiffer);
+    if (radius > largest) {
+      largest = radius;
+      report.posture = q;
+    }
+  }
+  report.margin = stiffness_margin(loop_at(arm, report.posture, p_MB, felt, timing));
+  report.gyration = std::sqrt(parameters.mass.inertia.sum() / 3.0);
+  report.coupling_gyration = std::sqrt(parameters.coupling_rotation / parameters.coupling_translation);
+  return report;
+}
+
+std::vector<std::string> judge_gains(const GainReport& report, const FeltCoupling& felt, double least) {
+  const std::string where = fmt::format("at joint positions {:.2f} [rad]",
+                                        fmt::join(report.posture.data(), report.posture.data() + kMaxJoints, " "));
+  if (!(report.margin > 0.0)) {
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("gains: with {:.4g} Ns/m and {:.4g} Nms/rad of virtual damping no stiffness is stable {}: lower "
+                    "gains.damping or gains.rotational",
+                    felt.damping, felt.rotation_damping, where));
+  }
+  if (!(report.margin >= least)) {
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("gains: the hand would feel {:.4g} N/m and {:.4g} Nm/rad; the stability boundary is {:.4g} N/m and "
+                    "{:.4g} Nm/rad {}, a factor of {:.3g} where gains.margin asks for {:g}: lower gains.stiffness, "
+                    "gains.rotational or workspace.scale",
+                    felt.stiffness, felt.rotation_stiffness, report.margin * felt.stiffness,
+                    report.margin * felt.rotation_stiffness, where, report.margin, least));
+  }
+  std::vector<std::string> warnings;
+  if (!(report.passivity_excess > 0.0)) {
+    warnings.push_back(fmt::format(
+        "stable by a factor of {:.3g}, but not passive by the linear rule: a joint lacks {:.3g} Nms/rad of damping",
+        report.margin, -report.passivity_excess));
+  }
+  const double ratio = report.coupling_gyration / report.gyration;
+  if (ratio < 0.5 || ratio > 2.0) {
+    warnings.push_back(
+        fmt::format("coupling.rotational counts a radian as {:.3g} m, the moving body's radius of "
+                    "gyration is {:.3g} m: rotations yield too {} beside translations",
+                    report.coupling_gyration, report.gyration, ratio > 1.0 ? "little" : "much"));
+  }
+  return warnings;
+}
+
+}  // namespace godobject::firmware

@@ -1,0 +1,350 @@
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "core/device/kinematics.h"
+#include "firmware/command/failure.h"
+#include "firmware/command/pose_path.h"
+#include "firmware/command/run.h"
+#include "firmware/configuration/controller_file.h"
+#include "firmware/control_cycle.h"
+#include "firmware/controller_run.h"
+#include "firmware/doctor.h"
+#include "firmware/gain_check.h"
+#include "firmware/rt_setup.h"
+#include "firmware/scene_file.h"
+#include "firmware/telemetry_ring.h"
+#include "firmware/telemetry_writer.h"
+#include "hal/linux/monotonic_clock.h"
+#include "sim/direct_drives.h"
+#include "sim/virtual_clock.h"
+
+namespace {
+
+using namespace godobject;
+using command::ExitCode;
+using command::Failure;
+using firmware::ControllerConfig;
+
+const char* const kFooter = R"(Examples:
+  godobject-controller firmware/controllers/lwr.toml --scene bt.scene --duration 20 --log logs
+  godobject-controller doctor firmware/controllers/lwr.toml
+
+The loop begins once all drives answer, their joints rest within their limits and the enable switch is held; it pushes each
+joint a little, to see that it moves the right way, and renders once the contact force is small. A fault takes the torque
+away and is latched: SIGHUP resets it once emergency stop and enable switch are released. SIGTERM and SIGINT end the run in
+order: exit 0.
+
+--bus sim, the default, is a simulated device with a hand on it, in virtual time: as fast as the machine can. With
+loop.real_time it keeps to the clock, on a thread with real-time priority as far as that is permitted.
+
+CONTROLLER.toml, units SI; firmware/README.md explains each key:
+  [scene]      image, solver, friction
+  [device]     file
+  [workspace]  posture, start, turn, scale
+  [loop]       real_time, cpu, priority, velocity_window
+  [gains]      stiffness, damping, rotational, margin
+  [limits]     force, torque, speed, speed_stop, turn, turn_stop, joint_speed, joint_speed_stop, torque_rate
+  [engage]     force, ramp
+  [start]      wait, sign_test, push, motion
+  [telemetry]  folder, every
+  [simulation] path, begin, delay
+
+--log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose
+d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions.)";
+
+struct Options {
+  std::string controller;
+  std::string scene;
+  std::string bus = "sim";
+  std::string log;
+  std::optional<double> duration;
+};
+
+firmware::RunRequests requests;  // of the signals
+
+void on_signal(int signal) {
+  (signal == SIGHUP ? requests.reset : requests.end).store(true, std::memory_order_relaxed);
+}
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::sigaction(signal, &action, nullptr);
+}
+
+void warn(const std::string& what) { fmt::print(stderr, "godobject-controller: {}\n", what); }
+
+/// Poses of the mesh in the scene -> of the tool's frame T in the room, where the simulated hand would have it.
+std::vector<Pose> in_room(const std::vector<Pose>& path, const firmware::Placement& placement) {
+  const Pose& H_WR = placement.mapping.H_WR;
+  const Pose H_MT = placement.H_TM.inverse();
+  std::vector<Pose> room;
+  room.reserve(path.size());
+  for (const Pose& H_WM : path) {
+    Pose H_RM;
+    const Vector3 p_R_W = H_WM.translation - H_WR.translation;
+    H_RM.translation = H_WR.rotation.conjugate()._transformVector(p_R_W) / placement.mapping.scale;
+    H_RM.rotation = (H_WR.rotation.conjugate() * H_WM.rotation).normalized();
+    room.push_back(H_RM * H_MT);
+  }
+  return room;
+}
+
+/// The simulated arm with a hand that follows a path, or holds the tool where it is.
+class SimulatedDevice {
+ public:
+  SimulatedDevice(const ControllerConfig& config, const firmware::Placement& placement)
+      : path_(read_path(config, placement)),
+        hardware_(sim::usual_hardware(config.device.model)),
+        plant_(config.device.model, config.workspace.posture, JointVector::Zero(),
+               sim::OperatorHand(hand(), path_, nanoseconds(config.simulation.begin))),
+        drives(plant_, hardware_, {.delay_ns = nanoseconds(config.simulation.delay)}) {}
+
+ private:
+  static std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(1e9 * seconds + 0.5); }
+
+  static sim::HandParameters hand() {
+    sim::HandParameters parameters;
+    parameters.grip = sim::Grip::kSpring;
+    return parameters;
+  }
+
+  static std::vector<Pose> read_path(const ControllerConfig& config, const firmware::Placement& placement) {
+    const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_WM;
+    if (config.simulation.path.empty()) return {rest};
+    std::vector<Pose> path = command::read_pose_path(config.simulation.path).poses;
+    for (Pose& pose : path) {
+      if (!pose.is_finite() || !(pose.rotation.norm() > 0.999 && pose.rotation.norm() < 1.001)) {
+        throw Failure(ExitCode::kBadData,
+                      fmt::format("{}: has a row that is no pose", config.simulation.path.string()));
+      }
+      pose.rotation.normalize();
+    }
+    path = in_room(path, placement);
+    const double gap = (path.front().translation - rest.translation).norm();
+    if (gap > 0.01 || path.front().rotation.angularDistance(rest.rotation) > 0.05) {
+      throw Failure(
+          ExitCode::kBadConfig,
+          fmt::format("{}: begins {:.3g} m and {:.3g} rad from the tool; set workspace.start to its first pose",
+                      config.simulation.path.string(), gap, path.front().rotation.angularDistance(rest.rotation)));
+    }
+    return path;
+  }
+
+  std::vector<Pose> path_;
+  std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
+  sim::Plant plant_;
+
+ public:
+  sim::DirectDrives drives;
+  double path_seconds() const { return 1e-3 * static_cast<double>(path_.size()); }
+};
+
+/// The machine's clock, with the simulated world kept beside it: it runs up to a deadline before that is waited for, so
+/// that its own computing does not show as lateness.
+class PacedClock final : public hal::Clock {
+ public:
+  explicit PacedClock(sim::World& world) noexcept : world_(world), offset_ns_(clock_.now_ns() - world.now_ns()) {}
+
+  std::int64_t now_ns() noexcept override { return clock_.now_ns() - offset_ns_; }
+  void sleep_until(std::int64_t ns) noexcept override {
+    world_.advance_to(ns);
+    clock_.sleep_until(ns + offset_ns_);
+  }
+
+ private:
+  sim::World& world_;
+  hal::MonotonicClock clock_;
+  std::int64_t offset_ns_;
+};
+
+firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& scene,
+                                 const firmware::Placement& placement) {
+  firmware::CycleSetup setup;
+  setup.scene = &scene;
+  setup.solver = config.scene.solver.value_or(scene.default_solver());
+  setup.friction = config.scene.friction.value_or(scene.settings.friction != 0);
+  setup.arm = &placement.device.model;
+  setup.joint_torque = &placement.device.torque;
+  setup.mapping = placement.mapping;
+  setup.velocity_window = config.loop.velocity_window;
+  const ControllerConfig::Limits& limits = config.limits;
+  setup.hand = {limits.force, limits.torque, limits.speed, limits.speed_stop, limits.turn, limits.turn_stop};
+  setup.torque = {limits.torque_rate, limits.joint_speed, limits.joint_speed_stop};
+  const auto cycles = [](double seconds) {
+    return static_cast<std::uint32_t>(seconds / firmware::ControlCycle::kPeriod + 0.5);
+  };
+  setup.supervisor.boot_cycles = cycles(config.start.wait);
+  setup.supervisor.engage_cycles = cycles(config.engage.ramp);
+  setup.supervisor.engage_force = config.engage.force;
+  setup.supervisor.sign_test = config.start.sign_test;
+  setup.supervisor.sign = {config.start.push, config.start.motion};
+  return setup;
+}
+
+/// Refuses what is beyond the stability boundary, says what is near to it.
+void check_gains(const ControllerConfig& config, const Scene& scene, const firmware::Device& device, double delay) {
+  const double scale = config.workspace.scale;
+  const LoopTiming timing{firmware::ControlCycle::kPeriod, delay, config.loop.velocity_window};
+  const firmware::GainReport report =
+      firmware::check_gains(scene, device.model, config.workspace.posture, scale, timing);
+  const auto felt = firmware::FeltCoupling::of(scene, scale);
+  for (const std::string& line : firmware::judge_gains(report, felt, config.gains.margin)) warn(line);
+  fmt::print(
+      "{}: {:.4g} N/m and {:.4g} Nm/rad at the hand, stable up to {:.3g} times as much with {:.3g} ms of delay\n",
+      device.name, felt.stiffness, felt.rotation_stiffness, report.margin, 1e3 * delay);
+}
+
+std::string quantiles(const firmware::DurationHistogram& times) {
+  const auto us = [](std::int64_t ns) { return 1e-3 * static_cast<double>(ns); };
+  return fmt::format("p50 {:.1f} us, p99.9 {:.1f} us, largest {:.1f} us of {} cycles", us(times.quantile_ns(0.5)),
+                     us(times.quantile_ns(0.999)), us(times.largest_ns()), times.count());
+}
+
+void print_report(const firmware::RunReport& report, const firmware::CycleCounters& counters, bool real_time,
+                  long faults_of_pages) {
+  fmt::print("rendered in {} of {} cycles, in contact in {}: at most {:.2f} N, {:.3f} Nm, {:.3f} mm deep\n",
+             report.rendering, counters.cycles, report.in_contact, report.largest_force, report.largest_torque,
+             1e3 * report.deepest);
+  fmt::print("positions lost in {} cycles, jumps in {}, sends failed {}, overruns {}, periods skipped {}\n",
+             counters.lost, counters.jumps, counters.sends_failed, counters.overruns, counters.skipped);
+  fmt::print("limits: force in {} cycles, speed {}, joint torque {}, torque rate {}; friction not found in {}\n",
+             counters.clipped, counters.slowed, counters.scaled, counters.rate_limited, counters.unconverged);
+  fmt::print("computing: {}\n", quantiles(report.computing));
+  if (real_time) {
+    fmt::print("waking late: {}\n", quantiles(report.loop.lateness));
+    fmt::print("page faults in the loop: {}\n", faults_of_pages);
+  }
+  fmt::print("on {}\n", firmware::describe_machine());
+}
+
+firmware::TelemetryRing ring;
+firmware::RunReport run_report;
+std::optional<firmware::ControlCycle> cycle;
+
+/// Real-time work on the simulated bus: with what the machine permits.
+long run_in_real_time(const firmware::RunSetup& setup, const ControllerConfig& config, sim::World& world) {
+  for (const std::string& missing :
+       firmware::set_up_real_time({.cpu = config.loop.cpu, .priority = config.loop.priority})) {
+    warn(missing + "; going on, since the bus is simulated");
+  }
+  PacedClock clock(world);
+  const long before = firmware::page_faults();
+  firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [] {});
+  return firmware::page_faults() - before;
+}
+
+void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, sim::World& world,
+              firmware::TelemetryWriter* writer) {
+  long faults_of_pages = 0;
+  if (config.loop.real_time) {
+    std::optional<std::jthread> thread;
+    if (writer != nullptr) thread.emplace([writer](const std::stop_token& stop) { writer->run(stop); });
+    faults_of_pages = run_in_real_time(setup, config, world);
+  } else {
+    sim::VirtualClock clock(world);
+    firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer] {
+      if (writer != nullptr) writer->drain();
+    });
+  }
+  print_report(run_report, cycle->counters(), config.loop.real_time, faults_of_pages);
+  if (writer != nullptr) {
+    fmt::print("{}: {} rows, {} lost\n", writer->file().string(), writer->written(), writer->lost() + ring.lost());
+  }
+}
+
+void control(const Options& options) {
+  if (options.bus != "sim") {
+    throw Failure(ExitCode::kUnavailable,
+                  fmt::format("--bus {}: this build has no CAN yet; use --bus sim", options.bus));
+  }
+  ControllerConfig config = firmware::read_controller_file(options.controller);
+  if (!options.scene.empty()) config.scene.image = options.scene;
+  if (!options.log.empty()) config.telemetry.folder = options.log;
+  if (config.scene.image.empty()) {
+    throw Failure(ExitCode::kBadConfig,
+                  fmt::format("{}: scene.image is missing; add it or give --scene", options.controller));
+  }
+  const firmware::SceneFile image(config.scene.image);
+  Scene scene = image.scene();
+  firmware::set_gains(config.gains, scene);
+  const firmware::Placement placement = firmware::place(config.workspace, config.device, scene.H_MB.translation);
+  const auto simulated = std::make_unique<SimulatedDevice>(config, placement);
+  check_gains(config, scene, placement.device, simulated->drives.delay());
+
+  cycle.emplace(cycle_setup(config, scene, placement), simulated->drives);
+  if (const Status status = cycle->start(); status != Status::kOk) {
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "
+                              "table, or change scene.solver, scene.friction",
+                              config.scene.image.string(), describe(status)));
+  }
+  std::unique_ptr<firmware::TelemetryWriter> writer;
+  if (!config.telemetry.folder.empty()) {
+    writer =
+        std::make_unique<firmware::TelemetryWriter>(config.telemetry.folder, config.device.model.joint_count, ring);
+  }
+  std::optional<double> duration = options.duration;
+  if (!duration && !config.simulation.path.empty()) {
+    duration = config.simulation.begin + simulated->path_seconds() + 0.5;
+  }
+  hal::MonotonicClock stopwatch;
+  firmware::RunSetup setup;
+  setup.cycles = duration ? static_cast<std::uint64_t>(1e3 * *duration) : 0;
+  setup.every = static_cast<std::uint32_t>(config.telemetry.every);
+  setup.stopwatch = &stopwatch;
+  catch_signals();
+  run_loop(setup, config, simulated->drives, writer.get());
+
+  const firmware::Supervisor& supervisor = cycle->supervisor();
+  if (supervisor.fault() == firmware::Fault::kNone) return;
+  const bool about_signs =
+      supervisor.fault() == firmware::Fault::kSignWrong || supervisor.fault() == firmware::Fault::kSignUndecided;
+  const std::string joint = about_signs ? fmt::format("joint {}: ", supervisor.sign_joint() + 1) : "";
+  const std::string line = fmt::format("stopped: {}{}", joint, describe(supervisor.fault()));
+  if (!requests.end) throw Failure(ExitCode::kUnavailable, line);
+  warn(line);
+}
+
+void examine(const std::string& controller) {
+  ControllerConfig::Loop loop;
+  if (!controller.empty()) loop = firmware::read_controller_file(controller).loop;
+  for (const firmware::Finding& finding : firmware::examine_machine(loop.cpu, loop.priority)) {
+    fmt::print("{} {}{}{}\n", finding.good ? "ok  " : "LACK", finding.what, finding.good ? "" : " -> ", finding.cure);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The haptic controller: from the drives' positions to their torques, once a millisecond.",
+               "godobject-controller");
+  app.footer(kFooter);
+  Options options;
+  std::string examined;
+  auto* controller = app.add_option("CONTROLLER", options.controller, "controller file, CONTROLLER.toml");
+  app.add_option("--scene", options.scene, "scene image, in place of scene.image");
+  app.add_option("--bus", options.bus, "sim, or CAN interfaces such as can0,can1; default: sim");
+  app.add_option("--duration", options.duration,
+                 "seconds after which it ends; default: with simulation.path half a second after it, else never")
+      ->check(CLI::Range(0.001, 1e7));
+  app.add_option("--log", options.log, "folder for the telemetry, in place of telemetry.folder");
+  CLI::App* doctor =
+      app.add_subcommand("doctor", "says what this machine lacks for real-time work, each with its cure");
+  doctor->add_option("CONTROLLER", examined, "controller file, for loop.cpu and loop.priority");
+  return command::run(app, argc, argv, [&] {
+    if (doctor->parsed()) return examine(examined);
+    if (controller->count() == 0) throw CLI::RequiredError("CONTROLLER");
+    control(options);
+  });
+}

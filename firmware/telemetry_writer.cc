@@ -1,0 +1,113 @@
+#include "firmware/telemetry_writer.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <iterator>
+#include <system_error>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "firmware/command/failure.h"
+
+namespace godobject::firmware {
+namespace {
+
+constexpr std::uint64_t kRowsAtOnce = 64;
+
+std::string header(int joint_count) {
+  std::string text = "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost";
+  for (const char* column : {"q{}_rad", "qd{}_rad_s", "torque{}_Nm"}) {
+    for (int i = 1; i <= joint_count; ++i) text += ',' + fmt::format(fmt::runtime(column), i);
+  }
+  for (const char* frame : {"d", "g"}) {  // device pose and god object, as godobject-replay names them
+    text += fmt::format(",{0}px_m,{0}py_m,{0}pz_m,{0}qw,{0}qx,{0}qy,{0}qz", frame);
+  }
+  return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m\n";
+}
+
+void append(std::string& text, const Pose& pose) {
+  const Vector3& p = pose.translation;
+  const Quaternion& q = pose.rotation;
+  fmt::format_to(std::back_inserter(text), ",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z(),
+                 q.w(), q.x(), q.y(), q.z());
+}
+
+void append(std::string& text, const JointVector& joints, int joint_count) {
+  for (int i = 0; i < joint_count; ++i) fmt::format_to(std::back_inserter(text), ",{:.9g}", joints[i]);
+}
+
+void append(std::string& text, const TelemetryRecord& record, int joint_count) {
+  const CycleRecord& cycle = record.cycle;
+  fmt::format_to(std::back_inserter(text), "{:.6f},{:.3f},{:.3f},{},{},{:.4g},{},{},{}",
+                 1e-9 * static_cast<double>(record.times.deadline_ns), 1e-3 * static_cast<double>(record.times.late_ns),
+                 1e-3 * static_cast<double>(record.times.compute_ns), name(cycle.mode), static_cast<int>(cycle.fault),
+                 cycle.share, name(cycle.outcome), cycle.contacts, cycle.lost);
+  append(text, cycle.q, joint_count);
+  append(text, cycle.qd, joint_count);
+  append(text, cycle.torque, joint_count);
+  append(text, cycle.H_WM);
+  append(text, cycle.god_object_W);
+  const Vector3& f = cycle.wrench_R.force;
+  const Vector3& t = cycle.wrench_R.torque;
+  fmt::format_to(std::back_inserter(text), ",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.x(), f.y(), f.z(),
+                 t.x(), t.y(), t.z(), cycle.penetration);
+}
+
+}  // namespace
+
+TelemetryWriter::TelemetryWriter(const std::filesystem::path& folder, int joint_count, TelemetryRing& ring)
+    : file_(folder / "telemetry.csv"), joint_count_(joint_count), ring_(ring) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    throw command::Failure(command::ExitCode::kIo, fmt::format("{}: cannot be written ({}); check the folder",
+                                                               file_.string(), std::strerror(errno)));
+  }
+  text_ = header(joint_count);
+  write_rows(0);
+}
+
+TelemetryWriter::~TelemetryWriter() { ::close(descriptor_); }
+
+void TelemetryWriter::drain() {
+  TelemetryRecord record;
+  std::uint64_t rows = 0;
+  while (ring_.pop(record)) {
+    append(text_, record, joint_count_);
+    if (++rows < kRowsAtOnce) continue;
+    write_rows(rows);
+    rows = 0;
+  }
+  if (rows > 0) write_rows(rows);
+}
+
+void TelemetryWriter::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    drain();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  drain();
+}
+
+/// All of `text_`, or it counts as lost.
+void TelemetryWriter::write_rows(std::uint64_t rows) {
+  if (line_is_open_) text_.insert(text_.begin(), '\n');
+  std::size_t done = 0;
+  while (done < text_.size()) {
+    const ssize_t put = ::write(descriptor_, text_.data() + done, text_.size() - done);
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) break;
+    done += static_cast<std::size_t>(put);
+  }
+  if (done > 0) line_is_open_ = text_[done - 1] != '\n';
+  (done == text_.size() ? written_ : lost_) += rows;
+  text_.clear();
+}
+
+}  // namespace godobject::firmware
