@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
   app.add_option("--solvers", options.solvers, "names of the replays to show: a colour each, the last on top")
       ->delimiter(',')
       ->required()
-      ->type_name("SOLVER[,SOLVER ...]");
+      ->option_text("SOLVER[,SOLVER ...] REQUIRED");
   app.add_option("-o,--output", options.output, "folder of the replays, and of what is written")
       ->required()
       ->type_name("OUT");

@@ -102,10 +102,10 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", out_path, "cycles to write, one row each")->required()->type_name("OUT.csv");
   app.add_option("--solver", solver_name, "contact, corrected or paper; default: the scene's")
       ->check(CLI::IsMember(godobject::command::solver_names()))
-      ->type_name("SOLVER");
+      ->option_text("SOLVER");
   app.add_option("--friction", friction_name, "on or off; default: on if the scene has a friction table")
       ->check(CLI::IsMember({"on", "off"}))
-      ->type_name("on|off");
+      ->option_text("on|off");
   app.add_option("--stiffness", stiffness, "k_D [N/m], 1e-6 to 1e8, in place of the scene's coupling.stiffness")
       ->type_name("NUMBER");
 

@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   request.meshes = "toolchain/scenes/meshes";
   app.add_option("--only", chapter, "chapter to make; default: contact")
       ->check(CLI::IsMember({"contact"}))
-      ->type_name("CHAPTER");
+      ->option_text("CHAPTER");
   app.add_flag("--quick", request.quick, "a few scenes, short: below a minute");
   app.add_option("--scene", request.scene, "only scenes whose name holds this; default: all")->type_name("PART");
   app.add_option("--meshes", request.meshes, "folder of bunny_npm.ply, the moving body of some scenes")

@@ -100,9 +100,10 @@ int main(int argc, char** argv) {
   app.add_option("SCENE.toml", options.scene_file, "scene file: meshes and settings")->type_name("");
   app.add_option("-o,--output", options.output, "scene image to write")->type_name("OUT.scene");
   app.add_option("--report", options.report, "also write what was found and measured")->type_name("REPORT.json");
-  app.add_option("--only-solver", options.only_solver, "leave out what other solvers read; default: every solver's")
+  app.add_option("--only-solver", options.only_solver,
+                 "contact, corrected or paper: leave out what others read; default: hold all")
       ->check(CLI::IsMember(godobject::command::solver_names()))
-      ->type_name("SOLVER");
+      ->option_text("SOLVER");
   const CLI::Option* inspect =
       app.add_option("--inspect", options.inspected, "print the facts of a compiled image as JSON, nothing else")
           ->expected(0, 1)

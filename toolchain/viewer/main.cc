@@ -168,14 +168,14 @@ int main(int argc, char** argv) {
       ->type_name("FOLDER|X.png");
   app.add_option("--camera", options.camera,
                  "from the body to the eye [degrees]; zoom 2 is twice as near; default: chosen, zoom 1")
-      ->type_name("AZIMUTH,ELEVATION[,ZOOM]")
+      ->option_text("AZIMUTH,ELEVATION[,ZOOM]")
       ->delimiter(',')
       ->expected(2, 3);
   app.add_option("--up", options.up, "axis of W that points up: x, y or z; default: z")
       ->check(CLI::IsMember({"x", "y", "z"}))
-      ->type_name("AXIS");
+      ->option_text("x|y|z");
   app.add_option("--cut", options.cut, "cuts away the still body (closed) beyond this plane of W [m]")
-      ->type_name("X,Y,Z,NX,NY,NZ")
+      ->option_text("X,Y,Z,NX,NY,NZ")
       ->delimiter(',')
       ->expected(6);
   app.add_option("--size", options.size, "[pixels]; default: 800x600")->type_name("WIDTHxHEIGHT");
