@@ -43,8 +43,8 @@ struct View {
 };
 
 /// Frames the moving body in all poses and, of the first placement, where it is nearest to the still one. A direction
-/// that is not given is the one of 72 around and three heights from which most of that place and of what is around it is
-/// seen, and the gap between that placement's poses from the side.
+/// that is not given is the one of 72 around and three heights from which most of that place and of what is around it
+/// is seen, and the gap between that placement's poses from the side.
 Camera make_camera(const View& view);
 
 }  // namespace godobject::viewer
