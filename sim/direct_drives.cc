@@ -59,7 +59,7 @@ void DirectDrives::begin_cycle() noexcept {
     if (fault(FaultKind::kEncoderNotFinite, i) != nullptr) {
       sample.position[i] = std::numeric_limits<double>::quiet_NaN();
     }
-    sample.torque[i] = joint.motor_torque();
+    sample.torque[i] = joint.measured_torque();
     sample.state[at(i)] = joint.state();
   }
 }

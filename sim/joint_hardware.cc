@@ -36,7 +36,7 @@ void JointHardware::set_brake(bool open, std::int64_t now_ns) noexcept {
 void JointHardware::go_off(Mode mode, std::int64_t now_ns) noexcept {
   mode_ = mode;
   mode_since_ns_ = now_ns;
-  motor_torque_ = 0.0;
+  torque_ = 0.0;
   set_brake(false, now_ns);
 }
 
@@ -86,20 +86,20 @@ void JointHardware::update(std::int64_t now_ns, double position, double velocity
       }
       if (mode_ != Mode::kBrakeOpens || brake_holds_) return;
       mode_ = Mode::kEnabled;
-      motor_torque_ = commanded_;
+      torque_ = commanded_;
       return;
     case Mode::kEnabled:
       if (is_late(now_ns)) return trip(now_ns);
-      motor_torque_ = commanded_;
+      torque_ = commanded_;
       return;
     case Mode::kQuickStop:
       if (stop_begins_) {
         stop_position_ = position;
-        stop_torque_ = motor_torque_;
+        stop_torque_ = torque_;
         stop_begins_ = false;
       }
-      motor_torque_ = rounded(stop_torque_ - p.quick_stop_damping * velocity -
-                              p.quick_stop_stiffness * (position - stop_position_));
+      torque_ = rounded(stop_torque_ - p.quick_stop_damping * velocity -
+                        p.quick_stop_stiffness * (position - stop_position_));
       if (std::fabs(velocity) < p.rest_velocity || in_mode_ns >= p.quick_stop_ns) set_brake(false, now_ns);
       if (brake_holds_) go_off(Mode::kOff, now_ns);
       return;

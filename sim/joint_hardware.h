@@ -13,6 +13,7 @@ struct JointHardwareParameters {
   double encoder_step = 0.0;         ///< what a count stands for [rad]; 0: exact
   std::int32_t counter_at_zero = 0;  ///< counts at q = 0; the counter wraps like any 32 bit number
   double torque_step = 0.0;   ///< what torques are rounded to, usually a permille of the rated one [Nm]; 0: exact
+  double motor_sign = 1.0;    ///< -1: the motor is connected the wrong way round, and its drive does not know
   double torque_limit = 0.0;  ///< [Nm]
   double brake_torque = 0.0;  ///< that the closed brake holds [Nm]
   std::int64_t brake_open_ns = 25'000'000;   ///< from current on to free; until then it holds
@@ -51,7 +52,8 @@ class JointHardware {
   void set_supply(bool on, std::int64_t now_ns) noexcept;  ///< without supply: no torque, brake closing, no answer
 
   hal::DriveState state() const noexcept;
-  double motor_torque() const noexcept { return motor_torque_; }  ///< [Nm]
+  double measured_torque() const noexcept { return torque_; }                        ///< as the drive has it [Nm]
+  double motor_torque() const noexcept { return parameters_.motor_sign * torque_; }  ///< on the joint [Nm]
   double brake_torque() const noexcept { return brake_holds_ ? parameters_.brake_torque : 0.0; }
 
   const JointHardwareParameters& parameters() const noexcept { return parameters_; }
@@ -72,7 +74,7 @@ class JointHardware {
   std::int64_t mode_since_ns_ = 0;
   std::int64_t command_ns_ = 0;
   double commanded_ = 0.0;
-  double motor_torque_ = 0.0;
+  double torque_ = 0.0;
   bool brake_open_ = false;  ///< what is asked of it
   bool brake_holds_ = true;  ///< what it does
   std::int64_t brake_since_ns_ = 0;

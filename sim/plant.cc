@@ -60,6 +60,7 @@ Plant::Plant(const ArmModel& model, const JointVector& q, const JointVector& dry
   if (hand.parameters().grip == Grip::kRigid) carried_W_.force = -hand.parameters().mass * model.gravity_W;
   arm_.set_posture(q_, posture_);
   hand_state_ = tool();
+  target_ = hand_.target(0.0);
 }
 
 BodyState Plant::tool(const ArmPosture& posture, const JointVector& qd) const noexcept {
@@ -74,9 +75,7 @@ double Plant::arm_energy() const noexcept {
   return arm_.kinetic_energy(posture_, qd_) + arm_.potential_energy(posture_);
 }
 
-double Plant::hand_energy() const noexcept {
-  return hand_.energy(hand_.target(1e-9 * static_cast<double>(now_ns_)), hand_state_, tool());
-}
+double Plant::hand_energy() const noexcept { return hand_.energy(target_, hand_state_, tool()); }
 
 /// All torques but dry friction's, inertial ones included; what they and the hand do goes to `rates`.
 JointVector Plant::applied_torque(const Instant& instant, const JointVector& motor, Rates& rates) const noexcept {
@@ -118,7 +117,8 @@ JointVector Plant::accelerations(const ArmPosture& posture, const JointVector& a
 /// brings it to rest by the end of the step, or, where the torque that this takes is out of reach, the greatest one
 /// towards it. Found by exchange: the joint that is overcharged most slips, one that its friction would drive beyond
 /// rest sticks.
-Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const JointVector& capacity) noexcept {
+Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const JointVector& capacity,
+                               JointVector& qdd) noexcept {
   const int n = joint_count();
   const JointVector to_rest = -1.0 / seconds * qd_;
   Stick stick;
@@ -131,8 +131,8 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
   // a few rounds as a rule; if they did not end, the next step would go on from there
   for (int round = 0;; ++round) {
     moving_.factor(posture_.mass, n, stick.held);
+    qdd = accelerations(posture_, applied, stick);
     if (!stick.is_dry || round == 4 * n) break;
-    const JointVector qdd = accelerations(posture_, applied, stick);
     const JointVector needed = posture_.mass * qdd - applied;
     int exchanged = -1;
     double charge = 1.0;
@@ -154,22 +154,23 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
   return stick;
 }
 
-void Plant::finish(const Instant& instant, const JointVector& applied, const Stick& stick,
-                   Rates& rates) const noexcept {
-  rates.qdd = accelerations(instant.posture, applied, stick);
-  if (!stick.is_dry) return;
+double Plant::dry_power(const Instant& instant, const JointVector& applied, const Stick& stick,
+                        const JointVector& qdd) const noexcept {
+  if (!stick.is_dry) return 0.0;
+  double power = 0.0;
   for (int i = 0; i < joint_count(); ++i) {
     if (instant.qd[i] == 0.0) continue;
-    const double dry =
-        stick.held[at(i)] ? instant.posture.mass.row(i).dot(rates.qdd) - applied[i] : stick.slip_torque[i];
-    rates.power.friction += dry * instant.qd[i];
+    const double torque = stick.held[at(i)] ? instant.posture.mass.row(i).dot(qdd) - applied[i] : stick.slip_torque[i];
+    power += torque * instant.qd[i];
   }
+  return power;
 }
 
 Plant::Rates Plant::rates(const Instant& instant, const JointVector& motor, const Stick& stick) const noexcept {
   Rates rates;
   const JointVector applied = applied_torque(instant, motor, rates);
-  finish(instant, applied, stick, rates);
+  rates.qdd = accelerations(instant.posture, applied, stick);
+  rates.power.friction += dry_power(instant, applied, stick, rates.qdd);
   return rates;
 }
 
@@ -180,12 +181,11 @@ void Plant::step(std::int64_t duration_ns, const JointLoad& load) noexcept {
   const BodyState& hand = hand_state_;
   const JointVector& motor = load.motor;
 
-  const BodyState target1 = hand_.target(time);
-  const Instant instant1{posture_, qd_, hand, target1};
+  const Instant instant1{posture_, qd_, hand, target_};
   Rates k1;
   const JointVector applied = applied_torque(instant1, motor, k1);
-  const Stick stick = find_stick(h, applied, dry_friction_ + load.brake);
-  finish(instant1, applied, stick, k1);
+  const Stick stick = find_stick(h, applied, dry_friction_ + load.brake, k1.qdd);
+  k1.power.friction += dry_power(instant1, applied, stick, k1.qdd);
 
   // the second and third stage share positions
   const BodyState target2 = hand_.target(time + 0.5 * h);
@@ -198,12 +198,12 @@ void Plant::step(std::int64_t duration_ns, const JointLoad& load) noexcept {
   hand2.velocity = sum(hand.velocity, 0.5 * h, k2.hand);
   const Rates k3 = rates({stage_posture_, qd3, hand2, target2}, motor, stick);
 
-  const BodyState target4 = hand_.target(time + h);
+  target_ = hand_.target(time + h);
   arm_.set_posture(q_ + h * qd_ + 0.5 * h * h * k3.qdd, stage_posture_);
   moving_.factor(stage_posture_.mass, joint_count(), stick.held);
   const JointVector qd4 = qd_ + h * k3.qdd;
   const BodyState hand4 = moved(hand, h, k3.hand, sum(hand.velocity, h, k3.hand));
-  const Rates k4 = rates({stage_posture_, qd4, hand4, target4}, motor, stick);
+  const Rates k4 = rates({stage_posture_, qd4, hand4, target_}, motor, stick);
 
   q_ += h * qd_ + h * h / 6.0 * (k1.qdd + k2.qdd + k3.qdd);
   qd_ += h / 6.0 * (k1.qdd + 2.0 * (k2.qdd + k3.qdd) + k4.qdd);

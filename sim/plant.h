@@ -91,9 +91,10 @@ class Plant {
 
   BodyState tool(const ArmPosture& posture, const JointVector& qd) const noexcept;
   JointVector applied_torque(const Instant& instant, const JointVector& motor, Rates& rates) const noexcept;
-  Stick find_stick(double seconds, const JointVector& applied, const JointVector& capacity) noexcept;
+  Stick find_stick(double seconds, const JointVector& applied, const JointVector& capacity, JointVector& qdd) noexcept;
   JointVector accelerations(const ArmPosture& posture, const JointVector& applied, const Stick& stick) const noexcept;
-  void finish(const Instant& instant, const JointVector& applied, const Stick& stick, Rates& rates) const noexcept;
+  double dry_power(const Instant& instant, const JointVector& applied, const Stick& stick,
+                   const JointVector& qdd) const noexcept;
   Rates rates(const Instant& instant, const JointVector& motor, const Stick& stick) const noexcept;
 
   ArmDynamics arm_;
@@ -107,6 +108,7 @@ class Plant {
   JointVector q_;
   JointVector qd_ = JointVector::Zero();
   BodyState hand_state_;
+  BodyState target_;
   ArmPosture posture_;  ///< of q_
   PlantWork work_;
 

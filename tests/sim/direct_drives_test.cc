@@ -129,6 +129,19 @@ TEST(DirectDrives, RoundsAndLimitsTorques) {
   EXPECT_EQ(drives.counters().not_finite, 4);
 }
 
+TEST(DirectDrives, MotorTheWrongWayRoundPushesBackUnnoticed) {
+  Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
+  auto hardware = exact_joint();
+  hardware[0].motor_sign = -1.0;
+  DirectDrives drives(plant, hardware, {kPeriod_ns, 0});
+  Loop loop{drives};
+  loop.run(50);
+  loop.command.torque[0] = 2.0;
+  loop.run(11);
+  EXPECT_NEAR(plant.velocities()[0], -2.0 * 11e-3, 1e-12);
+  EXPECT_EQ(loop.reading.torque[0], 2.0);
+}
+
 TEST(DirectDrives, EncoderRoundsToCountsAndItsWrapIsSeamless) {
   for (const std::int32_t start : {0, std::numeric_limits<std::int32_t>::max() - 50, -7}) {
     Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
