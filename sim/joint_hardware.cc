@@ -21,6 +21,7 @@ std::array<JointHardwareParameters, kMaxJoints> usual_hardware(const ArmModel& m
     joint.torque_limit = model.joints[static_cast<std::size_t>(i)].torque;
     joint.torque_step = 1e-3 * joint.torque_limit;
     joint.brake_torque = joint.torque_limit;
+    joint.stop_speed_margin = 0.25 * model.joints[static_cast<std::size_t>(i)].velocity;
     joint.quick_stop_damping = kBandwidth * posture.mass(i, i);
     joint.quick_stop_stiffness = 0.25 * kBandwidth * joint.quick_stop_damping;  // critically damped
   }
@@ -95,9 +96,11 @@ void JointHardware::update(std::int64_t now_ns, double position, double velocity
     case Mode::kQuickStop:
       if (stop_begins_) {
         stop_position_ = position;
+        stop_speed_ = std::fabs(velocity);
         stop_torque_ = torque_;
         stop_begins_ = false;
       }
+      if (std::fabs(velocity) > stop_speed_ + p.stop_speed_margin) return trip(now_ns);
       torque_ = rounded(stop_torque_ - p.quick_stop_damping * velocity -
                         p.quick_stop_stiffness * (position - stop_position_));
       if (std::fabs(velocity) < p.rest_velocity || in_mode_ns >= p.quick_stop_ns) set_brake(false, now_ns);

@@ -22,8 +22,9 @@ struct JointHardwareParameters {
   std::int64_t command_deadline_ns = 4'000'000;  ///< an enabled drive trips when no command came for longer
   double quick_stop_damping = 0.0;               ///< of the drive's own velocity loop [Nms/rad]
   double quick_stop_stiffness = 0.0;             ///< its integral action: of the position where the stop began [Nm/rad]
-  double rest_velocity = 0.01;                   ///< below it the joint is at rest and its brake closes [rad/s]
-  std::int64_t quick_stop_ns = 500'000'000;      ///< after which the brake closes in any case
+  double stop_speed_margin = 0.5;  ///< a drive trips if a quick stop makes its joint faster by so much [rad/s]
+  double rest_velocity = 0.01;     ///< below it the joint is at rest and its brake closes [rad/s]
+  std::int64_t quick_stop_ns = 500'000'000;  ///< after which the brake closes in any case
 };
 
 /// Figures for a device file's arm: encoders of 20 bits a turn, torques in permille of each joint's greatest, which is
@@ -80,6 +81,7 @@ class JointHardware {
   std::int64_t brake_since_ns_ = 0;
   bool stop_begins_ = false;
   double stop_position_ = 0.0;
+  double stop_speed_ = 0.0;
   double stop_torque_ = 0.0;
 };
 

@@ -130,6 +130,20 @@ TEST(JointHardware, QuickStopEndsEvenIfTheJointDoesNot) {
   EXPECT_EQ(bench.joint.state(), DriveState::kOff);
 }
 
+TEST(JointHardware, TripsWhenItsQuickStopRunsAway) {
+  Bench bench;
+  bench.enable();
+  bench.velocity = -1.0;
+  bench.run(1.0, PowerRequest::kQuickStop, 0.0);
+  bench.velocity = -1.4;
+  bench.run(1.0, PowerRequest::kQuickStop, 0.0);
+  EXPECT_EQ(bench.joint.state(), DriveState::kQuickStop);
+  bench.velocity = -1.6;
+  bench.run(1.0, PowerRequest::kQuickStop, 0.0);
+  EXPECT_EQ(bench.joint.state(), DriveState::kFault);
+  EXPECT_EQ(bench.joint.motor_torque(), 0.0);
+}
+
 TEST(JointHardware, TripsWhenNoCommandComes) {
   Bench bench;
   bench.enable();

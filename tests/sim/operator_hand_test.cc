@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -154,6 +155,29 @@ TEST(Hand, RigidGripAddsItsMass) {
   run(plant, 0.1, load);
   EXPECT_NEAR(plant.velocities()[0], 0.3 / 1.501, 1e-9);
   EXPECT_NEAR(plant.hand().velocity.translation.norm(), 0.3 / 1.501, 1e-9);
+}
+
+/// A rotor that turns at 1 rad/s and a hand that does not, until its springs take it along: neither their angular
+/// momentum nor their energy changes.
+TEST(Hand, ExchangesMomentumWithTheArm) {
+  HandParameters springs = held(Grip::kSpring);
+  springs.damping = 0.0;
+  springs.rotation_damping = 0.0;
+  springs.grip_damping = 0.0;
+  springs.grip_rotation_damping = 0.0;
+  Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero(), JointVector::Zero(), OperatorHand(springs));
+  plant.set_velocity(JointVector::Unit(0));
+  double most = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    run(plant, 1e-3);
+    const BodyState& hand = plant.hand();
+    const double of_hand = springs.mass * hand.pose.translation.cross(hand.velocity.translation).z() +
+                           springs.inertia * hand.velocity.rotation.z();
+    most = std::max(most, of_hand);
+    ASSERT_NEAR(plant.velocities()[0] + of_hand, 1.0, 1e-6) << i;
+    ASSERT_NEAR(plant.arm_energy() + plant.hand_energy(), 0.5, 1e-5) << i;
+  }
+  EXPECT_GT(most, 0.5);
 }
 
 TEST(Hand, StiffGripIsNearlyRigid) {
