@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -46,6 +46,9 @@ enum class SectionId : std::uint32_t {
   kFeatures = 15,        ///< one Features
   kFeaturePoints = 16,   ///< float x[n], y[n], z[n]: of the still body, relative to Features::origin, in tree order
   kFeatureNodes = 17,    ///< Node[]: their sphere tree, centres relative to Features::origin
+
+  kEdges = 18,      ///< Edge[]: of the still body; left out where no brick has one
+  kBodyEdges = 19,  ///< Edge[]: of the moving body, in B
 };
 
 struct Header {
@@ -121,25 +124,54 @@ inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 struct alignas(64) Brick {
   float value[kBrickValues];
   float seam_clearance;  ///< no seam is nearer than this to any point of the brick [m]; FLT_MAX where none is near
-  float reserved[2];
+  std::uint32_t edge;    ///< 0: none; else 1 + the number of an Edge
+  float reserved;
 };
 static_assert(sizeof(Brick) == 512);
 
+/// A straight edge of the body, along which trilinear interpolation would ripple. In bricks that name it the field is
+///
+///   phi(x) = (1 - w(x)) I[phi](x) + w(x) g(x),
+///
+/// I the trilinear interpolation of the nodes and g the exact signed distance to the infinite wedge whose edge it is,
+/// plus `offset`. With t the place along the edge and r the distance from it,
+///
+///   w = min(2 (1 - r / R(t)), (t - begin) / ramp, (end - t) / ramp) within 0 .. 1,
+///   R = min(radius, end_radius + slope (t - begin), end_radius + slope (end - t)).
+///
+/// Every brick in which w > 0 somewhere names the edge, and no brick two: the field is continuous.
+struct Edge {
+  double point[3];      ///< on the edge, t = 0
+  double along[3];      ///< unit
+  double normal[2][3];  ///< of the faces, unit: out of the body if the edge is convex, into it if it is re-entrant
+  double face[2][3];    ///< unit, in the faces, across the edge and away from it
+  double side;          ///< +1 convex, -1 re-entrant
+  double offset;        ///< [m]
+  double begin, end;    ///< [m]
+  double ramp;          ///< [m], > 0
+  double radius;        ///< [m], >= end_radius
+  double end_radius;    ///< [m], > 0
+  double slope;         ///< [1], >= 0
+  double reserved[6];   ///< 0
+};
+static_assert(sizeof(Edge) == 256);
+
 /// One entry of the brick index, or of a refinement.
 ///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance;
-///               bit 29 = 0: bits 0-28 are the brick's number;
-///               bit 29 = 1: refined, bits 0-28 are the number of a Refined.
+///               bit 29 = 0: bits 0-27 are the brick's number, bit 28: it has an edge;
+///               bit 29 = 1: refined, bits 0-27 are the number of a Refined.
 ///   bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right by
 ///   one:
 ///               for every point of this brick position and every x within `r` of it, the stored field at x is at least
 ///               clearance - r (outside), whatever brick x lies in. Inside it is not read.
 namespace index_entry {
 inline constexpr std::uint32_t kFar = 1u << 31;
-inline constexpr std::uint32_t kInside = 1u << 30;      // with kFar
-inline constexpr std::uint32_t kSeamNear = 1u << 30;    // without kFar
-inline constexpr std::uint32_t kLow = kSeamNear - 1;    // with kFar: the clearance
-inline constexpr std::uint32_t kRefined = 1u << 29;     // without kFar
-inline constexpr std::uint32_t kNumber = kRefined - 1;  // without kFar: of a brick or a Refined
+inline constexpr std::uint32_t kInside = 1u << 30;    // with kFar
+inline constexpr std::uint32_t kSeamNear = 1u << 30;  // without kFar
+inline constexpr std::uint32_t kLow = kSeamNear - 1;  // with kFar: the clearance
+inline constexpr std::uint32_t kRefined = 1u << 29;   // without kFar
+inline constexpr std::uint32_t kEdged = 1u << 28;     // without kFar and kRefined
+inline constexpr std::uint32_t kNumber = kEdged - 1;  // without kFar: of a brick or a Refined
 
 /// `clearance` >= 0 [m]; what is decoded is at most one part in 4e6 smaller.
 constexpr std::uint32_t encode_far(bool inside, float clearance) noexcept {

@@ -114,7 +114,7 @@ bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
 
 /// Walks all refinements in the order that the format prescribes. Each is met once, at the number that is next: so none
 /// is out of reach, shared or contained in itself, and the walk is as long as index and refinements.
-bool valid_entries(std::span<const std::uint32_t> index, std::size_t brick_count,
+bool valid_entries(std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
                    std::span<const format::Refined> refined) noexcept {
   struct Open {
     const format::Refined* refined;
@@ -131,10 +131,11 @@ bool valid_entries(std::span<const std::uint32_t> index, std::size_t brick_count
       if (((entry ^ position) & format::index_entry::kSeamNear) != 0) return false;
       const std::uint32_t number = entry & format::index_entry::kNumber;
       if ((entry & format::index_entry::kRefined) == 0) {
-        if (number >= brick_count) return false;
+        if (number >= bricks.size()) return false;
+        if (((entry & format::index_entry::kEdged) != 0) != (bricks[number].edge != 0)) return false;
       } else {
         if (number != next || next >= refined.size() || depth == open.size()) return false;
-        if (refined[next].brick >= brick_count) return false;
+        if ((entry & format::index_entry::kEdged) != 0 || refined[next].brick >= bricks.size()) return false;
         open[depth++] = {&refined[next++], 0};
       }
       while (depth > 0 && open[depth - 1].next_child == std::size(open[depth - 1].refined->child)) --depth;
@@ -146,11 +147,42 @@ bool valid_entries(std::span<const std::uint32_t> index, std::size_t brick_count
   return next == refined.size();
 }
 
-bool valid_bricks(std::span<const format::Brick> bricks) noexcept {
+bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count) noexcept {
   for (const format::Brick& brick : bricks) {
     if (!all_finite(brick.value, format::kBrickValues, 1e8f)) return false;
     if (!(brick.seam_clearance >= 0.0f)) return false;
-    if (!(brick.reserved[0] == 0.0f && brick.reserved[1] == 0.0f)) return false;
+    if (!(brick.reserved == 0.0f)) return false;
+    if (brick.edge > edge_count) return false;
+  }
+  return true;
+}
+
+bool valid_edges(std::span<const format::Edge> edges) noexcept {
+  constexpr double kSlack = 1e-9;  // of products of unit vectors
+  constexpr double kFarthest = 1e8;
+  const auto dot = [](const double(&a)[3], const double(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto unit = [&](const double(&a)[3]) { return in_range(dot(a, a), 1.0 - kSlack, 1.0 + kSlack); };
+  const auto square = [&](const double(&a)[3], const double(&b)[3]) { return in_range(dot(a, b), -kSlack, kSlack); };
+  for (const format::Edge& edge : edges) {
+    for (const double x : edge.point) {
+      if (!in_range(x, -kFarthest, kFarthest)) return false;
+    }
+    if (!unit(edge.along)) return false;
+    for (int i = 0; i < 2; ++i) {
+      if (!unit(edge.normal[i]) || !unit(edge.face[i]) || !square(edge.normal[i], edge.face[i]) ||
+          !square(edge.normal[i], edge.along) || !square(edge.face[i], edge.along)) {
+        return false;
+      }
+    }
+    if (!(edge.side == 1.0 || edge.side == -1.0) || !in_range(edge.offset, -kFarthest, kFarthest)) return false;
+    if (!in_range(edge.begin, -kFarthest, kFarthest) || !in_range(edge.end, edge.begin, kFarthest)) return false;
+    if (!in_range(edge.ramp, 1e-12, kFarthest) || !in_range(edge.end_radius, 1e-12, kFarthest) ||
+        !in_range(edge.radius, edge.end_radius, kFarthest) || !in_range(edge.slope, 0.0, 1.0)) {
+      return false;
+    }
+    for (const double x : edge.reserved) {
+      if (x != 0.0) return false;
+    }
   }
   return true;
 }
@@ -253,7 +285,7 @@ void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x,
 
 /// The sections that make up one voxelmap.
 struct MapSections {
-  SectionId grid, index, bricks, refined;
+  SectionId grid, index, bricks, refined, edges;
 };
 
 Status open_map(const Sections& sections, const MapSections& ids, format::Grid& grid, Voxelmap& map) noexcept {
@@ -267,10 +299,14 @@ Status open_map(const Sections& sections, const MapSections& ids, format::Grid& 
   const auto refined = as_array<format::Refined>(sections[ids.refined]);
   if (sections[ids.index].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
   if (sections[ids.bricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
+  const auto edges = as_array<format::Edge>(sections[ids.edges]);
   if (sections[ids.refined].size() != refined.size_bytes()) return Status::kImageLayout;
-  if (!valid_clearances(index) || !valid_entries(index, bricks.size(), refined) || !valid_bricks(bricks))
+  if (sections[ids.edges].size() != edges.size_bytes()) return Status::kImageLayout;
+  if (!valid_clearances(index) || !valid_bricks(bricks, edges.size()) || !valid_entries(index, bricks, refined) ||
+      !valid_edges(edges)) {
     return Status::kImageValue;
-  map = Voxelmap(grid, index, bricks, refined);
+  }
+  map = Voxelmap(grid, index, bricks, refined, edges);
   return Status::kOk;
 }
 
@@ -307,7 +343,8 @@ Status open_features(const Sections& sections, Scene& scene) noexcept {
   if (status != Status::kOk) return status;
   scene.features_origin = Vector3(features.origin[0], features.origin[1], features.origin[2]);
   return open_map(sections,
-                  {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined},
+                  {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
+                   SectionId::kBodyEdges},
                   grid, scene.body_map);
 }
 
@@ -328,8 +365,9 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
   if (!valid_settings(opened.settings) || !valid_body(body)) return Status::kImageValue;
 
-  status = open_map(sections, {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined},
-                    opened.grid, opened.voxelmap);
+  status = open_map(
+      sections, {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined, SectionId::kEdges},
+      opened.grid, opened.voxelmap);
   if (status != Status::kOk) return status;
   // contacts begin at the safety distance: there the field must be known
   if (opened.grid.band < opened.settings.safety_distance) return Status::kImageValue;

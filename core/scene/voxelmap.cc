@@ -1,5 +1,7 @@
 #include "core/scene/voxelmap.h"
 
+#include "core/scene/edge.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,10 +25,12 @@ constexpr double kInterpolationError = 0.8660254037844387;
 }  // namespace
 
 Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
-                   std::span<const format::Brick> bricks, std::span<const format::Refined> refined) noexcept
+                   std::span<const format::Brick> bricks, std::span<const format::Refined> refined,
+                   std::span<const format::Edge> edges) noexcept
     : index_(index.data()),
       bricks_(bricks.data()),
       refined_(refined.data()),
+      edges_(edges.data()),
       origin_(grid.origin[0], grid.origin[1], grid.origin[2]),
       surface_min_(grid.surface_min[0], grid.surface_min[1], grid.surface_min[2]),
       surface_max_(grid.surface_max[0], grid.surface_max[1], grid.surface_max[2]),
@@ -127,7 +131,17 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   const float x11 = v[kStrideZ + kStrideY] + cell.fx * (v[kStrideZ + kStrideY + 1] - v[kStrideZ + kStrideY]);
   const float y0 = x00 + cell.fy * (x10 - x00);
   const float y1 = x01 + cell.fy * (x11 - x01);
-  const double distance = static_cast<double>(y0 + cell.fz * (y1 - y0));
+  double distance = static_cast<double>(y0 + cell.fz * (y1 - y0));
+  const bool edged = (cell.entry & format::index_entry::kEdged) != 0;
+  const double interpolated = distance;
+  ValueAndGradient weight;
+  ValueAndGradient wedge;
+  if (edged) {
+    const format::Edge& edge = edges_[brick.edge - 1];
+    weight = edge_weight(edge, p_W);
+    wedge = wedge_distance(edge, p_W);
+    distance += weight.value * (wedge.value - distance);
+  }
   if (distance > 0.0) {
     // a straight way may leave the stored bricks, and enters them again at a value of at least the band
     const double bound = std::min(distance, band_);
@@ -152,6 +166,10 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   const float gz = y1 - y0;
   sample.distance = distance;
   sample.gradient = per_cell * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
+  if (edged) {
+    sample.gradient +=
+        weight.value * (wedge.gradient - sample.gradient) + (wedge.value - interpolated) * weight.gradient;
+  }
   sample.known = true;
   return sample;
 }

@@ -10,20 +10,21 @@ namespace godobject {
 
 /// A compiled body, still or moving: trilinear value and gradient of signed distances stored in sparse bricks. A view;
 /// owns nothing. Real-time safe; every call looks at one brick (one index entry, where the position is refined at most
-/// format::kMaxRefinement more entries, and at most 8 floats of the brick).
+/// format::kMaxRefinement more entries, at most 8 floats of the brick, and the edge of one that has one).
 class Voxelmap {
  public:
   Voxelmap() = default;
 
   /// The parts must have been validated (Scene::open does) and must outlive the view.
   Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
-           std::span<const format::Refined> refined) noexcept;
+           std::span<const format::Refined> refined, std::span<const format::Edge> edges = {}) noexcept;
 
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return band_; }
   double lipschitz() const noexcept { return lipschitz_seam_; }
 
-  /// Trilinear interpolation of the stored distances and its exact gradient at p_W. Outside the grid is free space
+  /// The stored field at p_W, trilinear but for bricks with an edge (format::Edge), and its exact gradient. Outside the
+  /// grid is free space
   /// (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts as outside.
   /// The clearance is the distance over the Lipschitz constant, less where a seam is near, more beyond the band.
   FieldSample sample(const Vector3& p_W) const noexcept;
@@ -52,6 +53,7 @@ class Voxelmap {
   const std::uint32_t* index_ = nullptr;
   const format::Brick* bricks_ = nullptr;
   const format::Refined* refined_ = nullptr;
+  const format::Edge* edges_ = nullptr;
   Vector3 origin_ = Vector3::Zero();
   Vector3 surface_min_ = Vector3::Zero();
   Vector3 surface_max_ = Vector3::Zero();

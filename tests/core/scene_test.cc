@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -41,8 +42,23 @@ SceneImage small_image() {
   return test::build_scene_image(description);
 }
 
+/// A convex edge along z.
+format::Edge any_edge() {
+  format::Edge edge{};
+  edge.along[2] = edge.normal[0][0] = edge.normal[1][1] = 1.0;
+  edge.face[0][1] = edge.face[1][0] = -1.0;
+  edge.side = 1.0;
+  edge.begin = -0.01;
+  edge.end = 0.01;
+  edge.ramp = 0.002;
+  edge.radius = 0.005;
+  edge.end_radius = 0.002;
+  edge.slope = 0.5;
+  return edge;
+}
+
 /// The same ball with two positions refined, 0 and 2, and the last octant of the first one, 1.
-SceneImage refined_image() {
+SceneImage refined_image(std::optional<format::Edge> edge = {}) {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
   description.surface_min = Vector3::Constant(-0.01);
@@ -51,10 +67,11 @@ SceneImage refined_image() {
   description.band = 0.01;
   description.settings.safety_distance = 0.005;
   description.points = {Vector3(0.01, 0.0, 0.0)};
-  description.refined = [](const Vector3& center, double edge) {
-    if (edge > 0.03) return center.y() < 0.0 && center.z() < 0.0;  // two positions, side by side along x
-    return edge > 0.015 && center.norm() < 0.001;                  // the last octant of the first
+  description.refined = [](const Vector3& center, double size) {
+    if (size > 0.03) return center.y() < 0.0 && center.z() < 0.0;  // two positions, side by side along x
+    return size > 0.015 && center.norm() < 0.001;                  // the last octant of the first
   };
+  description.edge = edge;
   return test::build_scene_image(description);
 }
 
@@ -309,7 +326,7 @@ constexpr Spoiled kNumbers[] = {
     {"distance infinite", Status::kImageValue, BRICK(x.value[0] = -std::numeric_limits<float>::infinity())},
     {"seam clearance negative", Status::kImageValue, BRICK(x.seam_clearance = -1.0f)},
     {"seam clearance NaN", Status::kImageValue, BRICK(x.seam_clearance = std::numeric_limits<float>::quiet_NaN())},
-    {"reserved words of a brick", Status::kImageValue, BRICK(x.reserved[1] = 1.0f)},
+    {"reserved word of a brick", Status::kImageValue, BRICK(x.reserved = 1.0f)},
     {"rotation not unit", Status::kImageValue, BODY(x.rotation_MB[0] = 0.51)},
     {"inertia not ascending", Status::kImageValue, BODY(x.inertia[0] = 2.0 * x.inertia[1])},
     {"inertia negative", Status::kImageValue, BODY(x.inertia[0] = -1e-9)},
@@ -387,6 +404,40 @@ constexpr Spoiled kRefinements[] = {
      }},
 };
 INSTANTIATE_TEST_SUITE_P(Refinement, SceneRefusesRefinements, ::testing::ValuesIn(kRefinements));
+
+class SceneRefusesEdges : public ::testing::TestWithParam<Spoiled> {};
+
+TEST_P(SceneRefusesEdges, EvenWithRightChecksums) {
+  SceneImage image = refined_image(any_edge());
+  EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
+  GetParam().spoil(image);
+  EXPECT_EQ(describe(open_over_another(image.bytes())), std::string(describe(GetParam().status)));
+}
+
+#define EDGE(CHANGE) ITEM(format::Edge, kEdges, 0, CHANGE)
+
+constexpr Spoiled kEdges[] = {
+    {"a section cut short", Status::kImageLayout, SECTION(kEdges, x.bytes -= 8)},
+    {"no edges", Status::kImageValue, SECTION(kEdges, x.id = static_cast<SectionId>(22))},
+    {"a brick that names one too many", Status::kImageValue, BRICK(x.edge = 2)},
+    {"a brick whose entry does not know", Status::kImageValue,
+     ITEM(std::uint32_t, kBrickIndex, 2, x &= ~format::index_entry::kEdged)},
+    {"an entry whose brick does not know", Status::kImageValue, ITEM(format::Brick, kBricks, 2, x.edge = 0)},
+    {"a point NaN", Status::kImageValue, EDGE(x.point[1] = std::numeric_limits<double>::quiet_NaN())},
+    {"a direction that is not unit", Status::kImageValue, EDGE(x.along[2] = 1.1)},
+    {"a normal that is not unit", Status::kImageValue, EDGE(x.normal[1][1] = 0.9)},
+    {"a normal along the edge", Status::kImageValue, EDGE(std::swap(x.normal[0][0], x.normal[0][2]))},
+    {"a face that leans", Status::kImageValue, EDGE(std::swap(x.face[1][0], x.face[1][1]))},
+    {"neither convex nor re-entrant", Status::kImageValue, EDGE(x.side = 0.5)},
+    {"an end before its begin", Status::kImageValue, EDGE(x.end = -0.02)},
+    {"no ramp", Status::kImageValue, EDGE(x.ramp = 0.0)},
+    {"no radius at the ends", Status::kImageValue, EDGE(x.end_radius = 0.0)},
+    {"wider at the ends", Status::kImageValue, EDGE(x.radius = 0.001)},
+    {"a slope upwards", Status::kImageValue, EDGE(x.slope = -0.1)},
+    {"an offset without end", Status::kImageValue, EDGE(x.offset = std::numeric_limits<double>::infinity())},
+    {"reserved words", Status::kImageValue, EDGE(x.reserved[5] = 1.0)},
+};
+INSTANTIATE_TEST_SUITE_P(Edge, SceneRefusesEdges, ::testing::ValuesIn(kEdges));
 
 /// A chain of refinements, each of the first octant of the one before, as deep as `depth`.
 SceneImage chain_image(int depth) {

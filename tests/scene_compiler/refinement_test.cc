@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/scene/edge.h"
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/brute_force.h"
 #include "tests/scene_compiler/simple_meshes.h"
@@ -34,7 +35,7 @@ struct Field {
         grid(coarse),
         report(refine(grid, surface, tolerance * s, {})),
         coarse_map(coarse.grid, coarse.index, coarse.bricks, {}),
-        map(grid.grid, grid.index, grid.bricks, grid.refined) {}
+        map(grid.grid, grid.index, grid.bricks, grid.refined, grid.edges) {}
 };
 
 /// Any rotation, anywhere within a voxel.
@@ -123,7 +124,8 @@ double largest_jump(const Field& field, int pairs) {
   std::vector<std::size_t> refined;
   for (std::size_t i = 0; i < field.grid.index.size(); ++i) {
     const std::uint32_t entry = field.grid.index[i];
-    if ((entry & format::index_entry::kFar) == 0 && (entry & format::index_entry::kRefined) != 0) refined.push_back(i);
+    const std::uint32_t finer = format::index_entry::kRefined | format::index_entry::kEdged;
+    if ((entry & format::index_entry::kFar) == 0 && (entry & finer) != 0) refined.push_back(i);
   }
   std::mt19937_64 random(13);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -202,6 +204,60 @@ TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
   EXPECT_LE(largest_jump(field, 60000), kFloatRounding * s);
   EXPECT_LE(field.grid.grid.lipschitz, 2.0);
   EXPECT_LE(field.grid.grid.lipschitz_seam, std::max(2.0, field.coarse.grid.lipschitz_seam));
+}
+
+/// Where an edge counts in full the field is the surface's own distance, to double precision.
+TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
+  std::mt19937_64 random(18);
+  const double s = 0.002;
+  const SolidSurface surface(test::moved(test::box_mesh({0.06, 0.05, 0.07}), any_motion(random, s)),
+                             SurfaceKind::kSolid, 2.0 * s);
+  const Field field(surface, s);
+  ASSERT_EQ(field.grid.edges.size(), 12u);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0;
+  for (const format::Edge& edge : field.grid.edges) {
+    for (int i = 0; i < 2000; ++i) {
+      const double t = edge.begin + unit(random) * (edge.end - edge.begin);
+      const Vector3d around(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+      const Vector3d p = Eigen::Map<const Vector3d>(edge.point) + t * Eigen::Map<const Vector3d>(edge.along) +
+                         2.0 * edge.radius * unit(random) * around;
+      if (edge_weight(edge, p).value < 1.0) continue;
+      ++looked_at;
+      const FieldSample sample = field.map.sample(p);
+      ASSERT_NEAR(sample.distance, surface.signed_distance(p), 1e-15 + 1e-12 * s);
+      if (sample.distance != 0.0) {
+        ASSERT_NEAR(sample.gradient.norm(), 1.0, 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(looked_at, 8000);
+}
+
+/// Of whatever shape its bricks and edges are: no two points are further apart in distance than the constant says.
+TEST(Refinement, KeepsTheFieldAsSteepAsItSays) {
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const char* name : {"box", "bracket"}) {
+    const double s = 0.004;
+    const SolidSurface surface(std::string(name) == "box"
+                                   ? test::moved(test::box_mesh({0.06, 0.05, 0.07}), any_motion(random, s))
+                                   : load(name, 1.0),
+                               SurfaceKind::kSolid, 2.0 * s);
+    const Field field(surface, s);
+    double steepest = 0.0;
+    for (int i = 0; i < 300000; ++i) {
+      const format::Edge& edge = field.grid.edges[random() % field.grid.edges.size()];
+      const double t = 0.5 * ((edge.begin + edge.end) + unit(random) * (edge.end - edge.begin + 2.0 * s));
+      const Vector3d p = Eigen::Map<const Vector3d>(edge.point) + t * Eigen::Map<const Vector3d>(edge.along) +
+                         3.0 * s * Vector3d(unit(random), unit(random), unit(random));
+      const FieldSample here = field.map.sample(p);
+      if (!here.known) continue;
+      steepest = std::max(steepest, here.gradient.norm());
+    }
+    EXPECT_LE(steepest, field.grid.grid.lipschitz) << name;
+    EXPECT_GT(steepest, 1.2) << name;  // looked at where it matters
+  }
 }
 
 TEST(Refinement, LeavesEveryPositionsOwnNodes) {

@@ -188,6 +188,18 @@ class Octants {
   double slope_ = 0.0;
 };
 
+void name_edge(StoredField& field) {
+  const auto name = [&field](std::uint32_t& entry) {
+    if ((entry & (format::index_entry::kFar | format::index_entry::kRefined)) != 0) return;
+    field.bricks[entry & format::index_entry::kNumber].edge = 1;
+    entry |= format::index_entry::kEdged;
+  };
+  for (std::uint32_t& entry : field.index) name(entry);
+  for (format::Refined& refined : field.refined) {
+    for (std::uint32_t& entry : refined.child) name(entry);
+  }
+}
+
 StoredField store_field(const SceneDescription& description) {
   StoredField field;
   field.grid = frame_grid(description);
@@ -214,6 +226,7 @@ StoredField store_field(const SceneDescription& description) {
   double slope = 0.0;
   for (const format::Brick& brick : field.bricks) slope = std::max(slope, steepest(brick) / grid.voxel_size);
   if (description.refined) slope = std::max(slope, Octants(description, field).store());
+  if (description.edge) name_edge(field);
   grid.lipschitz = slope * (1.0 + 1e-6);  // single precision differences are taken again later
   grid.lipschitz_seam = grid.lipschitz;
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
@@ -374,6 +387,7 @@ SceneImage build_scene_image(const SceneDescription& description) {
   parts.push_back(part(SectionId::kBrickIndex, std::span(field.index)));
   parts.push_back(part(SectionId::kBricks, std::span(field.bricks)));
   if (!field.refined.empty()) parts.push_back(part(SectionId::kRefined, std::span(field.refined)));
+  if (description.edge) parts.push_back(part(SectionId::kEdges, std::span(&*description.edge, 1)));
   parts.push_back(part(SectionId::kBody, std::span(&stored.body, 1)));
   parts.push_back(part(SectionId::kPoints, std::span(points)));
   if (!description.normals.empty()) {

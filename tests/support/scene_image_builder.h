@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,9 @@ struct SceneDescription {
   /// Whether the brick that is the cube of `edge` about `center` is refined; asked of stored positions, then of their
   /// octants. Empty: none is.
   std::function<bool(const Vector3& center, double edge)> refined;
+
+  /// Named by every brick that is looked up; grid.lipschitz is that of the field without.
+  std::optional<format::Edge> edge;
 
   std::vector<Vector3> points;    ///< in the body frame B; the image may hold them in another order
   std::vector<Vector3> normals;   ///< unit, pointing into the body, one a point; empty: left out, and `paper` with them

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toolchain/scene_compiler/field_slope.h"
+#include "core/scene/edge.h"
+#include "toolchain/scene_compiler/straight_edges.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -22,18 +23,67 @@ int position_of(int unit) { return unit >= 0 ? unit / kPositionUnits : -1; }
 
 }  // namespace
 
-BrickTree::BrickTree(const DistanceGrid& field)
+BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>& edges)
     : field_(field),
       origin_(field.grid.origin[0], field.grid.origin[1], field.grid.origin[2]),
       voxel_size_(field.grid.voxel_size),
       lattice_{{field.grid.bricks[0], field.grid.bricks[1], field.grid.bricks[2]}},
       index_(field.index),
-      places_(field.bricks.size()) {
+      places_(field.bricks.size()),
+      edges_(edges),
+      edges_of_(field.bricks.size()) {
   for (std::size_t i = 0; i < index_.size(); ++i) {
     if ((index_[i] & format::index_entry::kFar) != 0) continue;
     const std::uint32_t brick = index_[i] & format::index_entry::kNumber;
     const BrickPosition p = lattice_.position(i);
     places_[brick] = {{kPositionUnits * p[0], kPositionUnits * p[1], kPositionUnits * p[2]}, 0, brick, false};
+  }
+  const double position_edge = kBrickCells * voxel_size_;
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+    const Eigen::Map<const Vector3d> point(edges_[e].point);
+    const Eigen::Map<const Vector3d> along(edges_[e].along);
+    const Vector3d from = point + edges_[e].begin * along;
+    const Vector3d to = point + edges_[e].end * along;
+    BrickPosition low{};
+    BrickPosition high{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      const auto position = [&](double x) { return static_cast<int>(std::floor((x - origin_[k]) / position_edge)); };
+      low[axis] = std::max(position(std::min(from[k], to[k]) - edges_[e].radius), 0);
+      high[axis] = std::min(position(std::max(from[k], to[k]) + edges_[e].radius), lattice_.size[axis] - 1);
+    }
+    for (int z = low[2]; z <= high[2]; ++z) {
+      for (int y = low[1]; y <= high[1]; ++y) {
+        for (int x = low[0]; x <= high[0]; ++x) {
+          const std::uint32_t entry = index_[lattice_.number({x, y, z})];
+          if ((entry & format::index_entry::kFar) == 0) find_edges(entry & format::index_entry::kNumber, {e});
+        }
+      }
+    }
+  }
+}
+
+/// Adds those of `among` that reach the brick.
+void BrickTree::find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among) {
+  const double half = 0.5 * kBrickCells * cell_edge(level(brick));
+  const Vector3d center = low(brick) + Vector3d::Constant(half);
+  for (const std::uint32_t e : among) {
+    if (reaches(edges_[e], center, half)) edges_of_[brick].push_back(e);
+  }
+}
+
+double BrickTree::with_edges(std::uint32_t brick, const Vector3d& p, double interpolated) const {
+  for (const std::uint32_t e : edges_of_[brick]) {
+    interpolated += edge_weight(edges_[e], p).value * (wedge_distance(edges_[e], p).value - interpolated);
+  }
+  return interpolated;
+}
+
+void BrickTree::add_slope(std::uint32_t brick, FieldSlope& slope) const {
+  if (edges_of_[brick].empty()) {
+    slope.add(stored(brick));
+  } else {
+    slope.add(stored(brick), edges_[edges_of_[brick].front()], low(brick));
   }
 }
 
@@ -95,12 +145,13 @@ double BrickTree::interpolate(const Place& place, const format::Brick& brick,
 
 double BrickTree::interpolate(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return interpolate(places_[leaf.brick], stored(leaf.brick), {units[0], units[1], units[2]});
+  return with_edges(leaf.brick, p,
+                    interpolate(places_[leaf.brick], stored(leaf.brick), {units[0], units[1], units[2]}));
 }
 
 double BrickTree::interpolate_exact(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return interpolate(places_[leaf.brick], exact(leaf.brick), {units[0], units[1], units[2]});
+  return with_edges(leaf.brick, p, interpolate(places_[leaf.brick], exact(leaf.brick), {units[0], units[1], units[2]}));
 }
 
 std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p,
@@ -175,6 +226,8 @@ void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& o
     refined.child[octant] = seam_near | brick_count();
     places_.push_back(place);
     fine_.push_back({octants[octant], octants[octant]});
+    edges_of_.emplace_back();
+    find_edges(brick_count() - 1, edges_of_[brick]);
   }
   refined_.push_back(refined);
 }
@@ -224,7 +277,9 @@ void BrickTree::join() {
 }
 
 std::uint32_t BrickTree::write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const {
-  if ((entry & format::index_entry::kRefined) == 0) return entry;
+  if ((entry & format::index_entry::kRefined) == 0) {
+    return edges_of_[entry & format::index_entry::kNumber].empty() ? entry : entry | format::index_entry::kEdged;
+  }
   const format::Refined& from = refined_[entry & format::index_entry::kNumber];
   const auto number = static_cast<std::uint32_t>(refined.size());
   refined.push_back(from);
@@ -241,11 +296,11 @@ void BrickTree::write(DistanceGrid& field) const {
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
     if (places_[b].halved) continue;
     if (places_[b].level == 0) {
-      positions.add(stored(b));
+      add_slope(b, positions);
       continue;
     }
     FieldSlope slope(cell_edge(places_[b].level));
-    slope.add(stored(b));
+    add_slope(b, slope);
     steepest = std::max(steepest, slope.largest_with_seams());
   }
   field.grid.lipschitz = std::max(positions.largest(), steepest);
@@ -256,7 +311,23 @@ void BrickTree::write(DistanceGrid& field) const {
   }
   field.bricks.reserve(field.bricks.size() + fine_.size());
   for (const Fine& fine : fine_) field.bricks.push_back(fine.stored);
+  write_edges(field);
   field.grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
+}
+
+void BrickTree::write_edges(DistanceGrid& field) const {
+  std::vector<std::uint32_t> number(edges_.size());  // 1 + that in the field
+  field.edges.clear();
+  for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    field.bricks[b].edge = 0;
+    if (!is_leaf(b) || edges_of_[b].empty()) continue;
+    const std::uint32_t edge = edges_of_[b].front();
+    if (number[edge] == 0) {
+      field.edges.push_back(edges_[edge]);
+      number[edge] = static_cast<std::uint32_t>(field.edges.size());
+    }
+    field.bricks[b].edge = number[edge];
+  }
 }
 
 }  // namespace godobject::scene_compiler

@@ -6,6 +6,7 @@
 
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/distance_grid.h"
+#include "toolchain/scene_compiler/field_slope.h"
 
 namespace godobject::scene_compiler {
 
@@ -26,8 +27,9 @@ class BrickTree {
     int level = 0;
   };
 
-  /// `field`, which must have no refinement yet, must outlive the tree and keep still until `write`.
-  explicit BrickTree(const DistanceGrid& field);
+  /// `field`, which must have no refinement yet, must outlive the tree and keep still until `write`; so must `edges`,
+  /// of the same surface.
+  BrickTree(const DistanceGrid& field, const std::vector<format::Edge>& edges);
 
   std::uint32_t brick_count() const { return static_cast<std::uint32_t>(places_.size()); }
   int level(std::uint32_t brick) const { return places_[brick].level; }
@@ -48,7 +50,7 @@ class BrickTree {
   Units unit_cell(const Eigen::Vector3d& p) const;
   Leaf find(const Units& unit_cell) const;
 
-  /// Trilinear interpolation of the nodes of `leaf`, which holds p [m]: of the stored and of the exact ones.
+  /// The field at p [m], which `leaf` holds: with the stored and with the exact nodes.
   double interpolate(const Leaf& leaf, const Eigen::Vector3d& p) const;
   double interpolate_exact(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
@@ -61,6 +63,12 @@ class BrickTree {
 
   /// The leaves at the eight corners about a brick, outside of it: every leaf coarser than it that touches it is one.
   std::array<Leaf, 8> leaves_about(std::uint32_t brick) const;
+
+  /// Numbers of the edges of which some w > 0 may be in the brick.
+  const std::vector<std::uint32_t>& edges_of(std::uint32_t brick) const { return edges_of_[brick]; }
+
+  /// Adds the leaf, which names one edge at most.
+  void add_slope(std::uint32_t brick, FieldSlope& slope) const;
 
   void halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants);
 
@@ -82,8 +90,11 @@ class BrickTree {
   };
 
   Leaf coarsest_about(const Units& node, std::uint32_t root) const;
+  void find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among);
   void join_brick(std::uint32_t brick);
   double interpolate(const Place& place, const format::Brick& brick, const std::array<double, 3>& units) const;
+  double with_edges(std::uint32_t brick, const Eigen::Vector3d& p, double interpolated) const;
+  void write_edges(DistanceGrid& field) const;
   std::uint32_t& entry_of(std::uint32_t brick);
   std::uint32_t write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const;
 
@@ -95,6 +106,8 @@ class BrickTree {
   std::vector<format::Refined> refined_;
   std::vector<Place> places_;
   std::vector<Fine> fine_;  ///< of the octants
+  const std::vector<format::Edge>& edges_;
+  std::vector<std::vector<std::uint32_t>> edges_of_;  ///< by brick
 };
 
 }  // namespace godobject::scene_compiler

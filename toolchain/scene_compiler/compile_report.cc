@@ -27,6 +27,8 @@ const char* name_of(format::SectionId id) {
     case format::SectionId::kFeatures: return "features";
     case format::SectionId::kFeaturePoints: return "feature_points";
     case format::SectionId::kFeatureNodes: return "feature_nodes";
+    case format::SectionId::kEdges: return "edges";
+    case format::SectionId::kBodyEdges: return "body_edges";
   }
   return "unknown";
 }
@@ -158,6 +160,7 @@ Json refinement_json(const CompileReport& report) {
   const ErrorNorms& near = report.field_error.near;
   return {{"tolerance_in_voxels", report.config.field_tolerance},
           {"bricks_by_halvings", report.refinement.bricks},
+          {"straight_edges", report.refinement.edges},
           {"bytes", report.refinement.bytes()},
           {"nearer_than_half_a_voxel",
            {{"points", near.points},
@@ -180,7 +183,10 @@ Json second_direction_json(const CompileReport& report) {
   if (!second.sought) return json;
   std::uint64_t bytes = 0;
   for (const auto& [id, section] : report.sections) {
-    if (id >= format::SectionId::kBodyGrid && id <= format::SectionId::kFeatureNodes) bytes += section;
+    if ((id >= format::SectionId::kBodyGrid && id <= format::SectionId::kFeatureNodes) ||
+        id == format::SectionId::kBodyEdges) {
+      bytes += section;
+    }
   }
   json["bound"] = second.between.bound + second.slack;
   json["body_field_slack"] = second.slack;

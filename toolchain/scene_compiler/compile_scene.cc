@@ -77,6 +77,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
   sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
   if (!field.refined.empty()) sections.push_back({SectionId::kRefined, bytes_of(field.refined)});
+  if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
   if (!report.only_solver || report.only_solver == format::Solver::kPaper)
@@ -88,6 +89,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   sections.push_back({SectionId::kBodyBricks, bytes_of(parts.body_field.bricks)});
   if (!parts.body_field.refined.empty())
     sections.push_back({SectionId::kBodyRefined, bytes_of(parts.body_field.refined)});
+  if (!parts.body_field.edges.empty()) sections.push_back({SectionId::kBodyEdges, bytes_of(parts.body_field.edges)});
   sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
   sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
   sections.push_back({SectionId::kFeatureNodes, bytes_of(parts.features.nodes)});
@@ -181,6 +183,7 @@ void shrink(DistanceGrid& field, double slack) {
   for (format::Brick& brick : field.bricks) {
     for (float& value : brick.value) value += static_cast<float>(slack);
   }
+  for (format::Edge& edge : field.edges) edge.offset += slack;
 }
 
 }  // namespace

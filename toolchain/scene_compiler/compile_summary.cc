@@ -152,6 +152,10 @@ std::string refinement_text(const CompileReport& report) {
   std::string text = fmt::format(
       "finer    bricks by how often they were halved, 0, 1, 2, ... times: {}; {:.1f} KiB, {:.2f} s\n",
       fmt::join(report.refinement.bricks, ", "), static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
+  if (report.refinement.edges > 0) {
+    text += fmt::format("         {} stretches of straight edges stored as such: there the field is exact\n",
+                        report.refinement.edges);
+  }
   const auto look_up_text = [](double time) {
     return time > 0.0 ? fmt::format("{:.0f} ns", time) : std::string("(none)");
   };

@@ -21,7 +21,6 @@ using format::kBrickCells;
 using format::kBrickNodes;
 
 constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // voxels
-constexpr double kInterpolationError = 0.8661;                                 // voxels: half a cell's diagonal
 
 /// The nodes that a brick position owns: those not on its upper faces.
 using Block = std::array<float, kBrickCells * kBrickCells * kBrickCells>;

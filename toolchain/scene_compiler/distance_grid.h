@@ -23,12 +23,16 @@ struct DistanceGrid {
   std::vector<std::uint32_t> index;
   std::vector<format::Brick> bricks;
   std::vector<format::Refined> refined;
+  std::vector<format::Edge> edges;
   SeamReport seams;
 };
 
 /// Largest grid: brick positions (4 bytes each) and stored bricks (512 bytes each).
 inline constexpr std::uint64_t kMaxBrickPositions = 1u << 27;
 inline constexpr std::uint64_t kMaxBricks = 1u << 23;
+
+/// Largest error of trilinear interpolation of a distance, in voxels: half a cell's diagonal, rounded up.
+inline constexpr double kInterpolationError = 0.8661;
 
 /// The band for a scene: it covers the safety distance and beyond it the 1.5 voxels that one sub-step may make, three
 /// voxels at least; a quarter of a voxel is slack for the interpolation between nodes.

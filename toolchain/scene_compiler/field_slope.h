@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Core>
+
 #include "toolchain/scene_compiler/cell_edges.h"
 
 namespace godobject::scene_compiler {
@@ -18,6 +20,11 @@ class FieldSlope {
       if (!edges.on_seam(voxel_size_)) smooth_ = std::max(smooth_, gradient);
     });
   }
+
+  /// A brick that names an edge, its first node at `low`: a bound of the gradient of format::Edge's field,
+  ///
+  ///   |grad phi| <= (1 - w) |grad I[phi]| + w + |g - I[g]| |grad w|.
+  void add(const format::Brick& brick, const format::Edge& edge, const Eigen::Vector3d& low);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }

@@ -18,6 +18,7 @@
 #include "toolchain/scene_compiler/brick_tree.h"
 #include "toolchain/scene_compiler/distance_probe.h"
 #include "toolchain/scene_compiler/field_slope.h"
+#include "toolchain/scene_compiler/straight_edges.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -28,10 +29,12 @@ using format::kBrickNodes;
 using format::kBrickValues;
 
 constexpr double kSlack = 0.85;       // of the tolerance: between the points that are looked at it may be worse
+constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is blended with an edge
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
 constexpr double kSteepest = 1.95;    // of the refined field; Scene::open takes gradients up to 2
+constexpr double kWidestTube = 2.4;   // about a straight edge, in voxels
 constexpr int kFineNodes = 2 * kBrickCells + 1;
 
 /// What a look at the surface found.
@@ -128,14 +131,18 @@ class SurfaceCheck {
     return divide(other, sides) || missed;
   }
 
-  bool good(double stored) const { return stored <= tolerance_ && stored >= -kHeldOff * tolerance_; }
+  /// Of the field's value on the surface.
+  bool good(const BrickTree::Leaf& leaf, double stored) const {
+    const double tolerance = tree_.edges_of(leaf.brick).empty() ? tolerance_ : kBlendSlack * tolerance_;
+    return stored <= tolerance && stored >= -kHeldOff * tolerance;
+  }
 
   /// `leaf` holds p, `center` is a point of the same triangle off its rim.
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
-    if (leaf.brick == BrickTree::kNone || good(tree_.interpolate(leaf, p))) return false;
+    if (leaf.brick == BrickTree::kNone || good(leaf, tree_.interpolate(leaf, p))) return false;
     std::array<std::uint32_t, BrickTree::kMostAbout> about{};
-    const std::size_t count =
-        good(tree_.interpolate_exact(leaf, p)) ? tree_.coarser_about(leaf, p, about) : tree_.holding(leaf, p, about);
+    const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p)) ? tree_.coarser_about(leaf, p, about)
+                                                                           : tree_.holding(leaf, p, about);
     bool possible = false;
     bool known = true;
     for (std::size_t i = 0; i < count; ++i) {
@@ -296,27 +303,29 @@ Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32
 
 class Refinement {
  public:
-  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance)
+  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress)
       : field_(field), surface_(surface), tolerance_(tolerance), barred_(field.bricks.size()) {
     for (std::size_t i = 0; i < field.bricks.size(); ++i) {
       const format::Brick& brick = field.bricks[i];
       barred_[i] = brick.seam_clearance <= 0.0f && holds_seam(brick, field.grid.voxel_size);
     }
+    triangles_.resize(surface.mesh().triangles.size());
+    std::iota(triangles_.begin(), triangles_.end(), 0u);
+    find_edges(progress);
   }
 
   /// False if some position had to be barred: begin again without it.
   bool run(const Progress& progress) {
-    BrickTree tree(field_);
+    BrickTree tree(field_, edges_);
     std::vector<bool> barred = barred_;
-    std::vector<std::uint32_t> all(surface_.mesh().triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    std::vector<std::uint32_t> triangles = all;
+    if (!part_edges(tree, barred)) return false;
+    std::vector<std::uint32_t> triangles = triangles_;
     while (true) {
-      const bool whole = triangles.size() == all.size();
+      const bool whole = triangles.size() == triangles_.size();
       Misses misses = SurfaceCheck(surface_, tree, barred, kSlack * tolerance_).run(triangles, progress);
       std::vector<std::uint32_t> wanted = std::move(misses.bricks);
       if (wanted.empty() && !whole) {
-        triangles = all;  // a neighbour's halving may have changed what was good
+        triangles = triangles_;  // a neighbour's halving may have changed what was good
         continue;
       }
       if (wanted.empty()) {
@@ -329,6 +338,7 @@ class Refinement {
     }
     tree.write(field_);
     report_.refined = field_.refined.size();
+    report_.edges = field_.edges.size();
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
       if (tree.is_leaf(b)) ++report_.bricks[static_cast<std::size_t>(tree.level(b))];
     }
@@ -338,6 +348,66 @@ class Refinement {
   const RefinementReport& report() const { return report_; }
 
  private:
+  /// Those that reach a brick in which the surface is missed without.
+  void find_edges(const Progress& progress) {
+    const format::Grid& grid = field_.grid;
+    // what is stored holds them: it goes as far as the band, interpolated
+    const double room = grid.band - kInterpolationError * grid.voxel_size;
+    const auto all = straight_edges(surface_, grid.voxel_size, std::min(kWidestTube * grid.voxel_size, room));
+    if (all.empty()) return;
+    const BrickTree unrefined(field_, all);
+    const std::vector<format::Edge> none;
+    const BrickTree without(field_, none);
+    std::vector<bool> needed(all.size());
+    for (const std::uint32_t b :
+         SurfaceCheck(surface_, without, barred_, kSlack * tolerance_).run(triangles_, progress).bricks) {
+      for (const std::uint32_t e : unrefined.edges_of(b)) needed[e] = true;
+    }
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      if (needed[e]) edges_.push_back(all[e]);
+    }
+  }
+
+  /// Halves bricks until none names two edges. False if some edge had to be left out: begin again without it.
+  bool part_edges(BrickTree& tree, std::vector<bool>& barred) {
+    while (true) {
+      std::vector<std::uint32_t> wanted;
+      std::vector<bool> left_out(edges_.size());
+      for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
+        if (!tree.is_leaf(b)) continue;
+        const auto& edges = tree.edges_of(b);
+        // a seam's jump must not be blended
+        if (!edges.empty() && field_.bricks[tree.root(b)].seam_clearance <= 0.0f) leave_out(edges, 0, left_out);
+        if (edges.size() < 2) continue;
+        if (barred[b] || tree.level(b) == format::kMaxRefinement) {
+          leave_out(edges, 1, left_out);
+        } else {
+          wanted.push_back(b);
+        }
+      }
+      if (drop(left_out)) return false;
+      if (wanted.empty()) break;
+      halve(tree, wanted, barred);
+    }
+    tree.join();
+    return true;
+  }
+
+  static void leave_out(const std::vector<std::uint32_t>& edges, std::size_t but, std::vector<bool>& left_out) {
+    for (std::size_t i = but; i < edges.size(); ++i) left_out[edges[i]] = true;
+  }
+
+  /// Whether there was any.
+  bool drop(const std::vector<bool>& left_out) {
+    std::vector<format::Edge> kept;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (!left_out[e]) kept.push_back(edges_[e]);
+    }
+    const bool any = kept.size() < edges_.size();
+    edges_ = std::move(kept);
+    return any;
+  }
+
   /// Halves what can be halved of `wanted` and bars the rest.
   void halve(BrickTree& tree, const std::vector<std::uint32_t>& wanted, std::vector<bool>& barred) {
     if (tree.brick_count() + 8 * wanted.size() > kMaxBricks) {
@@ -367,31 +437,50 @@ class Refinement {
     barred.resize(tree.brick_count());
   }
 
-  /// A coarse brick's values beside finer exact ones may be steep; where too steep, halve it too. False if that cannot
-  /// be: then the whole position is barred.
+  /// A coarse brick's values beside finer exact ones may be steep, and so may be the change to an edge's exact
+  /// distance; where too steep, halve it too. False if that cannot be: then the whole position is barred, or the edge
+  /// left out.
   bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, std::vector<std::uint32_t>& wanted) {
     bool possible = true;
-    for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
-      if (tree.level(b) == 0 || !tree.is_leaf(b)) continue;
+    std::vector<bool> left_out(edges_.size());
+    std::vector<char> steep(tree.brick_count());
+    parallel_for(tree.brick_count(), [&](std::size_t i) {
+      const auto b = static_cast<std::uint32_t>(i);
+      if (!tree.is_leaf(b) || (tree.level(b) == 0 && tree.edges_of(b).empty())) return;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
-      slope.add(tree.stored(b));
-      if (slope.largest_with_seams() <= kSteepest) continue;
+      tree.add_slope(b, slope);
+      steep[i] = slope.largest_with_seams() > kSteepest ? 1 : 0;
+    });
+    for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
+      if (steep[b] == 0) continue;
+      const bool edged = !tree.edges_of(b).empty();
       bool found = false;
+      if (edged && !barred[b] && tree.level(b) < format::kMaxRefinement) {
+        wanted.push_back(b);
+        continue;
+      }
       for (const BrickTree::Leaf& leaf : tree.leaves_about(b)) {
         if (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(b) || barred[leaf.brick]) continue;
         if (std::find(wanted.begin(), wanted.end(), leaf.brick) == wanted.end()) wanted.push_back(leaf.brick);
         found = true;
       }
       if (found) continue;
-      barred_[tree.root(b)] = true;
+      if (edged) {
+        leave_out(tree.edges_of(b), 0, left_out);
+      } else {
+        barred_[tree.root(b)] = true;
+      }
       possible = false;
     }
+    drop(left_out);
     return possible;
   }
 
   DistanceGrid& field_;
   const SolidSurface& surface_;
   double tolerance_;
+  std::vector<std::uint32_t> triangles_;         // all
+  std::vector<format::Edge> edges_;              // in use
   std::vector<bool> barred_;                     // positions, by brick number
   std::map<std::array<int, 4>, Octants> known_;  // of bricks halved before a position had to be barred, by place
   RefinementReport report_;
@@ -400,7 +489,7 @@ class Refinement {
 }  // namespace
 
 RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress) {
-  Refinement refinement(field, surface, tolerance);
+  Refinement refinement(field, surface, tolerance, progress);
   while (!refinement.run(progress)) {
   }
   return refinement.report();

@@ -11,6 +11,7 @@ struct RefinementReport {
   std::array<std::uint64_t, format::kMaxRefinement + 1>
       bricks{};               ///< that are looked up, by how often they were halved
   std::uint64_t refined = 0;  ///< bricks halved
+  std::uint64_t edges = 0;    ///< stretches of straight edges along which the field is exact
 
   /// What the octants take in the image.
   std::uint64_t bytes() const { return refined * (8 * sizeof(format::Brick) + sizeof(format::Refined)); }
@@ -19,13 +20,17 @@ struct RefinementReport {
 /// Tolerances: how far outside of the surface the stored one may be.
 inline constexpr double kHeldOff = 5.0;
 
-/// Halves the bricks of `field` where the stored distance misses the surface of a solid, or the offset surface of a
-/// shell, down to format::kMaxRefinement times: where it says free at more than `tolerance` [m] (convex edges and
-/// corners, thin walls, which a touching body would sink into) or solid at more than kHeldOff times as much (re-entrant
-/// edges, narrow gaps, where it would be held off). Judged on the surface itself, where the exact distance is 0, at all
-/// edges and vertices of the mesh and in between at a cell's spacing. A neighbour is halved only where its values on
-/// the common face spoil the finer brick's or are too steep for it. Left as they are: bricks that hold a seam, and
-/// those in which one would appear.
+/// Makes `field` true to the surface of a solid, or the offset surface of a shell.
+///
+/// Straight edges of solids that trilinear interpolation misses are stored as such (format::Edge). For that bricks are
+/// halved until none names two of them, and where the way to an edge's exact distance would be too steep.
+///
+/// What is still missed is refined: bricks are halved, down to format::kMaxRefinement times, where the field says free
+/// at more than `tolerance` [m] (convex edges and corners, thin walls, which a touching body would sink into) or solid
+/// at more than kHeldOff times as much (re-entrant edges, narrow gaps, where it would be held off). Judged on the
+/// surface itself, where the exact distance is 0, at all edges and vertices of the mesh and in between at a cell's
+/// spacing. A neighbour is halved only where its values on the common face spoil the finer brick's or are too steep for
+/// it. Left as they are: bricks that hold a seam, and those in which one would appear.
 ///
 /// Deterministic. Updates the constants of `field.grid` with it. Throws Failure (kBadData) naming the cure where the
 /// bricks would be more than kMaxBricks.

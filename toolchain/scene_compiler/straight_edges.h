@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scene/format.h"
+#include "toolchain/scene_compiler/solid_surface.h"
+
+namespace godobject::scene_compiler {
+
+/// Where the solids of a surface are nothing but two planes that meet at a crease, convex or re-entrant: the stretches
+/// of their straight edges about which format::Edge's g is the exact distance wherever w > 0.
+///
+/// Mesh edges on one line between the same two planes are one. About each stretch nothing but the two planes is nearer
+/// than R / kShare, so that the tubes of different edges are apart. R stays below `largest_radius` [m]; where it would
+/// be less than kEndRadius voxels a stretch ends. Deterministic.
+std::vector<format::Edge> straight_edges(const SolidSurface& surface, double voxel_size, double largest_radius);
+
+inline constexpr double kShare = 0.25;
+inline constexpr double kEndRadius = 0.25;  // voxels
+
+/// Whether w of `edge` may be positive in the cube about `center` [m]; never wrongly false.
+bool reaches(const format::Edge& edge, const Eigen::Vector3d& center, double half_edge);
+
+}  // namespace godobject::scene_compiler
