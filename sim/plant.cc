@@ -115,20 +115,24 @@ JointVector Plant::accelerations(const ArmPosture& posture, const JointVector& a
 
 /// Coulomb's law for a step as a linear complementarity problem with bounds: each joint gets the acceleration that
 /// brings it to rest by the end of the step, or, where the torque that this takes is out of reach, the greatest one
-/// towards it. Found by exchange: the joint that is overcharged most slips, one that its friction would drive beyond
-/// rest sticks.
+/// towards it. Found by exchange, from what held in the step before: the joint that is overcharged most slips, one that
+/// its friction would drive beyond rest sticks.
 Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const JointVector& capacity,
                                JointVector& qdd) noexcept {
   const int n = joint_count();
   const JointVector to_rest = -1.0 / seconds * qd_;
   Stick stick;
   for (int i = 0; i < n; ++i) {
-    stick.held[at(i)] = capacity[i] > 0.0;
-    if (!stick.held[at(i)]) continue;
-    stick.acceleration[i] = to_rest[i];
+    if (!(capacity[i] > 0.0)) continue;
     stick.is_dry = true;
+    stick.held[at(i)] = last_slip_torque_[i] == 0.0;
+    if (stick.held[at(i)]) {
+      stick.acceleration[i] = to_rest[i];
+    } else {
+      stick.slip_torque[i] = std::copysign(capacity[i], last_slip_torque_[i]);
+    }
   }
-  // a few rounds as a rule; if they did not end, the next step would go on from there
+  // one round as a rule, a few where a joint comes to rest or breaks away; the bound keeps the time of a step
   for (int round = 0;; ++round) {
     moving_.factor(posture_.mass, n, stick.held);
     qdd = accelerations(posture_, applied, stick);
@@ -151,6 +155,7 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
     stick.acceleration[exchanged] = held ? to_rest[exchanged] : 0.0;
     stick.slip_torque[exchanged] = held ? 0.0 : std::copysign(capacity[exchanged], needed[exchanged]);
   }
+  last_slip_torque_ = stick.slip_torque;
   return stick;
 }
 

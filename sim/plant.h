@@ -114,6 +114,7 @@ class Plant {
 
   ArmPosture stage_posture_;
   MovingJoints moving_;
+  JointVector last_slip_torque_ = JointVector::Zero();
 };
 
 }  // namespace godobject::sim
