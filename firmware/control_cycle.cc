@@ -7,7 +7,7 @@ namespace godobject::firmware {
 ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
     : setup_(setup),
       drives_(drives),
-      position_check_(*setup.arm, kPeriod),
+      position_check_(*setup.arm, setup.stuck_torque, kPeriod),
       velocity_(setup.velocity_window, kPeriod),
       supervisor_(*setup.arm, setup.supervisor),
       limiter_(*setup.arm, setup.torque) {}

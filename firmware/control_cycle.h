@@ -66,6 +66,7 @@ struct CycleSetup {
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;
   int velocity_window = 4;
+  double stuck_torque = 0.005;  ///< as PositionCheck
   HandLimits hand;
   TorqueLimits torque;
   Supervisor::Parameters supervisor;

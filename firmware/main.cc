@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdint>
@@ -52,11 +53,12 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [workspace]  posture, start, turn, scale
   [loop]       real_time, cpu, priority, velocity_window
   [gains]      stiffness, damping, rotational, margin
-  [limits]     force, torque, speed, speed_stop, turn, turn_stop, joint_speed, joint_speed_stop, torque_rate
+  [limits]     force, torque, speed, speed_stop, turn, turn_stop, joint_speed, joint_speed_stop, torque_rate,
+               stuck_torque
   [engage]     force, ramp
   [start]      wait, sign_test, push, motion
   [telemetry]  folder, every
-  [simulation] path, begin, delay
+  [simulation] path, slower, begin, delay
 
 --log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose
 d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions.)";
@@ -100,6 +102,22 @@ std::vector<Pose> in_room(const std::vector<Pose>& path, const firmware::Placeme
   return room;
 }
 
+/// The same way in `slower` times the time, at 1 ms a pose.
+std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
+  const auto rows = static_cast<std::size_t>(slower * static_cast<double>(path.size() - 1)) + 1;
+  std::vector<Pose> longer;
+  longer.reserve(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double at = static_cast<double>(i) / slower;
+    const auto before = std::min(static_cast<std::size_t>(at), path.size() - 1);
+    const Pose& a = path[before];
+    const Pose& b = path[std::min(before + 1, path.size() - 1)];
+    const double share = at - static_cast<double>(before);
+    longer.push_back({a.rotation.slerp(share, b.rotation), a.translation + share * (b.translation - a.translation)});
+  }
+  return longer;
+}
+
 /// The simulated arm with a hand that follows a path, or holds the tool where it is.
 class SimulatedDevice {
  public:
@@ -138,7 +156,7 @@ class SimulatedDevice {
           fmt::format("{}: begins {:.3g} m and {:.3g} rad from the tool; set workspace.start to its first pose",
                       config.simulation.path.string(), gap, path.front().rotation.angularDistance(rest.rotation)));
     }
-    return path;
+    return slowed(path, config.simulation.slower);
   }
 
   std::vector<Pose> path_;
@@ -180,11 +198,13 @@ firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& sc
   setup.velocity_window = config.loop.velocity_window;
   const ControllerConfig::Limits& limits = config.limits;
   setup.hand = {limits.force, limits.torque, limits.speed, limits.speed_stop, limits.turn, limits.turn_stop};
+  setup.stuck_torque = limits.stuck_torque;
   setup.torque = {limits.torque_rate, limits.joint_speed, limits.joint_speed_stop};
   const auto cycles = [](double seconds) {
     return static_cast<std::uint32_t>(seconds / firmware::ControlCycle::kPeriod + 0.5);
   };
   setup.supervisor.boot_cycles = cycles(config.start.wait);
+  setup.supervisor.prepare_cycles = static_cast<std::uint32_t>(1.0 / limits.torque_rate) + 5;
   setup.supervisor.engage_cycles = cycles(config.engage.ramp);
   setup.supervisor.engage_force = config.engage.force;
   setup.supervisor.sign_test = config.start.sign_test;

@@ -5,12 +5,12 @@
 
 namespace godobject::firmware {
 
-PositionCheck::PositionCheck(const ArmModel& arm, double period) noexcept
+PositionCheck::PositionCheck(const ArmModel& arm, double stuck_torque, double period) noexcept
     : joint_count_(arm.joint_count), period_(period) {
   for (int i = 0; i < joint_count_; ++i) {
     const ArmJoint& joint = arm.joints[static_cast<std::size_t>(i)];
     largest_step_[i] = kJumpOfVelocity * joint.velocity * period;
-    stuck_torque_[i] = kStuckTorque * joint.torque;
+    stuck_torque_[i] = stuck_torque * joint.torque;
   }
 }
 
@@ -22,7 +22,9 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     const auto joint = static_cast<std::size_t>(i);
     const double position = reading.position[i];
     checked.finite = checked.finite && std::isfinite(position) && std::isfinite(reading.torque[i]);
-    checked.lost = std::max(checked.lost, reading.age[joint]);
+    // late by the same each time is as bad as missing; an age may also tell of cycles that were skipped
+    lost_[joint] = reading.age[joint] == 0 ? 0 : lost_[joint] + 1;
+    checked.lost = std::max({checked.lost, lost_[joint], reading.age[joint]});
     if (!started_) {
       accepted_[i] = q_[i] = position;
       periods_[joint] = jumps_[joint] = 0;
@@ -41,12 +43,38 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     }
     checked.jumps = std::max(checked.jumps, jumps_[joint]);
   }
+  if (!started_) motion_.fill(Motion());
   started_ = checked.finite;
   checked.q = q_;
-  checked.stuck = find_stuck(reading, pushed);
+  const bool abruptly = stops_abruptly(reading);
+  checked.stuck = rests_though_pushed(reading, pushed) || abruptly;
 }
 
-bool PositionCheck::find_stuck(const hal::JointReading& reading, const JointVector& pushed) noexcept {
+bool PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
+  bool found = false;
+  for (int i = 0; i < joint_count_; ++i) {
+    if (reading.age[static_cast<std::size_t>(i)] > 0) continue;
+    Motion& motion = motion_[static_cast<std::size_t>(i)];
+    const double position = reading.position[i];
+    if (position == motion.last[0]) {
+      if (motion.still == 0) {
+        motion.abrupt = motion.moving >= kMoving && std::fabs(position - motion.last[kMoving]) > kMotion;
+      }
+      ++motion.still;
+      motion.moving = 0;
+    } else {
+      ++motion.moving;
+      motion.still = 0;
+      motion.abrupt = false;
+    }
+    for (std::size_t k = kMoving; k > 0; --k) motion.last[k] = motion.last[k - 1];
+    motion.last[0] = position;
+    found = found || (motion.abrupt && motion.still >= kStill);
+  }
+  return found;
+}
+
+bool PositionCheck::rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept {
   if (in_window_ == 0) {
     window_start_ = reading.position;
     rests_.fill(true);

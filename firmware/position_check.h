@@ -19,21 +19,26 @@ struct CheckedPositions {
 
 /// Holds what the drives report against what an arm can do.
 ///
-/// - A position that is not fresh is predicted from the last one and the velocity, for as long as the supervisor
-/// allows.
+/// - Lost: not fresh, be it missing or late. It is predicted from the last one and the velocity, for as long as the
+/// supervisor allows.
 /// - A jump: a fresh position further than 1.5 v_max T from the last one accepted, for each period in between. It is
 ///   predicted over too.
-/// - Stuck: over kWindow cycles one joint's position has not changed by a bit, though the controller pushed it by more
-///   than `stuck_torque` all the while, and another joint has moved. A hand that presses against a wall holds all of
-///   them; a joint that nobody pushes may rest while others move, as in any plane motion.
+/// - Stuck, in either of two ways. A joint that moved in each of kMoving cycles, and then from one cycle to the next
+/// not
+///   by a bit for kStill cycles: no torque stops an arm so. Or over kWindow cycles a position has not changed by a bit
+///   though the controller pushed its joint by more than `stuck_torque` all the while, and another joint has moved: a
+///   hand that presses against a wall holds all of them, and a joint that nobody pushes may rest in a plane motion.
 class PositionCheck {
  public:
   static constexpr std::uint32_t kWindow = 48;  ///< two of them, whole, are less than 100 cycles
   static constexpr double kOtherMotion = 1e-3;  ///< of another joint in a window [rad]
-  static constexpr double kStuckTorque = 0.02;  ///< share of the joint's torque limit
+  static constexpr std::uint32_t kMoving = 4;
+  static constexpr double kMotion = 8e-5;  ///< at least, in those cycles [rad]
+  static constexpr std::uint32_t kStill = 40;
   static constexpr double kJumpOfVelocity = 1.5;
 
-  PositionCheck(const ArmModel& arm, double period) noexcept;
+  /// `stuck_torque`: share of a joint's torque limit, above its dry friction.
+  PositionCheck(const ArmModel& arm, double stuck_torque, double period) noexcept;
 
   /// Takes the next reading as it is: at the start, and after a reset.
   void restart() noexcept { started_ = false; }
@@ -45,7 +50,8 @@ class PositionCheck {
               CheckedPositions& checked) noexcept;
 
  private:
-  bool find_stuck(const hal::JointReading& reading, const JointVector& pushed) noexcept;
+  bool stops_abruptly(const hal::JointReading& reading) noexcept;
+  bool rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept;
 
   int joint_count_;
   double period_;
@@ -56,6 +62,15 @@ class PositionCheck {
   JointVector q_ = JointVector::Zero();
   std::array<std::uint32_t, kMaxJoints> periods_{};  // since the accepted position
   std::array<std::uint32_t, kMaxJoints> jumps_{};
+  std::array<std::uint32_t, kMaxJoints> lost_{};  // cycles in a row without a fresh position
+  /// Of one joint's fresh positions.
+  struct Motion {
+    std::array<double, kMoving + 1> last{};  // newest first
+    std::uint32_t moving = 0;                // cycles in a row with a change
+    std::uint32_t still = 0;                 // cycles in a row without
+    bool abrupt = false;                     // it moved just before those
+  };
+  std::array<Motion, kMaxJoints> motion_;
   std::uint32_t in_window_ = 0;
   JointVector window_start_ = JointVector::Zero();
   std::array<bool, kMaxJoints> rests_{};  // not a bit has changed in this window, and it was pushed

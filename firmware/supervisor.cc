@@ -166,7 +166,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
         stop(Fault::kSignWrong);
       } else if (seen.drives.all_enabled) {
         enter(sign_tested_ ? Mode::kArmed : Mode::kSignTest);
-      } else if (in_mode_ > kEnableCycles) {
+      } else if (in_mode_ > parameters_.prepare_cycles + kEnableCycles) {
         stop(Fault::kDriveLeft);
       }
       break;
@@ -225,6 +225,9 @@ Decision Supervisor::decide(const Observation& seen) const noexcept {
       break;
     case Mode::kResetting: decision.power = hal::PowerRequest::kReset; break;
     case Mode::kEnabling:
+      if (in_mode_ > parameters_.prepare_cycles) decision.power = hal::PowerRequest::kEnable;
+      decision.holds_arm = true;
+      break;
     case Mode::kSignTest:
     case Mode::kArmed:
     case Mode::kEngaging:

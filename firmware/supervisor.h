@@ -106,6 +106,7 @@ class Supervisor {
  public:
   struct Parameters {
     std::uint32_t boot_cycles = 5000;   ///< for the drives to answer
+    std::uint32_t prepare_cycles = 25;  ///< in which the torque that holds the arm is reached, before power
     std::uint32_t engage_cycles = 500;  ///< for the ramp
     double engage_force = 0.5;          ///< [N]
     bool sign_test = true;

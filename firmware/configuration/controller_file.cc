@@ -56,7 +56,7 @@ void read_workspace(const TomlTable& table, ControllerConfig& config) {
 
 void read_limits(const TomlTable& table, ControllerConfig::Limits& limits) {
   table.allow({"force", "torque", "speed", "speed_stop", "turn", "turn_stop", "joint_speed", "joint_speed_stop",
-               "torque_rate"});
+               "torque_rate", "stuck_torque"});
   limits.force = table.number("force", {1e-3, 1e4}, limits.force);
   limits.torque = table.number("torque", {1e-4, 1e4}, limits.torque);
   limits.speed = table.number("speed", {1e-3, 100.0}, limits.speed);
@@ -67,6 +67,7 @@ void read_limits(const TomlTable& table, ControllerConfig::Limits& limits) {
   limits.joint_speed_stop =
       table.number("joint_speed_stop", {1.05 * limits.joint_speed, 1.4}, 1.25 * limits.joint_speed);
   limits.torque_rate = table.number("torque_rate", {1e-4, 0.05}, limits.torque_rate);
+  limits.stuck_torque = table.number("stuck_torque", {1e-4, 0.5}, limits.stuck_torque);
 }
 
 void read_gains(const TomlTable& table, ControllerConfig::Gains& gains) {
@@ -127,8 +128,9 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   config.telemetry.every = static_cast<int>(telemetry.whole_number("every", {1, 1000}, config.telemetry.every));
 
   const TomlTable simulation = table("simulation");
-  simulation.allow({"path", "begin", "delay"});
+  simulation.allow({"path", "slower", "begin", "delay"});
   config.simulation.path = beside(file, simulation.text("path", ""));
+  config.simulation.slower = simulation.number("slower", {1.0, 1e3}, config.simulation.slower);
   config.simulation.begin = simulation.number("begin", {0.0, 1e5}, config.simulation.begin);
   config.simulation.delay = simulation.number("delay", {0.0, 8e-3}, config.simulation.delay);
   return config;

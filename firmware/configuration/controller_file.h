@@ -46,6 +46,7 @@ struct ControllerConfig {
     double turn_stop = 9.0;         ///< [rad/s]
     double joint_speed = 0.8;       ///< the same of each joint, share of its limit [1]
     double joint_speed_stop = 1.0;  ///< [1]
+    double stuck_torque = 0.005;    ///< above dry friction: pushed by more a joint should move, share of its limit [1]
     double torque_rate = 0.05;      ///< largest change of a joint's torque in a cycle, share of its limit [1]
   } limits;
 
@@ -77,6 +78,7 @@ struct ControllerConfig {
   /// The simulated device; a hand holds its tool.
   struct Simulation {
     std::filesystem::path path;  ///< of the moving mesh in the scene, that the hand follows; empty: it rests
+    double slower = 1.0;         ///< how many times as long as the path says the hand takes [1]
     double begin = 8.0;          ///< when the hand begins to follow it [s]
     double delay = 1e-3;         ///< t_d [s]
   } simulation;

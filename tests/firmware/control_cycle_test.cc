@@ -10,32 +10,18 @@
 #include "core/device/kinematics.h"
 #include "tests/firmware/fake_drives.h"
 #include "tests/support/allocation_guard.h"
-#include "tests/support/analytic_shapes.h"
 #include "tests/support/arms.h"
 #include "tests/support/scene_image_builder.h"
+#include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 namespace {
 
-/// A ball of 20 mm radius above a plate whose top is at z = 10 mm; k_D = 2000 N/m, b_D = 20 Ns/m.
-test::SceneImage ball_over_plate() {
-  const Vector3 half_edges(0.05, 0.05, 0.01);
-  const test::SurfaceSamples ball = test::sample_ball(0.02, 500);
-  test::SceneDescription description;
-  description.distance = [half_edges](const Vector3& p) { return test::box_distance(p, half_edges); };
-  description.surface_min = -half_edges;
-  description.surface_max = half_edges;
-  description.voxel_size = 0.002;
-  description.points = ball.points;
-  description.normals = ball.normals;
-  return test::build_scene_image(description);
-}
-
 /// The light-weight robot, bent; its tool at the start is 50 mm over the plate's middle, scene and room alike directed.
 class ControlCycleTest : public testing::Test {
  protected:
-  ControlCycleTest() : image_(ball_over_plate()), scene_(test::open_scene(image_)), drives_(7) {
-    q0_ << 0.0, 0.5, 0.0, 1.4, 0.0, 0.9, 0.0;
+  ControlCycleTest() : image_(test::ball_over_plate()), scene_(test::open_scene(image_)), drives_(7) {
+    q0_ << 0.0, -0.5, 0.0, 1.4, 0.0, -1.2, 0.0;
     setup_.scene = &scene_;
     setup_.arm = &arm_.model;
     setup_.joint_torque = &arm_.parameters;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kT = 1e-3;
 
-/// Two joints of 2 rad/s and 10 Nm: a jump is more than 3 mrad a cycle, pushed is more than 0.2 Nm.
+/// Two joints of 2 rad/s and 10 Nm: a jump is more than 3 mrad a cycle, pushed is more than 0.05 Nm.
 class PositionCheckTest : public testing::Test {
  protected:
-  PositionCheckTest() : check_(arm(), kT) {}
+  PositionCheckTest() : check_(arm(), 0.005, kT) {}
 
   static ArmModel arm() {
     ArmModel model;
@@ -64,6 +64,16 @@ TEST_F(PositionCheckTest, PredictsWhatIsLostWithTheVelocity) {
   EXPECT_EQ(checked_.jumps, 0u);
 }
 
+TEST_F(PositionCheckTest, CountsPositionsAsLostThatAreAlwaysLate) {
+  step();
+  for (std::uint32_t k = 1; k <= 5; ++k) {
+    reading_.position[0] += 1e-4;
+    reading_.age[0] = 1;
+    EXPECT_EQ(step().lost, k);
+    EXPECT_EQ(checked_.q[0], 0.0) << "a late position is never taken for a fresh one";
+  }
+}
+
 TEST_F(PositionCheckTest, PredictsOverAJumpAndTakesWhatIsPossibleAgain) {
   reading_.position[1] = 0.1;
   step();
@@ -108,7 +118,7 @@ TEST_F(PositionCheckTest, TellsWhatIsNotFinite) {
 
 TEST_F(PositionCheckTest, FindsAStuckEncoderWithinAHundredCyclesWhereverItBegins) {
   for (int begin = 0; begin < 2 * static_cast<int>(PositionCheck::kWindow); ++begin) {
-    PositionCheck check(arm(), kT);
+    PositionCheck check(arm(), 0.005, kT);
     pushed_ = JointVector::Zero();
     pushed_[0] = 0.5;
     reading_ = hal::JointReading();
@@ -125,10 +135,36 @@ TEST_F(PositionCheckTest, FindsAStuckEncoderWithinAHundredCyclesWhereverItBegins
   }
 }
 
+TEST_F(PositionCheckTest, FindsAnEncoderThatStopsInMidMotionThoughNothingPushesIt) {
+  for (int i = 0; i < 20; ++i) {
+    reading_.position[0] += 3e-5;
+    ASSERT_FALSE(step().stuck);
+  }
+  int cycles = 1;
+  while (!step().stuck && cycles < 200) ++cycles;
+  EXPECT_EQ(cycles, static_cast<int>(PositionCheck::kStill));
+}
+
+TEST_F(PositionCheckTest, LetsAJointComeToRestByItselfAndCountsBeSlow) {
+  // decelerated by 5 rad/s^2 on an encoder of 1e-5 rad, then at rest; then slow motion, a count in three cycles
+  double q = 0.0;
+  for (double v = 0.1; v > 0.0; v -= 5e-3) {
+    q += 1e-3 * v;
+    reading_.position[0] = 1e-5 * std::round(q / 1e-5);
+    ASSERT_FALSE(step().stuck);
+  }
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(step().stuck);
+  for (int i = 0; i < 300; ++i) {
+    reading_.position[0] = 1e-5 * std::round((q + 3.3e-6 * i) / 1e-5);
+    ASSERT_FALSE(step().stuck);
+  }
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(step().stuck);
+}
+
 TEST_F(PositionCheckTest, DoesNotCallAHandStuckThatHoldsStillOrMovesInAPlane) {
   pushed_[0] = 5.0;  // pressed against a wall: nothing moves
   for (int i = 0; i < 1000; ++i) ASSERT_FALSE(step().stuck);
-  pushed_[0] = 0.1;  // hardly pushed, the other joint moves
+  pushed_[0] = 0.04;  // hardly pushed, the other joint moves
   for (int i = 0; i < 1000; ++i) {
     reading_.position[1] += 1e-3;
     ASSERT_FALSE(step().stuck);

@@ -300,6 +300,16 @@ TEST(Supervisor, RefusesJointsThatMoveOrStandBeyondTheirLimitsWithBrakesClosed) 
   }
 }
 
+TEST(Supervisor, HoldsTheArmBeforeItAsksForPower) {
+  Bench bench;
+  bench.run_to(Mode::kEnabling);
+  for (std::uint32_t i = 1; i < parameters().prepare_cycles; ++i) {
+    EXPECT_TRUE(bench.step().holds_arm);
+    EXPECT_EQ(bench.decision.power, PowerRequest::kOff);
+  }
+  EXPECT_EQ(bench.step().power, PowerRequest::kEnable);
+}
+
 TEST(Supervisor, StopsWhenADriveDoesNotBecomeEnabled) {
   Bench bench;
   bench.obeys = false;
@@ -309,7 +319,7 @@ TEST(Supervisor, StopsWhenADriveDoesNotBecomeEnabled) {
     bench.step();
     ++cycles;
   }
-  EXPECT_EQ(cycles, static_cast<int>(Supervisor::kEnableCycles));
+  EXPECT_EQ(cycles, static_cast<int>(parameters().prepare_cycles + Supervisor::kEnableCycles));
   EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
 }
 

@@ -1,0 +1,290 @@
+// The table of faults, without a wire: each is put into the simulated device while the ball is pressed on a plate and
+// moved along; the reaction and the cycles that it takes are counted at the device.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/closed_loop/simulated_run.h"
+#include "tests/support/small_scenes.h"
+
+namespace godobject::firmware {
+namespace {
+
+using sim::DriveFault;
+using sim::FaultKind;
+
+constexpr std::int64_t kBegin = 1200;  ///< cycle of the fault
+constexpr std::int64_t kEnd = 2600;
+
+const test::SceneImage& plate() {
+  static const test::SceneImage image = test::ball_over_plate();
+  return image;
+}
+
+/// Down on the plate, 20 mm into it, and along in circles.
+std::vector<Vector3> press_and_rub() {
+  std::vector<Waypoint> waypoints{{0.0, {0.0, 0.0, 0.06}}, {0.4, {0.0, 0.0, 0.01}}};
+  std::vector<Vector3> path = path_through(waypoints);
+  for (int k = 0; k < 2500; ++k) {
+    const double angle = 2.0 * M_PI * k / 1200.0;
+    path.push_back({0.02 * std::sin(angle), 0.02 - 0.02 * std::cos(angle), 0.01});
+  }
+  return path;
+}
+
+SimulatedRun::Options pressing() {
+  SimulatedRun::Options options;
+  options.path = press_and_rub();
+  return options;
+}
+
+double force_before(const SimulatedRun& run) {
+  for (const SimulatedCycle& cycle : run.cycles) {
+    if (cycle.number == kBegin - 1) return cycle.record.wrench_R.force.norm();
+  }
+  return 0.0;
+}
+
+/// Largest torque on a joint beyond gravity, in share of its limit, once `cycles` have passed since the fault and the
+/// drives' delay, until they begin to stop by themselves.
+double pushed_after(const SimulatedRun& run, int cycles) {
+  double largest = 0.0;
+  for (const SimulatedCycle& cycle : run.cycles) {
+    if (cycle.number < kBegin + cycles + 1 || cycle.number > kBegin + cycles + 2) continue;
+    for (int i = 0; i < 7; ++i) {
+      const double limit = run.device().model.joints[static_cast<std::size_t>(i)].torque;
+      largest = std::max(largest, std::fabs(cycle.pushed[i]) / limit);
+    }
+  }
+  return largest;
+}
+
+struct Row {
+  std::string name;
+  DriveFault what;
+  std::set<Fault> faults;  ///< any of them
+  int most;                ///< cycles, of the table
+};
+
+void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
+
+class ClosedLoopFault : public testing::TestWithParam<Row> {};
+
+TEST_P(ClosedLoopFault, StopsInTime) {
+  const Row& row = GetParam();
+  SimulatedRun::Options options = pressing();
+  options.faults = {row.what};
+  SimulatedRun run(plate(), options);
+  run.run(kEnd);
+  ASSERT_GT(force_before(run), 2.0) << "the fault is to meet a contact";
+  const int cycles = run.cycles_to_stop(kBegin);
+  EXPECT_GT(cycles, 0) << "never";
+  EXPECT_LE(cycles, row.most);
+  RecordProperty("cycles", cycles);
+  EXPECT_TRUE(row.faults.contains(run.controller().record().fault)) << describe(run.controller().record().fault);
+  EXPECT_EQ(run.violation(), "");
+  // a torque step of the drive is a permille
+  EXPECT_LT(pushed_after(run, cycles), 0.002) << "the arm is held, nothing is rendered";
+  for (const SimulatedCycle& cycle : run.cycles) {
+    if (cycle.number >= kBegin + cycles) {
+      ASSERT_EQ(cycle.record.share, 0.0) << cycle.number;
+    }
+  }
+  const Mode mode = run.cycles.back().record.mode;
+  EXPECT_TRUE(mode == Mode::kEnded || mode == Mode::kStopped);
+  EXPECT_TRUE(run.plant().velocities().isZero(1e-6)) << "the brakes hold";
+  std::printf("%-34s %3d cycles of %d\n", row.name.c_str(), cycles, row.most);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, ClosedLoopFault,
+    testing::Values(
+        Row{"position_lost", {FaultKind::kReadingLost, 2, kBegin, 10'000}, {Fault::kPositionLost}, 8},
+        Row{"all_positions_lost",
+            {FaultKind::kReadingLost, sim::kAllJoints, kBegin, 10'000},
+            {Fault::kPositionLost},
+            8},
+        Row{"position_lost_three_times", {FaultKind::kReadingLost, 5, kBegin, 3}, {Fault::kPositionLost}, 8},
+        Row{"position_always_late", {FaultKind::kReadingLate, 1, kBegin, 10'000, 1.0}, {Fault::kPositionLost}, 8},
+        Row{"position_two_cycles_late", {FaultKind::kReadingLate, 1, kBegin, 10'000, 2.0}, {Fault::kPositionLost}, 8},
+        Row{"encoder_jumps_twice", {FaultKind::kEncoderJump, 3, kBegin, 2, 0.01}, {Fault::kPositionJump}, 3},
+        Row{"encoder_jumps_for_good", {FaultKind::kEncoderJump, 6, kBegin, 10'000, -0.5}, {Fault::kPositionJump}, 3},
+        Row{"encoder_not_finite", {FaultKind::kEncoderNotFinite, 0, kBegin, 1}, {Fault::kNotFinite}, 1},
+        Row{"encoder_stuck_base", {FaultKind::kEncoderStuck, 0, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"encoder_stuck_shoulder", {FaultKind::kEncoderStuck, 1, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"encoder_stuck_elbow", {FaultKind::kEncoderStuck, 3, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"encoder_stuck_wrist", {FaultKind::kEncoderStuck, 5, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"drive_trips", {FaultKind::kDriveTrips, 4, kBegin, 1}, {Fault::kDriveLeft}, 2},
+        Row{"drive_goes_off", {FaultKind::kDriveDisabled, 1, kBegin, 1}, {Fault::kDriveLeft}, 2},
+        Row{"supply_of_a_drive_lost", {FaultKind::kSupplyLost, 3, kBegin, 10'000}, {Fault::kDriveLeft}, 2},
+        Row{"sending_fails", {FaultKind::kSendFails, 0, kBegin, 10'000}, {Fault::kSendFailed, Fault::kDriveLeft}, 4},
+        // the drive goes without commands for longer than its 4 ms and trips
+        Row{"commands_lost_silently", {FaultKind::kCommandLost, 2, kBegin, 10'000}, {Fault::kDriveLeft}, 4 + 2 + 2},
+        Row{"emergency_stop", {FaultKind::kEmergencyStop, sim::kAllJoints, kBegin, 1}, {Fault::kEmergencyStop}, 2},
+        Row{"enable_switch_released",
+            {FaultKind::kEnableReleased, sim::kAllJoints, kBegin, 1},
+            {Fault::kEnableReleased},
+            2}),
+    [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
+
+class ClosedLoopNuisance : public testing::TestWithParam<Row> {};
+
+TEST_P(ClosedLoopNuisance, IsGoneOnWith) {
+  SimulatedRun::Options options = pressing();
+  for (int i = 0; i < 20; ++i) {
+    DriveFault fault = GetParam().what;
+    fault.first_cycle = kBegin + 60 * i;
+    options.faults.push_back(fault);
+  }
+  SimulatedRun run(plate(), options);
+  run.run(kEnd);
+  EXPECT_EQ(run.controller().record().fault, Fault::kNone) << describe(run.controller().record().fault);
+  EXPECT_EQ(run.cycles_to_stop(kBegin), kEnd - kBegin + Supervisor::kEndRamp);
+  EXPECT_EQ(run.violation(), "");
+  EXPECT_EQ(
+      run.controller().counters().lost + run.controller().counters().jumps + run.controller().counters().sends_failed,
+      20u * static_cast<unsigned>(GetParam().what.cycles));
+  SimulatedRun plain(plate(), pressing());
+  plain.run(kEnd);
+  EXPECT_LT(run.report.largest_force, 1.05 * plain.report.largest_force + 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, ClosedLoopNuisance,
+                         testing::Values(Row{"position_lost_once", {FaultKind::kReadingLost, 2, 0, 1}, {}, 0},
+                                         Row{"position_lost_twice", {FaultKind::kReadingLost, 4, 0, 2}, {}, 0},
+                                         Row{"position_late_once", {FaultKind::kReadingLate, 4, 0, 1, 1.0}, {}, 0},
+                                         Row{"encoder_jumps_once", {FaultKind::kEncoderJump, 1, 0, 1, 0.05}, {}, 0},
+                                         Row{"sending_fails_twice", {FaultKind::kSendFails, 3, 0, 2}, {}, 0}),
+                         [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
+
+TEST(ClosedLoop, DoesNotFeelACounterThatWraps) {
+  SimulatedRun::Options options = pressing();
+  SimulatedRun plain(plate(), options);
+  plain.run(1500);
+  options.counter_at_zero = 2'147'483'647 - 83'000;  // wraps at 0.5 rad, which a joint passes
+  SimulatedRun wrapped(plate(), options);
+  wrapped.run(1500);
+  ASSERT_EQ(plain.cycles.size(), wrapped.cycles.size());
+  for (std::size_t i = 0; i < plain.cycles.size(); ++i) {
+    ASSERT_EQ(plain.cycles[i].record.torque, wrapped.cycles[i].record.torque) << i;
+  }
+}
+
+/// Wakes that are late by `late_ns` in every `every`-th cycle from kBegin on.
+std::vector<sim::LateWake> late_wakes(int count, int every, std::int64_t late_ns) {
+  std::vector<sim::LateWake> late;
+  for (int i = 0; i < count; ++i) late.push_back({(kBegin + i * every) * 1'000'000, late_ns});
+  return late;
+}
+
+TEST(ClosedLoop, SkipsAPeriodWhenItOverrunsOnceAndGoesOn) {
+  SimulatedRun::Options options = pressing();
+  options.late = late_wakes(1, 1, 1'500'000);
+  SimulatedRun run(plate(), options);
+  run.run(kEnd);
+  EXPECT_EQ(run.controller().record().fault, Fault::kNone);
+  EXPECT_EQ(run.controller().counters().overruns, 1u);
+  EXPECT_EQ(run.controller().counters().skipped, 1u);
+  EXPECT_EQ(run.report.loop.lateness.largest_ns(), 1'500'000);
+  for (std::size_t i = 1; i < run.cycles.size(); ++i) {  // no burst: never two cycles in a period
+    EXPECT_GE(run.cycles[i].number - run.cycles[i - 1].number, 1);
+  }
+  EXPECT_EQ(run.violation(), "");
+}
+
+struct Overruns {
+  std::string name;
+  std::vector<sim::LateWake> late;
+  std::int64_t cause;  ///< cycle in which the table's condition is met first
+};
+
+void PrintTo(const Overruns& row, std::ostream* out) { *out << row.name; }
+
+class ClosedLoopOverruns : public testing::TestWithParam<Overruns> {};
+
+TEST_P(ClosedLoopOverruns, StopTheArm) {
+  SimulatedRun::Options options = pressing();
+  options.late = GetParam().late;
+  SimulatedRun run(plate(), options);
+  run.run(kEnd);
+  const Fault fault = run.controller().record().fault;
+  // a drive that hears nothing for longer than 4 ms trips by itself
+  EXPECT_TRUE(fault == Fault::kOverruns || fault == Fault::kDriveLeft) << describe(fault);
+  const int cycles = run.cycles_to_stop(GetParam().cause);
+  EXPECT_GT(cycles, 0);
+  EXPECT_LE(cycles, 8);
+  EXPECT_EQ(run.violation(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, ClosedLoopOverruns,
+                         testing::Values(Overruns{"three_in_a_row", late_wakes(3, 2, 1'200'000), kBegin + 4},
+                                         Overruns{"more_than_one_in_a_hundred", late_wakes(11, 50, 1'200'000),
+                                                  kBegin + 500},
+                                         Overruns{"one_of_more_than_5_ms", late_wakes(1, 1, 6'200'000), kBegin}),
+                         [](const testing::TestParamInfo<Overruns>& row) { return row.param.name; });
+
+TEST(ClosedLoop, StopsAHandThatIsTooFast) {
+  SimulatedRun::Options options;
+  const std::vector<Waypoint> dash{{0.0, {0.0, 0.0, 0.06}}, {0.3, {0.0, 0.0, 0.06}}, {0.4, {-0.25, 0.0, 0.06}}};
+  options.path = path_through(dash);
+  SimulatedRun run(plate(), options);
+  run.run(2000);
+  EXPECT_EQ(run.controller().record().fault, Fault::kTooFast);
+  // from the cycle in which a joint or the hand is first seen beyond its stop
+  const ArmModel& arm = run.device().model;
+  std::int64_t cause = -1;
+  for (const SimulatedCycle& cycle : run.cycles) {
+    bool fast = false;
+    for (int i = 0; i < 7; ++i) {
+      fast = fast || std::fabs(cycle.record.qd[i]) > arm.joints[static_cast<std::size_t>(i)].velocity;
+    }
+    if (fast && cause < 0 && cycle.record.mode >= Mode::kArmed) cause = cycle.number;
+  }
+  const int cycles = run.cycles_to_stop(cause > 0 ? cause : 700);
+  EXPECT_GT(cycles, 0);
+  EXPECT_LE(cycles, 5);
+  EXPECT_EQ(run.violation(), "");
+}
+
+TEST(ClosedLoop, EndsWithARampAndBrakesWhenAskedTo) {
+  SimulatedRun run(plate(), pressing());
+  run.run(kBegin);  // asked to end there, as by SIGTERM
+  const SimulatedCycle& last = run.cycles.back();
+  EXPECT_EQ(last.record.mode, Mode::kEnded);
+  EXPECT_EQ(last.record.fault, Fault::kNone);
+  EXPECT_LE(last.number - kBegin, 200);
+  Vector3 begun = Vector3::Zero();
+  double sag = 0.0;
+  for (const SimulatedCycle& cycle : run.cycles) {
+    if (cycle.record.mode == Mode::kStopping && begun.isZero()) begun = cycle.tool_R;
+    if (!begun.isZero()) sag = std::max(sag, (cycle.tool_R - begun).norm());
+  }
+  EXPECT_LT(sag, 0.005);
+  EXPECT_EQ(run.violation(), "");
+}
+
+TEST(ClosedLoop, FindsAnEncoderThatStandsStillBeforeItRenders) {
+  SimulatedRun::Options options;
+  options.path = {{0.0, 0.0, 0.06}};
+  options.sign_test = true;
+  SimulatedRun good(plate(), options);
+  good.run(9000);
+  EXPECT_EQ(good.controller().record().fault, Fault::kNone) << describe(good.controller().record().fault);
+  EXPECT_GT(good.report.rendering, 1000u);
+  EXPECT_EQ(good.violation(), "");
+
+  options.faults = {{FaultKind::kEncoderStuck, 3, 0, 100'000}};
+  SimulatedRun stuck(plate(), options);
+  stuck.run(30'000);
+  const Fault found = stuck.controller().record().fault;
+  EXPECT_TRUE(found == Fault::kSignUndecided || found == Fault::kEncoderStuck) << describe(found);
+  EXPECT_EQ(stuck.controller().supervisor().sign_joint(), 3);
+  EXPECT_EQ(stuck.report.rendering, 0u);
+}
+
+}  // namespace
+}  // namespace godobject::firmware

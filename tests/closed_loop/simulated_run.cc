@@ -1,0 +1,122 @@
+#include "tests/closed_loop/simulated_run.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "core/device/kinematics.h"
+#include "hal/linux/monotonic_clock.h"
+
+namespace godobject::firmware {
+namespace {
+
+ControllerConfig::Workspace workspace() {
+  ControllerConfig::Workspace workspace;
+  workspace.posture << 0.0, -0.5, 0.0, 1.4, 0.0, -1.2, 0.0;
+  workspace.start.translation = Vector3(0.0, 0.0, 0.06);
+  return workspace;
+}
+
+}  // namespace
+
+std::vector<Vector3> path_through(std::span<const Waypoint> waypoints) {
+  std::vector<Vector3> path;
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const Waypoint& from = waypoints[i];
+    const Waypoint& to = waypoints[i + 1];
+    const int rows = static_cast<int>(std::lround(1e3 * (to.t - from.t)));
+    for (int k = 0; k < rows; ++k) {
+      path.push_back(from.p_W + (0.5 - 0.5 * std::cos(M_PI * k / rows)) * (to.p_W - from.p_W));
+    }
+  }
+  path.push_back(waypoints.back().p_W);
+  return path;
+}
+
+SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options)
+    : scene_(test::open_scene(image)),
+      placement_(place(workspace(), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero())),
+      faults_(options.faults),
+      late_(options.late) {
+  ControllerConfig::Gains gains;
+  gains.stiffness = options.scene_stiffness;
+  gains.damping = 5.0;
+  gains.rotational = 0.003;
+  set_gains(gains, scene_);
+  const ArmModel& arm = placement_.device.model;
+  const Pose rest = forward_kinematics(arm, workspace().posture).H_WM;
+  path_R_.push_back(rest);
+  for (const Vector3& p_W : options.path) {
+    path_R_.push_back({rest.rotation, p_W - placement_.mapping.H_WR.translation});
+  }
+  hardware_ = sim::usual_hardware(arm);
+  for (auto& joint : hardware_) joint.counter_at_zero = options.counter_at_zero;
+  sim::HandParameters hand;
+  hand.grip = sim::Grip::kSpring;
+  plant_ =
+      std::make_unique<sim::Plant>(arm, workspace().posture, options.dry_friction,
+                                   sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
+  drives_ = std::make_unique<sim::DirectDrives>(*plant_, hardware_, options.timing, faults_);
+  clock_ = std::make_unique<sim::VirtualClock>(*drives_, late_);
+  ring_ = std::make_unique<TelemetryRing>();
+
+  CycleSetup setup;
+  setup.scene = &scene_;
+  setup.friction = true;
+  setup.arm = &arm;
+  setup.joint_torque = &placement_.device.torque;
+  setup.mapping = placement_.mapping;
+  setup.velocity_window = 2;
+  setup.stuck_torque = 0.002;
+  setup.supervisor.sign_test = options.sign_test;
+  setup.supervisor.engage_cycles = 50;
+  cycle_ = std::make_unique<ControlCycle>(setup, *drives_);
+  if (cycle_->start() != Status::kOk) throw std::runtime_error("the scene lacks the solver");
+}
+
+void SimulatedRun::run(std::int64_t count) {
+  hal::MonotonicClock stopwatch;
+  const RunSetup setup{static_cast<std::uint64_t>(count), 1, &stopwatch};
+  run_controller(setup, *clock_, *cycle_, requests, *ring_, report, [this] {
+    TelemetryRecord row;
+    while (ring_->pop(row)) {
+      SimulatedCycle cycle{row.times.deadline_ns / 1'000'000, row.times, row.cycle, JointVector::Zero(),
+                           plant_->tool().pose.translation};
+      const JointVector gravity = plant_->gravity_torque();
+      for (int i = 0; i < plant_->joint_count(); ++i) {
+        if (drives_->joint(i).state() != hal::DriveState::kEnabled) continue;
+        cycle.pushed[i] = drives_->joint(i).motor_torque() - gravity[i];
+      }
+      cycles.push_back(cycle);
+    }
+  });
+}
+
+std::string SimulatedRun::violation() const {
+  if (drives_->counters().not_finite > 0) return "a torque was not finite";
+  JointVector before = JointVector::Zero();
+  for (const SimulatedCycle& cycle : cycles) {
+    const Mode mode = cycle.record.mode;
+    const bool free_rate =
+        mode == Mode::kFade || mode == Mode::kStopping || mode == Mode::kStopped || mode == Mode::kEnded;
+    for (int i = 0; i < placement_.device.model.joint_count; ++i) {
+      const double limit = placement_.device.model.joints[static_cast<std::size_t>(i)].torque;
+      const double torque = cycle.record.torque[i];
+      if (!(std::fabs(torque) <= limit)) return "torque beyond the limit in cycle " + std::to_string(cycle.number);
+      if (!free_rate && std::fabs(torque - before[i]) > 0.05 * limit * (1.0 + 1e-9)) {
+        return "torque jumps in cycle " + std::to_string(cycle.number);
+      }
+    }
+    before = cycle.record.torque;
+  }
+  return {};
+}
+
+int SimulatedRun::cycles_to_stop(std::int64_t number) const {
+  for (const SimulatedCycle& cycle : cycles) {
+    if (cycle.number >= number && cycle.record.share == 0.0) return static_cast<int>(cycle.number - number + 1);
+  }
+  return 0;
+}
+
+}  // namespace godobject::firmware

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "firmware/command/failure.h"
+#include "firmware/telemetry_ring.h"
+#include "firmware/telemetry_writer.h"
+#include "tests/support/allocation_guard.h"
+
+namespace godobject::firmware {
+namespace {
+
+class TelemetryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<std::string> lines() const {
+    std::ifstream stream(folder_ / "telemetry.csv");
+    std::vector<std::string> all;
+    for (std::string line; std::getline(stream, line);) all.push_back(line);
+    return all;
+  }
+
+  static TelemetryRecord record(int i) {
+    TelemetryRecord record;
+    record.times.deadline_ns = i * 1'000'000LL;
+    record.cycle.mode = Mode::kRunning;
+    record.cycle.q[1] = 0.25;
+    return record;
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<TelemetryRing> ring_ = std::make_unique<TelemetryRing>();
+};
+
+TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
+  {
+    TelemetryWriter writer(folder_, 3, *ring_);
+    for (int i = 0; i < 100; ++i) ring_->push(record(i));
+    writer.drain();
+    EXPECT_EQ(writer.written(), 100u);
+    EXPECT_EQ(writer.lost(), 0u);
+  }
+  const std::vector<std::string> all = lines();
+  ASSERT_EQ(all.size(), 101u);
+  const auto columns = [](const std::string& line) { return 1 + std::count(line.begin(), line.end(), ','); };
+  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 7);
+  for (const std::string& line : all) EXPECT_EQ(columns(line), columns(all[0]));
+  EXPECT_EQ(all[0].substr(0, 22), "t_s,late_us,compute_us");
+  EXPECT_EQ(all[43].substr(0, 39), "0.042000,0.000,0.000,running,0,0,free,0");
+  EXPECT_NE(all[0].find("q2_rad"), std::string::npos);
+}
+
+TEST_F(TelemetryTest, CarriesEveryRecordInOrderBetweenTwoThreads) {
+  constexpr int kRecords = 200'000;
+  std::thread reader([&] {
+    TelemetryRecord got;
+    std::int64_t last = -1;
+    int seen = 0;
+    while (seen + static_cast<int>(ring_->lost()) < kRecords) {
+      if (!ring_->pop(got)) {
+        std::this_thread::yield();
+        continue;
+      }
+      ++seen;
+      ASSERT_GT(got.times.deadline_ns, last);
+      ASSERT_EQ(got.cycle.q[1], 0.25);
+      last = got.times.deadline_ns;
+    }
+  });
+  for (int i = 0; i < kRecords; ++i) ring_->push(record(i));
+  reader.join();
+}
+
+TEST_F(TelemetryTest, LosesTheNewestAndCountsThemWhenNobodyReads) {
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 10'000; ++i) ring_->push(record(i));
+  EXPECT_EQ(guard.allocations(), 0);
+  EXPECT_EQ(ring_->lost(), 10'000u - TelemetryRing::kCapacity);
+  TelemetryRecord first;
+  ASSERT_TRUE(ring_->pop(first));
+  EXPECT_EQ(first.times.deadline_ns, 0);
+}
+
+TEST_F(TelemetryTest, CountsRowsThatAFullDiskDoesNotTake) {
+  std::filesystem::create_symlink("/dev/full", folder_ / "telemetry.csv");
+  TelemetryWriter writer(folder_, 3, *ring_);
+  for (int i = 0; i < 1000; ++i) ring_->push(record(i));
+  writer.drain();
+  EXPECT_EQ(writer.written(), 0u);
+  EXPECT_EQ(writer.lost(), 1000u);
+  EXPECT_EQ(ring_->lost(), 0u);
+}
+
+TEST_F(TelemetryTest, SaysWhereItCannotWrite) {
+  std::ofstream(folder_ / "file") << "x";
+  try {
+    TelemetryWriter writer(folder_ / "file", 3, *ring_);
+    FAIL();
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
+    EXPECT_NE(std::string(failure.what()).find("telemetry.csv"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace godobject::firmware
