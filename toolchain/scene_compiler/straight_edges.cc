@@ -23,6 +23,7 @@ using Eigen::Vector3d;
 
 constexpr double kSamePlane = 1e-12;  // squared difference of unit vectors: meshes are written in single precision
 constexpr double kOffPlane = 1e-4;    // voxels: a vertex further off a plane is not of it
+constexpr double kTie = 1e-6;         // voxels: rounding must not decide between equals
 constexpr double kStep = 0.1;         // voxels: of the places along an edge at which its surroundings are measured
 constexpr std::array<double, 4> kSlopes = {0.2, 0.1, 0.05, 0.0};
 constexpr std::array<double, 8> kRadii = {1.0, 0.8, 0.6, 0.45, 0.3, 0.2, 0.15, 0.1};  // of the largest
@@ -177,6 +178,7 @@ struct Tube {
 };
 
 Tube widest_tube(std::span<const double> allowed, double step, double end_radius, double largest_radius) {
+  const double slack = kTie * end_radius;
   Tube best;
   for (const double share : kRadii) {
     const double radius = std::max(share * largest_radius, end_radius);
@@ -185,7 +187,7 @@ Tube widest_tube(std::span<const double> allowed, double step, double end_radius
       for (std::size_t i = 0; i < allowed.size() && volume >= 0.0; ++i) {
         const auto to_end = step * static_cast<double>(std::min(i, allowed.size() - 1 - i));
         const double r = std::min(radius, end_radius + slope * to_end);
-        volume = r <= allowed[i] ? volume + r : -1.0;
+        volume = r <= allowed[i] + slack ? volume + r : -1.0;
       }
       if (volume > best.volume) best = {radius, slope, volume};
     }
@@ -196,13 +198,14 @@ Tube widest_tube(std::span<const double> allowed, double step, double end_radius
 std::vector<format::Edge> stretches(const BodyMesh& body, const Crease& crease, double voxel_size,
                                     double largest_radius) {
   const double end_radius = kEndRadius * voxel_size;
+  const double least = end_radius - kTie * voxel_size;
   const double step = kStep * voxel_size;
   std::vector<format::Edge> edges;
   const double shortest = 4.0 * end_radius;
   if (crease.to - crease.from < shortest) return edges;
   const double reach = largest_radius / kShare + step;
   const TriangleTree others = surroundings(body, crease, reach, voxel_size);
-  const auto count = static_cast<std::size_t>((crease.to - crease.from) / step) + 1;
+  const auto count = static_cast<std::size_t>((crease.to - crease.from) / step + kTie) + 1;
   std::vector<double> allowed(count);  // R, between this sample and the next as well
   for (std::size_t i = 0; i < count; ++i) {
     const double t = crease.from + step * static_cast<double>(i);
@@ -211,12 +214,12 @@ std::vector<format::Edge> stretches(const BodyMesh& body, const Crease& crease, 
     allowed[i] = kShare * (std::sqrt(nearest.squared_distance) - step);
   }
   for (std::size_t begin = 0; begin < count;) {
-    if (allowed[begin] < end_radius) {
+    if (allowed[begin] < least) {
       ++begin;
       continue;
     }
     std::size_t end = begin;
-    while (end < count && allowed[end] >= end_radius) ++end;
+    while (end < count && allowed[end] >= least) ++end;
     const Tube tube = widest_tube(std::span(allowed).subspan(begin, end - begin), step, end_radius, largest_radius);
     format::Edge edge = crease.wedge;
     edge.begin = crease.from + step * static_cast<double>(begin);
@@ -255,7 +258,7 @@ bool reaches(const format::Edge& edge, const Vector3d& center, double half_edge)
   const double widest = std::clamp(0.5 * (edge.begin + edge.end), low, high);  // R falls off to both ends
   const Vector3d across = from - t * along;
   const double r = across.norm();
-  return r == 0.0 || r - half_edge * (across / r).lpNorm<1>() < edge_radius(edge, widest);
+  return r == 0.0 || r - half_edge * (across / r).lpNorm<1>() < edge_radius(edge, widest) * (1.0 + kTie);
 }
 
 }  // namespace godobject::scene_compiler
