@@ -31,6 +31,7 @@ const std::vector<QuantitySpec>& quantities() {
       {kDrift, "stick_drift", "stick drift, 8-12 Hz tremor", "um", 1.0, 3, false},
       {kChatterPlain, "chatter_plain", "chatter, convex and flat", "N", 0.01, 4, false},
       {kChatterElsewhere, "chatter_elsewhere", "chatter, elsewhere", "N", 0.1, 4, false},
+      {kChatterOptimum, "chatter_optimum", "the optimum's own, where missed", "N", kNone, 4, false},
       {kMovedPose, "moved_pose", "turned, shifted 10 m: pose", "um", 1.0, 4, false},
       {kMovedForce, "moved_force", "turned, shifted 10 m: force", "mN", 5.0, 4, false},
       {kSolveMedian, "solve_median", "solver, median", "us", 0.5, 2, true},

@@ -26,6 +26,7 @@ enum class Quantity {
   kDrift,
   kChatterPlain,
   kChatterElsewhere,
+  kChatterOptimum,
   kMovedPose,
   kMovedForce,
   kSolveMedian,
