@@ -328,9 +328,7 @@ void control(const Options& options) {
 
   const firmware::Supervisor& supervisor = cycle->supervisor();
   if (supervisor.fault() == firmware::Fault::kNone) return;
-  const bool about_signs =
-      supervisor.fault() == firmware::Fault::kSignWrong || supervisor.fault() == firmware::Fault::kSignUndecided;
-  const std::string joint = about_signs ? fmt::format("joint {}: ", supervisor.sign_joint() + 1) : "";
+  const std::string joint = supervisor.sign_joint() >= 0 ? fmt::format("joint {}: ", supervisor.sign_joint() + 1) : "";
   const std::string line = fmt::format("stopped: {}{}", joint, describe(supervisor.fault()));
   if (!requests.end) throw Failure(ExitCode::kUnavailable, line);
   warn(line);

@@ -43,7 +43,8 @@ const char* describe(Fault fault) noexcept {
     case Fault::kEnableReleased: return "the enable switch was released; reset and hold it again";
     case Fault::kJointLimit: return "a joint is beyond its position limit; move it back by hand and reset";
     case Fault::kTooFast: return "hand or joint was faster than the speed to stop at; reset";
-    case Fault::kSignWrong: return "a joint moved against its torque; check its polarity and encoder";
+    case Fault::kSignWrong:
+      return "a joint moved against its torque, or the arm moved away by itself; check polarities and encoders";
     case Fault::kSignUndecided:
       return "a joint did not move when pushed; keep the hand still, check its brake and encoder";
   }
@@ -121,7 +122,7 @@ Fault Supervisor::find_fault(const Observation& seen, bool too_many_overruns) co
     if (seen.jumps >= 2) return Fault::kPositionJump;
     if (seen.stuck) return Fault::kEncoderStuck;
     if (seen.beyond_joint_limit) return Fault::kJointLimit;
-    if (seen.too_fast) return Fault::kTooFast;
+    if (seen.too_fast) return before_sign_is_known() ? Fault::kSignWrong : Fault::kTooFast;
     if (too_many_overruns) return Fault::kOverruns;
     if (seen.sends_failed >= 3) return Fault::kSendFailed;
   } else {
@@ -175,9 +176,10 @@ void Supervisor::advance(const Observation& seen) noexcept {
       if (result == SignTest::Result::kPassed) {
         sign_tested_ = true;
         enter(Mode::kArmed);
-      } else if (result == SignTest::Result::kUndecided) {
-        stop(Fault::kSignUndecided);
-      } else if (result == SignTest::Result::kWrong || moved(seen, kMovesAway)) {
+      } else if (result != SignTest::Result::kRunning) {
+        sign_joint_ = sign_test_.joint();
+        stop(result == SignTest::Result::kWrong ? Fault::kSignWrong : Fault::kSignUndecided);
+      } else if (moved(seen, kMovesAway)) {
         stop(Fault::kSignWrong);
       }
       break;

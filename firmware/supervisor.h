@@ -130,7 +130,7 @@ class Supervisor {
 
   Mode mode() const noexcept { return mode_; }
   Fault fault() const noexcept { return fault_; }
-  int sign_joint() const noexcept { return sign_test_.joint(); }  ///< of kSignWrong, kSignUndecided
+  int sign_joint() const noexcept { return sign_joint_; }  ///< that the sign test failed at; -1: none
 
   /// Positions are held against those before; otherwise each reading is taken as it is.
   bool follows_positions() const noexcept {
@@ -148,6 +148,7 @@ class Supervisor {
   Fault find_fault(const Observation& seen, bool too_many_overruns) const noexcept;
   void advance(const Observation& seen) noexcept;
   bool moved(const Observation& seen, double more_than) const noexcept;
+  bool before_sign_is_known() const noexcept { return mode_ == Mode::kEnabling || mode_ == Mode::kSignTest; }
   Decision decide(const Observation& seen) const noexcept;
   bool powered() const noexcept { return (mode_ >= Mode::kEnabling && mode_ <= Mode::kFade) || mode_ == Mode::kEnding; }
 
@@ -162,6 +163,7 @@ class Supervisor {
   double end_step_ = 0.0;                        // of the share, a cycle
   JointVector reference_ = JointVector::Zero();  // where the joints were when the mode began that must not move
   JointVector test_torque_ = JointVector::Zero();
+  int sign_joint_ = -1;
   SignTest sign_test_;
   OverrunWatch overruns_;
 };

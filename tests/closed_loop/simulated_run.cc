@@ -51,6 +51,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   }
   hardware_ = sim::usual_hardware(arm);
   for (auto& joint : hardware_) joint.counter_at_zero = options.counter_at_zero;
+  if (options.reversed_joint >= 0) hardware_[static_cast<std::size_t>(options.reversed_joint)].motor_sign = -1.0;
   sim::HandParameters hand;
   hand.grip = sim::Grip::kSpring;
   plant_ =

@@ -45,6 +45,7 @@ class SimulatedRun {
     sim::DriveTiming timing;
     std::int32_t counter_at_zero = 0;
     bool sign_test = false;
+    int reversed_joint = -1;  ///< its motor is connected the wrong way round
     JointVector dry_friction = JointVector::Zero();
     double scene_stiffness = 2000.0;
   };
