@@ -15,7 +15,7 @@ void SignTest::restart() noexcept {
   result_ = Result::kRunning;
   joint_ = attempt_ = first_way_ = 0;
   direction_ = 1.0;
-  cycle_ = 0;
+  cycle_ = waits_ = 0;
 }
 
 SignTest::Result SignTest::update(const JointVector& q, JointVector& torque) noexcept {
@@ -27,6 +27,11 @@ SignTest::Result SignTest::update(const JointVector& q, JointVector& torque) noe
   const double deviation = direction_ * (position - begin_ - slope_ * cycle_);
   ++cycle_;
   if (cycle_ <= kStillCycles) return result_;
+  // what springs back from the push before is on no straight line: it is waited for, a steady drift is not
+  if (cycle_ == kStillCycles + 1 && std::fabs(position - begin_) > kAtRest * motion_ && ++waits_ < kWaits) {
+    cycle_ = 0;
+    return result_;
+  }
   if (std::fabs(deviation) > motion_) {
     finish_push(deviation > 0.0 ? 1 : -1);
   } else if (cycle_ == kStillCycles + kPushCycles) {
@@ -38,7 +43,7 @@ SignTest::Result SignTest::update(const JointVector& q, JointVector& torque) noe
 }
 
 void SignTest::finish_push(int way) noexcept {
-  cycle_ = 0;
+  cycle_ = waits_ = 0;
   if (direction_ > 0.0) {
     first_way_ = way;
     direction_ = -1.0;

@@ -24,6 +24,8 @@ class SignTest {
 
   static constexpr std::uint32_t kStillCycles = 50;   ///< in which the straight line is found
   static constexpr std::uint32_t kPushCycles = 1000;  ///< in which the torque rises to its largest
+  static constexpr double kAtRest = 0.05;             ///< of `motion` in kStillCycles
+  static constexpr std::uint32_t kWaits = 20;         ///< times kStillCycles, for that
   static constexpr int kAttempts = 3;
 
   SignTest(const ArmModel& arm, const Parameters& parameters) noexcept;
@@ -48,6 +50,7 @@ class SignTest {
   int attempt_ = 0;
   double direction_ = 1.0;
   int first_way_ = 0;
+  std::uint32_t waits_ = 0;  // for the joint to come to rest
   std::uint32_t cycle_ = 0;  // of the push, the still cycles before it included
   double begin_ = 0.0;       // of the straight line
   double slope_ = 0.0;       // a cycle

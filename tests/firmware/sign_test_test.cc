@@ -13,6 +13,7 @@ struct Joints {
   double inertia = 1.0;
   double damping = 0.5;
   double dry = 0.0;
+  double spring = 0.0;  ///< to zero, as a hand's
   JointVector gain = JointVector::Ones();
   JointVector q = JointVector::Zero();
   JointVector qd = JointVector::Zero();
@@ -25,11 +26,11 @@ struct Joints {
   void step(const JointVector& torque) {
     for (int i = 0; i < arm.joint_count; ++i) {
       const double push = gain[i] * torque[i];
-      if (qd[i] == 0.0 && std::fabs(push) <= dry) continue;
+      if (qd[i] == 0.0 && dry > 0.0 && std::fabs(push) <= dry) continue;
       const double friction = qd[i] == 0.0 ? std::copysign(dry, push) : std::copysign(dry, qd[i]);
       const double before = qd[i];
-      qd[i] += 1e-3 * (push - friction - damping * qd[i]) / inertia;
-      if (before * qd[i] < 0.0 && std::fabs(push) <= dry) qd[i] = 0.0;
+      qd[i] += 1e-3 * (push - friction - damping * qd[i] - spring * q[i]) / inertia;
+      if (dry > 0.0 && before * qd[i] < 0.0 && std::fabs(push) <= dry) qd[i] = 0.0;
       q[i] += 1e-3 * qd[i];
     }
   }
@@ -67,6 +68,20 @@ TEST(SignTest, PassesWithDryFrictionAndAHandThatDrifts) {
     Joints drifting(3);
     SignTest test(drifting.arm, {});
     EXPECT_EQ(run(drifting, test, drift), SignTest::Result::kPassed) << drift;
+  }
+}
+
+TEST(SignTest, PassesWithAHandThatHoldsTheArmAsASpring) {
+  for (const double inertia : {0.01, 0.1, 1.0}) {
+    Joints joints(3);
+    joints.inertia = inertia;
+    joints.spring = 50.0;
+    joints.damping = 2.0 * std::sqrt(joints.spring * inertia);
+    SignTest test(joints.arm, {});
+    EXPECT_EQ(run(joints, test), SignTest::Result::kPassed) << inertia;
+    joints.gain[1] = -1.0;
+    test.restart();
+    EXPECT_EQ(run(joints, test), SignTest::Result::kWrong) << inertia;
   }
 }
 
