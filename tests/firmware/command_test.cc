@@ -64,7 +64,7 @@ class ControllerCommandTest : public testing::Test {
 
 TEST_F(ControllerCommandTest, RendersAPathAndLogsIt) {
   write_path();
-  write_controller("[simulation]\npath = \"path.csv\"\nbegin = 4.0\n");
+  write_controller("[simulation]\npath = \"path.csv\"\nbegin = 6.0\n");
   ASSERT_EQ(run("c.toml --log logs"), 0) << words_;
   EXPECT_TRUE(says("stable up to")) << words_;
   EXPECT_FALSE(says("in contact in 0:")) << words_;
