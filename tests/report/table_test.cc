@@ -72,12 +72,17 @@ TEST(VerdictText, SaysByHowMuchATargetIsMissed) {
 
 TEST(TextTable, HasOneLineForEachQuantityMeasured) {
   const std::string text = text_table(some());
-  EXPECT_EQ(text.substr(0, text.find("4 scenes;")),
+  EXPECT_EQ(text.substr(0, text.find("distance to the optimum is missed")),
             "quantity                 unit  target   paper  corrected  contact  verdict on contact    worst scene of "
             "contact\n"
             "penetration (field)      mm         0       -          -   0.0000  missed by 2.0e-07 mm  ball (analytic)\n"
             "distance to the optimum  mm      0.04  1.5000          -   0.0612  missed by 0.0212 mm   box (compiled)\n"
             "solver, median           us       0.5       -          -     0.30  held\n");
+}
+
+TEST(TextTable, SaysWhyAMissedTargetIsMissedAndOnlyThen) {
+  EXPECT_NE(text_table(some()).find("distance to the optimum is missed: "), std::string::npos);
+  EXPECT_EQ(text_table(some()).find("solver, median is missed"), std::string::npos);
 }
 
 TEST(TextTable, SaysWhatItsUnitMeans) {

@@ -47,7 +47,8 @@ struct QuantitySpec {
   const char* unit;
   std::optional<double> target;  ///< held by `contact` if the value is not above it; nothing: for information
   int decimals;
-  bool median;  ///< the solver's figure is the median over the scenes, not the worst
+  bool median;                      ///< the solver's figure is the median over the scenes, not the worst
+  const char* if_missed = nullptr;  ///< why `contact` may miss the target, as far as that is known
 };
 
 const std::vector<QuantitySpec>& quantities();

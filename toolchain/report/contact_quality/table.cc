@@ -71,6 +71,17 @@ std::string legend(const std::vector<Measurement>& measurements) {
 
 constexpr auto kContact = static_cast<std::size_t>(Solver::kContact);
 
+/// Why targets are missed that are.
+std::string reasons(const std::vector<Measurement>& measurements) {
+  std::string text;
+  for (const QuantitySpec& quantity : quantities()) {
+    const auto verdict = judge(measurements, quantity.id, Solver::kContact);
+    if (!verdict || verdict->held || quantity.if_missed == nullptr) continue;
+    text += fmt::format("{} is missed: {}.\n", quantity.title, quantity.if_missed);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string verdict_text(const QuantitySpec& quantity, const std::optional<Verdict>& contact) {
@@ -97,7 +108,7 @@ std::string text_table(const std::vector<Measurement>& measurements) {
     row.push_back(verdicts[kContact] && !quantity.median ? verdicts[kContact]->worst_scene : std::string());
     rows.push_back(std::move(row));
   }
-  return aligned(rows, 2) + legend(measurements);
+  return aligned(rows, 2) + reasons(measurements) + legend(measurements);
 }
 
 std::string summary_csv(const std::vector<Measurement>& measurements) {
