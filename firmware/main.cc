@@ -2,6 +2,8 @@
 #include <array>
 #include <csignal>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,7 +63,8 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [simulation] path, slower, begin, delay
 
 --log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose
-d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions.)";
+d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions. In
+virtual time DIR/hand.csv has the work that the simulated hand has done on the tool until then.)";
 
 struct Options {
   std::string controller;
@@ -166,6 +169,37 @@ class SimulatedDevice {
  public:
   sim::DirectDrives drives;
   double path_seconds() const { return 1e-3 * static_cast<double>(path_.size()); }
+  double hand_work() const { return plant_.work().hand.sum(); }  ///< on the tool, since the start [J]
+};
+
+/// FOLDER/hand.csv, a row a cycle: by how much the simulated hand has worked on the tool. Not real-time safe.
+class HandLog {
+ public:
+  /// Throws Failure (kIo) if it cannot be written.
+  HandLog(const std::filesystem::path& folder, const SimulatedDevice& device)
+      : file_(folder / "hand.csv"), device_(device), stream_(file_) {
+    stream_ << "t_s,hand_J\n";
+    check();
+  }
+
+  void write_row() {
+    stream_ << fmt::format("{:.6f},{:.9g}\n", 1e-9 * static_cast<double>(device_.drives.now_ns()), device_.hand_work());
+  }
+
+  /// The last rows to the disk. Throws as above.
+  void close() {
+    stream_.close();
+    check();
+  }
+
+ private:
+  void check() const {
+    if (!stream_) throw Failure(ExitCode::kIo, fmt::format("{}: cannot be written; check the folder", file_.string()));
+  }
+
+  std::filesystem::path file_;
+  const SimulatedDevice& device_;
+  std::ofstream stream_;
 };
 
 /// The machine's clock, with the simulated world kept beside it: it runs up to a deadline before that is waited for, so
@@ -264,18 +298,23 @@ long run_in_real_time(const firmware::RunSetup& setup, const ControllerConfig& c
   return firmware::page_faults() - before;
 }
 
-void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, sim::World& world,
+void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, SimulatedDevice& simulated,
               firmware::TelemetryWriter* writer) {
   long faults_of_pages = 0;
   if (config.loop.real_time) {
     std::optional<std::jthread> thread;
     if (writer != nullptr) thread.emplace([writer](const std::stop_token& stop) { writer->run(stop); });
-    faults_of_pages = run_in_real_time(setup, config, world);
+    faults_of_pages = run_in_real_time(setup, config, simulated.drives);
   } else {
-    sim::VirtualClock clock(world);
-    firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer] {
-      if (writer != nullptr) writer->drain();
+    sim::VirtualClock clock(simulated.drives);
+    std::optional<HandLog> hand;
+    if (writer != nullptr) hand.emplace(config.telemetry.folder, simulated);
+    firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer, &hand] {
+      if (writer == nullptr) return;
+      writer->drain();
+      hand->write_row();
     });
+    if (hand) hand->close();
   }
   print_report(run_report, cycle->counters(), config.loop.real_time, faults_of_pages);
   if (writer != nullptr) {
@@ -324,7 +363,7 @@ void control(const Options& options) {
   setup.every = static_cast<std::uint32_t>(config.telemetry.every);
   setup.stopwatch = &stopwatch;
   catch_signals();
-  run_loop(setup, config, simulated->drives, writer.get());
+  run_loop(setup, config, *simulated, writer.get());
 
   const firmware::Supervisor& supervisor = cycle->supervisor();
   if (supervisor.fault() == firmware::Fault::kNone) return;
