@@ -43,7 +43,7 @@ class Plan : public testing::Test {
 };
 
 TEST_F(Plan, IsRead) {
-  const auto plans = read_plan(holding(kScene + "markers = { A = 0.5, B = 1 }\nbarrier = [0, 0, 1, 0, 0, 2]\n"));
+  const auto plans = read_plan(holding(kScene + "markers = { A = 0.5, B = 1 }\nbarrier = [0, 0, 1, 0, 0, 2]\n")).scenes;
   ASSERT_EQ(plans.size(), 1u);
   EXPECT_EQ(plans[0].image, "hole");
   ASSERT_EQ(plans[0].markers.size(), 2u);
@@ -52,6 +52,21 @@ TEST_F(Plan, IsRead) {
   ASSERT_TRUE(plans[0].barrier);
   EXPECT_EQ(plans[0].barrier->point, Vector3(0, 0, 1));
   EXPECT_EQ(plans[0].barrier->normal, Vector3(0, 0, 1));
+}
+
+TEST_F(Plan, HasRunsOnAnArmIfWanted) {
+  EXPECT_TRUE(read_plan(holding(kScene)).runs.empty());
+  std::string run = kScene;
+  run.replace(0, 9, "[[run]]");
+  const auto plan = read_plan(holding(kScene + run + "device = '../arm.toml'\nmarkers = { B = 2.5 }\n"));
+  ASSERT_EQ(plan.runs.size(), 1u);
+  EXPECT_EQ(plan.runs[0].scene.name, "peg");
+  EXPECT_EQ(plan.runs[0].scene.markers[0].t, 2.5);
+  EXPECT_EQ(plan.runs[0].device, folder_ / "../arm.toml");
+  expect_refused(kScene + run, ExitCode::kBadConfig, "run.device: is missing");
+  expect_refused(kScene + run + "colour = 3\n", ExitCode::kBadConfig, "run.colour");
+  expect_refused(kScene + "device = 'x'\n", ExitCode::kBadConfig, "scene.device");
+  expect_refused(kScene + "[[picture]]\n", ExitCode::kBadConfig, "picture");
 }
 
 TEST_F(Plan, IsRefusedNamingTheKey) {
@@ -74,9 +89,14 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
                       .voxel_size = 0.002,
                       .markers = {},
                       .series = {{"paper", log}, {"contact", log}}};
-  const std::string html =
-      page(read_plan(holding(kScene)), {figure}, {{"peg", "paper", 0.002, {}, {}}, {"peg", "contact", 0.002, {}, {}}},
-           {"MISSED & lost"}, folder_);
+  const std::string html = page({.plan = read_plan(holding(kScene)),
+                                 .figures = {figure},
+                                 .entries = {{"peg", "paper", 0.002, {}, {}}, {"peg", "contact", 0.002, {}, {}}},
+                                 .verdicts = {"MISSED & lost"},
+                                 .arm_figures = {},
+                                 .runs = {},
+                                 .run_verdicts = {}},
+                                folder_);
   EXPECT_NE(html.find("<h2 id=\"peg\">A &lt; B</h2>"), std::string::npos);
   EXPECT_NE(html.find("MISSED &amp; lost"), std::string::npos);
   EXPECT_NE(html.find("<p>8 points &amp; more.</p>"), std::string::npos);

@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/external_program.h"
-#include "toolchain/command/work_folder.h"
-
 namespace godobject::figures {
 namespace {
 
@@ -35,13 +32,6 @@ constexpr std::size_t kPenetration = 2;
 /// By the order of the series; easy to tell apart for the colour-blind.
 constexpr std::array<const char*, 4> kColors = {"#e69f00", "#56b4e9", "#c2185b", "#222222"};
 
-/// Single quotes are gnuplot's own escape.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 std::string data_block(std::size_t number, const ReplayLog& log) {
   std::string text = fmt::format("$data{} << END\n", number);
   for (const ReplayRow& row : log) {
@@ -59,15 +49,6 @@ double top(const Figure& figure, const Panel& panel, double at_least) {
     for (const ReplayRow& row : series.log) highest = std::max(highest, panel.value(row));
   }
   return 1.06 * highest;
-}
-
-std::string marker_text(const std::vector<Marker>& markers, bool named) {
-  std::string text = "unset arrow\nunset label\n";
-  for (const Marker& marker : markers) {
-    text += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dt 2 lc rgb '#555555'\n", marker.t);
-    if (named) text += fmt::format("set label {} at {},graph 1.08 center\n", quoted(marker.name), marker.t);
-  }
-  return text;
 }
 
 /// Entries of the key of all panels, which stands above the first one.
@@ -92,7 +73,7 @@ std::string panel_text(const Figure& figure, std::size_t row) {
   } else {
     text += fmt::format("unset logscale y\nset yrange [0:{:.6g}]\n", highest);
   }
-  if (row + 1 == kPanels.size()) text += "set format x '%g'\nset xlabel 'time [s]'\n";
+  if (row + 1 == kPanels.size()) text += kTimeAxis;
   text += "plot ";
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
     text += fmt::format("{}$data{} using 1:{} with lines lw 1.3 lc rgb '{}' notitle", i == 0 ? "" : ", ", i, row + 2,
@@ -109,24 +90,14 @@ std::string gnuplot_text(const Figure& figure, const std::filesystem::path& png)
   std::string text;
   for (std::size_t i = 0; i < figure.series.size(); ++i) text += data_block(i, figure.series[i].log);
   const ReplayLog& first = figure.series.front().log;
-  text += fmt::format(
-      "set terminal pngcairo size 1300,1500 font 'DejaVu Sans,11' background rgb 'white' noenhanced\nset output {}\n",
-      quoted(png.string()));
-  text += fmt::format("set multiplot layout {},1 title {} margins 0.075,0.985,0.045,0.93 spacing 0.02,0.02\n",
-                      kPanels.size(), quoted(figure.title));
-  text += fmt::format(
-      "set xrange [{}:{}]\nset grid lc rgb '#dddddd'\nset format x ''\nset tics nomirror\nset key at screen "
-      "0.985,0.963 right horizontal samplen 3 width 1\n",
-      first.front().t, first.back().t);
+  text += sheet_head({.title = figure.title, .panels = kPanels.size(), .begin = first.front().t, .end = first.back().t},
+                     png);
   for (std::size_t row = 0; row < kPanels.size(); ++row) text += panel_text(figure, row);
   return text + "unset multiplot\nset output\n";
 }
 
 void draw(const Figure& figure, const std::filesystem::path& png) {
-  const command::WorkFolder folder(png);
-  const auto program = folder.write("figure.gp", gnuplot_text(figure, folder.path() / "figure.png"));
-  command::run_program({"gnuplot", program.string()}, "gnuplot-nox");
-  folder.deliver("figure.png", png);
+  draw_with_gnuplot([&](const std::filesystem::path& file) { return gnuplot_text(figure, file); }, png);
 }
 
 }  // namespace godobject::figures

@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "toolchain/figures/gnuplot.h"
 #include "toolchain/figures/replay_log.h"
 
 namespace godobject::figures {
-
-/// A line across all panels.
-struct Marker {
-  std::string name;
-  double t = 0.0;  ///< [s]
-};
 
 /// The paper's Figure 8 made anew, all solvers in each panel, a colour each: one below the other force, torque,
 /// penetration of the god object (with the voxel edge), points in contact, and time of step #1 and of #2-#7.

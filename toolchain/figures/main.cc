@@ -13,6 +13,8 @@
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
+#include "toolchain/figures/arm_figure.h"
+#include "toolchain/figures/arm_run.h"
 #include "toolchain/figures/claims.h"
 #include "toolchain/figures/figure.h"
 #include "toolchain/figures/page.h"
@@ -34,8 +36,10 @@ FIGURES.toml holds tables [[scene]] with the keys name, image, title, text and, 
 { A = 0.4 } [s] and barrier = [x, y, z, nx, ny, nz]: the god object is to stay on that side of a plane of W [m]. For each of them
 OUT/NAME/SOLVER.csv (of godobject-replay) and IMAGES/IMAGE.scene (of godobject-scenec) must be there. Writes OUT/NAME/figure.png
 with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table, what is missed of the paper's claims and of
-what contact promises, and what holds; the CSV table has more columns than the printed one. Pictures OUT/NAME/SOLVER_MOMENT.png
-(of godobject-view) are shown if they are there.
+what contact promises, and what holds; the CSV table has more columns than the printed one. Tables [[run]], if there are any, have
+the same keys and device, the device file of an arm: for each OUT/NAME/telemetry.csv and OUT/NAME/hand.csv (of godobject-controller)
+must be there; they become a figure, a table and verdicts of their own. Pictures OUT/NAME/SOLVER_MOMENT.png
+and OUT/NAME/telemetry_MOMENT.png (of godobject-view) are shown if they are there.
 Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.
 
 Exit codes: 0 done (whatever is missed), 64 usage, 65 bad image, replay or TOML, 66 an input is missing or may not be read,
@@ -52,53 +56,93 @@ void write(const fs::path& file, const std::string& text) {
   out.commit();
 }
 
-void make_figures(const Options& options) {
+/// Refuses what is missing or cannot be written, before the work.
+void check_files(const Options& options, const Plan& plan) {
   const fs::path output = options.output;
-  const fs::path statistics_file = output / "statistics.csv";
-  const fs::path page_file = output / "index.html";
-  for (const fs::path& file : {statistics_file, page_file}) command::output_target(file);  // refused before the work
-  const std::vector<ScenePlan> plans = read_plan(options.plan);
-  for (const ScenePlan& plan : plans) {
+  for (const char* file : {"statistics.csv", "index.html"}) command::output_target(output / file);
+  for (const ScenePlan& scene : plan.scenes) {
     for (const std::string& solver : options.solvers)
-      command::require_input(output / plan.name / (solver + ".csv"), "make it with godobject-replay");
-    command::output_target(output / plan.name / "figure.png");
+      command::require_input(output / scene.name / (solver + ".csv"), "make it with godobject-replay");
+    command::output_target(output / scene.name / "figure.png");
   }
-  std::vector<Entry> entries;
-  std::vector<Figure> figures;
+  for (const ArmPlan& run : plan.runs) {
+    for (const char* file : {"telemetry.csv", "hand.csv"})
+      command::require_input(output / run.scene.name / file, "make it with godobject-controller --log");
+    command::output_target(output / run.scene.name / "figure.png");
+  }
+}
+
+command::SceneImage read_image(const Options& options, const ScenePlan& plan) {
+  return command::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
+}
+
+void add_scene(const Options& options, const ScenePlan& plan, PageContent& content) {
+  const auto image = read_image(options, plan);
+  const godobject::Scene& scene = image.scene;
+  const fs::path folder = fs::path(options.output) / plan.name;
+  Figure figure{.title = plan.title,
+                .facts = scene_facts(scene),
+                .voxel_size = scene.grid.voxel_size,
+                .markers = plan.markers,
+                .series = {}};
+  for (const std::string& solver : options.solvers) {
+    ReplayLog log = read_replay_log(folder / (solver + ".csv"));
+    Entry entry{plan.name, solver, figure.voxel_size, statistics(log, scene.grid.band), {}};
+    if (plan.barrier) entry.crossing = furthest_crossing(log, scene, *plan.barrier);
+    content.entries.push_back(std::move(entry));
+    figure.series.push_back({solver, std::move(log)});
+  }
+  draw(figure, folder / "figure.png");
+  content.figures.push_back(std::move(figure));
+}
+
+void add_run(const Options& options, const ArmPlan& plan, PageContent& content) {
+  const auto image = read_image(options, plan.scene);
+  const godobject::Scene& scene = image.scene;
+  const fs::path folder = fs::path(options.output) / plan.scene.name;
+  ArmFigure figure{plan.scene.title, scene_facts(scene), plan.scene.markers, read_arm_log(folder, plan.device)};
+  ArmRun run = arm_run(figure.log, scene.grid.band);
+  run.name = plan.scene.name;
+  run.voxel_size = scene.grid.voxel_size;
+  if (plan.scene.barrier) run.crossing = furthest_crossing(rendered(figure.log.cycles), scene, *plan.scene.barrier);
+  draw(figure, folder / "figure.png");
+  content.runs.push_back(std::move(run));
+  content.arm_figures.push_back(std::move(figure));
+}
+
+void make_figures(const Options& options) {
+  PageContent content;
+  content.plan = read_plan(options.plan);
+  check_files(options, content.plan);
   {
     command::Progress progress;
-    for (const ScenePlan& plan : plans) {
-      progress.show("figures",
-                    static_cast<double>(entries.size()) / static_cast<double>(plans.size() * options.solvers.size()));
-      const auto image = command::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
-      const godobject::Scene& scene = image.scene;
-      Figure figure{.title = plan.title,
-                    .facts = scene_facts(scene),
-                    .voxel_size = scene.grid.voxel_size,
-                    .markers = plan.markers,
-                    .series = {}};
-      for (const std::string& solver : options.solvers) {
-        ReplayLog log = read_replay_log(output / plan.name / (solver + ".csv"));
-        Entry entry{plan.name, solver, figure.voxel_size, statistics(log, scene.grid.band), {}};
-        if (plan.barrier) entry.crossing = furthest_crossing(log, scene, *plan.barrier);
-        entries.push_back(std::move(entry));
-        figure.series.push_back({solver, std::move(log)});
-      }
-      draw(figure, output / plan.name / "figure.png");
-      figures.push_back(std::move(figure));
+    const double all = static_cast<double>(content.plan.scenes.size() + content.plan.runs.size());
+    for (const ScenePlan& plan : content.plan.scenes) {
+      progress.show("figures", static_cast<double>(content.figures.size()) / all);
+      add_scene(options, plan, content);
+    }
+    for (const ArmPlan& plan : content.plan.runs) {
+      progress.show("figures", static_cast<double>(content.figures.size() + content.runs.size()) / all);
+      add_run(options, plan, content);
     }
   }
-  const std::vector<std::string> verdicts = judge(entries);
-  write(statistics_file, csv_table(entries));
-  write(page_file, page(plans, figures, entries, verdicts, output));
-  fmt::print("{}\n", text_table(entries));
-  for (const std::string& verdict : verdicts) fmt::print("{}\n", verdict);
+  content.verdicts = judge(content.entries);
+  content.run_verdicts = judge_arm_runs(content.runs);
+  const fs::path output = options.output;
+  write(output / "statistics.csv", csv_table(content.entries));
+  write(output / "index.html", page(content, output));
+  fmt::print("{}\n", text_table(content.entries));
+  for (const std::string& verdict : content.verdicts) fmt::print("{}\n", verdict);
+  if (content.runs.empty()) return;
+  fmt::print("\n{}\n", arm_table(content.runs));
+  for (const std::string& verdict : content.run_verdicts) fmt::print("{}\n", verdict);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Statistics and figures of replays: tables, plots, one HTML page.", "godobject-figures");
+  CLI::App app("Statistics and figures of replays and of runs on an arm: tables, plots, one HTML page.",
+               "godobject-figures");
   app.footer(kFooter);
   Options options;
   app.add_option("FIGURES.toml", options.plan, "what to show")->required()->type_name("");

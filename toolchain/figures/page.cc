@@ -53,17 +53,23 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-std::string table_html(const std::vector<Entry>& entries) {
+/// A line for each of `rows`, with the columns' headings above.
+template <class Column, class Row>
+std::string cells_html(const std::vector<Column>& columns, const std::vector<Row>& rows) {
   std::string text = "<div class=\"wide\"><table><tr>";
-  for (const Column& column : columns()) text += fmt::format("<th>{}</th>", escaped(column.heading));
+  for (const Column& column : columns) text += fmt::format("<th>{}</th>", escaped(column.heading));
   text += "</tr>\n";
-  for (const Entry& entry : entries) {
+  for (const Row& row : rows) {
     text += "<tr>";
-    for (const Column& column : columns()) text += fmt::format("<td>{}</td>", escaped(column.value(entry)));
+    for (const Column& column : columns) text += fmt::format("<td>{}</td>", escaped(column.value(row)));
     text += "</tr>\n";
   }
-  return text +
-         "</table></div>\n<p>Depth: of the deepest sample point in contact, below 0 a gap; behind: beyond the plate. "
+  return text + "</table></div>\n";
+}
+
+std::string table_html(const std::vector<Entry>& entries) {
+  return cells_html(columns(), entries) +
+         "<p>Depth: of the deepest sample point in contact, below 0 a gap; behind: beyond the plate. "
          "Force "
          "step: largest change of the force from one cycle to the next. Points: of paper and corrected those that "
          "collide, of contact rows that carry a force. Cut, overflow, infeasible: cycles whose motion could not be "
@@ -105,48 +111,87 @@ std::vector<Picture> pictures(const std::filesystem::path& folder) {
 }
 
 /// "corrected, 1.200 s: depth 0.123 mm, force 4.5 N"; the name of the file if it is not of a replay.
-std::string caption(const Picture& picture, const Figure& figure) {
+std::string caption(const Picture& picture, const std::vector<Figure::Series>& all) {
   std::vector<const ReplayLog*> logs;
-  for (const auto& series : figure.series) logs.push_back(&series.log);
-  const auto own = std::find_if(figure.series.begin(), figure.series.end(),
-                                [&](const auto& series) { return series.solver == picture.solver; });
+  for (const auto& series : all) logs.push_back(&series.log);
+  const auto own =
+      std::find_if(all.begin(), all.end(), [&](const auto& series) { return series.solver == picture.solver; });
   const std::optional<double> t = moment(picture.moment, logs);
-  if (own == figure.series.end() || !t) return picture.name;
+  if (own == all.end() || !t) return picture.name;
   const ReplayRow& row = row_at(own->log, *t, picture.name);
   return fmt::format("{}, {:.3f} s{}: depth {:.3f} mm, force {:.1f} N", picture.solver, row.t,
                      picture.moment == "deepest" ? " (when any is deepest)" : "", 1e3 * row.depth,
                      row.wrench.force.norm());
 }
 
-std::string scene_html(const ScenePlan& plan, const Figure& figure, const std::vector<Entry>& entries,
+/// Figure and pictures of a scene.
+std::string scene_html(const ScenePlan& plan, const std::string& facts, const std::vector<Figure::Series>& series,
                        const std::filesystem::path& folder) {
   const std::string name = escaped(plan.name);
   std::string text = fmt::format(
       "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p>{3}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" "
       "alt=\"{1}\"></a></p>\n",
-      name, escaped(plan.title), escaped(plan.text), escaped(figure.facts));
+      name, escaped(plan.title), escaped(plan.text), escaped(facts));
   text += "<div class=\"pictures\">\n";
   for (const Picture& picture : pictures(folder / plan.name)) {
     text += fmt::format(
         "<figure><a href=\"{0}/{1}\"><img src=\"{0}/{1}\" alt=\"{2}\"></a><figcaption>{2}</figcaption></figure>\n",
-        name, escaped(picture.name), escaped(caption(picture, figure)));
+        name, escaped(picture.name), escaped(caption(picture, series)));
   }
-  text += "</div>\n<p>Replays:";
+  return text + "</div>\n";
+}
+
+std::string replays_html(const std::string& scene, const std::vector<Entry>& entries) {
+  std::string text = "<p>Replays:";
   for (const Entry& entry : entries) {
-    if (entry.scene == plan.name) text += fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", name, escaped(entry.solver));
+    if (entry.scene == scene)
+      text += fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", escaped(scene), escaped(entry.solver));
   }
   return text + "</p>\n";
 }
 
+const char* const kArmHead = R"(<h1 id="closed-loop">The loop closed: felt through an arm</h1>
+<p>The controller itself, from boot to end, in virtual time: it reads the joints of a simulated arm once a millisecond, keeps the
+god object on the surface and sends the joints torques, which act a millisecond later. A hand holds the tool by a
+spring and follows the path as far as arm and force let it, so the device is where both balance, not where the path says. Solver
+contact. How long the cycles take is told by the replays. Red is where the device has the moving object, blue where the god object keeps it.</p>
+)";
+
+std::string arm_html(const PageContent& content, const std::filesystem::path& folder) {
+  std::string text = kArmHead + cells_html(arm_columns(), content.runs);
+  text +=
+      "<p>Depth: of the deepest sample point in contact, below 0 a gap. In contact: cycles. Device: furthest that the "
+      "god "
+      "object was from the device. Force: largest at the hand. Step: largest change of it from one cycle to the next. "
+      "Torque: largest of a joint, of its limit; most of it holds the arm. Work: of the hand on the tool from the "
+      "first to "
+      "the last cycle that rendered; what the hand does not get back went into friction and dampers.</p>\n";
+  text += list(content.run_verdicts);
+  for (std::size_t i = 0; i < content.plan.runs.size(); ++i) {
+    const ScenePlan& plan = content.plan.runs[i].scene;
+    const ArmFigure& figure = content.arm_figures[i];
+    text += scene_html(plan, figure.facts, {{"telemetry", rendered(figure.log.cycles)}}, folder);
+    text += fmt::format(
+        "<p>Of the run: <a href=\"{0}/telemetry.csv\">telemetry</a> <a href=\"{0}/hand.csv\">work of "
+        "the hand</a></p>\n",
+        escaped(plan.name));
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string page(const std::vector<ScenePlan>& plans, const std::vector<Figure>& figures,
-                 const std::vector<Entry>& entries, const std::vector<std::string>& verdicts,
-                 const std::filesystem::path& folder) {
+std::string page(const PageContent& content, const std::filesystem::path& folder) {
   std::string text = kHead;
-  text += table_html(entries);
-  text += "<h2>What holds, and what is missed</h2>\n" + list(verdicts);
-  for (std::size_t i = 0; i < plans.size(); ++i) text += scene_html(plans[i], figures[i], entries, folder);
+  text += table_html(content.entries);
+  text += "<h2>What holds, and what is missed</h2>\n" + list(content.verdicts);
+  if (!content.runs.empty()) text += "<p>And <a href=\"#closed-loop\">the loop closed</a>, through an arm.</p>\n";
+  for (std::size_t i = 0; i < content.plan.scenes.size(); ++i) {
+    const ScenePlan& plan = content.plan.scenes[i];
+    text += scene_html(plan, content.figures[i].facts, content.figures[i].series, folder);
+    text += replays_html(plan.name, content.entries);
+  }
+  if (!content.runs.empty()) text += arm_html(content, folder);
   return text + "</body></html>\n";
 }
 

@@ -4,17 +4,28 @@
 #include <string>
 #include <vector>
 
+#include "toolchain/figures/arm_figure.h"
+#include "toolchain/figures/arm_run.h"
 #include "toolchain/figures/figure.h"
 #include "toolchain/figures/plan.h"
 #include "toolchain/figures/statistics.h"
 
 namespace godobject::figures {
 
+/// What the page shows: figures are those of the plan, in its order; verdicts are sentences.
+struct PageContent {
+  Plan plan;
+  std::vector<Figure> figures;
+  std::vector<Entry> entries;
+  std::vector<std::string> verdicts;
+  std::vector<ArmFigure> arm_figures;
+  std::vector<ArmRun> runs;
+  std::vector<std::string> run_verdicts;
+};
+
 /// The static HTML page over `folder`: what the solvers are, table, verdicts, and for each scene its figure, the
-/// pictures found in its folder (PNG, by moment) with depth and force at their moment, and its replays. `figures` are
-/// those of the plans, in the same order.
-std::string page(const std::vector<ScenePlan>& plans, const std::vector<Figure>& figures,
-                 const std::vector<Entry>& entries, const std::vector<std::string>& verdicts,
-                 const std::filesystem::path& folder);
+/// pictures found in its folder (PNG, by moment) with depth and force at their moment, and its replays; then the same
+/// of the runs on an arm.
+std::string page(const PageContent& content, const std::filesystem::path& folder);
 
 }  // namespace godobject::figures

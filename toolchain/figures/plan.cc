@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -37,30 +38,43 @@ toml::table parse(const std::filesystem::path& file) {
   }
 }
 
-std::string text_of(const std::filesystem::path& file, const toml::table& table, std::string_view key) {
-  const auto value = table[key].value<std::string>();
-  if (!table.contains(key)) refuse(file, table, fmt::format("scene.{0}: is missing; write {0} = \"...\"", key));
-  if (!value || value->empty()) refuse(file, table, fmt::format("scene.{}: must be a text in quotes", key));
-  return *value;
-}
+/// A table [[KIND]] of a file.
+struct Source {
+  const std::filesystem::path& file;
+  const toml::table& table;
+  const char* kind;  // scene or run
 
-std::vector<Marker> markers_of(const std::filesystem::path& file, const toml::table& table) {
+  /// Names the key; `node` is where it stands.
+  [[noreturn]] void refuse(std::string_view key, std::string_view what, const toml::node& node) const {
+    figures::refuse(file, node, fmt::format("{}.{}: {}", kind, key, what));
+  }
+  [[noreturn]] void refuse(std::string_view key, std::string_view what) const { refuse(key, what, table); }
+
+  std::string text(std::string_view key) const {
+    const auto value = table[key].value<std::string>();
+    if (!table.contains(key)) refuse(key, fmt::format("is missing; write {} = \"...\"", key));
+    if (!value || value->empty()) refuse(key, "must be a text in quotes");
+    return *value;
+  }
+};
+
+std::vector<Marker> markers_of(const Source& source) {
   std::vector<Marker> markers;
-  if (!table.contains("markers")) return markers;
-  const toml::table* times = table["markers"].as_table();
-  if (times == nullptr) refuse(file, table, "scene.markers: must be a table { NAME = seconds, ... }");
+  if (!source.table.contains("markers")) return markers;
+  const toml::table* times = source.table["markers"].as_table();
+  if (times == nullptr) source.refuse("markers", "must be a table { NAME = seconds, ... }");
   for (const auto& [name, node] : *times) {
     const std::optional<double> t = node.value<double>();
-    if (!t) refuse(file, node, fmt::format("scene.markers.{}: must be a time [s]", name.str()));
+    if (!t) source.refuse(fmt::format("markers.{}", name.str()), "must be a time [s]", node);
     markers.push_back({std::string(name.str()), *t});
   }
   return markers;
 }
 
-std::optional<Barrier> barrier_of(const std::filesystem::path& file, const toml::table& table) {
-  if (!table.contains("barrier")) return std::nullopt;
+std::optional<Barrier> barrier_of(const Source& source) {
+  if (!source.table.contains("barrier")) return std::nullopt;
   std::array<double, 6> numbers{};
-  const toml::array* array = table["barrier"].as_array();
+  const toml::array* array = source.table["barrier"].as_array();
   bool good = array != nullptr && array->size() == numbers.size();
   for (std::size_t i = 0; good && i < numbers.size(); ++i) {
     const std::optional<double> number = (*array)[i].value<double>();
@@ -69,36 +83,50 @@ std::optional<Barrier> barrier_of(const std::filesystem::path& file, const toml:
   }
   const Vector3 normal(numbers[3], numbers[4], numbers[5]);
   if (!good || !(normal.norm() > 1e-9))
-    refuse(file, table, "scene.barrier: must be [x, y, z, nx, ny, nz], a point [m] and a normal");
+    source.refuse("barrier", "must be [x, y, z, nx, ny, nz], a point [m] and a normal");
   return Barrier{.point = Vector3(numbers[0], numbers[1], numbers[2]), .normal = normal.normalized()};
 }
 
-ScenePlan scene_plan(const std::filesystem::path& file, const toml::table& table) {
-  constexpr std::array<std::string_view, 6> kKeys = {"name", "image", "title", "text", "markers", "barrier"};
-  for (const auto& [key, node] : table) {
-    if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) {
-      refuse(file, node, fmt::format("scene.{}: unknown key; known are {}", key.str(), fmt::join(kKeys, ", ")));
-    }
+ScenePlan scene_plan(const Source& source, std::span<const std::string_view> keys) {
+  for (const auto& [key, node] : source.table) {
+    if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+      source.refuse(key.str(), fmt::format("unknown key; known are {}", fmt::join(keys, ", ")), node);
   }
-  return {.name = text_of(file, table, "name"),
-          .image = text_of(file, table, "image"),
-          .title = text_of(file, table, "title"),
-          .text = text_of(file, table, "text"),
-          .markers = markers_of(file, table),
-          .barrier = barrier_of(file, table)};
+  return {.name = source.text("name"),
+          .image = source.text("image"),
+          .title = source.text("title"),
+          .text = source.text("text"),
+          .markers = markers_of(source),
+          .barrier = barrier_of(source)};
+}
+
+/// The tables [[KIND]].
+std::vector<Source> tables(const std::filesystem::path& file, const toml::table& root, const char* kind) {
+  const toml::array* array = root[kind].as_array();
+  if (array == nullptr || !array->is_homogeneous<toml::table>())
+    refuse(file, root, fmt::format("{0}: must be tables, each begun by [[{0}]]", kind));
+  std::vector<Source> sources;
+  for (const toml::node& node : *array) sources.push_back({file, *node.as_table(), kind});
+  return sources;
 }
 
 }  // namespace
 
-std::vector<ScenePlan> read_plan(const std::filesystem::path& file) {
+Plan read_plan(const std::filesystem::path& file) {
+  static constexpr std::array<std::string_view, 7> kKeys = {"name",    "image",   "title", "text",
+                                                            "markers", "barrier", "device"};
   const toml::table root = parse(file);
-  const toml::array* scenes = root["scene"].as_array();
-  if (root.size() != 1 || scenes == nullptr || !scenes->is_homogeneous<toml::table>()) {
-    refuse(file, root, "scene: must be tables, each begun by [[scene]], and nothing else");
+  for (const auto& [key, node] : root) {
+    if (key != "scene" && key != "run")
+      refuse(file, node, fmt::format("{}: unknown; known are [[scene]] and [[run]]", key.str()));
   }
-  std::vector<ScenePlan> plans;
-  for (const toml::node& node : *scenes) plans.push_back(scene_plan(file, *node.as_table()));
-  return plans;
+  Plan plan;
+  for (const Source& source : tables(file, root, "scene"))
+    plan.scenes.push_back(scene_plan(source, std::span(kKeys).first(6)));
+  if (!root.contains("run")) return plan;
+  for (const Source& source : tables(file, root, "run"))
+    plan.runs.push_back({scene_plan(source, kKeys), file.parent_path() / source.text("device")});
+  return plan;
 }
 
 }  // namespace godobject::figures

@@ -20,8 +20,20 @@ struct ScenePlan {
   std::optional<Barrier> barrier;
 };
 
+/// What is to be shown of a run of the whole controller.
+struct ArmPlan {
+  ScenePlan scene;               ///< its name is that of the folder of its telemetry
+  std::filesystem::path device;  ///< the arm's device file
+};
+
+struct Plan {
+  std::vector<ScenePlan> scenes;
+  std::vector<ArmPlan> runs;
+};
+
 /// Reads tables [[scene]] with name, image, title, text and, if wanted, markers = { A = 0.4, ... } and barrier =
-/// [point, normal]. Throws Failure: kNoInput, kBadData if it is not TOML, kBadConfig naming the key.
-std::vector<ScenePlan> read_plan(const std::filesystem::path& file);
+/// [point, normal]; and, if wanted, tables [[run]] with the same and device, a path relative to the file. Throws
+/// Failure: kNoInput, kBadData if it is not TOML, kBadConfig naming the key.
+Plan read_plan(const std::filesystem::path& file);
 
 }  // namespace godobject::figures

@@ -11,6 +11,7 @@
 
 #include "firmware/command/failure.h"
 #include "firmware/command/input_file.h"
+#include "toolchain/figures/telemetry_log.h"
 #include "toolchain/replay/replay.h"
 
 namespace godobject::figures {
@@ -59,15 +60,22 @@ bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
 }  // namespace
 
 ReplayLog read_replay_log(const std::filesystem::path& file) {
-  command::require_input(file, "make it with godobject-replay, or check the path");
+  command::require_input(file, "make it with godobject-replay or godobject-controller, or check the path");
   std::ifstream stream(file);
   const auto refuse = [&](std::size_t line, std::string_view what) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}:{}: {}; make it again with godobject-replay", file.string(), line, what));
   };
   std::string text;
-  if (!std::getline(stream, text) || text != replay::kColumns) refuse(1, "not the header of a replay");
+  std::getline(stream, text);
   ReplayLog log;
+  if (text.starts_with(kTelemetryBegin)) {
+    log = rendered(read_telemetry_log(file));
+    if (log.empty())
+      throw Failure(ExitCode::kBadData, fmt::format("{}: nothing was rendered in any cycle", file.string()));
+    return log;
+  }
+  if (text != replay::kColumns) refuse(1, "not the header of a replay");
   std::array<double, kNumbers> numbers{};
   std::string status;
   for (std::size_t line = 2; std::getline(stream, text); ++line) {

@@ -10,7 +10,7 @@
 
 namespace godobject::figures {
 
-/// One cycle as godobject-replay wrote it.
+/// One cycle as godobject-replay wrote it; of a telemetry see TelemetryRow.
 struct ReplayRow {
   double t = 0.0;      ///< [s]
   Pose H_WD;           ///< device pose of the moving mesh's frame
@@ -25,7 +25,8 @@ struct ReplayRow {
 
 using ReplayLog = std::vector<ReplayRow>;
 
-/// Reads the output of godobject-replay. Throws Failure: kNoInput if it cannot be read, kBadData naming the line.
+/// Reads the output of godobject-replay, or of the telemetry of godobject-controller the cycles in which something was
+/// rendered. Throws Failure: kNoInput if it cannot be read, kBadData naming the line.
 ReplayLog read_replay_log(const std::filesystem::path& file);
 
 /// The row whose time is nearest to t. Throws Failure (kBadData) naming `file` if t is more than a cycle off the log's

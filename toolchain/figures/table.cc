@@ -60,23 +60,31 @@ const std::vector<Column>& columns() {
   return kColumns;
 }
 
-std::string text_table(const std::vector<Entry>& entries) {
-  std::vector<std::string> lines(entries.size() + 1);
-  for (const Column& column : columns()) {
-    if (column.narrow == nullptr) continue;
-    std::vector<std::string> cells = {column.narrow};
-    for (const Entry& entry : entries) cells.push_back(column.value(entry));
+std::string laid_out(const std::vector<std::vector<std::string>>& columns) {
+  std::vector<std::string> lines(columns.front().size());
+  for (std::size_t column = 0; column < columns.size(); ++column) {
     std::size_t width = 0;
-    for (const std::string& cell : cells) width = std::max(width, cell.size());
-    const bool words = lines.front().empty() || &column == &columns()[1];
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!lines[i].empty()) lines[i] += "  ";
-      lines[i] += words ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width);
+    for (const std::string& cell : columns[column]) width = std::max(width, cell.size());
+    const bool words = column < 2;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string& cell = columns[column][i];
+      if (column > 0) lines[i] += "  ";
+      lines[i] += words ? fmt::format("{:<{}}", cell, width) : fmt::format("{:>{}}", cell, width);
     }
   }
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
-  return text + kColumnsExplained + "\n";
+  return text;
+}
+
+std::string text_table(const std::vector<Entry>& entries) {
+  std::vector<std::vector<std::string>> narrow;
+  for (const Column& column : columns()) {
+    if (column.narrow == nullptr) continue;
+    narrow.push_back({column.narrow});
+    for (const Entry& entry : entries) narrow.back().push_back(column.value(entry));
+  }
+  return laid_out(narrow) + kColumnsExplained + "\n";
 }
 
 std::string csv_table(const std::vector<Entry>& entries) {

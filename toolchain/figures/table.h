@@ -20,6 +20,9 @@ struct Column {
 /// status, times, cycles over 1 ms.
 const std::vector<Column>& columns();
 
+/// Columns, the heading of each first, as lines padded with blanks: the first two to the left, the others to the right.
+std::string laid_out(const std::vector<std::vector<std::string>>& columns);
+
 /// For a terminal of 120 characters: the narrow columns padded with blanks, headings first, then a line that explains
 /// them.
 std::string text_table(const std::vector<Entry>& entries);

@@ -32,7 +32,8 @@ const char* const kFooter = R"(Examples:
   godobject-view bunny-teapot.toml paper.csv corrected.csv contact.csv --at 0.6 --at deepest -o pictures --up y
   godobject-view peg-hole.toml contact.csv --at 1.9 -o tilted.png --cut 0,0,0,0,-1,0 --camera -80,20
 
-The still body is green, the moving one red where the device has it and blue where the god object is. Several replays of a
+The still body is green, the moving one red where the device has it and blue where the god object is. A telemetry.csv of
+godobject-controller is taken as a replay of the cycles in which something was rendered. Several replays of a
 scene are pictured from one camera, each in a picture of its own. Without --camera a direction is chosen from which the
 contact is seen. A picture's name is that of the replay and the moment: contact_0.600.png, contact_deepest.png, or what
 -o says if it ends in .png. Prints the names of the pictures that it wrote. A picture takes some seconds.
@@ -151,11 +152,12 @@ void render_all(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Renders pictures of a replay with POV-Ray.", "godobject-view");
+  CLI::App app("Renders pictures of a replay, or of a run on an arm, with POV-Ray.", "godobject-view");
   app.footer(kFooter);
   Options options;
   app.add_option("SCENE.toml", options.scene, "scene file: its meshes are drawn")->required()->type_name("");
-  app.add_option("REPLAY.csv", options.replays, "outputs of godobject-replay, of the same path")
+  app.add_option("REPLAY.csv", options.replays,
+                 "outputs of godobject-replay, of the same path, or a telemetry.csv of godobject-controller")
       ->required()
       ->type_name("");
   app.add_option("--at", options.moments, "time to show [s], or deepest: when the god object is; may be given often")

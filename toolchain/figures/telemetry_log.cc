@@ -1,0 +1,132 @@
+#include "toolchain/figures/telemetry_log.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "firmware/command/csv_lines.h"
+#include "firmware/command/csv_table.h"
+#include "firmware/command/failure.h"
+
+namespace godobject::figures {
+namespace {
+
+using command::CsvLines;
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(command::trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Where the columns stand that are looked at.
+class Columns {
+ public:
+  Columns(const CsvLines& lines, std::string_view header) : lines_(lines) {
+    std::vector<std::string_view> fields;
+    split(header, fields);
+    names_.assign(fields.begin(), fields.end());
+    for (std::size_t i = 0; i < kNumbers.size(); ++i) numbers_[i] = place(kNumbers[i]);
+    mode_ = place("mode");
+    outcome_ = place("outcome");
+    for (std::size_t joint = 1; has(fmt::format("torque{}_Nm", joint)); ++joint)
+      torques_.push_back(place(fmt::format("torque{}_Nm", joint)));
+    if (torques_.empty()) lines_.refuse("has no column torque1_Nm; make it again with godobject-controller");
+  }
+
+  TelemetryRow row(std::string_view line) {
+    split(line, fields_);
+    if (fields_.size() != names_.size())
+      lines_.refuse(
+          fmt::format("has {} fields, not {}; make it again with godobject-controller", fields_.size(), names_.size()));
+    std::array<double, kNumbers.size()> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = number(numbers_[i]);
+    TelemetryRow row;
+    row.cycle.t = v[0];
+    row.fault = static_cast<int>(v[1]);
+    row.share = v[2];
+    row.cycle.contacts = v[3];
+    row.cycle.depth = v[4];
+    row.cycle.wrench = {Vector3(v[5], v[6], v[7]), Vector3(v[8], v[9], v[10])};
+    row.cycle.H_WD = pose(&v[11]);
+    row.cycle.H_WS = pose(&v[18]);
+    row.cycle.status = fields_[outcome_];
+    row.mode = fields_[mode_];
+    for (const std::size_t place : torques_) row.torque.push_back(number(place));
+    return row;
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 25> kNumbers = {
+      "t_s",   "fault", "share", "contacts", "depth_m", "fx_N", "fy_N", "fz_N", "tx_Nm",
+      "ty_Nm", "tz_Nm", "dpx_m", "dpy_m",    "dpz_m",   "dqw",  "dqx",  "dqy",  "dqz",
+      "gpx_m", "gpy_m", "gpz_m", "gqw",      "gqx",     "gqy",  "gqz"};
+
+  static Pose pose(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
+
+  bool has(std::string_view name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
+
+  std::size_t place(std::string_view name) const {
+    if (!has(name)) lines_.refuse(fmt::format("has no column {}; make it again with godobject-controller", name));
+    return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+  }
+
+  double number(std::size_t place) const {
+    double value = 0.0;
+    if (!command::read_number(fields_[place], value) || !std::isfinite(value))
+      lines_.refuse(fmt::format("{} is \"{}\", no finite number", names_[place], fields_[place]));
+    return value;
+  }
+
+  const CsvLines& lines_;
+  std::vector<std::string> names_;
+  std::array<std::size_t, kNumbers.size()> numbers_{};
+  std::size_t mode_ = 0;
+  std::size_t outcome_ = 0;
+  std::vector<std::size_t> torques_;
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace
+
+TelemetryLog read_telemetry_log(const std::filesystem::path& file) {
+  CsvLines lines(file);
+  std::string_view line;
+  if (!lines.next(line)) lines.refuse("is empty; make it again with godobject-controller --log");
+  Columns columns(lines, line);
+  TelemetryLog log;
+  while (lines.next(line)) {
+    log.push_back(columns.row(line));
+    if (log.size() > 1 && !(log.back().cycle.t > log[log.size() - 2].cycle.t)) lines.refuse("t_s does not increase");
+  }
+  if (log.empty()) lines.refuse("holds no cycle");
+  return log;
+}
+
+ReplayLog rendered(const TelemetryLog& log) {
+  ReplayLog cycles;
+  for (const TelemetryRow& row : log) {
+    if (row.share > 0.0) cycles.push_back(row.cycle);
+  }
+  return cycles;
+}
+
+std::vector<HandWork> read_hand_log(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 2> kColumns = {"t_s", "hand_J"};
+  const command::CsvTable table = command::read_csv(file, kColumns);
+  std::vector<HandWork> log;
+  for (std::size_t i = 0; i < table.rows(); ++i) log.push_back({table.row(i)[0], table.row(i)[1]});
+  if (log.empty())
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: holds no row; make it again with godobject-controller", file.string()));
+  return log;
+}
+
+}  // namespace godobject::figures
