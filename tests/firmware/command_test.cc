@@ -80,6 +80,14 @@ TEST_F(ControllerCommandTest, RendersAPathAndLogsIt) {
     contact = contact || line.find(",running,0,1,contact,") != std::string::npos;
   }
   EXPECT_GE(rows, 6000);
+  std::ifstream hand(folder_ / "logs" / "hand.csv");
+  ASSERT_TRUE(std::getline(hand, line));
+  EXPECT_EQ(line, "t_s,hand_J");
+  int hand_rows = 0;
+  std::string last;
+  for (; std::getline(hand, line); ++hand_rows) last = line;
+  EXPECT_EQ(hand_rows, rows);
+  EXPECT_GT(std::stod(last.substr(last.find(',') + 1)), 0.0) << "it was moved and pressed";
   EXPECT_TRUE(contact);
 }
 
