@@ -59,11 +59,17 @@ TEST_F(ControllerFileTest, HasDefaultsForAllButDeviceAndPosture) {
 }
 
 TEST_F(ControllerFileTest, ReadsTheFilesOfBothDevices) {
-  for (const char* name : {"lwr", "desktop6"}) {
-    const ControllerConfig config =
-        read_controller_file(std::string(GODOBJECT_FIRMWARE_DIR "/controllers/") + name + ".toml");
-    EXPECT_EQ(config.device.name, name);
-    EXPECT_EQ(config.scene.image.filename(), "bunny-teapot.scene");
+  struct File {
+    std::string name, device, image;
+  };
+  for (const File& file : {File{"lwr", "lwr", "bunny-teapot.scene"},
+                           {"lwr-bunny-plate", "lwr", "bunny-plate.scene"},
+                           {"lwr-peg-hole", "lwr", "peg-hole.scene"},
+                           {"desktop6", "desktop6", "bunny-teapot.scene"}}) {
+    const ControllerConfig config = read_controller_file(GODOBJECT_FIRMWARE_DIR "/controllers/" + file.name + ".toml");
+    EXPECT_EQ(config.device.name, file.device);
+    EXPECT_EQ(config.scene.image.filename(), file.image);
+    EXPECT_FALSE(config.simulation.path.empty()) << file.name;
   }
 }
 
