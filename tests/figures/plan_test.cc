@@ -111,5 +111,40 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   EXPECT_EQ(html.find("<figcaption>figure"), std::string::npos);
 }
 
+TEST_F(Plan, HasAChapterForRunsOnAnArm) {
+  std::filesystem::create_directories(folder_ / "arm-peg");
+  std::ofstream(folder_ / "arm-peg" / "telemetry_1.200.png") << "x";
+  TelemetryRow row;
+  row.cycle = replay_row(1.2, 7.5, -0.00001, 5, 0.0, 0.0);
+  row.share = 1.0;
+  TelemetryRow after = row;
+  after.cycle.t = 1.3;
+  after.cycle.depth = 0.001;
+  after.share = 0.0;
+  ArmRun run;
+  run.name = "arm-peg";
+  const std::string text =
+      kScene + "[[run]]\nname = 'arm-peg'\nimage = 'hole'\ntitle = 'Felt'\ntext = 'words'\ndevice = 'x'\n";
+  const Figure figure{
+      .title = "", .facts = "", .voxel_size = 0.002, .markers = {}, .series = {{"contact", {row.cycle}}}};
+  const std::string html = page({.plan = read_plan(holding(text)),
+                                 .figures = {figure},
+                                 .entries = {},
+                                 .verdicts = {},
+                                 .arm_figures = {{.title = "Felt",
+                                                  .facts = "8 points.",
+                                                  .markers = {},
+                                                  .log = {.cycles = {row, after}, .hand = {}, .torque_limits = {}}}},
+                                 .runs = {run},
+                                 .run_verdicts = {"HOLDS & ends"}},
+                                folder_);
+  EXPECT_LT(html.find("<h2 id=\"peg\">"), html.find("<h1 id=\"closed-loop\">"));
+  EXPECT_LT(html.find("HOLDS &amp; ends"), html.find("<h2 id=\"arm-peg\">Felt</h2>"));
+  EXPECT_NE(html.find("<th>torque %</th>"), std::string::npos);
+  EXPECT_NE(html.find("telemetry, 1.200 s: depth -0.010 mm, force 7.5 N"), std::string::npos);
+  EXPECT_NE(html.find("href=\"arm-peg/hand.csv\""), std::string::npos);
+  EXPECT_NE(html.find("src=\"arm-peg/figure.png\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace godobject::figures

@@ -154,26 +154,29 @@ const char* const kArmHead = R"(<h1 id="closed-loop">The loop closed: felt throu
 <p>The controller itself, from boot to end, in virtual time: it reads the joints of a simulated arm once a millisecond, keeps the
 god object on the surface and sends the joints torques, which act a millisecond later. A hand holds the tool by a
 spring and follows the path as far as arm and force let it, so the device is where both balance, not where the path says. Solver
-contact. How long the cycles take is told by the replays. Red is where the device has the moving object, blue where the god object keeps it.</p>
+contact. Red is where the device has the moving object, blue where the god object keeps it. How long cycles take is told by the
+replays.</p>
+)";
+
+const char* const kArmColumns =
+    R"(<p>In contact: cycles. Depth: of the deepest sample point in contact, below 0 a gap; behind: beyond the plate. Device: how far
+the god object was from it at most. Force: largest at the hand. Step: largest change of it from one cycle to the next. Cut, ovf:
+cycles whose motion could not be finished, with more near points than fit. Torque: largest of a joint, of its limit; most of it holds
+the arm. Work: of the hand on the tool from the first to the last cycle that rendered; what it does not get back goes into friction
+and dampers. In the figures the torque at the hand is about the mesh's origin, depths below -100 um are drawn there, and what is
+not rendered is left out.</p>
 )";
 
 std::string arm_html(const PageContent& content, const std::filesystem::path& folder) {
-  std::string text = kArmHead + cells_html(arm_columns(), content.runs);
-  text +=
-      "<p>Depth: of the deepest sample point in contact, below 0 a gap. In contact: cycles. Device: furthest that the "
-      "god "
-      "object was from the device. Force: largest at the hand. Step: largest change of it from one cycle to the next. "
-      "Torque: largest of a joint, of its limit; most of it holds the arm. Work: of the hand on the tool from the "
-      "first to "
-      "the last cycle that rendered; what the hand does not get back went into friction and dampers.</p>\n";
+  std::string text = kArmHead + cells_html(arm_columns(), content.runs) + kArmColumns;
   text += list(content.run_verdicts);
   for (std::size_t i = 0; i < content.plan.runs.size(); ++i) {
     const ScenePlan& plan = content.plan.runs[i].scene;
     const ArmFigure& figure = content.arm_figures[i];
     text += scene_html(plan, figure.facts, {{"telemetry", rendered(figure.log.cycles)}}, folder);
     text += fmt::format(
-        "<p>Of the run: <a href=\"{0}/telemetry.csv\">telemetry</a> <a href=\"{0}/hand.csv\">work of "
-        "the hand</a></p>\n",
+        "<p>Of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
+        "hand</a></p>\n",
         escaped(plan.name));
   }
   return text;
