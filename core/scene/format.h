@@ -105,7 +105,7 @@ struct Grid {
   double band;            ///< |distance| < band is stored [m]
   double surface_min[3];  ///< bounding box of the surface (of shells: thickened)
   double surface_max[3];
-  double lipschitz;           ///< largest gradient norm of the trilinear field, seams (see Brick) left out [1]
+  double lipschitz;           ///< bound of the field's gradient norm, seams (see Brick) left out [1]
   double lipschitz_seam;      ///< the same with seams [1]; equal where there is none
   std::int32_t bricks[3];     ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks, those of refinements included
@@ -139,7 +139,7 @@ static_assert(sizeof(Brick) == 512);
 ///   w = min(2 (1 - r / R(t)), (t - begin) / ramp, (end - t) / ramp) within 0 .. 1,
 ///   R = min(radius, end_radius + slope (t - begin), end_radius + slope (end - t)).
 ///
-/// Every brick in which w > 0 somewhere names the edge, and no brick two: the field is continuous.
+/// Every brick that is looked up and in which w > 0 somewhere names the edge, and none two: the field is continuous.
 struct Edge {
   double point[3];      ///< on the edge, t = 0
   double along[3];      ///< unit

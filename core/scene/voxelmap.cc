@@ -1,11 +1,11 @@
 #include "core/scene/voxelmap.h"
 
-#include "core/scene/edge.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "core/scene/edge.h"
 
 namespace godobject {
 namespace {

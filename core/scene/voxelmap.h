@@ -24,9 +24,9 @@ class Voxelmap {
   double lipschitz() const noexcept { return lipschitz_seam_; }
 
   /// The stored field at p_W, trilinear but for bricks with an edge (format::Edge), and its exact gradient. Outside the
-  /// grid is free space
-  /// (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts as outside.
-  /// The clearance is the distance over the Lipschitz constant, less where a seam is near, more beyond the band.
+  /// grid is free space (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts
+  /// as outside. The clearance is the distance over the Lipschitz constant, less where a seam is near, more beyond the
+  /// band.
   FieldSample sample(const Vector3& p_W) const noexcept;
 
   /// The paper's voxel layer v = round(-phi(C) / s) at the centre C of the voxel (node) nearest to p_W; beyond the band

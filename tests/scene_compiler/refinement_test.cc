@@ -316,6 +316,9 @@ TEST(Refinement, GivesTheSameEveryTime) {
   EXPECT_EQ(one.grid.index, other.grid.index);
   EXPECT_EQ(
       std::memcmp(one.grid.bricks.data(), other.grid.bricks.data(), one.grid.bricks.size() * sizeof(format::Brick)), 0);
+  ASSERT_EQ(one.grid.edges.size(), other.grid.edges.size());
+  EXPECT_EQ(std::memcmp(one.grid.edges.data(), other.grid.edges.data(), one.grid.edges.size() * sizeof(format::Edge)),
+            0);
   EXPECT_EQ(std::memcmp(one.grid.refined.data(), other.grid.refined.data(),
                         one.grid.refined.size() * sizeof(format::Refined)),
             0);

@@ -83,11 +83,7 @@ void FieldSlope::add(const format::Brick& brick, const format::Edge& edge, const
         nodes[c] = static_cast<double>(brick.value[node]);
       }
       gradient = std::max((1.0 - least) * plain + least, (1.0 - most) * plain + most);
-      // both are distances: where even the crudest bound of their difference is none too much, it will do
-      const double crude = half_diagonal * 2.0;
-      if (least < 1.0 && gradient + steepest * crude > smooth_) {
-        gradient += steepest * largest_difference(edge, first, voxel_size_, nodes);
-      }
+      if (least < 1.0) gradient += steepest * largest_difference(edge, first, voxel_size_, nodes);
     }
     seamed_ = std::max(seamed_, gradient * kRounding);
     smooth_ = std::max(smooth_, gradient * kRounding);

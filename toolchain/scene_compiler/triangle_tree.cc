@@ -211,6 +211,17 @@ void TriangleTree::set_dipoles() {
 }
 
 bool TriangleTree::nearest(const Vector3d& p, double bound_squared, Nearest& nearest) const noexcept {
+  return nearest_of(
+      p, bound_squared, [](std::uint32_t) { return true; }, nearest);
+}
+
+bool TriangleTree::nearest(const Vector3d& p, double bound_squared, const std::function<bool(std::uint32_t)>& counts,
+                           Nearest& nearest) const {
+  return nearest_of(p, bound_squared, counts, nearest);
+}
+
+template <class Counts>
+bool TriangleTree::nearest_of(const Vector3d& p, double bound_squared, const Counts& counts, Nearest& nearest) const {
   if (nodes_.empty()) return false;
   struct Open {
     std::uint32_t node;
@@ -230,7 +241,7 @@ bool TriangleTree::nearest(const Vector3d& p, double bound_squared, Nearest& nea
         const Triangle& t = triangles_[i];
         const Vector3d q = nearest_point_on_triangle(p, t.a, t.b, t.c);
         const double squared = (q - p).squaredNorm();
-        if (squared < best) {
+        if (squared < best && counts(t.id)) {
           best = squared;
           found = true;
           nearest = {squared, q, t.id};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,10 @@ class TriangleTree {
   /// Nearest point of all triangles with a squared distance below `bound_squared`; false where there is none.
   bool nearest(const Eigen::Vector3d& p, double bound_squared, Nearest& nearest) const noexcept;
 
+  /// The same among the triangles whose id `counts` accepts.
+  bool nearest(const Eigen::Vector3d& p, double bound_squared, const std::function<bool(std::uint32_t)>& counts,
+               Nearest& nearest) const;
+
   /// First triangle met at t_min < t < t_max on origin + t direction.
   bool first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min, double t_max,
                  RayHit& hit) const noexcept;
@@ -59,6 +64,8 @@ class TriangleTree {
     double radius;           ///< around all of the subtree's vertices
   };
 
+  template <class Counts>
+  bool nearest_of(const Eigen::Vector3d& p, double bound_squared, const Counts& counts, Nearest& nearest) const;
   std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
   std::uint32_t split(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
   void set_dipoles();
