@@ -63,9 +63,11 @@ Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   if (!supervisor_.renders()) god_object_.reset();
   if (const Status status = god_object_.update({H_WM, velocity_W}, report_); status != Status::kOk) return status;
 
-  Wrench wrench_W = report_.force.total_W;          // about the centre of mass
-  wrench_W.torque += p_MB_W.cross(wrench_W.force);  // about M's origin
-  at_hand_ = limit_at_hand(setup_.hand, mapping_->wrench_at_hand(wrench_W), velocity_R);
+  // the hand is at the centre of mass: there its limits hold
+  lever_R_ = H_RM.rotation._transformVector(setup_.scene->H_MB.translation) / setup_.mapping.scale;
+  Motion velocity_B = velocity_R;
+  velocity_B.translation += velocity_R.rotation.cross(lever_R_);
+  at_hand_ = limit_at_hand(setup_.hand, mapping_->wrench_at_hand(report_.force.total_W), velocity_B);
   return Status::kOk;
 }
 
@@ -75,6 +77,7 @@ Status ControlCycle::compute_torque(const ArmKinematics& kinematics) noexcept {
   request.qd = qd_;
   request.kinematics = kinematics;
   request.F_W = at_hand_.wrench_R;
+  request.F_W.torque += lever_R_.cross(request.F_W.force);  // about M's origin
   request.p_W = kinematics.H_WM.translation;
   const Status status = joint_torque(*setup_.arm, *setup_.joint_torque, request, joint_torque_);
   computed_.holding = joint_torque_.gravity;
@@ -116,8 +119,9 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   if (mapping_) record_.H_WM = mapping_->scene_pose();
   record_.god_object_W = god_object_.mesh_pose();
   record_.share = decision.share;
-  record_.wrench_R = {decision.share * joint_torque_.rendered_W.force,
-                      decision.share * joint_torque_.rendered_W.torque};
+  const Wrench& rendered = joint_torque_.rendered_W;  // about M's origin
+  record_.wrench_R = {decision.share * rendered.force,
+                      decision.share * (rendered.torque - lever_R_.cross(rendered.force))};
   record_.penetration = report_.penetration;
   record_.contacts = report_.contacts;
   record_.lost = positions_.lost;

@@ -18,7 +18,7 @@ namespace godobject::firmware {
 /// What the loop around the cycle knows of it.
 struct LoopEvents {
   std::int64_t overrun_ns = 0;  ///< by how much the cycle before was late to end
-  std::uint32_t skipped = 0;    ///< periods that passed without a cycle since then
+  std::uint32_t skipped = 0;    ///< periods without a position since the last cycle
   bool end_requested = false;
   bool reset_requested = false;
 };
@@ -49,7 +49,7 @@ struct CycleRecord {
   Pose H_RM;                                 ///< the tool in the room
   Pose H_WM;                                 ///< the moving mesh as the device holds it
   Pose god_object_W;                         ///< the moving mesh as the god object holds it
-  Wrench wrench_R;                           ///< asked of the arm at M's origin, share included [N, Nm]
+  Wrench wrench_R;                           ///< on the hand, at the centre of mass, share included [N, Nm]
   double share = 0.0;                        ///< of what is rendered
   double penetration = 0.0;                  ///< as CycleReport [m]
   std::uint32_t contacts = 0;
@@ -113,6 +113,7 @@ class ControlCycle {
   JointVector qd_ = JointVector::Zero();
   JointVector last_q_ = JointVector::Zero();
   CycleReport report_;
+  Vector3 lever_R_ = Vector3::Zero();  // from M's origin to the hand, the body's centre of mass [m]
   LimitedWrench at_hand_;
   JointTorque joint_torque_;
   ComputedTorque computed_;

@@ -43,8 +43,8 @@ const char* const kFooter = R"(Examples:
 
 The loop begins once all drives answer, their joints rest within their limits and the enable switch is held; it pushes each
 joint a little, to see that it moves the right way, and renders once the contact force is small. A fault takes the torque
-away and is latched: SIGHUP resets it once emergency stop and enable switch are released. SIGTERM and SIGINT end the run in
-order: exit 0.
+away and is latched: SIGUSR1 resets it once emergency stop and enable switch are released. SIGTERM, SIGINT and SIGHUP end the run
+in order: exit 0.
 
 --bus sim, the default, is a simulated device with a hand on it, in virtual time: as fast as the machine can. With
 loop.real_time it keeps to the clock, on a thread with real-time priority as far as that is permitted.
@@ -77,14 +77,17 @@ struct Options {
 firmware::RunRequests requests;  // of the signals
 
 void on_signal(int signal) {
-  (signal == SIGHUP ? requests.reset : requests.end).store(true, std::memory_order_relaxed);
+  (signal == SIGUSR1 ? requests.reset : requests.end).store(true, std::memory_order_relaxed);
 }
 
 void catch_signals() {
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::sigaction(signal, &action, nullptr);
+  // a terminal that is closed ends the run, it resets nothing
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1}) ::sigaction(signal, &action, nullptr);
+  action.sa_handler = SIG_IGN;  // of a telemetry that cannot be written: that costs records
+  for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaction(signal, &action, nullptr);
 }
 
 void warn(const std::string& what) { fmt::print(stderr, "godobject-controller: {}\n", what); }

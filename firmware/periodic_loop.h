@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "firmware/control_cycle.h"
@@ -24,29 +25,36 @@ struct LoopStatistics {
 /// `after(times)` follows each call, once the next deadline is known: it is for records and does not count as
 /// computing.
 ///
-/// Overruns: a cycle that ends after the next one should have begun. Deadlines that have passed by then are left out,
-/// never made up for in a burst; the next call is told by how much it was late and how many were left out, and the
-/// statistics count both. Real-time safe if `body` and `after` are.
+/// Overruns: a cycle that ends after the next one should have begun, or wakes a period late. Deadlines that have passed
+/// by then are left out, never made up for in a burst. A cycle is told of its own late waking and of what the cycle
+/// before took too long, each once, and how many periods went by without a call since the last one: counted from waking
+/// to waking, since that is when positions are taken. Real-time safe if `body` and `after` are.
 template <class Body, class After>
 void run_periodically(hal::Clock& clock, std::int64_t period_ns, LoopStatistics& statistics, Body&& body,
                       After&& after) noexcept {
-  LoopEvents events;
+  const auto nearest_period = [period_ns](std::int64_t ns) { return (ns + period_ns / 2) / period_ns; };
   std::int64_t deadline_ns = (clock.now_ns() + period_ns - 1) / period_ns * period_ns;
+  std::int64_t last_period = nearest_period(deadline_ns) - 1;
+  std::int64_t took_too_long_ns = 0;
   for (bool goes_on = true; goes_on;) {
     clock.sleep_until(deadline_ns);
     const std::int64_t woke_ns = clock.now_ns();
+    const std::int64_t late_ns = woke_ns - deadline_ns;
+    const bool woke_late = late_ns >= period_ns;
+    const std::int64_t period = nearest_period(woke_ns);
+    LoopEvents events;
+    events.skipped = static_cast<std::uint32_t>(std::max<std::int64_t>(0, period - last_period - 1));
+    events.overrun_ns = std::max(took_too_long_ns, woke_late ? late_ns : 0);
+    last_period = period;
     goes_on = body(events);
     const std::int64_t done_ns = clock.now_ns();
-    const CycleTimes times{deadline_ns, woke_ns - deadline_ns, done_ns - woke_ns};
+    const CycleTimes times{deadline_ns, late_ns, done_ns - woke_ns};
     statistics.lateness.add(times.late_ns);
     statistics.compute.add(times.compute_ns);
+    const std::int64_t next_ns = woke_late ? woke_ns + period_ns : deadline_ns + period_ns;
+    took_too_long_ns = std::max<std::int64_t>(0, done_ns - next_ns);
     deadline_ns += period_ns;
-    events = LoopEvents();
-    if (done_ns > deadline_ns) {
-      events.overrun_ns = done_ns - deadline_ns;
-      events.skipped = static_cast<std::uint32_t>((events.overrun_ns - 1) / period_ns + 1);
-      deadline_ns += events.skipped * period_ns;
-    }
+    if (done_ns > deadline_ns) deadline_ns += ((done_ns - deadline_ns - 1) / period_ns + 1) * period_ns;
     after(times);
   }
 }

@@ -25,7 +25,7 @@ class SignTest {
   static constexpr std::uint32_t kStillCycles = 50;   ///< in which the straight line is found
   static constexpr std::uint32_t kPushCycles = 1000;  ///< in which the torque rises to its largest
   static constexpr double kAtRest = 0.15;             ///< of `motion` in kStillCycles
-  static constexpr std::uint32_t kWaits = 8;         ///< times kStillCycles, for that
+  static constexpr std::uint32_t kWaits = 8;          ///< times kStillCycles, for that
   static constexpr int kAttempts = 3;
 
   SignTest(const ArmModel& arm, const Parameters& parameters) noexcept;

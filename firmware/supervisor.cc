@@ -73,17 +73,6 @@ Decision Supervisor::step(const Observation& seen) noexcept {
   ++in_mode_;
   const bool too_many_overruns = overruns_.update(seen.overrun_ns);
   const Fault fault = find_fault(seen, too_many_overruns);
-  if (seen.end_requested && !ending_) {
-    ending_ = true;
-    end_step_ = share_ / kEndRamp;
-    if (mode_ == Mode::kEngaging || mode_ == Mode::kRunning) {
-      enter(Mode::kEnding);
-    } else if (powered() && mode_ != Mode::kFade) {
-      enter(Mode::kStopping);
-    } else if (mode_ != Mode::kFade && mode_ != Mode::kStopping) {
-      enter(Mode::kEnded);
-    }
-  }
   if (fault == Fault::kPositionLost && powered()) {
     if (mode_ != Mode::kFade) {
       fault_ = fault;
@@ -92,8 +81,24 @@ Decision Supervisor::step(const Observation& seen) noexcept {
   } else if (fault != Fault::kNone) {
     stop(fault);
   }
+  if (seen.end_requested && !ending_) begin_ending();
   advance(seen);
-  return decide(seen);
+  const Decision decision = decide(seen);
+  last_power_ = decision.power;
+  return decision;
+}
+
+/// After the faults of the cycle: a stop goes on as it is.
+void Supervisor::begin_ending() noexcept {
+  ending_ = true;
+  end_step_ = share_ / kEndRamp;
+  if (mode_ == Mode::kEngaging || mode_ == Mode::kRunning) {
+    enter(Mode::kEnding);
+  } else if (powered() && mode_ != Mode::kFade) {
+    enter(Mode::kStopping);
+  } else if (mode_ != Mode::kFade && mode_ != Mode::kStopping) {
+    enter(Mode::kEnded);
+  }
 }
 
 void Supervisor::enter(Mode mode) noexcept {
@@ -126,7 +131,8 @@ Fault Supervisor::find_fault(const Observation& seen, bool too_many_overruns) co
     if (too_many_overruns) return Fault::kOverruns;
     if (seen.sends_failed >= 3) return Fault::kSendFailed;
   } else {
-    if (!seen.drives.all_answer || seen.drives.any_fault) return Fault::kDriveLeft;
+    // a drive that has power unasked is as bad as one that has tripped
+    if (!seen.drives.all_answer || seen.drives.any_fault || !seen.drives.none_moves) return Fault::kDriveLeft;
     if (seen.jumps >= 2) return Fault::kPositionJump;
   }
   return seen.lost >= 3 ? Fault::kPositionLost : Fault::kNone;
@@ -141,7 +147,9 @@ void Supervisor::advance(const Observation& seen) noexcept {
   test_torque_.setZero();
   switch (mode_) {
     case Mode::kBoot:
-      if (seen.drives.all_answer && !seen.drives.any_fault && seen.lost == 0) {
+      if (seen.drives.all_answer && seen.drives.any_fault) {
+        stop(Fault::kDriveLeft);  // what has tripped waits for the operator, also over a restart
+      } else if (seen.drives.all_answer && seen.drives.none_moves && seen.lost == 0) {
         reference_ = seen.q;
         enter(Mode::kZeroCheck);
       } else if (in_mode_ > parameters_.boot_cycles) {
@@ -219,12 +227,16 @@ void Supervisor::advance(const Observation& seen) noexcept {
   }
 }
 
+/// A drive that has lost its power, or has not been given any yet, must not be given it by a stop.
+hal::PowerRequest Supervisor::power_to_stop(const DriveSummary& drives, bool may_hold) const noexcept {
+  if (last_power_ == hal::PowerRequest::kOff) return hal::PowerRequest::kOff;
+  const bool holds = may_hold && drives.all_enabled && last_power_ == hal::PowerRequest::kEnable;
+  return holds ? hal::PowerRequest::kEnable : hal::PowerRequest::kQuickStop;
+}
+
 Decision Supervisor::decide(const Observation& seen) const noexcept {
   Decision decision;
   switch (mode_) {
-    case Mode::kBoot:
-      if (seen.drives.any_fault) decision.power = hal::PowerRequest::kReset;
-      break;
     case Mode::kResetting: decision.power = hal::PowerRequest::kReset; break;
     case Mode::kEnabling:
       if (in_mode_ > parameters_.prepare_cycles) decision.power = hal::PowerRequest::kEnable;
@@ -241,17 +253,18 @@ Decision Supervisor::decide(const Observation& seen) const noexcept {
       decision.test_torque = test_torque_;
       break;
     case Mode::kFade:
-      decision.power = hal::PowerRequest::kEnable;
+      decision.power = power_to_stop(seen.drives, true);
       decision.holds_arm = true;
       decision.share = 1.0 - static_cast<double>(in_mode_) / kFadeCycles;
       decision.of_last = true;
       decision.rate_limited = false;
       break;
     case Mode::kStopping:
-      decision.power = in_mode_ <= kHoldCycles ? hal::PowerRequest::kEnable : hal::PowerRequest::kQuickStop;
+      decision.power = power_to_stop(seen.drives, in_mode_ <= kHoldCycles);
       decision.holds_arm = true;
       decision.rate_limited = false;
       break;
+    case Mode::kBoot:
     case Mode::kZeroCheck:
     case Mode::kIdle:
     case Mode::kStopped:

@@ -94,6 +94,8 @@ struct Decision {
 /// The only place that decides what a fault means, and the only owner of torque: what it does not grant is not sent. A
 /// state machine without time, hardware or I/O; `step` is called once a cycle.
 ///
+/// Neither asks for power that was not asked for in the cycle before, or that a drive has lost since.
+///
 /// FADE: the two cycles for which a position may be missing are what the last torque is held for; from the third on it
 /// goes to nothing in kFadeCycles. STOP: nothing is rendered from this cycle on; drives that obey hold the arm, and
 /// after kHoldCycles they are told to come to rest by themselves, then to close the brakes. The cycles before are there
@@ -121,7 +123,7 @@ class Supervisor {
   static constexpr std::uint32_t kEndStop = 120;     ///< for brakes when asked to end
   static constexpr std::uint32_t kFaultStop = 1000;  ///< for brakes after a fault
   static constexpr double kAtRest = 0.005;           ///< of the zero check [rad]
-  static constexpr double kMovesAway = 0.2;          ///< before and in the sign test [rad]
+  static constexpr double kMovesAway = 0.05;         ///< before and in the sign test [rad]
 
   Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept;
 
@@ -149,13 +151,16 @@ class Supervisor {
   void advance(const Observation& seen) noexcept;
   bool moved(const Observation& seen, double more_than) const noexcept;
   bool before_sign_is_known() const noexcept { return mode_ == Mode::kEnabling || mode_ == Mode::kSignTest; }
+  void begin_ending() noexcept;
   Decision decide(const Observation& seen) const noexcept;
+  hal::PowerRequest power_to_stop(const DriveSummary& drives, bool may_hold) const noexcept;
   bool powered() const noexcept { return (mode_ >= Mode::kEnabling && mode_ <= Mode::kFade) || mode_ == Mode::kEnding; }
 
   int joint_count_;
   Parameters parameters_;
   Mode mode_ = Mode::kBoot;
   Fault fault_ = Fault::kNone;
+  hal::PowerRequest last_power_ = hal::PowerRequest::kOff;
   std::uint32_t in_mode_ = 0;  // cycles, this one included
   bool ending_ = false;
   bool sign_tested_;

@@ -48,7 +48,6 @@ JointVector TorqueLimiter::apply(const Decision& decision, const ComputedTorque&
     rate_limited_ = near != torque;
     torque = near;
   }
-  if (!torque.allFinite()) torque = holding;
   if (!torque.allFinite()) torque.setZero();
   pushed_ = torque - holding;
   sent_ = torque;

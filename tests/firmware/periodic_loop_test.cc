@@ -74,6 +74,56 @@ TEST(PeriodicLoop, LeavesOutWhatHasPassedAndTellsTheNextCycle) {
   }
 }
 
+/// The scheduler's lateness lies before the cycle that wakes late: that one must know, for its velocities.
+TEST(PeriodicLoop, TellsACycleOfItsOwnLateWakingAndNoOther) {
+  class LateOnce final : public hal::Clock {
+   public:
+    explicit LateOnce(std::int64_t by) : late_by_(by) {}
+    std::int64_t now_ns() noexcept override { return now; }
+    void sleep_until(std::int64_t ns) noexcept override {
+      now = std::max(now, ns);
+      if (++slept_ == 4) now += late_by_;
+    }
+    std::int64_t now = 0;
+
+   private:
+    std::int64_t late_by_;
+    int slept_ = 0;
+  };
+  for (const std::int64_t late : {400'000, 999'999, 1'000'000, 1'600'000, 2'400'000, 7'200'000}) {
+    LateOnce clock(late);
+    LoopStatistics statistics;
+    std::vector<LoopEvents> heard;
+    std::vector<std::int64_t> woke;
+    run_periodically(
+        clock, kPeriod_ns, statistics,
+        [&](const LoopEvents& events) {
+          heard.push_back(events);
+          woke.push_back(clock.now);
+          clock.now += 50'000;
+          return heard.size() < 8;
+        },
+        [](const CycleTimes&) {});
+    EXPECT_EQ(heard[3].overrun_ns, late >= kPeriod_ns ? late : 0) << late;
+    std::int64_t periods = 0;
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+      if (i != 3) {
+        EXPECT_EQ(heard[i].overrun_ns, late < kPeriod_ns && late > 950'000 && i == 4 ? late + 50'000 - kPeriod_ns : 0)
+            << late << " " << i;
+      }
+      // what the positions are taken to be apart is never off by more than half a period
+      const auto told = static_cast<double>(1 + heard[i].skipped);
+      const double apart = static_cast<double>(woke[i] - woke[i - 1]) / kPeriod_ns;
+      EXPECT_LE(std::abs(told - apart), 1.0) << late << " " << i;
+      if (i == 3) {
+        EXPECT_LE(std::abs(told - apart), 0.5) << late;
+      }
+      periods += 1 + heard[i].skipped;
+    }
+    EXPECT_LE(std::abs(periods - (woke.back() - woke.front()) / kPeriod_ns), 1) << late;
+  }
+}
+
 TEST(DurationHistogram, TellsQuantilesToASixteenthOfAnOctave) {
   test::Random random(2);
   std::vector<std::int64_t> all;

@@ -172,7 +172,10 @@ TEST_P(FaultTable, IsReactedToInTime) {
     EXPECT_EQ(bench.step().share, 0.0);
     if (bench.decision.power != requests.back()) requests.push_back(bench.decision.power);
   }
-  EXPECT_EQ(requests, (std::vector<PowerRequest>{PowerRequest::kEnable, PowerRequest::kQuickStop, PowerRequest::kOff}));
+  std::vector<PowerRequest> expected = {PowerRequest::kEnable, PowerRequest::kQuickStop, PowerRequest::kOff};
+  // what has lost its power is not given it back
+  if (row.fault == Fault::kDriveLeft) expected.erase(expected.begin());
+  EXPECT_EQ(requests, expected);
   EXPECT_EQ(bench.supervisor.mode(), Mode::kStopped);
   EXPECT_EQ(bench.supervisor.fault(), row.fault) << "the first fault is latched";
 }
@@ -320,6 +323,75 @@ TEST(Supervisor, StopsWhenADriveDoesNotBecomeEnabled) {
     ++cycles;
   }
   EXPECT_EQ(cycles, static_cast<int>(parameters().prepare_cycles + Supervisor::kEnableCycles));
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
+}
+
+/// Whatever happens, in whichever cycle since the start: no stop asks for power that the drives have not got.
+TEST(Supervisor, NeverGivesPowerByStopping) {
+  const std::vector<std::function<void(Observation&)>> causes = {
+      [](Observation& o) { o.emergency_stop = true; },
+      [](Observation& o) { o.enable_switch = false; },
+      [](Observation& o) { o.end_requested = true; },
+      [](Observation& o) { o.lost = 3; },
+      [](Observation& o) { o.drives.all_enabled = false; },
+      [](Observation& o) { o.drives.any_fault = true; },
+      [](Observation& o) { o.end_requested = o.drives.any_fault = true; },
+      [](Observation& o) { o.finite = false; }};
+  for (int start = 0; start < 200; ++start) {
+    for (std::size_t c = 0; c < causes.size(); ++c) {
+      Bench bench;
+      for (int i = 0; i < start; ++i) bench.step();
+      PowerRequest before = bench.decision.power;
+      for (int i = 0; i < 40; ++i) {
+        causes[c](bench.seen);
+        const bool had_power = bench.seen.drives.all_enabled;
+        bench.step();
+        const Mode mode = bench.supervisor.mode();
+        if (mode == Mode::kFade || mode == Mode::kStopping) {
+          ASSERT_TRUE(bench.decision.power != PowerRequest::kEnable || (before == PowerRequest::kEnable && had_power))
+              << "cause " << c << " after " << start << " cycles";
+        }
+        before = bench.decision.power;
+      }
+    }
+  }
+}
+
+/// systemctl stop of a process that hung: both come at once.
+TEST(Supervisor, EndsThoughAFaultComesInTheSameCycle) {
+  for (int start = 0; start < 460; ++start) {
+    Bench bench;
+    for (int i = 0; i < start; ++i) bench.step();
+    const bool powered = bench.decision.power == PowerRequest::kEnable;
+    bench.seen.end_requested = bench.seen.drives.any_fault = true;
+    bench.step();
+    if (powered) {
+      EXPECT_EQ(bench.decision.power, PowerRequest::kEnable) << "the arm is held, then stopped; after " << start;
+      EXPECT_TRUE(bench.decision.holds_arm);
+    }
+    for (int i = 0; i < 200; ++i) bench.step();
+    EXPECT_EQ(bench.supervisor.mode(), Mode::kEnded) << start;
+    bench.seen.reset_requested = true;
+    bench.seen.enable_switch = false;
+    for (int i = 0; i < 10; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+  }
+}
+
+TEST(Supervisor, LeavesADriveThatHasTrippedToTheOperator) {
+  Bench bench;
+  bench.seen.drives.any_fault = true;
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kStopped);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
+}
+
+TEST(Supervisor, DoesNotWaitBesideADriveThatHasPowerUnasked) {
+  Bench bench;
+  bench.seen.enable_switch = false;
+  ASSERT_GE(bench.run_to(Mode::kIdle), 0);
+  bench.obeys = false;
+  bench.seen.drives.none_moves = false;
+  bench.step();
   EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
 }
 
