@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -311,6 +312,7 @@ TEST_F(ControlCycleTest, AsksForNeitherHeapNorPages) {
     step();
   }
   const int cycles = cycles_to_look_at();
+  const bool locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;  // as on the device
   const test::AllocationGuard guard;
   const long faults_before = page_faults();
   int in_contact = 0;
@@ -320,11 +322,12 @@ TEST_F(ControlCycleTest, AsksForNeitherHeapNorPages) {
     in_contact += cycle_->record().outcome == Outcome::kContact ? 1 : 0;
   }
   const long faults = page_faults() - faults_before;
-  EXPECT_EQ(guard.allocations() + guard.releases(), 0);
-  EXPECT_EQ(faults, 0);
+  const auto calls = static_cast<long>(guard.allocations() + guard.releases());
+  std::printf("%d cycles, %d of them in contact: %ld calls of the heap, %ld page faults%s\n", cycles, in_contact, calls,
+              faults, locked ? "" : " (not judged: memory could not be locked)");
+  EXPECT_EQ(calls, 0);
+  EXPECT_TRUE(faults == 0 || !locked);
   EXPECT_GT(in_contact, cycles / 4);
-  std::printf("%d cycles, %d of them in contact: %ld calls of the heap, %ld page faults\n", cycles, in_contact,
-              static_cast<long>(guard.allocations() + guard.releases()), faults);
   EXPECT_EQ(cycle_->record().fault, Fault::kNone);
 }
 
