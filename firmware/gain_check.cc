@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include "core/device/dynamics.h"
 #include "core/device/kinematics.h"
@@ -89,6 +90,37 @@ GainReport check_gains(const Scene& scene, const ArmModel& arm, const JointVecto
   report.gyration = std::sqrt(parameters.mass.inertia.sum() / 3.0);
   report.coupling_gyration = std::sqrt(parameters.coupling_rotation / parameters.coupling_translation);
   return report;
+}
+
+void require_stable_joints(const ArmModel& arm, const JointTorqueParameters& control, const JointVector& posture,
+                           const LoopTiming& timing) {
+  JointVector inertia = JointVector::Constant(std::numeric_limits<double>::infinity());
+  for (int i = 0; i <= kPostures; ++i) {
+    const ArmKinematics kinematics = forward_kinematics(arm, posture_near(arm, posture, i));
+    const Eigen::MatrixXd mass = mass_matrix(arm, kinematics).topLeftCorner(arm.joint_count, arm.joint_count);
+    const Eigen::MatrixXd inverse = mass.inverse();
+    for (int k = 0; k < arm.joint_count; ++k) inertia[k] = std::min(inertia[k], 1.0 / inverse(k, k));
+  }
+  for (int k = 0; k < arm.joint_count; ++k) {
+    AxisLoop axis{.mass = inertia[k],
+                  .damping = arm.joints[static_cast<std::size_t>(k)].damping,
+                  .virtual_damping = control.null_damping[k] + control.limit_damping[k],
+                  .timing = timing};
+    const auto refuse = [&](const char* key, double value, double boundary, const char* unit) {
+      throw command::Failure(
+          command::ExitCode::kBadConfig,
+          fmt::format("device: joint {} has {} of {:.4g} {}, with {:.3g} kg m^2 and this delay it is "
+                      "stable below {:.4g} only: lower it",
+                      k + 1, key, value, unit, inertia[k], boundary));
+    };
+    if (const double most = damping_boundary(axis); axis.virtual_damping > 0.0 && !(axis.virtual_damping < most)) {
+      refuse("null_damping and limit_damping", axis.virtual_damping, most, "Nms/rad");
+    }
+    const double stiffness = control.limit_stiffness[k];
+    if (const double most = stability_boundary(axis); stiffness > 0.0 && !(stiffness < most)) {
+      refuse("limit_stiffness", stiffness, most, "Nm/rad");
+    }
+  }
 }
 
 std::vector<std::string> judge_gains(const GainReport& report, const FeltCoupling& felt, double least) {

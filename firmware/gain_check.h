@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/device/joint_torque.h"
 #include "core/device/stability.h"
 #include "core/device/workspace_mapping.h"
 #include "core/scene/scene.h"
@@ -38,6 +39,13 @@ inline constexpr int kPostures = 60;
 inline constexpr double kProbe =
     1.5;  ///< stiffness at which the worst posture is looked for, times that of the coupling
 inline constexpr double kSpread = 0.5;  ///< [rad]
+
+/// The joints' own feedback runs in the same loop: damping of null-space motion and the springs before position limits.
+/// Each joint alone, all others free, at its smallest apparent inertia 1 / (M^-1)_ii over the same postures: throws
+/// command::Failure (kBadConfig) naming joint, key and boundary where damping or stiffness is beyond the exact one (A4,
+/// A5). Cost: at start-up, about 0.1 s.
+void require_stable_joints(const ArmModel& arm, const JointTorqueParameters& control, const JointVector& posture,
+                           const LoopTiming& timing);
 
 /// Throws command::Failure (kBadConfig) with the boundary if the margin is below `least`. Returns what is only to be
 /// warned of, one line each.

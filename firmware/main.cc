@@ -253,6 +253,7 @@ firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& sc
 void check_gains(const ControllerConfig& config, const Scene& scene, const firmware::Device& device, double delay) {
   const double scale = config.workspace.scale;
   const LoopTiming timing{firmware::ControlCycle::kPeriod, delay, config.loop.velocity_window};
+  firmware::require_stable_joints(device.model, device.torque, config.workspace.posture, timing);
   const firmware::GainReport report =
       firmware::check_gains(scene, device.model, config.workspace.posture, scale, timing);
   const auto felt = firmware::FeltCoupling::of(scene, scale);

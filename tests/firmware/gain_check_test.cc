@@ -40,6 +40,28 @@ class GainCheckTest : public testing::Test {
   LoopTiming timing_{1e-3, 1e-3, 2};
 };
 
+TEST_F(GainCheckTest, RefusesJointsWhoseOwnFeedbackIsBeyondTheBoundary) {
+  require_stable_joints(arm_.model, arm_.parameters, posture_, timing_);
+  const test::Arm desktop = test::desktop6();
+  JointVector bent = JointVector::Zero();
+  bent.head<6>() << 0.0, 0.6, -0.2, 0.0, 0.0, 0.0;
+  require_stable_joints(desktop.model, desktop.parameters, bent, timing_);
+  const auto refused = [&](const JointTorqueParameters& control) {
+    try {
+      require_stable_joints(arm_.model, control, posture_, timing_);
+    } catch (const command::Failure& failure) {
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  JointTorqueParameters control = arm_.parameters;
+  control.null_damping = JointVector::Constant(60.0);  // runs away while it engages, in free space
+  EXPECT_NE(refused(control).find("null_damping"), std::string::npos) << refused(control);
+  control = arm_.parameters;
+  control.limit_stiffness[6] = 1e5;
+  EXPECT_NE(refused(control).find("joint 7 has limit_stiffness"), std::string::npos) << refused(control);
+}
+
 TEST_F(GainCheckTest, FindsTheExactBoundaryAtItsWorstPosture) {
   const GainReport report = check();
   ASSERT_GT(report.margin, 1.5);
