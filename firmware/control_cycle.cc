@@ -90,6 +90,7 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   seen.drives = summarize(reading_, setup_.arm->joint_count);
   seen.emergency_stop = reading_.emergency_stop;
   seen.enable_switch = reading_.enable_switch;
+  seen.alarm = reading_.alarm != hal::Alarm::kNone;
   seen.q = positions_.q;
   seen.lost = positions_.lost;
   seen.jumps = positions_.jumps;
@@ -114,6 +115,8 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
 void ControlCycle::keep(const Decision& decision) noexcept {
   record_.mode = supervisor_.mode();
   record_.fault = supervisor_.fault();
+  record_.alarm = reading_.alarm;
+  record_.alarm_joint = reading_.alarm_joint;
   record_.q = positions_.q;
   record_.qd = qd_;
   if (mapping_) record_.H_WM = mapping_->scene_pose();

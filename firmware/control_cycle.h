@@ -42,6 +42,8 @@ struct CycleCounters {
 struct CycleRecord {
   Mode mode = Mode::kBoot;
   Fault fault = Fault::kNone;
+  hal::Alarm alarm = hal::Alarm::kNone;
+  int alarm_joint = -1;
   Status status = Status::kOk;
   JointVector q = JointVector::Zero();       ///< checked [rad]
   JointVector qd = JointVector::Zero();      ///< [rad/s]
@@ -84,7 +86,11 @@ class ControlCycle {
   /// kNotInImage: the scene was compiled without that solver, or without friction. Before the first `run_once`.
   Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction); }
 
-  /// One cycle. Cost: that of GodObject::update and about 10 us. Real-time safe.
+  /// Begins a cycle: the joints are asked for their positions, which `run_once` takes `collect_ns` later.
+  void request() noexcept { drives_.request(); }
+  std::int64_t collect_ns() const noexcept { return drives_.collect_ns(); }
+
+  /// The rest of the cycle. Cost: that of GodObject::update and about 10 us. Real-time safe.
   void run_once(const LoopEvents& events) noexcept;
 
   const CycleRecord& record() const noexcept { return record_; }

@@ -38,6 +38,7 @@ const char* describe(Fault fault) noexcept {
     case Fault::kComputation: return "the cycle could not be computed; look at the telemetry's last rows";
     case Fault::kOverruns: return "the loop was late too often; run godobject-controller doctor";
     case Fault::kDriveLeft: return "a drive is not enabled; look at its own error";
+    case Fault::kAlarm: return "a bus or a drive raised an alarm";
     case Fault::kSendFailed: return "torques could not be sent three times in a row; check the bus";
     case Fault::kEmergencyStop: return "emergency stop; release it and reset";
     case Fault::kEnableReleased: return "the enable switch was released; reset and hold it again";
@@ -49,6 +50,26 @@ const char* describe(Fault fault) noexcept {
       return "a joint did not move when pushed; keep the hand still, check its brake and encoder";
   }
   return "unknown fault";
+}
+
+const char* describe(hal::Alarm alarm) noexcept {
+  switch (alarm) {
+    case hal::Alarm::kNone: return "none";
+    case hal::Alarm::kBusDown:
+      return "a CAN interface is down or bus-off; check wiring and termination, set it up again";
+    case hal::Alarm::kBadFrames: return "three frames in a row that its drive cannot have sent; check the PDO mapping";
+    case hal::Alarm::kNodeReset: return "the drive started anew; check its supply";
+    case hal::Alarm::kHeartbeatLost: return "the drive's heartbeat stayed away; check its supply and the bus";
+    case hal::Alarm::kDriveError: return "the drive sent an emergency message; look its code up in its manual";
+    case hal::Alarm::kWrongMode: return "the drive left cyclic synchronous torque or the operational state";
+    case hal::Alarm::kForeignMaster:
+      return "somebody else sends frames that only this controller may; stop the other master";
+    case hal::Alarm::kForeignWrite: return "somebody else wrote to a drive; disconnect the tool and start again";
+    case hal::Alarm::kParameterChanged:
+      return "a parameter of the drive is not what was written at the start; start again";
+    case hal::Alarm::kPanelLost: return "the operator's panel does not answer; check its wiring";
+  }
+  return "unknown alarm";
 }
 
 DriveSummary summarize(const hal::JointReading& reading, int joint_count) noexcept {
@@ -117,6 +138,7 @@ Fault Supervisor::find_fault(const Observation& seen, bool too_many_overruns) co
   if (mode_ >= Mode::kStopping && mode_ != Mode::kEnding) return Fault::kNone;
   if (!seen.finite && (mode_ != Mode::kBoot || seen.drives.all_answer)) return Fault::kNotFinite;
   if (mode_ == Mode::kBoot) return Fault::kNone;
+  if (seen.alarm) return Fault::kAlarm;
   if (powered()) {
     if (seen.emergency_stop) return Fault::kEmergencyStop;
     if (!seen.enable_switch) return Fault::kEnableReleased;

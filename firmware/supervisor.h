@@ -39,6 +39,7 @@ enum class Fault : std::uint8_t {
   kComputation,     ///< the cycle could not be computed
   kOverruns,        ///< the loop was late too often, or too much
   kDriveLeft,       ///< a drive is no longer enabled, or does not become so
+  kAlarm,           ///< a bus or a drive said something that power must not outlive: the reading's alarm
   kSendFailed,      ///< torques could not be handed over three times in a row
   kEmergencyStop,   ///< pressed, or its line is dead
   kEnableReleased,  ///< the operator let go of the enable switch
@@ -50,6 +51,7 @@ enum class Fault : std::uint8_t {
 
 const char* name(Mode mode) noexcept;        ///< one word
 const char* describe(Fault fault) noexcept;  ///< one clause with the cure
+const char* describe(hal::Alarm alarm) noexcept;
 
 struct DriveSummary {
   bool all_answer = false;
@@ -65,6 +67,7 @@ struct Observation {
   DriveSummary drives;
   bool emergency_stop = false;
   bool enable_switch = false;
+  bool alarm = false;
   JointVector q = JointVector::Zero();  ///< checked positions [rad]
   std::uint32_t lost = 0;               ///< as CheckedPositions
   std::uint32_t jumps = 0;

@@ -24,6 +24,21 @@ enum class PowerRequest : std::uint8_t {
   kReset,      ///< leave kFault for kOff
 };
 
+/// What a bus or a drive says beside its state. Each is a reason to take power away.
+enum class Alarm : std::uint8_t {
+  kNone,
+  kBusDown,           ///< an interface is down, or its controller has left the bus
+  kBadFrames,         ///< three frames in a row that a drive cannot have sent
+  kNodeReset,         ///< a drive has started anew
+  kHeartbeatLost,     ///< a drive's heartbeat stayed away
+  kDriveError,        ///< a drive has sent an emergency message
+  kWrongMode,         ///< a drive is not in cyclic synchronous torque, or not operational
+  kForeignMaster,     ///< somebody else sends what only this controller may
+  kForeignWrite,      ///< somebody else has written to a drive
+  kParameterChanged,  ///< a drive's parameter is no longer what was written at the start
+  kPanelLost,         ///< the operator's panel does not answer
+};
+
 /// Joint side, SI; entries from the joint count on are zero. What is not fresh keeps its last value.
 struct JointReading {
   JointVector position = JointVector::Zero();   ///< [rad]
@@ -32,6 +47,9 @@ struct JointReading {
   std::array<DriveState, kMaxJoints> state{};
   bool emergency_stop = false;  ///< the emergency stop is pressed, or its line is dead
   bool enable_switch = false;   ///< the operator holds the enable switch
+  bool clutch_open = false;     ///< the operator moves the arm without moving in the scene
+  Alarm alarm = Alarm::kNone;   ///< the first one since the last reset
+  int alarm_joint = -1;         ///< whose it is; -1: nobody's
 };
 
 struct JointCommand {
@@ -39,14 +57,20 @@ struct JointCommand {
   PowerRequest power = PowerRequest::kOff;
 };
 
-/// The joints as the control cycle sees them: one `receive` and one `send` a cycle, in this order. Both never block,
-/// allocate or throw. Power requests are levels, not edges: they are repeated each cycle, and the drives get there
-/// when they can.
+/// The joints as the control cycle sees them: `request`, `receive` and `send` once a cycle, in this order; `receive`
+/// belongs `collect_ns` after `request`. They never block, allocate or throw. Power requests are levels, not edges:
+/// they are repeated each cycle, and the drives get there when they can.
 class JointDrives {
  public:
   virtual ~JointDrives() = default;
 
   virtual int joint_count() const noexcept = 0;
+
+  /// Asks all joints for a sample of now: the beginning of the cycle.
+  virtual void request() noexcept = 0;
+
+  /// In which the samples come, after `request` [ns].
+  virtual std::int64_t collect_ns() const noexcept = 0;
 
   /// Takes what has come since the last call.
   virtual void receive(JointReading& reading) noexcept = 0;

@@ -37,6 +37,8 @@ class DirectDrives final : public hal::JointDrives, public World {
                std::span<const DriveFault> script = {}) noexcept;
 
   int joint_count() const noexcept override { return plant_.joint_count(); }
+  void request() noexcept override {}  // joints are sampled by the clock
+  std::int64_t collect_ns() const noexcept override { return 0; }
   void receive(hal::JointReading& reading) noexcept override;
   bool send(const hal::JointCommand& command) noexcept override;
   double delay() const noexcept override { return 1e-9 * static_cast<double>(timing_.delay_ns); }

@@ -13,6 +13,8 @@ class FakeDrives final : public hal::JointDrives {
   explicit FakeDrives(int joint_count) : joint_count_(joint_count) { reading.enable_switch = true; }
 
   int joint_count() const noexcept override { return joint_count_; }
+  void request() noexcept override {}
+  std::int64_t collect_ns() const noexcept override { return 0; }
   void receive(hal::JointReading& out) noexcept override { out = reading; }
   double delay() const noexcept override { return 1e-3; }
 

@@ -30,7 +30,7 @@ TEST(PeriodicLoop, WakesAtAbsoluteDeadlinesWhateverComputingTakes) {
   test::Random random(1);
   int left = 1000;
   run_periodically(
-      clock, kPeriod_ns, statistics,
+      clock, kPeriod_ns, 0, statistics, [] {},
       [&](const LoopEvents& events) {
         EXPECT_EQ(events.overrun_ns, 0);
         EXPECT_EQ(events.skipped, 0u);
@@ -59,7 +59,7 @@ TEST(PeriodicLoop, LeavesOutWhatHasPassedAndTellsTheNextCycle) {
     std::vector<LoopEvents> heard;
     std::vector<std::int64_t> deadlines;
     run_periodically(
-        clock, kPeriod_ns, statistics,
+        clock, kPeriod_ns, 0, statistics, [] {},
         [&, spent = took](const LoopEvents& events) {
           heard.push_back(events);
           if (heard.size() == 3) clock.now += spent;
@@ -96,7 +96,7 @@ TEST(PeriodicLoop, TellsACycleOfItsOwnLateWakingAndNoOther) {
     std::vector<LoopEvents> heard;
     std::vector<std::int64_t> woke;
     run_periodically(
-        clock, kPeriod_ns, statistics,
+        clock, kPeriod_ns, 0, statistics, [] {},
         [&](const LoopEvents& events) {
           heard.push_back(events);
           woke.push_back(clock.now);
