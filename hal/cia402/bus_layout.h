@@ -34,7 +34,7 @@ struct PanelConfig {
 struct BusLayout {
   int bus_count = 1;
   double bit_rate = 1e6;           ///< [bit/s]
-  bool fd = false;                 ///< PDOs in FD frames
+  bool fd = false;                 ///< SYNC and PDOs in FD frames; all else stays classical
   double data_rate = 5e6;          ///< of FD frames' data [bit/s]
   double period = 1e-3;            ///< [s]
   double compute = 120e-6;         ///< what the controller may take between the last position and the first torque [s]
@@ -42,9 +42,16 @@ struct BusLayout {
   double drive_heartbeat = 20e-3;  ///< producer of drives and controller [s]
   double heartbeat_timeout = 50e-3;  ///< consumer [s]
   double boot_timeout = 5.0;         ///< for each node [s]
+  int read_back_interval = 100;      ///< cycles from one SDO exchange to the next while torque may flow
   int joint_count = 0;
   std::array<DriveConfig, kMaxJoints> drives{};
   PanelConfig panel;
+};
+
+/// When things happen in a cycle; `plan_buses` computes it.
+struct BusTiming {
+  std::int64_t collect_ns = 0;  ///< from SYNC's hand-over until every sample has come
+  double delay_s = 0.0;         ///< longest time from a sample to the torque that answers it [s]
 };
 
 }  // namespace godobject::hal
