@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hal/cia402/bus_layout.h"
+
+namespace godobject::hal {
+
+/// One bus in the worst case: every frame as long as bit stuffing can make it, with the gap of 3 bits after it [ns].
+struct BusLoad {
+  int joints = 0;
+  bool panel = false;
+  std::int64_t sync_ns = 0;
+  std::int64_t samples_ns = 0;   ///< TPDOs of drives and panel
+  std::int64_t torques_ns = 0;   ///< RPDOs
+  std::int64_t blocking_ns = 0;  ///< a heartbeat that is on the wire already: once before SYNC, once before the RPDOs
+  std::int64_t end_ns = 0;       ///< of the last RPDO, from the beginning of the cycle
+  std::int64_t slot_ns = 0;      ///< what a cycle needs into which one SDO frame falls in place of the heartbeats
+  std::int64_t late_ns = 0;      ///< by how much that SDO frame may push samples beyond their collection
+  double utilisation = 0.0;      ///< share of the time in which the wire is not idle, heartbeats and SDO included
+  bool fits = false;             ///< neither `end_ns` nor `slot_ns` is beyond the period
+};
+
+/// What the buses carry in a cycle, and when.
+///
+/// On each bus: SYNC, the TPDOs that answer it, the controller's computing, the RPDOs. The drives sample at the end of
+/// SYNC and apply an RPDO at its end. All samples are collected at one time, that of the slowest bus. Frames of lower
+/// priority, of which there may be any number, cost one frame wherever the wire falls idle: before SYNC and before the
+/// RPDOs. These are heartbeats; of the two frames of an SDO exchange, sent every `read_back_interval` cycles, one falls
+/// into a cycle. Not counted: the drives' own time to answer a SYNC, emergency messages (they end in a stop anyway).
+struct BusPlan {
+  std::array<BusLoad, kMaxBuses> buses{};  ///< the first `bus_count`
+  BusTiming timing;
+  std::array<std::int64_t, kMaxJoints> unblocked_ns{};  ///< from a joint's sample to its torque without blocking frames
+  std::array<double, kMaxJoints> torque_step{};         ///< of the joint: a permille of the rated torque [Nm]
+  bool fits = false;                                    ///< all buses do
+};
+
+/// Length of a data frame with 11 bit identifier, its gap included, if stuffing is at its worst [ns]. `bytes`: of data.
+///
+/// Classical, n bytes: 44 + 8 n bits, of which 34 + 8 n are stuffed, a bit after the first five and after each four
+/// more, and 3 of gap: 55 + 10 n.
+/// FD (ISO 11898-1): at the nominal rate SOF to BRS 17 with 4 stuff bits, CRC delimiter to gap 13; at the data rate ESI
+/// and DLC 5, n bytes, 1 + 2 n stuff bits, stuff count 4, CRC 17 with 6 fixed stuff bits (beyond 16 bytes 21 with 7):
+/// 34 nominal and 33 (38) + 10 n data bits.
+std::int64_t longest_frame_ns(int bytes, bool fd, const BusLayout& layout) noexcept;
+
+/// The same without the stuff bits that depend on what is in the frame.
+std::int64_t shortest_frame_ns(int bytes, bool fd, const BusLayout& layout) noexcept;
+
+/// The plan of a layout whose joints and panel are on its buses and whose rates are positive. No heap, no exceptions;
+/// for the start, not for the cycle.
+BusPlan plan_buses(const BusLayout& layout) noexcept;
+
+}  // namespace godobject::hal
