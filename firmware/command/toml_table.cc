@@ -88,8 +88,12 @@ std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, 
 }
 
 std::int64_t TomlTable::whole_number(std::string_view key, Range range, std::int64_t fallback) const {
+  return find(key) == nullptr ? fallback : whole_number(key, range);
+}
+
+std::int64_t TomlTable::whole_number(std::string_view key, Range range) const {
   const toml::node* node = find(key);
-  if (node == nullptr) return fallback;
+  if (node == nullptr) miss(key, fmt::format("a whole number from {:g} to {:g}", range.low, range.high));
   if (!node->is_integer()) complain(key, "must be a whole number");
   const std::int64_t value = node->value<std::int64_t>().value_or(0);
   require_in_range(key, static_cast<double>(value), range);

@@ -41,6 +41,7 @@ class TomlTable {
   double number(std::string_view key, Range range, Example example = {}) const;  ///< no default
   double number(std::string_view key, Range range, double fallback) const;
   std::vector<double> numbers(std::string_view key, std::size_t count, Range range) const;  ///< no default
+  std::int64_t whole_number(std::string_view key, Range range) const;                       ///< no default
   std::int64_t whole_number(std::string_view key, Range range, std::int64_t fallback) const;
   bool flag(std::string_view key, bool fallback) const;
 

@@ -104,12 +104,15 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   read_workspace(table("workspace"), config);
 
   const TomlTable loop = table("loop");
-  loop.allow({"real_time", "cpu", "priority", "velocity_window"});
+  loop.allow({"real_time", "cpu", "priority", "velocity_window", "compute"});
   config.loop.real_time = loop.flag("real_time", config.loop.real_time);
   config.loop.cpu = static_cast<int>(loop.whole_number("cpu", {-1, 1023}, config.loop.cpu));
   config.loop.priority = static_cast<int>(loop.whole_number("priority", {1, 98}, config.loop.priority));
   config.loop.velocity_window = static_cast<int>(
       loop.whole_number("velocity_window", {2, VelocityEstimator::kMaxWindow}, config.loop.velocity_window));
+
+  config.loop.compute = loop.number("compute", {1e-6, 0.9e-3}, config.loop.compute);
+  config.device.bus.compute = config.loop.compute;
 
   read_limits(table("limits"), config.limits);
 

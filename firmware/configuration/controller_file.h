@@ -34,6 +34,7 @@ struct ControllerConfig {
     int cpu = -1;            ///< that the loop is bound to; -1: none
     int priority = 80;       ///< SCHED_FIFO
     int velocity_window = 4;
+    double compute = 120e-6;  ///< that computing may take in the bus plan [s]
   } loop;
 
   /// Of the hand, in the room; a `stop` beyond its threshold is a fault.

@@ -1,6 +1,7 @@
 #include "firmware/configuration/device_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -47,9 +48,50 @@ void require_possible(const ArmJoint& joint, const TomlTable& table) {
   if (status != Status::kOk) table.complain("inertia", fmt::format("is not possible: {}", describe(status)));
 }
 
+hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
+  hal::DriveConfig drive;
+  drive.bus = static_cast<int>(table.whole_number("bus", {0, hal::kMaxBuses - 1}));
+  drive.node = static_cast<int>(table.whole_number("node", {1, 126}));
+  drive.counts = table.number("counts", {16.0, 1e9});
+  drive.gear = table.number("gear", {1e-3, 1e4});
+  drive.rated_torque = table.number("rated_torque", kPositive);
+  drive.sign = table.number("sign", {-1.0, 1.0});
+  if (std::fabs(drive.sign) != 1.0) table.complain("sign", "must be 1 or -1");
+  drive.zero = table.number("zero", kAngle);
+  // torques travel as 16 bit permille of the rated one
+  const double share = joint.torque / (drive.gear * drive.rated_torque);
+  if (!(share > 0.01 && share < 32.0)) {
+    table.complain("rated_torque", fmt::format("times gear is {:.3g} Nm at the joint, out of proportion to its torque "
+                                               "limit of {:.3g} Nm; check both",
+                                               drive.gear * drive.rated_torque, joint.torque));
+  }
+  return drive;
+}
+
 void read_joint(const TomlTable& table, std::size_t index, Device& device) {
-  table.allow({"a", "alpha", "d", "offset", "lower", "upper", "velocity", "torque", "rotor", "damping", "mass", "com",
-               "inertia", "null_damping", "limit_stiffness", "limit_damping"});
+  table.allow({"a",
+               "alpha",
+               "d",
+               "offset",
+               "lower",
+               "upper",
+               "velocity",
+               "torque",
+               "rotor",
+               "damping",
+               "mass",
+               "com",
+               "inertia",
+               "null_damping",
+               "limit_stiffness",
+               "limit_damping",
+               "bus",
+               "node",
+               "counts",
+               "gear",
+               "rated_torque",
+               "sign",
+               "zero"});
   ArmJoint& joint = device.model.joints[index];
   joint.a = table.number("a", kLength);
   joint.alpha = table.number("alpha", kAngle);
@@ -67,6 +109,49 @@ void read_joint(const TomlTable& table, std::size_t index, Device& device) {
   device.torque.null_damping[i] = table.number("null_damping", kNotNegative);
   device.torque.limit_stiffness[i] = table.number("limit_stiffness", kNotNegative);
   device.torque.limit_damping[i] = table.number("limit_damping", kNotNegative);
+  device.bus.drives[index] = read_drive(table, joint);
+}
+
+/// Who is where: every node once a bus, every bus up to the last one in use.
+void check_nodes(const TomlTable& joint, const hal::BusLayout& bus, std::size_t index) {
+  const hal::DriveConfig& drive = bus.drives[index];
+  for (std::size_t j = 0; j < index; ++j) {
+    if (bus.drives[j].bus == drive.bus && bus.drives[j].node == drive.node) {
+      joint.complain("node", fmt::format("= {} is joint {}'s on the same bus, too; give it another node or bus",
+                                         drive.node, j + 1));
+    }
+  }
+  if (bus.panel.bus == drive.bus && bus.panel.node == drive.node) {
+    joint.complain("node", fmt::format("= {} is the panel's on the same bus, too", drive.node));
+  }
+}
+
+void read_bus(const TomlTable& table, hal::BusLayout& bus) {
+  table.allow({"bit_rate", "fd", "data_rate", "command_deadline", "drive_heartbeat", "heartbeat_timeout",
+               "boot_timeout", "panel_bus", "panel_node"});
+  bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
+  bus.fd = table.flag("fd", bus.fd);
+  bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
+  bus.command_deadline = table.number("command_deadline", {2e-3, 0.01}, bus.command_deadline);
+  bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);
+  bus.heartbeat_timeout = table.number("heartbeat_timeout", {2.0 * bus.drive_heartbeat, 0.5}, bus.heartbeat_timeout);
+  bus.boot_timeout = table.number("boot_timeout", {0.1, 60.0}, bus.boot_timeout);
+  bus.panel.bus = static_cast<int>(table.whole_number("panel_bus", {-1, hal::kMaxBuses - 1}, bus.panel.bus));
+  bus.panel.node = static_cast<int>(table.whole_number("panel_node", {1, 126}, bus.panel.node));
+}
+
+void count_buses(const TomlTable& table, const std::vector<TomlTable>& joints, hal::BusLayout& bus) {
+  bus.joint_count = static_cast<int>(joints.size());
+  int last = bus.panel.bus;
+  for (const hal::DriveConfig& drive : bus.drives) last = std::max(last, drive.bus);
+  bus.bus_count = last + 1;
+  for (int b = 0; b < bus.bus_count; ++b) {
+    const bool used = b == bus.panel.bus || std::any_of(bus.drives.begin(), bus.drives.begin() + bus.joint_count,
+                                                        [b](const hal::DriveConfig& drive) { return drive.bus == b; });
+    if (!used)
+      table.complain("panel_bus", fmt::format("or a joint's bus is wrong: nobody is on bus {}; count from 0", b));
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) check_nodes(joints[i], bus, i);
 }
 
 void read_torque(const TomlTable& table, Device& device) {
@@ -87,7 +172,7 @@ void read_torque(const TomlTable& table, Device& device) {
 
 Device read_device_file(const std::filesystem::path& file) {
   const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file, {"arm", "torque", "joint", "tool", "payload"});
+  command::allow_tables(root, file, {"arm", "torque", "bus", "joint", "tool", "payload"});
   Device device;
   const TomlTable arm(root, "arm", file);
   arm.allow({"name", "base", "gravity"});
@@ -102,6 +187,9 @@ Device read_device_file(const std::filesystem::path& file) {
   }
   for (std::size_t i = 0; i < joints.size(); ++i) read_joint(joints[i], i, device);
   device.model.joint_count = static_cast<int>(joints.size());
+  const TomlTable bus(root, "bus", file);
+  read_bus(bus, device.bus);
+  count_buses(bus, joints, device.bus);
 
   const TomlTable tool(root, "tool", file);
   tool.allow({"pose"});

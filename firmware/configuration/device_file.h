@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/device/joint_torque.h"
+#include "hal/cia402/bus_layout.h"
 
 namespace godobject::firmware {
 
@@ -12,6 +13,7 @@ struct Device {
   std::string name;
   ArmModel model;
   JointTorqueParameters torque;
+  hal::BusLayout bus;  ///< without `compute`: that is the controller's
 };
 
 /// Reads and validates a device file; its keys stand at the top of firmware/devices/*.toml. No key has a default.

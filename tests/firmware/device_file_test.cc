@@ -58,6 +58,13 @@ TEST_F(DeviceFileTest, ReadsBothArms) {
   const Device desktop = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
   EXPECT_EQ(desktop.model.joint_count, 6);
   EXPECT_EQ(desktop.torque.singular_full, 0.016);
+  EXPECT_EQ(lwr.bus.bus_count, 3);
+  EXPECT_EQ(lwr.bus.joint_count, 7);
+  EXPECT_EQ(lwr.bus.drives[6].node, 7);
+  EXPECT_EQ(lwr.bus.drives[6].rated_torque, 38.0);
+  EXPECT_EQ(lwr.bus.panel.bus, 2);
+  EXPECT_EQ(desktop.bus.drives[2].sign, -1.0);
+  EXPECT_EQ(desktop.bus.drives[2].gear, 10.0);
 }
 
 TEST_F(DeviceFileTest, RefusesWhatIsNotThere) {
@@ -87,11 +94,21 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"mass = 0.02\n", "mass = -0.02\n", "payload.mass = -0.02 is out of range"},
            {"name = \"desktop6\"", "name = 6", "arm.name must be a text in quotes"},
            {"\n[tool]", "\n[tool", "not TOML"},
+           {"\nnode = 2\n", "\nnode = 1\n", "joint[2].node = 1 is joint 1's on the same bus"},
+           {"\nnode = 5\n", "\nnode = 32\n", "joint[5].node = 32 is the panel's"},
+           {"\nnode = 5\n", "\nnode = 5.5\n", "joint[5].node must be a whole number"},
+           {"\nbus = 0\nnode = 1\n", "\nnode = 1\n", "joint[1].bus is missing"},
+           {"\nbus = 0\nnode = 1\n", "\nbus = 4\nnode = 1\n", "joint[1].bus = 4 is out of range"},
+           {"\nsign = -1\n", "\nsign = 0.5\n", "joint[3].sign must be 1 or -1"},
+           {"\nrated_torque = 0.15\n", "\nrated_torque = 15.0\n", "joint[1].rated_torque times gear is 150 Nm"},
+           {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},
        }) {
     const std::string message = refusal(from, to);
     EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
   }
-  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:37:"), std::string::npos)
+  EXPECT_NE(refusal("panel_bus = 2", "panel_bus = 2\nheartbeat = 1").find("bus.heartbeat is not a known key"),
+            std::string::npos);
+  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:48:"), std::string::npos)
       << refusal("velocity = 8.0", "velocity = nan");
 }
 
