@@ -14,11 +14,13 @@ enum class SendResult : std::uint8_t {
 
 /// What is known of a bus beside its frames.
 struct BusHealth {
-  bool down = false;            ///< the interface is down or gone
-  bool bus_off = false;         ///< the controller has left the bus; nothing starts it again by itself
-  bool passive = false;         ///< the controller's error counters are high
-  std::uint64_t dropped = 0;    ///< received frames that the socket had no room for
-  std::uint64_t errors = 0;     ///< error frames
+  bool down = false;             ///< the interface is down or gone, or has been
+  bool bus_off = false;          ///< the controller has left the bus; nothing starts it again by itself
+  bool passive = false;          ///< the controller's error counters are high
+  std::uint64_t dropped = 0;     ///< received frames that the socket had no room for
+  std::uint64_t errors = 0;      ///< error frames
+  std::uint32_t unreturned = 0;  ///< frames handed over since the last own one came back: beyond what a few cycles
+                                 ///< send, nobody acknowledges
   std::uint64_t malformed = 0;  ///< frames that are none of CANopen's: extended, remote, impossible lengths
 };
 
