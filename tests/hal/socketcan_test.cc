@@ -4,11 +4,18 @@
 
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstring>
 #include <ctime>
+#include <iterator>
 #include <optional>
 #include <random>
 
@@ -247,6 +254,49 @@ TEST_F(SocketCanTest, AsksForNoHeap) {
     ASSERT_FALSE(bus_->receive(received));
   }
   EXPECT_EQ(guard.allocations(), 0);
+}
+
+/// Ends this process at any system call but send, recvmmsg and the end itself.
+bool allow_only_what_the_cycle_needs() {
+  const sock_filter program[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_sendto, 3, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_recvmmsg, 2, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_exit_group, 1, 0),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{static_cast<unsigned short>(std::size(program)), const_cast<sock_filter*>(program)};
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+/// What a process comes to that does `action` under these rules; 99: they cannot be set here.
+template <typename Action>
+int status_of_restricted(Action action) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!allow_only_what_the_cycle_needs()) ::_exit(99);
+    ::_exit(action());
+  }
+  int status = -1;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return status;
+}
+
+TEST_F(SocketCanTest, ItsOnlySystemCallsAreSendAndReceive) {
+  const int planted = status_of_restricted([] { return static_cast<int>(::syscall(SYS_getppid)); });
+  if (WIFEXITED(planted) && WEXITSTATUS(planted) == 99) GTEST_SKIP() << "not run: this kernel has no seccomp filters";
+  ASSERT_TRUE(WIFSIGNALED(planted));  // the rules hold
+  for (int i = 0; i < 8; ++i) put(0x181, 8);
+  const int status = status_of_restricted([&] {
+    ReceivedFrame received;
+    int seen = 0;
+    while (bus_->receive(received)) ++seen;
+    for (int i = 0; i < 1000; ++i) static_cast<void>(bus_->send({0x201, 8, false, {}}));  // full in the end
+    return seen == 8 ? 0 : 1;
+  });
+  ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 }  // namespace
