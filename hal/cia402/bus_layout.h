@@ -42,7 +42,7 @@ struct BusLayout {
   double drive_heartbeat = 20e-3;  ///< producer of drives and controller [s]
   double heartbeat_timeout = 50e-3;  ///< consumer [s]
   double boot_timeout = 5.0;         ///< for each node [s]
-  int read_back_interval = 100;      ///< cycles from one SDO exchange to the next while torque may flow
+  int read_back_interval = 50;       ///< cycles from one SDO exchange to the next while torque may flow
   int joint_count = 0;
   std::array<DriveConfig, kMaxJoints> drives{};
   PanelConfig panel;

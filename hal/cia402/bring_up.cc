@@ -1,0 +1,275 @@
+#include "hal/cia402/bring_up.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hal/canopen/network.h"
+#include "hal/canopen/sdo.h"
+#include "hal/cia402/parameters.h"
+#include "hal/cia402/stations.h"
+
+namespace godobject::hal {
+namespace {
+
+using namespace canopen;
+using cia402::kMaxStations;
+using cia402::kPanelStation;
+using cia402::ParameterStep;
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kListen_ns = 100 * kMillisecond_ns;
+constexpr std::int64_t kSettle_ns = 50 * kMillisecond_ns;  // in which a node may still boot a second time
+constexpr std::int64_t kSdoTimeout_ns = 1000 * kMillisecond_ns;
+constexpr std::int64_t kStartTimeout_ns = 1000 * kMillisecond_ns;
+constexpr int kMostFrames = 64;  // of a bus in a millisecond
+
+class BringUp {
+ public:
+  BringUp(const BusLayout& layout, std::span<CanBus* const> buses, Clock& clock, FrameTap* tap) noexcept
+      : layout_(layout), buses_(buses), clock_(clock), tap_(tap), stations_(layout) {}
+
+  BringUpResult run() noexcept {
+    if (listen() && boot() && set_up_all() && start_all()) return {};
+    return result_;
+  }
+
+ private:
+  struct Station {
+    bool booted = false;
+    NmtState state = kNmtBoot;
+  };
+
+  bool listen() noexcept;
+  bool boot() noexcept;
+  bool set_up_all() noexcept;
+  bool set_up(int station) noexcept;
+  bool start_all() noexcept;
+
+  bool do_step(int station, const ParameterStep& step) noexcept;
+  bool exchange(int station, const CanFrame& request) noexcept;
+  bool send(int bus, const CanFrame& frame) noexcept;
+  template <class Done>
+  bool wait(std::int64_t timeout_ns, Done&& done) noexcept;
+  bool poll() noexcept;
+  bool take(int bus, const CanFrame& frame) noexcept;
+  bool fail(BringUpStatus status, int bus) noexcept;
+  bool fail_at(BringUpStatus status, int station) noexcept;
+
+  const BusLayout& layout_;
+  std::span<CanBus* const> buses_;
+  Clock& clock_;
+  FrameTap* tap_;
+  cia402::Stations stations_;
+  std::array<Station, kMaxStations> seen_{};
+  bool boot_is_over_ = false;
+  int asked_ = -1;  // station from which a response is awaited
+  const ParameterStep* step_ = nullptr;
+  bool answered_ = false;
+  SdoResponse response_;
+  BringUpResult result_;
+};
+
+bool BringUp::fail(BringUpStatus status, int bus) noexcept {
+  result_.status = status;
+  result_.bus = bus;
+  return false;
+}
+
+bool BringUp::fail_at(BringUpStatus status, int station) noexcept {
+  result_.node = stations_.node(station);
+  result_.joint = station == kPanelStation ? -1 : station;
+  if (step_ != nullptr) {
+    result_.index = step_->index;
+    result_.subindex = step_->subindex;
+  }
+  return fail(status, stations_.bus(station));
+}
+
+/// Looks at one frame of somebody else's.
+bool BringUp::take(int bus, const CanFrame& frame) noexcept {
+  if (is_of_master(frame.id)) {
+    result_.found = frame.id;
+    return fail(BringUpStatus::kSecondMaster, bus);
+  }
+  Heartbeat heartbeat;
+  if (parse_heartbeat(frame, heartbeat)) {
+    const int station = stations_.at(bus, heartbeat.node);
+    if (station < 0) return true;
+    Station& seen = seen_[static_cast<std::size_t>(station)];
+    if (heartbeat.state == kNmtBoot) {
+      if (boot_is_over_) return fail_at(BringUpStatus::kStartedAnew, station);
+      seen.booted = true;
+    }
+    seen.state = heartbeat.state;
+    return true;
+  }
+  SdoResponse response;
+  if (asked_ >= 0 && parse_sdo_response(frame, response) && stations_.at(bus, response.node) == asked_ &&
+      response.index == step_->index && response.subindex == step_->subindex) {
+    response_ = response;
+    answered_ = true;
+  }
+  return true;
+}
+
+/// Takes what has come on all buses. False: the start has failed.
+bool BringUp::poll() noexcept {
+  for (std::size_t b = 0; b < buses_.size(); ++b) {
+    const int bus = static_cast<int>(b);
+    ReceivedFrame received;
+    for (int count = 0; count < kMostFrames && buses_[b]->receive(received); ++count) {
+      if (tap_ != nullptr) tap_->on_frame(bus, received);
+      if (!received.own && !take(bus, received.frame)) return false;
+    }
+    const BusHealth health = buses_[b]->health();
+    if (health.down || health.bus_off) return fail(BringUpStatus::kBusDown, bus);
+  }
+  return true;
+}
+
+/// Until `done()`, or for so long. False: time is up, or the start has failed.
+template <class Done>
+bool BringUp::wait(std::int64_t timeout_ns, Done&& done) noexcept {
+  const std::int64_t end_ns = clock_.now_ns() + timeout_ns;
+  while (poll()) {
+    if (done()) return true;
+    if (clock_.now_ns() >= end_ns) return false;
+    clock_.sleep_until(clock_.now_ns() + kMillisecond_ns);
+  }
+  return false;
+}
+
+bool BringUp::send(int bus, const CanFrame& frame) noexcept {
+  CanBus& wire = *buses_[static_cast<std::size_t>(bus)];
+  SendResult sent = SendResult::kFull;
+  const bool over = wait(kSdoTimeout_ns, [&] {
+    sent = wire.send(frame);
+    return sent != SendResult::kFull;
+  });
+  if (over && sent == SendResult::kSent) return true;
+  if (result_.status != BringUpStatus::kOk) return false;
+  return fail(over ? BringUpStatus::kBusDown : BringUpStatus::kCannotSend, bus);
+}
+
+bool BringUp::listen() noexcept {
+  wait(kListen_ns, [] { return false; });
+  return result_.status == BringUpStatus::kOk;
+}
+
+bool BringUp::boot() noexcept {
+  for (Station& station : seen_) station = Station();
+  for (int bus = 0; bus < layout_.bus_count; ++bus) {
+    if (!send(bus, nmt_frame(kNmtResetCommunication, 0))) return false;
+  }
+  const auto silent = [this] {
+    for (int i = 0; i < kMaxStations; ++i) {
+      if (stations_.has(i) && !seen_[static_cast<std::size_t>(i)].booted) return i;
+    }
+    return -1;
+  };
+  if (!wait(std::llround(1e9 * layout_.boot_timeout), [&] { return silent() < 0; })) {
+    return result_.status == BringUpStatus::kOk && fail_at(BringUpStatus::kNoBootUp, silent());
+  }
+  wait(kSettle_ns, [] { return false; });
+  boot_is_over_ = true;
+  return result_.status == BringUpStatus::kOk;
+}
+
+bool BringUp::exchange(int station, const CanFrame& request) noexcept {
+  answered_ = false;
+  asked_ = station;
+  if (!send(stations_.bus(station), request)) return false;
+  const bool answered = wait(kSdoTimeout_ns, [this] { return answered_; });
+  asked_ = -1;
+  if (answered) return true;
+  return result_.status == BringUpStatus::kOk && fail_at(BringUpStatus::kNoAnswer, station);
+}
+
+bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
+  using Kind = ParameterStep::Kind;
+  const int node = stations_.node(station);
+  step_ = &step;
+  result_ = BringUpResult();
+  const bool reads = step.kind == Kind::kExpect;
+  const CanFrame request = reads ? sdo_read(node, step.index, step.subindex)
+                                 : sdo_write(node, step.index, step.subindex, step.value, step.size);
+  if (!exchange(station, request)) return false;
+  result_.expected = step.value;
+  result_.found = response_.value;
+  if (response_.kind == SdoResponse::Kind::kAborted) {
+    const bool absent = response_.value == kAbortNoObject || response_.value == kAbortNoSubindex;
+    return (step.kind == Kind::kWriteIfThere && absent) || fail_at(BringUpStatus::kRefused, station);
+  }
+  if (!reads) return response_.kind == SdoResponse::Kind::kWritten || fail_at(BringUpStatus::kNoAnswer, station);
+  const int size = response_.kind == SdoResponse::Kind::kRead ? response_.size : 0;
+  if (response_.kind != SdoResponse::Kind::kRead || (size != 0 && size != step.size)) {
+    result_.expected = static_cast<std::uint32_t>(step.size);
+    result_.found = static_cast<std::uint32_t>(size);
+    return fail_at(BringUpStatus::kWrongSize, station);
+  }
+  return step.accepts(response_.value) || fail_at(BringUpStatus::kWrongValue, station);
+}
+
+bool BringUp::set_up(int station) noexcept {
+  cia402::ParameterSteps steps;
+  if (station == kPanelStation) {
+    cia402::panel_steps(layout_, steps);
+  } else {
+    cia402::drive_steps(layout_, layout_.drives[static_cast<std::size_t>(station)], steps);
+  }
+  const bool done = std::ranges::all_of(steps.all(), [&](const ParameterStep& step) { return do_step(station, step); });
+  step_ = nullptr;
+  return done;
+}
+
+bool BringUp::set_up_all() noexcept {
+  for (int i = 0; i < kMaxStations; ++i) {
+    if (stations_.has(i) && !set_up(i)) return false;
+  }
+  return true;
+}
+
+bool BringUp::start_all() noexcept {
+  for (int i = 0; i < kMaxStations; ++i) {
+    if (stations_.has(i) && !send(stations_.bus(i), nmt_frame(kNmtStart, stations_.node(i)))) return false;
+  }
+  const auto waiting = [this] {
+    for (int i = 0; i < kMaxStations; ++i) {
+      if (stations_.has(i) && seen_[static_cast<std::size_t>(i)].state != kNmtOperational) return i;
+    }
+    return -1;
+  };
+  if (wait(kStartTimeout_ns, [&] { return waiting() < 0; })) return true;
+  if (result_.status != BringUpStatus::kOk) return false;
+  result_.expected = kNmtOperational;
+  result_.found = seen_[static_cast<std::size_t>(waiting())].state;
+  return fail_at(BringUpStatus::kNotOperational, waiting());
+}
+
+}  // namespace
+
+const char* describe(BringUpStatus status) noexcept {
+  switch (status) {
+    case BringUpStatus::kOk: return "all nodes are operational";
+    case BringUpStatus::kBusDown:
+      return "the interface is down or bus-off; check wiring and termination, set it up again";
+    case BringUpStatus::kSecondMaster: return "somebody else sends what only a master may; stop the other master";
+    case BringUpStatus::kCannotSend:
+      return "frames do not leave the interface; check that a node is connected, and the bit rate";
+    case BringUpStatus::kNoBootUp: return "did not boot in time; check its supply, node number and bit rate";
+    case BringUpStatus::kStartedAnew: return "booted again while it was being set up; check its supply";
+    case BringUpStatus::kNoAnswer: return "did not answer; check wiring and bus load";
+    case BringUpStatus::kRefused: return "refused an object; compare it with the drive's manual";
+    case BringUpStatus::kWrongSize: return "has an object of another size; this drive cannot be used";
+    case BringUpStatus::kWrongValue: return "has another value than it must; correct the device file or the drive";
+    case BringUpStatus::kNotOperational: return "did not become operational; look at its own error";
+  }
+  return "unknown status";
+}
+
+BringUpResult bring_up(const BusLayout& layout, std::span<CanBus* const> buses, Clock& clock, FrameTap* tap) noexcept {
+  return BringUp(layout, buses, clock, tap).run();
+}
+
+}  // namespace godobject::hal

@@ -1,0 +1,312 @@
+#include "hal/cia402/can_drives.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "hal/canopen/emergency.h"
+#include "hal/canopen/network.h"
+#include "hal/canopen/sdo.h"
+
+namespace godobject::hal {
+namespace {
+
+using namespace canopen;
+using cia402::AlarmDetail;
+using cia402::kPanelStation;
+
+int cycles(double duration, double period) noexcept {
+  return std::max(1, static_cast<int>(std::lround(duration / period)));
+}
+
+}  // namespace
+
+CanDrives::CanDrives(const BusLayout& layout, std::span<CanBus* const> buses, const BusTiming& timing,
+                     FrameTap* tap) noexcept
+    : layout_(layout),
+      timing_(timing),
+      tap_(tap),
+      stations_(layout),
+      heartbeat_cycles_(cycles(layout.drive_heartbeat, layout.period)),
+      timeout_cycles_(cycles(layout.heartbeat_timeout, layout.period)) {
+  assert(static_cast<int>(buses.size()) == layout.bus_count && layout.bus_count <= kMaxBuses);
+  for (std::size_t b = 0; b < buses.size(); ++b) buses_[b].wire = buses[b];
+  restart();
+}
+
+void CanDrives::restart() noexcept {
+  for (int b = 0; b < layout_.bus_count; ++b) {
+    Bus& bus = buses_[static_cast<std::size_t>(b)];
+    bus = {.wire = bus.wire, .watch = cia402::ParameterWatch(layout_, b)};
+  }
+  for (int i = 0; i < layout_.joint_count; ++i) {
+    joint(i) = {.channel = cia402::JointChannel(layout_.drives[static_cast<std::size_t>(i)], layout_.fd)};
+  }
+  panel_ = Panel();
+  reading_ = JointReading();
+  alarm_.clear();
+  statistics_ = CanStatistics();
+  power_ = PowerRequest::kOff;
+  sync_failed_ = false;
+  quiet_ = to_heartbeat_ = since_sdo_ = 0;
+}
+
+BringUpResult CanDrives::bring_up(Clock& clock) noexcept {
+  std::array<CanBus*, kMaxBuses> wires{};
+  std::ranges::transform(buses_, wires.begin(), &Bus::wire);
+  restart();
+  return hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_);
+}
+
+void CanDrives::stop_nodes() noexcept {
+  for (int bus = 0; bus < layout_.bus_count; ++bus) send_on(bus, nmt_frame(kNmtStop, 0));
+}
+
+SendResult CanDrives::send_on(int bus, const CanFrame& frame) noexcept {
+  const SendResult result = buses_[static_cast<std::size_t>(bus)].wire->send(frame);
+  switch (result) {
+    case SendResult::kSent: ++statistics_.sent; break;
+    case SendResult::kFull: ++statistics_.full; break;
+    case SendResult::kDown:
+      ++statistics_.down;
+      alarm_.raise({.alarm = Alarm::kBusDown, .bus = bus});
+      break;
+  }
+  return result;
+}
+
+void CanDrives::request() noexcept {
+  sync_failed_ = false;
+  const bool speaks = quiet_ == 0;
+  if (!speaks) --quiet_;
+  CanFrame sync = sync_frame();
+  sync.fd = layout_.fd;
+  for (int b = 0; b < layout_.bus_count; ++b) {
+    Bus& bus = buses_[static_cast<std::size_t>(b)];
+    // silence has emptied every queue: what is still missing never left
+    if (!speaks && quiet_ == 0) bus.unechoed = 0;
+    bus.asked = speaks && send_on(b, sync) == SendResult::kSent;
+    bus.echo_ns = bus.sample_ns = 0;
+    if (bus.asked) ++bus.unechoed;
+    if (speaks && !bus.asked) sync_failed_ = true;
+  }
+}
+
+void CanDrives::receive(JointReading& reading) noexcept {
+  for (int bus = 0; bus < layout_.bus_count; ++bus) drain(bus);
+  check_health();
+  for (int i = 0; i < layout_.joint_count; ++i) close_joint(i);
+  if (layout_.panel.bus >= 0) close_panel();
+  reading_.alarm = alarm_.first().alarm;
+  reading_.alarm_joint = alarm_.first().joint;
+  reading = reading_;
+}
+
+void CanDrives::check_health() noexcept {
+  for (int b = 0; b < layout_.bus_count; ++b) {
+    const Bus& bus = buses_[static_cast<std::size_t>(b)];
+    const BusHealth health = bus.wire->health();
+    if (health.down || health.bus_off) alarm_.raise({.alarm = Alarm::kBusDown, .bus = b});
+    if (bus.watch.finding().alarm != Alarm::kNone) alarm_.raise(bus.watch.finding());
+    if (bus.sample_ns > 0 && bus.echo_ns > 0) {
+      statistics_.round_trip_ns = bus.sample_ns - bus.echo_ns;
+      statistics_.longest_round_trip_ns = std::max(statistics_.longest_round_trip_ns, statistics_.round_trip_ns);
+    }
+  }
+}
+
+void CanDrives::drain(int b) noexcept {
+  Bus& bus = buses_[static_cast<std::size_t>(b)];
+  ReceivedFrame received;
+  for (int count = 0; bus.wire->receive(received);) {
+    if (tap_ != nullptr) tap_->on_frame(b, received);
+    if (received.own) {
+      take_own(bus, received);
+    } else {
+      ++statistics_.received;
+      take(b, received);
+    }
+    if (++count == kMostFrames) {
+      ++statistics_.floods;
+      return;
+    }
+  }
+}
+
+void CanDrives::take_own(Bus& bus, const ReceivedFrame& received) noexcept {
+  if (received.frame.id != kCobSync) return;
+  if (bus.unechoed > 0) --bus.unechoed;
+  bus.echo_ns = received.time_ns;
+}
+
+void CanDrives::take(int bus, const ReceivedFrame& received) noexcept {
+  const CanFrame& frame = received.frame;
+  if (is_of_master(frame.id)) return take_foreign_master(bus, frame);
+  const auto station = [&](std::uint16_t base) {
+    const int node = node_of(frame.id, base);
+    return node == 0 ? -1 : stations_.at(bus, node);
+  };
+  if (const int i = station(kCobTpdo1); i >= 0) return take_sample(bus, i, received);
+  if (const int i = station(kCobEmergency); i >= 0) return take_emergency(bus, i, frame);
+  if (const int i = station(kCobHeartbeat); i >= 0) return take_heartbeat(bus, i, frame);
+  if (station(kCobSdoResponse) >= 0) {
+    SdoResponse response;
+    if (parse_sdo_response(frame, response)) {
+      buses_[static_cast<std::size_t>(bus)].watch.take(response);
+    } else {
+      ++statistics_.malformed;
+    }
+  }
+}
+
+void CanDrives::take_foreign_master(int bus, const CanFrame& frame) noexcept {
+  int node = node_of(frame.id, kCobSdoRequest);
+  bool writes = is_sdo_write(frame);
+  if (frame.id == kCobNmt) {
+    writes = true;
+    node = frame.length == 2 ? frame.data[1] & kMaxNode : 0;
+  }
+  const int station = stations_.at(bus, node);
+  alarm_.raise({.alarm = writes ? Alarm::kForeignWrite : Alarm::kForeignMaster,
+                .bus = bus,
+                .joint = joint_of(station),
+                .id = frame.id});
+}
+
+void CanDrives::take_sample(int b, int station, const ReceivedFrame& received) noexcept {
+  Bus& bus = buses_[static_cast<std::size_t>(b)];
+  const bool in_time = bus.asked && bus.unechoed == 0;
+  if (station == kPanelStation) {
+    if (received.frame.length != 1) {
+      ++statistics_.malformed;
+    } else if (in_time) {
+      panel_.inputs = received.frame.data[0];
+      panel_.fresh = true;
+      bus.sample_ns = received.time_ns;
+    }
+    return;
+  }
+  Joint& drive = joint(station);
+  if (!in_time) {
+    ++statistics_.late[static_cast<std::size_t>(station)];
+    return;
+  }
+  if (!drive.channel.take(received.frame)) {
+    ++statistics_.malformed;
+    if (++drive.bad_frames >= kMostBadFrames) {
+      alarm_.raise({.alarm = Alarm::kBadFrames, .bus = b, .joint = station, .id = received.frame.id});
+    }
+    return;
+  }
+  drive.bad_frames = 0;
+  drive.fresh = true;
+  bus.sample_ns = received.time_ns;
+}
+
+void CanDrives::take_emergency(int bus, int station, const CanFrame& frame) noexcept {
+  Emergency emergency;
+  if (!parse_emergency(frame, emergency)) {
+    ++statistics_.malformed;
+  } else if (is_warning(emergency.code)) {
+    ++statistics_.warnings;
+  } else {
+    alarm_.raise(
+        {.alarm = Alarm::kDriveError, .bus = bus, .joint = joint_of(station), .id = frame.id, .found = emergency.code});
+  }
+}
+
+void CanDrives::take_heartbeat(int bus, int station, const CanFrame& frame) noexcept {
+  Heartbeat heartbeat;
+  if (!parse_heartbeat(frame, heartbeat)) {
+    ++statistics_.malformed;
+    return;
+  }
+  if (station != kPanelStation) joint(station).silent = 0;
+  if (heartbeat.state == kNmtOperational) return;
+  alarm_.raise({.alarm = heartbeat.state == kNmtBoot ? Alarm::kNodeReset : Alarm::kWrongMode,
+                .bus = bus,
+                .joint = joint_of(station),
+                .id = frame.id,
+                .expected = kNmtOperational,
+                .found = heartbeat.state});
+}
+
+/// The end of a cycle for one joint.
+void CanDrives::close_joint(int i) noexcept {
+  const auto at = static_cast<std::size_t>(i);
+  Joint& drive = joint(i);
+  if (drive.fresh) {
+    drive.age = 0;
+    reading_.position[i] = drive.channel.position();
+    reading_.torque[i] = drive.channel.torque();
+  } else {
+    ++drive.age;
+    ++statistics_.lost[at];
+  }
+  drive.fresh = false;
+  const bool silent = drive.age > static_cast<std::uint32_t>(timeout_cycles_);
+  reading_.age[at] = drive.age;
+  reading_.state[at] = silent ? DriveState::kUnavailable : drive.channel.state();
+
+  const AlarmDetail of_joint{.bus = stations_.bus(i), .joint = i};
+  const auto raise = [&](Alarm alarm) {
+    AlarmDetail detail = of_joint;
+    detail.alarm = alarm;
+    alarm_.raise(detail);
+  };
+  if (drive.channel.left_torque_mode()) raise(Alarm::kWrongMode);
+  if (++drive.silent > timeout_cycles_ + 1) raise(Alarm::kHeartbeatLost);
+}
+
+void CanDrives::close_panel() noexcept {
+  if (panel_.fresh) {
+    panel_.lost = 0;
+  } else if (quiet_ == 0 && ++panel_.lost >= kMostPanelLost) {
+    panel_.inputs = 0;
+    alarm_.raise({.alarm = Alarm::kPanelLost, .bus = layout_.panel.bus});
+  }
+  panel_.fresh = false;
+  reading_.emergency_stop = (panel_.inputs & kPanelStopReleased) == 0;
+  reading_.enable_switch = (panel_.inputs & kPanelEnable) != 0;
+  reading_.clutch_open = (panel_.inputs & kPanelClutch) != 0;
+}
+
+void CanDrives::begin_reset() noexcept {
+  alarm_.reset();
+  for (int i = 0; i < layout_.joint_count; ++i) joint(i).bad_frames = 0;
+  for (int b = 0; b < layout_.bus_count; ++b) {
+    // a lost echo of SYNC would make every later sample late
+    if (buses_[static_cast<std::size_t>(b)].unechoed > 0) quiet_ = kQuietCycles;
+  }
+}
+
+bool CanDrives::send(const JointCommand& command) noexcept {
+  if (command.power == PowerRequest::kReset && power_ != PowerRequest::kReset) begin_reset();
+  power_ = command.power;
+  bool all_sent = !sync_failed_;
+  for (int i = 0; i < layout_.joint_count; ++i) {
+    CanFrame rpdo;
+    const bool finite = joint(i).channel.command(command.power, command.torque[i], rpdo);
+    const bool sent = send_on(stations_.bus(i), rpdo) == SendResult::kSent;
+    all_sent = all_sent && finite && sent;
+  }
+  send_heartbeat_or_sdo();
+  return all_sent;
+}
+
+void CanDrives::send_heartbeat_or_sdo() noexcept {
+  ++since_sdo_;
+  if (--to_heartbeat_ <= 0) {
+    to_heartbeat_ = heartbeat_cycles_;
+    for (int bus = 0; bus < layout_.bus_count; ++bus) send_on(bus, heartbeat_frame(kControllerNode, kNmtOperational));
+    return;
+  }
+  if (since_sdo_ < layout_.read_back_interval) return;
+  since_sdo_ = 0;
+  for (int bus = 0; bus < layout_.bus_count; ++bus) {
+    CanFrame request;
+    if (buses_[static_cast<std::size_t>(bus)].watch.next(request)) send_on(bus, request);
+  }
+}
+
+}  // namespace godobject::hal

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "hal/can_bus.h"
+#include "hal/cia402/alarm_latch.h"
+#include "hal/cia402/bring_up.h"
+#include "hal/cia402/bus_layout.h"
+#include "hal/cia402/can_statistics.h"
+#include "hal/cia402/joint_channel.h"
+#include "hal/cia402/parameter_watch.h"
+#include "hal/cia402/stations.h"
+#include "hal/clock.h"
+#include "hal/frame_tap.h"
+#include "hal/joint_drives.h"
+
+namespace godobject::hal {
+
+/// CiA 402 drives in cyclic synchronous torque over one or several CANopen buses, and the operator's panel.
+///
+/// A cycle. `request` sends SYNC, the first frame on each bus. `receive` takes what has come, at most kMostFrames a
+/// bus: a sample belongs to this cycle if and only if it comes after the own echo of this cycle's SYNC; what comes
+/// before it is late and used by nobody. `send` sends RPDO1 to each joint, then the controller's heartbeat every
+/// `drive_heartbeat`, or else, every `read_back_interval` cycles, one SDO request on each bus.
+///
+/// A drive that has not been heard of for `heartbeat_timeout` is kUnavailable; before that its last state stands.
+/// Without a panel the enable switch is never held.
+///
+/// Alarms: as `Alarm` says; `alarm_detail` knows more. Of others' frames on a bus: SYNC, RPDOs, the controller's
+/// heartbeat and SDO reads are kForeignMaster, NMT and SDO writes kForeignWrite; an emergency message is an alarm
+/// unless canopen::is_warning. Five watched parameters in a row not answered count as kParameterChanged. PowerRequest
+/// kReset forgets the alarm when it begins, except kNodeReset, kForeignWrite and kParameterChanged, which take a new
+/// start.
+///
+/// All but `bring_up` and `stop_nodes` is real-time safe. Cost without the bus objects': 2 us a cycle.
+class CanDrives final : public JointDrives {
+ public:
+  static constexpr int kMostFrames = 64;    ///< taken from a bus in a cycle
+  static constexpr int kMostBadFrames = 3;  ///< in a row of one joint
+  static constexpr int kMostPanelLost = 3;  ///< cycles without the panel
+  static constexpr int kQuietCycles = 10;   ///< without SYNC, to get into step again
+
+  /// `buses`: one each of the layout's, which outlive this, as the tap does if there is one. The layout has been
+  /// checked: buses and nodes exist, nodes differ on each bus and from 127.
+  CanDrives(const BusLayout& layout, std::span<CanBus* const> buses, const BusTiming& timing,
+            FrameTap* tap = nullptr) noexcept;
+
+  // not on the heap by itself: this library knows none, not even in a virtual destructor that nobody calls
+  static void* operator new(std::size_t) = delete;
+  static void operator delete(void*) noexcept {}
+
+  /// Starts all nodes, see `hal::bring_up`, and begins anew with what is known of them.
+  BringUpResult bring_up(Clock& clock) noexcept;
+
+  /// Sends NMT stop to all nodes: the end.
+  void stop_nodes() noexcept;
+
+  int joint_count() const noexcept override { return layout_.joint_count; }
+  void request() noexcept override;
+  std::int64_t collect_ns() const noexcept override { return timing_.collect_ns; }
+  void receive(JointReading& reading) noexcept override;
+  bool send(const JointCommand& command) noexcept override;
+  double delay() const noexcept override { return timing_.delay_s; }
+
+  const CanStatistics& statistics() const noexcept { return statistics_; }
+  const cia402::AlarmDetail& alarm_detail() const noexcept { return alarm_.first(); }
+
+ private:
+  struct Bus {
+    CanBus* wire = nullptr;
+    bool asked = false;          // SYNC was sent in this cycle
+    std::uint32_t unechoed = 0;  // SYNCs whose echo has not come
+    std::int64_t echo_ns = 0;    // time stamps of this cycle's SYNC and of the last sample
+    std::int64_t sample_ns = 0;
+    cia402::ParameterWatch watch;
+  };
+  struct Joint {
+    cia402::JointChannel channel;
+    bool fresh = false;
+    std::uint32_t age = 0;
+    int bad_frames = 0;  // in a row
+    int silent = 0;      // cycles since its heartbeat
+  };
+  struct Panel {
+    bool fresh = false;
+    int lost = 0;
+    std::uint8_t inputs = 0;
+  };
+
+  void restart() noexcept;
+  Joint& joint(int i) noexcept { return joints_[static_cast<std::size_t>(i)]; }
+  SendResult send_on(int bus, const CanFrame& frame) noexcept;
+  void check_health() noexcept;
+  void drain(int bus) noexcept;
+  void take_own(Bus& bus, const ReceivedFrame& received) noexcept;
+  void take(int bus, const ReceivedFrame& received) noexcept;
+  void take_foreign_master(int bus, const CanFrame& frame) noexcept;
+  void take_sample(int bus, int station, const ReceivedFrame& received) noexcept;
+  void take_emergency(int bus, int station, const CanFrame& frame) noexcept;
+  void take_heartbeat(int bus, int station, const CanFrame& frame) noexcept;
+  void close_joint(int i) noexcept;
+  void close_panel() noexcept;
+  void begin_reset() noexcept;
+  void send_heartbeat_or_sdo() noexcept;
+  int joint_of(int station) const noexcept { return station == cia402::kPanelStation ? -1 : station; }
+
+  BusLayout layout_;
+  BusTiming timing_;
+  FrameTap* tap_;
+  cia402::Stations stations_;
+  int heartbeat_cycles_;
+  int timeout_cycles_;
+  std::array<Bus, kMaxBuses> buses_{};
+  std::array<Joint, kMaxJoints> joints_{};
+  Panel panel_;
+  JointReading reading_;
+  cia402::AlarmLatch alarm_;
+  CanStatistics statistics_;
+  PowerRequest power_ = PowerRequest::kOff;
+  bool sync_failed_ = false;
+  int quiet_ = 0;         // cycles still to be without SYNC
+  int to_heartbeat_ = 0;  // cycles
+  int since_sdo_ = 0;     // cycles
+};
+
+}  // namespace godobject::hal

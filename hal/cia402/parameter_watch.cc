@@ -1,0 +1,50 @@
+#include "hal/cia402/parameter_watch.h"
+
+#include "hal/canopen/object_numbers.h"
+
+namespace godobject::hal::cia402 {
+
+using canopen::SdoResponse;
+
+ParameterWatch::ParameterWatch(const BusLayout& layout, int bus) noexcept
+    : steps_(watched_parameters(layout)), bus_(bus) {
+  for (int joint = 0; joint < layout.joint_count; ++joint) {
+    const DriveConfig& drive = layout.drives[static_cast<std::size_t>(joint)];
+    if (drive.bus != bus) continue;
+    joints_[static_cast<std::size_t>(joint_count_)] = joint;
+    nodes_[static_cast<std::size_t>(joint_count_)] = drive.node;
+    ++joint_count_;
+  }
+}
+
+void ParameterWatch::find(Alarm alarm, const SdoResponse& response) noexcept {
+  if (finding_.alarm != Alarm::kNone) return;
+  const ParameterStep& step = steps_[step_];
+  finding_ = {alarm, bus_, joints_[drive_], 0, step.index, step.subindex, step.value, response.value};
+}
+
+bool ParameterWatch::next(CanFrame& request) noexcept {
+  if (joint_count_ == 0) return false;
+  if (waits_ && ++silent_[drive_] >= kMostSilent) find(Alarm::kParameterChanged, SdoResponse());
+  // all drives before the next parameter, so that no drive waits for another's
+  drive_ = (drive_ + 1) % static_cast<std::size_t>(joint_count_);
+  if (drive_ == 0) step_ = (step_ + 1) % kWatchedCount;
+  waits_ = true;
+  request = canopen::sdo_read(nodes_[drive_], steps_[step_].index, steps_[step_].subindex);
+  return true;
+}
+
+void ParameterWatch::take(const SdoResponse& response) noexcept {
+  const ParameterStep& step = steps_[step_];
+  if (!waits_ || response.node != nodes_[drive_] || response.index != step.index ||
+      response.subindex != step.subindex) {
+    return;
+  }
+  waits_ = false;
+  silent_[drive_] = 0;
+  const bool read = response.kind == SdoResponse::Kind::kRead && (response.size == 0 || response.size == step.size);
+  if (read && step.accepts(response.value)) return;
+  find(step.index == canopen::kModeDisplay ? Alarm::kWrongMode : Alarm::kParameterChanged, response);
+}
+
+}  // namespace godobject::hal::cia402

@@ -1,0 +1,156 @@
+#include "hal/cia402/parameters.h"
+
+#include <cmath>
+
+#include "hal/canopen/network.h"
+#include "hal/canopen/object_numbers.h"
+#include "hal/canopen/pdo.h"
+
+namespace godobject::hal::cia402 {
+namespace {
+
+using namespace canopen;
+using Kind = ParameterStep::Kind;
+
+constexpr std::uint32_t kProfileMask = 0xFFFF;   // of 1000: number of the device profile
+constexpr std::uint32_t kInputsMask = 0x1FFFF;   // of 1000: the profile, and that there are digital inputs
+constexpr std::uint32_t kSyncMask = 0x400007FF;  // of 1005: COB-ID, and that the node makes no SYNC itself
+constexpr std::uint16_t kTpdoCommunicationLast = 0x1803;
+constexpr std::uint32_t kNoChange = 1;        // 1029: the NMT state stays, 6007 acts
+constexpr std::uint32_t kAbortQuickStop = 3;  // 6007: as the quick stop
+constexpr std::uint32_t kQuickStopRamp = 2;   // 605A, 605E: by the quick-stop ramp, then without power
+
+std::uint32_t scaled(double value, double unit) noexcept {
+  return static_cast<std::uint32_t>(std::lround(value / unit));
+}
+
+void write(ParameterSteps& steps, std::uint16_t index, std::uint8_t subindex, int size, std::uint32_t value) noexcept {
+  steps.add({Kind::kWrite, index, subindex, size, value});
+}
+
+void expect(ParameterSteps& steps, std::uint16_t index, std::uint8_t subindex, int size, std::uint32_t value,
+            std::uint32_t mask = 0xFFFFFFFF) noexcept {
+  steps.add({Kind::kExpect, index, subindex, size, value, mask});
+}
+
+/// One PDO: invalid, empty, entries, their number, type, valid.
+struct Pdo {
+  std::uint16_t communication;
+  std::uint16_t mapping;
+  std::uint16_t cob;
+  std::uint8_t type;
+  std::uint32_t deadline_ms;  // 0: none
+  std::span<const std::uint32_t> entries;
+};
+
+void map_pdo(ParameterSteps& steps, const Pdo& pdo) noexcept {
+  write(steps, pdo.communication, 1, 4, kPdoInvalid | pdo.cob);
+  write(steps, pdo.mapping, 0, 1, 0);
+  for (std::size_t i = 0; i < pdo.entries.size(); ++i) {
+    write(steps, pdo.mapping, static_cast<std::uint8_t>(i + 1), 4, pdo.entries[i]);
+  }
+  write(steps, pdo.mapping, 0, 1, static_cast<std::uint32_t>(pdo.entries.size()));
+  write(steps, pdo.communication, 2, 1, pdo.type);
+  if (pdo.deadline_ms > 0) write(steps, pdo.communication, 5, 2, pdo.deadline_ms);
+  write(steps, pdo.communication, 1, 4, pdo.cob);
+}
+
+void read_back(ParameterSteps& steps, const Pdo& pdo) noexcept {
+  expect(steps, pdo.communication, 1, 4, pdo.cob, kPdoCobMask);
+  expect(steps, pdo.communication, 2, 1, pdo.type);
+  expect(steps, pdo.mapping, 0, 1, static_cast<std::uint32_t>(pdo.entries.size()));
+  for (std::size_t i = 0; i < pdo.entries.size(); ++i) {
+    expect(steps, pdo.mapping, static_cast<std::uint8_t>(i + 1), 4, pdo.entries[i]);
+  }
+}
+
+/// 60C2: period = sub1 * 10^sub2 s.
+void set_interpolation_period(ParameterSteps& steps, double period) noexcept {
+  int exponent = -3;
+  double count = period * 1e3;
+  while (exponent > -6 && std::fabs(count - std::round(count)) > 1e-6) {
+    --exponent;
+    count *= 10.0;
+  }
+  const auto sub1 = static_cast<std::uint32_t>(std::lround(std::fmin(count, 255.0)));
+  steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 1, 1, sub1});
+  steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 2, 1, static_cast<std::uint32_t>(exponent)});
+}
+
+std::uint32_t watched_node(const BusLayout& layout) noexcept {
+  return static_cast<std::uint32_t>(kControllerNode) << 16 | scaled(layout.heartbeat_timeout, 1e-3);
+}
+
+}  // namespace
+
+bool ParameterStep::accepts(std::uint32_t found) const noexcept {
+  const std::uint32_t masked = found & mask;
+  return (masked > value ? masked - value : value - masked) <= tolerance;
+}
+
+void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSteps& steps) noexcept {
+  const std::uint32_t rated = scaled(drive.rated_torque, 1e-3);
+  expect(steps, kDeviceType, 0, 4, kServoDrive & kProfileMask, kProfileMask);
+  expect(steps, kSupportedModes, 0, 4, kSupportsTorque, kSupportsTorque);
+  steps.add({Kind::kExpect, kMotorRatedTorque, 0, 4, rated, 0xFFFFFFFF, rated / 100});
+  // what goes into the PDOs must have the sizes for which there is room
+  expect(steps, kTargetTorque, 0, 2, 0, 0);
+  expect(steps, kActualTorque, 0, 2, 0, 0);
+  expect(steps, kPosition, 0, 4, 0, 0);
+  expect(steps, kSyncCob, 0, 4, kCobSync, kSyncMask);
+  steps.add({Kind::kWriteIfThere, kSyncPeriod, 0, 4, scaled(layout.period, 1e-6)});
+  for (std::uint16_t i = kTpdo1Communication + 1; i <= kTpdoCommunicationLast; ++i) {
+    const auto base = static_cast<std::uint32_t>(kCobTpdo1 + 0x100 * (i - kTpdo1Communication));
+    steps.add({Kind::kWriteIfThere, i, 1, 4, kPdoInvalid | (base + static_cast<std::uint32_t>(drive.node))});
+  }
+
+  const std::array<std::uint32_t, 2> command = {pdo_entry(kControlword, 0, 16), pdo_entry(kTargetTorque, 0, 16)};
+  const std::array<std::uint32_t, 3> sample = {pdo_entry(kStatusword, 0, 16), pdo_entry(kPosition, 0, 32),
+                                               pdo_entry(kActualTorque, 0, 16)};
+  const Pdo rpdo{kRpdo1Communication,
+                 kRpdo1Mapping,
+                 cob(kCobRpdo1, drive.node),
+                 kPdoAtOnce,
+                 scaled(layout.command_deadline, 1e-3),
+                 command};
+  const Pdo tpdo{kTpdo1Communication, kTpdo1Mapping, cob(kCobTpdo1, drive.node), kPdoEverySync, 0, sample};
+  map_pdo(steps, rpdo);
+  map_pdo(steps, tpdo);
+  write(steps, kConsumerHeartbeat, 1, 4, watched_node(layout));
+  write(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
+  write(steps, kErrorBehaviour, 1, 1, kNoChange);
+  write(steps, kAbortConnectionOption, 0, 2, kAbortQuickStop);
+  write(steps, kQuickStopOption, 0, 2, kQuickStopRamp);
+  write(steps, kFaultReactionOption, 0, 2, kQuickStopRamp);
+  set_interpolation_period(steps, layout.period);
+  write(steps, kMode, 0, 1, static_cast<std::uint32_t>(kModeTorque));
+
+  read_back(steps, rpdo);
+  read_back(steps, tpdo);
+  expect(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
+  expect(steps, kErrorBehaviour, 1, 1, kNoChange);
+  expect(steps, kFaultReactionOption, 0, 2, kQuickStopRamp);
+  for (const ParameterStep& step : watched_parameters(layout)) steps.add(step);
+}
+
+void panel_steps(const BusLayout& layout, ParameterSteps& steps) noexcept {
+  expect(steps, kDeviceType, 0, 4, kDigitalInputModule & kInputsMask, kInputsMask);
+  expect(steps, kDigitalInputs8, 1, 1, 0, 0);
+  expect(steps, kSyncCob, 0, 4, kCobSync, kSyncMask);
+  const std::array<std::uint32_t, 1> inputs = {pdo_entry(kDigitalInputs8, 1, 8)};
+  const Pdo tpdo{kTpdo1Communication, kTpdo1Mapping, cob(kCobTpdo1, layout.panel.node), kPdoEverySync, 0, inputs};
+  map_pdo(steps, tpdo);
+  write(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
+  read_back(steps, tpdo);
+}
+
+std::array<ParameterStep, kWatchedCount> watched_parameters(const BusLayout& layout) noexcept {
+  return {{{Kind::kExpect, kRpdo1Communication, 5, 2, scaled(layout.command_deadline, 1e-3)},
+           {Kind::kExpect, kRpdo1Communication, 2, 1, kPdoAtOnce},
+           {Kind::kExpect, kConsumerHeartbeat, 1, 4, watched_node(layout)},
+           {Kind::kExpect, kAbortConnectionOption, 0, 2, kAbortQuickStop},
+           {Kind::kExpect, kQuickStopOption, 0, 2, kQuickStopRamp},
+           {Kind::kExpect, kModeDisplay, 0, 1, static_cast<std::uint32_t>(kModeTorque)}}};
+}
+
+}  // namespace godobject::hal::cia402

@@ -1,0 +1,285 @@
+#include "hal/cia402/bring_up.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "hal/cia402/parameters.h"
+#include "tests/hal/scripted_node.h"
+
+namespace godobject::hal {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+/// Two buses: joints 0 and 2 as nodes 1 and 2 on the first, joint 1 as node 1 on the second with the panel, node 32.
+class BringUpTest : public testing::Test {
+ protected:
+  BringUpTest() {
+    layout_.bus_count = 2;
+    layout_.joint_count = 3;
+    layout_.drives[0] = {.bus = 0, .node = 1, .rated_torque = 20.0};
+    layout_.drives[1] = {.bus = 1, .node = 1, .rated_torque = 1.5};
+    layout_.drives[2] = {.bus = 0, .node = 2, .rated_torque = 0.25};
+    layout_.panel = {.bus = 1, .node = 32};
+  }
+
+  BringUpResult start() { return bring_up(layout_, wires_, world_, nullptr); }
+
+  /// No frame that could give torque or power was sent.
+  bool sent_no_command() const {
+    return std::ranges::none_of(world_.log,
+                                [](const CanFrame& frame) { return frame.id >= 0x200 && frame.id < 0x580; });
+  }
+
+  BusLayout layout_;
+  FakeBus first_;
+  FakeBus second_;
+  std::array<CanBus*, 2> wires_ = {&first_, &second_};
+  ScriptedNode joint_0_ = scripted_drive(1, 20000);
+  ScriptedNode joint_1_ = scripted_drive(1, 1500);
+  ScriptedNode joint_2_ = scripted_drive(2, 250);
+  ScriptedNode panel_ = scripted_panel(32);
+  ScriptedWorld world_{{{&first_, &joint_0_}, {&first_, &joint_2_}, {&second_, &joint_1_}, {&second_, &panel_}}};
+};
+
+TEST_F(BringUpTest, StartsEveryNode) {
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kOk) << describe(result.status) << ' ' << result.bus << ' ' << result.node
+                                               << std::hex << ' ' << result.index << ' ' << result.found;
+  for (const ScriptedNode* node : {&joint_0_, &joint_1_, &joint_2_, &panel_}) {
+    EXPECT_EQ(node->state, 0x05);
+    EXPECT_EQ(node->nmt, (std::vector<int>{0x82, 0x01}));
+  }
+  EXPECT_TRUE(sent_no_command());
+  EXPECT_EQ(world_.longest_sleep_ns, 1'000'000);
+  EXPECT_LT(world_.now_ns(), kSecond_ns / 2);
+}
+
+TEST_F(BringUpTest, WritesTheObjectsInTheOrderOfTheStandard) {
+  ASSERT_EQ(start().status, BringUpStatus::kOk);
+  using Write = std::pair<std::pair<int, int>, std::uint32_t>;
+  const std::vector<Write> expected = {
+      {{0x1400, 1}, 0x80000202},  // invalid
+      {{0x1600, 0}, 0},          {{0x1600, 1}, 0x60400010}, {{0x1600, 2}, 0x60710010},
+      {{0x1600, 0}, 2},          {{0x1400, 2}, 255},        {{0x1400, 5}, 4},
+      {{0x1400, 1}, 0x202},      {{0x1800, 1}, 0x80000182}, {{0x1A00, 0}, 0},
+      {{0x1A00, 1}, 0x60410010}, {{0x1A00, 2}, 0x60640020}, {{0x1A00, 3}, 0x60770010},
+      {{0x1A00, 0}, 3},          {{0x1800, 2}, 1},          {{0x1800, 1}, 0x182},
+      {{0x1016, 1}, 0x007F0032},  // node 127, 50 ms
+      {{0x1017, 0}, 20},         {{0x1029, 1}, 1},          {{0x6007, 0}, 3},
+      {{0x605A, 0}, 2},          {{0x605E, 0}, 2},          {{0x6060, 0}, 10},
+  };
+  EXPECT_EQ(joint_2_.writes, expected);
+  const std::vector<Write> panel = {{{0x1800, 1}, 0x800001A0}, {{0x1A00, 0}, 0}, {{0x1A00, 1}, 0x60000108},
+                                    {{0x1A00, 0}, 1},          {{0x1800, 2}, 1}, {{0x1800, 1}, 0x1A0},
+                                    {{0x1017, 0}, 20}};
+  EXPECT_EQ(panel_.writes, panel);
+}
+
+TEST_F(BringUpTest, WritesWhatOnlySomeDrivesHave) {
+  joint_0_.objects[{0x1006, 0}] = {4, 0};
+  joint_0_.objects[{0x1801, 1}] = {4, 0x281};
+  joint_0_.objects[{0x60C2, 1}] = {1, 0};
+  joint_0_.objects[{0x60C2, 2}] = {1, 0};
+  ASSERT_EQ(start().status, BringUpStatus::kOk);
+  EXPECT_EQ(joint_0_.object(0x1006, 0).value, 1000u);
+  EXPECT_EQ(joint_0_.object(0x1801, 1).value, 0x80000281u);
+  EXPECT_EQ(joint_0_.object(0x60C2, 1).value, 1u);
+  EXPECT_EQ(joint_0_.object(0x60C2, 2).value, 0xFDu);  // 10^-3
+}
+
+TEST_F(BringUpTest, RefusesASecondMaster) {
+  for (const CanFrame& of_master : {frame(0x080, {}), frame(0x202, {0x0F, 0, 0, 0}), frame(0x000, {0x01, 0x00}),
+                                    frame(0x77F, {0x05}), frame(0x601, {0x40, 0, 0x10, 0, 0, 0, 0, 0})}) {
+    FakeBus first;
+    FakeBus second;
+    second.receive_next(frame(0x701, {0x05}));
+    second.receive_next(of_master);
+    const std::array<CanBus*, 2> wires = {&first, &second};
+    ScriptedWorld world{{}};
+    const BringUpResult result = bring_up(layout_, wires, world, nullptr);
+    EXPECT_EQ(result.status, BringUpStatus::kSecondMaster);
+    EXPECT_EQ(result.bus, 1);
+    EXPECT_EQ(result.found, of_master.id);
+    EXPECT_TRUE(first.sent.empty() && second.sent.empty());
+  }
+}
+
+TEST_F(BringUpTest, ListensForATenthOfASecondFirst) {
+  bool heard = false;
+  world_.each_sleep = [&] {
+    if (!heard && world_.now_ns() >= 99'000'000) {
+      heard = true;
+      first_.receive_next(frame(0x080, {}));
+    }
+  };
+  EXPECT_EQ(start().status, BringUpStatus::kSecondMaster);
+  EXPECT_TRUE(world_.log.empty());
+}
+
+TEST_F(BringUpTest, RefusesASecondMasterThatComesLater) {
+  joint_1_.before_answer = [](FakeBus& bus) { bus.receive_next(frame(0x200 + 1, {0, 0, 0, 0})); };
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kSecondMaster);
+  EXPECT_EQ(result.bus, 1);
+}
+
+TEST_F(BringUpTest, WaitsForANodeThatBootsLate) {
+  joint_1_.boot_delay_ns = 4 * kSecond_ns;
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
+  EXPECT_GT(world_.now_ns(), 4 * kSecond_ns);
+}
+
+TEST_F(BringUpTest, NamesTheNodeThatNeverBoots) {
+  joint_1_.boots = false;
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kNoBootUp);
+  EXPECT_EQ(result.bus, 1);
+  EXPECT_EQ(result.node, 1);
+  EXPECT_EQ(result.joint, 1);
+  EXPECT_NEAR(static_cast<double>(world_.now_ns()), 5.1e9, 0.01e9);
+  EXPECT_TRUE(sent_no_command());
+}
+
+TEST_F(BringUpTest, NamesTheNodeThatDoesNotAnswer) {
+  panel_.answers = false;
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kNoAnswer);
+  EXPECT_EQ(result.node, 32);
+  EXPECT_EQ(result.joint, -1);
+  EXPECT_EQ(result.index, 0x1000);
+}
+
+TEST_F(BringUpTest, NamesTheNodeThatStartsAnew) {
+  int answers = 0;
+  joint_2_.before_answer = [&](FakeBus& bus) {
+    if (++answers == 10) bus.receive_next(frame(0x702, {0x00}));
+  };
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kStartedAnew);
+  EXPECT_EQ(result.joint, 2);
+}
+
+TEST_F(BringUpTest, NamesTheNodeThatDoesNotStart) {
+  joint_0_.starts = false;
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kNotOperational);
+  EXPECT_EQ(result.joint, 0);
+  EXPECT_EQ(result.expected, 0x05u);
+  EXPECT_EQ(result.found, 0x7Fu);
+}
+
+/// What is wrong in joint 1's drive, and what the result must then say.
+struct WrongObject {
+  int index;
+  int subindex;
+  ScriptedNode::Object object;
+  BringUpStatus status;
+  std::uint32_t expected;
+  std::uint32_t found;
+};
+
+TEST_F(BringUpTest, NamesTheObjectThatIsNotAsItMustBe) {
+  using Status = BringUpStatus;
+  const std::vector<WrongObject> wrong = {
+      {0x1000, 0, {4, 0x00020191}, Status::kWrongValue, 0x192, 0x00020191},
+      {0x6502, 0, {4, 0x000001FF}, Status::kWrongValue, 0x200, 0x1FF},
+      {0x6076, 0, {4, 1516}, Status::kWrongValue, 1500, 1516},  // one percent is 15
+      {0x6076, 0, {4, 1484}, Status::kWrongValue, 1500, 1484},
+      {0x6071, 0, {4, 0}, Status::kWrongSize, 2, 4},
+      {0x6077, 0, {4, 0}, Status::kWrongSize, 2, 4},
+      {0x6064, 0, {8, 0}, Status::kWrongSize, 4, 0},
+      {0x1005, 0, {4, 0x40000080}, Status::kWrongValue, 0x80, 0x40000080},  // makes SYNC itself
+      {0x1400, 5, {2, 100, true}, Status::kWrongValue, 4, 100},
+      {0x1400, 2, {1, 1, true}, Status::kWrongValue, 255, 1},
+      {0x1800, 1, {4, 0x80000181, true}, Status::kWrongValue, 0x181, 0x80000181},
+      {0x1A00, 2, {4, 0x606C0020, true}, Status::kWrongValue, 0x60640020, 0x606C0020},
+      {0x1016, 1, {4, 0, true}, Status::kWrongValue, 0x007F0032, 0},
+      {0x6007, 0, {2, 0, true}, Status::kWrongValue, 3, 0},
+      {0x605A, 0, {2, 6, true}, Status::kWrongValue, 2, 6},
+      {0x605E, 0, {4, 0}, Status::kRefused, 2, 0x06070010},
+  };
+  for (const WrongObject& object : wrong) {
+    joint_1_ = scripted_drive(1, 1500);
+    joint_1_.object(object.index, object.subindex) = object.object;
+    const BringUpResult result = start();
+    SCOPED_TRACE(testing::Message() << std::hex << object.index << ':' << object.subindex);
+    EXPECT_EQ(result.status, object.status);
+    EXPECT_EQ(result.bus, 1);
+    EXPECT_EQ(result.node, 1);
+    EXPECT_EQ(result.joint, 1);
+    EXPECT_EQ(result.index, object.index);
+    EXPECT_EQ(result.subindex, object.subindex);
+    EXPECT_EQ(result.expected, object.expected);
+    EXPECT_EQ(result.found, object.found);
+    EXPECT_NE(std::string(describe(result.status)).find(';'), std::string::npos);
+  }
+  EXPECT_TRUE(sent_no_command());
+}
+
+TEST_F(BringUpTest, TakesARatedTorqueWithinOnePercent) {
+  joint_1_.object(0x6076, 0).value = 1515;
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
+}
+
+TEST_F(BringUpTest, NamesTheObjectThatIsMissing) {
+  for (const auto& [key, object] : scripted_drive(1, 1500).objects) {
+    joint_1_ = scripted_drive(1, 1500);
+    joint_1_.objects.erase(key);
+    const BringUpResult result = start();
+    if (key == std::pair(0x6061, 0)) continue;  // made by the write to 6060
+    EXPECT_EQ(result.status, BringUpStatus::kRefused) << std::hex << key.first;
+    EXPECT_EQ(result.index, key.first);
+    EXPECT_EQ(result.found, 0x06020000u);
+  }
+}
+
+TEST_F(BringUpTest, TellsADeadInterface) {
+  second_.state.down = true;
+  BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kBusDown);
+  EXPECT_EQ(result.bus, 1);
+  second_.state = BusHealth();
+  first_.state.bus_off = true;
+  result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kBusDown);
+  EXPECT_EQ(result.bus, 0);
+  first_.state = BusHealth();
+  first_.result = SendResult::kDown;
+  EXPECT_EQ(start().status, BringUpStatus::kBusDown);
+  first_.result = SendResult::kFull;
+  EXPECT_EQ(start().status, BringUpStatus::kCannotSend);
+}
+
+TEST_F(BringUpTest, IsNotLedAstrayByOthersFrames) {
+  // answers of another node, to other objects, and the like of another bus
+  joint_2_.before_answer = [this](FakeBus& bus) {
+    bus.receive_next(frame(0x583, {0x43, 0x00, 0x10, 0x00, 0, 0, 0, 0}));
+    bus.receive_next(frame(0x582, {0x43, 0xFF, 0x5F, 0x00, 0, 0, 0, 0}));
+    bus.receive_next(frame(0x705, {0x00}));
+    bus.receive_next(frame(0x185, {1, 2, 3}));
+    bus.receive_next(frame(0x082, {0x30, 0x81, 0x11, 0, 0, 0, 0, 0}));
+    second_.receive_next(frame(0x582, {0x80, 0x00, 0x10, 0x00, 0, 0, 0x02, 0x06}));
+  };
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
+}
+
+TEST(Parameters, PeriodOf60C2) {
+  for (const auto& [period, count, exponent] :
+       {std::tuple(1e-3, 1u, -3), std::tuple(2e-3, 2u, -3), std::tuple(0.5e-3, 5u, -4), std::tuple(0.25e-3, 25u, -5)}) {
+    BusLayout layout;
+    layout.period = period;
+    cia402::ParameterSteps steps;
+    cia402::drive_steps(layout, {.rated_torque = 1.0}, steps);
+    for (const cia402::ParameterStep& step : steps.all()) {
+      if (step.index != 0x60C2) continue;
+      EXPECT_EQ(step.value, step.subindex == 1 ? count : static_cast<std::uint32_t>(exponent)) << period;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace godobject::hal

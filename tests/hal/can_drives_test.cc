@@ -1,0 +1,761 @@
+#include "hal/cia402/can_drives.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/hal/fake_bus.h"
+#include "tests/hal/frames.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/random.h"
+
+namespace godobject::hal {
+namespace {
+
+constexpr int kOff = 0x0250;
+constexpr int kReady = 0x0231;
+constexpr int kSwitchedOn = 0x0233;
+constexpr int kEnabled = 0x1237;     // follows the torque
+constexpr int kBrakeOpens = 0x0237;  // does not yet
+constexpr int kQuickStopActive = 0x0217;
+constexpr int kFault = 0x0218;
+
+CanFrame tpdo(int node, int statusword, std::int32_t count, std::int16_t permille) {
+  const auto byte = [](auto value, int i) {
+    return static_cast<int>(static_cast<std::uint32_t>(value) >> (8 * i) & 0xFF);
+  };
+  return frame(static_cast<std::uint16_t>(0x180 + node),
+               {byte(statusword, 0), byte(statusword, 1), byte(count, 0), byte(count, 1), byte(count, 2),
+                byte(count, 3), byte(permille, 0), byte(permille, 1)});
+}
+
+/// One bus: joint 0 is node 5, joint 1 is node 3 and turns the other way round, the panel is node 32.
+class CanDrivesTest : public testing::Test {
+ protected:
+  static BusLayout layout() {
+    BusLayout layout;
+    layout.joint_count = 2;
+    layout.read_back_interval = 50;
+    layout.drives[0] = {.bus = 0, .node = 5, .counts = 1000, .gear = 10.0, .rated_torque = 2.0};
+    layout.drives[1] = {
+        .bus = 0, .node = 3, .counts = 4000, .gear = 1.0, .rated_torque = 5.0, .sign = -1.0, .zero = 1.0};
+    layout.panel = {.bus = 0, .node = 32};
+    return layout;
+  }
+
+  /// Everything answers.
+  void answer_all(int statusword) {
+    bus_.receive_next(tpdo(5, statusword, count_0_, 100));
+    bus_.receive_next(tpdo(3, statusword, count_1_, -50));
+    bus_.receive_next(frame(0x1A0, {panel_inputs_}));
+  }
+
+  void heartbeats() {
+    for (const int node : {5, 3, 32}) bus_.receive_next(frame(static_cast<std::uint16_t>(0x700 + node), {0x05}));
+  }
+
+  const JointReading& receive() {
+    drives_.receive(reading_);
+    return reading_;
+  }
+
+  /// A whole cycle in which everything answers; returns what was sent behind SYNC.
+  std::vector<CanFrame> cycle(int statusword, PowerRequest power = PowerRequest::kOff, double torque = 0.0) {
+    drives_.request();
+    if (++cycles_ % 20 == 0) heartbeats();
+    answer_all(statusword);
+    receive();
+    bus_.take_sent();
+    JointCommand command;
+    command.power = power;
+    command.torque.head(2).setConstant(torque);
+    sent_ = drives_.send(command);
+    return bus_.take_sent();
+  }
+
+  /// The controlwords of both joints.
+  static std::pair<int, int> controlwords(const std::vector<CanFrame>& sent) {
+    return {sent.at(0).data[0] | sent.at(0).data[1] << 8, sent.at(1).data[0] | sent.at(1).data[1] << 8};
+  }
+
+  /// Alarm after one cycle with an extra frame in it.
+  Alarm alarm_of(const CanFrame& extra) {
+    drives_.request();
+    answer_all(kOff);
+    bus_.receive_next(extra);
+    receive();
+    drives_.send({});
+    return reading_.alarm;
+  }
+
+  FakeBus bus_;
+  std::array<CanBus*, 1> wires_ = {&bus_};
+  CanDrives drives_{layout(), wires_, {.collect_ns = 500'000, .delay_s = 0.7e-3}};
+  JointReading reading_;
+  bool sent_ = false;
+  int cycles_ = 0;
+  int count_0_ = 0;
+  int count_1_ = 0;
+  int panel_inputs_ = 0x03;
+};
+
+TEST_F(CanDrivesTest, SyncIsTheFirstFrameAndThenOneRpdoAJoint) {
+  EXPECT_EQ(drives_.collect_ns(), 500'000);
+  EXPECT_EQ(drives_.delay(), 0.7e-3);
+  drives_.request();
+  EXPECT_EQ(bus_.sent, (std::vector<CanFrame>{frame(0x080, {})}));
+  bus_.take_sent();
+  answer_all(kEnabled);
+  receive();
+  JointCommand command;
+  command.power = PowerRequest::kEnable;
+  command.torque[0] = 3.21;  // 20 Nm a 1000 permille: 160.5, away from zero 161 = 0x00A1
+  command.torque[1] = 0.5;   // -5 Nm a 1000 permille: -100 = 0xFF9C
+  EXPECT_TRUE(drives_.send(command));
+  const std::vector<CanFrame> expected = {frame(0x205, {0x0F, 0x00, 0xA1, 0x00}),
+                                          frame(0x203, {0x0F, 0x00, 0x9C, 0xFF}), frame(0x77F, {0x05})};
+  EXPECT_EQ(bus_.sent, expected);
+}
+
+TEST_F(CanDrivesTest, ReadsPositionTorqueAndState) {
+  count_0_ = 2500;   // of 10 000 a turn
+  count_1_ = -1000;  // a quarter turn, the other way round
+  cycle(kEnabled);
+  EXPECT_NEAR(reading_.position[0], M_PI / 2, 1e-12);
+  EXPECT_NEAR(reading_.position[1], 1.0 + M_PI / 2, 1e-12);
+  EXPECT_NEAR(reading_.torque[0], 2.0, 1e-12);
+  EXPECT_NEAR(reading_.torque[1], 0.25, 1e-12);
+  EXPECT_EQ(reading_.age[0], 0u);
+  EXPECT_EQ(reading_.age[1], 0u);
+  EXPECT_EQ(reading_.state[0], DriveState::kEnabled);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  EXPECT_EQ(drives_.statistics().round_trip_ns, 300'000);
+}
+
+TEST_F(CanDrivesTest, FollowsACounterOverItsWrap) {
+  count_1_ = std::numeric_limits<std::int32_t>::max() - 9;
+  cycle(kOff);
+  const double before = reading_.position[1];
+  count_1_ = std::numeric_limits<std::int32_t>::min() + 10;
+  cycle(kOff);
+  EXPECT_NEAR(reading_.position[1] - before, -20 * 2 * M_PI / 4000, 1e-9);
+}
+
+TEST_F(CanDrivesTest, StatesAreUnavailableUntilSomethingComes) {
+  EXPECT_EQ(receive().state[0], DriveState::kUnavailable);
+  EXPECT_TRUE(reading_.emergency_stop);
+  EXPECT_FALSE(reading_.enable_switch);
+  for (const auto& [statusword, state] :
+       {std::pair(kOff, DriveState::kOff), std::pair(kReady, DriveState::kOff),
+        std::pair(kSwitchedOn, DriveState::kOff), std::pair(kEnabled, DriveState::kEnabled),
+        std::pair(kBrakeOpens, DriveState::kEnabled),  // nobody asked for it
+        std::pair(kQuickStopActive, DriveState::kQuickStop), std::pair(kFault, DriveState::kFault),
+        std::pair(0x021F, DriveState::kFault), std::pair(0x0000, DriveState::kUnavailable)}) {
+    cycle(statusword);
+    EXPECT_EQ(reading_.state[1], state) << std::hex << statusword;
+  }
+}
+
+TEST_F(CanDrivesTest, ASampleIsFreshOnlyBehindItsOwnSyncsEcho) {
+  cycle(kOff);
+  // late ones of the cycle before, in front of the echo
+  bus_.receive_next(tpdo(5, kOff, 77, 0));
+  drives_.request();
+  bus_.receive_next(tpdo(3, kOff, 400, 0));
+  receive();
+  EXPECT_EQ(reading_.age[0], 1u);
+  EXPECT_EQ(reading_.age[1], 0u);
+  EXPECT_EQ(reading_.position[0], 0.0);
+  EXPECT_EQ(drives_.statistics().late[0], 1u);
+  EXPECT_EQ(drives_.statistics().lost[0], 1u);
+  // somebody else's SYNC does not count as the echo, and a sample without an echo is late
+  bus_.echoes = false;
+  drives_.request();
+  bus_.receive_next(frame(0x080, {}));
+  bus_.receive_next(tpdo(5, kOff, 88, 0));
+  EXPECT_EQ(receive().age[0], 2u);
+  // the echo comes a cycle later: what follows it belongs to the cycle before
+  drives_.request();
+  bus_.receive_next(frame(0x080, {}), true);
+  bus_.receive_next(tpdo(5, kOff, 99, 0));
+  EXPECT_EQ(receive().age[0], 3u);
+  bus_.receive_next(frame(0x080, {}), true);
+  bus_.receive_next(tpdo(5, kOff, 1000, 0));
+  drives_.request();
+  EXPECT_EQ(receive().age[0], 4u);
+  // in step again
+  bus_.receive_next(frame(0x080, {}), true);
+  bus_.echoes = true;
+  drives_.request();
+  bus_.receive_next(tpdo(5, kOff, 1000, 0));
+  EXPECT_EQ(receive().age[0], 0u);
+  EXPECT_NEAR(reading_.position[0], 2 * M_PI / 10, 1e-12);
+}
+
+TEST_F(CanDrivesTest, ASampleAfterAFailedSyncIsLate) {
+  cycle(kOff);
+  bus_.result = SendResult::kFull;
+  drives_.request();
+  bus_.result = SendResult::kSent;
+  answer_all(kOff);
+  EXPECT_EQ(receive().age[0], 1u);
+  EXPECT_FALSE(drives_.send({}));
+  EXPECT_EQ(drives_.statistics().full, 1u);
+}
+
+TEST_F(CanDrivesTest, NewestSampleWins) {
+  drives_.request();
+  bus_.receive_next(tpdo(5, kOff, 1000, 0));
+  bus_.receive_next(tpdo(5, kOff, 2000, 0));
+  EXPECT_NEAR(receive().position[0], 4 * M_PI / 10, 1e-12);
+  drives_.request();
+  bus_.receive_next(tpdo(5, kOff, 2000, 0));
+  bus_.receive_next(tpdo(5, kOff, 2000, 0));  // a duplicate changes nothing
+  EXPECT_NEAR(receive().position[0], 4 * M_PI / 10, 1e-12);
+}
+
+TEST_F(CanDrivesTest, StepsThroughThePowerStates) {
+  const auto enable = PowerRequest::kEnable;
+  EXPECT_EQ(controlwords(cycle(kOff)), std::pair(0x00, 0x00));
+  EXPECT_EQ(controlwords(cycle(kOff, enable)), std::pair(0x06, 0x06));
+  EXPECT_EQ(controlwords(cycle(kReady, enable)), std::pair(0x07, 0x07));
+  EXPECT_EQ(controlwords(cycle(kSwitchedOn, enable)), std::pair(0x0F, 0x0F));
+  EXPECT_EQ(controlwords(cycle(kBrakeOpens, enable)), std::pair(0x0F, 0x0F));
+  EXPECT_EQ(reading_.state[0], DriveState::kOff);  // not before it follows
+  EXPECT_EQ(controlwords(cycle(kEnabled, enable)), std::pair(0x0F, 0x0F));
+  EXPECT_EQ(reading_.state[0], DriveState::kEnabled);
+  EXPECT_EQ(controlwords(cycle(kEnabled, PowerRequest::kQuickStop)), std::pair(0x02, 0x02));
+  EXPECT_EQ(controlwords(cycle(kQuickStopActive, PowerRequest::kQuickStop)), std::pair(0x02, 0x02));
+  EXPECT_EQ(controlwords(cycle(kQuickStopActive, PowerRequest::kOff)), std::pair(0x00, 0x00));
+}
+
+TEST_F(CanDrivesTest, OnlyEnabledDrivesAreSentTorques) {
+  const auto torque = [](const std::vector<CanFrame>& sent) { return sent.at(0).data[2] | sent.at(0).data[3] << 8; };
+  EXPECT_EQ(torque(cycle(kEnabled, PowerRequest::kEnable, 1.0)), 50);
+  for (const PowerRequest power : {PowerRequest::kOff, PowerRequest::kQuickStop, PowerRequest::kReset}) {
+    EXPECT_EQ(torque(cycle(kEnabled, power, 1.0)), 0);
+  }
+}
+
+TEST_F(CanDrivesTest, NeverEnablesADriveAgainByItself) {
+  const auto enable = PowerRequest::kEnable;
+  cycle(kOff, enable);
+  cycle(kEnabled, enable);
+  EXPECT_EQ(controlwords(cycle(kQuickStopActive, enable, 1.0)), std::pair(0x02, 0x02));
+  for (int k = 0; k < 100; ++k) {
+    const std::vector<CanFrame> sent = cycle(kOff, enable, 1.0);
+    EXPECT_EQ(controlwords(sent), std::pair(0x02, 0x02));
+    EXPECT_EQ(sent.at(0), frame(0x205, {0x02, 0, 0, 0}));
+  }
+  cycle(kOff, PowerRequest::kOff);
+  EXPECT_EQ(controlwords(cycle(kOff, enable)), std::pair(0x06, 0x06));
+}
+
+TEST_F(CanDrivesTest, ResetsAFaultByRisingEdgesOnly) {
+  cycle(kFault, PowerRequest::kOff);
+  int edges = 0;
+  int last = 0;
+  int high = 0;
+  for (int k = 0; k < 64; ++k) {
+    const int word = controlwords(cycle(kFault, PowerRequest::kReset)).first;
+    ASSERT_TRUE(word == 0x00 || word == 0x80);
+    edges += word == 0x80 && last == 0x00 ? 1 : 0;
+    high += word == 0x80 ? 1 : 0;
+    if (k == 0) {
+      EXPECT_EQ(word, 0x00);  // whatever was sent before: an edge comes
+    }
+    last = word;
+  }
+  EXPECT_EQ(edges, 4);
+  EXPECT_EQ(high, 32);
+  EXPECT_EQ(controlwords(cycle(kOff, PowerRequest::kReset)).first, 0x00);
+  // nothing else resets a fault
+  for (const PowerRequest power : {PowerRequest::kOff, PowerRequest::kEnable, PowerRequest::kQuickStop}) {
+    EXPECT_EQ(controlwords(cycle(kFault, power)).first, 0x00);
+  }
+}
+
+TEST_F(CanDrivesTest, ATorqueThatIsNoNumberBecomesZeroAndAFailure) {
+  for (const double none : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    const std::vector<CanFrame> sent = cycle(kEnabled, PowerRequest::kEnable, none);
+    EXPECT_EQ(sent.at(0), frame(0x205, {0x0F, 0, 0, 0}));
+    EXPECT_EQ(sent.at(1), frame(0x203, {0x0F, 0, 0, 0}));
+    EXPECT_FALSE(sent_);
+  }
+  EXPECT_EQ(cycle(kEnabled, PowerRequest::kEnable, 1e9).at(0), frame(0x205, {0x0F, 0, 0xFF, 0x7F}));
+  EXPECT_TRUE(sent_);
+  EXPECT_EQ(cycle(kEnabled, PowerRequest::kEnable, 1e9).at(1), frame(0x203, {0x0F, 0, 0x01, 0x80}));
+}
+
+TEST_F(CanDrivesTest, AFullQueueIsCountedAndTold) {
+  cycle(kOff);
+  EXPECT_TRUE(sent_);
+  drives_.request();
+  answer_all(kOff);
+  receive();
+  bus_.result = SendResult::kFull;
+  EXPECT_FALSE(drives_.send({}));
+  EXPECT_EQ(drives_.statistics().full, 2u);
+  EXPECT_EQ(receive().alarm, Alarm::kNone);
+}
+
+TEST_F(CanDrivesTest, ADriveThatIsSilentKeepsItsStateForATimeOnly) {
+  cycle(kEnabled, PowerRequest::kEnable);
+  for (std::uint32_t age = 1; age <= 60; ++age) {
+    drives_.request();
+    if (age % 10 == 0) heartbeats();
+    bus_.receive_next(frame(0x1A0, {0x03}));
+    receive();
+    EXPECT_EQ(reading_.age[0], age);
+    EXPECT_EQ(reading_.state[0], age > 50 ? DriveState::kUnavailable : DriveState::kEnabled);
+    JointCommand command;
+    command.power = PowerRequest::kEnable;
+    drives_.send(command);
+  }
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  EXPECT_EQ(drives_.statistics().lost[0], 60u);
+}
+
+TEST_F(CanDrivesTest, WrongFramesCountAsLostAndThreeInARowAreAnAlarm) {
+  const std::vector<CanFrame> wrong = {
+      frame(0x185, {0x50, 0x02, 0, 0, 0, 0, 0}),  // seven bytes
+      frame(0x185, {}),
+      tpdo(5, 0x0207 | 0x40, 0, 0),  // a state that the standard does not have
+      tpdo(5, 0x0001, 0, 0),
+      frame(0x185, {0x50, 0x02, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+  };
+  for (const CanFrame& bad : wrong) {
+    cycle(kOff);
+    for (int k = 1; k <= 2; ++k) {
+      drives_.request();
+      bus_.receive_next(bad);
+      bus_.receive_next(frame(0x1A0, {0x03}));
+      receive();
+      EXPECT_EQ(reading_.age[0], static_cast<std::uint32_t>(k));
+      EXPECT_EQ(reading_.alarm, Alarm::kNone);
+      drives_.send({});
+    }
+  }
+  drives_.request();
+  bus_.receive_next(wrong[2]);
+  receive();
+  EXPECT_EQ(reading_.alarm, Alarm::kBadFrames);
+  EXPECT_EQ(reading_.alarm_joint, 0);
+  EXPECT_EQ(drives_.statistics().malformed, 11u);
+}
+
+TEST_F(CanDrivesTest, PanelBits) {
+  for (int inputs = 0; inputs < 8; ++inputs) {
+    panel_inputs_ = inputs;
+    cycle(kOff);
+    EXPECT_EQ(reading_.emergency_stop, (inputs & 1) == 0);
+    EXPECT_EQ(reading_.enable_switch, (inputs & 2) != 0);
+    EXPECT_EQ(reading_.clutch_open, (inputs & 4) != 0);
+  }
+}
+
+TEST_F(CanDrivesTest, ThreeCyclesWithoutThePanelAreAnEmergencyStop) {
+  cycle(kOff);
+  for (int lost = 1; lost <= 3; ++lost) {
+    EXPECT_FALSE(reading_.emergency_stop);
+    drives_.request();
+    bus_.receive_next(tpdo(5, kOff, 0, 0));
+    bus_.receive_next(tpdo(3, kOff, 0, 0));
+    if (lost == 2) bus_.receive_next(frame(0x1A0, {0x03, 0x03}));  // wrong length
+    receive();
+    drives_.send({});
+  }
+  EXPECT_TRUE(reading_.emergency_stop);
+  EXPECT_FALSE(reading_.enable_switch);
+  EXPECT_EQ(reading_.alarm, Alarm::kPanelLost);
+  EXPECT_EQ(reading_.alarm_joint, -1);
+}
+
+TEST_F(CanDrivesTest, WithoutAPanelNothingIsHeldOrPressed) {
+  BusLayout without = layout();
+  without.panel.bus = -1;
+  CanDrives drives(without, wires_, {});
+  for (int k = 0; k < 10; ++k) {
+    drives.request();
+    drives.receive(reading_);
+  }
+  EXPECT_FALSE(reading_.enable_switch);
+  EXPECT_FALSE(reading_.emergency_stop);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+}
+
+struct AlarmCase {
+  CanFrame frame;
+  Alarm alarm;
+  int joint;
+};
+
+TEST_F(CanDrivesTest, AlarmsOfSingleFrames) {
+  const std::vector<AlarmCase> cases = {
+      {frame(0x705, {0x00}), Alarm::kNodeReset, 0},
+      {frame(0x703, {0x7F}), Alarm::kWrongMode, 1},
+      {frame(0x703, {0x04}), Alarm::kWrongMode, 1},
+      {frame(0x703, {0x05}), Alarm::kNone, -1},
+      {frame(0x704, {0x00}), Alarm::kNone, -1},  // none of ours
+      {frame(0x720, {0x00}), Alarm::kNodeReset, -1},
+      {frame(0x083, {0x50, 0x82, 0x11, 0, 0, 0, 0, 0}), Alarm::kDriveError, 1},
+      {frame(0x083, {0x10, 0x81, 0x11, 0, 0, 0, 0, 0}), Alarm::kNone, -1},  // warnings
+      {frame(0x083, {0x20, 0x81, 0x11, 0, 0, 0, 0, 0}), Alarm::kNone, -1},
+      {frame(0x083, {0x00, 0x00, 0x00, 0, 0, 0, 0, 0}), Alarm::kNone, -1},
+      {frame(0x083, {0x30, 0x81, 0x11, 0, 0, 0, 0, 0}), Alarm::kDriveError, 1},
+      {frame(0x080, {}), Alarm::kForeignMaster, -1},
+      {frame(0x205, {0x0F, 0x00, 0x00, 0x00}), Alarm::kForeignMaster, -1},
+      {frame(0x77F, {0x05}), Alarm::kForeignMaster, -1},
+      {frame(0x605, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}), Alarm::kForeignMaster, 0},
+      {frame(0x605, {0x2B, 0x05, 0x14, 0x05, 0, 0, 0, 0}), Alarm::kForeignWrite, 0},
+      {frame(0x603, {0xC6, 0x05, 0x14, 0x05, 0, 0, 0, 0}), Alarm::kForeignWrite, 1},
+      {frame(0x000, {0x80, 0x03}), Alarm::kForeignWrite, 1},
+      {frame(0x000, {0x80, 0x00}), Alarm::kForeignWrite, -1},
+      {frame(0x281, {1, 2, 3}), Alarm::kNone, -1},
+      {frame(0x7FF, {1, 2, 3}), Alarm::kNone, -1},
+  };
+  for (const AlarmCase& one : cases) {
+    CanDrives drives(layout(), wires_, {});
+    drives.request();
+    answer_all(kOff);
+    bus_.receive_next(one.frame);
+    drives.receive(reading_);
+    EXPECT_EQ(reading_.alarm, one.alarm) << one.frame;
+    EXPECT_EQ(reading_.alarm_joint, one.joint) << one.frame;
+    EXPECT_EQ(drives.alarm_detail().id, one.alarm == Alarm::kNone ? 0 : one.frame.id);
+    bus_.take_sent();
+  }
+}
+
+TEST_F(CanDrivesTest, EmergencyCodeIsKept) {
+  alarm_of(frame(0x083, {0x10, 0x23, 0x03, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(drives_.alarm_detail().found, 0x2310u);
+}
+
+TEST_F(CanDrivesTest, FirstAlarmStaysUntilAReset) {
+  EXPECT_EQ(alarm_of(frame(0x083, {0x10, 0x23, 0x03, 0, 0, 0, 0, 0})), Alarm::kDriveError);
+  EXPECT_EQ(alarm_of(frame(0x205, {0, 0, 0, 0})), Alarm::kDriveError);
+  cycle(kOff, PowerRequest::kOff);
+  EXPECT_EQ(reading_.alarm, Alarm::kDriveError);
+  cycle(kOff, PowerRequest::kReset);
+  cycle(kOff, PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  // one that comes while the reset goes on stays
+  drives_.request();
+  answer_all(kOff);
+  bus_.receive_next(frame(0x205, {0, 0, 0, 0}));
+  receive();
+  drives_.send({JointVector::Zero(), PowerRequest::kReset});
+  cycle(kOff, PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kForeignMaster);
+}
+
+TEST_F(CanDrivesTest, WhatOnlyANewStartMendsOutlivesAReset) {
+  alarm_of(frame(0x083, {0x10, 0x23, 0x03, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(alarm_of(frame(0x705, {0x00})), Alarm::kDriveError);  // the first one is told
+  cycle(kOff, PowerRequest::kReset);
+  cycle(kOff);
+  EXPECT_EQ(reading_.alarm, Alarm::kNodeReset);
+  cycle(kOff, PowerRequest::kReset);
+  cycle(kOff);
+  EXPECT_EQ(reading_.alarm, Alarm::kNodeReset);
+  EXPECT_EQ(reading_.alarm_joint, 0);
+}
+
+TEST_F(CanDrivesTest, HeartbeatLostAfterItsTimeout) {
+  int first_alarm = 0;
+  for (int k = 1; k <= 60 && first_alarm == 0; ++k) {
+    drives_.request();
+    if (k == 1) heartbeats();
+    if (k > 1 && k % 20 == 0) bus_.receive_next(frame(0x705, {0x05}));
+    answer_all(kOff);
+    if (receive().alarm != Alarm::kNone) first_alarm = k;
+    drives_.send({});
+  }
+  EXPECT_EQ(reading_.alarm, Alarm::kHeartbeatLost);
+  EXPECT_EQ(reading_.alarm_joint, 1);
+  EXPECT_EQ(first_alarm, 52);  // 51 ms after the last one
+}
+
+TEST_F(CanDrivesTest, ADriveThatNoLongerFollowsIsInTheWrongMode) {
+  cycle(kBrakeOpens, PowerRequest::kEnable);
+  cycle(kBrakeOpens, PowerRequest::kEnable);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  cycle(kEnabled, PowerRequest::kEnable);
+  cycle(kBrakeOpens, PowerRequest::kEnable);
+  EXPECT_EQ(reading_.alarm, Alarm::kWrongMode);
+  EXPECT_EQ(reading_.state[0], DriveState::kOff);
+}
+
+TEST_F(CanDrivesTest, ADeadBusIsAnAlarm) {
+  for (const BusHealth& health : {BusHealth{.down = true}, BusHealth{.bus_off = true}}) {
+    CanDrives drives(layout(), wires_, {});
+    bus_.state = health;
+    drives.receive(reading_);
+    EXPECT_EQ(reading_.alarm, Alarm::kBusDown);
+  }
+  bus_.state = BusHealth();
+  bus_.result = SendResult::kDown;
+  drives_.request();
+  EXPECT_EQ(receive().alarm, Alarm::kBusDown);
+  EXPECT_FALSE(drives_.send({}));
+}
+
+TEST_F(CanDrivesTest, HeartbeatOfTheControllerGoesWithTheCycles) {
+  int heartbeats = 0;
+  for (int k = 0; k < 200; ++k) {
+    const std::vector<CanFrame> sent = cycle(kOff);
+    const auto count = std::ranges::count(sent, frame(0x77F, {0x05}));
+    EXPECT_EQ(count, k % 20 == 0 ? 1 : 0) << k;
+    heartbeats += static_cast<int>(count);
+  }
+  EXPECT_EQ(heartbeats, 10);
+}
+
+/// Answers the read-backs of `cycles` cycles as the start left the objects, but for one; returns how many there were.
+class ReadBackTest : public CanDrivesTest {
+ protected:
+  int run(int cycles, std::uint16_t changed, std::uint32_t value) {
+    int reads = 0;
+    for (int k = 0; k < cycles; ++k) {
+      int extra = 0;
+      for (const CanFrame& sent : cycle(kOff)) {
+        if (sent.id >= 0x600 && sent.id < 0x680) {
+          ++reads;
+          ++extra;
+          answer(sent, changed, value);
+        } else if (sent.id == 0x77F) {
+          ++extra;
+        }
+      }
+      EXPECT_LE(extra, 1);  // never heartbeat and SDO in one cycle
+      if (reading_.alarm != Alarm::kNone) break;
+    }
+    return reads;
+  }
+
+  void answer(const CanFrame& request, std::uint16_t changed, std::uint32_t value) {
+    EXPECT_EQ(request.data[0], 0x40);
+    const int index = request.data[1] | request.data[2] << 8;
+    asked_.push_back({request.id - 0x600, index});
+    std::uint32_t present = 0;
+    int command = 0x4B;
+    switch (index) {
+      case 0x1400:
+        present = request.data[3] == 5 ? 4 : 255;
+        command = request.data[3] == 5 ? 0x4B : 0x4F;
+        break;
+      case 0x1016:
+        present = 0x007F0032;
+        command = 0x43;
+        break;
+      case 0x6007: present = 3; break;
+      case 0x605A: present = 2; break;
+      case 0x6061:
+        present = 10;
+        command = 0x4F;
+        break;
+      default: ADD_FAILURE() << index;
+    }
+    if (index == changed && request.id == 0x603) present = value;
+    if (silent_) return;
+    const auto byte = [present](int i) { return static_cast<int>(present >> (8 * i) & 0xFF); };
+    bus_.receive_next(
+        frame(static_cast<std::uint16_t>(request.id - 0x80),
+              {command, request.data[1], request.data[2], request.data[3], byte(0), byte(1), byte(2), byte(3)}));
+  }
+
+  std::vector<std::pair<int, int>> asked_;
+  bool silent_ = false;
+};
+
+TEST_F(ReadBackTest, ReadsAllWatchedObjectsOfAllDrivesWithinASecond) {
+  EXPECT_EQ(run(1000, 0, 0), 20);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  for (const int node : {3, 5}) {
+    for (const int index : {0x1400, 0x1016, 0x6007, 0x605A, 0x6061}) {
+      EXPECT_TRUE(std::ranges::count(asked_, std::pair(node, index)) > 0) << std::hex << index;
+    }
+  }
+}
+
+TEST_F(ReadBackTest, AChangedParameterIsAnAlarm) {
+  run(1000, 0x6007, 0);
+  EXPECT_EQ(reading_.alarm, Alarm::kParameterChanged);
+  EXPECT_EQ(reading_.alarm_joint, 1);
+  EXPECT_EQ(drives_.alarm_detail().index, 0x6007);
+  EXPECT_EQ(drives_.alarm_detail().expected, 3u);
+  EXPECT_EQ(drives_.alarm_detail().found, 0u);
+}
+
+TEST_F(ReadBackTest, AnotherModeIsTheWrongMode) {
+  run(1000, 0x6061, 8);
+  EXPECT_EQ(reading_.alarm, Alarm::kWrongMode);
+}
+
+TEST_F(ReadBackTest, FiveSilentReadBacksOfADriveAreAnAlarm) {
+  silent_ = true;
+  EXPECT_EQ(run(2000, 0, 0), 10);
+  EXPECT_EQ(reading_.alarm, Alarm::kParameterChanged);
+}
+
+TEST_F(ReadBackTest, AnAnswerToAnotherQuestionIsPassedOver) {
+  cycle(kOff);
+  bus_.receive_next(frame(0x583, {0x4B, 0x07, 0x60, 0x00, 0, 0, 0, 0}));
+  bus_.receive_next(frame(0x584, {0x80, 0x07, 0x60, 0x00, 0, 0, 0, 0}));
+  cycle(kOff);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+}
+
+TEST_F(CanDrivesTest, AFloodIsDrainedSixtyFourFramesACycle) {
+  for (int k = 0; k < 200; ++k) bus_.receive_next(frame(0x7FF, {1}));
+  drives_.request();
+  answer_all(kOff);
+  receive();
+  EXPECT_EQ(bus_.waiting.size(), 204u - 64u);
+  EXPECT_EQ(reading_.age[0], 1u);
+  EXPECT_EQ(drives_.statistics().floods, 1u);
+  // the samples that come to light three cycles later are late
+  for (int k = 0; k < 3; ++k) {
+    drives_.request();
+    receive();
+  }
+  EXPECT_EQ(reading_.age[0], 4u);
+  EXPECT_EQ(drives_.statistics().late[0], 1u);
+  drives_.request();
+  answer_all(kOff);
+  EXPECT_EQ(receive().age[0], 0u);
+}
+
+TEST_F(CanDrivesTest, GetsIntoStepAgainWithAResetWhenAnEchoWasLost) {
+  cycle(kOff);
+  bus_.echoes = false;
+  cycle(kOff);
+  bus_.echoes = true;
+  for (int k = 0; k < 5; ++k) cycle(kOff);
+  EXPECT_EQ(reading_.age[0], 6u);
+  cycle(kOff, PowerRequest::kReset);
+  int silent = 0;
+  for (int k = 0; k < 20 && reading_.age[0] != 0; ++k) {
+    drives_.request();
+    if (bus_.take_sent().empty()) ++silent;
+    answer_all(kOff);
+    receive();
+    drives_.send({});
+    bus_.take_sent();
+  }
+  EXPECT_EQ(reading_.age[0], 0u);
+  EXPECT_EQ(silent, CanDrives::kQuietCycles);
+}
+
+TEST_F(CanDrivesTest, StopsTheNodesAtTheEnd) {
+  drives_.stop_nodes();
+  EXPECT_EQ(bus_.sent, (std::vector<CanFrame>{frame(0x000, {0x02, 0x00})}));
+}
+
+class CountingTap final : public FrameTap {
+ public:
+  void on_frame(int bus, const ReceivedFrame& received) noexcept override {
+    EXPECT_EQ(bus, 0);
+    own += received.own ? 1 : 0;
+    others += received.own ? 0 : 1;
+  }
+  int own = 0;
+  int others = 0;
+};
+
+TEST_F(CanDrivesTest, ShowsEveryFrameToTheTap) {
+  CountingTap tap;
+  CanDrives drives(layout(), wires_, {}, &tap);
+  drives.request();
+  answer_all(kOff);
+  drives.receive(reading_);
+  EXPECT_EQ(tap.own, 1);
+  EXPECT_EQ(tap.others, 3);
+}
+
+/// A bus of random frames: endless, so that only the drain's limit ends a cycle.
+class RandomBus final : public CanBus {
+ public:
+  explicit RandomBus(unsigned seed) : random_(seed) {}
+
+  SendResult send(const CanFrame& frame) noexcept override {
+    if (frame.id >= 0x200 && frame.id < 0x280) ++rpdos;
+    const int chance = random_.integer(0, 99);
+    if (chance < 2) return SendResult::kFull;
+    if (chance == 2) return SendResult::kDown;
+    if (frame.id == 0x080) echoes_ += 1;
+    return SendResult::kSent;
+  }
+
+  bool receive(ReceivedFrame& received) noexcept override {
+    ++frames;
+    if (random_.integer(0, 199) == 0) return false;
+    received = ReceivedFrame();
+    CanFrame& frame = received.frame;
+    constexpr std::array<int, 14> kLikely = {0x000, 0x080, 0x083, 0x085, 0x183, 0x185, 0x1A0,
+                                             0x203, 0x583, 0x585, 0x605, 0x703, 0x705, 0x720};
+    const int which = random_.integer(0, 19);
+    frame.id =
+        static_cast<std::uint16_t>(which < 14 ? kLikely[static_cast<std::size_t>(which)] : random_.integer(0, 0x7FF));
+    frame.length = static_cast<std::uint8_t>(random_.integer(0, 3) == 0 ? random_.integer(0, 64) : 8);
+    for (std::uint8_t& byte : frame.data) byte = static_cast<std::uint8_t>(random_.integer(0, 255));
+    if (echoes_ > 0 && random_.integer(0, 9) == 0) {
+      --echoes_;
+      frame.id = 0x080;
+      received.own = true;
+    }
+    received.time_ns = random_.integer(-1'000'000'000, 1'000'000'000);
+    return true;
+  }
+
+  BusHealth health() const noexcept override { return {}; }
+
+  std::int64_t frames = 0;
+  std::int64_t rpdos = 0;
+
+ private:
+  test::Random random_;
+  int echoes_ = 0;
+};
+
+TEST(CanDrives, AMillionRandomFramesGiveNoNaNAndAskForNoMemory) {
+  BusLayout layout;
+  layout.joint_count = 2;
+  layout.drives[0] = {.bus = 0, .node = 5, .counts = 1000, .gear = 10.0, .rated_torque = 2.0};
+  layout.drives[1] = {.bus = 0, .node = 3, .counts = 4000, .gear = 1.0, .rated_torque = 5.0, .sign = -1.0};
+  layout.panel = {.bus = 0, .node = 32};
+  RandomBus bus(1);
+  const std::array<CanBus*, 1> wires = {&bus};
+  CanDrives drives(layout, wires, {});
+  test::Random random(2);
+  JointReading reading;
+  std::int64_t cycles = 0;
+  std::int64_t fresh = 0;
+  const test::AllocationGuard guard;
+  for (; bus.frames < 1'000'000; ++cycles) {
+    const std::int64_t before = bus.frames;
+    drives.request();
+    drives.receive(reading);
+    ASSERT_LE(bus.frames - before, CanDrives::kMostFrames);
+    ASSERT_TRUE(reading.position.allFinite() && reading.torque.allFinite());
+    ASSERT_LE(reading.torque.cwiseAbs().maxCoeff(), 20.0 * 32.768);
+    fresh += reading.age[0] == 0 ? 1 : 0;
+    JointCommand command;
+    command.power = static_cast<PowerRequest>(random.integer(0, 3));
+    command.torque[0] = random.integer(0, 9) == 0 ? std::nan("") : random.between(-1e3, 1e3);
+    const bool sent = drives.send(command);
+    ASSERT_FALSE(sent && std::isnan(command.torque[0]));
+  }
+  EXPECT_TRUE(guard.allocations() == 0 || !test::AllocationGuard::works());
+  EXPECT_EQ(bus.rpdos, 2 * cycles);
+  EXPECT_GT(fresh, 100);
+  EXPECT_NE(reading.alarm, Alarm::kNone);
+}
+
+}  // namespace
+}  // namespace godobject::hal
