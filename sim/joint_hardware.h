@@ -1,35 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
-#include "core/device/arm_model.h"
 #include "hal/joint_drives.h"
+#include "sim/joint_motor.h"
 
 namespace godobject::sim {
-
-/// Motor, encoder, brake and drive of one joint, at the joint's side of the gear.
-struct JointHardwareParameters {
-  double encoder_step = 0.0;         ///< what a count stands for [rad]; 0: exact
-  std::int32_t counter_at_zero = 0;  ///< counts at q = 0; the counter wraps like any 32 bit number
-  double torque_step = 0.0;   ///< what torques are rounded to, usually a permille of the rated one [Nm]; 0: exact
-  double motor_sign = 1.0;    ///< -1: the motor is connected the wrong way round, and its drive does not know
-  double torque_limit = 0.0;  ///< [Nm]
-  double brake_torque = 0.0;  ///< that the closed brake holds [Nm]
-  std::int64_t brake_open_ns = 25'000'000;   ///< from current on to free; until then it holds
-  std::int64_t brake_close_ns = 20'000'000;  ///< from current off to closed; until then it is free
-  std::int64_t enable_ns = 3'000'000;        ///< from the request to the power stage, before the brake begins to open
-  std::int64_t command_deadline_ns = 4'000'000;  ///< an enabled drive trips when no command came for longer
-  double quick_stop_damping = 0.0;               ///< of the drive's own velocity loop [Nms/rad]
-  double quick_stop_stiffness = 0.0;             ///< its integral action: of the position where the stop began [Nm/rad]
-  double stop_speed_margin = 0.5;  ///< a drive trips if a quick stop makes its joint faster by so much [rad/s]
-  double rest_velocity = 0.01;     ///< below it the joint is at rest and its brake closes [rad/s]
-  std::int64_t quick_stop_ns = 500'000'000;  ///< after which the brake closes in any case
-};
-
-/// Figures for a device file's arm: encoders of 20 bits a turn, torques in permille of each joint's greatest, which is
-/// also what its brake holds; velocity loops of 100 rad/s, tuned with all joints halfway to their upper limits.
-std::array<JointHardwareParameters, kMaxJoints> usual_hardware(const ArmModel& model) noexcept;
 
 /// The power states of a drive, its brake and its loops, in time that is passed in. Real-time safe.
 ///
@@ -40,7 +16,7 @@ std::array<JointHardwareParameters, kMaxJoints> usual_hardware(const ArmModel& m
 class JointHardware {
  public:
   JointHardware() = default;
-  explicit JointHardware(const JointHardwareParameters& parameters) noexcept : parameters_(parameters) {}
+  explicit JointHardware(const JointHardwareParameters& parameters) noexcept : motor_(parameters) {}
 
   /// What the bus brings, at time `now_ns`.
   void command(hal::PowerRequest power, double torque, std::int64_t now_ns) noexcept;
@@ -53,36 +29,25 @@ class JointHardware {
   void set_supply(bool on, std::int64_t now_ns) noexcept;  ///< without supply: no torque, brake closing, no answer
 
   hal::DriveState state() const noexcept;
-  double measured_torque() const noexcept { return torque_; }                        ///< as the drive has it [Nm]
-  double motor_torque() const noexcept { return parameters_.motor_sign * torque_; }  ///< on the joint [Nm]
-  double brake_torque() const noexcept { return brake_holds_ ? parameters_.brake_torque : 0.0; }
+  double measured_torque() const noexcept { return motor_.torque(); }     ///< as the drive has it [Nm]
+  double motor_torque() const noexcept { return motor_.motor_torque(); }  ///< on the joint [Nm]
+  double brake_torque() const noexcept { return motor_.brake_torque(); }
 
-  const JointHardwareParameters& parameters() const noexcept { return parameters_; }
-
-  /// What the encoder's counter shows at a position; only with an `encoder_step`.
-  std::int32_t counter(double position) const noexcept;
+  const JointHardwareParameters& parameters() const noexcept { return motor_.parameters(); }
+  std::int32_t counter(double position) const noexcept { return motor_.counter(position); }  ///< as JointMotor
 
  private:
   enum class Mode : std::uint8_t { kOff, kPowerStage, kBrakeOpens, kEnabled, kQuickStop, kFault, kNoSupply };
 
   void go_off(Mode mode, std::int64_t now_ns) noexcept;
-  void set_brake(bool open, std::int64_t now_ns) noexcept;
-  double rounded(double torque) const noexcept;
   bool is_late(std::int64_t now_ns) const noexcept;
 
-  JointHardwareParameters parameters_;
+  JointMotor motor_;
   Mode mode_ = Mode::kOff;
   std::int64_t mode_since_ns_ = 0;
   std::int64_t command_ns_ = 0;
   double commanded_ = 0.0;
-  double torque_ = 0.0;
-  bool brake_open_ = false;  ///< what is asked of it
-  bool brake_holds_ = true;  ///< what it does
-  std::int64_t brake_since_ns_ = 0;
   bool stop_begins_ = false;
-  double stop_position_ = 0.0;
-  double stop_speed_ = 0.0;
-  double stop_torque_ = 0.0;
 };
 
 }  // namespace godobject::sim
