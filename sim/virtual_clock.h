@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "hal/clock.h"
 
 namespace godobject::sim {
+
+/// A time that does not come [ns].
+inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 /// What happens while virtual time passes.
 class World {

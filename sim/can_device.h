@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "hal/can_bus.h"
+#include "sim/can_nodes.h"
+#include "sim/loopback_bus.h"
+#include "sim/virtual_clock.h"
+
+namespace godobject::sim {
+
+/// A simulated arm behind CAN, in the same process and in virtual time: plant, drives and panel on the wires of a
+/// layout, whose other ends are the controller's. Nothing moves but while `advance_to` runs: frames end, timers run out
+/// and torques act at their own nanosecond, and the plant is integrated up to each of these.
+///
+/// Nodes answer at once; a frame takes as long as its stuffing may make it, see LoopbackBus. The controller's SYNC is
+/// put on the wire when it is sent, its other frames `layout.compute` later. About 900 KiB. Real-time safe.
+class CanDevice final : public World {
+ public:
+  /// As CanNodes.
+  CanDevice(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
+            const CanScript& script = {}) noexcept;
+
+  /// The controller's end of a bus of the layout.
+  hal::CanBus& bus(int i) noexcept { return *ends_[static_cast<std::size_t>(i)]; }
+  const LoopbackBus& wire(int i) const noexcept { return *wires_[static_cast<std::size_t>(i)]; }
+
+  std::int64_t now_ns() const noexcept override { return nodes_.now_ns(); }
+  void advance_to(std::int64_t ns) noexcept override;
+
+  CanNodes& nodes() noexcept { return nodes_; }
+  const CanNodes& nodes() const noexcept { return nodes_; }
+
+ private:
+  static constexpr int kController = 0;  ///< its end on each wire; node i has end 1 + i
+
+  void start_frames() noexcept;
+  void end_frames() noexcept;
+
+  const hal::BusLayout& layout_;
+  CanNodes nodes_;
+  std::array<std::optional<LoopbackBus>, hal::kMaxBuses> wires_;
+  std::array<std::optional<LoopbackEnd>, hal::kMaxBuses> ends_;
+};
+
+}  // namespace godobject::sim

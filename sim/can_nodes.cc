@@ -1,0 +1,110 @@
+#include "sim/can_nodes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "sim/virtual_clock.h"
+
+namespace godobject::sim {
+namespace {
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+CanNodes::CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
+                   const CanScript& script) noexcept
+    : plant_(plant),
+      layout_(layout),
+      script_(script),
+      period_ns_(std::llround(1e9 * layout.period)),
+      joint_count_(layout.joint_count) {
+  assert(plant.now_ns() == 0 && plant.joint_count() == joint_count_);
+  assert(static_cast<int>(joints.size()) >= joint_count_ && period_ns_ > 0);
+  for (int i = 0; i < joint_count_; ++i) drives_[at(i)].emplace(layout.drives[at(i)], joints[at(i)], layout.fd);
+  if (layout.panel.bus >= 0) panel_.emplace(layout.panel, layout.fd);
+  for (int i = 0; i < node_count(); ++i) node(i).set_supply(true, 0);
+  begin_cycle();
+  update_drives();
+}
+
+CanopenNode& CanNodes::node(int i) noexcept {
+  if (i == joint_count_) return *panel_;
+  return *drives_[at(i)];
+}
+
+const CanopenNode& CanNodes::node(int i) const noexcept {
+  if (i == joint_count_) return *panel_;
+  return *drives_[at(i)];
+}
+
+int CanNodes::bus_of(int i) const noexcept { return i == joint_count_ ? layout_.panel.bus : layout_.drives[at(i)].bus; }
+
+void CanNodes::begin_cycle() noexcept {
+  const auto fault = [this](FaultKind kind, int joint) { return find_fault(script_.faults, kind, joint, cycle()); };
+  for (int i = 0; i < joint_count_; ++i) {
+    Cia402Slave& drive = *drives_[at(i)];
+    drive.set_supply(fault(FaultKind::kSupplyLost, i) == nullptr, now_ns());
+    if (fault(FaultKind::kDriveTrips, i) != nullptr) drive.trip(kOverCurrent, now_ns());
+    if (fault(FaultKind::kDriveDisabled, i) != nullptr) drive.disable(now_ns());
+    const DriveFault* jump = fault(FaultKind::kEncoderJump, i);
+    drive.set_encoder_fault(jump == nullptr ? 0.0 : jump->value, fault(FaultKind::kEncoderStuck, i) != nullptr);
+  }
+  update_panel();
+}
+
+void CanNodes::update_panel() noexcept {
+  if (!panel_) return;
+  const auto fault = [this](FaultKind kind) {
+    return find_fault(script_.faults, kind, kAllJoints, cycle()) != nullptr;
+  };
+  const bool pressed = emergency_stop_ || fault(FaultKind::kEmergencyStop);
+  const bool held = enable_switch_ && now_ns() >= script_.hold_from_ns && !fault(FaultKind::kEnableReleased);
+  unsigned inputs = 0;
+  if (!pressed) inputs |= hal::canopen::kPanelStopReleased;
+  if (held) inputs |= hal::canopen::kPanelEnable;
+  if (clutch_) inputs |= hal::canopen::kPanelClutch;
+  panel_->set_inputs(static_cast<std::uint8_t>(inputs));
+}
+
+void CanNodes::update_drives() noexcept {
+  for (int i = 0; i < joint_count_; ++i) {
+    drives_[at(i)]->update(now_ns(), plant_.positions()[i], plant_.velocities()[i]);
+  }
+}
+
+void CanNodes::step_to(std::int64_t ns) noexcept {
+  while (now_ns() < ns) {
+    update_drives();
+    JointLoad load;
+    for (int i = 0; i < joint_count_; ++i) {
+      load.motor[i] = drives_[at(i)]->motor_torque();
+      load.brake[i] = drives_[at(i)]->brake_torque();
+    }
+    const std::int64_t next_cycle_ns = (cycle() + 1) * period_ns_;
+    const std::int64_t next_step_ns = (now_ns() / Plant::kStep_ns + 1) * Plant::kStep_ns;
+    plant_.step(std::min({ns, next_cycle_ns, next_step_ns}) - now_ns(), load);
+    if (now_ns() == next_cycle_ns) begin_cycle();
+  }
+  update_drives();
+}
+
+void CanNodes::receive(int bus, const hal::CanFrame& frame, int sender) noexcept {
+  update_panel();  // its switches are read when SYNC ends
+  for (int i = 0; i < node_count(); ++i) {
+    if (i != sender && bus_of(i) == bus) node(i).receive(frame, now_ns());
+  }
+}
+
+void CanNodes::run_timers() noexcept {
+  for (int i = 0; i < node_count(); ++i) node(i).run_timers(now_ns());
+}
+
+std::int64_t CanNodes::next_timer_ns() const noexcept {
+  std::int64_t next = kNever;
+  for (int i = 0; i < node_count(); ++i) next = std::min(next, node(i).next_timer_ns());
+  return next;
+}
+
+}  // namespace godobject::sim

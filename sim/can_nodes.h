@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "hal/cia402/bus_layout.h"
+#include "sim/cia401_panel.h"
+#include "sim/cia402_slave.h"
+#include "sim/drive_fault.h"
+#include "sim/joint_motor.h"
+#include "sim/plant.h"
+
+namespace godobject::sim {
+
+/// What the operator does at the panel, and what goes wrong in the drives.
+struct CanScript {
+  std::int64_t hold_from_ns = 0;  ///< the enable switch is released before, held from then on
+  /// All kinds but those of readings and commands on their way, which are faults of a bus, and kEncoderNotFinite.
+  std::span<const DriveFault> faults;
+};
+
+/// The plant with a CiA 402 drive for each joint and the operator's panel: all that is on the buses of a layout but the
+/// controller. Frames and time are passed in. Real-time safe.
+class CanNodes {
+ public:
+  /// The plant is at time zero; plant, layout and script outlive this. All nodes have supply and boot; they begin as if
+  /// switched on at time zero. Steps of encoders and torques are the layout's, see Cia402Slave.
+  CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
+           const CanScript& script = {}) noexcept;
+
+  std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
+  std::int64_t cycle() const noexcept { return now_ns() / period_ns_; }
+  std::int64_t period_ns() const noexcept { return period_ns_; }
+  int node_count() const noexcept { return joint_count_ + (panel_ ? 1 : 0); }
+
+  /// The plant and the drives' loops up to `ns`, in steps of at most `Plant::kStep_ns`; no timer may be due before.
+  void step_to(std::int64_t ns) noexcept;
+
+  /// A frame that has ended now, to all nodes of a bus but the one that sent it (-1: none of them).
+  void receive(int bus, const hal::CanFrame& frame, int sender) noexcept;
+
+  /// What is due now, once all frames that have ended now were received.
+  void run_timers() noexcept;
+  std::int64_t next_timer_ns() const noexcept;
+
+  /// A node is numbered by its joint; the panel comes last.
+  CanopenNode& node(int i) noexcept;
+  const CanopenNode& node(int i) const noexcept;
+  int bus_of(int i) const noexcept;
+  const Cia402Slave& drive(int joint) const noexcept { return *drives_[static_cast<std::size_t>(joint)]; }
+  Cia402Slave& drive(int joint) noexcept { return *drives_[static_cast<std::size_t>(joint)]; }
+  const Plant& plant() const noexcept { return plant_; }
+
+  void press_emergency_stop(bool pressed) noexcept { emergency_stop_ = pressed; }
+  void hold_enable_switch(bool held) noexcept { enable_switch_ = held; }
+  void open_clutch(bool open) noexcept { clutch_ = open; }
+
+ private:
+  void begin_cycle() noexcept;
+  void update_drives() noexcept;
+  void update_panel() noexcept;
+
+  Plant& plant_;
+  const hal::BusLayout& layout_;
+  CanScript script_;
+  std::int64_t period_ns_;
+  int joint_count_;
+  std::array<std::optional<Cia402Slave>, kMaxJoints> drives_;
+  std::optional<Cia401Panel> panel_;
+  bool emergency_stop_ = false;
+  bool enable_switch_ = true;
+  bool clutch_ = false;
+};
+
+}  // namespace godobject::sim

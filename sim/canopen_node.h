@@ -1,0 +1,144 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hal/can_frame.h"
+#include "hal/canopen/object_numbers.h"
+#include "sim/object_dictionary.h"
+
+namespace godobject::sim {
+
+/// Abort codes of CiA 301 that a node answers with.
+enum class SdoAbort : std::uint32_t {
+  kNone = 0,
+  kCommand = 0x0504'0001,            ///< no expedited transfer, or none at all
+  kUnsupportedAccess = 0x0601'0000,  ///< a mapping while its PDO is valid, or its count is not 0
+  kWriteOnly = 0x0601'0001,
+  kReadOnly = 0x0601'0002,
+  kNoObject = 0x0602'0000,
+  kNotMappable = 0x0604'0041,
+  kMappingTooLong = 0x0604'0042,
+  kLength = 0x0607'0010,
+  kNoSub = 0x0609'0011,
+  kValue = 0x0609'0030,
+};
+
+/// Codes of emergency messages, CiA 301.
+enum EmergencyCode : std::uint16_t {
+  kNoError = 0x0000,
+  kHeartbeatError = 0x8130,
+  kPdoTooShort = 0x8210,
+  kPdoTooLong = 0x8220,
+  kPdoTimeout = 0x8250,
+};
+
+/// Bits of 1001.
+inline constexpr std::uint8_t kGenericError = 1u << 0;
+inline constexpr std::uint8_t kCommunicationError = 1u << 4;
+
+/// A CANopen node after CiA 301: NMT states, boot-up, heartbeat both ways, emergency messages, a server of expedited
+/// SDO, one RPDO and one TPDO that are mapped over SDO. Frames go in by `receive` and come out of `take_frame`, time is
+/// passed in; what the device does is behind the private virtuals. Real-time safe.
+///
+/// An RPDO of type 254 or 255 acts at once, any other at the next SYNC; its event timer (:5) is a deadline that its
+/// first reception arms. A TPDO of type 1 to 240 is sampled and answers at every n-th SYNC, of type 254 or 255 by its
+/// event timer. Whenever a node that was operational leaves that state, or a deadline or heartbeat is missed, the
+/// device is told that the connection is lost.
+class CanopenNode {
+ public:
+  static constexpr std::int64_t kBoot_ns = 50'000'000;               ///< from supply to boot-up
+  static constexpr std::int64_t kReset_ns = 10'000'000;              ///< from NMT reset node to boot-up
+  static constexpr std::int64_t kResetCommunication_ns = 1'000'000;  ///< from NMT reset communication to boot-up
+
+  CanopenNode(const CanopenNode&) = delete;
+  CanopenNode& operator=(const CanopenNode&) = delete;
+  virtual ~CanopenNode() = default;
+
+  /// A node begins without supply; with it, it boots and says so `boot_ns` later.
+  void set_supply(bool on, std::int64_t now_ns, std::int64_t boot_ns = kBoot_ns) noexcept;
+  bool has_supply() const noexcept { return stage_ != Stage::kNoSupply; }
+
+  /// As by NMT reset node, but on its own.
+  void restart(std::int64_t now_ns) noexcept;
+
+  void receive(const hal::CanFrame& frame, std::int64_t now_ns) noexcept;
+
+  /// What is due by `now_ns`; call it after frames that end at the same time.
+  void run_timers(std::int64_t now_ns) noexcept;
+  std::int64_t next_timer_ns() const noexcept;
+
+  /// The oldest frame that is to be sent. False: none.
+  bool take_frame(hal::CanFrame& frame) noexcept;
+
+  int number() const noexcept { return number_; }
+  bool is_up() const noexcept { return stage_ == Stage::kUp; }
+  hal::canopen::NmtState nmt_state() const noexcept { return nmt_; }
+  bool is_operational() const noexcept { return is_up() && nmt_ == hal::canopen::kNmtOperational; }
+  ObjectDictionary& objects() noexcept { return objects_; }
+  const ObjectDictionary& objects() const noexcept { return objects_; }
+
+  /// Sends an emergency message and sets 1001 to `error_register`.
+  void send_emergency(std::uint16_t code, std::uint8_t error_register) noexcept;
+
+  /// For scripts of what goes wrong.
+  void mute_heartbeat(bool muted) noexcept { heartbeat_muted_ = muted; }
+  void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }  ///< every request from now on; kNone: none
+
+ protected:
+  /// `fd`: PDOs go as FD frames. The device adds its objects beyond 1FFF in its own constructor.
+  CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpdo_type, bool fd) noexcept;
+
+ private:
+  enum class Stage : std::uint8_t { kNoSupply, kBooting, kUp };
+
+  /// Puts present values into the dictionary, before they are read.
+  virtual void sample() noexcept = 0;
+  /// Of an object beyond 1FFF: whether it may have this value.
+  virtual SdoAbort check(const ObjectEntry& entry, std::uint32_t value) const noexcept = 0;
+  /// An object beyond 1FFF has been written; `now_ns` is when.
+  virtual void written(const ObjectEntry& entry, std::int64_t now_ns) noexcept = 0;
+  /// `code`: of the emergency message that tells of it; kNoError: it was asked to leave the state operational.
+  virtual void connection_lost(std::uint16_t code, std::int64_t now_ns) noexcept = 0;
+  /// Everything as after switching on; without supply nothing works.
+  virtual void reset_device(bool supply, std::int64_t now_ns) noexcept = 0;
+
+  void boot(std::int64_t now_ns, std::int64_t boot_ns, bool all_objects) noexcept;
+  void enter(hal::canopen::NmtState state, std::uint16_t reason, std::int64_t now_ns) noexcept;
+  void on_nmt(const hal::CanFrame& frame, std::int64_t now_ns) noexcept;
+  void on_sync(std::int64_t now_ns) noexcept;
+  void on_rpdo(const hal::CanFrame& frame, std::int64_t now_ns) noexcept;
+  void apply_rpdo(std::int64_t now_ns) noexcept;
+  void send_tpdo() noexcept;
+  void on_heartbeat(std::int64_t now_ns) noexcept;
+  void on_sdo(const hal::CanFrame& request, std::int64_t now_ns) noexcept;
+  SdoAbort upload(std::uint16_t index, std::uint8_t sub, hal::CanFrame& response) noexcept;
+  SdoAbort download(const hal::CanFrame& request, std::int64_t now_ns) noexcept;
+  SdoAbort check_communication(const ObjectEntry& entry, std::uint32_t value) noexcept;
+  SdoAbort check_mapping(const ObjectEntry& entry, std::uint32_t value) noexcept;
+  int mapped_bytes(std::uint16_t mapping) const noexcept;
+  void put(const hal::CanFrame& frame) noexcept;
+
+  static constexpr std::size_t kOutbox = 16;
+
+  int number_;
+  bool fd_;
+  ObjectDictionary objects_;
+  Stage stage_ = Stage::kNoSupply;
+  hal::canopen::NmtState nmt_ = hal::canopen::kNmtBoot;
+  std::int64_t boot_at_ns_;
+  std::int64_t heartbeat_at_ns_;
+  std::int64_t consumer_at_ns_;  ///< by when the next heartbeat must have come
+  std::int64_t command_at_ns_;   ///< by when the next RPDO must have come
+  std::int64_t event_at_ns_;     ///< of the TPDO
+  std::uint32_t syncs_ = 0;
+  bool command_waits_ = false;  ///< for the next SYNC
+  hal::CanFrame command_;
+  bool heartbeat_muted_ = false;
+  SdoAbort refusal_ = SdoAbort::kNone;
+  std::array<hal::CanFrame, kOutbox> outbox_{};
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace godobject::sim
