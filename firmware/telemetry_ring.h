@@ -1,12 +1,8 @@
 #pragma once
 
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-
 #include "firmware/control_cycle.h"
 #include "firmware/periodic_loop.h"
+#include "hal/record_ring.h"
 
 namespace godobject::firmware {
 
@@ -16,41 +12,7 @@ struct TelemetryRecord {
   CycleRecord cycle;
 };
 
-/// From the loop to one slower thread, without waiting on either side: where the reader does not keep up, the newest
-/// records are lost and counted. About 2.5 MiB: static storage.
-class TelemetryRing {
- public:
-  static constexpr std::size_t kCapacity = 4096;  ///< four seconds
-
-  /// The loop's side. Cost: a copy, 100 ns. Real-time safe.
-  void push(const TelemetryRecord& record) noexcept {
-    const std::size_t end = end_.load(std::memory_order_relaxed);
-    if (end - begin_.load(std::memory_order_acquire) == kCapacity) {
-      lost_.fetch_add(1, std::memory_order_relaxed);
-      return;
-    }
-    records_[end % kCapacity] = record;
-    end_.store(end + 1, std::memory_order_release);
-  }
-
-  /// The reader's side. False: there is none.
-  bool pop(TelemetryRecord& record) noexcept {
-    const std::size_t begin = begin_.load(std::memory_order_relaxed);
-    if (begin == end_.load(std::memory_order_acquire)) return false;
-    record = records_[begin % kCapacity];
-    begin_.store(begin + 1, std::memory_order_release);
-    return true;
-  }
-
-  std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
-
- private:
-  static_assert(std::atomic<std::size_t>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
-
-  std::array<TelemetryRecord, kCapacity> records_;
-  alignas(64) std::atomic<std::size_t> begin_{0};
-  alignas(64) std::atomic<std::size_t> end_{0};
-  std::atomic<std::uint64_t> lost_{0};
-};
+/// Four seconds, about 2.5 MiB.
+using TelemetryRing = hal::RecordRing<TelemetryRecord, 4096>;
 
 }  // namespace godobject::firmware

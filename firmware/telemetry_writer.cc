@@ -1,18 +1,8 @@
 #include "firmware/telemetry_writer.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <chrono>
-#include <cstring>
 #include <iterator>
-#include <system_error>
-#include <thread>
 
 #include <fmt/format.h>
-
-#include "firmware/command/failure.h"
 
 namespace godobject::firmware {
 namespace {
@@ -62,18 +52,8 @@ void append(std::string& text, const TelemetryRecord& record, int joint_count) {
 
 TelemetryWriter::TelemetryWriter(const std::filesystem::path& folder, int joint_count, TelemetryRing& ring)
     : file_(folder / "telemetry.csv"), joint_count_(joint_count), ring_(ring) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) {
-    throw command::Failure(command::ExitCode::kIo, fmt::format("{}: cannot be written ({}); check the folder",
-                                                               file_.string(), std::strerror(errno)));
-  }
-  text_ = header(joint_count);
-  write_rows(0);
+  file_.write(header(joint_count), 0);
 }
-
-TelemetryWriter::~TelemetryWriter() { ::close(descriptor_); }
 
 void TelemetryWriter::drain() {
   TelemetryRecord record;
@@ -87,26 +67,8 @@ void TelemetryWriter::drain() {
   if (rows > 0) write_rows(rows);
 }
 
-void TelemetryWriter::run(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    drain();
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  drain();
-}
-
-/// All of `text_`, or it counts as lost.
 void TelemetryWriter::write_rows(std::uint64_t rows) {
-  if (line_is_open_) text_.insert(text_.begin(), '\n');
-  std::size_t done = 0;
-  while (done < text_.size()) {
-    const ssize_t put = ::write(descriptor_, text_.data() + done, text_.size() - done);
-    if (put < 0 && errno == EINTR) continue;
-    if (put <= 0) break;
-    done += static_cast<std::size_t>(put);
-  }
-  if (done > 0) line_is_open_ = text_[done - 1] != '\n';
-  (done == text_.size() ? written_ : lost_) += rows;
+  file_.write(text_, rows);
   text_.clear();
 }
 

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 
+#include "firmware/log_file.h"
 #include "firmware/telemetry_ring.h"
 
 namespace godobject::firmware {
@@ -15,31 +16,24 @@ class TelemetryWriter {
  public:
   /// Throws command::Failure (kIo) if folder or file cannot be made.
   TelemetryWriter(const std::filesystem::path& folder, int joint_count, TelemetryRing& ring);
-  ~TelemetryWriter();
-  TelemetryWriter(const TelemetryWriter&) = delete;
-  TelemetryWriter& operator=(const TelemetryWriter&) = delete;
 
   /// Writes what is there.
   void drain();
 
   /// Drains until it is asked to stop, a few times a second: the thread beside the loop.
-  void run(const std::stop_token& stop);
+  void run(const std::stop_token& stop) { drain_until_stopped(*this, stop); }
 
-  const std::filesystem::path& file() const noexcept { return file_; }
-  std::uint64_t written() const noexcept { return written_; }  ///< rows
-  std::uint64_t lost() const noexcept { return lost_; }        ///< rows that the disk did not take
+  const std::filesystem::path& file() const noexcept { return file_.path(); }
+  std::uint64_t written() const noexcept { return file_.written(); }  ///< rows
+  std::uint64_t lost() const noexcept { return file_.lost(); }        ///< rows that the disk did not take
 
  private:
   void write_rows(std::uint64_t rows);
 
-  std::filesystem::path file_;
+  LogFile file_;
   int joint_count_;
   TelemetryRing& ring_;
-  int descriptor_ = -1;
   std::string text_;
-  bool line_is_open_ = false;  // the disk took part of a row
-  std::uint64_t written_ = 0;
-  std::uint64_t lost_ = 0;
 };
 
 }  // namespace godobject::firmware

@@ -21,7 +21,7 @@ struct BusHealth {
   std::uint64_t errors = 0;      ///< error frames
   std::uint32_t unreturned = 0;  ///< frames handed over since the last own one came back: beyond what a few cycles
                                  ///< send, nobody acknowledges
-  std::uint64_t malformed = 0;  ///< frames that are none of CANopen's: extended, remote, impossible lengths
+  std::uint64_t malformed = 0;   ///< frames that are none of CANopen's: extended, remote, impossible lengths
 };
 
 /// One CAN bus. `send` and `receive` never block, allocate or throw.
