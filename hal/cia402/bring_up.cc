@@ -169,7 +169,11 @@ bool BringUp::boot() noexcept {
     return -1;
   };
   if (!wait(std::llround(1e9 * layout_.boot_timeout), [&] { return silent() < 0; })) {
-    return result_.status == BringUpStatus::kOk && fail_at(BringUpStatus::kNoBootUp, silent());
+    if (result_.status != BringUpStatus::kOk) return false;
+    const int bus = stations_.bus(silent());
+    // nobody acknowledges: then it is the bus and not the node
+    if (buses_[static_cast<std::size_t>(bus)]->health().unreturned > 0) return fail(BringUpStatus::kCannotSend, bus);
+    return fail_at(BringUpStatus::kNoBootUp, silent());
   }
   wait(kSettle_ns, [] { return false; });
   boot_is_over_ = true;

@@ -106,7 +106,9 @@ void CanDrives::check_health() noexcept {
   for (int b = 0; b < layout_.bus_count; ++b) {
     const Bus& bus = buses_[static_cast<std::size_t>(b)];
     const BusHealth health = bus.wire->health();
-    if (health.down || health.bus_off) alarm_.raise({.alarm = Alarm::kBusDown, .bus = b});
+    // a bus on which nobody acknowledges does not go off, its frames only stay away
+    const bool unheard = health.unreturned > kMostUnreturned;
+    if (health.down || health.bus_off || unheard) alarm_.raise({.alarm = Alarm::kBusDown, .bus = b});
     if (bus.watch.finding().alarm != Alarm::kNone) alarm_.raise(bus.watch.finding());
     if (bus.sample_ns > 0 && bus.echo_ns > 0) {
       statistics_.round_trip_ns = bus.sample_ns - bus.echo_ns;

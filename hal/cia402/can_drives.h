@@ -38,10 +38,11 @@ namespace godobject::hal {
 /// All but `bring_up` and `stop_nodes` is real-time safe. Cost without the bus objects': 2 us a cycle.
 class CanDrives final : public JointDrives {
  public:
-  static constexpr int kMostFrames = 64;    ///< taken from a bus in a cycle
-  static constexpr int kMostBadFrames = 3;  ///< in a row of one joint
-  static constexpr int kMostPanelLost = 3;  ///< cycles without the panel
-  static constexpr int kQuietCycles = 10;   ///< without SYNC, to get into step again
+  static constexpr int kMostFrames = 64;                ///< taken from a bus in a cycle
+  static constexpr int kMostBadFrames = 3;              ///< in a row of one joint
+  static constexpr int kMostPanelLost = 3;              ///< cycles without the panel
+  static constexpr std::uint32_t kMostUnreturned = 32;  ///< frames: those of three cycles, with heartbeats and SDO
+  static constexpr int kQuietCycles = 10;               ///< without SYNC, to get into step again
 
   /// `buses`: one each of the layout's, which outlive this, as the tap does if there is one. The layout has been
   /// checked: buses and nodes exist, nodes differ on each bus and from 127.

@@ -254,6 +254,15 @@ TEST_F(BringUpTest, TellsADeadInterface) {
   EXPECT_EQ(start().status, BringUpStatus::kCannotSend);
 }
 
+TEST_F(BringUpTest, TellsABusWithoutAcknowledgementFromASilentNode) {
+  joint_1_.boots = false;
+  second_.state.unreturned = 1;
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kCannotSend);
+  EXPECT_EQ(result.bus, 1);
+  EXPECT_EQ(result.node, 0);
+}
+
 TEST_F(BringUpTest, IsNotLedAstrayByOthersFrames) {
   // answers of another node, to other objects, and the like of another bus
   joint_2_.before_answer = [this](FakeBus& bus) {

@@ -171,7 +171,7 @@ TEST(BusPlan, ThreeJointsFitExactly) {
   EXPECT_EQ(load.slot_ns, 1'000'000);               // 745 + 120 + 135
   EXPECT_EQ(load.late_ns, 70'000);                  // an SDO frame before SYNC is 70 longer than a heartbeat
   EXPECT_NEAR(plan.timing.delay_s, 948e-6, 1e-12);  // 995 - 47
-  EXPECT_NEAR(load.utilisation, 0.745 + 4 * 65 / 20e3 + 270 / 100e3, 1e-12);
+  EXPECT_NEAR(load.utilisation, 0.745 + 4 * 65 / 20e3 + 270 / 50e3, 1e-12);
   EXPECT_TRUE(plan.fits);
 
   BusLayout slower = layout_of({3});

@@ -492,7 +492,7 @@ TEST_F(CanDrivesTest, ADriveThatNoLongerFollowsIsInTheWrongMode) {
 }
 
 TEST_F(CanDrivesTest, ADeadBusIsAnAlarm) {
-  for (const BusHealth& health : {BusHealth{.down = true}, BusHealth{.bus_off = true}}) {
+  for (const BusHealth& health : {BusHealth{.down = true}, BusHealth{.bus_off = true}, BusHealth{.unreturned = 33}}) {
     CanDrives drives(layout(), wires_, {});
     bus_.state = health;
     drives.receive(reading_);
