@@ -49,11 +49,24 @@ Status ControlCycle::estimate_velocity(std::uint32_t skipped) noexcept {
   return velocity_.update(positions_.q, qd_);
 }
 
+/// While the hand leans on something the clutch stays closed: what it leans on does not give way under it, and nothing
+/// pushes it when the clutch closes again.
+bool ControlCycle::opens_clutch() noexcept {
+  const bool leans = contact_force() >= setup_.supervisor.engage_force || report_.outcome == Outcome::kStartInside;
+  clutch_is_open_ = reading_.clutch_open && (clutch_is_open_ || !leans);
+  return clutch_is_open_;
+}
+
+/// At the hand, torques counted by the rotation length [N].
+double ControlCycle::contact_force() const noexcept {
+  return at_hand_.wrench_R.force.norm() + at_hand_.wrench_R.torque.norm() / setup_.joint_torque->rotation_length;
+}
+
 /// From the tool's pose to the wrench that the hand is to feel.
 Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   const Pose& H_RM = kinematics.H_WM;  // the arm's world is the room
   if (!mapping_) mapping_.emplace(setup_.mapping, H_RM);
-  if (const Status status = mapping_->update(H_RM, /*closed=*/true, kPeriod); status != Status::kOk) return status;
+  if (const Status status = mapping_->update(H_RM, !opens_clutch(), kPeriod); status != Status::kOk) return status;
   const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RM.translation), qd_);
 
   const Pose& H_WM = mapping_->scene_pose();
@@ -91,19 +104,19 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   seen.emergency_stop = reading_.emergency_stop;
   seen.enable_switch = reading_.enable_switch;
   seen.alarm = reading_.alarm != hal::Alarm::kNone;
+  seen.drive_restarted = reading_.alarm == hal::Alarm::kNodeReset;
   seen.q = positions_.q;
-  seen.lost = positions_.lost;
+  seen.lost = positions_.predicted;
   seen.jumps = positions_.jumps;
   seen.finite = positions_.finite;
   seen.stuck = positions_.stuck;
   for (int i = 0; i < setup_.arm->joint_count; ++i) {
     const ArmJoint& joint = setup_.arm->joints[static_cast<std::size_t>(i)];
-    seen.beyond_joint_limit = seen.beyond_joint_limit || positions_.q[i] < joint.lower || positions_.q[i] > joint.upper;
+    if (positions_.q[i] < joint.lower || positions_.q[i] > joint.upper) seen.joint_beyond_limit = i;
   }
-  seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_);
+  seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_) || positions_.runs_away;
   seen.status = status;
-  seen.contact_force =
-      at_hand_.wrench_R.force.norm() + at_hand_.wrench_R.torque.norm() / setup_.joint_torque->rotation_length;
+  seen.contact_force = contact_force();
   seen.inside = report_.outcome == Outcome::kStartInside;
   seen.overrun_ns = events.overrun_ns;
   seen.sends_failed = sends_failed_;
@@ -122,12 +135,16 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   if (mapping_) record_.H_WM = mapping_->scene_pose();
   record_.god_object_W = god_object_.mesh_pose();
   record_.share = decision.share;
-  const Wrench& rendered = joint_torque_.rendered_W;  // about M's origin
-  record_.wrench_R = {decision.share * rendered.force,
-                      decision.share * (rendered.torque - lever_R_.cross(rendered.force))};
+  if (!decision.of_last) {
+    const Wrench& rendered = joint_torque_.rendered_W;  // about M's origin
+    granted_R_ = {decision.share * rendered.force, decision.share * (rendered.torque - lever_R_.cross(rendered.force))};
+  }
+  const double share = decision.of_last ? decision.share : 1.0;
+  record_.wrench_R = {share * granted_R_.force, share * granted_R_.torque};
   record_.penetration = report_.penetration;
   record_.contacts = report_.contacts;
   record_.lost = positions_.lost;
+  record_.clutch_is_open = clutch_is_open_;
   record_.outcome = report_.outcome;
 }
 

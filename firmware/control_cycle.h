@@ -56,6 +56,7 @@ struct CycleRecord {
   double penetration = 0.0;                  ///< as CycleReport [m]
   std::uint32_t contacts = 0;
   std::uint32_t lost = 0;
+  bool clutch_is_open = false;  ///< the tool moves, the mesh rests
   Outcome outcome = Outcome::kFree;
 };
 
@@ -74,7 +75,8 @@ struct CycleSetup {
   Supervisor::Parameters supervisor;
 };
 
-/// One millisecond of the controller: from the drives' positions to their torques. The same lines run in virtual time
+/// One millisecond of the controller: from the drives' positions to their torques. The clutch opens once the contact
+/// force is below `supervisor.engage_force`; until then the operator's wish waits. The same lines run in virtual time
 /// and in the real-time thread. About 600 KiB: static storage. No allocation, no exceptions, no locks.
 class ControlCycle {
  public:
@@ -99,6 +101,8 @@ class ControlCycle {
 
  private:
   Status estimate_velocity(std::uint32_t skipped) noexcept;
+  bool opens_clutch() noexcept;
+  double contact_force() const noexcept;
   Status render(const ArmKinematics& kinematics) noexcept;
   Status compute_torque(const ArmKinematics& kinematics) noexcept;
   Observation observe(const LoopEvents& events, Status status) const noexcept;
@@ -121,6 +125,8 @@ class ControlCycle {
   CycleReport report_;
   Vector3 lever_R_ = Vector3::Zero();  // from M's origin to the hand, the body's centre of mass [m]
   LimitedWrench at_hand_;
+  bool clutch_is_open_ = false;
+  Wrench granted_R_;  // at the hand, in the last cycle that was none of a FADE
   JointTorque joint_torque_;
   ComputedTorque computed_;
   std::uint32_t sends_failed_ = 0;

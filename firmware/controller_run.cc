@@ -6,12 +6,14 @@ namespace godobject::firmware {
 
 bool refuses_to_start(Fault fault) noexcept {
   return fault == Fault::kDrivesAbsent || fault == Fault::kNotAtRest || fault == Fault::kSignWrong ||
-         fault == Fault::kSignUndecided;
+         fault == Fault::kSignUndecided || fault == Fault::kOutsideLimits;
 }
 
 namespace detail {
 
 void watch(const CycleRecord& record, RunReport& report) noexcept {
+  const std::uint32_t waited = report.waiting.load(std::memory_order_relaxed);
+  report.waiting.store(record.mode == Mode::kIdle ? waited + 1 : 0, std::memory_order_relaxed);
   if (!(record.share > 0.0)) return;
   const double force = record.wrench_R.force.norm();
   ++report.rendering;

@@ -33,6 +33,8 @@ struct RunReport {
   double deepest = 0.0;          ///< of the god object while something was rendered [m]
   std::uint64_t rendering = 0;   ///< cycles with something granted
   std::uint64_t in_contact = 0;  ///< of those, with a force
+  /// Cycles in a row that it has waited for the enable switch; another thread may look at it.
+  std::atomic<std::uint32_t> waiting{0};
 };
 
 /// A fault in it ends the run: what was found wrong before anything was rendered will not mend itself.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
@@ -290,6 +291,28 @@ firmware::TelemetryRing ring;
 firmware::RunReport run_report;
 std::optional<firmware::ControlCycle> cycle;
 
+/// Says once, each time, that it waits for longer than a moment for the operator to hold the enable switch.
+class WaitingNotice {
+ public:
+  void look() {
+    const bool waits = run_report.waiting.load(std::memory_order_relaxed) > kMoment;
+    if (waits && !said_) warn("waits for the enable switch: release it, then hold it");
+    said_ = waits;
+  }
+
+  /// A few times a second, until it is asked to stop: the thread beside the loop.
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      look();
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kMoment = 3000;  // cycles
+  bool said_ = false;
+};
+
 /// Real-time work on the simulated bus: with what the machine permits.
 long run_in_real_time(const firmware::RunSetup& setup, const ControllerConfig& config, sim::World& world) {
   for (const std::string& missing :
@@ -305,7 +328,9 @@ long run_in_real_time(const firmware::RunSetup& setup, const ControllerConfig& c
 void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, SimulatedDevice& simulated,
               firmware::TelemetryWriter* writer) {
   long faults_of_pages = 0;
+  WaitingNotice notice;
   if (config.loop.real_time) {
+    const std::jthread beside([&notice](const std::stop_token& stop) { notice.run(stop); });
     std::optional<std::jthread> thread;
     if (writer != nullptr) thread.emplace([writer](const std::stop_token& stop) { writer->run(stop); });
     faults_of_pages = run_in_real_time(setup, config, simulated.drives);
@@ -313,7 +338,8 @@ void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, S
     sim::VirtualClock clock(simulated.drives);
     std::optional<HandLog> hand;
     if (writer != nullptr) hand.emplace(config.telemetry.folder, simulated);
-    firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer, &hand] {
+    firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer, &hand, &notice] {
+      notice.look();
       if (writer == nullptr) return;
       writer->drain();
       hand->write_row();
@@ -345,6 +371,9 @@ void control(const Options& options) {
   const auto simulated = std::make_unique<SimulatedDevice>(config, placement);
   check_gains(config, scene, placement.device, simulated->drives.delay());
 
+  if (!config.start.sign_test) {
+    warn("start.sign_test = false: a motor or encoder that is connected the wrong way round will not be found");
+  }
   cycle.emplace(cycle_setup(config, scene, placement), simulated->drives);
   if (const Status status = cycle->start(); status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
@@ -371,7 +400,8 @@ void control(const Options& options) {
 
   const firmware::Supervisor& supervisor = cycle->supervisor();
   if (supervisor.fault() == firmware::Fault::kNone) return;
-  const std::string joint = supervisor.sign_joint() >= 0 ? fmt::format("joint {}: ", supervisor.sign_joint() + 1) : "";
+  const std::string joint =
+      supervisor.fault_joint() >= 0 ? fmt::format("joint {}: ", supervisor.fault_joint() + 1) : "";
   const std::string line = fmt::format("stopped: {}{}", joint, describe(supervisor.fault()));
   if (!requests.end) throw Failure(ExitCode::kUnavailable, line);
   warn(line);

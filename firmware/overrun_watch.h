@@ -1,7 +1,8 @@
 #pragma once
 
-#include <bitset>
 #include <cstdint>
+
+#include "firmware/rate_watch.h"
 
 namespace godobject::firmware {
 
@@ -10,25 +11,19 @@ namespace godobject::firmware {
 class OverrunWatch {
  public:
   static constexpr std::uint32_t kInRow = 3;
-  static constexpr std::size_t kWindow = 1000;  ///< cycles
-  static constexpr std::uint32_t kInWindow = 10;
   static constexpr std::int64_t kLong_ns = 5'000'000;
 
   /// One cycle: by how much the cycle before was late to end; 0 if it was not. True: too often, or too long.
   bool update(std::int64_t overrun_ns) noexcept {
     const bool overrun = overrun_ns > 0;
     in_row_ = overrun ? in_row_ + 1 : 0;
-    in_window_ += (overrun ? 1u : 0u) - (window_[at_] ? 1u : 0u);
-    window_[at_] = overrun;
-    at_ = (at_ + 1) % kWindow;
-    return in_row_ >= kInRow || in_window_ > kInWindow || overrun_ns > kLong_ns;
+    const bool too_often = rate_.update(overrun);
+    return too_often || in_row_ >= kInRow || overrun_ns > kLong_ns;
   }
 
  private:
   std::uint32_t in_row_ = 0;
-  std::uint32_t in_window_ = 0;
-  std::size_t at_ = 0;
-  std::bitset<kWindow> window_;
+  RateWatch rate_;
 };
 
 }  // namespace godobject::firmware

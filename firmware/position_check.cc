@@ -27,7 +27,8 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     checked.lost = std::max({checked.lost, lost_[joint], reading.age[joint]});
     if (!started_) {
       accepted_[i] = q_[i] = position;
-      periods_[joint] = jumps_[joint] = 0;
+      fresh_[i] = position;
+      periods_[joint] = jumps_[joint] = predicted_[joint] = 0;
       continue;
     }
     periods_[joint] += periods;
@@ -36,13 +37,22 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     const bool possible = std::fabs(position - accepted_[i]) <= largest_step_[i] * periods_[joint];
     if (fresh && possible) {
       accepted_[i] = q_[i] = position;
-      periods_[joint] = jumps_[joint] = 0;
+      periods_[joint] = jumps_[joint] = predicted_[joint] = 0;
     } else {
+      const double first = fresh_[i] - accepted_[i];
+      const double second = position - fresh_[i];
+      const double far = largest_step_[i] * periods;
+      const bool far_on = std::fabs(first) > far && std::fabs(second) > far && first * second > 0.0;
+      checked.runs_away = checked.runs_away || (fresh && jumps_[joint] > 0 && far_on);
       if (fresh) ++jumps_[joint];
+      ++predicted_[joint];
       q_[i] += qd[i] * period_ * periods;
     }
+    if (fresh) fresh_[i] = position;
     checked.jumps = std::max(checked.jumps, jumps_[joint]);
+    checked.predicted = std::max(checked.predicted, predicted_[joint]);
   }
+  checked.predicted = std::max(checked.predicted, checked.lost);
   if (!started_) motion_.fill(Motion());
   started_ = checked.finite;
   checked.q = q_;

@@ -13,6 +13,8 @@ struct CheckedPositions {
   JointVector q = JointVector::Zero();  ///< fresh, or predicted where they are not or cannot be [rad]
   std::uint32_t lost = 0;               ///< cycles in a row without a fresh position, of the worst joint
   std::uint32_t jumps = 0;              ///< fresh positions in a row that cannot be, of the worst joint
+  std::uint32_t predicted = 0;          ///< cycles in a row without a position that could be used, lost or jumped
+  bool runs_away = false;               ///< a joint jumped twice, and on in the same direction
   bool finite = true;                   ///< every fresh position and measured torque
   bool stuck = false;                   ///< a position rests though its joint should move
 };
@@ -22,7 +24,8 @@ struct CheckedPositions {
 /// - Lost: not fresh, be it missing or late. It is predicted from the last one and the velocity, for as long as the
 /// supervisor allows.
 /// - A jump: a fresh position further than 1.5 v_max T from the last one accepted, for each period in between. It is
-///   predicted over too.
+///   predicted over too. Where the next one is as far on again in the same direction it is no encoder that jumps but a
+///   joint that runs away.
 /// - Stuck, in either of two ways. A joint that moved in each of kMoving cycles, and then from one cycle to the next
 /// not
 ///   by a bit for kStill cycles: no torque stops an arm so. Or over kWindow cycles a position has not changed by a bit
@@ -62,6 +65,8 @@ class PositionCheck {
   JointVector q_ = JointVector::Zero();
   std::array<std::uint32_t, kMaxJoints> periods_{};  // since the accepted position
   std::array<std::uint32_t, kMaxJoints> jumps_{};
+  std::array<std::uint32_t, kMaxJoints> predicted_{};
+  JointVector fresh_ = JointVector::Zero();       // the last fresh positions, accepted or not
   std::array<std::uint32_t, kMaxJoints> lost_{};  // cycles in a row without a fresh position
   /// Of one joint's fresh positions.
   struct Motion {

@@ -29,8 +29,7 @@ const char* describe(Fault fault) noexcept {
   switch (fault) {
     case Fault::kNone: return "none";
     case Fault::kDrivesAbsent: return "not all drives answered; check power and wiring";
-    case Fault::kNotAtRest:
-      return "a joint moved, or stood beyond its limits, with its brake closed; check brakes and zeros";
+    case Fault::kNotAtRest: return "a joint moved with its brake closed; check the brakes";
     case Fault::kPositionLost: return "a joint's position was lost three times in a row; check wiring and bus load";
     case Fault::kPositionJump: return "a joint's position jumped; check its encoder";
     case Fault::kNotFinite: return "a reading was not a finite number; check the drives' scaling";
@@ -42,12 +41,18 @@ const char* describe(Fault fault) noexcept {
     case Fault::kSendFailed: return "torques could not be sent three times in a row; check the bus";
     case Fault::kEmergencyStop: return "emergency stop; release it and reset";
     case Fault::kEnableReleased: return "the enable switch was released; reset and hold it again";
-    case Fault::kJointLimit: return "a joint is beyond its position limit; move it back by hand and reset";
+    case Fault::kJointLimit:
+      return "a joint is beyond its position limit; release its brake with the drive's own tool, move it back, and "
+             "reset";
     case Fault::kTooFast: return "hand or joint was faster than the speed to stop at; reset";
     case Fault::kSignWrong:
       return "a joint moved against its torque, or the arm moved away by itself; check polarities and encoders";
     case Fault::kSignUndecided:
       return "a joint did not move when pushed; keep the hand still, check its brake and encoder";
+    case Fault::kOutsideLimits:
+      return "a joint stands beyond its limits before the start; release its brake with the drive's own tool and move "
+             "it "
+             "back, or check its zero";
   }
   return "unknown fault";
 }
@@ -92,15 +97,18 @@ Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexce
 
 Decision Supervisor::step(const Observation& seen) noexcept {
   ++in_mode_;
-  const bool too_many_overruns = overruns_.update(seen.overrun_ns);
-  const Fault fault = find_fault(seen, too_many_overruns);
+  too_many_overruns_ = overruns_.update(seen.overrun_ns);
+  too_many_jumps_ = jumps_.update(seen.jumps > 0);
+  // who comes back may have been exchanged, or connected anew
+  if (!seen.drives.all_answer || seen.drive_restarted) sign_tested_ = !parameters_.sign_test;
+  const Fault fault = find_fault(seen);
   if (fault == Fault::kPositionLost && powered()) {
     if (mode_ != Mode::kFade) {
       fault_ = fault;
       enter(Mode::kFade);
     }
   } else if (fault != Fault::kNone) {
-    stop(fault);
+    stop(fault, fault == Fault::kJointLimit ? seen.joint_beyond_limit : -1);
   }
   if (seen.end_requested && !ending_) begin_ending();
   advance(seen);
@@ -116,6 +124,7 @@ void Supervisor::begin_ending() noexcept {
   if (mode_ == Mode::kEngaging || mode_ == Mode::kRunning) {
     enter(Mode::kEnding);
   } else if (powered() && mode_ != Mode::kFade) {
+    stop_cycles_ = kEndStop;
     enter(Mode::kStopping);
   } else if (mode_ != Mode::kFade && mode_ != Mode::kStopping) {
     enter(Mode::kEnded);
@@ -127,14 +136,18 @@ void Supervisor::enter(Mode mode) noexcept {
   in_mode_ = 1;
 }
 
-void Supervisor::stop(Fault fault) noexcept {
-  if (fault_ == Fault::kNone) fault_ = fault;
+void Supervisor::stop(Fault fault, int joint) noexcept {
+  if (fault_ == Fault::kNone) {
+    fault_ = fault;
+    fault_joint_ = joint;
+  }
   share_ = 0.0;
+  stop_cycles_ = kFaultStop;
   enter(powered() ? Mode::kStopping : Mode::kStopped);
 }
 
 /// What is wrong in this cycle, as far as it matters in this mode.
-Fault Supervisor::find_fault(const Observation& seen, bool too_many_overruns) const noexcept {
+Fault Supervisor::find_fault(const Observation& seen) const noexcept {
   if (mode_ >= Mode::kStopping && mode_ != Mode::kEnding) return Fault::kNone;
   if (!seen.finite && (mode_ != Mode::kBoot || seen.drives.all_answer)) return Fault::kNotFinite;
   if (mode_ == Mode::kBoot) return Fault::kNone;
@@ -146,16 +159,17 @@ Fault Supervisor::find_fault(const Observation& seen, bool too_many_overruns) co
     const bool enabled =
         mode_ == Mode::kEnabling ? seen.drives.all_answer && !seen.drives.any_fault : seen.drives.all_enabled;
     if (!enabled) return Fault::kDriveLeft;
-    if (seen.jumps >= 2) return Fault::kPositionJump;
-    if (seen.stuck) return Fault::kEncoderStuck;
-    if (seen.beyond_joint_limit) return Fault::kJointLimit;
+    // before the jumps, which a joint that runs away makes as well
     if (seen.too_fast) return before_sign_is_known() ? Fault::kSignWrong : Fault::kTooFast;
-    if (too_many_overruns) return Fault::kOverruns;
+    if (seen.jumps >= 2 || too_many_jumps_) return Fault::kPositionJump;
+    if (seen.stuck) return Fault::kEncoderStuck;
+    if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
+    if (too_many_overruns_) return Fault::kOverruns;
     if (seen.sends_failed >= 3) return Fault::kSendFailed;
   } else {
     // a drive that has power unasked is as bad as one that has tripped
     if (!seen.drives.all_answer || seen.drives.any_fault || !seen.drives.none_moves) return Fault::kDriveLeft;
-    if (seen.jumps >= 2) return Fault::kPositionJump;
+    if (seen.jumps >= 2 || too_many_jumps_) return Fault::kPositionJump;
   }
   return seen.lost >= 3 ? Fault::kPositionLost : Fault::kNone;
 }
@@ -179,14 +193,21 @@ void Supervisor::advance(const Observation& seen) noexcept {
       }
       break;
     case Mode::kZeroCheck:
-      if (seen.beyond_joint_limit || moved(seen, kAtRest)) {
+      if (seen.joint_beyond_limit >= 0) {
+        stop(Fault::kOutsideLimits, seen.joint_beyond_limit);
+      } else if (moved(seen, kAtRest)) {
         stop(Fault::kNotAtRest);
       } else if (in_mode_ > kZeroCycles) {
+        switch_was_released_ = false;
         enter(Mode::kIdle);
       }
       break;
     case Mode::kIdle:
-      if (seen.enable_switch && !seen.emergency_stop) {
+      if (seen.emergency_stop) {
+        switch_was_released_ = false;
+      } else if (!seen.enable_switch) {
+        switch_was_released_ = true;
+      } else if (switch_was_released_) {
         reference_ = seen.q;
         sign_test_.restart();
         enter(Mode::kEnabling);
@@ -207,8 +228,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
         sign_tested_ = true;
         enter(Mode::kArmed);
       } else if (result != SignTest::Result::kRunning) {
-        sign_joint_ = sign_test_.joint();
-        stop(result == SignTest::Result::kWrong ? Fault::kSignWrong : Fault::kSignUndecided);
+        stop(result == SignTest::Result::kWrong ? Fault::kSignWrong : Fault::kSignUndecided, sign_test_.joint());
       } else if (moved(seen, kMovesAway)) {
         stop(Fault::kSignWrong);
       }
@@ -223,13 +243,16 @@ void Supervisor::advance(const Observation& seen) noexcept {
       break;
     case Mode::kEnding:
       share_ = std::max(0.0, share_ - end_step_);
-      if (in_mode_ > kEndRamp) enter(Mode::kStopping);
+      if (in_mode_ > kEndRamp) {
+        stop_cycles_ = kEndStop;
+        enter(Mode::kStopping);
+      }
       break;
     case Mode::kFade:
       if (in_mode_ > kFadeCycles) stop(fault_);
       break;
     case Mode::kStopping:
-      if ((in_mode_ > kHoldCycles && seen.drives.none_moves) || in_mode_ > (ending_ ? kEndStop : kFaultStop)) {
+      if ((in_mode_ > kHoldCycles && seen.drives.none_moves) || in_mode_ > stop_cycles_) {
         enter(ending_ ? Mode::kEnded : Mode::kStopped);
       }
       break;
@@ -239,6 +262,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
     case Mode::kResetting:
       if (seen.drives.all_answer && !seen.drives.any_fault) {
         fault_ = Fault::kNone;
+        fault_joint_ = -1;
         enter(Mode::kBoot);
       } else if (in_mode_ > kFaultStop) {
         enter(Mode::kStopped);

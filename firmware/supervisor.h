@@ -4,6 +4,7 @@
 
 #include "core/status.h"
 #include "firmware/overrun_watch.h"
+#include "firmware/rate_watch.h"
 #include "firmware/sign_test.h"
 #include "hal/joint_drives.h"
 
@@ -13,7 +14,7 @@ namespace godobject::firmware {
 enum class Mode : std::uint8_t {
   kBoot,       ///< waits for all drives to answer
   kZeroCheck,  ///< positions must be possible and rest, brakes closed
-  kIdle,       ///< waits for the enable switch
+  kIdle,       ///< waits for the enable switch: to be seen released, then held
   kEnabling,   ///< waits for all drives to be enabled; holds the arm
   kSignTest,   ///< each joint must move the way it is pushed
   kArmed,      ///< holds the arm; waits for the contact force to be small
@@ -32,8 +33,8 @@ enum class Fault : std::uint8_t {
   kNone,
   kDrivesAbsent,    ///< not all drives answered in time
   kNotAtRest,       ///< a joint moved though its brake was closed
-  kPositionLost,    ///< a joint without a fresh position three times in a row
-  kPositionJump,    ///< a position that cannot be, twice in a row
+  kPositionLost,    ///< a joint without a position that could be used three times in a row
+  kPositionJump,    ///< a position that cannot be, twice in a row or too often
   kNotFinite,       ///< a NaN or Inf in a reading
   kEncoderStuck,    ///< a position rests though its joint should move
   kComputation,     ///< the cycle could not be computed
@@ -44,9 +45,10 @@ enum class Fault : std::uint8_t {
   kEmergencyStop,   ///< pressed, or its line is dead
   kEnableReleased,  ///< the operator let go of the enable switch
   kJointLimit,      ///< a joint beyond its position limit
-  kTooFast,         ///< hand or joint beyond the speed at which to stop
+  kTooFast,         ///< hand or joint beyond the speed at which to stop, or a joint that runs away
   kSignWrong,       ///< a joint moves against its torque, or away by itself
   kSignUndecided,   ///< a joint does not move, or the hand is not still
+  kOutsideLimits,   ///< a joint stands beyond its position limit before the start
 };
 
 const char* name(Mode mode) noexcept;        ///< one word
@@ -68,12 +70,13 @@ struct Observation {
   bool emergency_stop = false;
   bool enable_switch = false;
   bool alarm = false;
+  bool drive_restarted = false;         ///< the alarm is that a drive has started anew
   JointVector q = JointVector::Zero();  ///< checked positions [rad]
-  std::uint32_t lost = 0;               ///< as CheckedPositions
+  std::uint32_t lost = 0;               ///< CheckedPositions::predicted
   std::uint32_t jumps = 0;
   bool finite = true;
   bool stuck = false;
-  bool beyond_joint_limit = false;
+  int joint_beyond_limit = -1;  ///< a joint beyond its position limit; -1: none
   bool too_fast = false;
   Status status = Status::kOk;     ///< of estimate, mapping, god object and joint torque
   double contact_force = 0.0;      ///< what would be rendered [N], torques counted by the rotation length
@@ -97,7 +100,10 @@ struct Decision {
 /// The only place that decides what a fault means, and the only owner of torque: what it does not grant is not sent. A
 /// state machine without time, hardware or I/O; `step` is called once a cycle.
 ///
-/// Neither asks for power that was not asked for in the cycle before, or that a drive has lost since.
+/// Neither FADE nor STOP asks for power that was not asked for in the cycle before, or that a drive has lost since.
+///
+/// Power is given only after the enable switch, while all drives answered and the emergency stop was released, was
+/// seen released and then held, each time anew: one that is stuck, or held since before the start, gives none.
 ///
 /// FADE: the two cycles for which a position may be missing are what the last torque is held for; from the third on it
 /// goes to nothing in kFadeCycles. STOP: nothing is rendered from this cycle on; drives that obey hold the arm, and
@@ -135,7 +141,7 @@ class Supervisor {
 
   Mode mode() const noexcept { return mode_; }
   Fault fault() const noexcept { return fault_; }
-  int sign_joint() const noexcept { return sign_joint_; }  ///< that the sign test failed at; -1: none
+  int fault_joint() const noexcept { return fault_joint_; }  ///< whose fault it is, where it is known; -1: none
 
   /// Positions are held against those before; otherwise each reading is taken as it is.
   bool follows_positions() const noexcept {
@@ -149,8 +155,8 @@ class Supervisor {
 
  private:
   void enter(Mode mode) noexcept;
-  void stop(Fault fault) noexcept;
-  Fault find_fault(const Observation& seen, bool too_many_overruns) const noexcept;
+  void stop(Fault fault, int joint = -1) noexcept;
+  Fault find_fault(const Observation& seen) const noexcept;
   void advance(const Observation& seen) noexcept;
   bool moved(const Observation& seen, double more_than) const noexcept;
   bool before_sign_is_known() const noexcept { return mode_ == Mode::kEnabling || mode_ == Mode::kSignTest; }
@@ -166,14 +172,19 @@ class Supervisor {
   hal::PowerRequest last_power_ = hal::PowerRequest::kOff;
   std::uint32_t in_mode_ = 0;  // cycles, this one included
   bool ending_ = false;
+  bool switch_was_released_ = false;  // since kIdle began, with the emergency stop released
   bool sign_tested_;
   double share_ = 0.0;
   double end_step_ = 0.0;                        // of the share, a cycle
   JointVector reference_ = JointVector::Zero();  // where the joints were when the mode began that must not move
   JointVector test_torque_ = JointVector::Zero();
-  int sign_joint_ = -1;
+  std::uint32_t stop_cycles_ = 0;  // the longest that kStopping may take
+  int fault_joint_ = -1;
   SignTest sign_test_;
   OverrunWatch overruns_;
+  RateWatch jumps_;
+  bool too_many_overruns_ = false;
+  bool too_many_jumps_ = false;
 };
 
 }  // namespace godobject::firmware

@@ -44,6 +44,7 @@ double DirectDrives::read_position(int i) noexcept {
 
 void DirectDrives::begin_cycle() noexcept {
   const std::int64_t k = cycle();
+  if (now_ns() >= timing_.enable_ns && now_ns() - timing_.period_ns < timing_.enable_ns) enable_switch_ = true;
   Sample& sample = samples_[at(k % kHistory)];
   const Sample& before = samples_[at((k + kHistory - 1) % kHistory)];
   for (int i = 0; i < joint_count(); ++i) {
@@ -83,6 +84,7 @@ void DirectDrives::receive(hal::JointReading& reading) noexcept {
   }
   last_.emergency_stop = emergency_stop_ || fault(FaultKind::kEmergencyStop, kAllJoints) != nullptr;
   last_.enable_switch = enable_switch_ && fault(FaultKind::kEnableReleased, kAllJoints) == nullptr;
+  last_.clutch_open = fault(FaultKind::kClutchOpen, kAllJoints) != nullptr;
   reading = last_;
 }
 

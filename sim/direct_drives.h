@@ -13,8 +13,9 @@
 namespace godobject::sim {
 
 struct DriveTiming {
-  std::int64_t period_ns = 1'000'000;  ///< T: positions are sampled at its multiples; cycle k begins at k T
-  std::int64_t delay_ns = 1'000'000;   ///< t_d: any number of periods, and fractions of one, up to 8 periods
+  std::int64_t period_ns = 1'000'000;    ///< T: positions are sampled at its multiples; cycle k begins at k T
+  std::int64_t delay_ns = 1'000'000;     ///< t_d: any number of periods, and fractions of one, up to 8 periods
+  std::int64_t enable_ns = 200'000'000;  ///< when the operator, who is asked to, begins to hold the enable switch
 };
 
 /// What has gone over the wire.
@@ -46,7 +47,8 @@ class DirectDrives final : public hal::JointDrives, public World {
   std::int64_t now_ns() const noexcept override { return plant_.now_ns(); }
   void advance_to(std::int64_t ns) noexcept override;
 
-  /// The operator's two switches, beside those of the script. They begin released and held.
+  /// The operator's switches, beside what the script says of them. Both begin released; the enable switch is held
+  /// from `DriveTiming::enable_ns` on until it is said otherwise.
   void press_emergency_stop(bool pressed) noexcept { emergency_stop_ = pressed; }
   void hold_enable_switch(bool held) noexcept { enable_switch_ = held; }
 
@@ -87,7 +89,7 @@ class DirectDrives final : public hal::JointDrives, public World {
   std::int64_t end_pending_ = 0;
   hal::JointReading last_;
   bool emergency_stop_ = false;
-  bool enable_switch_ = true;
+  bool enable_switch_ = false;
   DriveCounters counters_;
 };
 

@@ -18,6 +18,7 @@ enum class FaultKind : std::uint8_t {
   kSupplyLost,        ///< no power: the joint is limp until its brake has closed, and does not answer
   kEmergencyStop,     ///< pressed
   kEnableReleased,    ///< the operator lets go of the enable switch
+  kClutchOpen,        ///< the operator opens the clutch: no fault, but a thing that happens
 };
 
 inline constexpr int kAllJoints = -1;

@@ -57,12 +57,21 @@ void read_workspace(const TomlTable& table, ControllerConfig& config) {
 void read_limits(const TomlTable& table, ControllerConfig::Limits& limits) {
   table.allow({"force", "torque", "speed", "speed_stop", "turn", "turn_stop", "joint_speed", "joint_speed_stop",
                "torque_rate", "stuck_torque"});
-  limits.force = table.number("force", {1e-3, 1e4}, limits.force);
-  limits.torque = table.number("torque", {1e-4, 1e4}, limits.torque);
-  limits.speed = table.number("speed", {1e-3, 100.0}, limits.speed);
-  limits.speed_stop = table.number("speed_stop", {1.05 * limits.speed, 200.0}, 1.5 * limits.speed);
-  limits.turn = table.number("turn", {1e-2, 1e3}, limits.turn);
-  limits.turn_stop = table.number("turn_stop", {1.05 * limits.turn, 2e3}, 1.5 * limits.turn);
+  // what a person's hand and wrist bear, and how quickly they move; 140 N: ISO/TS 15066, hand, quasi-static
+  const auto bearable = [&table](const char* key, double least, double most, const char* unit, double fallback) {
+    const double value = table.number(key, {least, 1e6}, fallback);
+    if (value > most) {
+      table.complain(key, fmt::format("= {:g} {} protects nobody: a person's hand is in it; at most {:g} {}", value,
+                                      unit, most, unit));
+    }
+    return value;
+  };
+  limits.force = bearable("force", 1e-3, 140.0, "N", limits.force);
+  limits.torque = bearable("torque", 1e-4, 10.0, "Nm", limits.torque);
+  limits.speed = bearable("speed", 1e-3, 5.0, "m/s", limits.speed);
+  limits.speed_stop = bearable("speed_stop", 1.05 * limits.speed, 7.5, "m/s", 1.5 * limits.speed);
+  limits.turn = bearable("turn", 1e-2, 30.0, "rad/s", limits.turn);
+  limits.turn_stop = bearable("turn_stop", 1.05 * limits.turn, 45.0, "rad/s", 1.5 * limits.turn);
   limits.joint_speed = table.number("joint_speed", {0.05, 1.0}, limits.joint_speed);
   limits.joint_speed_stop =
       table.number("joint_speed_stop", {1.05 * limits.joint_speed, 1.4}, 1.25 * limits.joint_speed);

@@ -39,7 +39,7 @@ class SimulatedRun {
  public:
   struct Options {
     std::vector<Vector3> path;  ///< of the ball in the scene, 1 ms apart, from time `begin` on
-    double begin = 0.4;         ///< [s]
+    double begin = 0.4;         ///< [s]; what is rendered then is at full
     std::vector<sim::DriveFault> faults;
     std::vector<sim::LateWake> late;
     sim::DriveTiming timing;

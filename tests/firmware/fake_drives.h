@@ -15,7 +15,11 @@ class FakeDrives final : public hal::JointDrives {
   int joint_count() const noexcept override { return joint_count_; }
   void request() noexcept override {}
   std::int64_t collect_ns() const noexcept override { return 0; }
-  void receive(hal::JointReading& out) noexcept override { out = reading; }
+  /// The enable switch is released at first, as who asks for power must have it.
+  void receive(hal::JointReading& out) noexcept override {
+    out = reading;
+    out.enable_switch = reading.enable_switch && ++receives_ > kReleased;
+  }
   double delay() const noexcept override { return 1e-3; }
 
   bool send(const hal::JointCommand& command) noexcept override {
@@ -46,7 +50,10 @@ class FakeDrives final : public hal::JointDrives {
   bool fails_to_send = false;
 
  private:
+  static constexpr int kReleased = 150;
+
   int joint_count_;
+  int receives_ = 0;
 };
 
 }  // namespace godobject::firmware

@@ -95,6 +95,38 @@ TEST_F(PositionCheckTest, CountsJumpsInARow) {
   }
 }
 
+/// Lost and jumped by turns: what cannot be used is counted in a row whatever its cause.
+TEST_F(PositionCheckTest, CountsCyclesWithoutAPositionWhateverTheCause) {
+  step();
+  std::uint32_t predicted = 0;
+  for (const char cause : {'L', 'L', 'J', 'L', 'L', 'J', 'L'}) {
+    reading_.age[0] = cause == 'L' ? reading_.age[0] + 1 : 0;
+    reading_.position[0] = cause == 'L' ? 0.0 : 0.1;
+    EXPECT_EQ(step().predicted, ++predicted);
+  }
+  reading_.age[0] = 0;
+  reading_.position[0] = 1e-3;
+  EXPECT_EQ(step().predicted, 0u);
+}
+
+TEST_F(PositionCheckTest, TellsAJointThatRunsAwayFromAnEncoderThatJumps) {
+  step();
+  reading_.position[0] = 0.004;
+  EXPECT_FALSE(step().runs_away);
+  reading_.position[0] = 0.010;
+  EXPECT_TRUE(step().runs_away);
+  EXPECT_EQ(checked_.jumps, 2u);
+  for (const double second : {0.004, -0.004, 0.006, 0.0035}) {
+    check_.restart();
+    reading_.position[0] = 0.0;
+    step();
+    reading_.position[0] = 0.004;
+    step();
+    reading_.position[0] = second;
+    EXPECT_FALSE(step().runs_away) << second;
+  }
+}
+
 TEST_F(PositionCheckTest, AllowsForPeriodsThatWereSkipped) {
   step();
   reading_.position[0] = 0.0085;  // 2.1 mrad a period

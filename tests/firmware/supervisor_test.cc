@@ -36,7 +36,11 @@ class Bench {
   }
 
   const Decision& step() {
-    decision = supervisor.step(seen);
+    Observation shown = seen;
+    // the operator lets go of the switch when it comes to that
+    if (lets_go && supervisor.mode() == Mode::kIdle && !was_idle_) shown.enable_switch = false;
+    was_idle_ = supervisor.mode() == Mode::kIdle;
+    decision = supervisor.step(shown);
     ++cycles;
     if (!obeys) return decision;
     switch (decision.power) {
@@ -67,7 +71,11 @@ class Bench {
   Observation seen;
   Decision decision;
   bool obeys = true;
+  bool lets_go = true;
   int cycles = 0;
+
+ private:
+  bool was_idle_ = false;
 };
 
 bool is_stop(const Decision& decision) {
@@ -198,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(
             [](Observation& o, int k) { o.sends_failed = static_cast<std::uint32_t>(k - 1); }, Fault::kSendFailed, 4},
         Row{"emergency stop", [](Observation& o, int) { o.emergency_stop = true; }, Fault::kEmergencyStop, 2},
         Row{"enable switch released", [](Observation& o, int) { o.enable_switch = false; }, Fault::kEnableReleased, 2},
-        Row{"joint limit", [](Observation& o, int) { o.beyond_joint_limit = true; }, Fault::kJointLimit, 5},
+        Row{"joint limit", [](Observation& o, int) { o.joint_beyond_limit = 1; }, Fault::kJointLimit, 5},
         Row{"too fast", [](Observation& o, int) { o.too_fast = true; }, Fault::kTooFast, 5}),
     [](const testing::TestParamInfo<Row>& row) {
       std::string name = row.param.what;
@@ -296,11 +304,93 @@ TEST(Supervisor, RefusesJointsThatMoveOrStandBeyondTheirLimitsWithBrakesClosed) 
     if (moves) {
       bench.seen.q[2] = 0.006;
     } else {
-      bench.seen.beyond_joint_limit = true;
+      bench.seen.joint_beyond_limit = 2;
     }
     EXPECT_EQ(bench.step().power, PowerRequest::kOff);
-    EXPECT_EQ(bench.supervisor.fault(), Fault::kNotAtRest);
+    EXPECT_EQ(bench.supervisor.fault(), moves ? Fault::kNotAtRest : Fault::kOutsideLimits);
+    EXPECT_EQ(bench.supervisor.fault_joint(), moves ? -1 : 2);
   }
+}
+
+TEST(Supervisor, GivesNoPowerForASwitchThatIsHeldSinceBeforeItWasAskedFor) {
+  Bench bench;
+  bench.lets_go = false;
+  for (int i = 0; i < 5000; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kIdle);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kNone);
+  bench.seen.enable_switch = false;
+  bench.step();
+  bench.seen.enable_switch = true;
+  bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kEnabling);
+}
+
+TEST(Supervisor, GivesNoPowerWhenTheEmergencyStopIsReleasedWhileTheSwitchIsHeld) {
+  Bench bench;
+  bench.seen.enable_switch = false;
+  bench.run_to(Mode::kIdle);
+  for (int i = 0; i < 10; ++i) bench.step();
+  bench.seen.emergency_stop = true;
+  bench.step();
+  bench.seen.enable_switch = true;
+  bench.step();
+  bench.seen.emergency_stop = false;
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kOff);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kIdle);
+}
+
+TEST(Supervisor, WantsTheSwitchReleasedAgainAfterAReset) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.seen.emergency_stop = true;
+  bench.run_to(Mode::kStopped);
+  bench.seen.emergency_stop = bench.seen.enable_switch = false;
+  bench.seen.reset_requested = true;
+  bench.step();
+  bench.seen.reset_requested = false;
+  bench.seen.enable_switch = true;  // while it boots
+  bench.lets_go = false;
+  for (int i = 0; i < 2000; ++i) ASSERT_NE(bench.step().power, PowerRequest::kEnable);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kIdle);
+}
+
+TEST(Supervisor, CallsAJointThatRunsAwayTooFastThoughItsPositionsJump) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.seen.too_fast = true;
+  bench.seen.jumps = 2;
+  EXPECT_TRUE(is_stop(bench.step()));
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kTooFast);
+}
+
+TEST(Supervisor, ToleratesTenJumpsASecondAndNotEleven) {
+  for (const int count : {10, 11}) {
+    Bench bench;
+    bench.run_to(Mode::kRunning);
+    for (int i = 0; i < 2000; ++i) {
+      bench.seen.jumps = i % 1000 < 20 * count && i % 20 == 0 ? 1 : 0;
+      bench.step();
+    }
+    EXPECT_EQ(bench.supervisor.fault(), count == 10 ? Fault::kNone : Fault::kPositionJump) << count;
+  }
+}
+
+/// The brakes of a heavy arm have the time that they have, whoever ends the program meanwhile.
+TEST(Supervisor, IsNotHurriedByARequestToEndWhileItStopsForAFault) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.obeys = false;
+  bench.seen.emergency_stop = true;
+  bench.step();
+  ASSERT_EQ(bench.supervisor.mode(), Mode::kStopping);
+  bench.seen.end_requested = true;
+  int cycles = 1;
+  while (bench.supervisor.mode() == Mode::kStopping && cycles < 3000) {
+    bench.step();
+    ++cycles;
+  }
+  EXPECT_EQ(cycles, static_cast<int>(Supervisor::kFaultStop) + 1) << "the last one is that of the end";
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kEnded);
 }
 
 TEST(Supervisor, HoldsTheArmBeforeItAsksForPower) {
@@ -487,30 +577,58 @@ TEST(Supervisor, StopsWhenAJointMovesAwayInTheSignTest) {
   EXPECT_EQ(bench.supervisor.fault(), Fault::kSignWrong);
 }
 
-TEST(Supervisor, ArmsOnlyAfterASignTestThatPassedAndTestsOnce) {
+/// A bench with joints that follow their torque, armed after a sign test that passed.
+Bench tested_bench() {
   Bench bench(parameters(/*sign_test=*/true));
-  ASSERT_GE(bench.run_to(Mode::kSignTest), 0);
-  // joints that follow their torque
+  bench.run_to(Mode::kSignTest);
   for (int i = 0; i < 5000 && bench.supervisor.mode() == Mode::kSignTest; ++i) {
     bench.seen.q += 1e-2 * bench.step().test_torque;
   }
-  ASSERT_EQ(bench.supervisor.mode(), Mode::kArmed);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kArmed);
   EXPECT_TRUE(bench.decision.test_torque.isZero(0.0));
-  bench.seen.emergency_stop = true;
+  return bench;
+}
+
+/// The mode that follows kEnabling once the operator has reset it and holds the switch again.
+Mode mode_after_reset(Bench& bench) {
   bench.run_to(Mode::kStopped);
-  bench.seen.emergency_stop = bench.seen.enable_switch = false;
+  bench.seen.emergency_stop = bench.seen.enable_switch = bench.seen.drive_restarted = false;
+  bench.seen.drives.all_answer = true;
   bench.seen.reset_requested = true;
   bench.run_to(Mode::kIdle);
+  bench.seen.reset_requested = false;
   bench.seen.enable_switch = true;
   bench.run_to(Mode::kEnabling);
-  bench.step();
-  bench.step();
-  EXPECT_NE(bench.supervisor.mode(), Mode::kSignTest);
+  while (bench.supervisor.mode() == Mode::kEnabling) bench.step();
+  return bench.supervisor.mode();
+}
+
+TEST(Supervisor, ArmsOnlyAfterASignTestThatPassedAndTestsOnce) {
+  Bench bench = tested_bench();
+  bench.seen.emergency_stop = true;
+  EXPECT_EQ(mode_after_reset(bench), Mode::kArmed);
+}
+
+TEST(Supervisor, RepeatsTheSignTestOnceADriveHasBeenWithoutSupply) {
+  Bench lost = tested_bench();
+  lost.seen.drives.all_answer = false;
+  lost.step();
+  EXPECT_EQ(mode_after_reset(lost), Mode::kSignTest);
+  Bench later = tested_bench();  // only while it was stopped for another reason
+  later.seen.emergency_stop = true;
+  later.run_to(Mode::kStopped);
+  later.seen.drives.all_answer = false;
+  later.step();
+  EXPECT_EQ(mode_after_reset(later), Mode::kSignTest);
+  Bench restarted = tested_bench();
+  restarted.seen.emergency_stop = restarted.seen.drive_restarted = true;
+  restarted.step();
+  EXPECT_EQ(mode_after_reset(restarted), Mode::kSignTest);
 }
 
 TEST(Supervisor, NamesEveryModeAndFault) {
   for (int i = 0; i <= static_cast<int>(Mode::kEnded); ++i) EXPECT_STRNE(name(static_cast<Mode>(i)), "unknown");
-  for (int i = 0; i <= static_cast<int>(Fault::kSignUndecided); ++i) {
+  for (int i = 0; i <= static_cast<int>(Fault::kOutsideLimits); ++i) {
     EXPECT_STRNE(describe(static_cast<Fault>(i)), "unknown fault");
   }
 }

@@ -199,7 +199,8 @@ struct Scripted {
     fault.first_cycle += 50;
     return {fault};
   }
-  explicit Scripted(const DriveFault& fault) : script(later(fault)), drives(plant, hardware, {kPeriod_ns, 0}, script) {
+  explicit Scripted(const DriveFault& fault)
+      : script(later(fault)), drives(plant, hardware, {kPeriod_ns, 0, /*enable_ns=*/0}, script) {
     loop.run(50);
     plant.set_velocity(JointVector::Unit(0));
   }
@@ -341,12 +342,31 @@ TEST(Faults, OperatorsSwitches) {
     EXPECT_TRUE(stop[i].enable_switch);
     EXPECT_EQ(enable[i].enable_switch, i != 2 && i != 3);
     EXPECT_FALSE(enable[i].emergency_stop);
+    EXPECT_FALSE(stop[i].clutch_open || enable[i].clutch_open);
   }
   pressed.drives.press_emergency_stop(true);
   pressed.drives.hold_enable_switch(false);
   pressed.loop.run();
   EXPECT_TRUE(pressed.loop.reading.emergency_stop);
   EXPECT_FALSE(pressed.loop.reading.enable_switch);
+  Scripted clutch({FaultKind::kClutchOpen, kAllJoints, 2, 2, 0.0});
+  std::vector<double> nowhere;
+  const auto open = clutch.readings(6, nowhere);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(open[i].clutch_open, i == 2 || i == 3);
+}
+
+TEST(DirectDrives, EnableSwitchIsReleasedUntilItsTime) {
+  Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
+  const auto hardware = exact_joint();
+  DirectDrives drives(plant, hardware, {.period_ns = kPeriod_ns, .delay_ns = 0, .enable_ns = 20 * kPeriod_ns});
+  Loop loop{drives};
+  for (int i = 0; i < 40; ++i) {
+    loop.run();
+    EXPECT_EQ(loop.reading.enable_switch, i >= 20) << i;
+  }
+  drives.hold_enable_switch(false);
+  loop.run();
+  EXPECT_FALSE(loop.reading.enable_switch);
 }
 
 TEST(DirectDrives, AllocatesNothing) {
