@@ -32,7 +32,7 @@ Status WorkspaceMapping::update(const Pose& H_RM, bool closed, double period) no
 }
 
 Motion WorkspaceMapping::velocity_in_scene(const Motion& velocity_R) const noexcept {
-  if (!closed_) return {};
+  if (!closed_ && engagement_ == 0.0) return {};
   const Quaternion& R_WR = parameters_.H_WR.rotation;
   return {parameters_.scale * R_WR._transformVector(velocity_R.translation),
           R_WR._transformVector(velocity_R.rotation)};

@@ -28,7 +28,8 @@ struct WorkspaceMappingParameters {
 /// weighed differently.)
 ///
 /// With the clutch open the scene's pose rests, and the wrench fades to zero in `fade_time`; when it closes it comes
-/// back in as long. Neither pose nor force jumps. A wrench that comes back while the body is pressed into something
+/// back in as long. Neither pose nor force jumps, nor what damping has of it: velocities go on as the tool has them
+/// while the wrench fades. A wrench that comes back while the body is pressed into something
 /// gives the hand at most the energy of that press.
 class WorkspaceMapping {
  public:
@@ -43,7 +44,8 @@ class WorkspaceMapping {
   /// H_WM: the moving mesh in the scene.
   const Pose& scene_pose() const noexcept { return H_WM_; }
 
-  /// Velocity of the tool's origin and angular velocity, in R -> the same of the moving mesh, in W; zero while open.
+  /// Velocity of the tool's origin and angular velocity, in R -> the same of the moving mesh, in W, as if it were
+  /// held; zero once the wrench has faded away with the clutch open.
   Motion velocity_in_scene(const Motion& velocity_R) const noexcept;
 
   /// Wrench on the moving body in W about M's origin -> wrench on the tool in R about its M's origin, faded.
