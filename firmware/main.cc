@@ -9,14 +9,11 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "core/device/kinematics.h"
 #include "firmware/command/failure.h"
-#include "firmware/command/pose_path.h"
 #include "firmware/command/run.h"
 #include "firmware/configuration/controller_file.h"
 #include "firmware/control_cycle.h"
@@ -25,6 +22,7 @@
 #include "firmware/gain_check.h"
 #include "firmware/rt_setup.h"
 #include "firmware/scene_file.h"
+#include "firmware/simulated_arm.h"
 #include "firmware/telemetry_ring.h"
 #include "firmware/telemetry_writer.h"
 #include "hal/linux/monotonic_clock.h"
@@ -93,101 +91,28 @@ void catch_signals() {
 
 void warn(const std::string& what) { fmt::print(stderr, "godobject-controller: {}\n", what); }
 
-/// Poses of the mesh in the scene -> of the tool's frame T in the room, where the simulated hand would have it.
-std::vector<Pose> in_room(const std::vector<Pose>& path, const firmware::Placement& placement) {
-  const Pose& H_WR = placement.mapping.H_WR;
-  const Pose H_MT = placement.H_TM.inverse();
-  std::vector<Pose> room;
-  room.reserve(path.size());
-  for (const Pose& H_WM : path) {
-    Pose H_RM;
-    const Vector3 p_R_W = H_WM.translation - H_WR.translation;
-    H_RM.translation = H_WR.rotation.conjugate()._transformVector(p_R_W) / placement.mapping.scale;
-    H_RM.rotation = (H_WR.rotation.conjugate() * H_WM.rotation).normalized();
-    room.push_back(H_RM * H_MT);
-  }
-  return room;
-}
+/// The simulated arm with drives on no bus.
+struct DirectDevice {
+  DirectDevice(const ControllerConfig& config, const firmware::Placement& placement)
+      : arm(config, placement),
+        drives(arm.plant(), arm.hardware(), {.delay_ns = std::llround(1e9 * config.simulation.delay)}) {}
 
-/// The same way in `slower` times the time, at 1 ms a pose.
-std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
-  const auto rows = static_cast<std::size_t>(slower * static_cast<double>(path.size() - 1)) + 1;
-  std::vector<Pose> longer;
-  longer.reserve(rows);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double at = static_cast<double>(i) / slower;
-    const auto before = std::min(static_cast<std::size_t>(at), path.size() - 1);
-    const Pose& a = path[before];
-    const Pose& b = path[std::min(before + 1, path.size() - 1)];
-    const double share = at - static_cast<double>(before);
-    longer.push_back({a.rotation.slerp(share, b.rotation), a.translation + share * (b.translation - a.translation)});
-  }
-  return longer;
-}
-
-/// The simulated arm with a hand that follows a path, or holds the tool where it is.
-class SimulatedDevice {
- public:
-  SimulatedDevice(const ControllerConfig& config, const firmware::Placement& placement)
-      : path_(read_path(config, placement)),
-        hardware_(sim::usual_hardware(config.device.model)),
-        plant_(config.device.model, config.workspace.posture, JointVector::Zero(),
-               sim::OperatorHand(hand(), path_, nanoseconds(config.simulation.begin))),
-        drives(plant_, hardware_, {.delay_ns = nanoseconds(config.simulation.delay)}) {}
-
- private:
-  static std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(1e9 * seconds + 0.5); }
-
-  static sim::HandParameters hand() {
-    sim::HandParameters parameters;
-    parameters.grip = sim::Grip::kSpring;
-    return parameters;
-  }
-
-  static std::vector<Pose> read_path(const ControllerConfig& config, const firmware::Placement& placement) {
-    const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_WM;
-    if (config.simulation.path.empty()) return {rest};
-    std::vector<Pose> path = command::read_pose_path(config.simulation.path).poses;
-    for (Pose& pose : path) {
-      if (!pose.is_finite() || !(pose.rotation.norm() > 0.999 && pose.rotation.norm() < 1.001)) {
-        throw Failure(ExitCode::kBadData,
-                      fmt::format("{}: has a row that is no pose", config.simulation.path.string()));
-      }
-      pose.rotation.normalize();
-    }
-    path = in_room(path, placement);
-    const double gap = (path.front().translation - rest.translation).norm();
-    if (gap > 0.01 || path.front().rotation.angularDistance(rest.rotation) > 0.05) {
-      throw Failure(
-          ExitCode::kBadConfig,
-          fmt::format("{}: begins {:.3g} m and {:.3g} rad from the tool; set workspace.start to its first pose",
-                      config.simulation.path.string(), gap, path.front().rotation.angularDistance(rest.rotation)));
-    }
-    return slowed(path, config.simulation.slower);
-  }
-
-  std::vector<Pose> path_;
-  std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
-  sim::Plant plant_;
-
- public:
+  firmware::SimulatedArm arm;
   sim::DirectDrives drives;
-  double path_seconds() const { return 1e-3 * static_cast<double>(path_.size()); }
-  double hand_work() const { return plant_.work().hand.sum(); }  ///< on the tool, since the start [J]
 };
 
 /// FOLDER/hand.csv, a row a cycle: by how much the simulated hand has worked on the tool. Not real-time safe.
 class HandLog {
  public:
   /// Throws Failure (kIo) if it cannot be written.
-  HandLog(const std::filesystem::path& folder, const SimulatedDevice& device)
-      : file_(folder / "hand.csv"), device_(device), stream_(file_) {
+  HandLog(const std::filesystem::path& folder, const firmware::SimulatedArm& arm)
+      : file_(folder / "hand.csv"), arm_(arm), stream_(file_) {
     stream_ << "t_s,hand_J\n";
     check();
   }
 
   void write_row() {
-    stream_ << fmt::format("{:.6f},{:.9g}\n", 1e-9 * static_cast<double>(device_.drives.now_ns()), device_.hand_work());
+    stream_ << fmt::format("{:.6f},{:.9g}\n", 1e-9 * static_cast<double>(arm_.now_ns()), arm_.hand_work());
   }
 
   /// The last rows to the disk. Throws as above.
@@ -202,7 +127,7 @@ class HandLog {
   }
 
   std::filesystem::path file_;
-  const SimulatedDevice& device_;
+  const firmware::SimulatedArm& arm_;
   std::ofstream stream_;
 };
 
@@ -325,7 +250,7 @@ long run_in_real_time(const firmware::RunSetup& setup, const ControllerConfig& c
   return firmware::page_faults() - before;
 }
 
-void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, SimulatedDevice& simulated,
+void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, DirectDevice& simulated,
               firmware::TelemetryWriter* writer) {
   long faults_of_pages = 0;
   WaitingNotice notice;
@@ -337,7 +262,7 @@ void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, S
   } else {
     sim::VirtualClock clock(simulated.drives);
     std::optional<HandLog> hand;
-    if (writer != nullptr) hand.emplace(config.telemetry.folder, simulated);
+    if (writer != nullptr) hand.emplace(config.telemetry.folder, simulated.arm);
     firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer, &hand, &notice] {
       notice.look();
       if (writer == nullptr) return;
@@ -368,7 +293,7 @@ void control(const Options& options) {
   Scene scene = image.scene();
   firmware::set_gains(config.gains, scene);
   const firmware::Placement placement = firmware::place(config.workspace, config.device, scene.H_MB.translation);
-  const auto simulated = std::make_unique<SimulatedDevice>(config, placement);
+  const auto simulated = std::make_unique<DirectDevice>(config, placement);
   check_gains(config, scene, placement.device, simulated->drives.delay());
 
   if (!config.start.sign_test) {
@@ -388,7 +313,7 @@ void control(const Options& options) {
   }
   std::optional<double> duration = options.duration;
   if (!duration && !config.simulation.path.empty()) {
-    duration = config.simulation.begin + simulated->path_seconds() + 0.5;
+    duration = config.simulation.begin + simulated->arm.path_seconds() + 0.5;
   }
   hal::MonotonicClock stopwatch;
   firmware::RunSetup setup;

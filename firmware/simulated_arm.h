@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "firmware/configuration/controller_file.h"
+#include "sim/direct_drives.h"
+
+namespace godobject::firmware {
+
+/// The simulated arm of a controller file, at the workspace's posture, and a hand that follows its path in the room, or
+/// holds the tool where it is. What drives it is somebody else's: nothing moves by itself.
+class SimulatedArm {
+ public:
+  /// Reads simulation.path if there is one. Throws command::Failure: kNoInput or kBadData if it cannot be read or has a
+  /// row that is no pose, kBadConfig if it begins elsewhere than the tool.
+  SimulatedArm(const ControllerConfig& config, const Placement& placement);
+
+  SimulatedArm(const SimulatedArm&) = delete;
+  SimulatedArm& operator=(const SimulatedArm&) = delete;
+
+  sim::Plant& plant() noexcept { return plant_; }
+  std::span<const sim::JointHardwareParameters> hardware() const noexcept { return hardware_; }
+
+  std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
+  double path_seconds() const noexcept { return 1e-3 * static_cast<double>(path_.size()); }
+  double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< on the tool, since the start [J]
+
+ private:
+  std::vector<Pose> path_;  // of the tool's frame T in the room, 1 ms apart
+  std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
+  sim::Plant plant_;
+};
+
+}  // namespace godobject::firmware
