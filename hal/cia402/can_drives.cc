@@ -90,6 +90,7 @@ void CanDrives::request() noexcept {
     if (bus.asked) ++bus.unechoed;
     if (speaks && !bus.asked) sync_failed_ = true;
   }
+  send_heartbeat_or_sdo();
 }
 
 void CanDrives::receive(JointReading& reading) noexcept {
@@ -292,10 +293,10 @@ bool CanDrives::send(const JointCommand& command) noexcept {
     const bool sent = send_on(stations_.bus(i), rpdo) == SendResult::kSent;
     all_sent = all_sent && finite && sent;
   }
-  send_heartbeat_or_sdo();
   return all_sent;
 }
 
+/// Right behind SYNC: the samples go first, and the wire is idle between them and the torques.
 void CanDrives::send_heartbeat_or_sdo() noexcept {
   ++since_sdo_;
   if (--to_heartbeat_ <= 0) {

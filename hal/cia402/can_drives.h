@@ -21,10 +21,11 @@ namespace godobject::hal {
 
 /// CiA 402 drives in cyclic synchronous torque over one or several CANopen buses, and the operator's panel.
 ///
-/// A cycle. `request` sends SYNC, the first frame on each bus. `receive` takes what has come, at most kMostFrames a
-/// bus: a sample belongs to this cycle if and only if it comes after the own echo of this cycle's SYNC; what comes
-/// before it is late and used by nobody. `send` sends RPDO1 to each joint, then the controller's heartbeat every
-/// `drive_heartbeat`, or else, every `read_back_interval` cycles, one SDO request on each bus.
+/// A cycle. `request` sends SYNC, the first frame on each bus, and behind it every `drive_heartbeat` the controller's
+/// heartbeat, or else, every `read_back_interval` cycles, one SDO request: they get the wire between samples and
+/// torques. `receive` takes what has come, at most kMostFrames a bus: a sample belongs to this cycle if and only if it
+/// comes after the own echo of this cycle's SYNC; what comes before it is late and used by nobody. `send` sends RPDO1
+/// to each joint.
 ///
 /// A drive that has not been heard of for `heartbeat_timeout` is kUnavailable; before that its last state stands.
 /// Without a panel the enable switch is never held.
