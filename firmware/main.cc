@@ -9,10 +9,15 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/bus_log_writer.h"
+#include "firmware/bus_messages.h"
+#include "firmware/bus_plan_table.h"
+#include "firmware/can_buses.h"
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
 #include "firmware/configuration/controller_file.h"
@@ -25,8 +30,11 @@
 #include "firmware/simulated_arm.h"
 #include "firmware/telemetry_ring.h"
 #include "firmware/telemetry_writer.h"
+#include "hal/can_log_ring.h"
+#include "hal/cia402/bus_plan.h"
+#include "hal/cia402/can_drives.h"
 #include "hal/linux/monotonic_clock.h"
-#include "sim/direct_drives.h"
+#include "sim/can_device.h"
 #include "sim/virtual_clock.h"
 
 namespace {
@@ -59,7 +67,7 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [engage]     force, ramp
   [start]      wait, sign_test, push, motion
   [telemetry]  folder, every
-  [simulation] path, slower, begin, delay
+  [simulation] path, slower, begin
 
 --log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose
 d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions. In
@@ -70,6 +78,7 @@ struct Options {
   std::string scene;
   std::string bus = "sim";
   std::string log;
+  bool log_bus = false;
   std::optional<double> duration;
 };
 
@@ -90,16 +99,6 @@ void catch_signals() {
 }
 
 void warn(const std::string& what) { fmt::print(stderr, "godobject-controller: {}\n", what); }
-
-/// The simulated arm with drives on no bus.
-struct DirectDevice {
-  DirectDevice(const ControllerConfig& config, const firmware::Placement& placement)
-      : arm(config, placement),
-        drives(arm.plant(), arm.hardware(), {.delay_ns = std::llround(1e9 * config.simulation.delay)}) {}
-
-  firmware::SimulatedArm arm;
-  sim::DirectDrives drives;
-};
 
 /// FOLDER/hand.csv, a row a cycle: by how much the simulated hand has worked on the tool. Not real-time safe.
 class HandLog {
@@ -195,26 +194,84 @@ std::string quantiles(const firmware::DurationHistogram& times) {
                      us(times.quantile_ns(0.999)), us(times.largest_ns()), times.count());
 }
 
-void print_report(const firmware::RunReport& report, const firmware::CycleCounters& counters, bool real_time,
-                  long faults_of_pages) {
+void print_report(const firmware::RunReport& report, const firmware::CycleCounters& counters,
+                  const hal::CanDrives& drives, bool real_time, long faults_of_pages) {
   fmt::print("rendered in {} of {} cycles, in contact in {}: at most {:.2f} N, {:.3f} Nm, {:.3f} mm deep\n",
              report.rendering, counters.cycles, report.in_contact, report.largest_force, report.largest_torque,
              1e3 * report.deepest);
   fmt::print("positions lost in {} cycles, jumps in {}, sends failed {}, overruns {}, periods skipped {}\n",
              counters.lost, counters.jumps, counters.sends_failed, counters.overruns, counters.skipped);
+  fmt::print("{}", firmware::bus_summary(drives.statistics(), drives.joint_count()));
   fmt::print("limits: force in {} cycles, speed {}, joint torque {}, torque rate {}; friction not found in {}\n",
              counters.clipped, counters.slowed, counters.scaled, counters.rate_limited, counters.unconverged);
   fmt::print("computing: {}\n", quantiles(report.computing));
   if (real_time) {
     fmt::print("waking late: {}\n", quantiles(report.loop.lateness));
+    fmt::print("waking late for the samples: {}\n", quantiles(report.loop.collect_lateness));
     fmt::print("page faults in the loop: {}\n", faults_of_pages);
   }
   fmt::print("on {}\n", firmware::describe_machine());
 }
 
 firmware::TelemetryRing ring;
+hal::CanLogRing bus_ring;
 firmware::RunReport run_report;
+std::optional<hal::CanDrives> drives;
 std::optional<firmware::ControlCycle> cycle;
+
+/// The simulated operator holds the enable switch from then on.
+constexpr std::int64_t kHoldFrom_ns = 1'500'000'000;
+
+/// How the arm of a run is reached: it is simulated in this process, or behind this machine's CAN interfaces.
+struct ArmLink {
+  std::unique_ptr<firmware::SimulatedArm> simulated;  // with the wires to it
+  std::unique_ptr<sim::CanDevice> device;
+  std::unique_ptr<firmware::CanBuses> interfaces;
+  std::vector<std::string> names;  // of the buses
+  std::vector<hal::CanBus*> buses;
+  bool real_time = false;
+
+  std::unique_ptr<hal::Clock> make_clock() const {
+    if (!device) return std::make_unique<hal::MonotonicClock>();
+    if (real_time) return std::make_unique<PacedClock>(*device);
+    return std::make_unique<sim::VirtualClock>(*device);
+  }
+};
+
+ArmLink link_arm(const Options& options, const ControllerConfig& config, const firmware::Placement& placement) {
+  const hal::BusLayout& layout = config.device.bus;
+  ArmLink link;
+  if (options.bus == "sim") {
+    link.real_time = config.loop.real_time;
+    link.simulated = std::make_unique<firmware::SimulatedArm>(config, placement);
+    link.device = std::make_unique<sim::CanDevice>(link.simulated->plant(), layout, link.simulated->hardware(),
+                                                   sim::CanScript{.hold_from_ns = kHoldFrom_ns, .faults = {}});
+    for (int i = 0; i < layout.bus_count; ++i) {
+      link.names.push_back(fmt::format("sim{}", i));
+      link.buses.push_back(&link.device->bus(i));
+    }
+    return link;
+  }
+  if (layout.panel.bus < 0) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: bus.panel_bus is missing; without a panel there is no "
+                                                    "emergency stop, and only --bus sim may be driven",
+                                                    config.device.name));
+  }
+  link.real_time = true;
+  link.names = firmware::split_names(options.bus);
+  link.interfaces = std::make_unique<firmware::CanBuses>(link.names, layout);
+  link.buses = link.interfaces->buses();
+  for (const std::string& line : link.interfaces->warnings()) warn(line);
+  return link;
+}
+
+/// Refuses a layout whose frames do not fit in a cycle, with the table.
+hal::BusPlan require_bus_plan(const hal::BusLayout& layout) {
+  const hal::BusPlan plan = hal::plan_buses(layout);
+  if (plan.fits) return plan;
+  fmt::print(stderr, "{}", firmware::bus_plan_table(layout, plan));
+  throw Failure(ExitCode::kBadConfig, firmware::bus_plan_objection(layout, plan));
+}
 
 /// Says once, each time, that it waits for longer than a moment for the operator to hold the enable switch.
 class WaitingNotice {
@@ -238,53 +295,105 @@ class WaitingNotice {
   bool said_ = false;
 };
 
-/// Real-time work on the simulated bus: with what the machine permits.
-long run_in_real_time(const firmware::RunSetup& setup, const ControllerConfig& config, sim::World& world) {
+/// Files that are written beside the loop.
+struct Records {
+  std::unique_ptr<firmware::TelemetryWriter> telemetry;
+  std::unique_ptr<firmware::BusLogWriter> buses;
+
+  Records(const ControllerConfig& config, const std::vector<std::string>& names) {
+    const std::filesystem::path& folder = config.telemetry.folder;
+    if (folder.empty()) return;
+    telemetry = std::make_unique<firmware::TelemetryWriter>(folder, config.device.model.joint_count, ring);
+    if (config.telemetry.bus) buses = std::make_unique<firmware::BusLogWriter>(folder, names, bus_ring);
+  }
+
+  void drain() const {
+    if (telemetry) telemetry->drain();
+    if (buses) buses->drain();
+  }
+
+  void print() const {
+    if (telemetry) {
+      fmt::print("{}: {} rows, {} lost\n", telemetry->file().string(), telemetry->written(),
+                 telemetry->lost() + ring.lost());
+    }
+    if (buses) {
+      fmt::print("{}: {} frames, {} lost\n", buses->file().string(), buses->written(), buses->lost() + bus_ring.lost());
+    }
+  }
+};
+
+/// A real bus is driven with all rights that a real-time thread needs, a simulated one with what there is.
+void set_up_thread(const ControllerConfig& config, bool simulated) {
   for (const std::string& missing :
        firmware::set_up_real_time({.cpu = config.loop.cpu, .priority = config.loop.priority})) {
+    if (!simulated) throw Failure(ExitCode::kNoPermission, missing);
     warn(missing + "; going on, since the bus is simulated");
   }
-  PacedClock clock(world);
-  const long before = firmware::page_faults();
-  firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [] {});
-  return firmware::page_faults() - before;
 }
 
-void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, DirectDevice& simulated,
-              firmware::TelemetryWriter* writer) {
-  long faults_of_pages = 0;
+void start_nodes(hal::Clock& clock, const std::vector<std::string>& names) {
+  const hal::BringUpResult result = drives->bring_up(clock);
+  if (result.status == hal::BringUpStatus::kOk) return;
+  drives->stop_nodes();
+  throw Failure(ExitCode::kUnavailable, firmware::explain(result, names));
+}
+
+/// From the nodes' start to their stop.
+void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, const ArmLink& link) {
+  Records records(config, link.names);
   WaitingNotice notice;
-  if (config.loop.real_time) {
-    const std::jthread beside([&notice](const std::stop_token& stop) { notice.run(stop); });
-    std::optional<std::jthread> thread;
-    if (writer != nullptr) thread.emplace([writer](const std::stop_token& stop) { writer->run(stop); });
-    faults_of_pages = run_in_real_time(setup, config, simulated.drives);
-  } else {
-    sim::VirtualClock clock(simulated.drives);
-    std::optional<HandLog> hand;
-    if (writer != nullptr) hand.emplace(config.telemetry.folder, simulated.arm);
-    firmware::run_controller(setup, clock, *cycle, requests, ring, run_report, [writer, &hand, &notice] {
-      notice.look();
-      if (writer == nullptr) return;
-      writer->drain();
-      hand->write_row();
-    });
-    if (hand) hand->close();
+  long faults_of_pages = 0;
+  {
+    std::vector<std::jthread> beside;  // before this thread is a real-time one, which they would become too
+    const auto run_beside = [&beside](auto& worker) {
+      beside.emplace_back([&worker](const std::stop_token& stop) { worker.run(stop); });
+    };
+    if (link.real_time) {
+      run_beside(notice);
+      if (records.telemetry) run_beside(*records.telemetry);
+      if (records.buses) run_beside(*records.buses);
+      set_up_thread(config, link.device != nullptr);
+    }
+    const std::unique_ptr<hal::Clock> clock = link.make_clock();
+    start_nodes(*clock, link.names);
+    const long before = firmware::page_faults();
+    if (link.real_time) {
+      firmware::run_controller(setup, *clock, *cycle, requests, ring, run_report, [] {});
+    } else {
+      std::optional<HandLog> hand;
+      if (records.telemetry) hand.emplace(config.telemetry.folder, *link.simulated);
+      firmware::run_controller(setup, *clock, *cycle, requests, ring, run_report, [&] {
+        notice.look();
+        records.drain();
+        if (hand) hand->write_row();
+      });
+      if (hand) hand->close();
+    }
+    faults_of_pages = firmware::page_faults() - before;
+    drives->stop_nodes();
   }
-  print_report(run_report, cycle->counters(), config.loop.real_time, faults_of_pages);
-  if (writer != nullptr) {
-    fmt::print("{}: {} rows, {} lost\n", writer->file().string(), writer->written(), writer->lost() + ring.lost());
+  print_report(run_report, cycle->counters(), *drives, link.real_time, faults_of_pages);
+  records.print();
+}
+
+/// What stopped the run, with its place; empty if nothing did.
+std::string describe_stop(const std::vector<std::string>& names) {
+  const firmware::Supervisor& supervisor = cycle->supervisor();
+  if (supervisor.fault() == firmware::Fault::kNone) return "";
+  if (supervisor.fault() == firmware::Fault::kAlarm) {
+    return fmt::format("stopped: {}", firmware::explain(drives->alarm_detail(), names));
   }
+  const std::string joint =
+      supervisor.fault_joint() >= 0 ? fmt::format("joint {}: ", supervisor.fault_joint() + 1) : "";
+  return fmt::format("stopped: {}{}", joint, describe(supervisor.fault()));
 }
 
 void control(const Options& options) {
-  if (options.bus != "sim") {
-    throw Failure(ExitCode::kUnavailable,
-                  fmt::format("--bus {}: this build has no CAN yet; use --bus sim", options.bus));
-  }
   ControllerConfig config = firmware::read_controller_file(options.controller);
   if (!options.scene.empty()) config.scene.image = options.scene;
   if (!options.log.empty()) config.telemetry.folder = options.log;
+  if (options.log_bus) config.telemetry.bus = true;
   if (config.scene.image.empty()) {
     throw Failure(ExitCode::kBadConfig,
                   fmt::format("{}: scene.image is missing; add it or give --scene", options.controller));
@@ -293,27 +402,23 @@ void control(const Options& options) {
   Scene scene = image.scene();
   firmware::set_gains(config.gains, scene);
   const firmware::Placement placement = firmware::place(config.workspace, config.device, scene.H_MB.translation);
-  const auto simulated = std::make_unique<DirectDevice>(config, placement);
-  check_gains(config, scene, placement.device, simulated->drives.delay());
-
+  const hal::BusPlan plan = require_bus_plan(config.device.bus);
+  check_gains(config, scene, placement.device, plan.timing.delay_s);
   if (!config.start.sign_test) {
     warn("start.sign_test = false: a motor or encoder that is connected the wrong way round will not be found");
   }
-  cycle.emplace(cycle_setup(config, scene, placement), simulated->drives);
+  const ArmLink link = link_arm(options, config, placement);
+  drives.emplace(config.device.bus, link.buses, plan.timing, config.telemetry.bus ? &bus_ring : nullptr);
+  cycle.emplace(cycle_setup(config, scene, placement), *drives);
   if (const Status status = cycle->start(); status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "
                               "table, or change scene.solver, scene.friction",
                               config.scene.image.string(), describe(status)));
   }
-  std::unique_ptr<firmware::TelemetryWriter> writer;
-  if (!config.telemetry.folder.empty()) {
-    writer =
-        std::make_unique<firmware::TelemetryWriter>(config.telemetry.folder, config.device.model.joint_count, ring);
-  }
   std::optional<double> duration = options.duration;
-  if (!duration && !config.simulation.path.empty()) {
-    duration = config.simulation.begin + simulated->arm.path_seconds() + 0.5;
+  if (!duration && link.simulated && !config.simulation.path.empty()) {
+    duration = config.simulation.begin + link.simulated->path_seconds() + 0.5;
   }
   hal::MonotonicClock stopwatch;
   firmware::RunSetup setup;
@@ -321,15 +426,12 @@ void control(const Options& options) {
   setup.every = static_cast<std::uint32_t>(config.telemetry.every);
   setup.stopwatch = &stopwatch;
   catch_signals();
-  run_loop(setup, config, *simulated, writer.get());
+  run_loop(setup, config, link);
 
-  const firmware::Supervisor& supervisor = cycle->supervisor();
-  if (supervisor.fault() == firmware::Fault::kNone) return;
-  const std::string joint =
-      supervisor.fault_joint() >= 0 ? fmt::format("joint {}: ", supervisor.fault_joint() + 1) : "";
-  const std::string line = fmt::format("stopped: {}{}", joint, describe(supervisor.fault()));
-  if (!requests.end) throw Failure(ExitCode::kUnavailable, line);
-  warn(line);
+  const std::string stop = describe_stop(link.names);
+  if (stop.empty()) return;
+  if (!requests.end) throw Failure(ExitCode::kUnavailable, stop);
+  warn(stop);
 }
 
 void examine(const std::string& controller) {
@@ -355,6 +457,7 @@ int main(int argc, char** argv) {
                  "seconds after which it ends; default: with simulation.path half a second after it, else never")
       ->check(CLI::Range(0.001, 1e7));
   app.add_option("--log", options.log, "folder for the telemetry, in place of telemetry.folder");
+  app.add_flag("--log-bus", options.log_bus, "writes what goes over the buses to the same folder, as telemetry.bus");
   CLI::App* doctor =
       app.add_subcommand("doctor", "says what this machine lacks for real-time work, each with its cure");
   doctor->add_option("CONTROLLER", examined, "controller file, for loop.cpu and loop.priority");

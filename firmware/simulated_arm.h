@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "firmware/configuration/controller_file.h"
-#include "sim/direct_drives.h"
+#include "sim/joint_motor.h"
+#include "sim/plant.h"
 
 namespace godobject::firmware {
 

@@ -135,16 +135,16 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   read_gains(table("gains"), config.gains);
 
   const TomlTable telemetry = table("telemetry");
-  telemetry.allow({"folder", "every"});
+  telemetry.allow({"folder", "every", "bus"});
   config.telemetry.folder = beside(file, telemetry.text("folder", ""));
   config.telemetry.every = static_cast<int>(telemetry.whole_number("every", {1, 1000}, config.telemetry.every));
+  config.telemetry.bus = telemetry.flag("bus", config.telemetry.bus);
 
   const TomlTable simulation = table("simulation");
-  simulation.allow({"path", "slower", "begin", "delay"});
+  simulation.allow({"path", "slower", "begin"});
   config.simulation.path = beside(file, simulation.text("path", ""));
   config.simulation.slower = simulation.number("slower", {1.0, 1e3}, config.simulation.slower);
   config.simulation.begin = simulation.number("begin", {0.0, 1e5}, config.simulation.begin);
-  config.simulation.delay = simulation.number("delay", {0.0, 8e-3}, config.simulation.delay);
   return config;
 }
 

@@ -74,6 +74,7 @@ struct ControllerConfig {
   struct Telemetry {
     std::filesystem::path folder;  ///< empty: none is written
     int every = 1;                 ///< cycles a record
+    bool bus = false;              ///< what goes over the buses, too
   } telemetry;
 
   /// The simulated device; a hand holds its tool.
@@ -81,7 +82,6 @@ struct ControllerConfig {
     std::filesystem::path path;  ///< of the moving mesh in the scene, that the hand follows; empty: it rests
     double slower = 1.0;         ///< how many times as long as the path says the hand takes [1]
     double begin = 8.0;          ///< when the hand begins to follow it [s]
-    double delay = 1e-3;         ///< t_d [s]
   } simulation;
 };
 

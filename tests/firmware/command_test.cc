@@ -98,8 +98,12 @@ TEST_F(ControllerCommandTest, EndsInOrderOnSigterm) {
 }
 
 TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
-  EXPECT_EQ(run("c.toml --bus can0,can1"), 69);
-  EXPECT_TRUE(says("no CAN yet")) << words_;
+  EXPECT_EQ(run("c.toml --bus none0,none1"), 78);
+  EXPECT_TRUE(says("--bus names 2 CAN interfaces, the device has 3 buses"));
+  EXPECT_EQ(run("c.toml --bus none0,none1,none0"), 78);
+  EXPECT_TRUE(says("names an interface twice"));
+  EXPECT_EQ(run("c.toml --bus none0,none1,none2"), 69);  // whether or not the machine has CAN
+  EXPECT_TRUE(says("--bus none0: ")) << words_;
   EXPECT_EQ(run(""), 64);
   EXPECT_EQ(run("c.toml --duration -1"), 64);
   EXPECT_EQ(run("nothing.toml"), 66);

@@ -96,7 +96,7 @@ TEST_F(ControllerFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"[scene]\nfriction = 1\n", "scene.friction must be true or false"},
            {"[gain]\nmargin = 2.0\n", "gain is not a known table"},
            {"[start]\nsign_test = \"no\"\n", "start.sign_test must be true or false"},
-           {"[simulation]\ndelay = 0.009\n", "simulation.delay = 0.009 is out of range"},
+           {"[simulation]\ndelay = 0.001\n", "simulation.delay is not a known key"},
        }) {
     const std::string message = refusal(std::string(kLeast) + more);
     EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
