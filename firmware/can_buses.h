@@ -22,6 +22,7 @@ class CanBuses {
   CanBuses(const std::vector<std::string>& interfaces, const hal::BusLayout& layout);
 
   const std::vector<hal::CanBus*>& buses() const { return buses_; }
+  const hal::SocketCan& socket(std::size_t i) const { return *sockets_[i]; }
 
   /// What is not as it should be, though it may go on: a line each.
   const std::vector<std::string>& warnings() const { return warnings_; }

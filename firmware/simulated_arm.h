@@ -25,6 +25,7 @@ class SimulatedArm {
   sim::Plant& plant() noexcept { return plant_; }
   std::span<const sim::JointHardwareParameters> hardware() const noexcept { return hardware_; }
 
+  int joint_count() const noexcept { return plant_.joint_count(); }
   std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
   double path_seconds() const noexcept { return 1e-3 * static_cast<double>(path_.size()); }
   double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< on the tool, since the start [J]

@@ -64,7 +64,7 @@ void CanNodes::update_panel() noexcept {
   unsigned inputs = 0;
   if (!pressed) inputs |= hal::canopen::kPanelStopReleased;
   if (held) inputs |= hal::canopen::kPanelEnable;
-  if (clutch_) inputs |= hal::canopen::kPanelClutch;
+  if (clutch_ || fault(FaultKind::kClutchOpen)) inputs |= hal::canopen::kPanelClutch;
   panel_->set_inputs(static_cast<std::uint8_t>(inputs));
 }
 

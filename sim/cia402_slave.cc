@@ -21,6 +21,20 @@ std::uint32_t rounded(double value) noexcept { return static_cast<std::uint32_t>
 
 }  // namespace
 
+const char* name(PowerState state) noexcept {
+  switch (state) {
+    case PowerState::kNotReady: return "not ready";
+    case PowerState::kSwitchOnDisabled: return "switch on disabled";
+    case PowerState::kReady: return "ready";
+    case PowerState::kSwitchedOn: return "switched on";
+    case PowerState::kEnabled: return "enabled";
+    case PowerState::kQuickStop: return "quick stop";
+    case PowerState::kFaultReaction: return "fault reaction";
+    case PowerState::kFault: return "fault";
+  }
+  return "unknown";
+}
+
 Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwareParameters& joint, bool fd) noexcept
     : CanopenNode(config.node, kServoDrive, 255, fd), config_(config), motor_(with_steps(joint, config)) {
   using enum ObjectType;
@@ -133,6 +147,7 @@ void Cia402Slave::enter(PowerState state, std::int64_t now_ns) noexcept {
 /// The transitions that the controlword asks for, by the standard's figure; 3 and 4 come about in `update`.
 void Cia402Slave::obey(std::uint16_t controlword, std::int64_t now_ns) noexcept {
   constexpr std::uint16_t kFaultReset = 1u << 7;
+  ++commands_;
   const bool had_reset_bit = reset_bit_;
   reset_bit_ = (controlword & kFaultReset) != 0;
   const Command command = command_of(controlword);
@@ -179,6 +194,7 @@ void Cia402Slave::quick_stop(std::int64_t now_ns) noexcept {
 
 void Cia402Slave::fault(std::uint16_t code, std::int64_t now_ns) noexcept {
   if (state_ == PowerState::kFaultReaction || state_ == PowerState::kFault) return;
+  ++trips_;
   objects().set(kErrorCode, 0, code);
   const bool cuts = objects().value(kFaultReactionOption) == 0 || !has_power();
   enter(cuts ? PowerState::kFault : PowerState::kFaultReaction, now_ns);
@@ -199,7 +215,9 @@ void Cia402Slave::disable(std::int64_t now_ns) noexcept {
 void Cia402Slave::connection_lost(std::uint16_t code, std::int64_t now_ns) noexcept {
   const bool idle = state_ == PowerState::kNotReady || state_ == PowerState::kSwitchOnDisabled;
   if (idle || state_ == PowerState::kFaultReaction || state_ == PowerState::kFault) return;
-  switch (objects().value(kAbortConnectionOption)) {
+  const std::uint32_t option = objects().value(kAbortConnectionOption);
+  if (option >= 2 && has_power()) ++trips_;
+  switch (option) {
     case 1: return fault(code, now_ns);
     case 2: return enter(PowerState::kSwitchOnDisabled, now_ns);
     case 3:

@@ -20,6 +20,9 @@ enum class PowerState : std::uint8_t {
   kFault,
 };
 
+/// One or two words.
+const char* name(PowerState state) noexcept;
+
 /// Error codes of 603F that the drive itself trips with.
 inline constexpr std::uint16_t kOverCurrent = 0x2310;
 inline constexpr std::uint16_t kRunsAway = 0x8400;
@@ -48,6 +51,9 @@ class Cia402Slave final : public CanopenNode {
   double motor_torque() const noexcept { return config_.sign * motor_.motor_torque(); }  ///< on the joint [Nm]
   double brake_torque() const noexcept { return motor_.brake_torque(); }
   std::uint16_t statusword() const noexcept;
+
+  std::uint64_t commands() const noexcept { return commands_; }  ///< controlwords that have come
+  std::uint64_t trips() const noexcept { return trips_; }        ///< faults, and connections that were lost under power
 
   void trip(std::uint16_t code, std::int64_t now_ns) noexcept;  ///< a fault of the drive's own
   void disable(std::int64_t now_ns) noexcept;                   ///< it goes off although nobody asked for it
@@ -80,6 +86,8 @@ class Cia402Slave final : public CanopenNode {
   Command command_ = Command::kDisableVoltage;
   bool reset_bit_ = false;
   std::int64_t command_since_ns_ = 0;
+  std::uint64_t commands_ = 0;
+  std::uint64_t trips_ = 0;
   bool limited_ = false;  ///< the torque asked for is beyond 6072
   double position_ = 0.0;
   double velocity_ = 0.0;

@@ -59,6 +59,9 @@ class SocketCan final : public CanBus {
   /// At the start, before anything is sent or received.
   OpenResult open(const char* interface, const SocketCanOptions& options) noexcept;
 
+  /// To wait with poll() until something has come, where that may take time.
+  int descriptor() const noexcept { return descriptor_; }
+
   SendResult send(const CanFrame& frame) noexcept override;
   bool receive(ReceivedFrame& received) noexcept override;
   BusHealth health() const noexcept override { return health_; }
