@@ -21,6 +21,18 @@ CanBridge::CanBridge(CanDevice& device, const hal::BusLayout& layout, const hal:
 
 bool CanBridge::Side::sync_waits() const noexcept { return count > 0 && inbox[first].id == hal::canopen::kCobSync; }
 
+bool CanBridge::Side::torque_waits() const noexcept {
+  return count > 0 && inbox[first].id > hal::canopen::kCobRpdo1 && inbox[first].id < hal::canopen::kCobRpdo1 + 0x80;
+}
+
+/// The oldest frame of a bus goes to the device. A full queue loses it, as a node that is too slow does.
+void CanBridge::hand_over(int bus) noexcept {
+  Side& side = sides_[static_cast<std::size_t>(bus)];
+  (void)device_.bus(bus).send(side.inbox[side.first]);
+  side.first = (side.first + 1) % kInbox;
+  --side.count;
+}
+
 void CanBridge::read() noexcept {
   hal::ReceivedFrame received;
   for (Side& side : sides()) {
@@ -51,10 +63,7 @@ void CanBridge::pass_on(std::int64_t now_ns) noexcept {
       const bool late_sync = in_step_ && !side.synced && now_ns - begin_clock_ns_ < period_ns_ / 2;
       if (side.sync_waits() && !late_sync) break;
       if (side.sync_waits()) side.synced = true;
-      // a full queue loses the frame, as a node that is too slow does
-      (void)device_.bus(i).send(side.inbox[side.first]);
-      side.first = (side.first + 1) % kInbox;
-      --side.count;
+      hand_over(i);
     }
   }
 }
@@ -81,9 +90,8 @@ void CanBridge::begin_cycle() noexcept {
     Side& side = sides_[static_cast<std::size_t>(i)];
     side.synced = side.sync_waits();
     if (!side.synced) continue;
-    (void)device_.bus(i).send(side.inbox[side.first]);
-    side.first = (side.first + 1) % kInbox;
-    --side.count;
+    hand_over(i);
+    while (side.count > 0 && !side.sync_waits() && !side.torque_waits()) hand_over(i);
   }
   device_.advance_to(begin_ns_ + collect_ns_);
   forward();

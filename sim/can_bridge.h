@@ -52,6 +52,7 @@ class CanBridge {
     std::size_t count = 0;
     bool synced = false;  ///< its SYNC of this cycle has come
     bool sync_waits() const noexcept;
+    bool torque_waits() const noexcept;
   };
 
   void read() noexcept;
@@ -59,6 +60,7 @@ class CanBridge {
   bool sync_is_there(std::int64_t now_ns) noexcept;
   void begin_cycle() noexcept;
   void go_by_clock(std::int64_t now_ns) noexcept;
+  void hand_over(int bus) noexcept;
   void forward() noexcept;
   std::span<Side> sides() noexcept { return {sides_.data(), static_cast<std::size_t>(bus_count_)}; }
 

@@ -100,6 +100,7 @@ class LoopbackEnd final : public hal::CanBus {
   std::int64_t compute_ns_;
   std::int64_t now_ns_ = 0;
   bool full_ = false;
+  bool computes_ = false;
   hal::BusHealth health_;
   std::array<hal::ReceivedFrame, kReceiveQueue> received_{};
   std::size_t first_ = 0;

@@ -140,16 +140,21 @@ TEST(LoopbackBus, RefusesWhatItsQueueDoesNotHold) {
   EXPECT_TRUE(wire.bus->hand_over(0, frame(1, 0), 0));
 }
 
-TEST(LoopbackEnd, SyncGoesAtOnceAndOtherFramesLater) {
+TEST(LoopbackEnd, ComputesBetweenReceivingAndSending) {
   Wire wire;
   LoopbackEnd end(*wire.bus, 0, 120'000);
   end.set_now(1'000'000);
   EXPECT_EQ(end.send(frame(0x080, 0)), hal::SendResult::kSent);
+  EXPECT_EQ(end.send(frame(0x601, 8)), hal::SendResult::kSent);
+  hal::ReceivedFrame received;
+  EXPECT_FALSE(end.receive(received));
+  end.set_now(1'400'000);
   EXPECT_EQ(end.send(frame(0x201, 4)), hal::SendResult::kSent);
-  wire.run(2'000'000);
-  ASSERT_EQ(wire.ended.size(), 2u);
+  wire.run(3'000'000);
+  ASSERT_EQ(wire.ended.size(), 3u);
   EXPECT_EQ(wire.ended[0].end_ns, 1'055'000);
-  EXPECT_EQ(wire.ended[1].end_ns, 1'000'000 + 120'000 + 95'000);
+  EXPECT_EQ(wire.ended[1].end_ns, 1'190'000);
+  EXPECT_EQ(wire.ended[2].end_ns, 1'400'000 + 120'000 + 95'000);
 }
 
 TEST(LoopbackEnd, KnowsItsOwnFramesAndCountsWhatItLoses) {
