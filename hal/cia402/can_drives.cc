@@ -55,10 +55,14 @@ BringUpResult CanDrives::bring_up(Clock& clock) noexcept {
   std::array<CanBus*, kMaxBuses> wires{};
   std::ranges::transform(buses_, wires.begin(), &Bus::wire);
   restart();
-  return hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_);
+  const BringUpResult result =
+      hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_);
+  anothers_ = result.status == BringUpStatus::kSecondMaster;
+  return result;
 }
 
 void CanDrives::stop_nodes() noexcept {
+  if (anothers_) return;
   for (int bus = 0; bus < layout_.bus_count; ++bus) send_on(bus, nmt_frame(kNmtStop, 0));
 }
 

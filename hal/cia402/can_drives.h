@@ -57,7 +57,7 @@ class CanDrives final : public JointDrives {
   /// Starts all nodes, see `hal::bring_up`, and begins anew with what is known of them.
   BringUpResult bring_up(Clock& clock) noexcept;
 
-  /// Sends NMT stop to all nodes: the end.
+  /// Sends NMT stop to all nodes: the end. Not to those of a second master, for which the start was refused.
   void stop_nodes() noexcept;
 
   int joint_count() const noexcept override { return layout_.joint_count; }
@@ -123,9 +123,10 @@ class CanDrives final : public JointDrives {
   CanStatistics statistics_;
   PowerRequest power_ = PowerRequest::kOff;
   bool sync_failed_ = false;
-  int quiet_ = 0;         // cycles still to be without SYNC
-  int to_heartbeat_ = 0;  // cycles
-  int since_sdo_ = 0;     // cycles
+  bool anothers_ = false;  // the nodes obey a second master
+  int quiet_ = 0;          // cycles still to be without SYNC
+  int to_heartbeat_ = 0;   // cycles
+  int since_sdo_ = 0;      // cycles
 };
 
 }  // namespace godobject::hal

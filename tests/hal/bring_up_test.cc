@@ -8,6 +8,7 @@
 
 #include "hal/cia402/parameters.h"
 #include "tests/hal/scripted_node.h"
+#include "tests/support/random.h"
 
 namespace godobject::hal {
 namespace {
@@ -274,6 +275,27 @@ TEST_F(BringUpTest, IsNotLedAstrayByOthersFrames) {
     second_.receive_next(frame(0x582, {0x80, 0x00, 0x10, 0x00, 0, 0, 0x02, 0x06}));
   };
   EXPECT_EQ(start().status, BringUpStatus::kOk);
+}
+
+TEST_F(BringUpTest, RandomFramesOfNodesNeitherCrashItNorMakeItGivePower) {
+  test::Random random(4);
+  world_.each_sleep = [&] {
+    for (int k = random.integer(0, 20); k > 0; --k) {
+      constexpr std::array<int, 8> kIds = {0x081, 0x181, 0x1A0, 0x581, 0x582, 0x5A0, 0x701, 0x123};
+      CanFrame noise{static_cast<std::uint16_t>(kIds.at(static_cast<std::size_t>(random.integer(0, 7))))};
+      noise.length = static_cast<std::uint8_t>(random.integer(0, 64));
+      for (std::uint8_t& byte : noise.data) byte = static_cast<std::uint8_t>(random.integer(0, 255));
+      (random.integer(0, 1) == 0 ? first_ : second_).receive_next(noise);
+    }
+  };
+  layout_.boot_timeout = 0.5;
+  for (int run = 0; run < 100; ++run) {
+    const BringUpResult result = start();
+    EXPECT_NE(result.status, BringUpStatus::kSecondMaster);
+    EXPECT_NE(result.status, BringUpStatus::kBusDown);
+    EXPECT_NE(result.status, BringUpStatus::kCannotSend);
+  }
+  EXPECT_TRUE(sent_no_command());
 }
 
 TEST(Parameters, PeriodOf60C2) {

@@ -661,6 +661,38 @@ TEST_F(CanDrivesTest, StopsTheNodesAtTheEnd) {
   EXPECT_EQ(bus_.sent, (std::vector<CanFrame>{frame(0x000, {0x02, 0x00})}));
 }
 
+class SleepingClock final : public Clock {
+ public:
+  std::int64_t now_ns() noexcept override { return now_ns_; }
+  void sleep_until(std::int64_t ns) noexcept override { now_ns_ = std::max(now_ns_, ns); }
+
+ private:
+  std::int64_t now_ns_ = 0;
+};
+
+TEST_F(CanDrivesTest, LeavesTheNodesOfASecondMasterAlone) {
+  SleepingClock clock;
+  bus_.receive_next(frame(0x080, {}));
+  EXPECT_EQ(drives_.bring_up(clock).status, BringUpStatus::kSecondMaster);
+  drives_.stop_nodes();
+  EXPECT_TRUE(bus_.sent.empty());
+  // nobody else is there: they are ours, though none has booted
+  EXPECT_EQ(drives_.bring_up(clock).status, BringUpStatus::kNoBootUp);
+  bus_.take_sent();
+  drives_.stop_nodes();
+  EXPECT_EQ(bus_.sent, (std::vector<CanFrame>{frame(0x000, {0x02, 0x00})}));
+}
+
+TEST_F(CanDrivesTest, WithFdOnlySyncAndTorquesAreFdFrames) {
+  BusLayout fd = layout();
+  fd.fd = true;
+  CanDrives drives(fd, wires_, {});
+  drives.request();
+  drives.send({});
+  for (const CanFrame& sent : bus_.sent) EXPECT_EQ(sent.fd, sent.id != 0x77F) << sent;
+  EXPECT_EQ(bus_.sent.size(), 4u);
+}
+
 class CountingTap final : public FrameTap {
  public:
   void on_frame(int bus, const ReceivedFrame& received) noexcept override {
