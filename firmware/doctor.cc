@@ -40,70 +40,124 @@ bool has_number(const std::string& list, int number) {
 }
 
 Finding kernel(const Path& root) {
-  if (first_line(root / "sys/kernel/realtime") == "1") return {true, "kernel: PREEMPT_RT", ""};
-  return {false, "kernel: not PREEMPT_RT", "apt-get install linux-image-rt-amd64 (or -arm64) and boot it"};
+  const std::string version = first_line(root / "proc/version").value_or("");
+  const auto has = [&version](const char* word) { return version.find(word) != std::string::npos; };
+  if (first_line(root / "sys/kernel/realtime") == "1" || has("PREEMPT_RT"))
+    return {true, true, "kernel: PREEMPT_RT", ""};
+  const char* found = has("PREEMPT_DYNAMIC") ? "PREEMPT_DYNAMIC, not PREEMPT_RT"
+                      : has("PREEMPT")       ? "PREEMPT, not PREEMPT_RT"
+                                             : "not PREEMPT_RT";
+#if defined(__aarch64__)
+  const char* package = "linux-image-rt-arm64";
+#else
+  const char* package = "linux-image-rt-amd64";
+#endif
+  return {false, true, fmt::format("kernel: {}", found), fmt::format("apt-get install {} and boot it", package)};
 }
 
-Finding limit(const char* name, rlim_t have, bool enough, const std::string& wanted) {
-  const std::string text = have == RLIM_INFINITY ? "unlimited" : std::to_string(have);
-  if (enough || ::geteuid() == 0) return {true, fmt::format("{}: {}{}", name, text, enough ? "" : ", but root"), ""};
-  return {false, fmt::format("{}: {}", name, text),
+/// Of this process, as capabilities(7) numbers them.
+bool has_capability(const Path& root, int number) {
+  std::ifstream stream(root / "proc/self/status");
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with("CapEff:")) continue;
+    return ((std::stoull(line.substr(7), nullptr, 16) >> number) & 1) != 0;
+  }
+  return false;
+}
+
+struct Right {
+  const char* limit;       // as limits.conf names it
+  const char* capability;  // that makes the limit meaningless
+  bool by_capability;
+  bool by_limit;
+  rlim_t have;
+  std::string wanted;
+};
+
+Finding judge(const Right& right) {
+  const std::string have = right.have == RLIM_INFINITY ? "unlimited" : std::to_string(right.have);
+  if (right.by_limit) return {true, true, fmt::format("{}: {}", right.limit, have), ""};
+  if (right.by_capability) return {true, true, fmt::format("{}: by {}", right.limit, right.capability), ""};
+  if (::geteuid() == 0) {
+    return {false, true, fmt::format("{}: {}, and root without {}", right.limit, have, right.capability),
+            fmt::format("give {} back, a container's with --cap-add", right.capability)};
+  }
+  return {false, true, fmt::format("{}: {}", right.limit, have),
           fmt::format("put '@realtime - {} {}' into /etc/security/limits.d/godobject.conf, join the group realtime and "
                       "log in again",
-                      name, wanted)};
+                      right.limit, right.wanted)};
 }
 
-std::vector<Finding> limits(int priority) {
+std::vector<Finding> rights(int priority, const Path& root) {
+  constexpr int kIpcLock = 14;
+  constexpr int kSysNice = 23;
   rlimit rtprio{};
   rlimit memlock{};
   ::getrlimit(RLIMIT_RTPRIO, &rtprio);
   ::getrlimit(RLIMIT_MEMLOCK, &memlock);
-  return {limit("rtprio", rtprio.rlim_cur, rtprio.rlim_cur >= static_cast<rlim_t>(priority), std::to_string(priority)),
-          limit("memlock", memlock.rlim_cur, memlock.rlim_cur == RLIM_INFINITY, "unlimited")};
+  const bool enough = rtprio.rlim_cur >= static_cast<rlim_t>(priority);
+  return {judge({"rtprio", "CAP_SYS_NICE", has_capability(root, kSysNice), enough, rtprio.rlim_cur,
+                 std::to_string(priority)}),
+          judge({"memlock", "CAP_IPC_LOCK", has_capability(root, kIpcLock), memlock.rlim_cur == RLIM_INFINITY,
+                 memlock.rlim_cur, "unlimited"})};
 }
 
 Finding isolation(int cpu, const Path& root) {
   const std::string isolated = first_line(root / "sys/devices/system/cpu/isolated").value_or("");
   if (isolated.empty()) {
-    return {false, "isolated processors: none",
+    return {false, false, "isolated processors: none",
             "boot with isolcpus=N nohz_full=N rcu_nocbs=N and set loop.cpu = N, N not 0"};
   }
   if (cpu < 0) {
-    return {false, fmt::format("isolated processors: {}, but the loop is bound to none", isolated),
+    return {false, false, fmt::format("isolated processors: {}, but the loop is bound to none", isolated),
             "set loop.cpu to one of them"};
   }
   if (!has_number(isolated, cpu)) {
-    return {false, fmt::format("isolated processors: {}, the loop's {} is not among them", isolated, cpu),
+    return {false, false, fmt::format("isolated processors: {}, the loop's {} is not among them", isolated, cpu),
             "set loop.cpu to one of them"};
   }
-  return {true, fmt::format("isolated processors: {}, the loop has {}", isolated, cpu), ""};
+  return {true, false, fmt::format("isolated processors: {}, the loop has {}", isolated, cpu), ""};
 }
 
 Finding governor(int cpu, const Path& root) {
   const Path file = root / fmt::format("sys/devices/system/cpu/cpu{}/cpufreq/scaling_governor", cpu < 0 ? 0 : cpu);
   const std::optional<std::string> name = first_line(file);
-  if (!name) return {true, "clock rate: not scaled here", ""};
-  if (*name == "performance") return {true, "clock rate: governor performance", ""};
-  return {false, fmt::format("clock rate: governor {}", *name), fmt::format("echo performance > {}", file.string())};
+  if (!name) return {true, false, "clock rate: not scaled here", ""};
+  if (*name == "performance") return {true, false, "clock rate: governor performance", ""};
+  return {false, false, fmt::format("clock rate: governor {}", *name),
+          fmt::format("echo performance > {}", file.string())};
 }
 
 Finding clock_source(const Path& root) {
   const Path file = root / "sys/devices/system/clocksource/clocksource0/current_clocksource";
   const std::string name = first_line(file).value_or("unknown");
-  if (name == "tsc" || name == "arch_sys_counter" || name == "kvm-clock") return {true, "clock source: " + name, ""};
-  return {false, "clock source: " + name + ", slow to read", "boot with tsc=reliable if the processor's counter is"};
+  if (name == "tsc" || name == "arch_sys_counter" || name == "kvm-clock")
+    return {true, false, "clock source: " + name, ""};
+  return {false, false, "clock source: " + name + ", slow to read",
+          "boot with tsc=reliable if the processor's counter is"};
 }
 
 Finding throttling(const Path& root) {
-  const std::string runtime = first_line(root / "proc/sys/kernel/sched_rt_runtime_us").value_or("-1");
-  if (runtime == "-1") return {true, "real-time throttling: off", ""};
-  return {true, fmt::format("real-time throttling: {} us a second for all real-time threads", runtime), ""};
+  const Path file = root / "proc/sys/kernel/sched_rt_runtime_us";
+  const std::optional<std::string> runtime = first_line(file);
+  const std::string period = first_line(root / "proc/sys/kernel/sched_rt_period_us").value_or("1000000");
+  if (!runtime)
+    return {false, false, fmt::format("real-time throttling: {} cannot be read", file.string()), "mount /proc"};
+  if (*runtime == "-1") return {true, false, "real-time throttling: off", ""};
+  if (*runtime == "0") {
+    return {false, true, "real-time throttling: real-time threads get no time at all",
+            fmt::format("echo 950000 > {}", file.string())};
+  }
+  return {
+      true, false,
+      fmt::format("real-time throttling: {} of {} us for all real-time threads, the loop needs less", *runtime, period),
+      ""};
 }
 
 Finding can(const Path& root) {
   std::error_code error;
-  if (std::filesystem::exists(root / "proc/net/can", error)) return {true, "CAN: in the kernel", ""};
-  return {false, "CAN: not in the kernel, or its module is not loaded",
+  if (std::filesystem::exists(root / "proc/net/can", error)) return {true, false, "CAN: in the kernel", ""};
+  return {false, false, "CAN: not in the kernel, or its module is not loaded",
           "modprobe can can_raw; for a simulated bus vcan"};
 }
 
@@ -111,7 +165,7 @@ Finding can(const Path& root) {
 
 std::vector<Finding> examine_machine(int cpu, int priority, const std::filesystem::path& root) {
   std::vector<Finding> findings{kernel(root)};
-  for (Finding& finding : limits(priority)) findings.push_back(std::move(finding));
+  for (Finding& finding : rights(priority, root)) findings.push_back(std::move(finding));
   findings.push_back(isolation(cpu, root));
   findings.push_back(governor(cpu, root));
   findings.push_back(clock_source(root));

@@ -48,10 +48,10 @@ const char* const kFooter = R"(Examples:
   godobject-controller firmware/controllers/lwr.toml --scene bt.scene --duration 20 --log logs
   godobject-controller doctor firmware/controllers/lwr.toml
 
-The loop begins once all drives answer, their joints rest within their limits and the enable switch is held; it pushes each
-joint a little, to see that it moves the right way, and renders once the contact force is small. A fault takes the torque
-away and is latched: SIGUSR1 resets it once emergency stop and enable switch are released. SIGTERM, SIGINT and SIGHUP end the run
-in order: exit 0.
+The loop begins once all drives answer, their joints rest within their limits and the enable switch, seen released, is held. It
+pushes each joint a little, to see that it moves the right way, and renders once the contact force is small. A fault takes the
+torque away and is latched: SIGUSR1 resets it once emergency stop and enable switch are released. SIGTERM, SIGINT and SIGHUP end
+the run in order: exit 0.
 
 --bus sim, the default, is a simulated device with a hand on it, in virtual time: as fast as the machine can. With
 loop.real_time it keeps to the clock, on a thread with real-time priority as far as that is permitted.
@@ -71,7 +71,19 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
 
 --log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose
 d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions. In
-virtual time DIR/hand.csv has the work that the simulated hand has done on the tool until then.)";
+virtual time DIR/hand.csv has the work that the simulated hand has done on the tool until then.
+
+Exit codes: 0 done, 64 usage, 65 bad scene image or path, or an image without the solver or friction asked for, 66 an input is
+missing, 69 drives or bus not available, or stopped by a fault, 74 cannot write, 77 no right to read or write, 78 bad
+configuration.)";
+
+const char* const kDoctorFooter = R"(Example:
+  godobject-controller doctor firmware/controllers/lwr.toml
+
+A line each: ok, or LACK with its cure. CONTROLLER.toml is looked at for loop.cpu and loop.priority.
+
+Exit codes: 0 done, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 something is lacking without which there is no
+real-time work: kernel, rtprio or memlock, 78 bad configuration.)";
 
 struct Options {
   std::string controller;
@@ -437,8 +449,14 @@ void control(const Options& options) {
 void examine(const std::string& controller) {
   ControllerConfig::Loop loop;
   if (!controller.empty()) loop = firmware::read_controller_file(controller).loop;
+  std::vector<std::string> missing;
   for (const firmware::Finding& finding : firmware::examine_machine(loop.cpu, loop.priority)) {
     fmt::print("{} {}{}{}\n", finding.good ? "ok  " : "LACK", finding.what, finding.good ? "" : " -> ", finding.cure);
+    if (!finding.good && finding.needed) missing.push_back(finding.what);
+  }
+  if (!missing.empty()) {
+    throw Failure(ExitCode::kUnavailable,
+                  fmt::format("no real-time work on this machine ({}); see the cures above", fmt::join(missing, "; ")));
   }
 }
 
@@ -450,20 +468,22 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   Options options;
   std::string examined;
-  auto* controller = app.add_option("CONTROLLER", options.controller, "controller file, CONTROLLER.toml");
-  app.add_option("--scene", options.scene, "scene image, in place of scene.image");
-  app.add_option("--bus", options.bus, "sim, or CAN interfaces such as can0,can1; default: sim");
+  auto* controller = app.add_option("CONTROLLER.toml", options.controller, "controller file")->type_name("");
+  app.add_option("--scene", options.scene, "scene image, in place of scene.image")->type_name("X.scene");
+  app.add_option("--bus", options.bus, "sim, or CAN interfaces such as can0,can1; default: sim")->type_name("BUS");
   app.add_option("--duration", options.duration,
                  "seconds after which it ends; default: with simulation.path half a second after it, else never")
-      ->check(CLI::Range(0.001, 1e7));
-  app.add_option("--log", options.log, "folder for the telemetry, in place of telemetry.folder");
+      ->check(CLI::Range(0.001, 1e7))
+      ->option_text("SECONDS");
+  app.add_option("--log", options.log, "folder for the telemetry, in place of telemetry.folder")->type_name("DIR");
   app.add_flag("--log-bus", options.log_bus, "writes what goes over the buses to the same folder, as telemetry.bus");
   CLI::App* doctor =
       app.add_subcommand("doctor", "says what this machine lacks for real-time work, each with its cure");
-  doctor->add_option("CONTROLLER", examined, "controller file, for loop.cpu and loop.priority");
+  doctor->add_option("CONTROLLER.toml", examined, "controller file, for loop.cpu and loop.priority")->type_name("");
+  doctor->footer(kDoctorFooter);
   return command::run(app, argc, argv, [&] {
     if (doctor->parsed()) return examine(examined);
-    if (controller->count() == 0) throw CLI::RequiredError("CONTROLLER");
+    if (controller->count() == 0) throw CLI::RequiredError("CONTROLLER.toml");
     control(options);
   });
 }

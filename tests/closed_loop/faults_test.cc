@@ -116,7 +116,10 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"encoder_not_finite", {FaultKind::kEncoderNotFinite, 0, kBegin, 1}, {Fault::kNotFinite}, 1},
         Row{"encoder_stuck_base", {FaultKind::kEncoderStuck, 0, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
         Row{"encoder_stuck_shoulder", {FaultKind::kEncoderStuck, 1, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"encoder_stuck_upper_arm", {FaultKind::kEncoderStuck, 2, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
         Row{"encoder_stuck_elbow", {FaultKind::kEncoderStuck, 3, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"encoder_stuck_forearm", {FaultKind::kEncoderStuck, 4, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
+        Row{"encoder_stuck_flange", {FaultKind::kEncoderStuck, 6, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
         Row{"encoder_stuck_wrist", {FaultKind::kEncoderStuck, 5, kBegin, 10'000}, {Fault::kEncoderStuck}, 100},
         Row{"drive_trips", {FaultKind::kDriveTrips, 4, kBegin, 1}, {Fault::kDriveLeft}, 2},
         Row{"drive_goes_off", {FaultKind::kDriveDisabled, 1, kBegin, 1}, {Fault::kDriveLeft}, 2},
@@ -256,6 +259,8 @@ struct Overruns {
   std::string name;
   std::vector<sim::LateWake> late;
   std::int64_t cause;  ///< cycle in which the table's condition is met first
+  std::int64_t command_deadline_ns = 4'000'000;
+  Fault fault = Fault::kOverruns;
 };
 
 void PrintTo(const Overruns& row, std::ostream* out) { *out << row.name; }
@@ -265,23 +270,25 @@ class ClosedLoopOverruns : public testing::TestWithParam<Overruns> {};
 TEST_P(ClosedLoopOverruns, StopTheArm) {
   SimulatedRun::Options options = pressing();
   options.late = GetParam().late;
+  options.command_deadline_ns = GetParam().command_deadline_ns;
   SimulatedRun run(plate(), options);
   run.run(kEnd);
-  const Fault fault = run.controller().record().fault;
-  // a drive that hears nothing for longer than 4 ms trips by itself
-  EXPECT_TRUE(fault == Fault::kOverruns || fault == Fault::kDriveLeft) << describe(fault);
+  EXPECT_EQ(run.controller().record().fault, GetParam().fault) << describe(run.controller().record().fault);
   const int cycles = run.cycles_to_stop(GetParam().cause);
   EXPECT_GT(cycles, 0);
   EXPECT_LE(cycles, 8);
   EXPECT_EQ(run.violation(), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Rows, ClosedLoopOverruns,
-                         testing::Values(Overruns{"three_in_a_row", late_wakes(3, 2, 1'200'000), kBegin + 4},
-                                         Overruns{"more_than_one_in_a_hundred", late_wakes(11, 50, 1'200'000),
-                                                  kBegin + 500},
-                                         Overruns{"one_of_more_than_5_ms", late_wakes(1, 1, 6'200'000), kBegin}),
-                         [](const testing::TestParamInfo<Overruns>& row) { return row.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Rows, ClosedLoopOverruns,
+    testing::Values(Overruns{"three_in_a_row", late_wakes(3, 2, 1'200'000), kBegin + 4},
+                    Overruns{"more_than_one_in_a_hundred", late_wakes(11, 50, 1'200'000), kBegin + 500},
+                    Overruns{"one_of_more_than_5_ms", late_wakes(1, 1, 6'200'000), kBegin, 20'000'000},
+                    // a drive that hears nothing for longer than 4 ms trips by itself
+                    Overruns{"one_that_trips_the_drives", late_wakes(1, 1, 6'200'000), kBegin, 4'000'000,
+                             Fault::kDriveLeft}),
+    [](const testing::TestParamInfo<Overruns>& row) { return row.param.name; });
 
 TEST(ClosedLoop, StopsAHandThatIsTooFast) {
   SimulatedRun::Options options;
@@ -301,6 +308,34 @@ TEST(ClosedLoop, StopsAHandThatIsTooFast) {
     if (fast && cause < 0 && cycle.record.mode >= Mode::kArmed) cause = cycle.number;
   }
   const int cycles = run.cycles_to_stop(cause > 0 ? cause : 700);
+  EXPECT_GT(cycles, 0);
+  EXPECT_LE(cycles, 5);
+  EXPECT_EQ(run.violation(), "");
+}
+
+TEST(ClosedLoop, StopsAHandThatIsTooFastThoughNoJointIs) {
+  SimulatedRun::Options options;
+  const std::vector<Waypoint> dash{{0.0, {0.0, 0.0, 0.06}}, {0.3, {0.0, 0.0, 0.06}}, {0.8, {-0.15, 0.0, 0.06}}};
+  options.path = path_through(dash);
+  options.hand.force = 2.0;  // of damping: the hand overcomes it
+  options.hand.speed = 0.2;
+  options.hand.speed_stop = 0.3;
+  SimulatedRun run(plate(), options);
+  run.run(2000);
+  EXPECT_EQ(run.controller().record().fault, Fault::kTooFast);
+  EXPECT_GT(run.controller().counters().slowed, 0u) << "damped first";
+  const ArmModel& arm = run.device().model;
+  Vector3 last = run.cycles.front().tool_R;
+  std::int64_t cause = -1;
+  for (const SimulatedCycle& cycle : run.cycles) {
+    if (cause < 0 && (cycle.tool_R - last).norm() > 1e-3 * options.hand.speed_stop) cause = cycle.number;
+    last = cycle.tool_R;
+    for (int i = 0; i < 7; ++i) {
+      ASSERT_LT(std::fabs(cycle.record.qd[i]), 0.8 * arm.joints[static_cast<std::size_t>(i)].velocity) << cycle.number;
+    }
+  }
+  ASSERT_GT(cause, 0);
+  const int cycles = run.cycles_to_stop(cause);
   EXPECT_GT(cycles, 0);
   EXPECT_LE(cycles, 5);
   EXPECT_EQ(run.violation(), "");

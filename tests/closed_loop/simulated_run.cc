@@ -33,8 +33,14 @@ std::vector<Vector3> path_through(std::span<const Waypoint> waypoints) {
   return path;
 }
 
+const JointVector& SimulatedRun::posture() {
+  static const JointVector posture = workspace().posture;
+  return posture;
+}
+
 SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options)
     : scene_(test::open_scene(image)),
+      load_(options.load),
       placement_(place(workspace(), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero())),
       faults_(options.faults),
       late_(options.late) {
@@ -50,10 +56,15 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
     path_R_.push_back({rest.rotation, p_W - placement_.mapping.H_WR.translation});
   }
   hardware_ = sim::usual_hardware(arm);
-  for (auto& joint : hardware_) joint.counter_at_zero = options.counter_at_zero;
+  for (auto& joint : hardware_) {
+    joint.counter_at_zero = options.counter_at_zero;
+    joint.command_deadline_ns = options.command_deadline_ns;
+    if (load_) joint.encoder_step = joint.torque_step = 0.0;
+  }
+  if (load_) placement_.device.torque.null_damping.setZero();
   if (options.reversed_joint >= 0) hardware_[static_cast<std::size_t>(options.reversed_joint)].motor_sign = -1.0;
   sim::HandParameters hand;
-  hand.grip = sim::Grip::kSpring;
+  hand.grip = load_ ? sim::Grip::kNone : sim::Grip::kSpring;
   plant_ =
       std::make_unique<sim::Plant>(arm, workspace().posture, options.dry_friction,
                                    sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
@@ -63,11 +74,12 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
 
   CycleSetup setup;
   setup.scene = &scene_;
-  setup.friction = true;
+  setup.friction = options.friction;
+  setup.hand = options.hand;
   setup.arm = &arm;
   setup.joint_torque = &placement_.device.torque;
   setup.mapping = placement_.mapping;
-  setup.velocity_window = 2;
+  setup.velocity_window = kVelocityWindow;
   setup.stuck_torque = 0.002;
   setup.supervisor.sign_test = options.sign_test;
   setup.supervisor.engage_cycles = 50;
@@ -90,6 +102,7 @@ void SimulatedRun::run(std::int64_t count) {
       }
       cycles.push_back(cycle);
     }
+    if (load_) plant_->set_tool_load(load_(plant_->now_ns() / 1'000'000, plant_->tool()));
   });
 }
 

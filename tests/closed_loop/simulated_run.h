@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,12 @@ class SimulatedRun {
     int reversed_joint = -1;  ///< its motor is connected the wrong way round
     JointVector dry_friction = JointVector::Zero();
     double scene_stiffness = 2000.0;
+    bool friction = true;
+    HandLimits hand;                               ///< what the hand may be given
+    std::int64_t command_deadline_ns = 4'000'000;  ///< without commands for longer a drive trips
+    /// What is put on the tool in each cycle instead of a hand's grip, about its origin; the drives round nothing then,
+    /// and motions that leave the tool at rest are not damped.
+    std::function<Wrench(std::int64_t cycle, const sim::BodyState& tool)> load;
   };
 
   SimulatedRun(const test::SceneImage& image, const Options& options);
@@ -70,9 +77,14 @@ class SimulatedRun {
   sim::DirectDrives& drives() { return *drives_; }
   const sim::Plant& plant() const { return *plant_; }
   const Device& device() const { return placement_.device; }
+  const Scene& scene() const { return scene_; }
+  double delay() const { return drives_->delay(); }
+  static const JointVector& posture();  ///< at the start
+  static constexpr int kVelocityWindow = 2;
 
  private:
   Scene scene_;
+  std::function<Wrench(std::int64_t cycle, const sim::BodyState& tool)> load_;
   Placement placement_;
   std::vector<Pose> path_R_;
   std::vector<sim::DriveFault> faults_;

@@ -3,62 +3,30 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <sys/wait.h>
 
-#include "tests/support/small_scenes.h"
+#include "tests/firmware/controller_folder.h"
 
 namespace godobject::firmware {
 namespace {
 
-class ControllerCommandTest : public testing::Test {
+class ControllerCommandTest : public ControllerFolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-    const test::SceneImage image = test::ball_over_plate();
-    std::ofstream(folder_ / "plate.scene", std::ios::binary)
-        .write(reinterpret_cast<const char*>(image.bytes().data()), static_cast<std::streamsize>(image.bytes().size()));
-    write_controller("");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  void write_controller(const std::string& more,
-                        const std::string& gains = "damping = 5.0\nrotational = 0.003\n") const {
-    std::ofstream(folder_ / "c.toml")
-        << "[scene]\nimage = \"plate.scene\"\n[device]\nfile = \"" << GODOBJECT_FIRMWARE_DIR
-        << "/devices/lwr.toml\"\n[workspace]\nposture = [0.0, -0.5, 0.0, 1.4, 0.0, -1.2, 0.0]\n"
-        << "start = [0.0, 0.0, 0.06, 1.0, 0.0, 0.0, 0.0]\n[gains]\n"
-        << gains << more;
-  }
-
-  /// A ball's path: 50 mm down in half a second, and it stays there.
-  void write_path() const {
-    std::ofstream out(folder_ / "path.csv");
-    out << "t,px,py,pz,qw,qx,qy,qz\n";
-    for (int k = 0; k < 1500; ++k) out << fmt::format("{},0,0,{},1,0,0,0\n", 1e-3 * k, 0.06 - 1e-4 * std::min(k, 500));
-  }
-
   /// Exit code; `words_` gets stdout and stderr.
   int run(const std::string& arguments, const std::string& before = "") {
     const std::string command =
         fmt::format("cd {} && {} {} {} > log.txt 2>&1", folder_.string(), before, GODOBJECT_CONTROLLER, arguments);
     const int status = std::system(command.c_str());
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "log.txt").rdbuf();
-    words_ = text.str();
+    words_ = text("log.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
   bool says(const std::string& what) const { return words_.find(what) != std::string::npos; }
 
-  std::filesystem::path folder_;
   std::string words_;
 };
 
@@ -91,10 +59,10 @@ TEST_F(ControllerCommandTest, RendersAPathAndLogsIt) {
   EXPECT_TRUE(contact);
 }
 
-TEST_F(ControllerCommandTest, EndsInOrderOnSigterm) {
-  EXPECT_EQ(run("c.toml", "timeout --preserve-status --signal=TERM 1"), 0) << words_;
-  EXPECT_TRUE(says("rendered in")) << words_;
-  EXPECT_FALSE(says("stopped:")) << words_;
+TEST_F(ControllerCommandTest, WarnsWhereTheSignTestIsLeftOut) {
+  write_controller("[start]\nsign_test = false\n");
+  EXPECT_EQ(run("c.toml --duration 0.5"), 0) << words_;
+  EXPECT_TRUE(says("start.sign_test = false: ")) << words_;
 }
 
 TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
@@ -117,6 +85,9 @@ TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
   write_controller("", "damping = 5.0\nrotational = 0.003\nstiffness = 20000.0\n");
   EXPECT_EQ(run("c.toml"), 78);
   EXPECT_TRUE(says("stability boundary")) << words_;
+  write_controller("[limits]\nforce = 10000.0\n");
+  EXPECT_EQ(run("c.toml"), 78);
+  EXPECT_TRUE(says("limits.force = 10000 N protects nobody")) << words_;
   write_controller("", "damping = 20.0\n");
   EXPECT_EQ(run("c.toml"), 78);
   EXPECT_TRUE(says("no stiffness is stable")) << words_;
@@ -134,13 +105,16 @@ TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
 }
 
 TEST_F(ControllerCommandTest, ExaminesTheMachine) {
-  EXPECT_EQ(run("doctor"), 0);
-  EXPECT_TRUE(says("kernel: ")) << words_;
-  EXPECT_TRUE(says("memlock: ")) << words_;
-  EXPECT_EQ(run("doctor c.toml"), 0);
+  for (const char* arguments : {"doctor", "doctor c.toml"}) {
+    const int code = run(arguments);
+    const bool able = !says("LACK kernel: ") && !says("LACK rtprio: ") && !says("LACK memlock: ");
+    EXPECT_EQ(code, able ? 0 : 69) << words_;
+    EXPECT_EQ(says("no real-time work on this machine"), !able) << words_;
+    EXPECT_TRUE(says("kernel: ") && says("memlock: ") && says("rtprio: ")) << words_;
+  }
   EXPECT_EQ(run("doctor nothing.toml"), 66);
-  EXPECT_EQ(run("--help"), 0);
-  EXPECT_TRUE(says("Examples:")) << words_;
+  EXPECT_EQ(run("doctor --help"), 0);
+  EXPECT_TRUE(says("Exit codes: 0 done")) << words_;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // What the machine has for real-time work, and what of it is used.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -72,6 +74,41 @@ TEST_F(DoctorTest, FindsAMachineGoodThatHasAll) {
   EXPECT_TRUE(find("isolated", 1).good);
   put("sys/devices/system/cpu/cpu3/cpufreq/scaling_governor", "powersave");
   EXPECT_FALSE(find("clock rate").good);
+}
+
+TEST_F(DoctorTest, TellsWhichKernelItFound) {
+  put("proc/version", "Linux version 6.1.0 (gcc) #1 SMP PREEMPT_DYNAMIC Debian");
+  EXPECT_EQ(find("kernel").what, "kernel: PREEMPT_DYNAMIC, not PREEMPT_RT");
+  EXPECT_TRUE(find("kernel").needed);
+  put("proc/version", "Linux version 6.1.0 (gcc) #1 SMP PREEMPT_RT Debian");
+  EXPECT_TRUE(find("kernel").good);
+}
+
+TEST_F(DoctorTest, ReadsHowRealTimeThreadsAreThrottled) {
+  EXPECT_FALSE(find("real-time throttling").good) << "not read is not off";
+  put("proc/sys/kernel/sched_rt_runtime_us", "-1");
+  EXPECT_EQ(find("real-time throttling").what, "real-time throttling: off");
+  put("proc/sys/kernel/sched_rt_runtime_us", "700000");
+  EXPECT_NE(find("real-time throttling").what.find("700000 of 1000000 us"), std::string::npos);
+  put("proc/sys/kernel/sched_rt_runtime_us", "0");
+  EXPECT_FALSE(find("real-time throttling").good);
+  EXPECT_TRUE(find("real-time throttling").needed);
+}
+
+TEST_F(DoctorTest, TakesCapabilitiesForRightsAndNotTheNameOfRoot) {
+  rlimit locked{};
+  ASSERT_EQ(::getrlimit(RLIMIT_MEMLOCK, &locked), 0);
+  rlimit small = locked;
+  small.rlim_cur = std::min<rlim_t>(locked.rlim_cur, 65536);
+  ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &small), 0);
+  put("proc/self/status", "Name:\tx\nCapEff:\t0000000000000000");
+  EXPECT_FALSE(find("memlock").good);
+  EXPECT_TRUE(find("memlock").needed);
+  EXPECT_FALSE(find("memlock").cure.empty());
+  put("proc/self/status", "Name:\tx\nCapEff:\t0000000000004000");
+  EXPECT_EQ(find("memlock").what, "memlock: by CAP_IPC_LOCK");
+  EXPECT_TRUE(find("memlock").good);
+  ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &locked), 0);
 }
 
 TEST(MonotonicClock, NeverWakesBeforeItsTimeAndTellsAtOnceWhatHasPassed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -79,8 +80,8 @@ TEST_F(SceneFileTest, RefusesWhatMayNotBeRead) {
 }
 
 TEST_F(SceneFileTest, RefusesEveryTruncationAndFlippedBits) {
-  for (std::size_t size = 0; size < text_.size(); size += 1 + text_.size() / 100) {
-    write(text_.substr(0, size));
+  for (std::size_t size = text_.size(); size-- > 0;) {
+    ASSERT_EQ(::truncate(file_.c_str(), static_cast<off_t>(size)), 0);
     ASSERT_EQ(refusal(file_).first, ExitCode::kBadData) << size;
   }
   for (std::size_t bit = 0; bit < 8 * text_.size(); bit += 1 + 8 * text_.size() / 200) {

@@ -1,5 +1,9 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -9,9 +13,15 @@
 #include <vector>
 
 #include "firmware/command/failure.h"
+#include "firmware/controller_run.h"
 #include "firmware/telemetry_ring.h"
 #include "firmware/telemetry_writer.h"
+#include "sim/virtual_clock.h"
+#include "tests/firmware/fake_drives.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/arms.h"
+#include "tests/support/scene_image_builder.h"
+#include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -83,10 +93,15 @@ TEST_F(TelemetryTest, CarriesEveryRecordInOrderBetweenTwoThreads) {
   reader.join();
 }
 
-TEST_F(TelemetryTest, LosesTheNewestAndCountsThemWhenNobodyReads) {
+TEST_F(TelemetryTest, TakesNoMemoryToPush) {
+  if (!test::AllocationGuard::works()) GTEST_SKIP() << "a sanitizer needs malloc for itself";
   const test::AllocationGuard guard;
   for (int i = 0; i < 10'000; ++i) ring_->push(record(i));
   EXPECT_EQ(guard.allocations(), 0);
+}
+
+TEST_F(TelemetryTest, LosesTheNewestAndCountsThemWhenNobodyReads) {
+  for (int i = 0; i < 10'000; ++i) ring_->push(record(i));
   EXPECT_EQ(ring_->lost(), 10'000u - TelemetryRing::kCapacity);
   TelemetryRecord first;
   ASSERT_TRUE(ring_->pop(first));
@@ -101,6 +116,64 @@ TEST_F(TelemetryTest, CountsRowsThatAFullDiskDoesNotTake) {
   EXPECT_EQ(writer.written(), 0u);
   EXPECT_EQ(writer.lost(), 1000u);
   EXPECT_EQ(ring_->lost(), 0u);
+}
+
+/// Virtual time in which nothing else happens.
+class EmptyWorld final : public sim::World {
+ public:
+  std::int64_t now_ns() const noexcept override { return now_ns_; }
+  void advance_to(std::int64_t ns) noexcept override { now_ns_ = std::max(now_ns_, ns); }
+
+ private:
+  std::int64_t now_ns_ = 0;
+};
+
+/// Whoever takes the rows stands still for ten seconds of the loop.
+TEST_F(TelemetryTest, DoesNotHoldUpTheLoopWhenTheDiskStalls) {
+  constexpr std::uint64_t kCycles = 10'000;
+  const test::Arm arm = test::lwr();
+  const test::SceneImage image = test::ball_over_plate();
+  const Scene scene = test::open_scene(image);
+  FakeDrives drives(7);
+  CycleSetup cycle_setup;
+  cycle_setup.scene = &scene;
+  cycle_setup.arm = &arm.model;
+  cycle_setup.joint_torque = &arm.parameters;
+  cycle_setup.supervisor.sign_test = false;
+  const auto cycle = std::make_unique<ControlCycle>(cycle_setup, drives);
+  ASSERT_EQ(cycle->start(), Status::kOk);
+
+  ASSERT_EQ(::mkfifo((folder_ / "telemetry.csv").c_str(), 0600), 0);
+  const int pipe = ::open((folder_ / "telemetry.csv").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(pipe, 0);
+  auto writer = std::make_unique<TelemetryWriter>(folder_, 7, *ring_);
+  std::jthread beside([&writer](const std::stop_token& stop) { writer->run(stop); });
+  EmptyWorld world;
+  sim::VirtualClock clock(world);
+  RunRequests requests;
+  RunReport report;
+  run_controller({.cycles = kCycles, .every = 1, .stopwatch = &clock}, clock, *cycle, requests, *ring_, report, [] {});
+  EXPECT_EQ(cycle->counters().overruns + cycle->counters().skipped, 0u);
+  const std::uint64_t pushed = cycle->counters().cycles;
+  EXPECT_GE(pushed, kCycles);
+  EXPECT_GT(ring_->lost(), pushed - TelemetryRing::kCapacity - 1000) << "a pipe takes some before it is full";
+
+  ASSERT_EQ(::fcntl(pipe, F_SETFL, 0), 0);
+  std::size_t lines = 0;
+  std::thread reader([&] {
+    char buffer[4096];
+    for (ssize_t got; (got = ::read(pipe, buffer, sizeof buffer)) > 0;) {
+      lines += static_cast<std::size_t>(std::count(buffer, buffer + got, '\n'));
+    }
+  });
+  beside.request_stop();
+  beside.join();
+  EXPECT_EQ(writer->written() + writer->lost() + ring_->lost(), pushed);
+  const std::uint64_t written = writer->written();
+  writer.reset();
+  reader.join();
+  ::close(pipe);
+  EXPECT_EQ(lines, 1 + written);
 }
 
 TEST_F(TelemetryTest, SaysWhereItCannotWrite) {

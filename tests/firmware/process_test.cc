@@ -1,0 +1,207 @@
+// godobject-controller as a process: signals, and a log that cannot be written. It waits for what it wants to see; how
+// long that takes decides nothing.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "tests/firmware/controller_folder.h"
+
+namespace godobject::firmware {
+namespace {
+
+/// The controller in a folder, its words in log.txt there; killed with this.
+class Process {
+ public:
+  Process(const std::filesystem::path& folder, const std::vector<std::string>& arguments, rlim_t largest_file) {
+    std::vector<std::string> words{GODOBJECT_CONTROLLER};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    const int log = ::open((folder / "log.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const rlimit limit{largest_file, largest_file};
+    const bool ready = log >= 0 && ::dup2(log, 1) == 1 && ::dup2(log, 2) == 2 && ::chdir(folder.c_str()) == 0 &&
+                       ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
+    if (ready) ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Process() {
+    if (pid_ <= 0) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const { ::kill(pid_, signal); }
+
+  /// Exit code, or minus the signal that killed it.
+  int wait() {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  bool is_stopped() const {
+    std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
+    std::string text((std::istreambuf_iterator<char>(stat)), {});
+    const std::size_t end = text.rfind(") ");
+    return end != std::string::npos && text[end + 2] == 'T';
+  }
+
+ private:
+  pid_t pid_;
+};
+
+class ControllerProcessTest : public ControllerFolderTest {
+ protected:
+  /// What is not seen within this is never seen: no measure of anything else.
+  static constexpr std::chrono::seconds kNever{60};
+
+  bool see(const std::function<bool()>& what) const {
+    const auto end = std::chrono::steady_clock::now() + kNever;
+    while (!what()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+
+  /// Modes of the rows that are whole, in their order.
+  std::vector<std::string> modes() const {
+    std::vector<std::string> found;
+    const std::string log = text("logs/telemetry.csv");
+    for (std::size_t begin = log.find('\n') + 1, end; (end = log.find('\n', begin)) != std::string::npos;
+         begin = end + 1) {
+      std::size_t from = begin;
+      for (int column = 0; column < 3; ++column) from = log.find(',', from) + 1;
+      found.push_back(log.substr(from, log.find(',', from) - from));
+    }
+    return found;
+  }
+
+  bool has(const std::string& mode) const {
+    const auto all = modes();
+    return std::find(all.begin(), all.end(), mode) != all.end();
+  }
+
+  bool says(const std::string& what) const { return text("log.txt").find(what) != std::string::npos; }
+
+  Process start(const std::vector<std::string>& more = {}, rlim_t largest_file = RLIM_INFINITY) const {
+    std::vector<std::string> arguments{"c.toml", "--log", "logs"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Process(folder_, arguments, largest_file);
+  }
+};
+
+const char* const kSeldom = "[start]\nsign_test = false\n[telemetry]\nevery = 200\n";
+const char* const kRealTime = "[start]\nsign_test = false\n[loop]\nreal_time = true\npriority = 1\n";
+
+TEST_F(ControllerProcessTest, EndsInOrderWhenItIsAskedTo) {
+  write_controller(kSeldom);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    std::filesystem::remove_all(folder_ / "logs");
+    Process process = start();
+    ASSERT_TRUE(see([&] { return has("running"); })) << text("log.txt");
+    process.send(signal);
+    EXPECT_EQ(process.wait(), 0) << signal << ": " << text("log.txt");
+    EXPECT_TRUE(says("rendered in")) << signal;
+    EXPECT_FALSE(says("stopped:")) << signal;
+  }
+}
+
+TEST_F(ControllerProcessTest, TakesAResetWithoutAFaultForNothing) {
+  write_controller(kSeldom);
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running"); }));
+  for (int i = 0; i < 5; ++i) {
+    process.send(SIGUSR1);
+    const std::size_t rows = modes().size();
+    ASSERT_TRUE(see([&] { return modes().size() > rows + 2; }));
+  }
+  EXPECT_EQ(modes().back(), "running");
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+}
+
+TEST_F(ControllerProcessTest, IsStoppedForGoodByAPauseOfTheProcess) {
+  write_controller(kRealTime);
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running") || has("stopped"); })) << text("log.txt");
+  if (has("stopped")) GTEST_SKIP() << "this machine is too busy for a loop in real time: " << modes().size() << " rows";
+  process.send(SIGSTOP);
+  ASSERT_TRUE(see([&] { return process.is_stopped(); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  process.send(SIGCONT);
+  ASSERT_TRUE(see([&] { return has("stopped"); }));
+  const std::size_t rows = modes().size();
+  ASSERT_TRUE(see([&] { return modes().size() > rows + 300; })) << "it waits for the operator";
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+  EXPECT_TRUE(says("stopped: ")) << text("log.txt");
+  const std::vector<std::string> all = modes();
+  const auto stopping = std::find(all.begin(), all.end(), "stopping");
+  ASSERT_NE(stopping, all.end());
+  const std::set<std::string> allowed{"stopping", "stopped", "ended"};
+  EXPECT_TRUE(std::all_of(stopping, all.end(), [&](const auto& mode) { return allowed.contains(mode); }))
+      << "no power again";
+}
+
+TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKilled) {
+  write_controller("[start]\nsign_test = false\n");
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running"); }));
+  process.send(SIGKILL);
+  EXPECT_EQ(process.wait(), -SIGKILL);
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
+    files.insert(entry.path().filename());
+  }
+  EXPECT_EQ(files, (std::set<std::string>{"telemetry.csv", "hand.csv"}));
+  for (const std::string& file : files) {
+    const std::string log = text("logs/" + file);
+    std::istringstream lines(log.substr(0, log.rfind('\n') + 1));
+    std::string line;
+    std::getline(lines, line);
+    const auto columns = std::count(line.begin(), line.end(), ',');
+    EXPECT_GT(columns, 0);
+    while (std::getline(lines, line)) ASSERT_EQ(std::count(line.begin(), line.end(), ','), columns) << file;
+  }
+  // what was left can be gone on from
+  Process again = start({"--duration", "0.5"});
+  EXPECT_EQ(again.wait(), 0) << text("log.txt");
+}
+
+TEST_F(ControllerProcessTest, GoesOnWithoutItsTelemetryOnAFullDisk) {
+  write_controller("[start]\nsign_test = false\n");
+  std::filesystem::create_directories(folder_ / "logs");
+  std::filesystem::create_symlink("/dev/full", folder_ / "logs" / "telemetry.csv");
+  Process process = start({"--duration", "2"});
+  EXPECT_EQ(process.wait(), 0) << text("log.txt");
+  EXPECT_TRUE(says("telemetry.csv: 0 rows, ")) << text("log.txt");
+  EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
+}
+
+TEST_F(ControllerProcessTest, GoesOnWhenItsFileMayNotGrow) {
+  write_controller("[start]\nsign_test = false\n");
+  Process process = start({"--duration", "2"}, 200 * 1024);
+  EXPECT_EQ(process.wait(), 0) << text("log.txt");
+  EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
+  EXPECT_FALSE(says(" 0 lost")) << text("log.txt");
+  EXPECT_LE(std::filesystem::file_size(folder_ / "logs" / "telemetry.csv"), 200u * 1024u);
+  EXPECT_GT(modes().size(), 100u);
+}
+
+}  // namespace
+}  // namespace godobject::firmware
