@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
+#include "core/device/dynamics.h"
+#include "core/device/kinematics.h"
+#include "core/device/stability.h"
+#include "firmware/gain_check.h"
 #include "tests/closed_loop/simulated_run.h"
 #include "tests/support/small_scenes.h"
 
@@ -105,21 +110,72 @@ TEST(ClosedLoopContact, PlugsABallIntoAHoleOneVoxelWider) {
   EXPECT_LT((run.cycles[3500].record.H_WM.translation - Vector3(0.0, 0.0, 0.06)).norm(), 0.01);
 }
 
-TEST(ClosedLoopContact, IsUnstableBeyondTheBoundaryThatTheGainsAreCheckedAgainst) {
-  // the springs of the coupling far above it: the press does not come to rest, and limits or supervisor step in
+/// Lowers the tool onto the plate as a soft hand would, lets go of it in cycle 1500, and pushes a little harder.
+Wrench lowers_and_lets_go(std::int64_t cycle, const sim::BodyState& tool) {
+  if (cycle < 400) return {};
+  if (cycle >= 1500) return {Vector3(0.0, 0.0, -3.1), Vector3::Zero()};
+  return {Vector3(0.0, 0.0, -3.0) - 40.0 * tool.velocity.translation, -0.05 * tool.velocity.rotation};
+}
+
+/// Extent of the tool's height in [from, from + 300).
+double swing(const SimulatedRun& run, std::int64_t from) {
+  double low = 1.0;
+  double high = -1.0;
+  for (const SimulatedCycle& cycle : run.cycles) {
+    if (cycle.number < from || cycle.number >= from + 300) continue;
+    low = std::min(low, cycle.tool_R.z());
+    high = std::max(high, cycle.tool_R.z());
+  }
+  return high - low;
+}
+
+/// What theory says of an arm that a spring holds along the plate's normal only.
+ArmLoop held_along_the_normal(const SimulatedRun& run) {
+  const ArmModel& arm = run.device().model;
+  const ArmKinematics kinematics = forward_kinematics(arm, run.plant().positions());
+  const auto felt = FeltCoupling::of(run.scene(), 1.0);
+  ArmLoop loop;
+  loop.joint_count = arm.joint_count;
+  loop.mass = mass_matrix(arm, kinematics);
+  for (int i = 0; i < arm.joint_count; ++i) loop.damping[i] = arm.joints[static_cast<std::size_t>(i)].damping;
+  loop.jacobian.row(2) = geometric_jacobian(kinematics, kinematics.H_WM.translation).row(2);
+  loop.stiffness = felt.stiffness;
+  loop.tool_damping = felt.damping;
+  loop.timing = {ControlCycle::kPeriod, run.delay(), SimulatedRun::kVelocityWindow};
+  return loop;
+}
+
+/// The exact boundary itself is met to 2 % in tests/sim/stability_test.cc. Here the ball turns meanwhile and its
+/// contact goes from point to point, which takes energy: about a fifth of the boundary's stiffness more is still calm.
+TEST(ClosedLoopContact, ComesToRestBelowTheExactBoundaryAndDoesNotAboveIt) {
   const test::SceneImage image = test::ball_over_plate();
   SimulatedRun::Options options;
-  const std::vector<Waypoint> press{{0.0, {0.0, 0.0, 0.06}}, {0.5, {0.0, 0.0, 0.01}}};
-  options.path = path_through(press);
-  options.scene_stiffness = 60'000.0;
-  SimulatedRun run(image, options);
-  run.run(3000);
-  EXPECT_EQ(run.violation(), "");
-  double moved = 0.0;
-  for (std::size_t i = 2500; i < std::min<std::size_t>(2990, run.cycles.size()); ++i) {
-    moved = std::max(moved, (run.cycles[i].tool_R - run.cycles[2490].tool_R).norm());
+  options.load = lowers_and_lets_go;
+  options.friction = false;
+  SimulatedRun soft(image, options);
+  soft.run(1500);
+  ASSERT_NEAR(soft.cycles[1490].record.wrench_R.force.z(), 3.0, 0.2) << "it lies on the plate";
+  const ArmLoop loop = held_along_the_normal(soft);
+  const double boundary = stiffness_margin(loop) * loop.stiffness;
+
+  // what is let through at the start is on the safe side of it
+  const GainReport report = check_gains(soft.scene(), soft.device().model, soft.posture(), 1.0, loop.timing);
+  EXPECT_LT(report.margin * loop.stiffness, boundary);
+  for (const double share : {0.8, 1.4}) {
+    options.scene_stiffness = share * boundary;
+    SimulatedRun run(image, options);
+    run.run(3000);
+    EXPECT_EQ(run.violation(), "");
+    const double growth = std::log(swing(run, 2650) / swing(run, 1600));
+    std::printf("[ measured ] %.0f N/m, %.2f of the boundary: e^%.2f in 1050 cycles; the start allows %.0f N/m\n",
+                options.scene_stiffness, share, growth, report.margin * loop.stiffness);
+    if (share < 1.0) {
+      EXPECT_LT(growth, -0.2);
+      EXPECT_EQ(run.controller().record().fault, Fault::kNone);
+    } else {
+      EXPECT_GT(growth, 0.2);
+    }
   }
-  EXPECT_TRUE(moved > 1e-4 || run.controller().record().fault != Fault::kNone);
 }
 
 }  // namespace
