@@ -70,7 +70,7 @@ TEST_F(Plan, HasRunsOnAnArmIfWanted) {
 }
 
 TEST_F(Plan, IsRefusedNamingTheKey) {
-  expect_refused("[[scene]\n", ExitCode::kBadData, "plan.toml:1");
+  expect_refused("[[scene]\n", ExitCode::kBadConfig, "plan.toml:1");
   expect_refused("[[scene]]\nname = 'peg'\n", ExitCode::kBadConfig, "scene.image: is missing; write image = ");
   expect_refused("[[scene]]\nname = 3\n", ExitCode::kBadConfig, "scene.name: must be a text");
   expect_refused(kScene + "colour = 3\n", ExitCode::kBadConfig, "scene.colour");

@@ -58,7 +58,9 @@ rotation_deg = [0, 90, 0]
   EXPECT_DOUBLE_EQ(motion.oscillations[0].fade, 0.1);
 }
 
-TEST(Keyframes, RefuseWhatIsNotToml) { expect_refused("[[keyframe]]\nt = = 1\n", ExitCode::kBadData, "motion.toml:2"); }
+TEST(Keyframes, RefuseWhatIsNotToml) {
+  expect_refused("[[keyframe]]\nt = = 1\n", ExitCode::kBadConfig, "motion.toml:2");
+}
 
 TEST(Keyframes, RefuseAnUnknownKeyByName) {
   expect_refused("pivto = [0, 0, 0]\n" + kTwo, ExitCode::kBadConfig,

@@ -42,8 +42,8 @@ must be there; they become a figure, a table and verdicts of their own. Pictures
 and OUT/NAME/telemetry_MOMENT.png (of godobject-view) are shown if they are there.
 Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.
 
-Exit codes: 0 done (whatever is missed), 64 usage, 65 bad image, replay or TOML, 66 an input is missing or may not be read,
-70 gnuplot fails or is not installed, 74 cannot write, 77 no right to write, 78 bad key.)";
+Exit codes: 0 done (whatever is missed), 64 usage, 65 bad image or replay, 66 an input is missing or may not be read,
+70 gnuplot fails or is not installed, 74 cannot write, 77 no right to write, 78 not TOML, or a bad key.)";
 
 struct Options {
   std::string plan, images, output;

@@ -33,7 +33,7 @@ toml::table parse(const std::filesystem::path& file) {
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw Failure(ExitCode::kBadData,
+    throw Failure(ExitCode::kBadConfig,
                   fmt::format("{}:{}: not TOML: {}", file.string(), error.source().begin.line, error.description()));
   }
 }

@@ -32,8 +32,8 @@ KEYFRAMES.toml:
 POSES.csv gets t,px,py,pz,qw,qx,qy,qz, one row a millisecond: the moving mesh's frame in W. Each keyframe is a place of rest;
 between two the pivot goes straight and the rotation along the shorter arc, with the least jerk (10 u^3 - 15 u^4 + 6 u^5).
 
-Exit codes: 0 done, 64 usage, 65 not TOML, 66 KEYFRAMES.toml is missing or may not be read, 74 cannot write, 77 no right to write,
-78 bad key.)";
+Exit codes: 0 done, 64 usage, 66 KEYFRAMES.toml is missing or may not be read, 74 cannot write, 77 no right to write, 78 not TOML,
+or a bad key.)";
 
 std::string row(const godobject::path::Sample& sample) {
   const godobject::Vector3& p = sample.pose.translation;
