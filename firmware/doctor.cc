@@ -43,7 +43,7 @@ Finding kernel(const Path& root) {
   const std::string version = first_line(root / "proc/version").value_or("");
   const auto has = [&version](const char* word) { return version.find(word) != std::string::npos; };
   if (first_line(root / "sys/kernel/realtime") == "1" || has("PREEMPT_RT"))
-    return {true, true, "kernel: PREEMPT_RT", ""};
+    return {true, "kernel: PREEMPT_RT", "", true};
   const char* found = has("PREEMPT_DYNAMIC") ? "PREEMPT_DYNAMIC, not PREEMPT_RT"
                       : has("PREEMPT")       ? "PREEMPT, not PREEMPT_RT"
                                              : "not PREEMPT_RT";
@@ -52,7 +52,7 @@ Finding kernel(const Path& root) {
 #else
   const char* package = "linux-image-rt-amd64";
 #endif
-  return {false, true, fmt::format("kernel: {}", found), fmt::format("apt-get install {} and boot it", package)};
+  return {false, fmt::format("kernel: {}", found), fmt::format("apt-get install {} and boot it", package), true};
 }
 
 /// Of this process, as capabilities(7) numbers them.
@@ -76,16 +76,17 @@ struct Right {
 
 Finding judge(const Right& right) {
   const std::string have = right.have == RLIM_INFINITY ? "unlimited" : std::to_string(right.have);
-  if (right.by_limit) return {true, true, fmt::format("{}: {}", right.limit, have), ""};
-  if (right.by_capability) return {true, true, fmt::format("{}: by {}", right.limit, right.capability), ""};
+  if (right.by_limit) return {true, fmt::format("{}: {}", right.limit, have), "", true};
+  if (right.by_capability) return {true, fmt::format("{}: by {}", right.limit, right.capability), "", true};
   if (::geteuid() == 0) {
-    return {false, true, fmt::format("{}: {}, and root without {}", right.limit, have, right.capability),
-            fmt::format("give {} back, a container's with --cap-add", right.capability)};
+    return {false, fmt::format("{}: {}, and root without {}", right.limit, have, right.capability),
+            fmt::format("give {} back, a container's with --cap-add", right.capability), true};
   }
-  return {false, true, fmt::format("{}: {}", right.limit, have),
+  return {false, fmt::format("{}: {}", right.limit, have),
           fmt::format("put '@realtime - {} {}' into /etc/security/limits.d/godobject.conf, join the group realtime and "
                       "log in again",
-                      right.limit, right.wanted)};
+                      right.limit, right.wanted),
+          true};
 }
 
 std::vector<Finding> rights(int priority, const Path& root) {
@@ -105,59 +106,55 @@ std::vector<Finding> rights(int priority, const Path& root) {
 Finding isolation(int cpu, const Path& root) {
   const std::string isolated = first_line(root / "sys/devices/system/cpu/isolated").value_or("");
   if (isolated.empty()) {
-    return {false, false, "isolated processors: none",
+    return {false, "isolated processors: none",
             "boot with isolcpus=N nohz_full=N rcu_nocbs=N and set loop.cpu = N, N not 0"};
   }
   if (cpu < 0) {
-    return {false, false, fmt::format("isolated processors: {}, but the loop is bound to none", isolated),
+    return {false, fmt::format("isolated processors: {}, but the loop is bound to none", isolated),
             "set loop.cpu to one of them"};
   }
   if (!has_number(isolated, cpu)) {
-    return {false, false, fmt::format("isolated processors: {}, the loop's {} is not among them", isolated, cpu),
+    return {false, fmt::format("isolated processors: {}, the loop's {} is not among them", isolated, cpu),
             "set loop.cpu to one of them"};
   }
-  return {true, false, fmt::format("isolated processors: {}, the loop has {}", isolated, cpu), ""};
+  return {true, fmt::format("isolated processors: {}, the loop has {}", isolated, cpu), ""};
 }
 
 Finding governor(int cpu, const Path& root) {
   const Path file = root / fmt::format("sys/devices/system/cpu/cpu{}/cpufreq/scaling_governor", cpu < 0 ? 0 : cpu);
   const std::optional<std::string> name = first_line(file);
-  if (!name) return {true, false, "clock rate: not scaled here", ""};
-  if (*name == "performance") return {true, false, "clock rate: governor performance", ""};
-  return {false, false, fmt::format("clock rate: governor {}", *name),
-          fmt::format("echo performance > {}", file.string())};
+  if (!name) return {true, "clock rate: not scaled here", ""};
+  if (*name == "performance") return {true, "clock rate: governor performance", ""};
+  return {false, fmt::format("clock rate: governor {}", *name), fmt::format("echo performance > {}", file.string())};
 }
 
 Finding clock_source(const Path& root) {
   const Path file = root / "sys/devices/system/clocksource/clocksource0/current_clocksource";
   const std::string name = first_line(file).value_or("unknown");
-  if (name == "tsc" || name == "arch_sys_counter" || name == "kvm-clock")
-    return {true, false, "clock source: " + name, ""};
-  return {false, false, "clock source: " + name + ", slow to read",
-          "boot with tsc=reliable if the processor's counter is"};
+  if (name == "tsc" || name == "arch_sys_counter" || name == "kvm-clock") return {true, "clock source: " + name, ""};
+  return {false, "clock source: " + name + ", slow to read", "boot with tsc=reliable if the processor's counter is"};
 }
 
 Finding throttling(const Path& root) {
   const Path file = root / "proc/sys/kernel/sched_rt_runtime_us";
   const std::optional<std::string> runtime = first_line(file);
   const std::string period = first_line(root / "proc/sys/kernel/sched_rt_period_us").value_or("1000000");
-  if (!runtime)
-    return {false, false, fmt::format("real-time throttling: {} cannot be read", file.string()), "mount /proc"};
-  if (*runtime == "-1") return {true, false, "real-time throttling: off", ""};
+  if (!runtime) return {false, fmt::format("real-time throttling: {} cannot be read", file.string()), "mount /proc"};
+  if (*runtime == "-1") return {true, "real-time throttling: off", ""};
   if (*runtime == "0") {
-    return {false, true, "real-time throttling: real-time threads get no time at all",
-            fmt::format("echo 950000 > {}", file.string())};
+    return {false, "real-time throttling: real-time threads get no time at all",
+            fmt::format("echo 950000 > {}", file.string()), true};
   }
   return {
-      true, false,
+      true,
       fmt::format("real-time throttling: {} of {} us for all real-time threads, the loop needs less", *runtime, period),
       ""};
 }
 
 Finding can(const Path& root) {
   std::error_code error;
-  if (std::filesystem::exists(root / "proc/net/can", error)) return {true, false, "CAN: in the kernel", ""};
-  return {false, false, "CAN: not in the kernel, or its module is not loaded",
+  if (std::filesystem::exists(root / "proc/net/can", error)) return {true, "CAN: in the kernel", ""};
+  return {false, "CAN: not in the kernel, or its module is not loaded",
           "modprobe can can_raw; for a simulated bus vcan"};
 }
 

@@ -9,9 +9,9 @@ namespace godobject::firmware {
 /// One thing that real-time work needs.
 struct Finding {
   bool good = false;
-  bool needed = false;  ///< without it there is no real-time work at all
   std::string what;     ///< how it is
   std::string cure;     ///< how to mend it; empty where it is good
+  bool needed = false;  ///< without it there is no real-time work at all
 };
 
 /// What the machine has of a real-time kernel, rights (by limits or by capabilities: being root is not enough), an
