@@ -18,7 +18,8 @@ std::vector<std::string> split_names(const std::string& names);
 class CanBuses {
  public:
   /// Throws command::Failure: kBadConfig if their number is not the layout's or one is named twice, kUnavailable naming
-  /// the interface and the cure if one cannot be opened, kNoPermission if that is not permitted.
+  /// the interface and the cure if one cannot be opened or has another bit rate, kNoPermission if that is not
+  /// permitted.
   CanBuses(const std::vector<std::string>& interfaces, const hal::BusLayout& layout);
 
   const std::vector<hal::CanBus*>& buses() const { return buses_; }

@@ -83,42 +83,56 @@ std::string setting_up(const std::string& name, const hal::BusLayout& layout) {
                      name, kTransmitQueue, layout.bit_rate, fd);
 }
 
+Finding good(const std::string& what) { return {.good = true, .what = what, .cure = "", .needed = false}; }
+
+/// What a bus does not work without.
+Finding missing(const std::string& what, const std::string& cure) {
+  return {.good = false, .what = what, .cure = cure, .needed = true};
+}
+
+/// What it does work without, for a while.
+Finding doubtful(const std::string& what, const std::string& cure) {
+  return {.good = false, .what = what, .cure = cure, .needed = false};
+}
+
 bool is_rate(std::uint32_t have, double wanted) { return std::abs(have - wanted) <= 0.001 * wanted; }
 
 /// What only an interface with a controller can lack.
 void examine_controller(const CanInterface& interface, const hal::BusLayout& layout, std::vector<Finding>& findings) {
   const std::string& name = interface.name;
-  const auto lacks = [&](const std::string& what, const std::string& cure) {
-    findings.push_back({false, fmt::format("{}: {}", name, what), cure});
-  };
   if (!is_rate(interface.bit_rate, layout.bit_rate)) {
-    lacks(fmt::format("{:g} kbit/s; the device file has {:g}", 1e-3 * interface.bit_rate, 1e-3 * layout.bit_rate),
-          setting_up(name, layout));
+    findings.push_back(missing(fmt::format("{}: {:g} kbit/s; the device file has {:g}", name, 1e-3 * interface.bit_rate,
+                                           1e-3 * layout.bit_rate),
+                               setting_up(name, layout)));
   }
   if (layout.fd && !is_rate(interface.data_rate, layout.data_rate)) {
-    lacks(fmt::format("{:g} kbit/s for the data of FD frames; the device file has {:g}", 1e-3 * interface.data_rate,
-                      1e-3 * layout.data_rate),
-          setting_up(name, layout));
-  }
-  if (interface.transmit_queue < kTransmitQueue) {
-    lacks(fmt::format("txqueuelen {}; a burst may find it full", interface.transmit_queue),
-          fmt::format("ip link set {} txqueuelen {}", name, kTransmitQueue));
-  }
-  if (interface.restart_ms != 0) {
-    lacks(fmt::format("comes back {} ms after it has left the bus, with nobody asked", interface.restart_ms),
-          setting_up(name, layout));
+    findings.push_back(missing(fmt::format("{}: {:g} kbit/s for the data of FD frames; the device file has {:g}", name,
+                                           1e-3 * interface.data_rate, 1e-3 * layout.data_rate),
+                               setting_up(name, layout)));
   }
   if (interface.listen_only) {
-    lacks("listens only", fmt::format("ip link set {0} down; ip link set {0} up type can listen-only off", name));
+    findings.push_back(missing(name + ": listens only",
+                               fmt::format("ip link set {0} down; ip link set {0} up type can listen-only off", name)));
   }
   if (interface.bus_off) {
-    lacks(
-        "its controller has left the bus after errors",
-        fmt::format("check wires, termination (120 ohm at both ends) and bit rate; then {}", setting_up(name, layout)));
+    findings.push_back(
+        missing(name + ": its controller has left the bus after errors",
+                "check wires, termination (120 ohm at both ends) and bit rate; then " + setting_up(name, layout)));
   }
   if (interface.passive) {
-    lacks("its controller's error counters are high",
-          "check wires, termination (120 ohm at both ends) and bit rate, and that a drive is switched on");
+    findings.push_back(
+        doubtful(name + ": its controller's error counters are high",
+                 "check wires, termination (120 ohm at both ends) and bit rate, and that a drive is switched on"));
+  }
+  if (interface.transmit_queue < kTransmitQueue) {
+    findings.push_back(
+        doubtful(fmt::format("{}: txqueuelen {}; a burst may find it full", name, interface.transmit_queue),
+                 fmt::format("ip link set {} txqueuelen {}", name, kTransmitQueue)));
+  }
+  if (interface.restart_ms != 0) {
+    findings.push_back(doubtful(
+        fmt::format("{}: comes back {} ms after it has left the bus, with nobody asked", name, interface.restart_ms),
+        setting_up(name, layout)));
   }
 }
 
@@ -188,24 +202,22 @@ std::optional<CanInterface> read_can_interface(const std::string& name) {
 
 std::vector<Finding> examine_can_interface(const CanInterface& interface, const hal::BusLayout& layout) {
   const std::string& name = interface.name;
-  if (!interface.can) return {{false, name + ": not a CAN interface", "ip link show type can shows those"}};
+  if (!interface.can) return {missing(name + ": not a CAN interface", "ip link show type can shows those")};
   const bool simulated = interface.kind != "can";
   std::vector<Finding> findings;
   if (!interface.up) {
-    findings.push_back({false, name + ": down", simulated ? "ip link set " + name + " up" : setting_up(name, layout)});
+    findings.push_back(missing(name + ": down", simulated ? "ip link set " + name + " up" : setting_up(name, layout)));
   }
   if (layout.fd && interface.mtu < kFdMtu) {
-    findings.push_back({false, name + ": has no FD frames",
-                        simulated ? fmt::format("ip link set {0} down; ip link set {0} mtu {1} up", name, kFdMtu)
-                                  : setting_up(name, layout)});
+    findings.push_back(missing(name + ": has no FD frames",
+                               simulated ? fmt::format("ip link set {0} down; ip link set {0} mtu {1} up", name, kFdMtu)
+                                         : setting_up(name, layout)));
   }
   if (!simulated) examine_controller(interface, layout, findings);
   if (findings.empty()) {
-    findings.push_back({true,
-                        simulated ? fmt::format("{}: up, simulated ({})", name, interface.kind)
-                                  : fmt::format("{}: up, {:g} kbit/s, txqueuelen {}", name, 1e-3 * interface.bit_rate,
-                                                interface.transmit_queue),
-                        ""});
+    findings.push_back(good(simulated ? fmt::format("{}: up, simulated ({})", name, interface.kind)
+                                      : fmt::format("{}: up, {:g} kbit/s, txqueuelen {}", name,
+                                                    1e-3 * interface.bit_rate, interface.transmit_queue)));
   }
   return findings;
 }
@@ -215,9 +227,9 @@ std::vector<Finding> examine_can_interfaces(std::span<const std::string> names, 
   for (const std::string& name : names) {
     const std::optional<CanInterface> interface = read_can_interface(name);
     if (!interface) {
-      findings.push_back({false, name + ": no such interface",
-                          "ip link show type can shows those that are there; a simulated one: ip link add dev " + name +
-                              " type vcan"});
+      findings.push_back(missing(
+          name + ": no such interface",
+          "ip link show type can shows those that are there; a simulated one: ip link add dev " + name + " type vcan"));
       continue;
     }
     for (Finding& finding : examine_can_interface(*interface, layout)) findings.push_back(std::move(finding));

@@ -18,6 +18,7 @@
 #include "firmware/bus_messages.h"
 #include "firmware/bus_plan_table.h"
 #include "firmware/can_buses.h"
+#include "firmware/can_interfaces.h"
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
 #include "firmware/configuration/controller_file.h"
@@ -78,12 +79,13 @@ missing, 69 drives or bus not available, or stopped by a fault, 74 cannot write,
 configuration.)";
 
 const char* const kDoctorFooter = R"(Example:
-  godobject-controller doctor firmware/controllers/lwr.toml
+  godobject-controller doctor firmware/controllers/lwr.toml --bus can0,can1,can2
 
-A line each: ok, or LACK with its cure. CONTROLLER.toml is looked at for loop.cpu and loop.priority.
+A line each: ok, or LACK with its cure. CONTROLLER.toml is looked at for loop.cpu, loop.priority and the device's buses: their bit
+rates, and what each carries in a cycle.
 
 Exit codes: 0 done, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 something is lacking without which there is no
-real-time work: kernel, rtprio or memlock, 78 bad configuration.)";
+real-time work: kernel, rtprio, memlock or a working CAN interface, 78 bad configuration.)";
 
 struct Options {
   std::string controller;
@@ -446,14 +448,22 @@ void control(const Options& options) {
   warn(stop);
 }
 
-void examine(const std::string& controller) {
-  ControllerConfig::Loop loop;
-  if (!controller.empty()) loop = firmware::read_controller_file(controller).loop;
+void examine(const std::string& controller, const std::string& bus) {
+  ControllerConfig config;
+  if (!controller.empty()) config = firmware::read_controller_file(controller);
+  const hal::BusLayout& layout = config.device.bus;
+  std::vector<firmware::Finding> findings = firmware::examine_machine(config.loop.cpu, config.loop.priority);
+  if (bus != "sim") {
+    for (const firmware::Finding& finding : firmware::examine_can_interfaces(firmware::split_names(bus), layout)) {
+      findings.push_back(finding);
+    }
+  }
   std::vector<std::string> missing;
-  for (const firmware::Finding& finding : firmware::examine_machine(loop.cpu, loop.priority)) {
+  for (const firmware::Finding& finding : findings) {
     fmt::print("{} {}{}{}\n", finding.good ? "ok  " : "LACK", finding.what, finding.good ? "" : " -> ", finding.cure);
     if (!finding.good && finding.needed) missing.push_back(finding.what);
   }
+  if (!controller.empty()) fmt::print("{}", firmware::bus_plan_table(layout, require_bus_plan(layout)));
   if (!missing.empty()) {
     throw Failure(ExitCode::kUnavailable,
                   fmt::format("no real-time work on this machine ({}); see the cures above", fmt::join(missing, "; ")));
@@ -479,10 +489,11 @@ int main(int argc, char** argv) {
   app.add_flag("--log-bus", options.log_bus, "writes what goes over the buses to the same folder, as telemetry.bus");
   CLI::App* doctor =
       app.add_subcommand("doctor", "says what this machine lacks for real-time work, each with its cure");
-  doctor->add_option("CONTROLLER.toml", examined, "controller file, for loop.cpu and loop.priority")->type_name("");
+  doctor->add_option("CONTROLLER.toml", examined, "controller file, for loop and buses")->type_name("");
+  doctor->add_option("--bus", options.bus, "CAN interfaces to look at, such as can0,can1")->type_name("BUS");
   doctor->footer(kDoctorFooter);
   return command::run(app, argc, argv, [&] {
-    if (doctor->parsed()) return examine(examined);
+    if (doctor->parsed()) return examine(examined, options.bus);
     if (controller->count() == 0) throw CLI::RequiredError("CONTROLLER.toml");
     control(options);
   });

@@ -28,7 +28,9 @@ struct BusLoad {
 /// SYNC and apply an RPDO at its end. All samples are collected at one time, that of the slowest bus. Frames of lower
 /// priority, of which there may be any number, cost one frame wherever the wire falls idle: before SYNC and before the
 /// RPDOs. These are heartbeats; of the two frames of an SDO exchange, sent every `read_back_interval` cycles, one falls
-/// into a cycle. Not counted: the drives' own time to answer a SYNC, emergency messages (they end in a stop anyway).
+/// into a cycle; where both do, because a drive answers at once, samples of the next cycle may come up to `late_ns` too
+/// late. Assumed: each node sends the most urgent of its frames first. Not counted: the drives' own time to answer a
+/// SYNC, emergency messages (they end in a stop anyway).
 struct BusPlan {
   std::array<BusLoad, kMaxBuses> buses{};  ///< the first `bus_count`
   BusTiming timing;

@@ -112,7 +112,6 @@ OpenResult SocketCan::open(const char* interface, const SocketCanOptions& option
   if ((request.ifr_flags & IFF_UP) == 0) return end(OpenStatus::kInterfaceDown, false);
   if (::ioctl(descriptor_, SIOCGIFMTU, &request) != 0) return end(OpenStatus::kNoInterface, true);
   if (options.fd && request.ifr_mtu < static_cast<int>(CANFD_MTU)) return end(OpenStatus::kNoFd, false);
-  if (::ioctl(descriptor_, SIOCGIFTXQLEN, &request) == 0) result.transmit_queue = request.ifr_qlen;
 
   result.receive_buffer = set_receive_buffer(descriptor_, options.receive_buffer);
   const bool set_all = switch_on(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS) &&

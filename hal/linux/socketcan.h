@@ -36,7 +36,6 @@ struct OpenResult {
   OpenStatus status = OpenStatus::kOk;
   int error = 0;           ///< errno where there is one
   int receive_buffer = 0;  ///< granted [bytes]
-  int transmit_queue = 0;  ///< txqueuelen of the interface [frames]; below 1000 a burst may find it full
 };
 
 /// A CAN interface of Linux by a raw socket. `send` is one send(), `receive` one recvmmsg() for each 16 frames and one

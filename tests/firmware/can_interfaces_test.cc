@@ -156,20 +156,21 @@ TEST(CanInterface, EachLackHasItsCure) {
     void (*spoil)(CanInterface&);
     const char* what;
     const char* cure;
+    bool needed;
   };
   const Case cases[] = {
       {[](CanInterface& i) { i.up = false; }, "can0: down",
-       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0"},
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
       {[](CanInterface& i) { i.bit_rate = 500'000; }, "can0: 500 kbit/s; the device file has 1000",
-       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0"},
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
       {[](CanInterface& i) { i.transmit_queue = 10; }, "can0: txqueuelen 10; a burst may find it full",
-       "ip link set can0 txqueuelen 1000"},
+       "ip link set can0 txqueuelen 1000", false},
       {[](CanInterface& i) { i.restart_ms = 100; },
        "can0: comes back 100 ms after it has left the bus, with nobody asked",
-       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0"},
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", false},
       {[](CanInterface& i) { i.listen_only = true; }, "can0: listens only",
-       "ip link set can0 down; ip link set can0 up type can listen-only off"},
-      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can shows those"},
+       "ip link set can0 down; ip link set can0 up type can listen-only off", true},
+      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can shows those", true},
   };
   for (const Case& test : cases) {
     CanInterface interface = ready();
@@ -177,6 +178,7 @@ TEST(CanInterface, EachLackHasItsCure) {
     const std::vector<Finding> findings = examine_can_interface(interface, {});
     ASSERT_EQ(findings.size(), 1u) << test.what;
     EXPECT_FALSE(findings[0].good);
+    EXPECT_EQ(findings[0].needed, test.needed) << test.what;
     EXPECT_EQ(findings[0].what, test.what);
     EXPECT_EQ(findings[0].cure, test.cure);
   }

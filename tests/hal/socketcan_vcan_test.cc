@@ -299,13 +299,6 @@ TEST_F(OwnInterfaceTest, FdNeedsItsMtu) {
   EXPECT_EQ(bus_.open("vcan_own", {}).status, OpenStatus::kOk);
 }
 
-TEST_F(OwnInterfaceTest, TellsTheTransmitQueueOfTheInterface) {
-  ASSERT_TRUE(run("ip link set vcan_own qlen 10"));
-  EXPECT_EQ(bus_.open("vcan_own", {}).transmit_queue, 10);
-  ASSERT_TRUE(run("ip link set vcan_own qlen 1000"));
-  EXPECT_EQ(bus_.open("vcan_own", {}).transmit_queue, 1000);
-}
-
 TEST_F(OwnInterfaceTest, AFullTransmitQueueIsToldAtOnceAndMendsItself) {
   // by its path: a shell may have a tc of its own, without netem
   if (!run("/sbin/tc qdisc add dev vcan_own root netem delay 60s limit 5")) GTEST_SKIP() << "not run: no tc netem";
