@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "hal/can_bus.h"
+#include "sim/bus_fault.h"
 #include "sim/can_nodes.h"
 #include "sim/loopback_bus.h"
 #include "sim/virtual_clock.h"
@@ -19,9 +21,9 @@ namespace godobject::sim {
 /// once it has received goes on the wire `layout.compute` later, see LoopbackEnd. About 900 KiB. Real-time safe.
 class CanDevice final : public World {
  public:
-  /// As CanNodes.
+  /// As CanNodes; `faults` outlive this, too.
   CanDevice(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
-            const CanScript& script = {}) noexcept;
+            const CanScript& script = {}, std::span<const BusFault> faults = {}) noexcept;
 
   /// The controller's end of a bus of the layout.
   hal::CanBus& bus(int i) noexcept { return *ends_[static_cast<std::size_t>(i)]; }
@@ -35,14 +37,33 @@ class CanDevice final : public World {
 
  private:
   static constexpr int kController = 0;  ///< its end on each wire; node i has end 1 + i
+  static constexpr int kForeign = LoopbackBus::kEnds - 1;
+  static constexpr std::size_t kHeld = 32;
+
+  /// A frame that a fault keeps from arriving; it waits for a time, or for the next frame on its bus.
+  struct Held {
+    bool used = false;
+    bool until_next = false;
+    int bus = 0;
+    std::int64_t due_ns = 0;
+    WireFrame frame;
+  };
 
   void start_frames() noexcept;
   void end_frames() noexcept;
+  void begin_cycle() noexcept;
+  CanopenNode* find_node(int bus, int node) noexcept;
+  void arrive(int bus, const WireFrame& ended) noexcept;
+  void spoil(int bus, WireFrame& ended) noexcept;
+  void hold(const Held& held) noexcept;
+  void release_due() noexcept;
 
   const hal::BusLayout& layout_;
+  std::span<const BusFault> faults_;
   CanNodes nodes_;
   std::array<std::optional<LoopbackBus>, hal::kMaxBuses> wires_;
   std::array<std::optional<LoopbackEnd>, hal::kMaxBuses> ends_;
+  std::array<Held, kHeld> held_{};
 };
 
 }  // namespace godobject::sim

@@ -38,23 +38,47 @@ const JointVector& SimulatedRun::posture() {
   return posture;
 }
 
+Placement run_placement() {
+  return place(workspace(), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero());
+}
+
+void set_run_gains(double stiffness, Scene& scene) {
+  ControllerConfig::Gains gains;
+  gains.stiffness = stiffness;
+  gains.damping = 5.0;
+  gains.rotational = 0.003;
+  set_gains(gains, scene);
+}
+
+CycleSetup run_setup(const Scene& scene, const Placement& placement) {
+  CycleSetup setup;
+  setup.scene = &scene;
+  setup.friction = true;
+  setup.arm = &placement.device.model;
+  setup.joint_torque = &placement.device.torque;
+  setup.mapping = placement.mapping;
+  setup.velocity_window = SimulatedRun::kVelocityWindow;
+  setup.stuck_torque = 0.002;
+  setup.supervisor.engage_cycles = 50;
+  return setup;
+}
+
+std::vector<Pose> run_path(const Placement& placement, std::span<const Vector3> path) {
+  const Pose rest = forward_kinematics(placement.device.model, SimulatedRun::posture()).H_WM;
+  std::vector<Pose> in_room{rest};
+  for (const Vector3& p_W : path) in_room.push_back({rest.rotation, p_W - placement.mapping.H_WR.translation});
+  return in_room;
+}
+
 SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options)
     : scene_(test::open_scene(image)),
       load_(options.load),
-      placement_(place(workspace(), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero())),
+      placement_(run_placement()),
+      path_R_(run_path(placement_, options.path)),
       faults_(options.faults),
       late_(options.late) {
-  ControllerConfig::Gains gains;
-  gains.stiffness = options.scene_stiffness;
-  gains.damping = 5.0;
-  gains.rotational = 0.003;
-  set_gains(gains, scene_);
+  set_run_gains(options.scene_stiffness, scene_);
   const ArmModel& arm = placement_.device.model;
-  const Pose rest = forward_kinematics(arm, workspace().posture).H_WM;
-  path_R_.push_back(rest);
-  for (const Vector3& p_W : options.path) {
-    path_R_.push_back({rest.rotation, p_W - placement_.mapping.H_WR.translation});
-  }
   hardware_ = sim::usual_hardware(arm);
   for (auto& joint : hardware_) {
     joint.counter_at_zero = options.counter_at_zero;
@@ -66,23 +90,16 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   sim::HandParameters hand;
   hand.grip = load_ ? sim::Grip::kNone : sim::Grip::kSpring;
   plant_ =
-      std::make_unique<sim::Plant>(arm, workspace().posture, options.dry_friction,
+      std::make_unique<sim::Plant>(arm, SimulatedRun::posture(), options.dry_friction,
                                    sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
   drives_ = std::make_unique<sim::DirectDrives>(*plant_, hardware_, options.timing, faults_);
   clock_ = std::make_unique<sim::VirtualClock>(*drives_, late_);
   ring_ = std::make_unique<TelemetryRing>();
 
-  CycleSetup setup;
-  setup.scene = &scene_;
+  CycleSetup setup = run_setup(scene_, placement_);
   setup.friction = options.friction;
   setup.hand = options.hand;
-  setup.arm = &arm;
-  setup.joint_torque = &placement_.device.torque;
-  setup.mapping = placement_.mapping;
-  setup.velocity_window = kVelocityWindow;
-  setup.stuck_torque = 0.002;
   setup.supervisor.sign_test = options.sign_test;
-  setup.supervisor.engage_cycles = 50;
   cycle_ = std::make_unique<ControlCycle>(setup, *drives_);
   if (cycle_->start() != Status::kOk) throw std::runtime_error("the scene lacks the solver");
 }

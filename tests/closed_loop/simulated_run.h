@@ -25,6 +25,14 @@ struct Waypoint {
 /// Smooth motion from one to the next, at rest at each.
 std::vector<Vector3> path_through(std::span<const Waypoint> waypoints);
 
+/// What all runs share: the light-weight robot, its tool 60 mm above the origin of a small scene.
+Placement run_placement();
+void set_run_gains(double stiffness, Scene& scene);
+CycleSetup run_setup(const Scene& scene, const Placement& placement);
+
+/// The way of the ball as the tool's in the room, from where the tool is at the start.
+std::vector<Pose> run_path(const Placement& placement, std::span<const Vector3> path);
+
 /// A cycle, with what the device did.
 struct SimulatedCycle {
   std::int64_t number = 0;  ///< period since time zero
