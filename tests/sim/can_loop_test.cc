@@ -1,15 +1,19 @@
 // The controller's CAN drives against the simulated ones, each written from the standard for itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "hal/cia402/bus_plan.h"
 #include "hal/cia402/can_drives.h"
 #include "sim/can_device.h"
+#include "tests/sim/one_joint.h"
 #include "tests/sim/small_master.h"
 #include "tests/support/arms.h"
+#include "tests/support/random.h"
 
 namespace godobject::sim {
 namespace {
@@ -73,6 +77,109 @@ TEST(CanLoop, DrivesOfTheArmComeUpAndTakeTorque) {
   }
   EXPECT_EQ(loop.drives->statistics().malformed, 0u);
   for (const auto lost : loop.drives->statistics().lost) EXPECT_EQ(lost, 0u);
+}
+
+ArmModel three_joints() {
+  ArmModel model = test::one_joint(0.5, 0.1);
+  model.gravity_W.setZero();
+  model.joint_count = 3;
+  model.joints[1] = model.joints[2] = model.joints[0];
+  return model;
+}
+
+/// SIGKILL at a hundred random instants: each drive has left its torque by its deadline after the last frame, and ends
+/// without torque and with its brake closed.
+TEST(CanLoop, DrivesStopThemselvesWheneverTheControllerIsKilled) {
+  test::Random random(3);
+  const ArmModel arm = three_joints();
+  for (int trial = 0; trial < 100; ++trial) {
+    Plant plant(arm, JointVector::Zero());
+    Loop loop(arm, test::layout_of(arm), plant);
+    ASSERT_EQ(loop.bring_up().status, hal::BringUpStatus::kOk);
+    JointVector torque = JointVector::Zero();
+    for (int i = 0; i < 45; ++i) loop.cycle(torque);
+    for (int i = 0; i < 3; ++i) torque[i] = random.between(-20.0, 20.0);
+    for (int i = 0; i < 3; ++i) loop.cycle(torque);
+    // the last cycle ends anywhere: before SYNC, before or after the torques
+    const std::int64_t begin_ns = loop.device->now_ns();
+    const std::int64_t killed_ns = begin_ns + random.integer(0, 999'999);
+    loop.drives->request();
+    if (killed_ns > begin_ns + loop.drives->collect_ns()) {
+      loop.clock->sleep_until(begin_ns + loop.drives->collect_ns());
+      loop.drives->receive(loop.reading);
+      ASSERT_TRUE(loop.drives->send({torque, hal::PowerRequest::kEnable}));
+    }
+    loop.clock->sleep_until(killed_ns);
+    // frames that were handed over still go out: at most until the end of the cycle
+    loop.clock->sleep_until(begin_ns + 1'000'000 + std::llround(1e9 * loop.layout.command_deadline));
+    for (int i = 0; i < 3; ++i) EXPECT_NE(loop.device->nodes().drive(i).state(), PowerState::kEnabled) << trial;
+    loop.clock->sleep_until(begin_ns + 600'000'000);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(loop.device->nodes().drive(i).motor_torque(), 0.0) << trial;
+      EXPECT_GT(loop.device->nodes().drive(i).brake_torque(), 0.0) << trial;
+    }
+    EXPECT_TRUE(plant.velocities().isZero(0.0)) << trial;
+  }
+}
+
+/// The work that a virtual spring does in a period of motion, more than nothing, is what delay and hold give: the delay
+/// measured over the wire is that of the layout's frames, and within the plan's.
+TEST(CanLoop, MeasuresTheDelayOfTheWire) {
+  ArmModel arm = test::one_joint(1.0, 2.0);
+  arm.gravity_W.setZero();
+  constexpr double kStiffness = 1000.0;
+  constexpr double kAmplitude = 4e-3;
+  constexpr int kSine = 1000;  // cycles a period
+  const double w = 2.0 * M_PI / (1e-3 * kSine);
+  HandParameters hand;
+  hand.grip = Grip::kSpring;
+  hand.stiffness = 3000.0;
+  hand.damping = 30.0;
+  std::vector<Pose> script(5 * kSine);
+  for (std::size_t i = 0; i < script.size(); ++i) {
+    const double time = 1e-3 * static_cast<double>(i);
+    script[i].translation = Vector3(1.0, std::clamp(time - 1.0, 0.0, 1.0) * kAmplitude * std::sin(w * time), 0.0);
+  }
+  Plant plant(arm, JointVector::Zero(), JointVector::Zero(), OperatorHand(hand, script));
+  Loop loop(arm, test::layout_of(arm), plant);
+  ASSERT_EQ(loop.bring_up().status, hal::BringUpStatus::kOk);
+  const auto spring = [&loop] {
+    JointVector torque = JointVector::Zero();
+    const double y = std::sin(loop.reading.position[0]);
+    torque[0] = -kStiffness * y * std::cos(loop.reading.position[0]);
+    return torque;
+  };
+  const auto cycle = [&] {
+    const std::int64_t begin_ns = loop.device->now_ns();
+    loop.drives->request();
+    loop.clock->sleep_until(begin_ns + loop.drives->collect_ns());
+    loop.drives->receive(loop.reading);
+    ASSERT_TRUE(loop.drives->send({spring(), hal::PowerRequest::kEnable}));
+    loop.clock->sleep_until(begin_ns + 1'000'000);
+  };
+  while (loop.device->now_ns() < 3 * kSine * 1'000'000LL) cycle();
+  const double work_before = plant.work().motor.sum();
+  const double y_before = std::sin(plant.positions()[0]);
+  double in_phase = 0.0;
+  double out_of_phase = 0.0;
+  for (int i = 0; i < kSine; ++i) {
+    const double y = std::sin(plant.positions()[0]);
+    in_phase += 2.0 / kSine * y * std::cos(w * 1e-3 * i);
+    out_of_phase += 2.0 / kSine * y * std::sin(w * 1e-3 * i);
+    cycle();
+  }
+  const double square = in_phase * in_phase + out_of_phase * out_of_phase;
+  ASSERT_GT(square, 1e-6);
+  const double y_after = std::sin(plant.positions()[0]);
+  const double stored = 0.5 * kStiffness * (y_after * y_after - y_before * y_before);
+  const double given = plant.work().motor.sum() - work_before + stored;
+  const double measured = given / (M_PI * w * square * kStiffness) - 0.5e-3;
+  // from the end of SYNC, where it is sampled, to the end of the torque's frame
+  const double expected = 1e-9 * static_cast<double>(loop.plan.unblocked_ns[0]);
+  std::printf("[ measured ] %.1f us of %.1f, longest by the plan %.1f\n", 1e6 * measured, 1e6 * expected,
+              1e6 * loop.plan.timing.delay_s);
+  EXPECT_NEAR(measured, expected, 0.05 * expected);
+  EXPECT_LT(measured, loop.plan.timing.delay_s);
 }
 
 }  // namespace
