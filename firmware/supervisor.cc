@@ -78,16 +78,26 @@ const char* describe(hal::Alarm alarm) noexcept {
 }
 
 DriveSummary summarize(const hal::JointReading& reading, int joint_count) noexcept {
-  DriveSummary drives{true, true, true, false};
+  using hal::DriveState;
+  DriveSummary drives{
+      .all_answer = true, .all_enabled = true, .none_moves = true, .any_fault = false, .all_fresh = true};
   for (int i = 0; i < joint_count; ++i) {
-    const hal::DriveState state = reading.state[static_cast<std::size_t>(i)];
-    drives.all_answer = drives.all_answer && state != hal::DriveState::kUnavailable;
-    drives.all_enabled = drives.all_enabled && state == hal::DriveState::kEnabled;
-    drives.none_moves = drives.none_moves && state != hal::DriveState::kEnabled && state != hal::DriveState::kQuickStop;
-    drives.any_fault = drives.any_fault || state == hal::DriveState::kFault;
+    const DriveState state = reading.state[static_cast<std::size_t>(i)];
+    drives.all_answer = drives.all_answer && state != DriveState::kUnavailable;
+    drives.all_enabled = drives.all_enabled && state == DriveState::kEnabled;
+    drives.none_moves = drives.none_moves && (state == DriveState::kOff || state == DriveState::kFault);
+    drives.any_fault = drives.any_fault || state == DriveState::kFault;
+    drives.all_fresh = drives.all_fresh && reading.age[static_cast<std::size_t>(i)] == 0;
   }
   return drives;
 }
+
+namespace {
+
+/// Not what a drive said before it fell silent: it may have been enabled since.
+bool seen_at_rest(const DriveSummary& drives) noexcept { return drives.none_moves && drives.all_fresh; }
+
+}  // namespace
 
 Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept
     : joint_count_(arm.joint_count),
@@ -252,7 +262,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
       if (in_mode_ > kFadeCycles) stop(fault_);
       break;
     case Mode::kStopping:
-      if ((in_mode_ > kHoldCycles && seen.drives.none_moves) || in_mode_ > stop_cycles_) {
+      if ((in_mode_ > kHoldCycles && seen_at_rest(seen.drives)) || in_mode_ > stop_cycles_) {
         enter(ending_ ? Mode::kEnded : Mode::kStopped);
       }
       break;
@@ -278,6 +288,12 @@ hal::PowerRequest Supervisor::power_to_stop(const DriveSummary& drives, bool may
   if (last_power_ == hal::PowerRequest::kOff) return hal::PowerRequest::kOff;
   const bool holds = may_hold && drives.all_enabled && last_power_ == hal::PowerRequest::kEnable;
   return holds ? hal::PowerRequest::kEnable : hal::PowerRequest::kQuickStop;
+}
+
+/// A stop that was not seen to end goes on: disabled, a drive would break off its ramp.
+hal::PowerRequest Supervisor::power_after_stop(const DriveSummary& drives) const noexcept {
+  const bool goes_on = last_power_ == hal::PowerRequest::kQuickStop && !seen_at_rest(drives);
+  return goes_on ? hal::PowerRequest::kQuickStop : hal::PowerRequest::kOff;
 }
 
 Decision Supervisor::decide(const Observation& seen) const noexcept {
@@ -312,9 +328,12 @@ Decision Supervisor::decide(const Observation& seen) const noexcept {
       break;
     case Mode::kBoot:
     case Mode::kZeroCheck:
-    case Mode::kIdle:
+    case Mode::kIdle: decision.rate_limited = false; break;
     case Mode::kStopped:
-    case Mode::kEnded: decision.rate_limited = false; break;
+    case Mode::kEnded:
+      decision.power = power_after_stop(seen.drives);
+      decision.rate_limited = false;
+      break;
   }
   return decision;
 }

@@ -22,10 +22,10 @@ enum class Mode : std::uint8_t {
   kRunning,    ///< renders
   kFade,       ///< what was last rendered goes to nothing within kFadeCycles; then kStopping
   kStopping,   ///< nothing is rendered, the arm is held, the drives come to rest and close the brakes
-  kStopped,    ///< no power; a fault is latched until the operator resets it
+  kStopped,    ///< no power once the drives rest; a fault is latched until the operator resets it
   kResetting,  ///< drives leave their faults; then kBoot
   kEnding,     ///< was asked to end: what is rendered goes to nothing; then kStopping
-  kEnded,      ///< no power; the loop may be left
+  kEnded,      ///< no power once the drives rest; the loop may be left
 };
 
 /// Why power was taken away. The first one is latched.
@@ -58,8 +58,9 @@ const char* describe(hal::Alarm alarm) noexcept;
 struct DriveSummary {
   bool all_answer = false;
   bool all_enabled = false;
-  bool none_moves = false;  ///< neither enabled nor in a quick stop
+  bool none_moves = false;  ///< each answers, and is neither enabled nor in a quick stop
   bool any_fault = false;
+  bool all_fresh = false;  ///< each has said so in this cycle
 };
 
 DriveSummary summarize(const hal::JointReading& reading, int joint_count) noexcept;
@@ -108,7 +109,8 @@ struct Decision {
 /// FADE: the two cycles for which a position may be missing are what the last torque is held for; from the third on it
 /// goes to nothing in kFadeCycles. STOP: nothing is rendered from this cycle on; drives that obey hold the arm, and
 /// after kHoldCycles they are told to come to rest by themselves, then to close the brakes. The cycles before are there
-/// since a drive's quick stop begins with the torque that it finds.
+/// since a drive's quick stop begins with the torque that it finds. Power is taken from them only once all have been
+/// seen at rest: without it a drive breaks its ramp off. What is not seen at rest in time stays in its quick stop.
 ///
 /// Reactions, with the cycles from the one in which the cause is seen to the one in which the reaction is complete:
 /// position lost three times FADE then STOP 6; all others STOP 1. What is seen two or three times in a row is seen at
@@ -163,6 +165,7 @@ class Supervisor {
   void begin_ending() noexcept;
   Decision decide(const Observation& seen) const noexcept;
   hal::PowerRequest power_to_stop(const DriveSummary& drives, bool may_hold) const noexcept;
+  hal::PowerRequest power_after_stop(const DriveSummary& drives) const noexcept;
   bool powered() const noexcept { return (mode_ >= Mode::kEnabling && mode_ <= Mode::kFade) || mode_ == Mode::kEnding; }
 
   int joint_count_;
