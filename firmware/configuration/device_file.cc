@@ -48,6 +48,19 @@ void require_possible(const ArmJoint& joint, const TomlTable& table) {
   if (status != Status::kOk) table.complain("inertia", fmt::format("is not possible: {}", describe(status)));
 }
 
+/// Half a turn of 6064, a counter of 32 bits, beyond which a position is another one, too; with what a joint may stand
+/// beyond its limits before it is driven.
+void require_unambiguous(const TomlTable& table, const ArmJoint& joint, const hal::DriveConfig& drive) {
+  constexpr double kBeyond = 0.5;  // rad
+  constexpr double kCounts = 4'294'967'296.0;
+  const double half_turn = std::numbers::pi * kCounts / (drive.counts * drive.gear);
+  const double reach = std::max(std::fabs(joint.lower - drive.zero), std::fabs(joint.upper - drive.zero)) + kBeyond;
+  if (reach < half_turn) return;
+  table.complain("counts", fmt::format("times gear lets the 32 bits of 6064 wrap {:.3g} rad from joint.zero, but the "
+                                       "joint goes {:.3g} rad, {:.3g} of reserve included; check counts and zero",
+                                       half_turn, reach, kBeyond));
+}
+
 hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
   hal::DriveConfig drive;
   drive.bus = static_cast<int>(table.whole_number("bus", {0, hal::kMaxBuses - 1}));
@@ -58,6 +71,7 @@ hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
   drive.sign = table.number("sign", {-1.0, 1.0});
   if (std::fabs(drive.sign) != 1.0) table.complain("sign", "must be 1 or -1");
   drive.zero = table.number("zero", kAngle);
+  require_unambiguous(table, joint, drive);
   // torques travel as 16 bit permille of the rated one
   const double share = joint.torque / (drive.gear * drive.rated_torque);
   if (!(share > 0.01 && share < 32.0)) {
@@ -127,11 +141,12 @@ void check_nodes(const TomlTable& joint, const hal::BusLayout& bus, std::size_t 
 }
 
 void read_bus(const TomlTable& table, hal::BusLayout& bus) {
-  table.allow({"bit_rate", "fd", "data_rate", "command_deadline", "drive_heartbeat", "heartbeat_timeout",
+  table.allow({"bit_rate", "fd", "data_rate", "drive_delay", "command_deadline", "drive_heartbeat", "heartbeat_timeout",
                "boot_timeout", "panel_bus", "panel_node"});
   bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
   bus.fd = table.flag("fd", bus.fd);
   bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
+  bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
   bus.command_deadline = table.number("command_deadline", {2e-3, 0.01}, bus.command_deadline);
   bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);
   bus.heartbeat_timeout = table.number("heartbeat_timeout", {2.0 * bus.drive_heartbeat, 0.5}, bus.heartbeat_timeout);

@@ -38,6 +38,7 @@ struct BusLayout {
   double data_rate = 5e6;          ///< of FD frames' data [bit/s]
   double period = 1e-3;            ///< [s]
   double compute = 120e-6;         ///< what the controller may take between the last position and the first torque [s]
+  double drive_delay = 0.0;        ///< from an RPDO's end to the torque, and of a position's age at SYNC, together [s]
   double command_deadline = 4e-3;  ///< a drive trips when torques stay away for so long [s]
   double drive_heartbeat = 20e-3;  ///< producer of drives and controller [s]
   double heartbeat_timeout = 50e-3;  ///< consumer [s]

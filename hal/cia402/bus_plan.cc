@@ -99,7 +99,8 @@ BusPlan plan_buses(const BusLayout& layout) noexcept {
   }
   // the earliest sample: at the end of a SYNC that nothing has blocked
   const std::int64_t sample_ns = shortest_frame_ns(kSyncBytes, layout.fd, layout);
-  plan.timing.delay_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(0, last_torque_ns - sample_ns));
+  plan.timing.delay_s =
+      layout.drive_delay + 1e-9 * static_cast<double>(std::max<std::int64_t>(0, last_torque_ns - sample_ns));
 
   std::array<int, kMaxBuses> sent{};  // RPDOs so far: they leave in the order of the joints
   for (std::size_t joint = 0; joint < static_cast<std::size_t>(layout.joint_count); ++joint) {

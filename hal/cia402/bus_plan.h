@@ -30,7 +30,8 @@ struct BusLoad {
 /// RPDOs. These are heartbeats; of the two frames of an SDO exchange, sent every `read_back_interval` cycles, one falls
 /// into a cycle; where both do, because a drive answers at once, samples of the next cycle may come up to `late_ns` too
 /// late. Assumed: each node sends the most urgent of its frames first. Not counted: the drives' own time to answer a
-/// SYNC, emergency messages (they end in a stop anyway).
+/// SYNC, emergency messages (they end in a stop anyway). What a drive takes to act on a torque, and how old its
+/// position is at SYNC, is the layout's `drive_delay`: it counts for the delay, not for the wire.
 struct BusPlan {
   std::array<BusLoad, kMaxBuses> buses{};  ///< the first `bus_count`
   BusTiming timing;

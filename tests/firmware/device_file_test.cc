@@ -102,14 +102,39 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"\nsign = -1\n", "\nsign = 0.5\n", "joint[3].sign must be 1 or -1"},
            {"\nrated_torque = 0.15\n", "\nrated_torque = 15.0\n", "joint[1].rated_torque times gear is 150 Nm"},
            {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},
+           {"drive_delay = 0.0\n", "", "bus.drive_delay is missing"},
+           {"drive_delay = 0.0", "drive_delay = -1e-6", "bus.drive_delay = -1e-06 is out of range"},
+           {"drive_delay = 0.0", "drive_delay = 0.0051", "bus.drive_delay = 0.0051 is out of range"},
+           {"drive_delay = 0.0", "drive_delay = nan", "bus.drive_delay = nan is out of range"},
        }) {
     const std::string message = refusal(from, to);
     EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
   }
   EXPECT_NE(refusal("panel_bus = 2", "panel_bus = 2\nheartbeat = 1").find("bus.heartbeat is not a known key"),
             std::string::npos);
-  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:48:"), std::string::npos)
+  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:51:"), std::string::npos)
       << refusal("velocity = 8.0", "velocity = nan");
+}
+
+TEST_F(DeviceFileTest, ReadsTheDrivesDelay) {
+  EXPECT_EQ(read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml").bus.drive_delay, 0.0);
+  ASSERT_EQ(refusal("drive_delay = 0.0", "drive_delay = 0.005"), "");
+  EXPECT_EQ(read_device_file(file_).bus.drive_delay, 0.005);
+}
+
+/// Joint 1: limits of +-1.2 rad about a zero of 0, gear 10. With 0.5 rad more, half a turn of 2^32 counts is at
+/// pi * 2^32 / (counts * 10) = 1.7 rad, that is 793'708'100.3 counts.
+TEST_F(DeviceFileTest, RefusesACounterWhosePositionWouldBeAmbiguous) {
+  const std::string_view says = "joint[1].counts times gear";
+  EXPECT_EQ(refusal("counts = 65536", "counts = 793708100"), "");
+  EXPECT_NE(refusal("counts = 65536", "counts = 793708101").find(says), std::string::npos);
+  EXPECT_NE(refusal("counts = 65536", "counts = 1e9").find(says), std::string::npos);
+  // from a zero 0.4 rad off the limit on the other side is 1.6 rad away: 642'525'604.98 counts
+  for (const char* zero : {"zero = 0.4", "zero = -0.4"}) {
+    text_.replace(text_.find("zero = "), text_.find('\n', text_.find("zero = ")) - text_.find("zero = "), zero);
+    EXPECT_EQ(refusal("counts = 65536", "counts = 642525604"), "") << zero;
+    EXPECT_NE(refusal("counts = 65536", "counts = 642525605").find(says), std::string::npos) << zero;
+  }
 }
 
 TEST_F(DeviceFileTest, RefusesTooManyJointsAndNone) {

@@ -192,6 +192,17 @@ TEST(BusPlan, SevenJointsFitOnThreeBuses) {
   EXPECT_EQ(plan.timing.collect_ns, 525'000);
 }
 
+TEST(BusPlan, AddsTheDrivesOwnDelayToThatOfTheWireOnly) {
+  BusLayout layout = layout_of({3});
+  layout.drive_delay = 1.25e-3;
+  const BusPlan plan = plan_buses(layout);
+  EXPECT_NEAR(plan.timing.delay_s, (948 + 1250) * 1e-6, 1e-12);
+  EXPECT_EQ(plan.timing.collect_ns, 525'000);
+  EXPECT_EQ(plan.buses[0].end_ns, 995'000);
+  EXPECT_EQ(plan.unblocked_ns[2], plan_buses(layout_of({3})).unblocked_ns[2]) << "of the wire";
+  EXPECT_TRUE(plan.fits);
+}
+
 TEST(BusPlan, RefusesWhatDoesNotFit) {
   EXPECT_FALSE(plan_buses(layout_of({7})).fits);
   EXPECT_FALSE(plan_buses(layout_of({4, 3})).fits);
