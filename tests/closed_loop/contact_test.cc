@@ -145,8 +145,9 @@ ArmLoop held_along_the_normal(const SimulatedRun& run) {
   return loop;
 }
 
-/// The exact boundary itself is met to 2 % in tests/sim/stability_test.cc. Here the ball turns meanwhile and its
-/// contact goes from point to point, which takes energy: about a fifth of the boundary's stiffness more is still calm.
+/// The exact boundary itself is met to 2 % in tests/sim/stability_test.cc. Here about a fifth of the boundary's
+/// stiffness more is still calm. Why is not proven; a possible reason: the ball turns meanwhile and its contact goes
+/// from sample point to sample point, which would take energy.
 TEST(ClosedLoopContact, ComesToRestBelowTheExactBoundaryAndDoesNotAboveIt) {
   const test::SceneImage image = test::ball_over_plate();
   SimulatedRun::Options options;
