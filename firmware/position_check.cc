@@ -11,6 +11,7 @@ PositionCheck::PositionCheck(const ArmModel& arm, double stuck_torque, double pe
     const ArmJoint& joint = arm.joints[static_cast<std::size_t>(i)];
     largest_step_[i] = kJumpOfVelocity * joint.velocity * period;
     stuck_torque_[i] = stuck_torque * joint.torque;
+    speed_step_[i] = joint.velocity * period;
   }
 }
 
@@ -68,7 +69,8 @@ bool PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
     const double position = reading.position[i];
     if (position == motion.last[0]) {
       if (motion.still == 0) {
-        motion.abrupt = motion.moving >= kMoving && std::fabs(position - motion.last[kMoving]) > kMotion;
+        motion.abrupt =
+            motion.moving >= kMoving && std::fabs(position - motion.last[kMoving]) > kMotion * kMoving * speed_step_[i];
       }
       ++motion.still;
       motion.moving = 0;
@@ -88,11 +90,11 @@ bool PositionCheck::rests_though_pushed(const hal::JointReading& reading, const 
   if (in_window_ == 0) {
     window_start_ = reading.position;
     rests_.fill(true);
+    moved_ = false;
   }
-  double largest = 0.0;
   for (int i = 0; i < joint_count_; ++i) {
     const double motion = std::fabs(reading.position[i] - window_start_[i]);
-    largest = std::max(largest, motion);
+    moved_ = moved_ || motion > kOtherMotion * kWindow * speed_step_[i];
     bool& rests = rests_[static_cast<std::size_t>(i)];
     rests = rests && motion == 0.0 && std::fabs(pushed[i]) > stuck_torque_[i] &&
             reading.age[static_cast<std::size_t>(i)] == 0;
@@ -100,7 +102,7 @@ bool PositionCheck::rests_though_pushed(const hal::JointReading& reading, const 
   if (++in_window_ < kWindow) return false;
   in_window_ = 0;
   const auto* first = rests_.begin();
-  return largest > kOtherMotion && std::any_of(first, first + joint_count_, [](bool rests) { return rests; });
+  return moved_ && std::any_of(first, first + joint_count_, [](bool rests) { return rests; });
 }
 
 }  // namespace godobject::firmware

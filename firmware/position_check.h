@@ -26,17 +26,18 @@ struct CheckedPositions {
 /// - A jump: a fresh position further than 1.5 v_max T from the last one accepted, for each period in between. It is
 ///   predicted over too. Where the next one is as far on again in the same direction it is no encoder that jumps but a
 ///   joint that runs away.
-/// - Stuck, in either of two ways. A joint that moved in each of kMoving cycles, and then from one cycle to the next
-/// not
-///   by a bit for kStill cycles: no torque stops an arm so. Or over kWindow cycles a position has not changed by a bit
-///   though the controller pushed its joint by more than `stuck_torque` all the while, and another joint has moved: a
-///   hand that presses against a wall holds all of them, and a joint that nobody pushes may rest in a plane motion.
+/// - Stuck, in either of two ways. A joint that moved at kMotion of its speed limit for kMoving cycles, and then from
+/// one
+///   cycle to the next not by a bit for kStill cycles: no torque stops an arm so. Or over kWindow cycles a position has
+///   not changed by a bit though the controller pushed its joint by more than `stuck_torque` all the while, and another
+///   joint has moved at kOtherMotion of its own limit: a hand that presses against a wall holds all of them, a joint
+///   that nobody pushes may rest in a plane motion, and one that turns round in a slow motion rests for a while, too.
 class PositionCheck {
  public:
   static constexpr std::uint32_t kWindow = 48;  ///< two of them, whole, are less than 100 cycles
-  static constexpr double kOtherMotion = 1e-3;  ///< of another joint in a window [rad]
+  static constexpr double kMotion = 0.007;      ///< of the speed limit [1]
+  static constexpr double kOtherMotion = 0.03;  ///< the same of another joint [1]
   static constexpr std::uint32_t kMoving = 4;
-  static constexpr double kMotion = 8e-5;  ///< at least, in those cycles [rad]
   static constexpr std::uint32_t kStill = 40;
   static constexpr double kJumpOfVelocity = 1.5;
 
@@ -60,6 +61,7 @@ class PositionCheck {
   double period_;
   JointVector largest_step_ = JointVector::Zero();  // of a period [rad]
   JointVector stuck_torque_ = JointVector::Zero();
+  JointVector speed_step_ = JointVector::Zero();  // of a period, at the speed limit [rad]
   bool started_ = false;
   JointVector accepted_ = JointVector::Zero();
   JointVector q_ = JointVector::Zero();
@@ -78,6 +80,7 @@ class PositionCheck {
   std::array<Motion, kMaxJoints> motion_;
   std::uint32_t in_window_ = 0;
   JointVector window_start_ = JointVector::Zero();
+  bool moved_ = false;                    // a joint has, at kOtherMotion
   std::array<bool, kMaxJoints> rests_{};  // not a bit has changed in this window, and it was pushed
 };
 

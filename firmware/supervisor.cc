@@ -72,6 +72,8 @@ const char* describe(hal::Alarm alarm) noexcept {
     case hal::Alarm::kForeignWrite: return "somebody else wrote to a drive; disconnect the tool and start again";
     case hal::Alarm::kParameterChanged:
       return "a parameter of the drive is not what was written at the start; start again";
+    case hal::Alarm::kAnswersLate:
+      return "the drive answers a SYNC only after the next one; its samples would be a period late";
     case hal::Alarm::kPanelLost: return "the operator's panel does not answer; check its wiring";
   }
   return "unknown alarm";

@@ -36,6 +36,7 @@ enum class Alarm : std::uint8_t {
   kForeignMaster,     ///< somebody else sends what only this controller may
   kForeignWrite,      ///< somebody else has written to a drive
   kParameterChanged,  ///< a drive's parameter is no longer what was written at the start
+  kAnswersLate,       ///< a drive answers a period late
   kPanelLost,         ///< the operator's panel does not answer
 };
 

@@ -35,7 +35,8 @@ class AlarmLatch {
 
  private:
   static bool lasts(Alarm alarm) noexcept {
-    return alarm == Alarm::kNodeReset || alarm == Alarm::kForeignWrite || alarm == Alarm::kParameterChanged;
+    return alarm == Alarm::kNodeReset || alarm == Alarm::kForeignWrite || alarm == Alarm::kParameterChanged ||
+           alarm == Alarm::kAnswersLate;
   }
 
   AlarmDetail first_;

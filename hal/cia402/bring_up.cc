@@ -195,7 +195,8 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
   const int node = stations_.node(station);
   step_ = &step;
   result_ = BringUpResult();
-  const bool reads = step.kind == Kind::kExpect;
+  const bool reads = step.kind == Kind::kExpect || step.kind == Kind::kExpectIfThere;
+  const bool may_be_absent = step.kind == Kind::kExpectIfThere || step.kind == Kind::kWriteIfThere;
   const CanFrame request = reads ? sdo_read(node, step.index, step.subindex)
                                  : sdo_write(node, step.index, step.subindex, step.value, step.size);
   if (!exchange(station, request)) return false;
@@ -203,7 +204,7 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
   result_.found = response_.value;
   if (response_.kind == SdoResponse::Kind::kAborted) {
     const bool absent = response_.value == kAbortNoObject || response_.value == kAbortNoSubindex;
-    return (step.kind == Kind::kWriteIfThere && absent) || fail_at(BringUpStatus::kRefused, station);
+    return (may_be_absent && absent) || fail_at(BringUpStatus::kRefused, station);
   }
   if (!reads) return response_.kind == SdoResponse::Kind::kWritten || fail_at(BringUpStatus::kNoAnswer, station);
   const int size = response_.kind == SdoResponse::Kind::kRead ? response_.size : 0;

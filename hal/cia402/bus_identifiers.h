@@ -10,7 +10,8 @@
 namespace godobject::hal {
 
 /// The identifiers that matter to the controller on one bus: those of its drives and panel in both directions, so that
-/// foreign ones are seen too, NMT, SYNC and its own heartbeat. For the filters of a socket: all else costs nothing.
+/// foreign ones are seen too, those of PDOs that are not used among them, and what only a master sends. For the filters
+/// of a socket: all else costs nothing.
 class BusIdentifiers {
  public:
   BusIdentifiers(const BusLayout& layout, int bus) noexcept;
@@ -18,8 +19,8 @@ class BusIdentifiers {
   std::span<const std::uint16_t> all() const noexcept { return {identifiers_.data(), count_}; }
 
  private:
-  static constexpr std::size_t kOfNode = 6;
-  static constexpr std::size_t kOfBus = 3;
+  static constexpr std::size_t kOfNode = 9;
+  static constexpr std::size_t kOfBus = 5;
 
   void add(int identifier) noexcept { identifiers_[count_++] = static_cast<std::uint16_t>(identifier); }
   void add_node(int node) noexcept;

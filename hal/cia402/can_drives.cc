@@ -48,13 +48,14 @@ void CanDrives::restart() noexcept {
   statistics_ = CanStatistics();
   power_ = PowerRequest::kOff;
   sync_failed_ = false;
-  quiet_ = to_heartbeat_ = since_sdo_ = 0;
+  probe_ = to_heartbeat_ = 0;
 }
 
 BringUpResult CanDrives::bring_up(Clock& clock) noexcept {
   std::array<CanBus*, kMaxBuses> wires{};
   std::ranges::transform(buses_, wires.begin(), &Bus::wire);
   restart();
+  probe_ = kProbeCycles + 1;
   const BringUpResult result =
       hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_);
   anothers_ = result.status == BringUpStatus::kSecondMaster;
@@ -81,18 +82,22 @@ SendResult CanDrives::send_on(int bus, const CanFrame& frame) noexcept {
 
 void CanDrives::request() noexcept {
   sync_failed_ = false;
-  const bool speaks = quiet_ == 0;
-  if (!speaks) --quiet_;
+  if (probe_ > 0) --probe_;
   CanFrame sync = sync_frame();
   sync.fd = layout_.fd;
   for (int b = 0; b < layout_.bus_count; ++b) {
     Bus& bus = buses_[static_cast<std::size_t>(b)];
-    // silence has emptied every queue: what is still missing never left
-    if (!speaks && quiet_ == 0) bus.unechoed = 0;
-    bus.asked = speaks && send_on(b, sync) == SendResult::kSent;
     bus.echo_ns = bus.sample_ns = 0;
-    if (bus.asked) ++bus.unechoed;
-    if (speaks && !bus.asked) sync_failed_ = true;
+    // what is still in the queue would be late, and everything behind it
+    bus.holds = bus.unechoed > 0 && ++bus.held < kHeldCycles;
+    bus.asked = false;
+    if (!bus.holds) {
+      bus.unechoed = 0;
+      bus.held = 0;  // what has not come back in all this time never will
+      if (probe_ == 0 || probe_ > kProbeSilent) bus.asked = send_on(b, sync) == SendResult::kSent;
+      if (bus.asked) ++bus.unechoed;
+    }
+    if (!bus.asked && probe_ == 0) sync_failed_ = true;
   }
   send_heartbeat_or_sdo();
 }
@@ -183,6 +188,9 @@ void CanDrives::take_foreign_master(int bus, const CanFrame& frame) noexcept {
 void CanDrives::take_sample(int b, int station, const ReceivedFrame& received) noexcept {
   Bus& bus = buses_[static_cast<std::size_t>(b)];
   const bool in_time = bus.asked && bus.unechoed == 0;
+  if (probe_ > 0 && probe_ <= kProbeSilent) {
+    alarm_.raise({.alarm = Alarm::kAnswersLate, .bus = b, .joint = joint_of(station), .id = received.frame.id});
+  }
   if (station == kPanelStation) {
     if (received.frame.length != 1) {
       ++statistics_.malformed;
@@ -212,11 +220,9 @@ void CanDrives::take_sample(int b, int station, const ReceivedFrame& received) n
 
 void CanDrives::take_emergency(int bus, int station, const CanFrame& frame) noexcept {
   Emergency emergency;
-  if (!parse_emergency(frame, emergency)) {
-    ++statistics_.malformed;
-  } else if (is_warning(emergency.code)) {
+  if (parse_emergency(frame, emergency) && is_warning(emergency.code)) {
     ++statistics_.warnings;
-  } else {
+  } else {  // also one that cannot be read: its sender is in trouble
     alarm_.raise(
         {.alarm = Alarm::kDriveError, .bus = bus, .joint = joint_of(station), .id = frame.id, .found = emergency.code});
   }
@@ -228,7 +234,7 @@ void CanDrives::take_heartbeat(int bus, int station, const CanFrame& frame) noex
     ++statistics_.malformed;
     return;
   }
-  if (station != kPanelStation) joint(station).silent = 0;
+  (station == kPanelStation ? panel_.silent : joint(station).silent) = 0;
   if (heartbeat.state == kNmtOperational) return;
   alarm_.raise({.alarm = heartbeat.state == kNmtBoot ? Alarm::kNodeReset : Alarm::kWrongMode,
                 .bus = bus,
@@ -248,12 +254,12 @@ void CanDrives::close_joint(int i) noexcept {
     reading_.torque[i] = drive.channel.torque();
   } else {
     ++drive.age;
-    ++statistics_.lost[at];
+    if (probe_ == 0) ++statistics_.lost[at];
   }
   drive.fresh = false;
   const bool silent = drive.age > static_cast<std::uint32_t>(timeout_cycles_);
   reading_.age[at] = drive.age;
-  reading_.state[at] = silent ? DriveState::kUnavailable : drive.channel.state();
+  reading_.state[at] = silent || probe_ > 0 ? DriveState::kUnavailable : drive.channel.state();
 
   const AlarmDetail of_joint{.bus = stations_.bus(i), .joint = i};
   const auto raise = [&](Alarm alarm) {
@@ -262,17 +268,22 @@ void CanDrives::close_joint(int i) noexcept {
     alarm_.raise(detail);
   };
   if (drive.channel.left_torque_mode()) raise(Alarm::kWrongMode);
-  if (++drive.silent > timeout_cycles_ + 1) raise(Alarm::kHeartbeatLost);
+  drive.silent = std::min(drive.silent + 1, timeout_cycles_ + 2);
+  if (drive.silent > timeout_cycles_ + 1) raise(Alarm::kHeartbeatLost);
 }
 
 void CanDrives::close_panel() noexcept {
   if (panel_.fresh) {
     panel_.lost = 0;
-  } else if (quiet_ == 0 && ++panel_.lost >= kMostPanelLost) {
-    panel_.inputs = 0;
-    alarm_.raise({.alarm = Alarm::kPanelLost, .bus = layout_.panel.bus});
+  } else if (probe_ == 0) {
+    panel_.lost = std::min(panel_.lost + 1, kMostPanelLost);
+    if (panel_.lost == kMostPanelLost) {
+      panel_.inputs = 0;
+      alarm_.raise({.alarm = Alarm::kPanelLost, .bus = layout_.panel.bus});
+    }
   }
   panel_.fresh = false;
+  panel_.silent = std::min(panel_.silent + 1, timeout_cycles_ + 2);
   reading_.emergency_stop = (panel_.inputs & kPanelStopReleased) == 0;
   reading_.enable_switch = (panel_.inputs & kPanelEnable) != 0;
   reading_.clutch_open = (panel_.inputs & kPanelClutch) != 0;
@@ -281,10 +292,6 @@ void CanDrives::close_panel() noexcept {
 void CanDrives::begin_reset() noexcept {
   alarm_.reset();
   for (int i = 0; i < layout_.joint_count; ++i) joint(i).bad_frames = 0;
-  for (int b = 0; b < layout_.bus_count; ++b) {
-    // a lost echo of SYNC would make every later sample late
-    if (buses_[static_cast<std::size_t>(b)].unechoed > 0) quiet_ = kQuietCycles;
-  }
 }
 
 bool CanDrives::send(const JointCommand& command) noexcept {
@@ -294,25 +301,41 @@ bool CanDrives::send(const JointCommand& command) noexcept {
   for (int i = 0; i < layout_.joint_count; ++i) {
     CanFrame rpdo;
     const bool finite = joint(i).channel.command(command.power, command.torque[i], rpdo);
-    const bool sent = send_on(stations_.bus(i), rpdo) == SendResult::kSent;
+    // behind a SYNC that is still in the queue it would come late, and after a stall many at once
+    const bool goes_out = buses_[static_cast<std::size_t>(stations_.bus(i))].unechoed == 0;
+    const bool sent = goes_out && send_on(stations_.bus(i), rpdo) == SendResult::kSent;
     all_sent = all_sent && finite && sent;
   }
   return all_sent;
 }
 
+/// A heartbeat of this bus comes in this cycle or the next one, or is overdue: beside it an SDO exchange would push
+/// samples beyond their collection.
+bool CanDrives::heartbeat_is_near(int bus) const noexcept {
+  const auto is_near = [this](int silent) { return silent < 1 || silent > heartbeat_cycles_ - 3; };
+  for (int i = 0; i < layout_.joint_count; ++i) {
+    if (stations_.bus(i) == bus && is_near(joints_[static_cast<std::size_t>(i)].silent)) return true;
+  }
+  return layout_.panel.bus == bus && is_near(panel_.silent);
+}
+
 /// Right behind SYNC: the samples go first, and the wire is idle between them and the torques.
 void CanDrives::send_heartbeat_or_sdo() noexcept {
-  ++since_sdo_;
-  if (--to_heartbeat_ <= 0) {
-    to_heartbeat_ = heartbeat_cycles_;
-    for (int bus = 0; bus < layout_.bus_count; ++bus) send_on(bus, heartbeat_frame(kControllerNode, kNmtOperational));
-    return;
-  }
-  if (since_sdo_ < layout_.read_back_interval) return;
-  since_sdo_ = 0;
-  for (int bus = 0; bus < layout_.bus_count; ++bus) {
+  const bool heartbeat = --to_heartbeat_ <= 0;
+  if (heartbeat) to_heartbeat_ = heartbeat_cycles_;
+  for (int b = 0; b < layout_.bus_count; ++b) {
+    Bus& bus = buses_[static_cast<std::size_t>(b)];
+    ++bus.since_sdo;
+    if (bus.holds) continue;
+    if (heartbeat) {
+      send_on(b, heartbeat_frame(kControllerNode, kNmtOperational));
+      continue;
+    }
+    const int overdue = bus.since_sdo - bus.watch.interval(layout_.read_back_interval);
+    if (overdue < 0 || (overdue < heartbeat_cycles_ && heartbeat_is_near(b))) continue;
+    bus.since_sdo = 0;
     CanFrame request;
-    if (buses_[static_cast<std::size_t>(bus)].watch.next(request)) send_on(bus, request);
+    if (bus.watch.next(request)) send_on(b, request);
   }
 }
 

@@ -22,10 +22,16 @@ namespace godobject::hal {
 /// CiA 402 drives in cyclic synchronous torque over one or several CANopen buses, and the operator's panel.
 ///
 /// A cycle. `request` sends SYNC, the first frame on each bus, and behind it every `drive_heartbeat` the controller's
-/// heartbeat, or else, every `read_back_interval` cycles, one SDO request: they get the wire between samples and
-/// torques. `receive` takes what has come, at most kMostFrames a bus: a sample belongs to this cycle if and only if it
-/// comes after the own echo of this cycle's SYNC; what comes before it is late and used by nobody. `send` sends RPDO1
-/// to each joint.
+/// heartbeat, or else, every `read_back_interval` cycles or some more, when no node's heartbeat is near, one SDO
+/// request: they get the wire between samples and torques. `receive` takes what has come, at most kMostFrames a bus: a
+/// sample belongs to this cycle if and only if it comes after the own echo of this cycle's SYNC; what comes before it
+/// is late and used by nobody. `send` sends RPDO1 to each joint.
+///
+/// Nothing is queued for later: on a bus on which the last SYNC has not come back neither torques nor another SYNC are
+/// handed over, for kHeldCycles; then what is missing is given up, and a new SYNC tries.
+///
+/// A start ends with a probe of kProbeCycles, in which drives are still kUnavailable: after the last of some SYNCs no
+/// sample may come any more. A drive that answers a SYNC only after the next one would always be a period late.
 ///
 /// A drive that has not been heard of for `heartbeat_timeout` is kUnavailable; before that its last state stands.
 /// Without a panel the enable switch is never held.
@@ -44,7 +50,9 @@ class CanDrives final : public JointDrives {
   static constexpr int kMostBadFrames = 3;              ///< in a row of one joint
   static constexpr int kMostPanelLost = 3;              ///< cycles without the panel
   static constexpr std::uint32_t kMostUnreturned = 32;  ///< frames: those of three cycles, with heartbeats and SDO
-  static constexpr int kQuietCycles = 10;               ///< without SYNC, to get into step again
+  static constexpr int kHeldCycles = 10;                ///< for which a SYNC's echo is waited for
+  static constexpr int kProbeCycles = 8;                ///< after a start
+  static constexpr int kProbeSilent = 4;                ///< of these, the last ones: without SYNC
 
   /// `buses`: one each of the layout's, which outlive this, as the tap does if there is one. The layout has been
   /// checked: buses and nodes exist, nodes differ on each bus and from 127.
@@ -75,6 +83,9 @@ class CanDrives final : public JointDrives {
   struct Bus {
     CanBus* wire = nullptr;
     bool asked = false;          // SYNC was sent in this cycle
+    bool holds = false;          // nothing is handed over in this cycle
+    int held = 0;                // such cycles in a row
+    int since_sdo = 0;           // cycles
     std::uint32_t unechoed = 0;  // SYNCs whose echo has not come
     std::int64_t echo_ns = 0;    // time stamps of this cycle's SYNC and of the last sample
     std::int64_t sample_ns = 0;
@@ -90,6 +101,7 @@ class CanDrives final : public JointDrives {
   struct Panel {
     bool fresh = false;
     int lost = 0;
+    int silent = 0;  // cycles since its heartbeat
     std::uint8_t inputs = 0;
   };
 
@@ -107,6 +119,7 @@ class CanDrives final : public JointDrives {
   void close_joint(int i) noexcept;
   void close_panel() noexcept;
   void begin_reset() noexcept;
+  bool heartbeat_is_near(int bus) const noexcept;
   void send_heartbeat_or_sdo() noexcept;
   int joint_of(int station) const noexcept { return station == cia402::kPanelStation ? -1 : station; }
 
@@ -125,9 +138,8 @@ class CanDrives final : public JointDrives {
   PowerRequest power_ = PowerRequest::kOff;
   bool sync_failed_ = false;
   bool anothers_ = false;  // the nodes obey a second master
-  int quiet_ = 0;          // cycles still to be without SYNC
+  int probe_ = 0;          // cycles of it still to come
   int to_heartbeat_ = 0;   // cycles
-  int since_sdo_ = 0;      // cycles
 };
 
 }  // namespace godobject::hal

@@ -1,5 +1,7 @@
 #include "hal/cia402/parameter_watch.h"
 
+#include <algorithm>
+
 #include "hal/canopen/object_numbers.h"
 
 namespace godobject::hal::cia402 {
@@ -21,6 +23,11 @@ void ParameterWatch::find(Alarm alarm, const SdoResponse& response) noexcept {
   if (finding_.alarm != Alarm::kNone) return;
   const ParameterStep& step = steps_[step_];
   finding_ = {alarm, bus_, joints_[drive_], 0, step.index, step.subindex, step.value, response.value};
+}
+
+int ParameterWatch::interval(int wanted) const noexcept {
+  constexpr int kWithin = 950;  // cycles, some left for requests that wait
+  return std::min(wanted, kWithin / std::max(1, static_cast<int>(kWatchedCount) * joint_count_));
 }
 
 bool ParameterWatch::next(CanFrame& request) noexcept {

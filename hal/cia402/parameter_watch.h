@@ -22,6 +22,9 @@ class ParameterWatch {
   /// The next request. False: there is no drive on this bus. What has not been answered until now counts as silent.
   bool next(CanFrame& request) noexcept;
 
+  /// Cycles of a millisecond between two requests: `wanted`, or fewer, so that each parameter is read within a second.
+  int interval(int wanted) const noexcept;
+
   /// Looks at an SDO response of this bus; what was not asked for is passed over.
   void take(const canopen::SdoResponse& response) noexcept;
 

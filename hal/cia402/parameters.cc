@@ -15,6 +15,7 @@ using Kind = ParameterStep::Kind;
 constexpr std::uint32_t kProfileMask = 0xFFFF;   // of 1000: number of the device profile
 constexpr std::uint32_t kInputsMask = 0x1FFFF;   // of 1000: the profile, and that there are digital inputs
 constexpr std::uint32_t kSyncMask = 0x400007FF;  // of 1005: COB-ID, and that the node makes no SYNC itself
+constexpr std::uint16_t kRpdoCommunicationLast = 0x1403;
 constexpr std::uint16_t kTpdoCommunicationLast = 0x1803;
 constexpr std::uint32_t kNoChange = 1;        // 1029: the NMT state stays, 6007 acts
 constexpr std::uint32_t kAbortQuickStop = 3;  // 6007: as the quick stop
@@ -99,6 +100,12 @@ void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSte
   expect(steps, kPosition, 0, 4, 0, 0);
   expect(steps, kSyncCob, 0, 4, kCobSync, kSyncMask);
   steps.add({Kind::kWriteIfThere, kSyncPeriod, 0, 4, scaled(layout.period, 1e-6)});
+  steps.add({Kind::kExpectIfThere, kEmergencyCob, 0, 4, cob(kCobEmergency, drive.node), kPdoCobMask});
+  steps.add({Kind::kExpectIfThere, kPolarity, 0, 1, 0});
+  for (std::uint16_t i = kRpdo1Communication + 1; i <= kRpdoCommunicationLast; ++i) {
+    const auto base = static_cast<std::uint32_t>(kCobRpdo1 + 0x100 * (i - kRpdo1Communication));
+    steps.add({Kind::kWriteIfThere, i, 1, 4, kPdoInvalid | (base + static_cast<std::uint32_t>(drive.node))});
+  }
   for (std::uint16_t i = kTpdo1Communication + 1; i <= kTpdoCommunicationLast; ++i) {
     const auto base = static_cast<std::uint32_t>(kCobTpdo1 + 0x100 * (i - kTpdo1Communication));
     steps.add({Kind::kWriteIfThere, i, 1, 4, kPdoInvalid | (base + static_cast<std::uint32_t>(drive.node))});

@@ -12,9 +12,10 @@ namespace godobject::hal::cia402 {
 /// One SDO exchange with a station.
 struct ParameterStep {
   enum class Kind : std::uint8_t {
-    kExpect,        ///< reads; size and value must be as said
-    kWrite,         ///< writes; must be accepted
-    kWriteIfThere,  ///< writes; a station without this object may do without
+    kExpect,         ///< reads; size and value must be as said
+    kWrite,          ///< writes; must be accepted
+    kExpectIfThere,  ///< the same, of an object that a station may do without
+    kWriteIfThere,   ///< writes; a station without this object may do without
   };
 
   Kind kind = Kind::kExpect;
@@ -31,7 +32,7 @@ struct ParameterStep {
 /// Steps in the order in which they are to be done.
 class ParameterSteps {
  public:
-  static constexpr std::size_t kCapacity = 64;
+  static constexpr std::size_t kCapacity = 80;
 
   void add(const ParameterStep& step) noexcept {
     assert(count_ < kCapacity);

@@ -156,7 +156,7 @@ TEST_F(PositionCheckTest, FindsAStuckEncoderWithinAHundredCyclesWhereverItBegins
     reading_ = hal::JointReading();
     int found = -1;
     for (int k = 0; k < begin + 101; ++k) {
-      reading_.position[1] += 5e-5;
+      reading_.position[1] += 1e-4;
       if (k < begin) reading_.position[0] += 1e-5;
       check.update(reading_, qd_, pushed_, 0, checked_);
       ASSERT_FALSE(checked_.stuck && k < begin);
@@ -200,6 +200,16 @@ TEST_F(PositionCheckTest, DoesNotCallAHandStuckThatHoldsStillOrMovesInAPlane) {
   for (int i = 0; i < 1000; ++i) {
     reading_.position[1] += 1e-3;
     ASSERT_FALSE(step().stuck);
+  }
+}
+
+TEST_F(PositionCheckTest, LetsAPushedJointTurnRoundInASlowMotion) {
+  pushed_[0] =
+      5.0;  // a parabola of 0.01 rad/s^2 about its top, on an encoder of 6e-6 rad, while the other joint creeps
+  for (int i = -1000; i < 1000; ++i) {
+    reading_.position[0] = 6e-6 * std::round(-0.5 * 0.01 * 1e-6 * i * i / 6e-6);
+    reading_.position[1] += 3e-5;
+    ASSERT_FALSE(step().stuck) << i;
   }
 }
 

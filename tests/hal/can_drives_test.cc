@@ -182,17 +182,14 @@ TEST_F(CanDrivesTest, ASampleIsFreshOnlyBehindItsOwnSyncsEcho) {
   bus_.receive_next(frame(0x080, {}));
   bus_.receive_next(tpdo(5, kOff, 88, 0));
   EXPECT_EQ(receive().age[0], 2u);
-  // the echo comes a cycle later: what follows it belongs to the cycle before
+  // the echo comes a cycle later: what follows it belongs to the cycle before, and no other SYNC was sent behind it
+  bus_.take_sent();
   drives_.request();
+  EXPECT_TRUE(bus_.take_sent().empty());
   bus_.receive_next(frame(0x080, {}), true);
   bus_.receive_next(tpdo(5, kOff, 99, 0));
   EXPECT_EQ(receive().age[0], 3u);
-  bus_.receive_next(frame(0x080, {}), true);
-  bus_.receive_next(tpdo(5, kOff, 1000, 0));
-  drives_.request();
-  EXPECT_EQ(receive().age[0], 4u);
   // in step again
-  bus_.receive_next(frame(0x080, {}), true);
   bus_.echoes = true;
   drives_.request();
   bus_.receive_next(tpdo(5, kOff, 1000, 0));
@@ -578,7 +575,7 @@ class ReadBackTest : public CanDrivesTest {
 };
 
 TEST_F(ReadBackTest, ReadsAllWatchedObjectsOfAllDrivesWithinASecond) {
-  EXPECT_EQ(run(1000, 0, 0), 20);
+  EXPECT_GE(run(1000, 0, 0), 19);  // a request that would fall beside a heartbeat waits
   EXPECT_EQ(reading_.alarm, Alarm::kNone);
   for (const int node : {3, 5}) {
     for (const int index : {0x1400, 0x1016, 0x6007, 0x605A, 0x6061}) {
@@ -635,25 +632,46 @@ TEST_F(CanDrivesTest, AFloodIsDrainedSixtyFourFramesACycle) {
   EXPECT_EQ(receive().age[0], 0u);
 }
 
-TEST_F(CanDrivesTest, GetsIntoStepAgainWithAResetWhenAnEchoWasLost) {
+TEST_F(CanDrivesTest, GetsIntoStepAgainByItselfWhenAnEchoWasLost) {
   cycle(kOff);
   bus_.echoes = false;
   cycle(kOff);
   bus_.echoes = true;
-  for (int k = 0; k < 5; ++k) cycle(kOff);
-  EXPECT_EQ(reading_.age[0], 6u);
-  cycle(kOff, PowerRequest::kReset);
   int silent = 0;
   for (int k = 0; k < 20 && reading_.age[0] != 0; ++k) {
     drives_.request();
     if (std::ranges::count(bus_.take_sent(), frame(0x080, {})) == 0) ++silent;
     answer_all(kOff);
     receive();
-    drives_.send({});
+    EXPECT_EQ(drives_.send({}), reading_.age[0] == 0);
     bus_.take_sent();
   }
   EXPECT_EQ(reading_.age[0], 0u);
-  EXPECT_EQ(silent, CanDrives::kQuietCycles);
+  EXPECT_EQ(silent, CanDrives::kHeldCycles - 1);
+  // the panel was away for longer than it may; it is back, and a reset finds it so
+  EXPECT_EQ(reading_.alarm, Alarm::kPanelLost);
+  EXPECT_FALSE(reading_.emergency_stop);
+  cycle(kOff, PowerRequest::kReset);
+  cycle(kOff);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+}
+
+TEST_F(CanDrivesTest, QueuesNothingOnAWireThatTakesNothing) {
+  for (int k = 0; k < 30; ++k) cycle(kEnabled, PowerRequest::kEnable, 1.0);
+  bus_.echoes = false;  // frames are taken, and stay in the queue
+  bus_.sent.clear();
+  std::size_t queued = 0;
+  for (int k = 0; k < CanDrives::kHeldCycles - 1; ++k) {
+    drives_.request();
+    receive();
+    JointCommand command;
+    command.power = PowerRequest::kEnable;
+    EXPECT_FALSE(drives_.send(command));
+    const std::vector<CanFrame> sent = bus_.take_sent();
+    EXPECT_TRUE(std::ranges::none_of(sent, [](const CanFrame& f) { return f.id == 0x203 || f.id == 0x205; }));
+    queued += sent.size();
+  }
+  EXPECT_LE(queued, 2u);  // a SYNC, and a heartbeat or a request behind it
 }
 
 TEST_F(CanDrivesTest, StopsTheNodesAtTheEnd) {
@@ -688,9 +706,82 @@ TEST_F(CanDrivesTest, WithFdOnlySyncAndTorquesAreFdFrames) {
   fd.fd = true;
   CanDrives drives(fd, wires_, {});
   drives.request();
+  drives.receive(reading_);
   drives.send({});
   for (const CanFrame& sent : bus_.sent) EXPECT_EQ(sent.fd, sent.id != 0x77F) << sent;
   EXPECT_EQ(bus_.sent.size(), 4u);
+}
+
+TEST_F(CanDrivesTest, TakesThePanelAsFreshOnlyBehindItsOwnSyncsEcho) {
+  panel_inputs_ = 0x01;  // released
+  cycle(kOff);
+  bus_.receive_next(frame(0x1A0, {0x03}));  // held, of the cycle before
+  drives_.request();
+  receive();
+  EXPECT_FALSE(reading_.enable_switch);
+}
+
+TEST_F(CanDrivesTest, ADriveThatAnswersOnlyAfterTheNextSyncIsAnAlarm) {
+  SleepingClock clock;
+  for (const bool late : {false, true}) {
+    EXPECT_EQ(drives_.bring_up(clock).status, BringUpStatus::kNoBootUp);
+    bus_.waiting.clear();
+    bool owed = false;
+    for (int k = 0; k < 2 * CanDrives::kProbeCycles; ++k) {
+      bus_.take_sent();
+      drives_.request();
+      const bool asked = std::ranges::count(bus_.sent, frame(0x080, {})) == 1;
+      if (late ? owed : asked) answer_all(kOff);
+      owed = asked;
+      heartbeats();
+      receive();
+      EXPECT_EQ(reading_.state[0] == DriveState::kUnavailable, k < CanDrives::kProbeCycles) << k;
+      drives_.send({});
+    }
+    EXPECT_EQ(reading_.alarm, late ? Alarm::kAnswersLate : Alarm::kNone);
+    EXPECT_EQ(reading_.state[0], DriveState::kOff);
+  }
+}
+
+TEST(CanDrivesOnTwoBuses, KeepsThemApart) {
+  BusLayout layout;
+  layout.bus_count = 2;
+  layout.joint_count = 2;
+  layout.drives[0] = {.bus = 1, .node = 5, .counts = 1000, .gear = 1.0, .rated_torque = 2.0};
+  layout.drives[1] = {.bus = 0, .node = 5, .counts = 1000, .gear = 1.0, .rated_torque = 2.0};
+  layout.panel = {.bus = 1, .node = 32};
+  std::array<FakeBus, 2> buses;
+  std::array<CanBus*, 2> wires = {&buses[0], &buses[1]};
+  CanDrives drives(layout, wires, {});
+  JointReading reading;
+  JointCommand command;
+  command.torque.head(2) << 1.0, -1.0;
+  command.power = PowerRequest::kEnable;
+  for (int k = 0; k < 5; ++k) {
+    for (FakeBus& bus : buses) bus.take_sent();
+    drives.request();
+    buses[1].receive_next(tpdo(5, kEnabled, 250, 0));
+    buses[0].receive_next(tpdo(5, kEnabled, -250, 0));
+    buses[1].receive_next(frame(0x1A0, {0x03}));
+    drives.receive(reading);
+    drives.send(command);
+  }
+  EXPECT_NEAR(reading.position[0], M_PI / 2, 1e-12);
+  EXPECT_NEAR(reading.position[1], -M_PI / 2, 1e-12);
+  EXPECT_EQ(buses[1].sent.back(), frame(0x205, {0x0F, 0x00, 0xF4, 0x01}));  // 500 permille
+  EXPECT_EQ(buses[0].sent.back(), frame(0x205, {0x0F, 0x00, 0x0C, 0xFE}));
+  // an echo that is missing on one bus does not touch the other
+  buses[0].echoes = false;
+  drives.request();
+  buses[1].receive_next(tpdo(5, kEnabled, 0, 0));
+  buses[0].receive_next(tpdo(5, kEnabled, 0, 0));
+  drives.receive(reading);
+  EXPECT_EQ(reading.age[0], 0u);
+  EXPECT_EQ(reading.age[1], 1u);
+  for (FakeBus& bus : buses) bus.take_sent();
+  EXPECT_FALSE(drives.send(command));
+  EXPECT_EQ(buses[1].sent.size(), 1u);
+  EXPECT_TRUE(buses[0].sent.empty());
 }
 
 class CountingTap final : public FrameTap {
@@ -788,7 +879,8 @@ TEST(CanDrives, AMillionRandomFramesGiveNoNaNAndAskForNoMemory) {
     ASSERT_FALSE(sent && std::isnan(command.torque[0]));
   }
   EXPECT_TRUE(guard.allocations() == 0 || !test::AllocationGuard::works());
-  EXPECT_EQ(bus.rpdos, 2 * cycles);
+  EXPECT_LE(bus.rpdos, 2 * cycles);  // none while an echo is missing
+  EXPECT_GT(bus.rpdos, cycles);
   EXPECT_GT(fresh, 100);
   EXPECT_NE(reading.alarm, Alarm::kNone);
 }
