@@ -31,6 +31,7 @@
 #include "firmware/simulated_arm.h"
 #include "firmware/telemetry_ring.h"
 #include "firmware/telemetry_writer.h"
+#include "firmware/worker_thread.h"
 #include "hal/can_log_ring.h"
 #include "hal/cia402/bus_plan.h"
 #include "hal/cia402/can_drives.h"
@@ -360,13 +361,13 @@ void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, c
   long faults_of_pages = 0;
   {
     std::vector<std::jthread> beside;  // before this thread is a real-time one, which they would become too
-    const auto run_beside = [&beside](auto& worker) {
-      beside.emplace_back([&worker](const std::stop_token& stop) { worker.run(stop); });
+    const auto run_beside = [&beside](const char* name, auto& worker) {
+      beside.push_back(firmware::start_worker(name, [&worker](const std::stop_token& stop) { worker.run(stop); }));
     };
     if (link.real_time) {
-      run_beside(notice);
-      if (records.telemetry) run_beside(*records.telemetry);
-      if (records.buses) run_beside(*records.buses);
+      run_beside("godobject-controller: the notice of waiting", notice);
+      if (records.telemetry) run_beside("godobject-controller: telemetry", *records.telemetry);
+      if (records.buses) run_beside("godobject-controller: the log of the buses", *records.buses);
       set_up_thread(config, link.device != nullptr);
     }
     const std::unique_ptr<hal::Clock> clock = link.make_clock();

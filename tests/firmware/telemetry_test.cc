@@ -8,14 +8,18 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "firmware/command/failure.h"
 #include "firmware/controller_run.h"
 #include "firmware/telemetry_ring.h"
 #include "firmware/telemetry_writer.h"
+#include "firmware/worker_thread.h"
 #include "sim/virtual_clock.h"
 #include "tests/firmware/fake_drives.h"
 #include "tests/support/allocation_guard.h"
@@ -185,6 +189,43 @@ TEST_F(TelemetryTest, SaysWhereItCannotWrite) {
     EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
     EXPECT_NE(std::string(failure.what()).find("telemetry.csv"), std::string::npos);
   }
+}
+
+/// What stderr says until the thread has ended.
+template <class Work>
+std::string said_by(Work work) {
+  testing::internal::CaptureStderr();
+  start_worker("a worker", std::move(work)).join();
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(WorkerThread, EndsAloneWithALineWhenItThrows) {
+  EXPECT_EQ(said_by([](const std::stop_token&) { throw std::runtime_error("no memory"); }),
+            "a worker has ended: no memory\n");
+  EXPECT_EQ(said_by([](const std::stop_token&) { throw 1; }), "a worker has ended: unknown exception\n");
+  EXPECT_EQ(said_by([](const std::stop_token&) {}), "");
+}
+
+TEST(WorkerThread, EndsAloneThoughNobodyReadsStderr) {
+  const int kept = ::dup(STDERR_FILENO);
+  const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(full, 0);
+  ::dup2(full, STDERR_FILENO);
+  start_worker("a worker", [](const std::stop_token&) { throw std::runtime_error("no memory"); }).join();
+  ::dup2(kept, STDERR_FILENO);
+  ::close(full);
+  ::close(kept);
+}
+
+TEST(WorkerThread, IsAskedToStop) {
+  bool stopped = false;
+  {
+    const std::jthread worker = start_worker("a worker", [&stopped](const std::stop_token& stop) {
+      while (!stop.stop_requested()) std::this_thread::yield();
+      stopped = true;
+    });
+  }
+  EXPECT_TRUE(stopped);
 }
 
 }  // namespace
