@@ -17,6 +17,10 @@ CanBridge::CanBridge(CanDevice& device, const hal::BusLayout& layout, const hal:
       collect_ns_(timing.collect_ns) {
   assert(static_cast<int>(buses.size()) == bus_count_);
   for (std::size_t i = 0; i < buses.size(); ++i) sides_[i].bus = buses[i];
+  for (int i = 0; i < layout.joint_count; ++i) {
+    ++sides_[static_cast<std::size_t>(layout.drives[static_cast<std::size_t>(i)].bus)].joints;
+  }
+  device.set_tap(this);
 }
 
 bool CanBridge::Side::sync_waits() const noexcept { return count > 0 && inbox[first].id == hal::canopen::kCobSync; }
@@ -28,6 +32,7 @@ bool CanBridge::Side::torque_waits() const noexcept {
 /// The oldest frame of a bus goes to the device. A full queue loses it, as a node that is too slow does.
 void CanBridge::hand_over(int bus) noexcept {
   Side& side = sides_[static_cast<std::size_t>(bus)];
+  if (side.torque_waits()) ++side.torques;
   (void)device_.bus(bus).send(side.inbox[side.first]);
   side.first = (side.first + 1) % kInbox;
   --side.count;
@@ -48,14 +53,24 @@ void CanBridge::read() noexcept {
   }
 }
 
+/// Frames that follow SYNC without a torque before them: they have been waiting since it went out.
+void CanBridge::pass_on_behind_sync() noexcept {
+  for (int i = 0; i < bus_count_; ++i) {
+    const Side& side = sides_[static_cast<std::size_t>(i)];
+    while (side.synced && side.count > 0 && !side.sync_waits() && !side.torque_waits()) hand_over(i);
+  }
+}
+
 /// What does not begin a cycle. A SYNC that comes after its cycle was begun without it belongs to that.
 void CanBridge::pass_on(std::int64_t now_ns) noexcept {
   if (in_step_) {
-    const std::int64_t elapsed_ns = now_ns - begin_clock_ns_;
-    const std::int64_t hand_over_ns = begin_ns_ + std::max(collect_ns_, elapsed_ns - compute_ns_);
+    if (device_.now_ns() < begin_ns_ + collect_ns_) pass_on_behind_sync();
     const bool waits = std::any_of(sides_.begin(), sides_.begin() + bus_count_,
                                    [](const Side& side) { return side.count > 0 && !side.sync_waits(); });
-    if (waits) device_.advance_to(hand_over_ns);
+    if (waits) {
+      collect();
+      device_.advance_to(begin_ns_ + std::max(collect_ns_, now_ns - begin_clock_ns_ - compute_ns_));
+    }
   }
   for (int i = 0; i < bus_count_; ++i) {
     Side& side = sides_[static_cast<std::size_t>(i)];
@@ -86,51 +101,83 @@ void CanBridge::begin_cycle() noexcept {
   in_step_ = true;
   ++counters_.cycles;
   device_.advance_to(begin_ns_);
+  drain();
   for (int i = 0; i < bus_count_; ++i) {
     Side& side = sides_[static_cast<std::size_t>(i)];
     side.synced = side.sync_waits();
-    if (!side.synced) continue;
-    hand_over(i);
-    while (side.count > 0 && !side.sync_waits() && !side.torque_waits()) hand_over(i);
+    side.sampled = false;
+    side.torques = 0;
+    if (side.synced) hand_over(i);
   }
+  pass_on_behind_sync();
+  const auto samples = [](const Side& side) { return side.synced && !side.sampled; };
+  while (device_.now_ns() < begin_ns_ + collect_ns_ && std::ranges::any_of(sides(), samples)) {
+    device_.advance_to_event(begin_ns_ + collect_ns_);
+  }
+}
+
+/// From the samples to the time at which the controller takes them.
+void CanBridge::collect() noexcept {
+  if (device_.now_ns() >= begin_ns_ + collect_ns_) return;
   device_.advance_to(begin_ns_ + collect_ns_);
-  forward();
+  drain();
+}
+
+bool CanBridge::has_all_torques() const noexcept {
+  return std::all_of(sides_.begin(), sides_.begin() + bus_count_,
+                     [](const Side& side) { return side.torques >= side.joints; });
 }
 
 void CanBridge::go_by_clock(std::int64_t now_ns) noexcept {
   if (in_step_ && now_ns - begin_clock_ns_ <= 2 * period_ns_) return;
   if (in_step_) ++counters_.left_alone;
   in_step_ = false;
-  device_.advance_to(begin_ns_ + (now_ns - begin_clock_ns_));
+  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, now_ns - begin_clock_ns_);
+  device_.advance_to(begin_ns_ + (elapsed_ns + period_ns_ - 1) / period_ns_ * period_ns_);
+  drain();
 }
 
-void CanBridge::forward() noexcept {
+/// What comes to the device's own ends was sent on when the nodes handed it over.
+void CanBridge::drain() noexcept {
   hal::ReceivedFrame received;
   for (int i = 0; i < bus_count_; ++i) {
     while (device_.bus(i).receive(received)) {
-      if (received.own) continue;
-      ++counters_.forwarded;
-      if (sides_[static_cast<std::size_t>(i)].bus->send(received.frame) != hal::SendResult::kSent) ++counters_.not_sent;
     }
   }
 }
 
-void CanBridge::poll(std::int64_t now_ns) noexcept {
+void CanBridge::on_frame(int bus, const hal::ReceivedFrame& received) noexcept {
+  Side& side = sides_[static_cast<std::size_t>(bus)];
+  if (received.own) {
+    if (received.frame.id == hal::canopen::kCobSync) side.sampled = true;
+    return;
+  }
+  ++counters_.forwarded;
+  if (side.bus->send(received.frame) != hal::SendResult::kSent) ++counters_.not_sent;
+}
+
+std::int64_t CanBridge::poll(std::int64_t now_ns) noexcept {
   if (!started_) {
     started_ = true;
     begin_ns_ = device_.now_ns();
-    begin_clock_ns_ = now_ns;
+    begin_clock_ns_ = now_ns / period_ns_ * period_ns_ + period_ns_ / 4;
   }
   read();
   read();  // what was sent on one bus before a SYNC on another is there now
   if (!in_step_) go_by_clock(now_ns);
   pass_on(now_ns);
-  while (sync_is_there(now_ns)) {
+  if (sync_is_there(now_ns)) {
     begin_cycle();
-    pass_on(now_ns);
+    return now_ns;  // for what has come meanwhile
+  }
+  if (in_step_) {
+    collect();
+    if (has_all_torques()) device_.advance_to(begin_ns_ + period_ns_);
   }
   go_by_clock(now_ns);
-  forward();
+  if (!in_step_) return begin_clock_ns_ + (device_.now_ns() - begin_ns_) + 1;
+  const std::int64_t left_alone_ns = begin_clock_ns_ + 2 * period_ns_ + 1;
+  return first_sync_ns_ < 0 ? left_alone_ns : std::min(left_alone_ns, first_sync_ns_ + period_ns_ / 4);
 }
 
 }  // namespace godobject::sim

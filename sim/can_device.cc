@@ -131,14 +131,17 @@ void CanDevice::release_due() noexcept {
   }
 }
 
-/// All that nodes have to say goes to their queues; idle wires take the next frame.
-void CanDevice::start_frames() noexcept {
+/// All that nodes have to say goes to their queues.
+void CanDevice::take_frames() noexcept {
   hal::CanFrame frame;
   for (int i = 0; i < nodes_.node_count(); ++i) {
+    const int bus = nodes_.bus_of(i);
     // a queue that is full keeps what it has: the node is as silent as one that nobody acknowledges
-    while (nodes_.node(i).take_frame(frame)) wires_[at(nodes_.bus_of(i))]->hand_over(1 + i, frame, now_ns());
+    while (nodes_.node(i).take_frame(frame)) {
+      const bool taken = wires_[at(bus)]->hand_over(1 + i, frame, now_ns());
+      if (taken && tap_ != nullptr) tap_->on_frame(bus, {frame, now_ns(), false});
+    }
   }
-  for (int i = 0; i < layout_.bus_count; ++i) wires_[at(i)]->arbitrate(now_ns());
 }
 
 void CanDevice::end_frames() noexcept {
@@ -146,27 +149,34 @@ void CanDevice::end_frames() noexcept {
   for (int i = 0; i < layout_.bus_count; ++i) {
     ends_[at(i)]->set_now(now_ns());
     while (wires_[at(i)]->take(now_ns(), ended)) {
+      if (ended.end == kController && tap_ != nullptr) tap_->on_frame(i, {ended.frame, ended.end_ns, true});
       spoil(i, ended);
     }
   }
 }
 
-void CanDevice::advance_to(std::int64_t ns) noexcept {
-  while (now_ns() < ns) {
-    nodes_.run_timers();
-    start_frames();
-    std::int64_t next_ns = std::min(ns, nodes_.next_timer_ns());
-    for (int i = 0; i < layout_.bus_count; ++i) next_ns = std::min(next_ns, wires_[at(i)]->next_ns());
-    const std::int64_t next_cycle_ns = (nodes_.cycle() + 1) * nodes_.period_ns();
-    next_ns = std::min(next_ns, next_cycle_ns);
-    for (const Held& held : held_) {
-      if (held.used) next_ns = std::min(next_ns, held.due_ns);
-    }
-    nodes_.step_to(next_ns);
-    end_frames();
-    release_due();
-    if (now_ns() == next_cycle_ns) begin_cycle();
+void CanDevice::advance_to_event(std::int64_t ns) noexcept {
+  nodes_.run_timers();
+  take_frames();
+  std::int64_t next_ns = std::min(ns, nodes_.next_timer_ns());
+  for (int i = 0; i < layout_.bus_count; ++i) {
+    wires_[at(i)]->arbitrate(now_ns());
+    next_ns = std::min(next_ns, wires_[at(i)]->next_ns());
   }
+  const std::int64_t next_cycle_ns = (nodes_.cycle() + 1) * nodes_.period_ns();
+  next_ns = std::min(next_ns, next_cycle_ns);
+  for (const Held& held : held_) {
+    if (held.used) next_ns = std::min(next_ns, held.due_ns);
+  }
+  nodes_.step_to(next_ns);
+  end_frames();
+  release_due();
+  if (now_ns() == next_cycle_ns) begin_cycle();
+  take_frames();
+}
+
+void CanDevice::advance_to(std::int64_t ns) noexcept {
+  while (now_ns() < ns) advance_to_event(ns);
 }
 
 }  // namespace godobject::sim

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "hal/can_bus.h"
+#include "hal/frame_tap.h"
 #include "sim/bus_fault.h"
 #include "sim/can_nodes.h"
 #include "sim/loopback_bus.h"
@@ -32,6 +33,13 @@ class CanDevice final : public World {
   std::int64_t now_ns() const noexcept override { return nodes_.now_ns(); }
   void advance_to(std::int64_t ns) noexcept override;
 
+  /// To the next thing that happens, at most to `ns`, which is ahead.
+  void advance_to_event(std::int64_t ns) noexcept;
+
+  /// Is shown each frame of a node when it is handed over to the wire, and each of the controller when it has ended
+  /// there. It outlives this.
+  void set_tap(hal::FrameTap* tap) noexcept { tap_ = tap; }
+
   CanNodes& nodes() noexcept { return nodes_; }
   const CanNodes& nodes() const noexcept { return nodes_; }
 
@@ -49,7 +57,7 @@ class CanDevice final : public World {
     WireFrame frame;
   };
 
-  void start_frames() noexcept;
+  void take_frames() noexcept;
   void end_frames() noexcept;
   void begin_cycle() noexcept;
   CanopenNode* find_node(int bus, int node) noexcept;
@@ -64,6 +72,7 @@ class CanDevice final : public World {
   std::array<std::optional<LoopbackBus>, hal::kMaxBuses> wires_;
   std::array<std::optional<LoopbackEnd>, hal::kMaxBuses> ends_;
   std::array<Held, kHeld> held_{};
+  hal::FrameTap* tap_ = nullptr;
 };
 
 }  // namespace godobject::sim

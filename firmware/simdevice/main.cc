@@ -1,5 +1,6 @@
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -39,6 +40,8 @@ SIGTERM, SIGINT, SIGHUP or after --duration and then prints what it has seen.
 Exit codes: 0 done, 64 usage, 65 bad data, 66 no such input, 69 an interface is not there,
 77 not permitted, 78 bad configuration)";
 
+constexpr std::int64_t kLongestWait_ns = 100'000'000;
+
 struct Options {
   std::string controller;
   std::string scene;
@@ -56,16 +59,17 @@ void catch_signals() {
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::sigaction(signal, &action, nullptr);
 }
 
-/// Until a frame has come, or for a tenth of a period.
-void wait_for_frames(const firmware::CanBuses& wires) {
+/// Until a frame has come, or for so long.
+void wait_for_frames(const firmware::CanBuses& wires, std::int64_t ns) {
   std::array<pollfd, hal::kMaxBuses> descriptors{};
   const std::size_t count = wires.buses().size();
   for (std::size_t i = 0; i < count; ++i) descriptors[i] = {wires.socket(i).descriptor(), POLLIN, 0};
-  const timespec most{0, 100'000};
+  const timespec most{0, std::clamp<std::int64_t>(ns, 0, kLongestWait_ns)};
   if (::ppoll(descriptors.data(), count, &most, nullptr) <= 0) return;
   for (std::size_t i = 0; i < count; ++i) {
     // an interface that is down is ready at once, again and again
-    if ((descriptors[i].revents & (POLLERR | POLLHUP)) != 0) ::nanosleep(&most, nullptr);
+    const timespec moment{0, 100'000};
+    if ((descriptors[i].revents & (POLLERR | POLLHUP)) != 0) ::nanosleep(&moment, nullptr);
   }
 }
 
@@ -105,8 +109,8 @@ void simulate(const Options& options) {
   const std::int64_t end_ns =
       options.duration ? clock.now_ns() + static_cast<std::int64_t>(1e9 * *options.duration) : sim::kNever;
   while (!ended.load(std::memory_order_relaxed) && clock.now_ns() < end_ns) {
-    wait_for_frames(wires);
-    bridge->poll(clock.now_ns());
+    const std::int64_t wanted_ns = bridge->poll(clock.now_ns());
+    wait_for_frames(wires, wanted_ns - clock.now_ns());
   }
   print_report(*device, *bridge, *arm);
 }

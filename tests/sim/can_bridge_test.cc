@@ -64,14 +64,19 @@ class BridgedClock final : public hal::Clock {
   BridgedClock(CanBridge& bridge, std::int64_t step_ns) : bridge_(bridge), step_ns_(step_ns) {}
   std::int64_t now_ns() noexcept override { return now_ns_; }
   void sleep_until(std::int64_t ns) noexcept override {
-    bridge_.poll(now_ns_);
+    settle();
     while (now_ns_ < ns) {
       now_ns_ = std::min(ns, now_ns_ + step_ns_);
-      bridge_.poll(now_ns_);
+      settle();
     }
   }
 
  private:
+  void settle() {
+    while (bridge_.poll(now_ns_) <= now_ns_) {
+    }
+  }
+
   CanBridge& bridge_;
   std::int64_t step_ns_;
   std::int64_t now_ns_ = 0;

@@ -1,0 +1,82 @@
+# For the cases: the simulated arm and the controller as two processes on three buses. Sourced.
+set -euo pipefail
+
+buses=(vcan0 vcan1 vcan2)
+devices=$(IFS=,; echo "${buses[*]}")
+config=tests/hil/controller.toml
+log=$HIL_WORK/log
+device="" controller=""
+trap 'kill -9 $device $controller 2>/dev/null || true' EXIT
+for bus in "${buses[@]}"; do ip link set "$bus" up; done
+
+fail() {
+  echo "FAILED: $1"
+  echo "--- device"
+  cat "$HIL_WORK/device"
+  echo "--- controller"
+  cat "$HIL_WORK/controller"
+  tail -n 3 "$log/telemetry.csv" 2>/dev/null | cut -c1-200
+  exit 1
+}
+
+# Below the controller's own priority, which sleeps while the arm answers.
+start_device() {
+  chrt -f 70 "$HIL_BIN/godobject-simdevice" "$config" --scene "$HIL_SCENE" --bus "$devices" --enable-after 1.5 \
+    >"$HIL_WORK/device" 2>&1 &
+  device=$!
+  sleep 0.1
+}
+
+start_controller() {  # [ARGUMENT ...]
+  rm -rf "$log"
+  mkdir -p "$log"
+  "$HIL_BIN/godobject-controller" "$config" --scene "$HIL_SCENE" --bus "$devices" --log "$log" "$@" >"$HIL_WORK/controller" 2>&1 &
+  controller=$!
+}
+
+mode() { tail -n 1 "$log/telemetry.csv" 2>/dev/null | cut -d , -f 4; }
+
+# In steps of 100 ms: each look costs the virtual machine some milliseconds.
+until_mode() {  # MODE SECONDS
+  local i
+  for ((i = 0; i < 10 * $2; ++i)); do
+    [ "$(mode)" != "$1" ] || return 0
+    kill -0 "$controller" 2>/dev/null || fail "the controller has ended before the mode $1"
+    sleep 0.1
+  done
+  fail "not in the mode $1 within $2 s, but $(mode)"
+}
+
+start_running() {
+  start_device
+  start_controller
+  until_mode running 15
+}
+
+# The rows from the last one in the mode running on: no mode may power the arm again.
+never_again() {
+  awk -F , '$4 == "running" { last = NR } { mode[NR] = $4 }
+    END { for (i = last + 1; i <= NR; ++i) if (mode[i] !~ /^(fade|stopping|stopped|ending|ended)$/) { print "row " i ": " mode[i]; exit 1 } }' \
+    "$log/telemetry.csv" || fail "powered again"
+}
+
+# Sends the arm's end by SIGTERM and shows what it saw.
+end_device() {
+  kill -TERM "$device" 2>/dev/null || true
+  wait "$device" || fail "the device ended with $?"
+  device=""
+  cat "$HIL_WORK/device"
+}
+
+# A fault that the controller must find: stopped, latched until SIGTERM, and the words of it on stderr.
+stopped_by() {  # WORDS
+  until_mode stopped 2
+  sleep 0.2
+  [ "$(mode)" = stopped ] || fail "not latched: $(mode)"
+  kill -TERM "$controller"
+  wait "$controller" || true
+  controller=""
+  grep -q "stopped: .*$1" "$HIL_WORK/controller" || fail "no word of '$1'"
+  never_again
+  grep 'stopped:' "$HIL_WORK/controller"
+}
