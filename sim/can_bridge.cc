@@ -132,8 +132,7 @@ void CanBridge::go_by_clock(std::int64_t now_ns) noexcept {
   if (in_step_ && now_ns - begin_clock_ns_ <= 2 * period_ns_) return;
   if (in_step_) ++counters_.left_alone;
   in_step_ = false;
-  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, now_ns - begin_clock_ns_);
-  device_.advance_to(begin_ns_ + (elapsed_ns + period_ns_ - 1) / period_ns_ * period_ns_);
+  device_.advance_to(begin_ns_ + (now_ns - begin_clock_ns_));
   drain();
 }
 
@@ -160,11 +159,13 @@ std::int64_t CanBridge::poll(std::int64_t now_ns) noexcept {
   if (!started_) {
     started_ = true;
     begin_ns_ = device_.now_ns();
-    begin_clock_ns_ = now_ns / period_ns_ * period_ns_ + period_ns_ / 4;
+    begin_clock_ns_ = now_ns / period_ns_ * period_ns_;
   }
   read();
   read();  // what was sent on one bus before a SYNC on another is there now
-  if (!in_step_) go_by_clock(now_ns);
+  const bool begins =
+      std::any_of(sides_.begin(), sides_.begin() + bus_count_, [](const Side& side) { return side.sync_waits(); });
+  if (!in_step_ && !begins) go_by_clock(now_ns);
   pass_on(now_ns);
   if (sync_is_there(now_ns)) {
     begin_cycle();
@@ -175,7 +176,7 @@ std::int64_t CanBridge::poll(std::int64_t now_ns) noexcept {
     if (has_all_torques()) device_.advance_to(begin_ns_ + period_ns_);
   }
   go_by_clock(now_ns);
-  if (!in_step_) return begin_clock_ns_ + (device_.now_ns() - begin_ns_) + 1;
+  if (!in_step_) return now_ns + period_ns_ / 5;
   const std::int64_t left_alone_ns = begin_clock_ns_ + 2 * period_ns_ + 1;
   return first_sync_ns_ < 0 ? left_alone_ns : std::min(left_alone_ns, first_sync_ns_ + period_ns_ / 4);
 }

@@ -33,10 +33,9 @@ struct BridgeCounters {
 /// same process does, to the last bit.
 ///
 /// Before the first SYNC, and when none has come for two periods, the device goes by the clock, so that its deadlines
-/// run out when nobody is there any more: a whole period at a time, ahead, so that a cycle can begin at once. It does
-/// so a quarter of a period after the times at which a controller with the same clock begins. Faults of single frames
-/// on their way, see BusFault, have no effect on what is sent. Static storage; a cycle takes a few calls of poll, which
-/// share its cost.
+/// run out when nobody is there any more. Its periods begin where those of the clock do, as a controller's with the
+/// same clock: SYNC then finds it close before the next one. Faults of single frames on their way, see BusFault, have
+/// no effect on what is sent. Static storage; a cycle takes a few calls of poll, which share its cost.
 class CanBridge final : private hal::FrameTap {
  public:
   /// Device, layout and buses outlive this; the buses are one each of the layout's.
