@@ -110,6 +110,10 @@ void examine_controller(const CanInterface& interface, const hal::BusLayout& lay
                                            1e-3 * interface.data_rate, 1e-3 * layout.data_rate),
                                setting_up(name, layout)));
   }
+  if (!interface.echoes) {
+    findings.push_back(missing(name + ": its driver does not tell when a frame has been on the wire",
+                               "use an adapter whose driver has IFF_ECHO; slcan of old kernels has not"));
+  }
   if (interface.listen_only) {
     findings.push_back(missing(name + ": listens only",
                                fmt::format("ip link set {0} down; ip link set {0} up type can listen-only off", name)));
@@ -130,7 +134,7 @@ void examine_controller(const CanInterface& interface, const hal::BusLayout& lay
                  fmt::format("ip link set {} txqueuelen {}", name, kTransmitQueue)));
   }
   if (interface.restart_ms != 0) {
-    findings.push_back(doubtful(
+    findings.push_back(missing(
         fmt::format("{}: comes back {} ms after it has left the bus, with nobody asked", name, interface.restart_ms),
         setting_up(name, layout)));
   }
@@ -164,6 +168,7 @@ std::optional<CanInterface> parse_link(Bytes message) {
   CanInterface interface;
   interface.can = link.ifi_type == ARPHRD_CAN;
   interface.up = (link.ifi_flags & IFF_UP) != 0;
+  interface.echoes = (link.ifi_flags & IFF_ECHO) != 0;
   for_attributes(message.subspan(begin, header.nlmsg_len - begin), [&](int type, Bytes payload) {
     switch (type) {
       case IFLA_IFNAME: interface.name = read_text(payload); break;

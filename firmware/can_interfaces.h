@@ -22,6 +22,7 @@ struct CanInterface {
   std::uint32_t bit_rate = 0;    ///< [bit/s]
   std::uint32_t data_rate = 0;   ///< of FD frames' data [bit/s]
   std::uint32_t restart_ms = 0;  ///< after which a controller that has left the bus comes back by itself; 0: never
+  bool echoes = false;           ///< own frames come back once they were on the wire, not when they are handed over
   bool listen_only = false;      ///< it neither sends nor acknowledges
   bool passive = false;          ///< the controller's error counters are high
   bool bus_off = false;          ///< the controller has left the bus

@@ -15,7 +15,7 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
 // clang-format off: the steps stand in a column
 void ControlCycle::run_once(const LoopEvents& events) noexcept {
   drives_.receive(reading_);
-  if (!supervisor_.follows_positions()) position_check_.restart();
+  if (!supervisor_.follows_positions()) begin_positions_anew();
   position_check_.update(reading_, qd_, limiter_.pushed(), events.skipped, positions_);
   Status status = estimate_velocity(events.skipped);
   const ArmKinematics kinematics = forward_kinematics(*setup_.arm, positions_.q);
@@ -31,6 +31,13 @@ void ControlCycle::run_once(const LoopEvents& events) noexcept {
   record_.H_RM = kinematics.H_WM;
   keep(decision);
   count(events);
+}
+
+/// What is read next is taken as it is, and the joints as at rest: what was read before may have been none.
+void ControlCycle::begin_positions_anew() noexcept {
+  position_check_.restart();
+  velocity_.reset();
+  last_q_ = reading_.position;
 }
 
 /// Periods without a cycle are filled with positions in between, since the estimator wants one a period.

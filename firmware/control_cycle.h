@@ -100,6 +100,7 @@ class ControlCycle {
   const Supervisor& supervisor() const noexcept { return supervisor_; }
 
  private:
+  void begin_positions_anew() noexcept;
   Status estimate_velocity(std::uint32_t skipped) noexcept;
   bool opens_clutch() noexcept;
   double contact_force() const noexcept;

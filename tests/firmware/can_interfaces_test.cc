@@ -88,7 +88,7 @@ Message real_interface() {
   data.attribute(9, bit_timing(5'000'000));
   Message info(0, 0, 0);
   info.attribute(1, Message::text("can")).attribute(2, data.nested());
-  Message message(kNewLink, kHardwareCan, 0x1);
+  Message message(kNewLink, kHardwareCan, 0x40001);
   message.attribute(3, Message::text("can0")).attribute(4, Message::number(72)).attribute(13, Message::number(10));
   message.attribute(0x8000 | 18, info.nested());
   return message;
@@ -98,7 +98,7 @@ CanInterface ready() {
   CanInterface interface;
   interface.name = "can0";
   interface.kind = "can";
-  interface.can = interface.up = true;
+  interface.can = interface.up = interface.echoes = true;
   interface.mtu = 16;
   interface.transmit_queue = 1000;
   interface.bit_rate = 1'000'000;
@@ -116,6 +116,7 @@ TEST(CanInterface, IsReadFromTheKernelsMessage) {
   EXPECT_EQ(interface->kind, "can");
   EXPECT_TRUE(interface->can);
   EXPECT_TRUE(interface->up);
+  EXPECT_TRUE(interface->echoes);
   EXPECT_EQ(interface->mtu, 72);
   EXPECT_EQ(interface->transmit_queue, 10);
   EXPECT_EQ(interface->bit_rate, 1'000'000u);
@@ -167,7 +168,9 @@ TEST(CanInterface, EachLackHasItsCure) {
        "ip link set can0 txqueuelen 1000", false},
       {[](CanInterface& i) { i.restart_ms = 100; },
        "can0: comes back 100 ms after it has left the bus, with nobody asked",
-       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", false},
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
+      {[](CanInterface& i) { i.echoes = false; }, "can0: its driver does not tell when a frame has been on the wire",
+       "use an adapter whose driver has IFF_ECHO; slcan of old kernels has not", true},
       {[](CanInterface& i) { i.listen_only = true; }, "can0: listens only",
        "ip link set can0 down; ip link set can0 up type can listen-only off", true},
       {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can shows those", true},
@@ -204,7 +207,7 @@ TEST(CanInterface, ASimulatedOneHasNoBitTiming) {
   CanInterface interface;
   interface.name = "vcan0";
   interface.kind = "vcan";
-  interface.can = interface.up = true;
+  interface.can = interface.up = interface.echoes = true;
   interface.mtu = 72;
   const std::vector<Finding> findings = examine_can_interface(interface, {});
   ASSERT_EQ(findings.size(), 1u);

@@ -199,6 +199,23 @@ TEST_F(ControlCycleTest, EstimatesTheVelocityOverPeriodsThatWereSkipped) {
   EXPECT_EQ(cycle_->counters().skipped, 2u);
 }
 
+TEST_F(ControlCycleTest, ExtrapolatesNothingFromBeforeTheFirstPosition) {
+  make();
+  drives_.reading.position.setZero();  // no drive has answered yet
+  drives_.reading.state.fill(hal::DriveState::kUnavailable);
+  drives_.reading.age.fill(9);
+  for (int i = 0; i < 5; ++i) step();
+  drives_.reading.position = q0_;
+  drives_.reading.state.fill(hal::DriveState::kOff);
+  drives_.reading.age.fill(0);
+  step();
+  ASSERT_EQ(cycle_->record().mode, Mode::kZeroCheck);
+  drives_.reading.age.fill(1);  // the second one is lost
+  step();
+  EXPECT_EQ(cycle_->record().q, q0_);
+  EXPECT_TRUE(cycle_->record().qd.isZero(0.0));
+}
+
 TEST_F(ControlCycleTest, StopsInTheCycleOfAReadingThatIsNotFinite) {
   for (int joint = 0; joint < 7; ++joint) {
     drives_ = FakeDrives(7);
