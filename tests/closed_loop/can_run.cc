@@ -1,8 +1,28 @@
 #include "tests/closed_loop/can_run.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace godobject::firmware {
+
+void DisturbedBus::begin_cycle(int flood, std::int64_t clock_ns) noexcept {
+  flood_ = flood;
+  clock_ns_ = clock_ns;
+  cycles_ = true;
+  taken_ = 0;
+}
+
+bool DisturbedBus::receive(hal::ReceivedFrame& received) noexcept {
+  if (flood_ > 0) {
+    --flood_;
+    received = {.frame = {.id = 0x7A0, .length = 8}};
+  } else if (!bus_.receive(received)) {
+    return false;
+  }
+  received.time_ns += clock_ns_;
+  if (cycles_) most_taken_ = std::max(most_taken_, ++taken_);
+  return true;
+}
 
 CanRun::CanRun(const test::SceneImage& image, const Options& options)
     : scene_(test::open_scene(image)),
@@ -24,7 +44,9 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
       *plant_, layout, hardware_, sim::CanScript{.hold_from_ns = 740'000'000, .faults = options_.drive_faults},
       options_.bus_faults);
   clock_ = std::make_unique<sim::VirtualClock>(*device_);
-  std::array<hal::CanBus*, 3> buses{&device_->bus(0), &device_->bus(1), &device_->bus(2)};
+  buses_.reserve(hal::kMaxBuses);
+  for (int i = 0; i < layout.bus_count; ++i) buses_.emplace_back(device_->bus(i));
+  std::array<hal::CanBus*, 3> buses{&buses_.at(0), &buses_.at(1), &buses_.at(2)};
   drives_.emplace(layout, buses, hal::plan_buses(layout).timing);
   CycleSetup setup = run_setup(scene_, placement_);
   setup.supervisor.sign_test = false;
@@ -32,16 +54,30 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   if (cycle_->start() != Status::kOk) throw std::runtime_error("the scene lacks the solver");
 }
 
-void CanRun::run(std::int64_t count) {
+void CanRun::run(std::int64_t count, const LoopEvents& events) {
   constexpr std::int64_t kPeriod_ns = 1'000'000;
   for (std::int64_t i = 0; i < count; ++i) {
     deadline_ns_ = (device_->now_ns() + kPeriod_ns - 1) / kPeriod_ns * kPeriod_ns;
     clock_->sleep_until(deadline_ns_);
+    const std::int64_t cycle = deadline_ns_ / kPeriod_ns;
+    const Options::Flood& flood = options_.flood;
+    const bool floods = cycle >= flood.first_cycle && cycle - flood.first_cycle < flood.cycles;
+    const bool set = cycle >= options_.clock_set.first_cycle;
+    for (std::size_t b = 0; b < buses_.size(); ++b) {
+      buses_[b].begin_cycle(floods && static_cast<int>(b) == flood.bus ? flood.frames : 0,
+                            set ? options_.clock_set.step_ns : 0);
+    }
     cycle_->request();
     clock_->sleep_until(deadline_ns_ + cycle_->collect_ns());
-    cycle_->run_once({});
-    cycles.push_back({deadline_ns_ / kPeriod_ns, cycle_->record()});
+    cycle_->run_once(i == 0 ? events : LoopEvents());
+    cycles.push_back({cycle, cycle_->record()});
   }
+}
+
+int CanRun::most_taken() const {
+  int most = 0;
+  for (const DisturbedBus& bus : buses_) most = std::max(most, bus.most_taken());
+  return most;
 }
 
 int CanRun::cycles_to_stop(std::int64_t number) const {

@@ -12,6 +12,29 @@
 
 namespace godobject::firmware {
 
+/// A bus as the controller sees it, with what befalls its side of it: more frames than it may take in a cycle, and
+/// stamps by a clock that is set.
+class DisturbedBus final : public hal::CanBus {
+ public:
+  explicit DisturbedBus(hal::CanBus& bus) noexcept : bus_(bus) {}
+
+  hal::SendResult send(const hal::CanFrame& frame) noexcept override { return bus_.send(frame); }
+  bool receive(hal::ReceivedFrame& received) noexcept override;
+  hal::BusHealth health() const noexcept override { return bus_.health(); }
+
+  /// So many foreign frames are before all others in this cycle; stamps are off by `clock_ns`.
+  void begin_cycle(int flood, std::int64_t clock_ns) noexcept;
+  int most_taken() const noexcept { return most_taken_; }  ///< frames in a cycle
+
+ private:
+  hal::CanBus& bus_;
+  int flood_ = 0;
+  bool cycles_ = false;  // the start is over
+  int taken_ = 0;
+  int most_taken_ = 0;
+  std::int64_t clock_ns_ = 0;
+};
+
 /// The whole controller on the simulated arm over its three buses, in virtual time; otherwise as SimulatedRun.
 class CanRun {
  public:
@@ -21,6 +44,16 @@ class CanRun {
     std::vector<sim::BusFault> bus_faults;
     std::vector<sim::DriveFault> drive_faults;
     double zero = 0.0;  ///< position of joint 2 where its counter is 0 [rad]
+    struct Flood {
+      int bus = 0;
+      std::int64_t first_cycle = 0;
+      std::int64_t cycles = 0;
+      int frames = 0;  ///< in each cycle
+    } flood;
+    struct ClockSet {
+      std::int64_t first_cycle = 0;
+      std::int64_t step_ns = 0;
+    } clock_set;
   };
 
   CanRun(const test::SceneImage& image, const Options& options);
@@ -28,8 +61,8 @@ class CanRun {
   /// Starts the nodes.
   hal::BringUpResult bring_up() { return drives_->bring_up(*clock_); }
 
-  /// So many cycles more; each is kept.
-  void run(std::int64_t cycles);
+  /// So many cycles more; each is kept. `events` are those of the first one.
+  void run(std::int64_t cycles, const LoopEvents& events = {});
 
   /// Without anything from the controller: it was killed.
   void go_on_alone(double seconds) {
@@ -44,6 +77,8 @@ class CanRun {
     CycleRecord record;
   };
   std::vector<Cycle> cycles;
+
+  int most_taken() const;  ///< frames from a bus in a cycle
 
   ControlCycle& controller() { return *cycle_; }
   hal::CanDrives& drives() { return *drives_; }
@@ -60,6 +95,7 @@ class CanRun {
   std::unique_ptr<sim::Plant> plant_;
   std::unique_ptr<sim::CanDevice> device_;
   std::unique_ptr<sim::VirtualClock> clock_;
+  std::vector<DisturbedBus> buses_;
   std::optional<hal::CanDrives> drives_;
   std::unique_ptr<ControlCycle> cycle_;
   std::int64_t deadline_ns_ = 0;

@@ -1,5 +1,5 @@
 // The table of faults, without a wire: each is put into the simulated device while the ball is pressed on a plate and
-// moved along; the reaction and the cycles that it takes are counted at the device.
+// moved along; the reaction and the cycles that it takes are counted at the device, and recorded for the report.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/closed_loop/seen_fault.h"
 #include "tests/closed_loop/simulated_run.h"
 #include "tests/support/small_scenes.h"
 
@@ -63,6 +64,29 @@ double pushed_after(const SimulatedRun& run, int cycles) {
   return largest;
 }
 
+/// For the report: what the run shows since `begin`, until it is asked to end in cycle `end`.
+void record_stop(SimulatedRun& run, std::int64_t begin, std::int64_t end = kEnd) {
+  test::SeenFault seen = seen_since(run.cycles, begin, end);
+  seen.after += "; " + rest_of(
+                           7, [&](int i) -> auto& { return run.drives().joint(i); });
+  test::record(seen);
+}
+
+void record_going_on(const SimulatedRun& run) {
+  const CycleCounters& counters = run.controller().counters();
+  test::SeenFault seen = seen_since(run.cycles, kBegin, kEnd);
+  const auto add = [&](const char* what, std::uint64_t count) {
+    if (count > 0) seen.found += (seen.found.empty() ? "" : ", ") + std::string(what) + ' ' + std::to_string(count);
+  };
+  add("positions lost in cycles:", counters.lost);
+  add("jumps", counters.jumps);
+  add("sends failed", counters.sends_failed);
+  add("overruns", counters.overruns);
+  add("periods skipped", counters.skipped);
+  if (seen.found.empty()) seen.found = "nothing to count";
+  test::record(seen);
+}
+
 struct Row {
   std::string name;
   DriveFault what;
@@ -84,7 +108,6 @@ TEST_P(ClosedLoopFault, StopsInTime) {
   const int cycles = run.cycles_to_stop(kBegin);
   EXPECT_GT(cycles, 0) << "never";
   EXPECT_LE(cycles, row.most);
-  RecordProperty("cycles", cycles);
   EXPECT_TRUE(row.faults.contains(run.controller().record().fault)) << describe(run.controller().record().fault);
   EXPECT_EQ(run.violation(), "");
   // a torque step of the drive is a permille
@@ -97,6 +120,7 @@ TEST_P(ClosedLoopFault, StopsInTime) {
   const Mode mode = run.cycles.back().record.mode;
   EXPECT_TRUE(mode == Mode::kEnded || mode == Mode::kStopped);
   EXPECT_TRUE(run.plant().velocities().isZero(1e-6)) << "the brakes hold";
+  record_stop(run, kBegin);
   std::printf("%-34s %3d cycles of %d\n", row.name.c_str(), cycles, row.most);
 }
 
@@ -155,6 +179,7 @@ TEST_P(ClosedLoopNuisance, IsGoneOnWith) {
   SimulatedRun plain(plate(), pressing());
   plain.run(kEnd);
   EXPECT_LT(run.report.largest_force, 1.05 * plain.report.largest_force + 0.5);
+  record_going_on(run);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, ClosedLoopNuisance,
@@ -173,6 +198,7 @@ TEST(ClosedLoop, StopsWhenAnEncoderJumpsMoreThanTenTimesASecond) {
   EXPECT_EQ(run.controller().record().fault, Fault::kPositionJump);
   EXPECT_EQ(run.cycles_to_stop(kBegin + 800), 1);
   EXPECT_EQ(run.violation(), "");
+  record_stop(run, kBegin + 800);
 }
 
 /// Neither three losses nor two jumps in a row: what matters is that for three cycles nothing could be used.
@@ -184,6 +210,7 @@ TEST(ClosedLoop, StopsWhenLossesAndJumpsTakeTurns) {
   EXPECT_EQ(run.controller().record().fault, Fault::kPositionLost);
   EXPECT_LE(run.cycles_to_stop(kBegin), 8);
   EXPECT_EQ(run.violation(), "");
+  record_stop(run, kBegin);
 }
 
 TEST(ClosedLoop, PowersNothingForAnEnableSwitchThatIsHeldFromTheStart) {
@@ -231,6 +258,9 @@ TEST(ClosedLoop, DoesNotFeelACounterThatWraps) {
   for (std::size_t i = 0; i < plain.cycles.size(); ++i) {
     ASSERT_EQ(plain.cycles[i].record.torque, wrapped.cycles[i].record.torque) << i;
   }
+  test::SeenFault seen = seen_since(wrapped.cycles, kBegin, 1500);
+  seen.found = "torques of every cycle as without";
+  test::record(seen);
 }
 
 /// Wakes that are late by `late_ns` in every `every`-th cycle from kBegin on.
@@ -253,6 +283,7 @@ TEST(ClosedLoop, SkipsAPeriodWhenItOverrunsOnceAndGoesOn) {
     EXPECT_GE(run.cycles[i].number - run.cycles[i - 1].number, 1);
   }
   EXPECT_EQ(run.violation(), "");
+  record_going_on(run);
 }
 
 struct Overruns {
@@ -278,6 +309,7 @@ TEST_P(ClosedLoopOverruns, StopTheArm) {
   EXPECT_GT(cycles, 0);
   EXPECT_LE(cycles, 8);
   EXPECT_EQ(run.violation(), "");
+  record_stop(run, GetParam().cause);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -307,10 +339,12 @@ TEST(ClosedLoop, StopsAHandThatIsTooFast) {
     }
     if (fast && cause < 0 && cycle.record.mode >= Mode::kArmed) cause = cycle.number;
   }
-  const int cycles = run.cycles_to_stop(cause > 0 ? cause : 700);
+  ASSERT_GT(cause, 0);
+  const int cycles = run.cycles_to_stop(cause);
   EXPECT_GT(cycles, 0);
   EXPECT_LE(cycles, 5);
   EXPECT_EQ(run.violation(), "");
+  record_stop(run, cause);
 }
 
 TEST(ClosedLoop, StopsAHandThatIsTooFastThoughNoJointIs) {
@@ -339,6 +373,7 @@ TEST(ClosedLoop, StopsAHandThatIsTooFastThoughNoJointIs) {
   EXPECT_GT(cycles, 0);
   EXPECT_LE(cycles, 5);
   EXPECT_EQ(run.violation(), "");
+  record_stop(run, cause);
 }
 
 TEST(ClosedLoop, EndsWithARampAndBrakesWhenAskedTo) {
@@ -356,6 +391,16 @@ TEST(ClosedLoop, EndsWithARampAndBrakesWhenAskedTo) {
   }
   EXPECT_LT(sag, 0.005);
   EXPECT_EQ(run.violation(), "");
+  test::SeenFault seen = seen_since(run.cycles, kBegin);
+  seen.cycles = static_cast<int>(last.number - kBegin);
+  run.drives().advance_to(run.drives().now_ns() + 200'000'000);  // of quick stops that it leaves to the drives
+  char text[64];
+  std::snprintf(text, sizeof(text), "arm sags by %.2f mm", 1e3 * sag);
+  seen.after += "; " +
+                rest_of(
+                    7, [&](int i) -> auto& { return run.drives().joint(i); }) +
+                ", " + text;
+  test::record(seen);
 }
 
 TEST(ClosedLoop, FindsAnEncoderThatStandsStillBeforeItRenders) {

@@ -23,6 +23,7 @@
 #include "firmware/command/failure.h"
 #include "hal/can_log_ring.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/fault_record.h"
 
 namespace godobject::firmware {
 namespace {
@@ -213,6 +214,10 @@ TEST_F(BusLogTest, CountsFramesThatAFullDiskDoesNotTake) {
   EXPECT_EQ(writer.written(), 0u);
   EXPECT_EQ(writer.lost(), 1000u);
   EXPECT_EQ(ring_->lost(), 0u);
+  godobject::test::record({.reaction = writer.lost() + writer.written() == 1000 ? "goes on" : "loses count",
+                           .found = std::to_string(writer.lost()) + " of 1000 frames lost",
+                           .after = "",
+                           .cycles = -1});
 }
 
 /// A file that may grow to so many bytes only, in a process of its own: its limit stays there.

@@ -10,6 +10,7 @@
 
 #include "core/device/kinematics.h"
 #include "firmware/command/failure.h"
+#include "tests/support/fault_record.h"
 
 namespace godobject::firmware {
 namespace {
@@ -34,17 +35,19 @@ class ControllerFileTest : public testing::Test {
     return read_controller_file(file_);
   }
 
-  std::string refusal(const std::string& text) const {
+  std::string refusal(const std::string& text) {
     try {
       read(text);
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.exit_code(), ExitCode::kBadConfig);
+      code_ = static_cast<int>(failure.exit_code());
       return failure.what();
     }
     return {};
   }
 
   std::filesystem::path file_;
+  int code_ = 0;  // of the last refusal
 };
 
 TEST_F(ControllerFileTest, HasDefaultsForAllButDeviceAndPosture) {
@@ -81,6 +84,8 @@ TEST_F(ControllerFileTest, TakesPathsAsRelativeToItself) {
 }
 
 TEST_F(ControllerFileTest, NamesLineAndKeyOfWhatIsWrong) {
+  int refused = 0;
+  std::string words;
   for (const auto& [more, says] : std::initializer_list<std::array<const char*, 2>>{
            {"[loop]\nvelocity_window = 1\n", ".toml:6: loop.velocity_window = 1 is out of range"},
            {"[loop]\npriority = 99\n", ".toml:6: loop.priority = 99 is out of range"},
@@ -100,7 +105,10 @@ TEST_F(ControllerFileTest, NamesLineAndKeyOfWhatIsWrong) {
        }) {
     const std::string message = refusal(std::string(kLeast) + more);
     EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
+    refused += message.find(says) != std::string::npos ? 1 : 0;
+    words = message.substr(message.rfind('/') + 1);
   }
+  test::record_start(code_, std::to_string(refused) + " cases, the last: " + words);
   const std::string device = std::string("[device]\nfile = \"" GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml\"\n");
   EXPECT_NE(refusal(device + "[workspace]\nposture = [0, 0, 0]\n").find("must be an array of 6 numbers"),
             std::string::npos);

@@ -9,6 +9,7 @@
 #include "core/device/dynamics.h"
 #include "firmware/command/failure.h"
 #include "tests/support/arms.h"
+#include "tests/support/fault_record.h"
 
 namespace godobject::firmware {
 namespace {
@@ -27,7 +28,7 @@ class DeviceFileTest : public testing::Test {
   void TearDown() override { std::filesystem::remove(file_); }
 
   /// The message with which the file is refused once `from` is `to`; empty if it is not.
-  std::string refusal(const std::string& from, const std::string& to) const {
+  std::string refusal(const std::string& from, const std::string& to) {
     std::string text = text_;
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -37,6 +38,7 @@ class DeviceFileTest : public testing::Test {
       read_device_file(file_);
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.exit_code(), ExitCode::kBadConfig);
+      code_ = static_cast<int>(failure.exit_code());
       EXPECT_NE(std::string(failure.what()).find(file_.string()), std::string::npos) << failure.what();
       return failure.what();
     }
@@ -45,6 +47,7 @@ class DeviceFileTest : public testing::Test {
 
   std::string text_;
   std::filesystem::path file_;
+  int code_ = 0;  // of the last refusal
 };
 
 TEST_F(DeviceFileTest, ReadsBothArms) {
@@ -78,6 +81,8 @@ TEST_F(DeviceFileTest, RefusesWhatIsNotThere) {
 
 TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
   EXPECT_EQ(refusal("velocity = 8.0", "velocity = 8.0 "), "");
+  int refused = 0;
+  std::string words;
   for (const auto& [from, to, says] : std::initializer_list<std::array<const char*, 3>>{
            {"velocity = 8.0", "velocity = nan", "joint[1].velocity = nan is out of range"},
            {"velocity = 8.0", "velocity = -1.0", "joint[1].velocity = -1 is out of range"},
@@ -109,7 +114,10 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
        }) {
     const std::string message = refusal(from, to);
     EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
+    refused += message.find(says) != std::string::npos ? 1 : 0;
+    words = message.substr(message.rfind('/') + 1);
   }
+  test::record_start(code_, std::to_string(refused) + " cases, the last: " + words);
   EXPECT_NE(refusal("panel_bus = 2", "panel_bus = 2\nheartbeat = 1").find("bus.heartbeat is not a known key"),
             std::string::npos);
   EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:51:"), std::string::npos)

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "tests/firmware/controller_folder.h"
+#include "tests/support/fault_record.h"
+#include "tests/support/ordinary_user.h"
 
 namespace godobject::firmware {
 namespace {
@@ -51,6 +53,16 @@ class Process {
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /// Its open sockets.
+  int sockets() const {
+    int count = 0;
+    for (const auto& file : std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/fd")) {
+      std::error_code gone;
+      count += std::filesystem::read_symlink(file, gone).string().starts_with("socket:") ? 1 : 0;
+    }
+    return count;
   }
 
   bool is_stopped() const {
@@ -96,6 +108,26 @@ class ControllerProcessTest : public ControllerFolderTest {
     return std::find(all.begin(), all.end(), mode) != all.end();
   }
 
+  /// The line of log.txt that has `what` in it.
+  std::string line_with(const std::string& what) const {
+    std::istringstream lines(text("log.txt"));
+    std::string line;
+    while (std::getline(lines, line)) {
+      if (line.find(what) != std::string::npos) return line;
+    }
+    return {};
+  }
+
+  /// For the report: a run with an end of its own, whose log was hindered.
+  void record_going_on(int exit_code) const {
+    const std::string cycles = line_with("overruns ");
+    const bool in_time = cycles.find("overruns 0, periods skipped 0") != std::string::npos;
+    test::record({.reaction = exit_code == 0 && in_time ? "goes on" : "ends early or late",
+                  .found = line_with("telemetry.csv: ") + "; " + cycles,
+                  .after = "exit " + std::to_string(exit_code),
+                  .cycles = -1});
+  }
+
   bool says(const std::string& what) const { return text("log.txt").find(what) != std::string::npos; }
 
   Process start(const std::vector<std::string>& more = {}, rlim_t largest_file = RLIM_INFINITY) const {
@@ -109,16 +141,27 @@ const char* const kSeldom = "[start]\nsign_test = false\n[telemetry]\nevery = 20
 const char* const kRealTime = "[start]\nsign_test = false\n[loop]\nreal_time = true\npriority = 1\n";
 
 TEST_F(ControllerProcessTest, EndsInOrderWhenItIsAskedTo) {
-  write_controller(kSeldom);
+  write_controller("[start]\nsign_test = false\n");
+  std::ptrdiff_t most = 0;
+  std::string codes;
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     std::filesystem::remove_all(folder_ / "logs");
     Process process = start();
     ASSERT_TRUE(see([&] { return has("running"); })) << text("log.txt");
     process.send(signal);
-    EXPECT_EQ(process.wait(), 0) << signal << ": " << text("log.txt");
+    const int code = process.wait();
+    EXPECT_EQ(code, 0) << signal << ": " << text("log.txt");
     EXPECT_TRUE(says("rendered in")) << signal;
     EXPECT_FALSE(says("stopped:")) << signal;
+    const std::vector<std::string> all = modes();
+    most = std::max(most, all.end() - std::find(all.begin(), all.end(), "ending"));
+    codes += (codes.empty() ? "exit " : ", ") + std::to_string(code);
+    EXPECT_LE(most, 200) << signal;
   }
+  test::record({.reaction = codes == "exit 0, 0, 0" && most > 1 ? "ends" : "fails",
+                .found = "SIGTERM, SIGINT, SIGHUP",
+                .after = codes,
+                .cycles = static_cast<int>(most)});
 }
 
 TEST_F(ControllerProcessTest, TakesAResetWithoutAFaultForNothing) {
@@ -154,8 +197,12 @@ TEST_F(ControllerProcessTest, IsStoppedForGoodByAPauseOfTheProcess) {
   const auto stopping = std::find(all.begin(), all.end(), "stopping");
   ASSERT_NE(stopping, all.end());
   const std::set<std::string> allowed{"stopping", "stopped", "ended"};
-  EXPECT_TRUE(std::all_of(stopping, all.end(), [&](const auto& mode) { return allowed.contains(mode); }))
-      << "no power again";
+  const bool stays = std::all_of(stopping, all.end(), [&](const auto& mode) { return allowed.contains(mode); });
+  EXPECT_TRUE(stays) << "no power again";
+  test::record({.reaction = stays ? "STOP" : "powered again",
+                .found = line_with("stopped: "),
+                .after = "stopped for " + std::to_string(rows) + " cycles and more",
+                .cycles = -1});
 }
 
 TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKilled) {
@@ -188,19 +235,57 @@ TEST_F(ControllerProcessTest, GoesOnWithoutItsTelemetryOnAFullDisk) {
   std::filesystem::create_directories(folder_ / "logs");
   std::filesystem::create_symlink("/dev/full", folder_ / "logs" / "telemetry.csv");
   Process process = start({"--duration", "2"});
-  EXPECT_EQ(process.wait(), 0) << text("log.txt");
+  const int code = process.wait();
+  EXPECT_EQ(code, 0) << text("log.txt");
   EXPECT_TRUE(says("telemetry.csv: 0 rows, ")) << text("log.txt");
   EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
+  record_going_on(code);
 }
 
 TEST_F(ControllerProcessTest, GoesOnWhenItsFileMayNotGrow) {
   write_controller("[start]\nsign_test = false\n");
   Process process = start({"--duration", "2"}, 200 * 1024);
-  EXPECT_EQ(process.wait(), 0) << text("log.txt");
+  const int code = process.wait();
+  EXPECT_EQ(code, 0) << text("log.txt");
   EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
   EXPECT_FALSE(says(" 0 lost")) << text("log.txt");
   EXPECT_LE(std::filesystem::file_size(folder_ / "logs" / "telemetry.csv"), 200u * 1024u);
   EXPECT_GT(modes().size(), 100u);
+  record_going_on(code);
+}
+
+TEST_F(ControllerProcessTest, OpensNoSocketOnASimulatedBus) {
+  write_controller(kSeldom);
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running"); })) << text("log.txt");
+  const int sockets = process.sockets();
+  EXPECT_EQ(sockets, 0);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+  test::record({.reaction = sockets == 0 ? "goes on" : "opens sockets",
+                .found = std::to_string(sockets) + " sockets while it logs",
+                .after = "",
+                .cycles = -1});
+}
+
+/// Another user without rights to real-time work; on a real bus that is refused.
+TEST_F(ControllerProcessTest, SaysWhatItMayNotDoAndRunsOnASimulatedBus) {
+  write_controller(kRealTime);
+  std::filesystem::permissions(folder_, std::filesystem::perms::all);
+  int code = 0;
+  {
+    const test::AsOrdinaryUser user;
+    if (!user.holds()) GTEST_SKIP() << "rights do not bind this user, who cannot become another";
+    Process process = start({"--duration", "0.3"});
+    code = process.wait();
+  }
+  EXPECT_TRUE(says("going on, since the bus is simulated")) << text("log.txt");
+  EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << text("log.txt");  // a busy machine is late
+  const std::string words = line_with("going on, since");
+  test::record({.reaction = words.empty() ? "silent" : "goes on",
+                .found = words,
+                .after = "exit " + std::to_string(code),
+                .cycles = -1});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "firmware/command/failure.h"
+#include "tests/support/fault_record.h"
 #include "tests/support/ordinary_user.h"
 #include "tests/support/small_scenes.h"
 
@@ -59,6 +60,8 @@ TEST_F(SceneFileTest, KeepsACopyThatLaterWritesDoNotReach) {
   write(std::string(text_.size(), 'x'));
   EXPECT_EQ(scene.scene().pointshell.size, points);
   EXPECT_EQ(*scene.scene().pointshell.x, first);
+  const bool unchanged = scene.scene().pointshell.size == points && *scene.scene().pointshell.x == first;
+  test::record({.reaction = unchanged ? "goes on" : "changes", .found = "a private copy", .after = "", .cycles = -1});
 }
 
 TEST_F(SceneFileTest, RefusesWhatIsNoRegularFile) {
@@ -91,14 +94,31 @@ TEST_F(SceneFileTest, RefusesEveryTruncationAndFlippedBits) {
     ASSERT_EQ(refusal(file_).first, ExitCode::kBadData) << bit;
   }
   write(text_ + "x");
-  EXPECT_EQ(refusal(file_).first, ExitCode::kBadData);
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  test::record_start(static_cast<int>(code), "all of " + std::to_string(text_.size()) + " lengths, 200 flipped bits");
+}
+
+TEST_F(SceneFileTest, RefusesAnotherVersion) {
+  auto& header = *reinterpret_cast<format::Header*>(image_.bytes().data());
+  ++header.version;
+  header.checksum = 0;
+  header.checksum = format::checksum(image_.bytes().data(), header.header_bytes);
+  const auto bytes = image_.bytes();
+  write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  EXPECT_NE(words.find("version"), std::string::npos) << words;
+  test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
 }
 
 TEST_F(SceneFileTest, RefusesWhatIsHugeWithoutTakingMemory) {
   std::filesystem::resize_file(file_, std::uintmax_t{1} << 40);  // a hole
   EXPECT_EQ(refusal(file_).first, ExitCode::kBadData);
   std::filesystem::resize_file(file_, SceneFile::kLargest);  // its header still tells the true size
-  EXPECT_EQ(refusal(file_).first, ExitCode::kBadData);
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
 }
 
 }  // namespace

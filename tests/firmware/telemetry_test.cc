@@ -24,6 +24,7 @@
 #include "tests/firmware/fake_drives.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/arms.h"
+#include "tests/support/fault_record.h"
 #include "tests/support/scene_image_builder.h"
 #include "tests/support/small_scenes.h"
 
@@ -178,6 +179,12 @@ TEST_F(TelemetryTest, DoesNotHoldUpTheLoopWhenTheDiskStalls) {
   reader.join();
   ::close(pipe);
   EXPECT_EQ(lines, 1 + written);
+  const std::uint64_t overruns = cycle->counters().overruns + cycle->counters().skipped;
+  godobject::test::record({.reaction = overruns == 0 && pushed >= kCycles ? "goes on" : "late",
+                           .found = std::to_string(pushed - written) + " of " + std::to_string(pushed) +
+                                    " rows lost, overruns " + std::to_string(overruns),
+                           .after = "",
+                           .cycles = -1});
 }
 
 TEST_F(TelemetryTest, SaysWhereItCannotWrite) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "toolchain/command/html_text.h"
 #include "toolchain/figures/table.h"
 
 namespace godobject::figures {
@@ -39,29 +40,15 @@ voxel.</dd>
 </dl>
 )";
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '&': result += "&amp;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
-    }
-  }
-  return result;
-}
-
 /// A line for each of `rows`, with the columns' headings above.
 template <class Column, class Row>
 std::string cells_html(const std::vector<Column>& columns, const std::vector<Row>& rows) {
   std::string text = "<div class=\"wide\"><table><tr>";
-  for (const Column& column : columns) text += fmt::format("<th>{}</th>", escaped(column.heading));
+  for (const Column& column : columns) text += fmt::format("<th>{}</th>", command::html_text(column.heading));
   text += "</tr>\n";
   for (const Row& row : rows) {
     text += "<tr>";
-    for (const Column& column : columns) text += fmt::format("<td>{}</td>", escaped(column.value(row)));
+    for (const Column& column : columns) text += fmt::format("<td>{}</td>", command::html_text(column.value(row)));
     text += "</tr>\n";
   }
   return text + "</table></div>\n";
@@ -80,7 +67,7 @@ std::string table_html(const std::vector<Entry>& entries) {
 
 std::string list(const std::vector<std::string>& sentences) {
   std::string text = "<ul>\n";
-  for (const std::string& sentence : sentences) text += fmt::format("<li>{}</li>\n", escaped(sentence));
+  for (const std::string& sentence : sentences) text += fmt::format("<li>{}</li>\n", command::html_text(sentence));
   return text + "</ul>\n";
 }
 
@@ -127,16 +114,16 @@ std::string caption(const Picture& picture, const std::vector<Figure::Series>& a
 /// Figure and pictures of a scene.
 std::string scene_html(const ScenePlan& plan, const std::string& facts, const std::vector<Figure::Series>& series,
                        const std::filesystem::path& folder) {
-  const std::string name = escaped(plan.name);
+  const std::string name = command::html_text(plan.name);
   std::string text = fmt::format(
       "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p>{3}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" "
       "alt=\"{1}\"></a></p>\n",
-      name, escaped(plan.title), escaped(plan.text), escaped(facts));
+      name, command::html_text(plan.title), command::html_text(plan.text), command::html_text(facts));
   text += "<div class=\"pictures\">\n";
   for (const Picture& picture : pictures(folder / plan.name)) {
     text += fmt::format(
         "<figure><a href=\"{0}/{1}\"><img src=\"{0}/{1}\" alt=\"{2}\"></a><figcaption>{2}</figcaption></figure>\n",
-        name, escaped(picture.name), escaped(caption(picture, series)));
+        name, command::html_text(picture.name), command::html_text(caption(picture, series)));
   }
   return text + "</div>\n";
 }
@@ -145,7 +132,8 @@ std::string replays_html(const std::string& scene, const std::vector<Entry>& ent
   std::string text = "<p>Replays:";
   for (const Entry& entry : entries) {
     if (entry.scene == scene)
-      text += fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", escaped(scene), escaped(entry.solver));
+      text +=
+          fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", command::html_text(scene), command::html_text(entry.solver));
   }
   return text + "</p>\n";
 }
@@ -177,7 +165,7 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
     text += fmt::format(
         "<p>Of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
         "hand</a></p>\n",
-        escaped(plan.name));
+        command::html_text(plan.name));
   }
   return text;
 }
