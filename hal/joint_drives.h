@@ -37,7 +37,8 @@ enum class Alarm : std::uint8_t {
   kForeignWrite,      ///< somebody else has written to a drive
   kParameterChanged,  ///< a drive's parameter is no longer what was written at the start
   kAnswersLate,       ///< a drive answers a period late
-  kPanelLost,         ///< the operator's panel does not answer
+  kPanelLost,         ///< the operator's panel does not answer any more
+  kPanelSilent,       ///< the operator's panel has not told its inputs since the start
 };
 
 /// Joint side, SI; entries from the joint count on are zero. What is not fresh keeps its last value.
@@ -73,7 +74,7 @@ class JointDrives {
   /// In which the samples come, after `request` [ns].
   virtual std::int64_t collect_ns() const noexcept = 0;
 
-  /// Takes what has come since the last call.
+  /// Takes what has come since the last call; what is due beside samples and torques is sent then.
   virtual void receive(JointReading& reading) noexcept = 0;
 
   /// Torques for this cycle. False: not all of them could be handed over; counted by the caller as lost.

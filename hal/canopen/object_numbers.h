@@ -12,6 +12,7 @@ enum Cob : std::uint16_t {
   kCobEmergency = 0x080,
   kCobTpdo1 = 0x180,
   kCobRpdo1 = 0x200,
+  kCobTpdo2 = 0x280,
   kCobSdoResponse = 0x580,
   kCobSdoRequest = 0x600,
   kCobHeartbeat = 0x700,
@@ -42,11 +43,14 @@ enum Object : std::uint16_t {
   kConsumerHeartbeat = 0x1016,
   kProducerHeartbeat = 0x1017,
   kIdentity = 0x1018,
+  kSyncOverflow = 0x1019,
   kErrorBehaviour = 0x1029,
   kRpdo1Communication = 0x1400,
   kRpdo1Mapping = 0x1600,
   kTpdo1Communication = 0x1800,
+  kTpdo2Communication = 0x1801,
   kTpdo1Mapping = 0x1A00,
+  kTpdo2Mapping = 0x1A01,
   kAbortConnectionOption = 0x6007,
   kErrorCode = 0x603F,
   kControlword = 0x6040,
@@ -64,11 +68,15 @@ enum Object : std::uint16_t {
   kMotorRatedTorque = 0x6076,
   kActualTorque = 0x6077,
   kPolarity = 0x607E,
+  kQuickStopDeceleration = 0x6085,
   kEncoderResolution = 0x608F,
   kGearRatio = 0x6091,
   kInterpolationPeriod = 0x60C2,
+  kPositiveTorqueLimit = 0x60E0,
+  kNegativeTorqueLimit = 0x60E1,
   kSupportedModes = 0x6502,
   kDigitalInputs8 = 0x6000,  ///< CiA 401: of the operator's panel
+  kInputPolarity8 = 0x6002,  ///< CiA 401: a bit that is 1 turns its input round
 };
 
 inline constexpr std::int8_t kModeTorque = 10;                    ///< cyclic synchronous torque

@@ -15,7 +15,8 @@ struct AlarmDetail {
   std::uint16_t index = 0;     ///< object; 0: it is about none
   std::uint8_t subindex = 0;   ///< of the object
   std::uint32_t expected = 0;  ///< of the object
-  std::uint32_t found = 0;     ///< in the object; of kDriveError the emergency code, of kWrongMode the NMT state
+  std::uint32_t found =
+      0;  ///< in the object; of kDriveError the emergency code, of kWrongMode without an object the NMT state
 };
 
 /// Keeps the first alarm until it is reset. What only a new start can mend stays: a drive that has started anew, or in

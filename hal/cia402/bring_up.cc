@@ -16,6 +16,7 @@ using namespace canopen;
 using cia402::kMaxStations;
 using cia402::kPanelStation;
 using cia402::ParameterStep;
+using Kind = ParameterStep::Kind;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kListen_ns = 100 * kMillisecond_ns;
@@ -26,17 +27,20 @@ constexpr int kMostFrames = 64;  // of a bus in a millisecond
 
 class BringUp {
  public:
-  BringUp(const BusLayout& layout, std::span<CanBus* const> buses, Clock& clock, FrameTap* tap) noexcept
-      : layout_(layout), buses_(buses), clock_(clock), tap_(tap), stations_(layout) {}
+  BringUp(const BusLayout& layout, std::span<CanBus* const> buses, Clock& clock, FrameTap* tap,
+          const std::atomic<bool>* end) noexcept
+      : layout_(layout), buses_(buses), clock_(clock), tap_(tap), end_(end), stations_(layout) {}
 
   BringUpResult run() noexcept {
-    if (listen() && boot() && set_up_all() && start_all()) return {};
+    if (listen() && boot() && set_up_all() && start_all()) result_ = BringUpResult();
+    result_.began = began_;
     return result_;
   }
 
  private:
   struct Station {
     bool booted = false;
+    bool mode_told = false;  // since it was started
     NmtState state = kNmtBoot;
   };
 
@@ -46,6 +50,7 @@ class BringUp {
   bool set_up(int station) noexcept;
   bool start_all() noexcept;
 
+  bool check_ratio(int station, std::uint16_t index, double expected, double or_this) noexcept;
   bool do_step(int station, const ParameterStep& step) noexcept;
   bool exchange(int station, const CanFrame& request) noexcept;
   bool send(int bus, const CanFrame& frame) noexcept;
@@ -60,6 +65,8 @@ class BringUp {
   std::span<CanBus* const> buses_;
   Clock& clock_;
   FrameTap* tap_;
+  const std::atomic<bool>* end_;
+  bool began_ = false;
   cia402::Stations stations_;
   std::array<Station, kMaxStations> seen_{};
   bool boot_is_over_ = false;
@@ -104,6 +111,11 @@ bool BringUp::take(int bus, const CanFrame& frame) noexcept {
     seen.state = heartbeat.state;
     return true;
   }
+  if (const int node = node_of(frame.id, kCobTpdo2); node != 0) {
+    const int station = stations_.at(bus, node);
+    if (station >= 0 && frame.length == 1) seen_[static_cast<std::size_t>(station)].mode_told = true;
+    return true;
+  }
   SdoResponse response;
   if (asked_ >= 0 && parse_sdo_response(frame, response) && stations_.at(bus, response.node) == asked_ &&
       response.index == step_->index && response.subindex == step_->subindex) {
@@ -115,6 +127,7 @@ bool BringUp::take(int bus, const CanFrame& frame) noexcept {
 
 /// Takes what has come on all buses. False: the start has failed.
 bool BringUp::poll() noexcept {
+  if (end_ != nullptr && end_->load(std::memory_order_relaxed)) return fail(BringUpStatus::kEnded, -1);
   for (std::size_t b = 0; b < buses_.size(); ++b) {
     const int bus = static_cast<int>(b);
     ReceivedFrame received;
@@ -159,6 +172,7 @@ bool BringUp::listen() noexcept {
 
 bool BringUp::boot() noexcept {
   for (Station& station : seen_) station = Station();
+  began_ = true;
   for (int bus = 0; bus < layout_.bus_count; ++bus) {
     if (!send(bus, nmt_frame(kNmtResetCommunication, 0))) return false;
   }
@@ -191,7 +205,6 @@ bool BringUp::exchange(int station, const CanFrame& request) noexcept {
 }
 
 bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
-  using Kind = ParameterStep::Kind;
   const int node = stations_.node(station);
   step_ = &step;
   result_ = BringUpResult();
@@ -213,17 +226,39 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
     result_.found = static_cast<std::uint32_t>(size);
     return fail_at(BringUpStatus::kWrongSize, station);
   }
-  return step.accepts(response_.value) || fail_at(BringUpStatus::kWrongValue, station);
+  return step.accepts(response_.value) ||
+         fail_at(step.or_more ? BringUpStatus::kTooLow : BringUpStatus::kWrongValue, station);
+}
+
+/// Sub-index 1 of an object over its sub-index 2, if it is there, to a thousandth.
+bool BringUp::check_ratio(int station, std::uint16_t index, double expected, double or_this) noexcept {
+  constexpr std::uint32_t kAny = 0;  // mask
+  const ParameterStep over{Kind::kExpectIfThere, index, 1, 4, 0, kAny};
+  if (!do_step(station, over)) return false;
+  if (response_.kind == SdoResponse::Kind::kAborted) return true;
+  const double numerator = response_.value;
+  const ParameterStep under{Kind::kExpect, index, 2, 4, 0, kAny};
+  if (!do_step(station, under)) return false;
+  const double found = numerator / response_.value;
+  const auto is_near = [found](double ratio) { return std::fabs(found - ratio) <= 1e-3 * ratio; };
+  if (is_near(expected) || is_near(or_this)) return true;
+  result_.ratio_expected = expected;
+  result_.ratio_found = found;
+  return fail_at(BringUpStatus::kWrongRatio, station);
 }
 
 bool BringUp::set_up(int station) noexcept {
   cia402::ParameterSteps steps;
+  bool done = true;
   if (station == kPanelStation) {
     cia402::panel_steps(layout_, steps);
   } else {
-    cia402::drive_steps(layout_, layout_.drives[static_cast<std::size_t>(station)], steps);
+    const DriveConfig& drive = layout_.drives[static_cast<std::size_t>(station)];
+    cia402::drive_steps(layout_, drive, steps);
+    done = check_ratio(station, kEncoderResolution, drive.counts, drive.counts) &&
+           check_ratio(station, kGearRatio, std::fabs(drive.gear), 1.0);
   }
-  const bool done = std::ranges::all_of(steps.all(), [&](const ParameterStep& step) { return do_step(station, step); });
+  done = done && std::ranges::all_of(steps.all(), [&](const ParameterStep& step) { return do_step(station, step); });
   step_ = nullptr;
   return done;
 }
@@ -236,20 +271,30 @@ bool BringUp::set_up_all() noexcept {
 }
 
 bool BringUp::start_all() noexcept {
+  for (Station& station : seen_) station.mode_told = false;
   for (int i = 0; i < kMaxStations; ++i) {
     if (stations_.has(i) && !send(stations_.bus(i), nmt_frame(kNmtStart, stations_.node(i)))) return false;
   }
-  const auto waiting = [this] {
+  const auto first_without = [this](auto&& good) {
     for (int i = 0; i < kMaxStations; ++i) {
-      if (stations_.has(i) && seen_[static_cast<std::size_t>(i)].state != kNmtOperational) return i;
+      if (stations_.has(i) && !good(i, seen_[static_cast<std::size_t>(i)])) return i;
     }
     return -1;
   };
-  if (wait(kStartTimeout_ns, [&] { return waiting() < 0; })) return true;
+  const auto stands = [&] { return first_without([](int, const Station& s) { return s.state == kNmtOperational; }); };
+  const auto untold = [&] {
+    return first_without([](int i, const Station& s) { return i == kPanelStation || s.mode_told; });
+  };
+  if (wait(kStartTimeout_ns + std::llround(1e9 * layout_.mode_refresh), [&] { return stands() < 0 && untold() < 0; }))
+    return true;
   if (result_.status != BringUpStatus::kOk) return false;
-  result_.expected = kNmtOperational;
-  result_.found = seen_[static_cast<std::size_t>(waiting())].state;
-  return fail_at(BringUpStatus::kNotOperational, waiting());
+  if (const int station = stands(); station >= 0) {
+    result_.expected = kNmtOperational;
+    result_.found = seen_[static_cast<std::size_t>(station)].state;
+    return fail_at(BringUpStatus::kNotOperational, station);
+  }
+  result_.index = kModeDisplay;
+  return fail_at(BringUpStatus::kModeNotTold, untold());
 }
 
 }  // namespace
@@ -268,13 +313,20 @@ const char* describe(BringUpStatus status) noexcept {
     case BringUpStatus::kRefused: return "refused an object; compare it with the drive's manual";
     case BringUpStatus::kWrongSize: return "has an object of another size; this drive cannot be used";
     case BringUpStatus::kWrongValue: return "has another value than it must; correct the device file or the drive";
+    case BringUpStatus::kTooLow:
+      return "has less than it must have; raise it in the drive, or lower the joint's torque limit in the device file";
+    case BringUpStatus::kWrongRatio: return "contradicts the device file; correct the one that is wrong";
+    case BringUpStatus::kEnded: return "the start was asked to end";
     case BringUpStatus::kNotOperational: return "did not become operational; look at its own error";
+    case BringUpStatus::kModeNotTold:
+      return "does not tell its mode by TPDO2, type 255 with an event timer; this drive cannot be used";
   }
   return "unknown status";
 }
 
-BringUpResult bring_up(const BusLayout& layout, std::span<CanBus* const> buses, Clock& clock, FrameTap* tap) noexcept {
-  return BringUp(layout, buses, clock, tap).run();
+BringUpResult bring_up(const BusLayout& layout, std::span<CanBus* const> buses, Clock& clock, FrameTap* tap,
+                       const std::atomic<bool>* end) noexcept {
+  return BringUp(layout, buses, clock, tap, end).run();
 }
 
 }  // namespace godobject::hal

@@ -20,7 +20,8 @@ BusIdentifiers::BusIdentifiers(const BusLayout& layout, int bus) noexcept {
 }
 
 void BusIdentifiers::add_node(int node) noexcept {
-  for (const Cob base : {kCobEmergency, kCobTpdo1, kCobRpdo1, kCobSdoResponse, kCobSdoRequest, kCobHeartbeat}) {
+  for (const Cob base :
+       {kCobEmergency, kCobTpdo1, kCobTpdo2, kCobRpdo1, kCobSdoResponse, kCobSdoRequest, kCobHeartbeat}) {
     add(base + node);
   }
   for (int base = kCobRpdo1 + 0x100; base <= kCobRpdo4; base += 0x100) add(base + node);

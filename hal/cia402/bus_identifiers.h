@@ -19,7 +19,7 @@ class BusIdentifiers {
   std::span<const std::uint16_t> all() const noexcept { return {identifiers_.data(), count_}; }
 
  private:
-  static constexpr std::size_t kOfNode = 9;
+  static constexpr std::size_t kOfNode = 10;
   static constexpr std::size_t kOfBus = 5;
 
   void add(int identifier) noexcept { identifiers_[count_++] = static_cast<std::uint16_t>(identifier); }

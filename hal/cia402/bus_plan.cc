@@ -13,6 +13,7 @@ constexpr int kSampleBytes = 8;     // TPDO1 {6041:16, 6064:32, 6077:16}
 constexpr int kTorqueBytes = 4;     // RPDO1 {6040:16, 6071:16}
 constexpr int kPanelBytes = 1;      // TPDO1 {6000:1}
 constexpr int kHeartbeatBytes = 1;  // {state}
+constexpr int kModeBytes = 1;       // TPDO2 {6061:8}
 constexpr int kSdoBytes = 8;
 
 enum class Stuffing { kNone, kWorst };
@@ -45,7 +46,8 @@ BusLoad frames_of(const BusLayout& layout, int bus) noexcept {
   load.samples_ns = load.joints * longest_frame_ns(kSampleBytes, layout.fd, layout) +
                     (load.panel ? longest_frame_ns(kPanelBytes, layout.fd, layout) : 0);
   load.torques_ns = load.joints * longest_frame_ns(kTorqueBytes, layout.fd, layout);
-  load.blocking_ns = longest_frame_ns(kHeartbeatBytes, false, layout);
+  load.blocking_ns =
+      std::max(longest_frame_ns(kHeartbeatBytes, false, layout), longest_frame_ns(kModeBytes, layout.fd, layout));
   return load;
 }
 
@@ -54,16 +56,17 @@ void judge(const BusLayout& layout, std::int64_t collect_ns, BusLoad& load) noex
   const std::int64_t period_ns = duration_ns(layout.period, 1.0);
   const std::int64_t compute_ns = duration_ns(layout.compute, 1.0);
   const std::int64_t sdo_ns = longest_frame_ns(kSdoBytes, false, layout);
-  const std::int64_t sampled_ns = load.sync_ns + load.samples_ns;
+  const std::int64_t sampled_ns = load.sync_ns + duration_ns(layout.answer, 1.0) + load.samples_ns;
 
   load.end_ns = collect_ns + compute_ns + load.blocking_ns + load.torques_ns;
-  load.slot_ns = sampled_ns + compute_ns + load.torques_ns + sdo_ns;
+  load.slot_ns = collect_ns + compute_ns + sdo_ns + load.torques_ns - load.blocking_ns;
   load.late_ns = std::max<std::int64_t>(0, sdo_ns + sampled_ns - collect_ns);
   load.fits = load.end_ns <= period_ns && load.slot_ns <= period_ns;
 
   const int producers = load.joints + (load.panel ? 1 : 0) + 1;  // of heartbeats; one is the controller
-  load.utilisation = static_cast<double>(sampled_ns + load.torques_ns) * 1e-9 / layout.period +
+  load.utilisation = static_cast<double>(load.sync_ns + load.samples_ns + load.torques_ns) * 1e-9 / layout.period +
                      producers * static_cast<double>(load.blocking_ns) * 1e-9 / layout.drive_heartbeat +
+                     load.joints * static_cast<double>(load.blocking_ns) * 1e-9 / layout.mode_refresh +
                      2.0 * static_cast<double>(sdo_ns) * 1e-9 / (layout.read_back_interval * layout.period);
 }
 
@@ -87,7 +90,9 @@ BusPlan plan_buses(const BusLayout& layout) noexcept {
   for (int bus = 0; bus < layout.bus_count; ++bus) {
     BusLoad& load = plan.buses[static_cast<std::size_t>(bus)];
     load = frames_of(layout, bus);
-    collect_ns = std::max(collect_ns, load.blocking_ns + load.sync_ns + load.samples_ns);
+    // while the drives have not yet answered the wire is idle, and another frame may begin
+    const std::int64_t idle_ns = layout.answer > 0.0 ? duration_ns(layout.answer, 1.0) + load.blocking_ns : 0;
+    collect_ns = std::max(collect_ns, load.blocking_ns + load.sync_ns + idle_ns + load.samples_ns);
   }
 
   std::int64_t last_torque_ns = 0;

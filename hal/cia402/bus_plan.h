@@ -14,9 +14,9 @@ struct BusLoad {
   std::int64_t sync_ns = 0;
   std::int64_t samples_ns = 0;   ///< TPDOs of drives and panel
   std::int64_t torques_ns = 0;   ///< RPDOs
-  std::int64_t blocking_ns = 0;  ///< a heartbeat that is on the wire already: once before SYNC, once before the RPDOs
+  std::int64_t blocking_ns = 0;  ///< a heartbeat or a mode that is on the wire already
   std::int64_t end_ns = 0;       ///< of the last RPDO, from the beginning of the cycle
-  std::int64_t slot_ns = 0;      ///< what a cycle needs into which one SDO frame falls in place of the heartbeats
+  std::int64_t slot_ns = 0;      ///< end of the last RPDO behind an SDO frame, less what the next SYNC may wait for
   std::int64_t late_ns = 0;      ///< by how much that SDO frame may push samples beyond their collection
   double utilisation = 0.0;      ///< share of the time in which the wire is not idle, heartbeats and SDO included
   bool fits = false;             ///< neither `end_ns` nor `slot_ns` is beyond the period
@@ -25,13 +25,16 @@ struct BusLoad {
 /// What the buses carry in a cycle, and when.
 ///
 /// On each bus: SYNC, the TPDOs that answer it, the controller's computing, the RPDOs. The drives sample at the end of
-/// SYNC and apply an RPDO at its end. All samples are collected at one time, that of the slowest bus. Frames of lower
-/// priority, of which there may be any number, cost one frame wherever the wire falls idle: before SYNC and before the
-/// RPDOs. These are heartbeats; of the two frames of an SDO exchange, sent every `read_back_interval` cycles, one falls
-/// into a cycle; where both do, because a drive answers at once, samples of the next cycle may come up to `late_ns` too
-/// late. Assumed: each node sends the most urgent of its frames first. Not counted: the drives' own time to answer a
-/// SYNC, emergency messages (they end in a stop anyway). What a drive takes to act on a torque, and how old its
-/// position is at SYNC, is the layout's `drive_delay`: it counts for the delay, not for the wire.
+/// SYNC, have their TPDOs queued the layout's `answer` later, and apply an RPDO at its end. All samples are collected
+/// at one time, that of the slowest bus. Frames of lower priority, of which there may be any number, cost one frame
+/// wherever the wire falls idle: before SYNC, before the samples if drives take time to answer, and before the RPDOs.
+/// These are heartbeats and modes, TPDO2 {6061}. An SDO exchange comes every `read_back_interval` cycles, when no
+/// heartbeat is near: the request finds the wire idle behind the samples, the answer comes when the drive sends it. Of
+/// the two frames one falls into a cycle: then the last RPDO ends by `slot_ns` and what SYNC may wait for a frame.
+/// Where both do, because a drive answers at once, or where one is on the wire when SYNC is due, samples of the next
+/// cycle may come up to `late_ns` too late. Assumed: each node sends the most urgent of its frames first. Not counted:
+/// emergency messages (they end in a stop anyway). What a drive takes to act on a torque, and how old its position is
+/// at SYNC, is the layout's `drive_delay`: it counts for the delay, not for the wire.
 struct BusPlan {
   std::array<BusLoad, kMaxBuses> buses{};  ///< the first `bus_count`
   BusTiming timing;

@@ -49,16 +49,17 @@ void CanDrives::restart() noexcept {
   power_ = PowerRequest::kOff;
   sync_failed_ = false;
   probe_ = to_heartbeat_ = 0;
+  withheld_ = -1;
 }
 
-BringUpResult CanDrives::bring_up(Clock& clock) noexcept {
+BringUpResult CanDrives::bring_up(Clock& clock, const std::atomic<bool>* end) noexcept {
   std::array<CanBus*, kMaxBuses> wires{};
   std::ranges::transform(buses_, wires.begin(), &Bus::wire);
   restart();
   probe_ = kProbeCycles + 1;
   const BringUpResult result =
-      hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_);
-  anothers_ = result.status == BringUpStatus::kSecondMaster;
+      hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_, end);
+  anothers_ = result.status == BringUpStatus::kSecondMaster || !result.began;
   return result;
 }
 
@@ -99,7 +100,7 @@ void CanDrives::request() noexcept {
     }
     if (!bus.asked && probe_ == 0) sync_failed_ = true;
   }
-  send_heartbeat_or_sdo();
+  if (!(layout_.answer > 0.0)) send_heartbeat_or_sdo();
 }
 
 void CanDrives::receive(JointReading& reading) noexcept {
@@ -107,6 +108,7 @@ void CanDrives::receive(JointReading& reading) noexcept {
   check_health();
   for (int i = 0; i < layout_.joint_count; ++i) close_joint(i);
   if (layout_.panel.bus >= 0) close_panel();
+  if (layout_.answer > 0.0) send_heartbeat_or_sdo();
   reading_.alarm = alarm_.first().alarm;
   reading_.alarm_joint = alarm_.first().joint;
   reading = reading_;
@@ -159,6 +161,7 @@ void CanDrives::take(int bus, const ReceivedFrame& received) noexcept {
     return node == 0 ? -1 : stations_.at(bus, node);
   };
   if (const int i = station(kCobTpdo1); i >= 0) return take_sample(bus, i, received);
+  if (const int i = joint_of(station(kCobTpdo2)); i >= 0) return take_mode(i, frame);
   if (const int i = station(kCobEmergency); i >= 0) return take_emergency(bus, i, frame);
   if (const int i = station(kCobHeartbeat); i >= 0) return take_heartbeat(bus, i, frame);
   if (station(kCobSdoResponse) >= 0) {
@@ -218,6 +221,15 @@ void CanDrives::take_sample(int b, int station, const ReceivedFrame& received) n
   bus.sample_ns = received.time_ns;
 }
 
+/// Whenever it comes: a drive tells of its mode when it changes.
+void CanDrives::take_mode(int i, const CanFrame& frame) noexcept {
+  if (frame.length != 1) {
+    ++statistics_.malformed;
+    return;
+  }
+  joint(i).mode = static_cast<std::int8_t>(frame.data[0]);
+}
+
 void CanDrives::take_emergency(int bus, int station, const CanFrame& frame) noexcept {
   Emergency emergency;
   if (parse_emergency(frame, emergency) && is_warning(emergency.code)) {
@@ -268,6 +280,14 @@ void CanDrives::close_joint(int i) noexcept {
     alarm_.raise(detail);
   };
   if (drive.channel.left_torque_mode()) raise(Alarm::kWrongMode);
+  if (drive.mode != kModeTorque) {
+    AlarmDetail detail = of_joint;
+    detail.alarm = Alarm::kWrongMode;
+    detail.index = kModeDisplay;
+    detail.expected = static_cast<std::uint32_t>(kModeTorque);
+    detail.found = static_cast<std::uint32_t>(drive.mode);
+    alarm_.raise(detail);
+  }
   drive.silent = std::min(drive.silent + 1, timeout_cycles_ + 2);
   if (drive.silent > timeout_cycles_ + 1) raise(Alarm::kHeartbeatLost);
 }
@@ -275,11 +295,12 @@ void CanDrives::close_joint(int i) noexcept {
 void CanDrives::close_panel() noexcept {
   if (panel_.fresh) {
     panel_.lost = 0;
+    panel_.seen = true;
   } else if (probe_ == 0) {
     panel_.lost = std::min(panel_.lost + 1, kMostPanelLost);
     if (panel_.lost == kMostPanelLost) {
       panel_.inputs = 0;
-      alarm_.raise({.alarm = Alarm::kPanelLost, .bus = layout_.panel.bus});
+      alarm_.raise({.alarm = panel_.seen ? Alarm::kPanelLost : Alarm::kPanelSilent, .bus = layout_.panel.bus});
     }
   }
   panel_.fresh = false;
@@ -299,6 +320,7 @@ bool CanDrives::send(const JointCommand& command) noexcept {
   power_ = command.power;
   bool all_sent = !sync_failed_;
   for (int i = 0; i < layout_.joint_count; ++i) {
+    if (i == withheld_ && command.power == PowerRequest::kOff) continue;
     CanFrame rpdo;
     const bool finite = joint(i).channel.command(command.power, command.torque[i], rpdo);
     // behind a SYNC that is still in the queue it would come late, and after a stall many at once
@@ -319,7 +341,8 @@ bool CanDrives::heartbeat_is_near(int bus) const noexcept {
   return layout_.panel.bus == bus && is_near(panel_.silent);
 }
 
-/// Right behind SYNC: the samples go first, and the wire is idle between them and the torques.
+/// Between the samples and the torques, while these are computed, the wire is idle. Right behind SYNC if the drives
+/// answer at once: the samples go first. Else once they are collected, since they would find the wire taken.
 void CanDrives::send_heartbeat_or_sdo() noexcept {
   const bool heartbeat = --to_heartbeat_ <= 0;
   if (heartbeat) to_heartbeat_ = heartbeat_cycles_;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "hal/can_bus.h"
+#include "hal/canopen/object_numbers.h"
 #include "hal/cia402/alarm_latch.h"
 #include "hal/cia402/bring_up.h"
 #include "hal/cia402/bus_layout.h"
@@ -21,11 +23,12 @@ namespace godobject::hal {
 
 /// CiA 402 drives in cyclic synchronous torque over one or several CANopen buses, and the operator's panel.
 ///
-/// A cycle. `request` sends SYNC, the first frame on each bus, and behind it every `drive_heartbeat` the controller's
-/// heartbeat, or else, every `read_back_interval` cycles or some more, when no node's heartbeat is near, one SDO
-/// request: they get the wire between samples and torques. `receive` takes what has come, at most kMostFrames a bus: a
-/// sample belongs to this cycle if and only if it comes after the own echo of this cycle's SYNC; what comes before it
-/// is late and used by nobody. `send` sends RPDO1 to each joint.
+/// A cycle. `request` sends SYNC, the first frame on each bus. `receive` takes what has come, at most kMostFrames a
+/// bus: a sample belongs to this cycle if and only if it comes after the own echo of this cycle's SYNC; what comes
+/// before it is late and used by nobody. `send` sends RPDO1 to each joint. The controller's heartbeat every
+/// `drive_heartbeat`, or else, every `read_back_interval` cycles or some more, when no node's heartbeat is near, one
+/// SDO request, get the wire between samples and torques: they are handed over behind SYNC, or behind the collection if
+/// the drives' `answer` leaves the wire idle before. A mode, TPDO2, counts whenever it comes.
 ///
 /// Nothing is queued for later: on a bus on which the last SYNC has not come back neither torques nor another SYNC are
 /// handed over, for kHeldCycles; then what is missing is given up, and a new SYNC tries.
@@ -64,9 +67,10 @@ class CanDrives final : public JointDrives {
   static void operator delete(void*) noexcept {}
 
   /// Starts all nodes, see `hal::bring_up`, and begins anew with what is known of them.
-  BringUpResult bring_up(Clock& clock) noexcept;
+  BringUpResult bring_up(Clock& clock, const std::atomic<bool>* end = nullptr) noexcept;
 
-  /// Sends NMT stop to all nodes: the end. Not to those of a second master, for which the start was refused.
+  /// Sends NMT stop to all nodes: the end. Not to those of a second master, for which the start was refused, nor if the
+  /// last start has not got as far as sending.
   void stop_nodes() noexcept;
 
   int joint_count() const noexcept override { return layout_.joint_count; }
@@ -75,6 +79,10 @@ class CanDrives final : public JointDrives {
   void receive(JointReading& reading) noexcept override;
   bool send(const JointCommand& command) noexcept override;
   double delay() const noexcept override { return timing_.delay_s; }
+
+  /// Leaves out the RPDOs to a joint while no power is asked for, so that its deadline can be seen to run out; -1: to
+  /// none.
+  void withhold(int joint) noexcept { withheld_ = joint; }
 
   const CanStatistics& statistics() const noexcept { return statistics_; }
   const cia402::AlarmDetail& alarm_detail() const noexcept { return alarm_.first(); }
@@ -97,9 +105,11 @@ class CanDrives final : public JointDrives {
     std::uint32_t age = 0;
     int bad_frames = 0;  // in a row
     int silent = 0;      // cycles since its heartbeat
+    std::int8_t mode = canopen::kModeTorque;
   };
   struct Panel {
     bool fresh = false;
+    bool seen = false;  // since the start
     int lost = 0;
     int silent = 0;  // cycles since its heartbeat
     std::uint8_t inputs = 0;
@@ -114,6 +124,7 @@ class CanDrives final : public JointDrives {
   void take(int bus, const ReceivedFrame& received) noexcept;
   void take_foreign_master(int bus, const CanFrame& frame) noexcept;
   void take_sample(int bus, int station, const ReceivedFrame& received) noexcept;
+  void take_mode(int joint, const CanFrame& frame) noexcept;
   void take_emergency(int bus, int station, const CanFrame& frame) noexcept;
   void take_heartbeat(int bus, int station, const CanFrame& frame) noexcept;
   void close_joint(int i) noexcept;
@@ -137,9 +148,10 @@ class CanDrives final : public JointDrives {
   CanStatistics statistics_;
   PowerRequest power_ = PowerRequest::kOff;
   bool sync_failed_ = false;
-  bool anothers_ = false;  // the nodes obey a second master
-  int probe_ = 0;          // cycles of it still to come
-  int to_heartbeat_ = 0;   // cycles
+  bool anothers_ = false;  // the nodes obey a second master, or may do so
+  int withheld_ = -1;
+  int probe_ = 0;         // cycles of it still to come
+  int to_heartbeat_ = 0;  // cycles
 };
 
 }  // namespace godobject::hal

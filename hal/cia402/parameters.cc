@@ -34,13 +34,13 @@ void expect(ParameterSteps& steps, std::uint16_t index, std::uint8_t subindex, i
   steps.add({Kind::kExpect, index, subindex, size, value, mask});
 }
 
-/// One PDO: invalid, empty, entries, their number, type, valid.
+/// One PDO: invalid, empty, entries, their number, type, timers, valid.
 struct Pdo {
   std::uint16_t communication;
   std::uint16_t mapping;
   std::uint16_t cob;
   std::uint8_t type;
-  std::uint32_t deadline_ms;  // 0: none
+  std::uint32_t event_timer_ms;  // of an RPDO its deadline, of a TPDO its refresh; 0: none
   std::span<const std::uint32_t> entries;
 };
 
@@ -52,7 +52,10 @@ void map_pdo(ParameterSteps& steps, const Pdo& pdo) noexcept {
   }
   write(steps, pdo.mapping, 0, 1, static_cast<std::uint32_t>(pdo.entries.size()));
   write(steps, pdo.communication, 2, 1, pdo.type);
-  if (pdo.deadline_ms > 0) write(steps, pdo.communication, 5, 2, pdo.deadline_ms);
+  // no change waits for the one before: the inhibit time
+  const bool by_change = pdo.communication >= kTpdo1Communication && pdo.type == kPdoAtOnce;
+  if (by_change) steps.add({Kind::kWriteIfThere, pdo.communication, 3, 2, 0});
+  if (pdo.event_timer_ms > 0) write(steps, pdo.communication, 5, 2, pdo.event_timer_ms);
   write(steps, pdo.communication, 1, 4, pdo.cob);
 }
 
@@ -78,6 +81,11 @@ void set_interpolation_period(ParameterSteps& steps, double period) noexcept {
   steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 2, 1, static_cast<std::uint32_t>(exponent)});
 }
 
+/// That the controller asks for, in permille of the rated torque.
+std::uint32_t greatest_torque(const DriveConfig& drive) noexcept {
+  return scaled(drive.torque_limit, 1e-3 * std::fabs(drive.gear) * drive.rated_torque);
+}
+
 std::uint32_t watched_node(const BusLayout& layout) noexcept {
   return static_cast<std::uint32_t>(kControllerNode) << 16 | scaled(layout.heartbeat_timeout, 1e-3);
 }
@@ -86,6 +94,7 @@ std::uint32_t watched_node(const BusLayout& layout) noexcept {
 
 bool ParameterStep::accepts(std::uint32_t found) const noexcept {
   const std::uint32_t masked = found & mask;
+  if (or_more && masked > value) return true;
   return (masked > value ? masked - value : value - masked) <= tolerance;
 }
 
@@ -101,12 +110,18 @@ void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSte
   expect(steps, kSyncCob, 0, 4, kCobSync, kSyncMask);
   steps.add({Kind::kWriteIfThere, kSyncPeriod, 0, 4, scaled(layout.period, 1e-6)});
   steps.add({Kind::kExpectIfThere, kEmergencyCob, 0, 4, cob(kCobEmergency, drive.node), kPdoCobMask});
+  steps.add({Kind::kExpectIfThere, kSyncOverflow, 0, 1, 0});  // else SYNC had to have a counter
   steps.add({Kind::kExpectIfThere, kPolarity, 0, 1, 0});
+  for (const Object limit : {kMaxTorque, kPositiveTorqueLimit, kNegativeTorqueLimit}) {
+    steps.add(
+        {.kind = Kind::kExpectIfThere, .index = limit, .size = 2, .value = greatest_torque(drive), .or_more = true});
+  }
+  steps.add({.kind = Kind::kExpect, .index = kQuickStopDeceleration, .size = 4, .value = 1, .or_more = true});
   for (std::uint16_t i = kRpdo1Communication + 1; i <= kRpdoCommunicationLast; ++i) {
     const auto base = static_cast<std::uint32_t>(kCobRpdo1 + 0x100 * (i - kRpdo1Communication));
     steps.add({Kind::kWriteIfThere, i, 1, 4, kPdoInvalid | (base + static_cast<std::uint32_t>(drive.node))});
   }
-  for (std::uint16_t i = kTpdo1Communication + 1; i <= kTpdoCommunicationLast; ++i) {
+  for (std::uint16_t i = kTpdo2Communication + 1; i <= kTpdoCommunicationLast; ++i) {
     const auto base = static_cast<std::uint32_t>(kCobTpdo1 + 0x100 * (i - kTpdo1Communication));
     steps.add({Kind::kWriteIfThere, i, 1, 4, kPdoInvalid | (base + static_cast<std::uint32_t>(drive.node))});
   }
@@ -121,8 +136,16 @@ void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSte
                  scaled(layout.command_deadline, 1e-3),
                  command};
   const Pdo tpdo{kTpdo1Communication, kTpdo1Mapping, cob(kCobTpdo1, drive.node), kPdoEverySync, 0, sample};
+  const std::array<std::uint32_t, 1> mode = {pdo_entry(kModeDisplay, 0, 8)};
+  const Pdo of_mode{kTpdo2Communication,
+                    kTpdo2Mapping,
+                    cob(kCobTpdo2, drive.node),
+                    kPdoAtOnce,
+                    scaled(layout.mode_refresh, 1e-3),
+                    mode};
   map_pdo(steps, rpdo);
   map_pdo(steps, tpdo);
+  map_pdo(steps, of_mode);
   write(steps, kConsumerHeartbeat, 1, 4, watched_node(layout));
   write(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
   write(steps, kErrorBehaviour, 1, 1, kNoChange);
@@ -134,6 +157,7 @@ void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSte
 
   read_back(steps, rpdo);
   read_back(steps, tpdo);
+  read_back(steps, of_mode);
   expect(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
   expect(steps, kErrorBehaviour, 1, 1, kNoChange);
   expect(steps, kFaultReactionOption, 0, 2, kQuickStopRamp);
@@ -144,11 +168,16 @@ void panel_steps(const BusLayout& layout, ParameterSteps& steps) noexcept {
   expect(steps, kDeviceType, 0, 4, kDigitalInputModule & kInputsMask, kInputsMask);
   expect(steps, kDigitalInputs8, 1, 1, 0, 0);
   expect(steps, kSyncCob, 0, 4, kCobSync, kSyncMask);
+  steps.add({Kind::kExpectIfThere, kSyncOverflow, 0, 1, 0});
+  steps.add({Kind::kExpectIfThere, kInputPolarity8, 1, 1, 0});
   const std::array<std::uint32_t, 1> inputs = {pdo_entry(kDigitalInputs8, 1, 8)};
   const Pdo tpdo{kTpdo1Communication, kTpdo1Mapping, cob(kCobTpdo1, layout.panel.node), kPdoEverySync, 0, inputs};
   map_pdo(steps, tpdo);
+  steps.add({Kind::kWriteIfThere, kConsumerHeartbeat, 1, 4, watched_node(layout)});
   write(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
   read_back(steps, tpdo);
+  steps.add({Kind::kExpectIfThere, kConsumerHeartbeat, 1, 4, watched_node(layout)});
+  expect(steps, kProducerHeartbeat, 0, 2, scaled(layout.drive_heartbeat, 1e-3));
 }
 
 std::array<ParameterStep, kWatchedCount> watched_parameters(const BusLayout& layout) noexcept {

@@ -25,6 +25,7 @@ struct ParameterStep {
   std::uint32_t value = 0;
   std::uint32_t mask = 0xFFFFFFFF;  ///< which bits matter of what is read
   std::uint32_t tolerance = 0;      ///< by which what is read may differ
+  bool or_more = false;             ///< what is read may be greater
 
   bool accepts(std::uint32_t found) const noexcept;
 };
@@ -32,7 +33,7 @@ struct ParameterStep {
 /// Steps in the order in which they are to be done.
 class ParameterSteps {
  public:
-  static constexpr std::size_t kCapacity = 80;
+  static constexpr std::size_t kCapacity = 112;
 
   void add(const ParameterStep& step) noexcept {
     assert(count_ < kCapacity);
@@ -46,12 +47,15 @@ class ParameterSteps {
 };
 
 /// What a drive must be and is set to before it is started, in the order that CiA 301 wants. Identity and abilities;
-/// RPDO1 {6040, 6071} applied at once, with the deadline; TPDO1 {6041, 6064, 6077} on each SYNC, no other TPDO;
-/// heartbeats both ways; cyclic synchronous torque; a lost controller or a quick stop brings the joint to rest by the
-/// drive's own ramp and then takes power away. Ends with reading back what was written.
+/// limits of its torque (6072, 60E0, 60E1) no lower than the joint's, which it would cut without a word; a quick-stop
+/// ramp (6085), without which there is no quick stop;
+/// RPDO1 {6040, 6071} applied at once, with the deadline; TPDO1 {6041, 6064, 6077} on each SYNC, TPDO2 {6061} when it
+/// changes, no other TPDO; heartbeats both ways; cyclic synchronous torque; a lost controller or a quick stop brings
+/// the joint to rest by the drive's own ramp and then takes power away. Ends with reading back what was written.
 void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSteps& steps) noexcept;
 
-/// The same for the operator's panel: TPDO1 {6000:1} on each SYNC, a heartbeat.
+/// The same for the operator's panel: inputs that are not turned round (6002), TPDO1 {6000:1} on each SYNC, heartbeats
+/// both ways.
 void panel_steps(const BusLayout& layout, ParameterSteps& steps) noexcept;
 
 inline constexpr int kWatchedCount = 6;

@@ -150,11 +150,12 @@ SendResult SocketCan::send(const CanFrame& frame) noexcept {
 }
 
 bool SocketCan::receive(ReceivedFrame& received) noexcept {
-  for (int left_out = 0; left_out < kMostLeftOut; ++left_out) {
-    if (taken_ == fetched_ && !fetch()) return false;
+  for (; left_out_ < kMostLeftOut; ++left_out_) {
+    if (taken_ == fetched_ && !fetch()) break;
     const std::size_t i = taken_++;
     if (take(messages_[i], frames_[i], received)) return true;
   }
+  left_out_ = 0;  // until the next time that all is taken
   return false;
 }
 

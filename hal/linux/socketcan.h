@@ -43,7 +43,8 @@ struct OpenResult {
 /// wire. Extended and remote frames and impossible lengths are counted and left out; error frames become health.
 ///
 /// An interface that goes down and a controller that leaves the bus stay so in `health` until it is opened anew: what
-/// was lost meanwhile nobody knows. Cost: of the system calls; at most 64 frames that are left out in one `receive`.
+/// was lost meanwhile nobody knows. Cost: of the system calls; at most 64 frames are left out until `receive` has been
+/// false, which it then is whether there are more or not.
 class SocketCan final : public CanBus {
  public:
   SocketCan() noexcept = default;
@@ -79,6 +80,7 @@ class SocketCan final : public CanBus {
   std::uint32_t drop_counter_ = 0;  // the kernel's last, of 32 bit
   std::size_t fetched_ = 0;
   std::size_t taken_ = 0;
+  int left_out_ = 0;  // since all that there was has been taken
   std::array<canfd_frame, kBatch> frames_{};
   std::array<iovec, kBatch> vectors_{};
   std::array<mmsghdr, kBatch> messages_{};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cmath>
 #include <string>
 
 #include "hal/cia402/parameters.h"
@@ -22,7 +24,7 @@ class BringUpTest : public testing::Test {
     layout_.bus_count = 2;
     layout_.joint_count = 3;
     layout_.drives[0] = {.bus = 0, .node = 1, .rated_torque = 20.0};
-    layout_.drives[1] = {.bus = 1, .node = 1, .rated_torque = 1.5};
+    layout_.drives[1] = {.bus = 1, .node = 1, .rated_torque = 1.5, .torque_limit = 1.5};
     layout_.drives[2] = {.bus = 0, .node = 2, .rated_torque = 0.25};
     layout_.panel = {.bus = 1, .node = 32};
   }
@@ -64,14 +66,15 @@ TEST_F(BringUpTest, WritesTheObjectsInTheOrderOfTheStandard) {
   using Write = std::pair<std::pair<int, int>, std::uint32_t>;
   const std::vector<Write> expected = {
       {{0x1400, 1}, 0x80000202},  // invalid
-      {{0x1600, 0}, 0},          {{0x1600, 1}, 0x60400010}, {{0x1600, 2}, 0x60710010},
-      {{0x1600, 0}, 2},          {{0x1400, 2}, 255},        {{0x1400, 5}, 4},
-      {{0x1400, 1}, 0x202},      {{0x1800, 1}, 0x80000182}, {{0x1A00, 0}, 0},
-      {{0x1A00, 1}, 0x60410010}, {{0x1A00, 2}, 0x60640020}, {{0x1A00, 3}, 0x60770010},
-      {{0x1A00, 0}, 3},          {{0x1800, 2}, 1},          {{0x1800, 1}, 0x182},
-      {{0x1016, 1}, 0x007F0032},  // node 127, 50 ms
-      {{0x1017, 0}, 20},         {{0x1029, 1}, 1},          {{0x6007, 0}, 3},
-      {{0x605A, 0}, 2},          {{0x605E, 0}, 2},          {{0x6060, 0}, 10},
+      {{0x1600, 0}, 0},          {{0x1600, 1}, 0x60400010}, {{0x1600, 2}, 0x60710010}, {{0x1600, 0}, 2},
+      {{0x1400, 2}, 255},        {{0x1400, 5}, 4},          {{0x1400, 1}, 0x202},      {{0x1800, 1}, 0x80000182},
+      {{0x1A00, 0}, 0},          {{0x1A00, 1}, 0x60410010}, {{0x1A00, 2}, 0x60640020}, {{0x1A00, 3}, 0x60770010},
+      {{0x1A00, 0}, 3},          {{0x1800, 2}, 1},          {{0x1800, 1}, 0x182},      {{0x1801, 1}, 0x80000282},
+      {{0x1A01, 0}, 0},          {{0x1A01, 1}, 0x60610008}, {{0x1A01, 0}, 1},          {{0x1801, 2}, 255},
+      {{0x1801, 5}, 1000},                                   // ms
+      {{0x1801, 1}, 0x282},      {{0x1016, 1}, 0x007F0032},  // node 127, 50 ms
+      {{0x1017, 0}, 20},         {{0x1029, 1}, 1},          {{0x6007, 0}, 3},          {{0x605A, 0}, 2},
+      {{0x605E, 0}, 2},          {{0x6060, 0}, 10},
   };
   EXPECT_EQ(joint_2_.writes, expected);
   const std::vector<Write> panel = {{{0x1800, 1}, 0x800001A0}, {{0x1A00, 0}, 0}, {{0x1A00, 1}, 0x60000108},
@@ -82,12 +85,14 @@ TEST_F(BringUpTest, WritesTheObjectsInTheOrderOfTheStandard) {
 
 TEST_F(BringUpTest, WritesWhatOnlySomeDrivesHave) {
   joint_0_.objects[{0x1006, 0}] = {4, 0};
-  joint_0_.objects[{0x1801, 1}] = {4, 0x281};
+  joint_0_.objects[{0x1801, 3}] = {2, 50};
+  joint_0_.objects[{0x1802, 1}] = {4, 0x381};
   joint_0_.objects[{0x60C2, 1}] = {1, 0};
   joint_0_.objects[{0x60C2, 2}] = {1, 0};
   ASSERT_EQ(start().status, BringUpStatus::kOk);
   EXPECT_EQ(joint_0_.object(0x1006, 0).value, 1000u);
-  EXPECT_EQ(joint_0_.object(0x1801, 1).value, 0x80000281u);
+  EXPECT_EQ(joint_0_.object(0x1801, 3).value, 0u);  // a change is told at once
+  EXPECT_EQ(joint_0_.object(0x1802, 1).value, 0x80000381u);
   EXPECT_EQ(joint_0_.object(0x60C2, 1).value, 1u);
   EXPECT_EQ(joint_0_.object(0x60C2, 2).value, 0xFDu);  // 10^-3
 }
@@ -173,6 +178,21 @@ TEST_F(BringUpTest, NamesTheNodeThatDoesNotStart) {
   EXPECT_EQ(result.found, 0x7Fu);
 }
 
+TEST_F(BringUpTest, WaitsForADriveThatTellsItsModeByItsTimerOnly) {
+  joint_1_.first_mode_ns = kSecond_ns;
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
+  EXPECT_GT(world_.now_ns(), kSecond_ns);
+}
+
+TEST_F(BringUpTest, NamesTheDriveThatDoesNotTellItsMode) {
+  joint_1_.tells_mode = false;
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kModeNotTold);
+  EXPECT_EQ(result.bus, 1);
+  EXPECT_EQ(result.joint, 1);
+  EXPECT_EQ(result.index, 0x6061);
+}
+
 /// What is wrong in joint 1's drive, and what the result must then say.
 struct WrongObject {
   int index;
@@ -198,6 +218,8 @@ TEST_F(BringUpTest, NamesTheObjectThatIsNotAsItMustBe) {
       {0x1400, 2, {1, 1, true}, Status::kWrongValue, 255, 1},
       {0x1800, 1, {4, 0x80000181, true}, Status::kWrongValue, 0x181, 0x80000181},
       {0x1A00, 2, {4, 0x606C0020, true}, Status::kWrongValue, 0x60640020, 0x606C0020},
+      {0x1801, 2, {1, 254, true}, Status::kWrongValue, 255, 254},
+      {0x1A01, 1, {4, 0x60600008, true}, Status::kWrongValue, 0x60610008, 0x60600008},
       {0x1016, 1, {4, 0, true}, Status::kWrongValue, 0x007F0032, 0},
       {0x6007, 0, {2, 0, true}, Status::kWrongValue, 3, 0},
       {0x605A, 0, {2, 6, true}, Status::kWrongValue, 2, 6},
@@ -219,6 +241,102 @@ TEST_F(BringUpTest, NamesTheObjectThatIsNotAsItMustBe) {
     EXPECT_NE(std::string(describe(result.status)).find(';'), std::string::npos);
   }
   EXPECT_TRUE(sent_no_command());
+}
+
+TEST_F(BringUpTest, RefusesADriveThatGivesLessTorqueThanItsJointMayTake) {
+  layout_.drives[1].gear = 20.0;
+  layout_.drives[1].torque_limit = 45.0;  // of 30 Nm rated: 1500 permille
+  for (const int limit : {0x6072, 0x60E0, 0x60E1}) {
+    for (const std::uint32_t permille : {1499u, 1500u, 0xFFFFu}) {
+      joint_1_ = scripted_drive(1, 1500);
+      joint_1_.objects[{limit, 0}] = {2, permille};
+      const BringUpResult result = start();
+      SCOPED_TRACE(testing::Message() << std::hex << limit << ' ' << permille);
+      if (permille >= 1500) {
+        EXPECT_EQ(result.status, BringUpStatus::kOk);
+        continue;
+      }
+      EXPECT_EQ(result.status, BringUpStatus::kTooLow);
+      EXPECT_EQ(result.joint, 1);
+      EXPECT_EQ(result.index, limit);
+      EXPECT_EQ(result.expected, 1500u);
+      EXPECT_EQ(result.found, 1499u);
+    }
+  }
+}
+
+TEST_F(BringUpTest, RefusesAQuickStopWithoutARamp) {
+  joint_1_.object(0x6085, 0).value = 0;
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kTooLow);
+  EXPECT_EQ(result.index, 0x6085);
+}
+
+TEST_F(BringUpTest, ComparesEncoderAndGearWithTheLayoutAsFarAsADriveHasThem) {
+  layout_.drives[1].counts = 1 << 16;
+  layout_.drives[1].gear = 12.5;
+  struct Row {
+    int index;
+    std::uint32_t over;
+    std::uint32_t under;
+    double found;  // 0: good
+    double expected = 0.0;
+  };
+  for (const Row& row :
+       {Row{0x608F, 65536, 1, 0.0}, Row{0x608F, 131072, 2, 0.0}, Row{0x608F, 262144, 1, 262144.0, 65536.0},
+        Row{0x6091, 25, 2, 0.0}, Row{0x6091, 1, 1, 0.0}, Row{0x6091, 25, 1, 25.0, 12.5}, Row{0x6091, 2, 25, 0.08, 12.5},
+        Row{0x6091, 5, 0, HUGE_VAL, 12.5}}) {
+    joint_1_ = scripted_drive(1, 1500);
+    joint_1_.objects[{row.index, 1}] = {4, row.over};
+    joint_1_.objects[{row.index, 2}] = {4, row.under};
+    const BringUpResult result = start();
+    SCOPED_TRACE(testing::Message() << std::hex << row.index << std::dec << ' ' << row.over << '/' << row.under);
+    EXPECT_EQ(result.status, row.found == 0.0 ? BringUpStatus::kOk : BringUpStatus::kWrongRatio);
+    if (row.found == 0.0) continue;
+    EXPECT_EQ(result.joint, 1);
+    EXPECT_EQ(result.index, row.index);
+    EXPECT_EQ(result.ratio_expected, row.expected);
+    EXPECT_EQ(result.ratio_found, row.found);
+  }
+}
+
+TEST_F(BringUpTest, RefusesASyncCounterAndInputsThatAreTurnedRound) {
+  for (ScriptedNode* node : {&joint_0_, &panel_}) {
+    node->objects[{0x1019, 0}] = {1, 2};
+    const BringUpResult result = start();
+    EXPECT_EQ(result.status, BringUpStatus::kWrongValue);
+    EXPECT_EQ(result.index, 0x1019);
+    node->objects[{0x1019, 0}].value = 0;
+  }
+  panel_.objects[{0x6002, 1}] = {1, 0x01};
+  const BringUpResult result = start();
+  EXPECT_EQ(result.status, BringUpStatus::kWrongValue);
+  EXPECT_EQ(result.index, 0x6002);
+  EXPECT_EQ(result.node, 32);
+}
+
+TEST_F(BringUpTest, ThePanelWatchesTheControllerIfItCan) {
+  panel_.objects[{0x1016, 1}] = {4, 0};
+  ASSERT_EQ(start().status, BringUpStatus::kOk);
+  EXPECT_EQ(panel_.object(0x1016, 1).value, 0x007F0032u);
+}
+
+/// While it listens, waits for a boot-up, writes objects and waits for the nodes to start.
+TEST_F(BringUpTest, EndsAtOnceWhenItIsAskedTo) {
+  joint_1_.boot_delay_ns = 200'000'000;
+  joint_2_.starts = false;
+  for (const std::int64_t at_ns : {0LL, 50'000'000LL, 99'000'000LL, 150'000'000LL, 400'000'000LL, 700'000'000LL}) {
+    std::atomic<bool> end{at_ns == 0};
+    const std::int64_t begin_ns = world_.now_ns();
+    world_.log.clear();
+    world_.each_sleep = [&] { end = world_.now_ns() - begin_ns >= at_ns; };
+    const BringUpResult result = bring_up(layout_, wires_, world_, nullptr, &end);
+    EXPECT_EQ(result.status, BringUpStatus::kEnded) << at_ns;
+    EXPECT_EQ(result.began, at_ns > 100'000'000) << at_ns;
+    EXPECT_EQ(world_.log.empty(), !result.began) << at_ns;
+    EXPECT_LE(world_.now_ns() - begin_ns - at_ns, 1'000'000) << at_ns;
+    EXPECT_TRUE(sent_no_command());
+  }
 }
 
 TEST_F(BringUpTest, TakesARatedTorqueWithinOnePercent) {

@@ -168,10 +168,10 @@ TEST(BusPlan, ThreeJointsFitExactly) {
   EXPECT_EQ(load.blocking_ns, 65'000);
   EXPECT_EQ(plan.timing.collect_ns, 525'000);       // 65 + 55 + 405
   EXPECT_EQ(load.end_ns, 995'000);                  // + 120 + 65 + 285
-  EXPECT_EQ(load.slot_ns, 1'000'000);               // 745 + 120 + 135
+  EXPECT_EQ(load.slot_ns, 1'000'000);               // 525 + 120 + 135 + 285 - 65
   EXPECT_EQ(load.late_ns, 70'000);                  // an SDO frame before SYNC is 70 longer than a heartbeat
   EXPECT_NEAR(plan.timing.delay_s, 948e-6, 1e-12);  // 995 - 47
-  EXPECT_NEAR(load.utilisation, 0.745 + 4 * 65 / 20e3 + 270 / 50e3, 1e-12);
+  EXPECT_NEAR(load.utilisation, 0.745 + 4 * 65 / 20e3 + 3 * 65 / 1000e3 + 270 / 50e3, 1e-12);
   EXPECT_TRUE(plan.fits);
 
   BusLayout slower = layout_of({3});
@@ -188,7 +188,7 @@ TEST(BusPlan, SevenJointsFitOnThreeBuses) {
   EXPECT_EQ(plan.buses[1].end_ns, 900'000);  // collected with the others
   EXPECT_EQ(plan.buses[1].late_ns, 0);
   EXPECT_EQ(plan.buses[2].samples_ns, (2 * 135 + 65) * 1000);
-  EXPECT_EQ(plan.buses[2].slot_ns, (515 + 65 + 120 + 135) * 1000);
+  EXPECT_EQ(plan.buses[2].slot_ns, (525 + 120 + 135 + 190 - 65) * 1000);
   EXPECT_EQ(plan.timing.collect_ns, 525'000);
 }
 
@@ -201,6 +201,26 @@ TEST(BusPlan, AddsTheDrivesOwnDelayToThatOfTheWireOnly) {
   EXPECT_EQ(plan.buses[0].end_ns, 995'000);
   EXPECT_EQ(plan.unblocked_ns[2], plan_buses(layout_of({3})).unblocked_ns[2]) << "of the wire";
   EXPECT_TRUE(plan.fits);
+}
+
+TEST(BusPlan, CountsTheTimeInWhichDrivesAnswer) {
+  BusLayout layout = layout_of({2});
+  const BusPlan at_once = plan_buses(layout);
+  layout.answer = 150e-6;
+  const BusPlan plan = plan_buses(layout);
+  EXPECT_EQ(plan.timing.collect_ns, (65 + 55 + 150 + 65 + 270) * 1000);  // a frame may begin in the idle time
+  EXPECT_EQ(plan.buses[0].end_ns, (605 + 120 + 65 + 190) * 1000);
+  EXPECT_EQ(plan.buses[0].slot_ns, (605 + 120 + 135 + 190 - 65) * 1000);
+  EXPECT_EQ(plan.buses[0].late_ns, (135 + 55 + 150 + 270 - 605) * 1000);
+  EXPECT_NEAR(plan.timing.delay_s - at_once.timing.delay_s, 215e-6, 1e-12);
+  EXPECT_EQ(plan.unblocked_ns[0] - at_once.unblocked_ns[0], 215'000);
+  EXPECT_EQ(plan.buses[0].utilisation, at_once.buses[0].utilisation) << "an idle wire";
+  EXPECT_TRUE(plan.fits);
+  layout.answer = 171e-6;  // 605 + 21 + 120 + 65 + 190 = 1001
+  EXPECT_FALSE(plan_buses(layout).fits);
+  BusLayout three = layout_of({3});
+  three.answer = 1e-6;
+  EXPECT_FALSE(plan_buses(three).fits) << "there is no room for any";
 }
 
 TEST(BusPlan, RefusesWhatDoesNotFit) {
@@ -289,7 +309,9 @@ TEST(BusPlan, HoldsOnAWireWithHeartbeatsAtAnyTime) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 60; ++trial) {
     const int joints = 1 + trial % 3;
-    const BusLayout layout = layout_of({joints});
+    BusLayout layout = layout_of({joints});
+    if (joints < 3 && trial % 2 == 1) layout.answer = 160e-6;  // some drives answer at once, some as late as they may
+    const auto answer_ns = std::llround(1e9 * layout.answer);
     const BusPlan plan = plan_buses(layout);
     ASSERT_TRUE(plan.fits);
     std::vector<Waiting> frames;
@@ -298,6 +320,10 @@ TEST(BusPlan, HoldsOnAWireWithHeartbeatsAtAnyTime) {
     for (int node = 0; node <= joints; ++node) {
       for (auto at = static_cast<std::int64_t>(random() % 20'000'000); at < kCycles * 1'000'000; at += 20'000'000) {
         frames.push_back({at, 0x700 + node, 65'000, -1});
+      }
+      for (auto at = static_cast<std::int64_t>(random() % 1'000'000'000); node > 0 && at < kCycles * 1'000'000;
+           at += 1'000'000'000) {
+        frames.push_back({at, 0x280 + node, 65'000, -1});
       }
     }
     // samples are ready when SYNC has ended: a first pass gives those ends
@@ -308,7 +334,8 @@ TEST(BusPlan, HoldsOnAWireWithHeartbeatsAtAnyTime) {
       sync_end[static_cast<std::size_t>(k)] = run_wire(so_far).back();
       frames.push_back(so_far.back());
       for (int j = 0; j < joints; ++j) {
-        frames.push_back({sync_end[static_cast<std::size_t>(k)], 0x181 + j, 135'000, k});
+        const std::int64_t takes_ns = random() % 2 == 0 ? answer_ns : 0;
+        frames.push_back({sync_end[static_cast<std::size_t>(k)] + takes_ns, 0x181 + j, 135'000, k});
         frames.push_back({begin + plan.timing.collect_ns + 120'000, 0x201 + j, 95'000, k});
       }
     }

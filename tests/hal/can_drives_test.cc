@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -124,6 +125,28 @@ TEST_F(CanDrivesTest, SyncIsTheFirstFrameAndThenOneRpdoAJoint) {
   EXPECT_EQ(bus_.sent, expected);
 }
 
+TEST_F(CanDrivesTest, NothingFollowsSyncWhileDrivesTakeTheirTimeToAnswer) {
+  BusLayout slow = layout();
+  slow.answer = 100e-6;
+  CanDrives drives(slow, wires_, {});
+  int heartbeats = 0;
+  int requests = 0;
+  for (int k = 0; k < 200; ++k) {
+    drives.request();
+    EXPECT_EQ(bus_.take_sent(), (std::vector<CanFrame>{frame(0x080, {})}));
+    answer_all(kOff);
+    drives.receive(reading_);
+    for (const CanFrame& sent : bus_.take_sent()) {  // while the torques are computed
+      heartbeats += sent == frame(0x77F, {0x05}) ? 1 : 0;
+      requests += sent.id == 0x603 || sent.id == 0x605 ? 1 : 0;
+    }
+    drives.send({});
+    EXPECT_EQ(bus_.take_sent().size(), 2u);
+  }
+  EXPECT_EQ(heartbeats, 10);
+  EXPECT_GE(requests, 2);
+}
+
 TEST_F(CanDrivesTest, ReadsPositionTorqueAndState) {
   count_0_ = 2500;   // of 10 000 a turn
   count_1_ = -1000;  // a quarter turn, the other way round
@@ -242,6 +265,19 @@ TEST_F(CanDrivesTest, OnlyEnabledDrivesAreSentTorques) {
   }
 }
 
+TEST_F(CanDrivesTest, WithholdsRpdosOnlyWhereNoPowerIsAskedFor) {
+  drives_.withhold(0);
+  const std::vector<CanFrame> sent = cycle(kOff);
+  EXPECT_EQ(std::ranges::count(sent, frame(0x205, {0, 0, 0, 0})), 0);
+  EXPECT_EQ(std::ranges::count(sent, frame(0x203, {0, 0, 0, 0})), 1);
+  EXPECT_TRUE(sent_);
+  for (const PowerRequest power : {PowerRequest::kEnable, PowerRequest::kQuickStop, PowerRequest::kReset}) {
+    EXPECT_EQ(cycle(kOff, power).at(0).id, 0x205);
+  }
+  drives_.withhold(-1);
+  EXPECT_EQ(cycle(kOff).at(0).id, 0x205);
+}
+
 TEST_F(CanDrivesTest, NeverEnablesADriveAgainByItself) {
   const auto enable = PowerRequest::kEnable;
   cycle(kOff, enable);
@@ -254,6 +290,27 @@ TEST_F(CanDrivesTest, NeverEnablesADriveAgainByItself) {
   }
   cycle(kOff, PowerRequest::kOff);
   EXPECT_EQ(controlwords(cycle(kOff, enable)), std::pair(0x06, 0x06));
+}
+
+TEST_F(CanDrivesTest, ADriveThatNeverFollowedIsNotEnabledAgainEither) {
+  const auto enable = PowerRequest::kEnable;
+  cycle(kBrakeOpens, enable);
+  cycle(kBrakeOpens, enable);  // in operation, not yet in its mode
+  EXPECT_EQ(controlwords(cycle(kOff, enable)), std::pair(0x02, 0x02));
+  EXPECT_EQ(controlwords(cycle(kReady, enable)), std::pair(0x02, 0x02));
+}
+
+TEST_F(CanDrivesTest, EachEnablingHasItsOwnTimeToFollow) {
+  const auto enable = PowerRequest::kEnable;
+  cycle(kOff, enable);
+  cycle(kEnabled, enable);
+  cycle(kEnabled, PowerRequest::kQuickStop);
+  cycle(kOff, PowerRequest::kOff);
+  for (int k = 0; k < 5; ++k) cycle(kBrakeOpens, enable);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone) << "it followed before the stop, not since";
+  cycle(kEnabled, enable);
+  cycle(kBrakeOpens, enable);
+  EXPECT_EQ(reading_.alarm, Alarm::kWrongMode);
 }
 
 TEST_F(CanDrivesTest, ResetsAFaultByRisingEdgesOnly) {
@@ -347,6 +404,38 @@ TEST_F(CanDrivesTest, WrongFramesCountAsLostAndThreeInARowAreAnAlarm) {
   EXPECT_EQ(reading_.alarm, Alarm::kBadFrames);
   EXPECT_EQ(reading_.alarm_joint, 0);
   EXPECT_EQ(drives_.statistics().malformed, 11u);
+}
+
+TEST_F(CanDrivesTest, BadFramesBeforeAResetDoNotCountAfterIt) {
+  const auto bad = [this](PowerRequest power) {
+    drives_.request();
+    bus_.receive_next(frame(0x185, {0x50, 0x02}));
+    bus_.receive_next(tpdo(3, kOff, 0, 0));
+    bus_.receive_next(frame(0x1A0, {0x03}));
+    receive();
+    drives_.send({JointVector::Zero(), power});
+  };
+  cycle(kOff);
+  bad(PowerRequest::kOff);
+  bad(PowerRequest::kReset);
+  bad(PowerRequest::kReset);
+  bad(PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  bad(PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kBadFrames);
+}
+
+TEST_F(CanDrivesTest, APanelThatNeverToldItsInputsIsSilentNotLost) {
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(reading_.alarm, Alarm::kNone);
+    drives_.request();
+    bus_.receive_next(tpdo(5, kOff, 0, 0));
+    bus_.receive_next(tpdo(3, kOff, 0, 0));
+    receive();
+    drives_.send({});
+  }
+  EXPECT_EQ(reading_.alarm, Alarm::kPanelSilent);
+  EXPECT_TRUE(reading_.emergency_stop);
 }
 
 TEST_F(CanDrivesTest, PanelBits) {
@@ -490,6 +579,44 @@ TEST_F(CanDrivesTest, ADriveThatNoLongerFollowsIsInTheWrongMode) {
   cycle(kBrakeOpens, PowerRequest::kEnable);
   EXPECT_EQ(reading_.alarm, Alarm::kWrongMode);
   EXPECT_EQ(reading_.state[0], DriveState::kOff);
+}
+
+TEST_F(CanDrivesTest, AModeToldByTpdo2IsAnAlarmInTheCycleInWhichItComes) {
+  for (int k = 0; k < 3; ++k) cycle(kEnabled, PowerRequest::kEnable);
+  bus_.receive_next(frame(0x283, {0x0A}));
+  cycle(kEnabled, PowerRequest::kEnable);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+  drives_.request();
+  answer_all(kEnabled);  // bit 12 stays
+  bus_.receive_next(frame(0x283, {0x08}));
+  receive();
+  EXPECT_EQ(reading_.alarm, Alarm::kWrongMode);
+  EXPECT_EQ(reading_.alarm_joint, 1);
+  EXPECT_EQ(drives_.alarm_detail().index, 0x6061);
+  EXPECT_EQ(drives_.alarm_detail().expected, 10u);
+  EXPECT_EQ(drives_.alarm_detail().found, 8u);
+  drives_.send({});
+  // a reset does not hide what is still so, whether it is told again or not
+  for (int k = 0; k < 3; ++k) cycle(kOff, PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kWrongMode);
+  bus_.receive_next(frame(0x283, {0x0A}));
+  cycle(kOff);
+  cycle(kOff, PowerRequest::kReset);
+  cycle(kOff);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
+}
+
+TEST_F(CanDrivesTest, AModeOfAnotherLengthOrNodeIsPassedOver) {
+  cycle(kOff);
+  for (const CanFrame& other : {frame(0x283, {}), frame(0x283, {8, 0}), frame(0x284, {8}), frame(0x2A0, {8})}) {
+    EXPECT_EQ(alarm_of(other), Alarm::kNone) << other;
+  }
+  EXPECT_EQ(drives_.statistics().malformed, 2u);
+}
+
+TEST_F(CanDrivesTest, FramesOfAFewCyclesMayBeOnTheirWay) {
+  bus_.state = {.unreturned = CanDrives::kMostUnreturned};
+  EXPECT_EQ(receive().alarm, Alarm::kNone);
 }
 
 TEST_F(CanDrivesTest, ADeadBusIsAnAlarm) {
@@ -692,6 +819,11 @@ TEST_F(CanDrivesTest, LeavesTheNodesOfASecondMasterAlone) {
   SleepingClock clock;
   bus_.receive_next(frame(0x080, {}));
   EXPECT_EQ(drives_.bring_up(clock).status, BringUpStatus::kSecondMaster);
+  drives_.stop_nodes();
+  EXPECT_TRUE(bus_.sent.empty());
+  // nothing was sent yet: nobody knows whose they are
+  const std::atomic<bool> end{true};
+  EXPECT_EQ(drives_.bring_up(clock, &end).status, BringUpStatus::kEnded);
   drives_.stop_nodes();
   EXPECT_TRUE(bus_.sent.empty());
   // nobody else is there: they are ours, though none has booted

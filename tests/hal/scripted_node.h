@@ -31,7 +31,10 @@ class ScriptedNode {
     if (frame.id == 0x000 && (frame.data[1] == 0 || frame.data[1] == node_)) {
       nmt.push_back(frame.data[0]);
       if (frame.data[0] == 0x82 && boots) boot_at_ns = now_ns + boot_delay_ns;
-      if (frame.data[0] == 0x01 && starts) state = 0x05;
+      if (frame.data[0] == 0x01 && starts) {
+        state = 0x05;
+        mode_at_ns = now_ns + first_mode_ns;
+      }
     }
     if (frame.id == 0x600 + node_ && answers) answer(frame, bus);
   }
@@ -41,6 +44,11 @@ class ScriptedNode {
       boot_at_ns = -1;
       state = 0x7F;
       bus.receive_next(frame(static_cast<std::uint16_t>(0x700 + node_), {0x00}));
+    }
+    const auto of_mode = object_if_there(0x1801, 1);
+    if (state == 0x05 && tells_mode && of_mode != nullptr && of_mode->value < 0x80000000 && now_ns >= mode_at_ns) {
+      mode_at_ns = now_ns + 1'000'000'000;
+      bus.receive_next(frame(static_cast<std::uint16_t>(0x280 + node_), {static_cast<int>(object(0x6061, 0).value)}));
     }
     if (now_ns >= heartbeat_at_ns && state != 0) {
       heartbeat_at_ns = now_ns + 20'000'000;
@@ -55,12 +63,20 @@ class ScriptedNode {
   bool boots = true;
   bool starts = true;
   bool answers = true;
+  bool tells_mode = true;
   std::int64_t boot_delay_ns = 10'000'000;
   std::int64_t boot_at_ns = -1;
   std::int64_t heartbeat_at_ns = 0;
+  std::int64_t mode_at_ns = 0;
+  std::int64_t first_mode_ns = 0;  ///< from the start on
   int state = 0x7F;
 
  private:
+  const Object* object_if_there(int index, int subindex) const {
+    const auto found = objects.find({index, subindex});
+    return found == objects.end() ? nullptr : &found->second;
+  }
+
   void answer(const CanFrame& request, FakeBus& bus) {
     before_answer(bus);
     const int command = request.data[0];
@@ -94,13 +110,15 @@ class ScriptedNode {
 inline ScriptedNode scripted_drive(int node, std::uint32_t rated) {
   ScriptedNode drive(node);
   drive.objects = {
-      {{0x1000, 0}, {4, 0x00020192}}, {{0x1005, 0}, {4, 0x80}},  {{0x1016, 1}, {4, 0}},    {{0x1017, 0}, {2, 0}},
-      {{0x1029, 1}, {1, 0}},          {{0x1400, 1}, {4, 0x201}}, {{0x1400, 2}, {1, 255}},  {{0x1400, 5}, {2, 0}},
-      {{0x1600, 0}, {1, 1}},          {{0x1600, 1}, {4, 0}},     {{0x1600, 2}, {4, 0}},    {{0x1800, 1}, {4, 0x181}},
-      {{0x1800, 2}, {1, 254}},        {{0x1A00, 0}, {1, 1}},     {{0x1A00, 1}, {4, 0}},    {{0x1A00, 2}, {4, 0}},
-      {{0x1A00, 3}, {4, 0}},          {{0x6007, 0}, {2, 1}},     {{0x605A, 0}, {2, 6}},    {{0x605E, 0}, {2, 0}},
-      {{0x6060, 0}, {1, 0}},          {{0x6061, 0}, {1, 0}},     {{0x6064, 0}, {4, 0}},    {{0x6071, 0}, {2, 0}},
-      {{0x6076, 0}, {4, rated}},      {{0x6077, 0}, {2, 0}},     {{0x6502, 0}, {4, 0x380}}};
+      {{0x1000, 0}, {4, 0x00020192}}, {{0x1005, 0}, {4, 0x80}},  {{0x1016, 1}, {4, 0}},   {{0x1017, 0}, {2, 0}},
+      {{0x1029, 1}, {1, 0}},          {{0x1400, 1}, {4, 0x201}}, {{0x1400, 2}, {1, 255}}, {{0x1400, 5}, {2, 0}},
+      {{0x1600, 0}, {1, 1}},          {{0x1600, 1}, {4, 0}},     {{0x1600, 2}, {4, 0}},   {{0x1800, 1}, {4, 0x181}},
+      {{0x1800, 2}, {1, 254}},        {{0x1A00, 0}, {1, 1}},     {{0x1A00, 1}, {4, 0}},   {{0x1A00, 2}, {4, 0}},
+      {{0x1801, 1}, {4, 0x80000281}}, {{0x1801, 2}, {1, 254}},   {{0x1801, 5}, {2, 0}},   {{0x1A01, 0}, {1, 0}},
+      {{0x1A01, 1}, {4, 0}},          {{0x1A00, 3}, {4, 0}},     {{0x6007, 0}, {2, 1}},   {{0x605A, 0}, {2, 6}},
+      {{0x605E, 0}, {2, 0}},          {{0x6060, 0}, {1, 0}},     {{0x6061, 0}, {1, 0}},   {{0x6064, 0}, {4, 0}},
+      {{0x6071, 0}, {2, 0}},          {{0x6076, 0}, {4, rated}}, {{0x6085, 0}, {4, 1}},   {{0x6077, 0}, {2, 0}},
+      {{0x6502, 0}, {4, 0x380}}};
   return drive;
 }
 

@@ -223,6 +223,20 @@ TEST_F(SocketCanTest, AFloodOfErrorFramesDoesNotHoldTheCaller) {
   EXPECT_EQ(bus_->health().errors, 1600u);
 }
 
+/// Nor is a cycle held that takes frames until there are no more, with others between them.
+TEST_F(SocketCanTest, SixtyFourFramesAreLeftOutUntilAllIsTaken) {
+  ReceivedFrame received;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 8; ++k) put_error(CAN_ERR_BUSERROR);
+    put(0x181, 1);
+    ASSERT_TRUE(bus_->receive(received));
+  }
+  put(0x182, 1);
+  EXPECT_FALSE(bus_->receive(received)) << "until the next cycle";
+  ASSERT_TRUE(bus_->receive(received));
+  EXPECT_EQ(received.frame.id, 0x182);
+}
+
 TEST_F(SocketCanTest, RandomMessagesNeverBecomeImpossibleFrames) {
   std::mt19937 random(3);
   for (int i = 0; i < 20'000; ++i) {
