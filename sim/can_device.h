@@ -18,8 +18,9 @@ namespace godobject::sim {
 /// layout, whose other ends are the controller's. Nothing moves but while `advance_to` runs: frames end, timers run out
 /// and torques act at their own nanosecond, and the plant is integrated up to each of these.
 ///
-/// Nodes answer at once; a frame takes as long as its stuffing may make it, see LoopbackBus. What the controller sends
-/// once it has received goes on the wire `layout.compute` later, see LoopbackEnd. About 900 KiB. Real-time safe.
+/// Nodes answer SYNC the layout's `answer` after it; a frame takes as long as its stuffing may make it, see
+/// LoopbackBus. What the controller has computed goes on the wire `layout.compute` after it is sent, see LoopbackEnd.
+/// About 900 KiB. Real-time safe.
 class CanDevice final : public World {
  public:
   /// As CanNodes; `faults` outlive this, too.

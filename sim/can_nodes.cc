@@ -24,7 +24,10 @@ CanNodes::CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const J
   assert(static_cast<int>(joints.size()) >= joint_count_ && period_ns_ > 0);
   for (int i = 0; i < joint_count_; ++i) drives_[at(i)].emplace(layout.drives[at(i)], joints[at(i)], layout.fd);
   if (layout.panel.bus >= 0) panel_.emplace(layout.panel, layout.fd);
-  for (int i = 0; i < node_count(); ++i) node(i).set_supply(true, 0);
+  for (int i = 0; i < node_count(); ++i) {
+    node(i).set_answer(std::llround(1e9 * layout.answer));
+    node(i).set_supply(true, 0);
+  }
   begin_cycle();
   update_drives();
 }
@@ -48,6 +51,8 @@ void CanNodes::begin_cycle() noexcept {
     drive.set_supply(fault(FaultKind::kSupplyLost, i) == nullptr, now_ns());
     if (fault(FaultKind::kDriveTrips, i) != nullptr) drive.trip(kOverCurrent, now_ns());
     if (fault(FaultKind::kDriveDisabled, i) != nullptr) drive.disable(now_ns());
+    const DriveFault* slip = fault(FaultKind::kModeSlips, i);
+    drive.slip_mode(slip == nullptr ? hal::canopen::kModeTorque : static_cast<std::int8_t>(slip->value));
     const DriveFault* jump = fault(FaultKind::kEncoderJump, i);
     drive.set_encoder_fault(jump == nullptr ? 0.0 : jump->value, fault(FaultKind::kEncoderStuck, i) != nullptr);
   }

@@ -58,7 +58,8 @@ CanopenNode::CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpd
       heartbeat_at_ns_(kNever),
       consumer_at_ns_(kNever),
       command_at_ns_(kNever),
-      event_at_ns_(kNever) {
+      tpdos_{{{kTpdo1Communication, kTpdo1Mapping, kNever, kNever},
+              {kTpdo2Communication, kTpdo2Mapping, kNever, kNever}}} {
   using enum ObjectType;
   using enum ObjectAccess;
   const auto node = static_cast<std::uint32_t>(number);
@@ -79,6 +80,7 @@ CanopenNode::CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpd
   add(kIdentity, 2, kU32, kConst, 1);
   add(kIdentity, 3, kU32, kConst, 0x0001'0000);
   add(kIdentity, 4, kU32, kConst, node);
+  add(kSyncOverflow, 0, kU8, kReadWrite, 0);
   add(kErrorBehaviour, 0, kU8, kConst, 1);
   add(kErrorBehaviour, 1, kU8, kReadWrite, 0);
   add(0x1200, 0, kU8, kConst, 2);
@@ -94,8 +96,14 @@ CanopenNode::CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpd
   add(kTpdo1Communication, 1, kU32, kReadWrite, kCobTpdo1 + node);
   add(kTpdo1Communication, 2, kU8, kReadWrite, tpdo_type);
   add(kTpdo1Communication, 5, kU16, kReadWrite, 0);
-  add(kTpdo1Mapping, 0, kU8, kReadWrite, 0);
-  for (std::uint8_t i = 1; i <= kMaxMapped; ++i) add(kTpdo1Mapping, i, kU32, kReadWrite, 0);
+  add(kTpdo2Communication, 0, kU8, kConst, 5);
+  add(kTpdo2Communication, 1, kU32, kReadWrite, kInvalid | (kCobTpdo2 + node));
+  add(kTpdo2Communication, 2, kU8, kReadWrite, 255);
+  add(kTpdo2Communication, 5, kU16, kReadWrite, 0);
+  for (const Tpdo& tpdo : tpdos_) {
+    add(tpdo.mapping, 0, kU8, kReadWrite, 0);
+    for (std::uint8_t i = 1; i <= kMaxMapped; ++i) add(tpdo.mapping, i, kU32, kReadWrite, 0);
+  }
 }
 
 void CanopenNode::put(const hal::CanFrame& frame) noexcept {
@@ -116,7 +124,8 @@ void CanopenNode::set_supply(bool on, std::int64_t now_ns, std::int64_t boot_ns)
   count_ = 0;
   if (on) return boot(now_ns, boot_ns, true);
   stage_ = Stage::kNoSupply;
-  boot_at_ns_ = heartbeat_at_ns_ = consumer_at_ns_ = command_at_ns_ = event_at_ns_ = kNever;
+  boot_at_ns_ = heartbeat_at_ns_ = consumer_at_ns_ = command_at_ns_ = kNever;
+  for (Tpdo& tpdo : tpdos_) tpdo.event_at_ns = tpdo.answer_at_ns = kNever;
   reset_device(false, now_ns);
 }
 
@@ -128,9 +137,12 @@ void CanopenNode::boot(std::int64_t now_ns, std::int64_t boot_ns, bool all_objec
   if (is_operational()) connection_lost(kNoError, now_ns);
   stage_ = Stage::kBooting;
   nmt_ = kNmtBoot;
-  heartbeat_at_ns_ = consumer_at_ns_ = command_at_ns_ = event_at_ns_ = kNever;
+  heartbeat_at_ns_ = consumer_at_ns_ = command_at_ns_ = kNever;
+  for (Tpdo& tpdo : tpdos_) {
+    tpdo.event_at_ns = tpdo.answer_at_ns = kNever;
+    tpdo.syncs = 0;
+  }
   command_waits_ = false;
-  syncs_ = 0;
   boot_at_ns_ = boot_ns == kNever ? kNever : now_ns + boot_ns;
   objects_.restore(0x1000, 0x1FFF);
   if (!all_objects) return;
@@ -142,13 +154,34 @@ void CanopenNode::enter(NmtState state, std::uint16_t reason, std::int64_t now_n
   if (state == nmt_) return;
   const bool was_operational = is_operational();
   nmt_ = state;
-  command_at_ns_ = event_at_ns_ = kNever;
+  command_at_ns_ = kNever;
   command_waits_ = false;
-  syncs_ = 0;
+  for (Tpdo& tpdo : tpdos_) {
+    const std::uint32_t event_ms = objects_.value(tpdo.communication, 5);
+    const bool timed = is_operational() && is_event_driven(tpdo) && event_ms > 0;
+    tpdo.event_at_ns = timed ? now_ns + event_ms * kMs_ns : kNever;
+    tpdo.answer_at_ns = kNever;
+    tpdo.syncs = 0;
+  }
   if (was_operational) connection_lost(reason, now_ns);
-  const std::uint32_t event_ms = objects_.value(kTpdo1Communication, 5);
-  if (is_operational() && objects_.value(kTpdo1Communication, 2) >= kEventDriven && event_ms > 0) {
-    event_at_ns_ = now_ns + event_ms * kMs_ns;
+  if (!is_operational()) return;
+  for (const Tpdo& tpdo : tpdos_) {
+    if (is_event_driven(tpdo)) send_tpdo(tpdo);
+  }
+}
+
+bool CanopenNode::is_event_driven(const Tpdo& tpdo) const noexcept {
+  return objects_.value(tpdo.communication, 2) >= kEventDriven;
+}
+
+void CanopenNode::changed(std::uint16_t index) noexcept {
+  if (!is_operational()) return;
+  for (const Tpdo& tpdo : tpdos_) {
+    if (!is_event_driven(tpdo)) continue;
+    const auto count = static_cast<std::uint8_t>(objects_.value(tpdo.mapping));
+    bool holds = false;
+    for (std::uint8_t i = 1; i <= count; ++i) holds = holds || Mapped(objects_.value(tpdo.mapping, i)).index == index;
+    if (holds) send_tpdo(tpdo);
   }
 }
 
@@ -179,9 +212,15 @@ void CanopenNode::on_nmt(const hal::CanFrame& frame, std::int64_t now_ns) noexce
 
 void CanopenNode::on_sync(std::int64_t now_ns) noexcept {
   if (command_waits_) apply_rpdo(now_ns);
-  const std::uint32_t every = objects_.value(kTpdo1Communication, 2);
-  if (every < 1 || every > 240) return;
-  if (++syncs_ % every == 0) send_tpdo();
+  for (Tpdo& tpdo : tpdos_) {
+    const std::uint32_t every = objects_.value(tpdo.communication, 2);
+    if (every < 1 || every > 240 || ++tpdo.syncs % every != 0) continue;
+    if (answer_ns_ == 0) {
+      send_tpdo(tpdo);
+    } else if (sample_tpdo(tpdo, tpdo.answer)) {
+      tpdo.answer_at_ns = now_ns + answer_ns_;
+    }
+  }
 }
 
 void CanopenNode::on_rpdo(const hal::CanFrame& frame, std::int64_t now_ns) noexcept {
@@ -209,19 +248,25 @@ void CanopenNode::apply_rpdo(std::int64_t now_ns) noexcept {
   }
 }
 
-void CanopenNode::send_tpdo() noexcept {
-  const std::uint32_t tpdo = objects_.value(kTpdo1Communication, 1);
-  if ((tpdo & kInvalid) != 0) return;
+/// False: there is no such TPDO.
+bool CanopenNode::sample_tpdo(const Tpdo& tpdo, hal::CanFrame& frame) noexcept {
+  const std::uint32_t id = objects_.value(tpdo.communication, 1);
+  if ((id & kInvalid) != 0) return false;
   sample();
-  hal::CanFrame frame = frame_of(cob(tpdo), 0);
+  frame = frame_of(cob(id), 0);
   frame.fd = fd_;
-  const auto count = static_cast<std::uint8_t>(objects_.value(kTpdo1Mapping));
+  const auto count = static_cast<std::uint8_t>(objects_.value(tpdo.mapping));
   for (std::uint8_t i = 1; i <= count; ++i) {
-    const Mapped mapped(objects_.value(kTpdo1Mapping, i));
+    const Mapped mapped(objects_.value(tpdo.mapping, i));
     set(frame, frame.length, mapped.bits / 8, objects_.value(mapped.index, mapped.sub));
     frame.length = static_cast<std::uint8_t>(frame.length + mapped.bits / 8);
   }
-  put(frame);
+  return true;
+}
+
+void CanopenNode::send_tpdo(const Tpdo& tpdo) noexcept {
+  hal::CanFrame frame;
+  if (sample_tpdo(tpdo, frame)) put(frame);
 }
 
 void CanopenNode::on_heartbeat(std::int64_t now_ns) noexcept {
@@ -240,7 +285,9 @@ void CanopenNode::send_emergency(std::uint16_t code, std::uint8_t error_register
 }
 
 std::int64_t CanopenNode::next_timer_ns() const noexcept {
-  return std::min({boot_at_ns_, heartbeat_at_ns_, consumer_at_ns_, command_at_ns_, event_at_ns_});
+  std::int64_t next = std::min({boot_at_ns_, heartbeat_at_ns_, consumer_at_ns_, command_at_ns_});
+  for (const Tpdo& tpdo : tpdos_) next = std::min({next, tpdo.event_at_ns, tpdo.answer_at_ns});
+  return next;
 }
 
 void CanopenNode::run_timers(std::int64_t now_ns) noexcept {
@@ -269,9 +316,15 @@ void CanopenNode::run_timers(std::int64_t now_ns) noexcept {
     send_emergency(kPdoTimeout, kGenericError | kCommunicationError);
     connection_lost(kPdoTimeout, now_ns);
   }
-  if (event_at_ns_ <= now_ns) {
-    event_at_ns_ += objects_.value(kTpdo1Communication, 5) * kMs_ns;
-    send_tpdo();
+  for (Tpdo& tpdo : tpdos_) {
+    if (tpdo.answer_at_ns <= now_ns) {
+      tpdo.answer_at_ns = kNever;
+      put(tpdo.answer);
+    }
+    if (tpdo.event_at_ns <= now_ns) {
+      tpdo.event_at_ns += objects_.value(tpdo.communication, 5) * kMs_ns;
+      send_tpdo(tpdo);
+    }
   }
 }
 
@@ -333,7 +386,8 @@ SdoAbort CanopenNode::download(const hal::CanFrame& request, std::int64_t now_ns
 }
 
 SdoAbort CanopenNode::check_communication(const ObjectEntry& entry, std::uint32_t value) noexcept {
-  const bool pdo = entry.index == kRpdo1Communication || entry.index == kTpdo1Communication;
+  const bool pdo =
+      entry.index == kRpdo1Communication || entry.index == kTpdo1Communication || entry.index == kTpdo2Communication;
   if (pdo && entry.sub == 1) {
     if ((value & kExtended) != 0 || cob(value) == 0) return SdoAbort::kValue;
     const bool stays_valid = ((entry.value | value) & kInvalid) == 0;
@@ -341,13 +395,14 @@ SdoAbort CanopenNode::check_communication(const ObjectEntry& entry, std::uint32_
   }
   if (pdo && entry.sub == 2) return value > 240 && value < 252 ? SdoAbort::kValue : SdoAbort::kNone;
   if (entry.index == kErrorBehaviour && value > 2) return SdoAbort::kValue;
-  if (entry.index == kRpdo1Mapping || entry.index == kTpdo1Mapping) return check_mapping(entry, value);
+  const bool mapping = entry.index == kRpdo1Mapping || entry.index == kTpdo1Mapping || entry.index == kTpdo2Mapping;
+  if (mapping) return check_mapping(entry, value);
   return SdoAbort::kNone;
 }
 
 SdoAbort CanopenNode::check_mapping(const ObjectEntry& entry, std::uint32_t value) noexcept {
   const bool receives = entry.index == kRpdo1Mapping;
-  const auto communication = static_cast<std::uint16_t>(receives ? kRpdo1Communication : kTpdo1Communication);
+  const auto communication = static_cast<std::uint16_t>(entry.index - kRpdo1Mapping + kRpdo1Communication);
   if ((objects_.value(communication, 1) & kInvalid) == 0) return SdoAbort::kUnsupportedAccess;
   if (entry.sub > 0) {
     if (objects_.value(entry.index) != 0) return SdoAbort::kUnsupportedAccess;

@@ -38,13 +38,14 @@ inline constexpr std::uint8_t kGenericError = 1u << 0;
 inline constexpr std::uint8_t kCommunicationError = 1u << 4;
 
 /// A CANopen node after CiA 301: NMT states, boot-up, heartbeat both ways, emergency messages, a server of expedited
-/// SDO, one RPDO and one TPDO that are mapped over SDO. Frames go in by `receive` and come out of `take_frame`, time is
-/// passed in; what the device does is behind the private virtuals. Real-time safe.
+/// SDO, one RPDO and two TPDOs that are mapped over SDO. Frames go in by `receive` and come out of `take_frame`, time
+/// is passed in; what the device does is behind the private virtuals. Real-time safe.
 ///
 /// An RPDO of type 254 or 255 acts at once, any other at the next SYNC; its event timer (:5) is a deadline that its
-/// first reception arms. A TPDO of type 1 to 240 is sampled and answers at every n-th SYNC, of type 254 or 255 by its
-/// event timer. Whenever a node that was operational leaves that state, or a deadline or heartbeat is missed, the
-/// device is told that the connection is lost.
+/// first reception arms. A TPDO of type 1 to 240 is sampled at the end of every n-th SYNC and handed over to the wire
+/// `set_answer` later, one of type 254 or 255 goes when the node becomes operational, by its event timer, and when the
+/// device says that an object in it has changed. Whenever a node that was operational leaves that state, or a deadline
+/// or heartbeat is missed, the device is told that the connection is lost.
 class CanopenNode {
  public:
   static constexpr std::int64_t kBoot_ns = 50'000'000;               ///< from supply to boot-up
@@ -81,6 +82,9 @@ class CanopenNode {
   /// Sends an emergency message and sets 1001 to `error_register`.
   void send_emergency(std::uint16_t code, std::uint8_t error_register) noexcept;
 
+  /// How long it takes from the end of a SYNC until the TPDOs that answer it are handed over; 0 at first.
+  void set_answer(std::int64_t answer_ns) noexcept { answer_ns_ = answer_ns; }
+
   /// For scripts of what goes wrong.
   void mute_heartbeat(bool muted) noexcept { heartbeat_muted_ = muted; }
   void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }  ///< every request from now on; kNone: none
@@ -89,7 +93,22 @@ class CanopenNode {
   /// `fd`: PDOs go as FD frames. The device adds its objects beyond 1FFF in its own constructor.
   CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpdo_type, bool fd) noexcept;
 
+  /// An object of the device has another value: TPDOs of type 254 or 255 that hold it are sent.
+  void changed(std::uint16_t index) noexcept;
+
  private:
+  static constexpr std::size_t kTpdos = 2;
+
+  /// A TPDO by its objects, 1800 and 1A00 on, and when it is due.
+  struct Tpdo {
+    std::uint16_t communication;
+    std::uint16_t mapping;
+    std::int64_t event_at_ns;
+    std::int64_t answer_at_ns;  ///< of what it was sampled for
+    hal::CanFrame answer{};
+    std::uint32_t syncs = 0;
+  };
+
   enum class Stage : std::uint8_t { kNoSupply, kBooting, kUp };
 
   /// Puts present values into the dictionary, before they are read.
@@ -109,7 +128,9 @@ class CanopenNode {
   void on_sync(std::int64_t now_ns) noexcept;
   void on_rpdo(const hal::CanFrame& frame, std::int64_t now_ns) noexcept;
   void apply_rpdo(std::int64_t now_ns) noexcept;
-  void send_tpdo() noexcept;
+  bool is_event_driven(const Tpdo& tpdo) const noexcept;
+  bool sample_tpdo(const Tpdo& tpdo, hal::CanFrame& frame) noexcept;
+  void send_tpdo(const Tpdo& tpdo) noexcept;
   void on_heartbeat(std::int64_t now_ns) noexcept;
   void on_sdo(const hal::CanFrame& request, std::int64_t now_ns) noexcept;
   SdoAbort upload(std::uint16_t index, std::uint8_t sub, hal::CanFrame& response) noexcept;
@@ -130,8 +151,8 @@ class CanopenNode {
   std::int64_t heartbeat_at_ns_;
   std::int64_t consumer_at_ns_;  ///< by when the next heartbeat must have come
   std::int64_t command_at_ns_;   ///< by when the next RPDO must have come
-  std::int64_t event_at_ns_;     ///< of the TPDO
-  std::uint32_t syncs_ = 0;
+  std::array<Tpdo, kTpdos> tpdos_;
+  std::int64_t answer_ns_ = 0;
   bool command_waits_ = false;  ///< for the next SYNC
   hal::CanFrame command_;
   bool heartbeat_muted_ = false;

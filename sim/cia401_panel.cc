@@ -10,6 +10,8 @@ Cia401Panel::Cia401Panel(const hal::PanelConfig& config, bool fd) noexcept
   objects().set_initial(kTpdo1Mapping, 1, 0x6000'0108);
   objects().add({kDigitalInputs8, 0, ObjectType::kU8, ObjectAccess::kConst, Mapping::kNo, 1});
   objects().add({kDigitalInputs8, 1, ObjectType::kU8, ObjectAccess::kReadOnly, Mapping::kToNetwork, 0});
+  objects().add({kInputPolarity8, 0, ObjectType::kU8, ObjectAccess::kConst, Mapping::kNo, 1});
+  objects().add({kInputPolarity8, 1, ObjectType::kU8, ObjectAccess::kReadWrite, Mapping::kNo, 0});
 }
 
 }  // namespace godobject::sim

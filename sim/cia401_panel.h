@@ -7,7 +7,8 @@
 
 namespace godobject::sim {
 
-/// The operator's panel: a module of eight digital inputs after CiA 401, 6000:1. Real-time safe.
+/// The operator's panel: a module of eight digital inputs after CiA 401, 6000:1, turned round by 6002:1. Real-time
+/// safe.
 class Cia401Panel final : public CanopenNode {
  public:
   Cia401Panel(const hal::PanelConfig& config, bool fd) noexcept;
@@ -16,7 +17,10 @@ class Cia401Panel final : public CanopenNode {
   void set_inputs(std::uint8_t inputs) noexcept { inputs_ = inputs; }
 
  private:
-  void sample() noexcept override { objects().set(hal::canopen::kDigitalInputs8, 1, inputs_); }
+  void sample() noexcept override {
+    using namespace hal::canopen;
+    objects().set(kDigitalInputs8, 1, inputs_ ^ objects().value(kInputPolarity8, 1));
+  }
   SdoAbort check(const ObjectEntry&, std::uint32_t) const noexcept override { return SdoAbort::kNone; }
   void written(const ObjectEntry&, std::int64_t) noexcept override {}
   void connection_lost(std::uint16_t, std::int64_t) noexcept override {}

@@ -17,6 +17,9 @@ JointHardwareParameters with_steps(JointHardwareParameters joint, const hal::Dri
   return joint;
 }
 
+/// Of 6085: the drive's own loop brings the joint to rest, this number stands for no ramp of it.
+constexpr std::uint32_t kQuickStopCounts = 1'000'000;
+
 std::uint32_t rounded(double value) noexcept { return static_cast<std::uint32_t>(std::llround(value)); }
 
 }  // namespace
@@ -64,6 +67,7 @@ Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwarePara
            {kMotorRatedTorque, 0, kU32, kConst, Mapping::kNo, rounded(1e3 * config.rated_torque)},
            {kActualTorque, 0, kI16, kReadOnly, Mapping::kToNetwork, 0},
            {kPolarity, 0, kU8, kReadWrite, Mapping::kNo, 0},
+           {kQuickStopDeceleration, 0, kU32, kReadWrite, Mapping::kNo, kQuickStopCounts},
            {kEncoderResolution, 0, kU8, kConst, Mapping::kNo, 2},
            {kEncoderResolution, 1, kU32, kConst, Mapping::kNo, rounded(config.counts)},
            {kEncoderResolution, 2, kU32, kConst, Mapping::kNo, 1},
@@ -73,6 +77,8 @@ Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwarePara
            {kInterpolationPeriod, 0, kU8, kConst, Mapping::kNo, 2},
            {kInterpolationPeriod, 1, kU8, kReadWrite, Mapping::kNo, 1},
            {kInterpolationPeriod, 2, kI8, kReadWrite, Mapping::kNo, static_cast<std::uint32_t>(-3)},
+           {kPositiveTorqueLimit, 0, kU16, kReadWrite, Mapping::kNo, rounded(most)},
+           {kNegativeTorqueLimit, 0, kU16, kReadWrite, Mapping::kNo, rounded(most)},
            {kSupportedModes, 0, kU32, kConst, Mapping::kNo, kSupportsTorque},
        }) {
     objects().add(entry);
@@ -87,6 +93,16 @@ Cia402Slave::Command Cia402Slave::command_of(std::uint16_t controlword) noexcept
 }
 
 bool Cia402Slave::polarity(int bit) const noexcept { return (objects().value(kPolarity) >> bit & 1u) != 0; }
+
+std::int8_t Cia402Slave::mode_display() const noexcept {
+  return slipped_mode_ != kModeTorque ? slipped_mode_ : static_cast<std::int8_t>(objects().signed_value(kMode));
+}
+
+void Cia402Slave::slip_mode(std::int8_t mode) noexcept {
+  if (mode == slipped_mode_) return;
+  slipped_mode_ = mode;
+  changed(kModeDisplay);
+}
 
 bool Cia402Slave::has_power() const noexcept {
   return state_ == PowerState::kEnabled || state_ == PowerState::kQuickStop || state_ == PowerState::kFaultReaction;
@@ -112,7 +128,7 @@ void Cia402Slave::sample() noexcept {
   const double torque = motor_.torque() / motor_.parameters().torque_step;
   const auto position = static_cast<std::uint32_t>(counts);
   objects().set(kStatusword, 0, statusword());
-  objects().set(kModeDisplay, 0, objects().value(kMode));
+  objects().set(kModeDisplay, 0, static_cast<std::uint8_t>(mode_display()));
   objects().set(kPosition, 0, polarity(7) ? 0u - position : position);
   objects().set(kVelocity, 0, rounded(polarity(6) ? -speed : speed));
   objects().set(kTorqueDemand, 0, objects().value(kTargetTorque));
@@ -132,6 +148,7 @@ SdoAbort Cia402Slave::check(const ObjectEntry& entry, std::uint32_t value) const
 
 void Cia402Slave::written(const ObjectEntry& entry, std::int64_t now_ns) noexcept {
   if (entry.index == kControlword) obey(static_cast<std::uint16_t>(entry.value), now_ns);
+  if (entry.index == kMode) changed(kModeDisplay);
   if (entry.index == kTripObject) trip(static_cast<std::uint16_t>(entry.value), now_ns);
 }
 
@@ -254,10 +271,12 @@ void Cia402Slave::run_stop(PowerState end, std::int64_t now_ns) noexcept {
 }
 
 void Cia402Slave::follow_torque() noexcept {
-  if (objects().signed_value(kMode) != kModeTorque) return motor_.set_torque(0.0);
+  if (mode_display() != kModeTorque) return motor_.set_torque(0.0);
   const std::int32_t asked = objects().signed_value(kTargetTorque);
-  const auto most = static_cast<std::int32_t>(objects().value(kMaxTorque));
-  const std::int32_t permille = std::clamp(asked, -most, most);
+  const auto limit = [this](std::uint16_t of_direction) {
+    return static_cast<std::int32_t>(std::min(objects().value(kMaxTorque), objects().value(of_direction)));
+  };
+  const std::int32_t permille = std::clamp(asked, -limit(kNegativeTorqueLimit), limit(kPositiveTorqueLimit));
   limited_ = permille != asked;
   motor_.set_torque(motor_.parameters().torque_step * (polarity(5) ? -permille : permille));
 }

@@ -58,6 +58,9 @@ class Cia402Slave final : public CanopenNode {
   void trip(std::uint16_t code, std::int64_t now_ns) noexcept;  ///< a fault of the drive's own
   void disable(std::int64_t now_ns) noexcept;                   ///< it goes off although nobody asked for it
 
+  /// It shows another mode in 6061 and follows no torque, though bit 12 of the statusword stays; kModeTorque: no more.
+  void slip_mode(std::int8_t mode) noexcept;
+
   /// What the encoder reads in place of the position: `jump` [rad] more, and while `stuck` always the same.
   void set_encoder_fault(double jump, bool stuck) noexcept;
 
@@ -78,6 +81,7 @@ class Cia402Slave final : public CanopenNode {
   void follow_torque() noexcept;
   bool has_power() const noexcept;
   bool polarity(int bit) const noexcept;
+  std::int8_t mode_display() const noexcept;
   static Command command_of(std::uint16_t controlword) noexcept;
 
   hal::DriveConfig config_;
@@ -93,6 +97,7 @@ class Cia402Slave final : public CanopenNode {
   double velocity_ = 0.0;
   double encoder_jump_ = 0.0;
   bool encoder_stuck_ = false;
+  std::int8_t slipped_mode_ = hal::canopen::kModeTorque;
   double stuck_at_ = 0.0;
 };
 

@@ -13,6 +13,7 @@ enum class FaultKind : std::uint8_t {
   kReadingLate,       ///< what comes is `value` cycles old, 15 at most
   kDriveTrips,        ///< kFault
   kDriveDisabled,     ///< the drive goes off without being asked
+  kModeSlips,         ///< it shows the mode `value` and follows no torque, its statusword as before; CAN drives only
   kSendFails,         ///< `send` returns false; the joint's command goes nowhere
   kCommandLost,       ///< `send` returns true; the joint's command goes nowhere
   kSupplyLost,        ///< no power: the joint is limp until its brake has closed, and does not answer

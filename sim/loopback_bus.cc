@@ -68,13 +68,12 @@ hal::SendResult LoopbackEnd::send(const hal::CanFrame& frame) noexcept {
   if (health_.down) return hal::SendResult::kDown;
   if (full_) return hal::SendResult::kFull;
   if (health_.bus_off) return hal::SendResult::kSent;  // taken, and never on the wire
-  if (frame.id == hal::canopen::kCobSync) computes_ = false;
-  const std::int64_t ready_ns = now_ns_ + (computes_ ? compute_ns_ : 0);
+  const bool computed = frame.id > hal::canopen::kCobRpdo1 && frame.id < hal::canopen::kCobTpdo2;
+  const std::int64_t ready_ns = now_ns_ + (computed ? compute_ns_ : 0);
   return bus_.hand_over(end_, frame, ready_ns) ? hal::SendResult::kSent : hal::SendResult::kFull;
 }
 
 bool LoopbackEnd::receive(hal::ReceivedFrame& received) noexcept {
-  computes_ = true;
   if (count_ == 0) return false;
   received = received_[first_];
   first_ = (first_ + 1) % kReceiveQueue;

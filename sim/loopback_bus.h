@@ -74,8 +74,8 @@ class LoopbackBus {
 };
 
 /// The controller's interface to a loopback bus, as a socket of Linux is one: bounded queues, own frames come back.
-/// What arrives is put into it by `deliver`. SYNC is put on the wire at once, every other frame `compute_ns` later: in
-/// virtual time computing takes no time by itself.
+/// What arrives is put into it by `deliver`. RPDOs are put on the wire `compute_ns` after they are sent, since in
+/// virtual time computing takes no time by itself, every other frame at once.
 class LoopbackEnd final : public hal::CanBus {
  public:
   static constexpr int kReceiveQueue = 512;
@@ -100,7 +100,6 @@ class LoopbackEnd final : public hal::CanBus {
   std::int64_t compute_ns_;
   std::int64_t now_ns_ = 0;
   bool full_ = false;
-  bool computes_ = false;
   hal::BusHealth health_;
   std::array<hal::ReceivedFrame, kReceiveQueue> received_{};
   std::size_t first_ = 0;

@@ -43,7 +43,7 @@ struct ObjectEntry {
 /// The objects of a node, at most 4 bytes each. Real-time safe.
 class ObjectDictionary {
  public:
-  static constexpr std::size_t kCapacity = 96;
+  static constexpr std::size_t kCapacity = 112;
 
   /// Ascending by index and sub-index; its value is its initial one.
   void add(const ObjectEntry& entry) noexcept;

@@ -173,8 +173,8 @@ TEST(CanBridge, GoesByTheClockWhenTheControllerIsGone) {
   EXPECT_TRUE(bench.plant.velocities().isZero(0.0));
   EXPECT_EQ(bridge.counters().left_alone, 2u);  // in the controller's probe, too
   // SIGCONT: it is in step again, and no drive takes up its torque by itself
-  controller.run(3, /*heartbeats_wait=*/true);
-  EXPECT_EQ(bridge.counters().cycles, 103u - hal::CanDrives::kProbeSilent);
+  controller.run(4, /*heartbeats_wait=*/true);
+  EXPECT_EQ(bridge.counters().cycles, 103u - hal::CanDrives::kProbeSilent) << "in one no bus has its echo yet";
   EXPECT_EQ(controller.reading.age[0], 0u);
 }
 

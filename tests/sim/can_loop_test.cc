@@ -79,6 +79,55 @@ TEST(CanLoop, DrivesOfTheArmComeUpAndTakeTorque) {
   for (const auto lost : loop.drives->statistics().lost) EXPECT_EQ(lost, 0u);
 }
 
+/// Two joints on a bus whose drives take 150 us: a plan that counts them loses nothing, one that does not loses all.
+TEST(CanLoop, DrivesThatTakeTheirTimeAnswerInTheTimeThatThePlanGivesThem) {
+  ArmModel arm = test::one_joint(0.5, 0.1);
+  arm.gravity_W.setZero();
+  arm.joint_count = 2;
+  arm.joints[1] = arm.joints[0];
+  hal::BusLayout layout = test::layout_of(arm);
+  layout.panel.bus = -1;
+  for (const bool counted : {true, false}) {
+    layout.answer = 150e-6;
+    Plant plant(arm, JointVector::Zero());
+    Loop loop(arm, layout, plant);
+    if (!counted) {
+      layout.answer = 0.0;
+      loop.drives.emplace(loop.layout, std::span(loop.wires.data(), 1), hal::plan_buses(layout).timing);
+    }
+    ASSERT_EQ(loop.bring_up().status, hal::BringUpStatus::kOk);
+    for (int i = 0; i < 300; ++i) loop.cycle(JointVector::Zero());
+    const hal::CanStatistics& statistics = loop.drives->statistics();
+    if (counted) {
+      EXPECT_EQ(loop.reading.alarm, hal::Alarm::kNone);
+      EXPECT_EQ(loop.reading.state.at(0), hal::DriveState::kEnabled);
+      EXPECT_EQ(statistics.lost.at(0) + statistics.lost.at(1), 0u);
+      EXPECT_GE(statistics.longest_round_trip_ns, 150'000 + 270'000);
+    } else {
+      EXPECT_GT(statistics.lost.at(1), 250u);
+    }
+  }
+}
+
+TEST(CanLoop, ALimitOfADriveBelowItsJointsIsRefused) {
+  const ArmModel arm = test::lwr().model;
+  hal::BusLayout layout = test::layout_of(arm);
+  for (int i = 0; i < 7; ++i)
+    layout.drives.at(static_cast<std::size_t>(i)).torque_limit = arm.joints.at(static_cast<std::size_t>(i)).torque;
+  for (const std::uint32_t permille : {1000u, 999u}) {
+    Plant plant(arm, JointVector::Zero());
+    Loop loop(arm, layout, plant);
+    loop.device->nodes().drive(4).objects().set_initial(hal::canopen::kMaxTorque, 0, permille);
+    const hal::BringUpResult result = loop.bring_up();
+    if (permille == 1000) {
+      EXPECT_EQ(result.status, hal::BringUpStatus::kOk) << describe(result.status);
+    } else {
+      EXPECT_EQ(result.status, hal::BringUpStatus::kTooLow);
+      EXPECT_EQ(result.joint, 4);
+    }
+  }
+}
+
 ArmModel three_joints() {
   ArmModel model = test::one_joint(0.5, 0.1);
   model.gravity_W.setZero();

@@ -182,6 +182,24 @@ TEST(CanopenNode, SendsByItsEventTimer) {
   EXPECT_EQ(bench.node.next_timer_ns(), bench.now_ns + 14 * kMs);
 }
 
+TEST(CanopenNode, AnswersSyncWithWhatItSampledThenSoLongAfterIt) {
+  Bench bench;
+  bench.boot();
+  ASSERT_EQ(bench.write(0x1800, 2, 1, 1), 0u);
+  bench.node.set_answer(150'000);
+  bench.put(can_frame(0, {1, 0}));
+  EXPECT_TRUE(bench.put(can_frame(0x80, {})).empty());
+  EXPECT_EQ(bench.node.next_timer_ns(), bench.now_ns + 150'000);
+  bench.node.run_timers(bench.now_ns + 149'999);
+  EXPECT_TRUE(bench.sent().empty());
+  bench.node.run_timers(bench.now_ns + 150'000);
+  ASSERT_EQ(bench.sent().size(), 1u);
+  EXPECT_TRUE(bench.put(can_frame(0x80, {})).empty());
+  bench.put(can_frame(0, {0x80, 0}));
+  bench.node.run_timers(bench.now_ns + kMs);
+  EXPECT_TRUE(bench.sent().empty()) << "no longer operational";
+}
+
 TEST(CanopenNode, ProducesHeartbeatsWithItsState) {
   Bench bench;
   bench.boot();

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "sim/virtual_clock.h"
@@ -346,6 +348,29 @@ TEST(Cia402Slave, GivesTorqueInItsOwnModeOnly) {
   ASSERT_EQ(bench.write(0x6060, 0, 1, 10), 0u);
   bench.update();
   EXPECT_NEAR(bench.slave.motor_torque(), 2.0, 1e-12);
+}
+
+TEST(Cia402Slave, TellsItsModeByASecondTpdoWhenItChangesAndByATimer) {
+  Bench bench;
+  bench.put(can_frame(0, {0x80, 0}));
+  for (const auto& [index, sub, bytes, value] : {std::tuple(0x1A01, 1, 4, 0x6061'0008u), std::tuple(0x1A01, 0, 1, 1u),
+                                                 std::tuple(0x1801, 5, 2, 100u), std::tuple(0x1801, 1, 4, 0x285u)}) {
+    ASSERT_EQ(bench.write(index, sub, bytes, value), 0u) << std::hex << index << ':' << sub;
+  }
+  bench.put(can_frame(0, {1, 0}));
+  const auto told = [](const std::vector<hal::CanFrame>& frames, int mode) {
+    return std::ranges::count_if(frames, [mode](const hal::CanFrame& f) { return is(f, 0x285, {mode}); });
+  };
+  EXPECT_EQ(told(bench.put(test::sdo_request(5, 0x6060, 0, 1, 0)), 0), 1);
+  EXPECT_EQ(told(bench.put(test::sdo_request(5, 0x6060, 0, 1, 10)), 10), 1);
+  bench.slave.slip_mode(8);
+  bench.slave.slip_mode(8);
+  EXPECT_EQ(told(bench.sent(), 8), 1) << "once";
+  EXPECT_EQ(bench.read(0x6061), 8u);
+  bench.slave.run_timers(bench.now_ns + 100 * kMs);
+  EXPECT_EQ(told(bench.sent(), 8), 1);
+  bench.slave.slip_mode(10);
+  EXPECT_EQ(told(bench.sent(), 10), 1);
 }
 
 TEST(Cia402Slave, LimitsTorqueAndSaysSo) {

@@ -1,10 +1,10 @@
 'use strict';
 // foreign_slave.js PROGRAM LOG: a drive, node 5, and a panel, node 20h, written with the library `canopen`, for our master. The
-// library has no CiA 402: power states by hand; no boot-up message: sent by hand; and it takes neither 1005 nor sub-objects back at
+// library has no CiA 402: power states by hand; no boot-up message and no TPDO of type 255: sent by hand; and it takes neither 1005 nor sub-objects back at
 // a reset.
 
 const assert = require('assert');
-const { Device, DataType, ObjectType, AccessType } = require('canopen');
+const { Device, DataType, ObjectType, AccessType, NmtState } = require('canopen');
 const { Pipe } = require('./pipe.js');
 
 const U8 = DataType.UNSIGNED8, U16 = DataType.UNSIGNED16, U32 = DataType.UNSIGNED32;
@@ -47,10 +47,13 @@ async function main() {
   const position = object(0x6064, I32, 12345);
   const target = object(0x6071, I16), actual = object(0x6077, I16);
   object(0x6076, U32, 2000, AccessType.READ_ONLY);
+  object(0x6085, U32, 1000);
   drive.record(0x60C2, [U8, I8]);
   object(0x6502, U32, 1 << 9, AccessType.READ_ONLY);
   drive.eds.addReceivePdo({ cobId: 0x80000205, transmissionType: 255, dataObjects: [controlword, target] });
   drive.eds.addTransmitPdo({ cobId: 0x80000185, transmissionType: 255, dataObjects: [statusword, position, actual] });
+  drive.eds.addTransmitPdo({ cobId: 0x80000285, transmissionType: 255, dataObjects: [modeDisplay] });
+  setInterval(() => drive.nmt.state === NmtState.OPERATIONAL && pipe.send(0x285, [modeDisplay.value], drive), 100);
   const panel = makeDevice(pipe, 0x20, 0x00010191);
   const inputs = panel.record(0x6000, [U8]);
   panel.eds.addTransmitPdo({ cobId: 0x800001A0, transmissionType: 255, dataObjects: [inputs[1]] });
