@@ -52,6 +52,10 @@ std::string explain(const hal::BringUpResult& result, const std::vector<std::str
     case hal::BringUpStatus::kWrongValue:
       more = fmt::format("0x{:X} in place of 0x{:X}", result.found, result.expected);
       break;
+    case hal::BringUpStatus::kTooLow: more = fmt::format("{}, at least {}", result.found, result.expected); break;
+    case hal::BringUpStatus::kWrongRatio:
+      more = fmt::format("{:.9g} in place of {:.9g}", result.ratio_found, result.ratio_expected);
+      break;
     default: break;
   }
   return at(where, describe(result.status), more);
@@ -64,6 +68,9 @@ std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std
   std::string more;
   if (alarm.id != 0) append(more, fmt::format("COB-ID {:03X}", alarm.id));
   if (alarm.alarm == hal::Alarm::kDriveError) append(more, fmt::format("error code {:04X}", alarm.found));
+  if (alarm.alarm == hal::Alarm::kWrongMode && alarm.index != 0) {
+    append(more, fmt::format("mode {} in place of {}", static_cast<std::int32_t>(alarm.found), alarm.expected));
+  }
   if (alarm.alarm == hal::Alarm::kParameterChanged) {
     append(more, fmt::format("0x{:X} in place of 0x{:X}", alarm.found, alarm.expected));
   }

@@ -22,8 +22,9 @@ std::string rates(const hal::BusLayout& layout) {
 }  // namespace
 
 std::string bus_plan_table(const hal::BusLayout& layout, const hal::BusPlan& plan) {
-  std::string text = fmt::format("bus plan: {}, cycle {:g} us, computing {:g} us; worst case in us\n", rates(layout),
-                                 1e6 * layout.period, 1e6 * layout.compute);
+  std::string text =
+      fmt::format("bus plan: {}, cycle {:g} us, drives answer within {:g} us, computing {:g} us; worst case in us\n",
+                  rates(layout), 1e6 * layout.period, 1e6 * layout.answer, 1e6 * layout.compute);
   text += "bus joints panel   SYNC  TPDOs  RPDOs    end  with SDO  wire busy\n";
   auto out = std::back_inserter(text);
   for (std::size_t bus = 0; bus < static_cast<std::size_t>(layout.bus_count); ++bus) {

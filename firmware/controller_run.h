@@ -22,17 +22,19 @@ struct RunSetup {
   std::uint32_t every = 1;   ///< cycles a telemetry record
   /// Of the machine, for the time that computing takes; in virtual time it takes none.
   hal::Clock* stopwatch = nullptr;
+  std::int64_t compute_ns = 0;  ///< that computing may take by the bus plan
 };
 
 /// What a run leaves beside its records.
 struct RunReport {
   LoopStatistics loop;
-  DurationHistogram computing;   ///< of a cycle, by the stopwatch
-  double largest_force = 0.0;    ///< rendered at the hand [N]
-  double largest_torque = 0.0;   ///< [Nm]
-  double deepest = 0.0;          ///< of the god object while something was rendered [m]
-  std::uint64_t rendering = 0;   ///< cycles with something granted
-  std::uint64_t in_contact = 0;  ///< of those, with a force
+  DurationHistogram computing;    ///< of a cycle, by the stopwatch
+  std::uint64_t beyond_plan = 0;  ///< cycles in which it took longer than the bus plan gives it
+  double largest_force = 0.0;     ///< rendered at the hand [N]
+  double largest_torque = 0.0;    ///< [Nm]
+  double deepest = 0.0;           ///< of the god object while something was rendered [m]
+  std::uint64_t rendering = 0;    ///< cycles with something granted
+  std::uint64_t in_contact = 0;   ///< of those, with a force
   /// Cycles in a row that it has waited for the enable switch; another thread may look at it.
   std::atomic<std::uint32_t> waiting{0};
 };
@@ -66,7 +68,9 @@ void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycl
         events.reset_requested = requests.reset.exchange(false, std::memory_order_relaxed);
         const std::int64_t begin_ns = setup.stopwatch->now_ns();
         cycle.run_once(events);
-        report.computing.add(setup.stopwatch->now_ns() - begin_ns);
+        const std::int64_t took_ns = setup.stopwatch->now_ns() - begin_ns;
+        report.computing.add(took_ns);
+        report.beyond_plan += took_ns > setup.compute_ns ? 1 : 0;
         ++cycles;
         const Mode mode = cycle.record().mode;
         return mode != Mode::kEnded && !(mode == Mode::kStopped && refuses_to_start(cycle.record().fault));

@@ -21,6 +21,7 @@
 #include "firmware/can_interfaces.h"
 #include "firmware/command/failure.h"
 #include "firmware/command/run.h"
+#include "firmware/commissioning.h"
 #include "firmware/configuration/controller_file.h"
 #include "firmware/control_cycle.h"
 #include "firmware/controller_run.h"
@@ -87,6 +88,19 @@ rates, and what each carries in a cycle.
 
 Exit codes: 0 done, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 something is lacking without which there is no
 real-time work: kernel, rtprio, memlock or a working CAN interface, 78 bad configuration.)";
+
+const char* const kCommissionFooter = R"(Examples:
+  godobject-controller commission firmware/controllers/lwr.toml --bus can0,can1,can2
+  godobject-controller commission firmware/controllers/lwr.toml          # on the simulated drives
+
+Starts the drives, gives none of them power, and leaves out the torque frames (RPDO) of one joint after the other: each drive must
+say, by emergency message 8250 or by a fault, that its deadline has run out. Prints a line a joint: what its drive says of itself,
+its sign and zero as the device file has them and the position that follows, and what was seen.
+
+A drive that watches its deadline in operation enabled only shows nothing here; firmware/README.md says how it is tried then.
+
+Exit codes: 0 the deadlines of all joints were seen in time, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 drives or
+bus not available, or a deadline that was not seen, 77 not permitted, 78 bad configuration.)";
 
 struct Options {
   std::string controller;
@@ -219,7 +233,7 @@ void print_report(const firmware::RunReport& report, const firmware::CycleCounte
   fmt::print("{}", firmware::bus_summary(drives.statistics(), drives.joint_count()));
   fmt::print("limits: force in {} cycles, speed {}, joint torque {}, torque rate {}; friction not found in {}\n",
              counters.clipped, counters.slowed, counters.scaled, counters.rate_limited, counters.unconverged);
-  fmt::print("computing: {}\n", quantiles(report.computing));
+  fmt::print("computing: {}; longer than loop.compute in {}\n", quantiles(report.computing), report.beyond_plan);
   if (real_time) {
     fmt::print("waking late: {}\n", quantiles(report.loop.lateness));
     fmt::print("waking late for the samples: {}\n", quantiles(report.loop.collect_lateness));
@@ -347,11 +361,39 @@ void set_up_thread(const ControllerConfig& config, bool simulated) {
   }
 }
 
-void start_nodes(hal::Clock& clock, const std::vector<std::string>& names) {
-  const hal::BringUpResult result = drives->bring_up(clock);
-  if (result.status == hal::BringUpStatus::kOk) return;
+/// False: a signal has ended the start.
+bool start_nodes(hal::Clock& clock, const std::vector<std::string>& names) {
+  const hal::BringUpResult result = drives->bring_up(clock, &requests.end);
+  if (result.status == hal::BringUpStatus::kOk) return true;
   drives->stop_nodes();
+  if (result.status == hal::BringUpStatus::kEnded) return false;
   throw Failure(ExitCode::kUnavailable, firmware::explain(result, names));
+}
+
+/// Whether each drive notices that its torques stay away, tried without power.
+void commission(const Options& options) {
+  ControllerConfig config = firmware::read_controller_file(options.controller);
+  config.simulation.path.clear();
+  const hal::BusLayout& layout = config.device.bus;
+  const firmware::Placement placement = firmware::place(config.workspace, config.device, Vector3::Zero());
+  const hal::BusPlan plan = require_bus_plan(layout);
+  const ArmLink link = link_arm(options, config, placement);
+  drives.emplace(layout, link.buses, plan.timing);
+  catch_signals();
+  if (link.real_time) set_up_thread(config, link.device != nullptr);
+  const std::unique_ptr<hal::Clock> clock = link.make_clock();
+  if (!start_nodes(*clock, link.names)) throw Failure(ExitCode::kUnavailable, "ended before the drives were started");
+  std::vector<firmware::JointTrial> trials;
+  try {
+    trials = firmware::try_deadlines(*drives, layout, link.buses, *clock, link.names, requests.end);
+  } catch (const Failure&) {
+    drives->stop_nodes();
+    throw;
+  }
+  drives->stop_nodes();
+  fmt::print("{}", firmware::deadline_table(layout, trials));
+  const std::string objection = firmware::deadline_objection(trials);
+  if (!objection.empty()) throw Failure(ExitCode::kUnavailable, objection);
 }
 
 /// From the nodes' start to their stop.
@@ -371,7 +413,7 @@ void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, c
       set_up_thread(config, link.device != nullptr);
     }
     const std::unique_ptr<hal::Clock> clock = link.make_clock();
-    start_nodes(*clock, link.names);
+    if (!start_nodes(*clock, link.names)) return warn("ended before the drives were started; none was enabled");
     const long before = firmware::page_faults();
     if (link.real_time) {
       firmware::run_controller(setup, *clock, *cycle, requests, ring, run_report, [] {});
@@ -440,6 +482,7 @@ void control(const Options& options) {
   setup.cycles = duration ? static_cast<std::uint64_t>(1e3 * *duration) : 0;
   setup.every = static_cast<std::uint32_t>(config.telemetry.every);
   setup.stopwatch = &stopwatch;
+  setup.compute_ns = static_cast<std::int64_t>(1e9 * config.loop.compute);
   catch_signals();
   run_loop(setup, config, link);
 
@@ -493,7 +536,14 @@ int main(int argc, char** argv) {
   doctor->add_option("CONTROLLER.toml", examined, "controller file, for loop and buses")->type_name("");
   doctor->add_option("--bus", options.bus, "CAN interfaces to look at, such as can0,can1")->type_name("BUS");
   doctor->footer(kDoctorFooter);
+  CLI::App* commissioning =
+      app.add_subcommand("commission", "tries, without power, whether each drive notices that its torques stay away");
+  commissioning->add_option("CONTROLLER.toml", options.controller, "controller file")->required()->type_name("");
+  commissioning->add_option("--bus", options.bus, "sim, or CAN interfaces such as can0,can1; default: sim")
+      ->type_name("BUS");
+  commissioning->footer(kCommissionFooter);
   return command::run(app, argc, argv, [&] {
+    if (commissioning->parsed()) return commission(options);
     if (doctor->parsed()) return examine(examined, options.bus);
     if (controller->count() == 0) throw CLI::RequiredError("CONTROLLER.toml");
     control(options);

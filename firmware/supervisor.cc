@@ -63,7 +63,7 @@ const char* describe(hal::Alarm alarm) noexcept {
     case hal::Alarm::kBusDown:
       return "a CAN interface is down or bus-off; check wiring and termination, set it up again";
     case hal::Alarm::kBadFrames: return "three frames in a row that its drive cannot have sent; check the PDO mapping";
-    case hal::Alarm::kNodeReset: return "the drive started anew; check its supply";
+    case hal::Alarm::kNodeReset: return "the drive started anew; check its supply, then start the controller again";
     case hal::Alarm::kHeartbeatLost: return "the drive's heartbeat stayed away; check its supply and the bus";
     case hal::Alarm::kDriveError: return "the drive sent an emergency message; look its code up in its manual";
     case hal::Alarm::kWrongMode: return "the drive left cyclic synchronous torque or the operational state";
@@ -74,7 +74,9 @@ const char* describe(hal::Alarm alarm) noexcept {
       return "a parameter of the drive is not what was written at the start; start again";
     case hal::Alarm::kAnswersLate:
       return "the drive answers a SYNC only after the next one; its samples would be a period late";
-    case hal::Alarm::kPanelLost: return "the operator's panel does not answer; check its wiring";
+    case hal::Alarm::kPanelLost: return "the operator's panel does not answer any more; check its wiring";
+    case hal::Alarm::kPanelSilent:
+      return "the operator's panel has not told its inputs since the start; check that it answers SYNC with its TPDO1";
   }
   return "unknown alarm";
 }
@@ -272,7 +274,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
       if (seen.reset_requested && !seen.enable_switch && !seen.emergency_stop) enter(Mode::kResetting);
       break;
     case Mode::kResetting:
-      if (seen.drives.all_answer && !seen.drives.any_fault) {
+      if (seen.drives.all_answer && !seen.drives.any_fault && last_power_ == hal::PowerRequest::kReset) {
         fault_ = Fault::kNone;
         fault_joint_ = -1;
         enter(Mode::kBoot);
@@ -301,7 +303,12 @@ hal::PowerRequest Supervisor::power_after_stop(const DriveSummary& drives) const
 Decision Supervisor::decide(const Observation& seen) const noexcept {
   Decision decision;
   switch (mode_) {
-    case Mode::kResetting: decision.power = hal::PowerRequest::kReset; break;
+    case Mode::kResetting: {
+      // a reset takes power away, too
+      const bool on_ramp = power_after_stop(seen.drives) == hal::PowerRequest::kQuickStop;
+      decision.power = on_ramp ? hal::PowerRequest::kQuickStop : hal::PowerRequest::kReset;
+      break;
+    }
     case Mode::kEnabling:
       if (in_mode_ > parameters_.prepare_cycles) decision.power = hal::PowerRequest::kEnable;
       decision.holds_arm = true;

@@ -23,7 +23,7 @@ enum class Mode : std::uint8_t {
   kFade,       ///< what was last rendered goes to nothing within kFadeCycles; then kStopping
   kStopping,   ///< nothing is rendered, the arm is held, the drives come to rest and close the brakes
   kStopped,    ///< no power once the drives rest; a fault is latched until the operator resets it
-  kResetting,  ///< drives leave their faults; then kBoot
+  kResetting,  ///< drives leave their faults, once they rest; then kBoot
   kEnding,     ///< was asked to end: what is rendered goes to nothing; then kStopping
   kEnded,      ///< no power once the drives rest; the loop may be left
 };

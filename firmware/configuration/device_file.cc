@@ -68,6 +68,7 @@ hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
   drive.counts = table.number("counts", {16.0, 1e9});
   drive.gear = table.number("gear", {1e-3, 1e4});
   drive.rated_torque = table.number("rated_torque", kPositive);
+  drive.torque_limit = joint.torque;
   drive.sign = table.number("sign", {-1.0, 1.0});
   if (std::fabs(drive.sign) != 1.0) table.complain("sign", "must be 1 or -1");
   drive.zero = table.number("zero", kAngle);
@@ -141,11 +142,12 @@ void check_nodes(const TomlTable& joint, const hal::BusLayout& bus, std::size_t 
 }
 
 void read_bus(const TomlTable& table, hal::BusLayout& bus) {
-  table.allow({"bit_rate", "fd", "data_rate", "drive_delay", "command_deadline", "drive_heartbeat", "heartbeat_timeout",
-               "boot_timeout", "panel_bus", "panel_node"});
+  table.allow({"bit_rate", "fd", "data_rate", "answer", "drive_delay", "command_deadline", "drive_heartbeat",
+               "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
   bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
   bus.fd = table.flag("fd", bus.fd);
   bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
+  bus.answer = table.number("answer", {0.0, 5e-4}, bus.answer);
   bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
   bus.command_deadline = table.number("command_deadline", {2e-3, 0.01}, bus.command_deadline);
   bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);

@@ -23,7 +23,7 @@ using sim::BusFaultKind;
 using sim::DriveFault;
 using sim::FaultKind;
 
-constexpr std::int64_t kBegin = 1720;  ///< period of the fault
+constexpr std::int64_t kBegin = 2020;  ///< period of the fault
 constexpr std::int64_t kForGood = 100'000;
 
 const test::SceneImage& plate() {
@@ -217,6 +217,12 @@ INSTANTIATE_TEST_SUITE_P(
             {changed(0, 1, 0x6060, 0, 0.0)},
             {},
             {Fault::kAlarm, Fault::kDriveLeft},
+            {Alarm::kWrongMode},
+            2},
+        Row{"mode_left_bit_12_stays",
+            {},
+            {{FaultKind::kModeSlips, 2, kBegin, kForGood, 8.0}},
+            {Fault::kAlarm},
             {Alarm::kWrongMode},
             2},
         Row{"supply_of_a_drive_lost",

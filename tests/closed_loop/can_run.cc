@@ -41,7 +41,7 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
       std::make_unique<sim::Plant>(arm, SimulatedRun::posture(), JointVector::Zero(),
                                    sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
   device_ = std::make_unique<sim::CanDevice>(
-      *plant_, layout, hardware_, sim::CanScript{.hold_from_ns = 740'000'000, .faults = options_.drive_faults},
+      *plant_, layout, hardware_, sim::CanScript{.hold_from_ns = 1'040'000'000, .faults = options_.drive_faults},
       options_.bus_faults);
   clock_ = std::make_unique<sim::VirtualClock>(*device_);
   buses_.reserve(hal::kMaxBuses);

@@ -40,7 +40,7 @@ class CanRun {
  public:
   struct Options {
     std::vector<Vector3> path;  ///< of the ball in the scene, 1 ms apart, from time `begin` on
-    double begin = 0.9;         ///< [s]
+    double begin = 1.2;         ///< [s]
     std::vector<sim::BusFault> bus_faults;
     std::vector<sim::DriveFault> drive_faults;
     double zero = 0.0;  ///< position of joint 2 where its counter is 0 [rad]

@@ -24,7 +24,7 @@ TEST(BusPlanTable, GivesWorstCasesInMicroseconds) {
   const hal::BusLayout layout = three_on_one();
   const std::string text = bus_plan_table(layout, hal::plan_buses(layout));
   EXPECT_EQ(text,
-            "bus plan: CAN 1 Mbit/s, cycle 1000 us, computing 120 us; worst case in us\n"
+            "bus plan: CAN 1 Mbit/s, cycle 1000 us, drives answer within 0 us, computing 120 us; worst case in us\n"
             "bus joints panel   SYNC  TPDOs  RPDOs    end  with SDO  wire busy\n"
             "  0      3    no     55    405    285    995      1000     76.1 %\n"
             "samples collected 525 us after SYNC; from sample to torque at most 948 us\n"

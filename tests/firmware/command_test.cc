@@ -111,6 +111,28 @@ TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
   EXPECT_TRUE(says("waking late: p50")) << words_;
 }
 
+TEST_F(ControllerCommandTest, CommissionsTheSimulatedDrives) {
+  EXPECT_EQ(run("commission c.toml"), 0) << words_;
+  EXPECT_EQ(std::count(words_.begin(), words_.end(), '\n'), 8) << words_;
+  std::size_t seen = 0;
+  for (std::size_t at = words_.find("emergency 8250"); at != std::string::npos;
+       at = words_.find("emergency 8250", at + 1)) {
+    ++seen;
+  }
+  EXPECT_EQ(seen, 7u) << words_;
+  EXPECT_EQ(run("commission nothing.toml"), 66);
+  EXPECT_EQ(run("commission"), 64);
+  EXPECT_EQ(run("commission --help"), 0);
+  EXPECT_TRUE(says("Exit codes: 0 ")) << words_;
+}
+
+TEST_F(ControllerCommandTest, CountsCyclesThatComputeForLongerThanThePlanSays) {
+  write_controller("[loop]\ncompute = 1e-6\n");
+  EXPECT_EQ(run("c.toml --duration 0.5"), 0) << words_;
+  EXPECT_TRUE(says("longer than loop.compute in ")) << words_;
+  EXPECT_FALSE(says("longer than loop.compute in 0\n")) << words_;
+}
+
 TEST_F(ControllerCommandTest, ExaminesTheMachine) {
   for (const char* arguments : {"doctor", "doctor c.toml"}) {
     const int code = run(arguments);

@@ -65,6 +65,7 @@ TEST_F(DeviceFileTest, ReadsBothArms) {
   EXPECT_EQ(lwr.bus.joint_count, 7);
   EXPECT_EQ(lwr.bus.drives[6].node, 7);
   EXPECT_EQ(lwr.bus.drives[6].rated_torque, 38.0);
+  EXPECT_EQ(lwr.bus.drives[6].torque_limit, lwr.model.joints[6].torque);
   EXPECT_EQ(lwr.bus.panel.bus, 2);
   EXPECT_EQ(desktop.bus.drives[2].sign, -1.0);
   EXPECT_EQ(desktop.bus.drives[2].gear, 10.0);
@@ -111,6 +112,7 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"drive_delay = 0.0", "drive_delay = -1e-6", "bus.drive_delay = -1e-06 is out of range"},
            {"drive_delay = 0.0", "drive_delay = 0.0051", "bus.drive_delay = 0.0051 is out of range"},
            {"drive_delay = 0.0", "drive_delay = nan", "bus.drive_delay = nan is out of range"},
+           {"drive_delay = 0.0", "drive_delay = 0.0\nanswer = 0.0006", "bus.answer = 0.0006 is out of range"},
        }) {
     const std::string message = refusal(from, to);
     EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
@@ -128,6 +130,9 @@ TEST_F(DeviceFileTest, ReadsTheDrivesDelay) {
   EXPECT_EQ(read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml").bus.drive_delay, 0.0);
   ASSERT_EQ(refusal("drive_delay = 0.0", "drive_delay = 0.005"), "");
   EXPECT_EQ(read_device_file(file_).bus.drive_delay, 0.005);
+  EXPECT_EQ(read_device_file(file_).bus.answer, 0.0);
+  ASSERT_EQ(refusal("drive_delay = 0.0", "drive_delay = 0.0\nanswer = 120e-6"), "");
+  EXPECT_EQ(read_device_file(file_).bus.answer, 120e-6);
 }
 
 /// Joint 1: limits of +-1.2 rad about a zero of 0, gear 10. With 0.5 rad more, half a turn of 2^32 counts is at

@@ -486,7 +486,7 @@ TEST(Supervisor, IsResetAndEndedThoughADriveWasNotSeenAtRest) {
     ASSERT_GE(bench.run_to(Mode::kStopped), 0);
     bench.seen.emergency_stop = bench.seen.enable_switch = false;
     (resets ? bench.seen.reset_requested : bench.seen.end_requested) = true;
-    EXPECT_EQ(bench.step().power, resets ? PowerRequest::kReset : PowerRequest::kQuickStop);
+    EXPECT_EQ(bench.step().power, PowerRequest::kQuickStop);
     EXPECT_EQ(bench.supervisor.mode(), resets ? Mode::kResetting : Mode::kEnded);
   }
 }
@@ -669,6 +669,26 @@ TEST(Supervisor, IsResetByTheOperatorOnlyWithTheSwitchReleased) {
   bench.seen.enable_switch = true;
   EXPECT_GE(bench.run_to(Mode::kRunning), 0);
   EXPECT_EQ(bench.decision.share, 1.0);
+}
+
+TEST(Supervisor, AResetTakesNoPowerFromADriveOnItsRamp) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  bench.obeys = false;
+  bench.seen.emergency_stop = true;
+  ASSERT_GE(bench.run_to(Mode::kStopped), 0);  // not seen at rest in all this time
+  bench.seen.emergency_stop = bench.seen.enable_switch = false;
+  bench.seen.reset_requested = true;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(bench.step().power, PowerRequest::kQuickStop) << "disabled, a drive would break its ramp off";
+    ASSERT_EQ(bench.supervisor.mode(), Mode::kResetting);
+    bench.seen.reset_requested = false;
+  }
+  bench.seen.drives = drives_with(hal::DriveState::kOff, 0);
+  EXPECT_EQ(bench.step().power, PowerRequest::kReset);
+  bench.step();
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kBoot);
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kNone);
 }
 
 TEST(Supervisor, StaysStoppedWithoutAReset) {
