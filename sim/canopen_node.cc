@@ -228,7 +228,7 @@ void CanopenNode::on_rpdo(const hal::CanFrame& frame, std::int64_t now_ns) noexc
   if (frame.length < mapped) return send_emergency(kPdoTooShort, kGenericError | kCommunicationError);
   if (frame.length > mapped) send_emergency(kPdoTooLong, kGenericError | kCommunicationError);
   const std::uint32_t deadline_ms = objects_.value(kRpdo1Communication, 5);
-  command_at_ns_ = deadline_ms == 0 ? kNever : now_ns + deadline_ms * kMs_ns;
+  command_at_ns_ = deadline_ms == 0 || deadline_ignored_ ? kNever : now_ns + deadline_ms * kMs_ns;
   command_ = frame;
   if (objects_.value(kRpdo1Communication, 2) >= kEventDriven) return apply_rpdo(now_ns);
   command_waits_ = true;

@@ -87,7 +87,8 @@ class CanopenNode {
 
   /// For scripts of what goes wrong.
   void mute_heartbeat(bool muted) noexcept { heartbeat_muted_ = muted; }
-  void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }  ///< every request from now on; kNone: none
+  void ignore_deadline() noexcept { deadline_ignored_ = true; }  ///< of the RPDO, whatever its object says
+  void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }   ///< every request from now on; kNone: none
 
  protected:
   /// `fd`: PDOs go as FD frames. The device adds its objects beyond 1FFF in its own constructor.
@@ -156,6 +157,7 @@ class CanopenNode {
   bool command_waits_ = false;  ///< for the next SYNC
   hal::CanFrame command_;
   bool heartbeat_muted_ = false;
+  bool deadline_ignored_ = false;
   SdoAbort refusal_ = SdoAbort::kNone;
   std::array<hal::CanFrame, kOutbox> outbox_{};
   std::size_t first_ = 0;

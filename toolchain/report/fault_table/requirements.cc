@@ -107,7 +107,7 @@ const std::vector<Requirement>& requirements() {
        Reaction::kStop,
        2,
        {loop_stop("drive_trips"), loop_stop("drive_goes_off"), loop_stop("supply_of_a_drive_lost"),
-        can_stop("drive_goes_off"), can_stop("mode_left")}},
+        can_stop("drive_goes_off"), can_stop("mode_left"), can_stop("mode_left_bit_12_stays")}},
       {"torques do not reach a drive",
        "DRIVE, then STOP",
        Reaction::kStop,
