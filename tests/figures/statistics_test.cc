@@ -110,6 +110,20 @@ TEST(Claims, AreMissedInWordsThatNameSceneSolverAndNumber) {
   EXPECT_EQ(verdicts[3], "HOLDS in every scene, solver paper: none of the claims");
 }
 
+TEST(Claims, OfTimeAreOneSentenceASolverWithItsWorstScene) {
+  Entry pot = entry(0.0, 9.0, 3);
+  pot.scene = "pot";
+  Entry other = entry(0.0, 7.0, 0);
+  other.solver = "contact";
+  const auto verdicts = judge({entry(0.0, 6.0, 1), pot, other});
+  ASSERT_EQ(verdicts.size(), 5u);
+  EXPECT_EQ(
+      verdicts[0].rfind("MISSED peg, pot, solver paper: in pot steps #2-#7 take 0.00 us in the median, 9.00 us", 0), 0u)
+      << verdicts[0];
+  EXPECT_EQ(verdicts[1].rfind("MISSED peg, solver contact: steps #2-#7 take", 0), 0u) << verdicts[1];
+  EXPECT_EQ(verdicts[2].rfind("MISSED peg, pot, solver paper: in pot 3 of", 0), 0u) << verdicts[2];
+}
+
 TEST(Claims, OneVoxelIsNotBelowOneVoxel) { EXPECT_EQ(judge({entry(0.002, 1.0, 0)}).front().rfind("MISSED", 0), 0u); }
 
 TEST(Claims, ThatHoldAreSaidToHoldSolverBySolver) {
