@@ -1,5 +1,6 @@
 #include "firmware/commissioning.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -8,7 +9,8 @@
 
 #include "firmware/bus_messages.h"
 #include "firmware/command/failure.h"
-#include "hal/canopen/object_numbers.h"
+#include "hal/canopen/network.h"
+#include "hal/canopen/sdo.h"
 #include "hal/cia402/read_object.h"
 
 namespace godobject::firmware {
@@ -22,6 +24,39 @@ constexpr int kSettle = 200;    // cycles until all drives answer
 constexpr int kRecover = 1000;  // cycles in which a drive must have come out of its fault
 constexpr int kSeenAfter = 2;   // cycles in which what a drive has sent is taken
 constexpr std::uint32_t kRpdoTimeout = 0x8250;
+
+/// Writes a mode. Milliseconds until the write was confirmed and TPDO2 told the mode; nothing: it did not within half a
+/// second, or the write was refused.
+std::optional<int> set_mode(hal::CanBus& bus, hal::Clock& clock, int node, std::int8_t mode, bool& refused) {
+  using namespace hal::canopen;
+  constexpr int kWait_ms = 500;
+  if (bus.send(sdo_write(node, kMode, 0, static_cast<std::uint8_t>(mode), 1)) != hal::SendResult::kSent) return {};
+  bool written = false;
+  bool told = false;
+  for (int ms = 0; ms < kWait_ms; ++ms) {
+    hal::ReceivedFrame received;
+    SdoResponse response;
+    while (bus.receive(received)) {
+      const hal::CanFrame& frame = received.frame;
+      if (received.own) continue;
+      if (frame.id == cob(kCobTpdo2, node)) told = frame.length == 1 && static_cast<std::int8_t>(frame.data[0]) == mode;
+      if (!parse_sdo_response(frame, response) || response.node != node || response.index != kMode) continue;
+      refused = response.kind == SdoResponse::Kind::kAborted;
+      if (refused) return {};
+      written = true;
+    }
+    if (written && told) return ms;
+    clock.sleep_until(clock.now_ns() + kPeriod_ns);
+  }
+  return {};
+}
+
+void try_mode(hal::CanBus& bus, hal::Clock& clock, int node, JointTrial& trial) {
+  bool back_refused = false;
+  const std::optional<int> away = set_mode(bus, clock, node, 0, trial.mode_refused);
+  const std::optional<int> back = set_mode(bus, clock, node, hal::canopen::kModeTorque, back_refused);
+  if (away && back) trial.mode_after_ms = std::max(*away, *back);
+}
 
 /// Cycles without power.
 class IdleCycles {
@@ -105,13 +140,18 @@ std::string seen(const JointTrial& trial) {
   return fmt::format("{} after {} ms", what, trial.after_ms);
 }
 
+std::string mode_told(const JointTrial& trial) {
+  if (trial.mode_refused) return "refused";
+  return trial.mode_after_ms < 0 ? "no" : fmt::format("{} ms", trial.mode_after_ms);
+}
+
 std::string hex(const std::optional<std::uint32_t>& value) { return value ? fmt::format("{:08X}", *value) : "-"; }
 
 }  // namespace
 
-std::vector<JointTrial> try_deadlines(hal::CanDrives& drives, const hal::BusLayout& layout,
-                                      std::span<hal::CanBus* const> buses, hal::Clock& clock,
-                                      const std::vector<std::string>& names, const std::atomic<bool>& end) {
+std::vector<JointTrial> try_drives(hal::CanDrives& drives, const hal::BusLayout& layout,
+                                   std::span<hal::CanBus* const> buses, hal::Clock& clock,
+                                   const std::vector<std::string>& names, const std::atomic<bool>& end) {
   std::vector<JointTrial> trials(static_cast<std::size_t>(layout.joint_count));
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const hal::DriveConfig& drive = layout.drives[i];
@@ -125,6 +165,7 @@ std::vector<JointTrial> try_deadlines(hal::CanDrives& drives, const hal::BusLayo
     trials[i].vendor = read(hal::canopen::kIdentity, 1);
     trials[i].product = read(hal::canopen::kIdentity, 2);
     trials[i].rated_torque = read(hal::canopen::kMotorRatedTorque, 0);
+    try_mode(*buses[static_cast<std::size_t>(drive.bus)], clock, drive.node, trials[i]);
   }
   IdleCycles cycles(drives, clock, end);
   settle(cycles, drives, names);
@@ -135,32 +176,49 @@ std::vector<JointTrial> try_deadlines(hal::CanDrives& drives, const hal::BusLayo
   return trials;
 }
 
-std::string deadline_table(const hal::BusLayout& layout, std::span<const JointTrial> trials) {
+std::string trial_table(const hal::BusLayout& layout, std::span<const JointTrial> trials) {
   std::string text =
-      "joint bus node     type   vendor  product rated Nm sign     zero position  expected within  seen\n";
+      "joint bus node     type   vendor  product rated Nm sign     zero position  mode told  expected within  seen\n";
   auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const hal::DriveConfig& drive = layout.drives[i];
     const JointTrial& trial = trials[i];
-    fmt::format_to(out, "{:>5} {:>3} {:>4} {:>8} {:>8} {:>8} {:>8} {:>4} {:>8.4f} {:>8.4f} {:>13g} ms  {}\n", i + 1,
-                   drive.bus, drive.node, hex(trial.device_type), hex(trial.vendor), hex(trial.product),
+    fmt::format_to(out, "{:>5} {:>3} {:>4} {:>8} {:>8} {:>8} {:>8} {:>4} {:>8.4f} {:>8.4f} {:>10} {:>13g} ms  {}\n",
+                   i + 1, drive.bus, drive.node, hex(trial.device_type), hex(trial.vendor), hex(trial.product),
                    trial.rated_torque ? fmt::format("{:.4g}", 1e-3 * *trial.rated_torque) : "-", drive.sign, drive.zero,
-                   trial.position, 1e3 * layout.command_deadline, seen(trial));
+                   trial.position, mode_told(trial), 1e3 * layout.command_deadline, seen(trial));
   }
   return text;
 }
 
-std::string deadline_objection(std::span<const JointTrial> trials) {
-  std::vector<std::size_t> joints;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (!trials[i].in_time) joints.push_back(i + 1);
+std::string trial_objection(std::span<const JointTrial> trials) {
+  const auto joints_without = [trials](auto&& good) {
+    std::vector<std::size_t> joints;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (!good(trials[i])) joints.push_back(i + 1);
+    }
+    return fmt::format("{}", fmt::join(joints, ", "));
+  };
+  const std::string untold = joints_without([](const JointTrial& trial) {
+    return trial.mode_refused || (trial.mode_after_ms >= 0 && trial.mode_after_ms <= kModeAtOnce_ms);
+  });
+  const std::string late = joints_without([](const JointTrial& trial) { return trial.in_time; });
+  std::string text;
+  if (!late.empty()) {
+    text = fmt::format(
+        "joint {}: neither emergency 8250 nor a fault in time after the last RPDO; a drive that watches 1400:5 in "
+        "operation enabled only must be tried there, see commissioning in firmware/README.md, before anybody holds the "
+        "arm",
+        late);
   }
-  if (joints.empty()) return "";
-  return fmt::format(
-      "joint{} {}: neither emergency 8250 nor a fault in time after the last RPDO; a drive that watches 1400:5 in "
-      "operation "
-      "enabled only must be tried there, see commissioning in firmware/README.md, before anybody holds the arm",
-      joints.size() == 1 ? "" : "s", fmt::join(joints, ", "));
+  if (!untold.empty()) {
+    if (!text.empty()) text += "; ";
+    text += fmt::format(
+        "joint {}: TPDO2 does not tell a change of mode at once, so that it would be seen within a second only; this "
+        "drive cannot be used",
+        untold);
+  }
+  return text;
 }
 
 }  // namespace godobject::firmware

@@ -93,14 +93,15 @@ const char* const kCommissionFooter = R"(Examples:
   godobject-controller commission firmware/controllers/lwr.toml --bus can0,can1,can2
   godobject-controller commission firmware/controllers/lwr.toml          # on the simulated drives
 
-Starts the drives, gives none of them power, and leaves out the torque frames (RPDO) of one joint after the other: each drive must
-say, by emergency message 8250 or by a fault, that its deadline has run out. Prints a line a joint: what its drive says of itself,
+Starts the drives and gives none of them power. Each is set to no mode and back, which its TPDO2 must tell at once. Then the torque
+frames (RPDO) of one joint after the other are left out: the drive must say, by emergency message 8250 or by a fault, that its
+deadline has run out. Prints a line a joint: what its drive says of itself,
 its sign and zero as the device file has them and the position that follows, and what was seen.
 
 A drive that watches its deadline in operation enabled only shows nothing here; firmware/README.md says how it is tried then.
 
-Exit codes: 0 the deadlines of all joints were seen in time, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 drives or
-bus not available, or a deadline that was not seen, 77 not permitted, 78 bad configuration.)";
+Exit codes: 0 modes and deadlines of all joints were seen in time, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 drives or
+bus not available, or a mode or deadline that was not seen, 77 not permitted, 78 bad configuration.)";
 
 struct Options {
   std::string controller;
@@ -385,14 +386,14 @@ void commission(const Options& options) {
   if (!start_nodes(*clock, link.names)) throw Failure(ExitCode::kUnavailable, "ended before the drives were started");
   std::vector<firmware::JointTrial> trials;
   try {
-    trials = firmware::try_deadlines(*drives, layout, link.buses, *clock, link.names, requests.end);
+    trials = firmware::try_drives(*drives, layout, link.buses, *clock, link.names, requests.end);
   } catch (const Failure&) {
     drives->stop_nodes();
     throw;
   }
   drives->stop_nodes();
-  fmt::print("{}", firmware::deadline_table(layout, trials));
-  const std::string objection = firmware::deadline_objection(trials);
+  fmt::print("{}", firmware::trial_table(layout, trials));
+  const std::string objection = firmware::trial_objection(trials);
   if (!objection.empty()) throw Failure(ExitCode::kUnavailable, objection);
 }
 
@@ -536,8 +537,9 @@ int main(int argc, char** argv) {
   doctor->add_option("CONTROLLER.toml", examined, "controller file, for loop and buses")->type_name("");
   doctor->add_option("--bus", options.bus, "CAN interfaces to look at, such as can0,can1")->type_name("BUS");
   doctor->footer(kDoctorFooter);
-  CLI::App* commissioning =
-      app.add_subcommand("commission", "tries, without power, whether each drive notices that its torques stay away");
+  CLI::App* commissioning = app.add_subcommand(
+      "commission",
+      "tries, without power, whether each drive tells of its mode and notices that its torques stay away");
   commissioning->add_option("CONTROLLER.toml", options.controller, "controller file")->required()->type_name("");
   commissioning->add_option("--bus", options.bus, "sim, or CAN interfaces such as can0,can1; default: sim")
       ->type_name("BUS");

@@ -23,21 +23,22 @@ using command::Failure;
 class CommissioningTest : public testing::Test {
  protected:
   void start(std::span<const sim::DriveFault> faults = {}) {
-    device_ = std::make_unique<sim::CanDevice>(plant_, layout_, hardware_, sim::CanScript{.faults = faults});
+    plant_.emplace(arm_, JointVector::Constant(0.3));
+    device_ = std::make_unique<sim::CanDevice>(*plant_, layout_, hardware_, sim::CanScript{.faults = faults});
     clock_ = std::make_unique<sim::VirtualClock>(*device_);
     wires_ = {&device_->bus(0), &device_->bus(1), &device_->bus(2)};
     drives_.emplace(layout_, wires_, hal::plan_buses(layout_).timing);
     ASSERT_EQ(drives_->bring_up(*clock_).status, hal::BringUpStatus::kOk);
   }
   std::vector<JointTrial> run() {
-    return try_deadlines(*drives_, layout_, wires_, *clock_, {"can0", "can1", "can2"}, end_);
+    return try_drives(*drives_, layout_, wires_, *clock_, {"can0", "can1", "can2"}, end_);
   }
   hal::canopen::NmtState state(int joint) { return device_->nodes().drive(joint).nmt_state(); }
 
   ArmModel arm_ = test::lwr().model;
   hal::BusLayout layout_ = test::layout_of(arm_);
   std::array<sim::JointHardwareParameters, kMaxJoints> hardware_ = sim::usual_hardware(arm_);
-  sim::Plant plant_{arm_, JointVector::Constant(0.3)};
+  std::optional<sim::Plant> plant_;
   std::unique_ptr<sim::CanDevice> device_;
   std::unique_ptr<sim::VirtualClock> clock_;
   std::array<hal::CanBus*, 3> wires_{};
@@ -56,14 +57,16 @@ TEST_F(CommissioningTest, SeesTheDeadlineOfEachJointWithoutPower) {
     EXPECT_EQ(trial.after_ms, 5) << "4 ms after the last frame, taken with the next samples";
     EXPECT_EQ(trial.device_type, 0x00020192u);
     EXPECT_EQ(trial.vendor, 0u);
+    EXPECT_GE(trial.mode_after_ms, 0);
+    EXPECT_LE(trial.mode_after_ms, 2);
     const double rated_mNm = 1e3 * layout_.drives.at(static_cast<std::size_t>(i)).rated_torque;
     EXPECT_NEAR(trial.rated_torque.value_or(0), rated_mNm, 0.5);
     EXPECT_NEAR(trial.position, 0.3, 1e-5);
     EXPECT_EQ(device_->nodes().drive(i).state(), sim::PowerState::kSwitchOnDisabled);
     EXPECT_EQ(device_->nodes().drive(i).motor_torque(), 0.0);
   }
-  EXPECT_EQ(deadline_objection(trials), "");
-  const std::string table = deadline_table(layout_, trials);
+  EXPECT_EQ(trial_objection(trials), "");
+  const std::string table = trial_table(layout_, trials);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 8);
   EXPECT_NE(table.find("4 ms  emergency 8250 after 5 ms\n"), std::string::npos) << table;
 }
@@ -76,14 +79,18 @@ TEST_F(CommissioningTest, NamesTheJointsWhoseDeadlineIsNotSeen) {
   EXPECT_FALSE(trials[2].in_time);
   EXPECT_FALSE(trials[4].in_time);
   EXPECT_TRUE(trials[3].in_time);
-  EXPECT_EQ(deadline_objection(trials).substr(0, 13), "joints 3, 5: ");
-  EXPECT_NE(deadline_table(layout_, trials).find("4 ms  nothing\n"), std::string::npos);
+  EXPECT_EQ(trial_objection(trials).substr(0, 12), "joint 3, 5: ");
+  EXPECT_NE(trial_table(layout_, trials).find("4 ms  nothing\n"), std::string::npos);
 }
 
 TEST_F(CommissioningTest, EndsWithWhatElseGoesWrong) {
-  const sim::DriveFault trips[] = {{sim::FaultKind::kDriveTrips, 5, 1000, 1}};
+  start();
+  const std::int64_t started_ms = device_->now_ns() / 1'000'000;
+  run();
+  const std::int64_t trial_ms = device_->now_ns() / 1'000'000 - 30;
+  ASSERT_GT(trial_ms, started_ms + 100);
+  const sim::DriveFault trips[] = {{sim::FaultKind::kDriveTrips, 5, trial_ms, 1}};
   start(trips);
-  ASSERT_LT(device_->now_ns(), 950'000'000);
   try {
     run();
     FAIL();
@@ -92,6 +99,22 @@ TEST_F(CommissioningTest, EndsWithWhatElseGoesWrong) {
     EXPECT_NE(std::string(failure.what()).find("joint 6"), std::string::npos) << failure.what();
     EXPECT_NE(std::string(failure.what()).find("2310"), std::string::npos) << failure.what();
   }
+}
+
+TEST_F(CommissioningTest, NamesTheJointsThatDoNotTellTheirModeAtOnce) {
+  start();
+  device_->nodes().drive(1).objects().set(0x1A01, 0, 0);  // nothing in TPDO2
+  std::vector<JointTrial> trials = run();
+  EXPECT_EQ(trials[1].mode_after_ms, -1);
+  EXPECT_FALSE(trials[1].mode_refused);
+  EXPECT_EQ(trial_objection(trials).substr(0, 15), "joint 2: TPDO2 ");
+  trials[1].mode_after_ms = kModeAtOnce_ms;
+  EXPECT_EQ(trial_objection(trials), "");
+  trials[1].mode_after_ms = kModeAtOnce_ms + 1;  // by its timer
+  EXPECT_NE(trial_objection(trials), "");
+  trials[1].mode_refused = true;  // untried: the watch of the parameters is left
+  EXPECT_EQ(trial_objection(trials), "");
+  EXPECT_NE(trial_table(layout_, trials).find("refused"), std::string::npos);
 }
 
 /// A deadline that is longer than what was written shows in the watch of the parameters, too: either way it is no
