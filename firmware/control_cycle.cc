@@ -57,10 +57,11 @@ Status ControlCycle::estimate_velocity(std::uint32_t skipped) noexcept {
 }
 
 /// While the hand leans on something the clutch stays closed: what it leans on does not give way under it, and nothing
-/// pushes it when the clutch closes again.
+/// pushes it when the clutch closes again. Before the joints' positions are known the mesh does not rest anywhere.
 bool ControlCycle::opens_clutch() noexcept {
   const bool leans = contact_force() >= setup_.supervisor.engage_force || report_.outcome == Outcome::kStartInside;
-  clutch_is_open_ = reading_.clutch_open && (clutch_is_open_ || !leans);
+  const bool may_open = supervisor_.follows_positions() && (clutch_is_open_ || !leans);
+  clutch_is_open_ = reading_.clutch_open && may_open;
   return clutch_is_open_;
 }
 
@@ -69,25 +70,25 @@ double ControlCycle::contact_force() const noexcept {
   return at_hand_.wrench_R.force.norm() + at_hand_.wrench_R.torque.norm() / setup_.joint_torque->rotation_length;
 }
 
-/// From the tool's pose to the wrench that the hand is to feel.
+/// From the tool's pose to the wrench that the hand is to feel. G has M's axes at the centre of mass, by which the
+/// hand holds the mesh. It is what is mapped, not M: else, once the clutch has turned the mesh against the tool, forces
+/// would act on the hand with other levers than in the scene and give it energy.
 Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   const Pose& H_RM = kinematics.H_WM;  // the arm's world is the room
-  if (!mapping_) mapping_.emplace(setup_.mapping, H_RM);
-  if (const Status status = mapping_->update(H_RM, !opens_clutch(), kPeriod); status != Status::kOk) return status;
-  const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RM.translation), qd_);
+  const Vector3& p_MB = setup_.scene->H_MB.translation;
+  lever_R_ = H_RM.rotation._transformVector(p_MB) / setup_.mapping.scale;
+  const Pose H_RG{H_RM.rotation, H_RM.translation + lever_R_};
+  if (!mapping_) mapping_.emplace(setup_.mapping, H_RG);
+  if (const Status status = mapping_->update(H_RG, !opens_clutch(), kPeriod); status != Status::kOk) return status;
+  const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RG.translation), qd_);
 
-  const Pose& H_WM = mapping_->scene_pose();
-  const Vector3 p_MB_W = H_WM.rotation._transformVector(setup_.scene->H_MB.translation);
-  Motion velocity_W = mapping_->velocity_in_scene(velocity_R);  // of M's origin
-  velocity_W.translation += velocity_W.rotation.cross(p_MB_W);  // of the centre of mass
+  const Pose& H_WG = mapping_->scene_pose();
+  H_WM_ = {H_WG.rotation, H_WG.translation - H_WG.rotation._transformVector(p_MB)};
   if (!supervisor_.renders()) god_object_.reset();
-  if (const Status status = god_object_.update({H_WM, velocity_W}, report_); status != Status::kOk) return status;
+  const Motion velocity_W = mapping_->velocity_in_scene(velocity_R);
+  if (const Status status = god_object_.update({H_WM_, velocity_W}, report_); status != Status::kOk) return status;
 
-  // the hand is at the centre of mass: there its limits hold
-  lever_R_ = H_RM.rotation._transformVector(setup_.scene->H_MB.translation) / setup_.mapping.scale;
-  Motion velocity_B = velocity_R;
-  velocity_B.translation += velocity_R.rotation.cross(lever_R_);
-  at_hand_ = limit_at_hand(setup_.hand, mapping_->wrench_at_hand(report_.force.total_W), velocity_B);
+  at_hand_ = limit_at_hand(setup_.hand, mapping_->wrench_at_hand(report_.force.total_W), velocity_R);
   return Status::kOk;
 }
 
@@ -139,7 +140,7 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   record_.alarm_joint = reading_.alarm_joint;
   record_.q = positions_.q;
   record_.qd = qd_;
-  if (mapping_) record_.H_WM = mapping_->scene_pose();
+  record_.H_WM = H_WM_;
   record_.god_object_W = god_object_.mesh_pose();
   record_.share = decision.share;
   if (!decision.of_last) {

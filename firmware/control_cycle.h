@@ -124,6 +124,7 @@ class ControlCycle {
   JointVector qd_ = JointVector::Zero();
   JointVector last_q_ = JointVector::Zero();
   CycleReport report_;
+  Pose H_WM_;                          // the moving mesh as the device holds it
   Vector3 lever_R_ = Vector3::Zero();  // from M's origin to the hand, the body's centre of mass [m]
   LimitedWrench at_hand_;
   bool clutch_is_open_ = false;

@@ -20,6 +20,8 @@ struct WorkspaceMappingParameters {
 /// p_R0, p_W0 and the turn C are set anew whenever the clutch closes, so that the scene's pose goes on where it was.
 /// C stands on the tool's side: a turn of the hand about an axis of the room stays a turn about the same axis of the
 /// scene, as for translations.
+/// M's origin is the point about which the clutch turns mesh and tool against each other, so it has to be where the
+/// hand holds the mesh: about other points wrenches and velocities here and there no longer belong together.
 ///
 /// Wrenches about M's origin come back by the transpose of the velocities' map, F_R = scale R_WR^T F_W,
 /// t_R = R_WR^T t_W: the power at the hand is that in the scene, so what is passive in the scene is passive at the

@@ -182,6 +182,72 @@ TEST_F(ControlCycleTest, ArmsInContactOnlyOnceTheToolIsWithdrawn) {
   EXPECT_EQ(cycle_->record().mode, Mode::kRunning);
 }
 
+/// Through the clutch the mesh is turned against the tool: the hand still holds it by its centre of mass.
+TEST_F(ControlCycleTest, ClutchThatTurnsTheMeshGivesNoWorkOnAClosedPath) {
+  scene_.H_MB.translation = Vector3(0.0, 0.05, 0.0);  // in M
+  scene_.settings.damping = 0.0;
+  arm_.parameters.null_damping.setZero();
+  make();
+  run_to(Mode::kRunning);
+  const auto pushed = [&] {
+    return JointVector(drives_.sent.torque -
+                       gravity_torque(arm_.model, forward_kinematics(arm_.model, drives_.reading.position)));
+  };
+  double work = 0.0;
+  const auto go = [&](const JointVector& to, int cycles) {
+    const JointVector from = drives_.reading.position;
+    for (int i = 1; i <= cycles; ++i) {
+      const JointVector before = pushed();
+      const JointVector next = from + (0.5 - 0.5 * std::cos(M_PI * i / cycles)) * (to - from);
+      const JointVector motion = next - drives_.reading.position;
+      drives_.reading.position = next;
+      step();
+      work += 0.5 * (before + pushed()).dot(motion);
+    }
+  };
+  JointVector turned = q0_;
+  turned[6] += 1.2;
+  drives_.reading.clutch_open = true;
+  go(turned, 2000);
+  drives_.reading.clutch_open = false;
+  go(turned, 300);
+  ASSERT_EQ(cycle_->record().mode, Mode::kRunning) << describe(cycle_->record().fault);
+  const auto hand = [&] {
+    return forward_kinematics(arm_.model, drives_.reading.position).H_WM * scene_.H_MB.translation;
+  };
+  const auto centre = [&] { return cycle_->record().H_WM * scene_.H_MB.translation; };
+  const Vector3 away = centre() - hand();
+  EXPECT_LT((centre() - Vector3(0.0, 0.05, 0.06)).norm(), 0.1) << "over the plate";
+
+  // down to 4 mm into the plate, 0.2 rad over there, and back
+  const auto lowered = [&](JointVector q, double height) {
+    for (int i = 0; i < 20; ++i) {
+      const ArmKinematics kinematics = forward_kinematics(arm_.model, q);
+      const Vector3 at = kinematics.H_WM * scene_.H_MB.translation;
+      const Jacobian J = geometric_jacobian(kinematics, at);
+      q += J.row(2).transpose() * (height - (at + away).z()) / J.row(2).squaredNorm();
+    }
+    return q;
+  };
+  JointVector tilted = turned;
+  tilted[5] += 0.1;
+  tilted[6] += 0.1;
+  const JointVector pressed = lowered(turned, 0.026);
+  const JointVector pressed_tilted = lowered(tilted, 0.027);
+  go(lowered(turned, 0.032), 500);
+  work = 0.0;
+  const JointVector begin = drives_.reading.position;
+  go(pressed, 500);
+  const double stored = -work;
+  EXPECT_NEAR(stored, 0.5 * 2000.0 * 0.004 * 0.004, 3e-3) << "[J]";
+  EXPECT_LT((centre() - hand() - away).norm(), 1e-9) << "they move alike";
+  go(pressed_tilted, 2000);
+  EXPECT_LT((centre() - hand() - away).norm(), 1e-9) << "they move alike";
+  go(begin, 500);
+  std::printf("[ measured ] %.4f mJ stored, %.4f mJ given in a closed path\n", 1e3 * stored, 1e3 * work);
+  EXPECT_LT(std::fabs(work), 0.02 * stored);
+}
+
 TEST_F(ControlCycleTest, EstimatesTheVelocityOverPeriodsThatWereSkipped) {
   make();
   run_to(Mode::kRunning);
@@ -215,6 +281,23 @@ TEST_F(ControlCycleTest, ExtrapolatesNothingFromBeforeTheFirstPosition) {
   step();
   EXPECT_EQ(cycle_->record().q, q0_);
   EXPECT_TRUE(cycle_->record().qd.isZero(0.0));
+}
+
+/// An operator's panel may be heard before the drives are.
+TEST_F(ControlCycleTest, ClutchThatIsOpenBeforeTheDrivesAnswerDoesNotShiftTheScene) {
+  make();
+  drives_.reading.position.setZero();
+  drives_.reading.state.fill(hal::DriveState::kUnavailable);
+  drives_.reading.age.fill(9);
+  drives_.reading.clutch_open = true;
+  for (int i = 0; i < 5; ++i) step();
+  drives_.reading.position = q0_;
+  drives_.reading.state.fill(hal::DriveState::kOff);
+  drives_.reading.age.fill(0);
+  for (int i = 0; i < 5; ++i) step();
+  drives_.reading.clutch_open = false;
+  run_to(Mode::kRunning);
+  EXPECT_LT((cycle_->record().H_WM.translation - Vector3(0.0, 0.0, 0.06)).norm(), 1e-12);
 }
 
 TEST_F(ControlCycleTest, StopsInTheCycleOfAReadingThatIsNotFinite) {
