@@ -63,13 +63,13 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [scene]      image, solver, friction
   [device]     file
   [workspace]  posture, start, turn, scale
-  [loop]       real_time, cpu, priority, velocity_window
+  [loop]       real_time, cpu, priority, velocity_window, compute
   [gains]      stiffness, damping, rotational, margin
   [limits]     force, torque, speed, speed_stop, turn, turn_stop, joint_speed, joint_speed_stop, torque_rate,
                stuck_torque
   [engage]     force, ramp
   [start]      wait, sign_test, push, motion
-  [telemetry]  folder, every
+  [telemetry]  folder, every, bus
   [simulation] path, slower, begin
 
 --log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose

@@ -93,6 +93,24 @@ TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
   EXPECT_TRUE(says("set workspace.start to its first pose")) << words_;
 }
 
+/// What the unit starts, but for interfaces that no machine has: it must look for them, and simulate nothing.
+TEST_F(ControllerCommandTest, UnitOfSystemdDrivesBuses) {
+  std::ifstream unit(GODOBJECT_FIRMWARE_DIR "/systemd/godobject-controller.service");
+  std::string arguments;
+  for (std::string line; std::getline(unit, line);) {
+    const std::string start = "ExecStart=/usr/local/bin/godobject-controller ";
+    if (line.rfind(start, 0) == 0) arguments = line.substr(start.size());
+  }
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    ASSERT_NE(arguments.find(what), std::string::npos) << what << " in " << arguments;
+    arguments.replace(arguments.find(what), what.size(), with);
+  };
+  replace("/etc/godobject/controller.toml", "c.toml");
+  replace("can0,can1,can2", "none0,none1,none2");
+  EXPECT_EQ(run(arguments + " --duration 0.1"), 69) << words_;
+  EXPECT_TRUE(says("--bus none0: ")) << words_;
+}
+
 TEST_F(ControllerCommandTest, RefusesGainsBeyondTheBoundary) {
   write_controller("", "damping = 20.0\n");
   EXPECT_EQ(run("c.toml"), 78);
