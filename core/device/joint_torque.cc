@@ -60,7 +60,7 @@ JointVector project_on_null_space(const SingularDirections& singular, const Join
 
 struct LimitSprings {
   JointVector torque = JointVector::Zero();
-  JointVector down_share = JointVector::Ones();  // what rendering may have of the room towards either limit
+  JointVector down_share = JointVector::Ones();  // of what pushes towards either limit, from 1 to 0 at it
   JointVector up_share = JointVector::Ones();
 };
 
@@ -74,7 +74,7 @@ LimitSprings limit_springs(const ArmModel& model, const JointTorqueParameters& p
     const auto push = [&](double depth, double speed, double& share) {
       if (!(depth > 0.0)) return 0.0;
       const double towards_limit = std::min(1.0, depth / band);
-      share = 1.0 - kLargestShare * towards_limit;
+      share = 1.0 - towards_limit;
       return parameters.limit_stiffness[i] * depth + parameters.limit_damping[i] * towards_limit * std::max(0.0, speed);
     };
     springs.torque[i] = push(joint.lower + band - request.q[i], -request.qd[i], springs.down_share[i]) -
@@ -105,6 +105,22 @@ struct Room {
     return smallest;
   }
 };
+
+/// Takes from the room of joints that are near a limit. `springs`: as applied; `most`: what a wrench of this size could
+/// give at each joint, in whatever direction. The share of that, not of the torque limit, fades: so it begins with the
+/// band, as gently as it can. A tenth less than the spring always remains, or the least push would take all of a
+/// wrench.
+void fade_towards_limits(const LimitSprings& limits, const JointVector& springs, const JointVector& most,
+                         Room& room) noexcept {
+  const auto fade = [](double share, double spring, double largest, double& way) {
+    if (share < 1.0)
+      way = std::min(way, std::max(share * std::min(largest, way), kLargestShare * std::max(0.0, spring)));
+  };
+  for (int i = 0; i < kMaxJoints; ++i) {
+    fade(limits.down_share[i], springs[i], most[i], room.down[i]);
+    fade(limits.up_share[i], -springs[i], most[i], room.up[i]);
+  }
+}
 
 bool is_finite(const TorqueRequest& request, int joint_count) noexcept {
   return request.q.head(joint_count).allFinite() && request.qd.head(joint_count).allFinite() &&
@@ -150,7 +166,8 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
 
   JointVector torque = result.gravity;
   const LimitSprings springs = limit_springs(model, parameters, request);
-  torque += Room(limits, torque).clip(springs.torque, kLargestShare);
+  const JointVector sprung = Room(limits, torque).clip(springs.torque, kLargestShare);
+  torque += sprung;
 
   JointVector qd = JointVector::Zero();
   qd.head(model.joint_count) = request.qd.head(model.joint_count);
@@ -165,9 +182,10 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   const Vector6 shown = singular.directions * singular.share.cwiseProduct(along);
   const JointVector rendered = singular.weighted.transpose() * shown;
   Room for_rendering(limits, torque);
-  for_rendering.down.array() *= springs.down_share.array();
-  for_rendering.up.array() *= springs.up_share.array();
-  const double scale = for_rendering.factor(rendered, 1.0);
+  const double within_limits = for_rendering.factor(rendered, 1.0);
+  const JointVector columns = singular.weighted.colwise().norm();
+  fade_towards_limits(springs, sprung, within_limits * shown.stableNorm() * columns, for_rendering);
+  const double scale = std::min(within_limits, for_rendering.factor(rendered, 1.0));
   torque += scale * rendered;
   if (!torque.allFinite() || !std::isfinite(scale) || !shown.allFinite()) return Status::kNotFinite;
 

@@ -53,8 +53,9 @@ struct JointTorque {
 ///
 /// Limits: gravity comes first; then the springs take at most 0.9 of what it leaves at each joint, then the damping at
 /// most 0.9 of what is left with one factor for all joints, then the wrench the rest with one factor for all joints, so
-/// that it keeps its direction. Springs push only away from the limit; what rendering may add towards a limit shrinks
-/// in the band, to a tenth at the limit, so that a wrench does not press the arm through its springs.
+/// that it keeps its direction. Springs push only away from the limit. What is rendered towards a limit fades out in
+/// the band: at a share t of its way to at most 1 - t of what a wrench of this size could give at the joint, or to 0.9
+/// of the spring if that is more. So no wrench presses the arm through its springs.
 ///
 /// `kNotFinite`: something that came in or would have left is not finite, or the singular values were not found.
 /// Then `torque` is gravity within the limits, or zero if that is not finite either, and the caller stops.

@@ -391,10 +391,35 @@ TEST(JointTorque, NoWrenchPressesTheArmThroughItsSprings) {
       TorqueRequest request = request_at(arm.model, q);
       request.F_W = {random.in_cube(1e5), random.in_cube(1e4)};
       const JointTorque result = expect_ok(arm, request);
-      // towards the limit no more than a tenth of what there is beside the spring
       const double spring =
           std::min(arm.parameters.limit_stiffness[joint] * arm.parameters.limit_band, 0.9 * limits.torque);
-      ASSERT_LE(result.torque[joint], -spring + 0.1 * (limits.torque + spring) + 1e-9) << i;
+      ASSERT_LE(result.torque[joint], -0.1 * spring + 1e-9) << i;
+    }
+  }
+}
+
+/// The wrenches that a hand may be given are small beside the light-weight robot's torque limits: they fade, too.
+TEST(JointTorque, FadesWhatPushesTowardsALimitFromTheBandOn) {
+  const Arm arm = test::lwr();
+  const double band = arm.parameters.limit_band;
+  JointVector q;
+  q << 0.0, -0.5, 0.0, 1.4, 0.0, -1.2, 0.0;
+  for (const double side : {-1.0, 1.0}) {
+    double last = 3.0;
+    for (int step = 0; step <= 100; ++step) {
+      const double share = 0.01 * step;
+      const ArmJoint& flange = arm.model.joints[6];
+      q[6] = (side > 0.0 ? flange.upper : flange.lower) - side * (1.0 - share) * band;
+      TorqueRequest request = request_at(arm.model, q);
+      request.F_W.torque = side * 3.0 * request.kinematics.axis_W[6];
+      const double spring = arm.parameters.limit_stiffness[6] * share * band;
+      const JointTorque result = expect_ok(arm, request);
+      const double towards = side * (result.torque[6] - result.gravity[6]) + spring;
+      ASSERT_LE(towards, std::max(1.0 - share, 0.9 * spring / 3.0) * 3.0 + 1e-9) << step;
+      ASSERT_LE(last - towards, 3.0 * 0.011) << "evenly, " << step;
+      last = towards;
+      request.F_W.torque = -request.F_W.torque;  // away from it: as it is
+      EXPECT_NEAR(expect_ok(arm, request).scale, 1.0, 1e-12);
     }
   }
 }
