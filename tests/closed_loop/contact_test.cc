@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 #include <vector>
 
 #include "core/device/dynamics.h"
@@ -110,27 +111,28 @@ TEST(ClosedLoopContact, PlugsABallIntoAHoleOneVoxelWider) {
   EXPECT_LT((run.cycles[3500].record.H_WM.translation - Vector3(0.0, 0.0, 0.06)).norm(), 0.01);
 }
 
-/// Lowers the tool onto the plate as a soft hand would, lets go of it in cycle 1500, and pushes a little harder.
-Wrench lowers_and_lets_go(std::int64_t cycle, const sim::BodyState& tool) {
+/// Lowers the tool onto the plate as a soft hand would, lets go of it in cycle `lets_go`, and pushes a little harder.
+Wrench lowers_and_lets_go(std::int64_t cycle, const sim::BodyState& tool, const Vector3& normal_R,
+                          std::int64_t lets_go = 1500) {
   if (cycle < 400) return {};
-  if (cycle >= 1500) return {Vector3(0.0, 0.0, -3.1), Vector3::Zero()};
-  return {Vector3(0.0, 0.0, -3.0) - 40.0 * tool.velocity.translation, -0.05 * tool.velocity.rotation};
+  if (cycle >= lets_go) return {-3.1 * normal_R, Vector3::Zero()};
+  return {-3.0 * normal_R - 40.0 * tool.velocity.translation, -0.05 * tool.velocity.rotation};
 }
 
-/// Extent of the tool's height in [from, from + 300).
-double swing(const SimulatedRun& run, std::int64_t from) {
-  double low = 1.0;
-  double high = -1.0;
+/// Extent of the tool's motion along the plate's normal in [from, from + 300).
+double swing(const SimulatedRun& run, std::int64_t from, const Vector3& normal_R) {
+  double low = 1e9;
+  double high = -1e9;
   for (const SimulatedCycle& cycle : run.cycles) {
     if (cycle.number < from || cycle.number >= from + 300) continue;
-    low = std::min(low, cycle.tool_R.z());
-    high = std::max(high, cycle.tool_R.z());
+    low = std::min(low, normal_R.dot(cycle.tool_R));
+    high = std::max(high, normal_R.dot(cycle.tool_R));
   }
   return high - low;
 }
 
 /// What theory says of an arm that a spring holds along the plate's normal only.
-ArmLoop held_along_the_normal(const SimulatedRun& run) {
+ArmLoop held_along(const SimulatedRun& run, const Vector3& normal_R) {
   const ArmModel& arm = run.device().model;
   const ArmKinematics kinematics = forward_kinematics(arm, run.plant().positions());
   const auto felt = FeltCoupling::of(run.scene(), 1.0);
@@ -138,25 +140,29 @@ ArmLoop held_along_the_normal(const SimulatedRun& run) {
   loop.joint_count = arm.joint_count;
   loop.mass = mass_matrix(arm, kinematics);
   for (int i = 0; i < arm.joint_count; ++i) loop.damping[i] = arm.joints[static_cast<std::size_t>(i)].damping;
-  loop.jacobian.row(2) = geometric_jacobian(kinematics, kinematics.H_WM.translation).row(2);
+  // which row is that of the spring does not matter
+  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  loop.jacobian.row(0) = normal_R.transpose() * J.topRows<3>();
   loop.stiffness = felt.stiffness;
   loop.tool_damping = felt.damping;
   loop.timing = {ControlCycle::kPeriod, run.delay(), SimulatedRun::kVelocityWindow};
   return loop;
 }
 
-/// The exact boundary itself is met to 2 % in tests/sim/stability_test.cc. Here about a fifth of the boundary's
-/// stiffness more is still calm. Why is not proven; a possible reason: the ball turns meanwhile and its contact goes
-/// from sample point to sample point, which would take energy.
+/// Here about a fifth of the boundary's stiffness more is still calm: the ball rolls, its contact goes from sample
+/// point to sample point, 3 mm apart, and each change takes energy, some 0.17 of the amplitude's logarithm a second. It
+/// is neither friction nor rounding, and of gravity little: see ClosedLoopBoundary, where nothing rolls.
 TEST(ClosedLoopContact, ComesToRestBelowTheExactBoundaryAndDoesNotAboveIt) {
   const test::SceneImage image = test::ball_over_plate();
   SimulatedRun::Options options;
-  options.load = lowers_and_lets_go;
+  options.load = [](std::int64_t cycle, const sim::BodyState& tool) {
+    return lowers_and_lets_go(cycle, tool, Vector3::UnitZ());
+  };
   options.friction = false;
   SimulatedRun soft(image, options);
   soft.run(1500);
   ASSERT_NEAR(soft.cycles[1490].record.wrench_R.force.z(), 3.0, 0.2) << "it lies on the plate";
-  const ArmLoop loop = held_along_the_normal(soft);
+  const ArmLoop loop = held_along(soft, Vector3::UnitZ());
   const double boundary = stiffness_margin(loop) * loop.stiffness;
 
   // what is let through at the start is on the safe side of it
@@ -167,7 +173,7 @@ TEST(ClosedLoopContact, ComesToRestBelowTheExactBoundaryAndDoesNotAboveIt) {
     SimulatedRun run(image, options);
     run.run(3000);
     EXPECT_EQ(run.violation(), "");
-    const double growth = std::log(swing(run, 2650) / swing(run, 1600));
+    const double growth = std::log(swing(run, 2650, Vector3::UnitZ()) / swing(run, 1600, Vector3::UnitZ()));
     std::printf("[ measured ] %.0f N/m, %.2f of the boundary: e^%.2f in 1050 cycles; the start allows %.0f N/m\n",
                 options.scene_stiffness, share, growth, report.margin * loop.stiffness);
     if (share < 1.0) {
@@ -178,6 +184,61 @@ TEST(ClosedLoopContact, ComesToRestBelowTheExactBoundaryAndDoesNotAboveIt) {
     }
   }
 }
+
+/// A body of two sample points, one over the other: what pushes it goes through its middle, and it cannot roll.
+test::SceneImage tip_over_plate() {
+  const Vector3 half_edges(0.05, 0.05, 0.01);
+  test::SceneDescription description;
+  description.distance = [half_edges](const Vector3& p) { return test::box_distance(p, half_edges); };
+  description.surface_min = -half_edges;
+  description.surface_max = half_edges;
+  description.voxel_size = 0.002;
+  description.points = {Vector3(0.0, 0.0, -1e-3), Vector3(0.0, 0.0, 1e-3)};
+  return test::build_scene_image(description);
+}
+
+/// Axis of the room across which the plate is; whether the arm has no weight.
+class ClosedLoopBoundary : public testing::TestWithParam<std::tuple<int, bool>> {};
+
+/// A4 through the whole controller: drives that round nothing, no dry friction, the tool on a plate across each axis of
+/// the room. With weight the torque that holds the arm comes a delay late, which takes 0.01 to 0.05 of the amplitude's
+/// logarithm a second that theory does not have.
+TEST_P(ClosedLoopBoundary, TwoPercentBelowDecaysTwoPercentAboveGrows) {
+  const auto [axis, weightless] = GetParam();
+  const Vector3 normal = Vector3::Unit(axis);
+  const test::SceneImage image = tip_over_plate();
+  SimulatedRun::Options options;
+  options.load = [&normal](std::int64_t cycle, const sim::BodyState& tool) {
+    return lowers_and_lets_go(cycle, tool, normal, 2500);
+  };
+  options.friction = false;
+  options.weightless = weightless;
+  options.turn = Quaternion::FromTwoVectors(normal, Vector3::UnitZ());
+  SimulatedRun soft(image, options);
+  soft.run(2500);
+  ASSERT_NEAR(soft.cycles[2490].record.wrench_R.force.dot(normal), 3.0, 0.5) << "it lies on the plate";
+  ArmLoop loop = held_along(soft, normal);
+  const double boundary = stiffness_margin(loop) * loop.stiffness;
+  for (const double share : {0.98, 1.02}) {
+    options.scene_stiffness = loop.stiffness = share * boundary;
+    SimulatedRun run(image, options);
+    run.run(5000);
+    EXPECT_EQ(run.violation(), "");
+    EXPECT_EQ(run.controller().record().fault, Fault::kNone);
+    const double growth = std::log(swing(run, 4600, normal) / swing(run, 2600, normal));
+    const double expected = 2000.0 * std::log(spectral_radius(loop));
+    std::printf("[ measured ] axis %d%s, %.0f N/m, %.2f of the boundary: e^%.4f in 2000 cycles, by theory e^%.4f\n",
+                axis, weightless ? ", weightless" : "", options.scene_stiffness, share, growth, expected);
+    if (share < 1.0) {
+      EXPECT_LT(growth, 0.0);
+    } else {
+      EXPECT_GT(growth, 0.0);
+    }
+    EXPECT_NEAR(growth, expected, weightless ? 0.04 : 0.12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Axes, ClosedLoopBoundary, testing::Combine(testing::Values(0, 1, 2), testing::Bool()));
 
 }  // namespace
 }  // namespace godobject::firmware

@@ -10,9 +10,10 @@
 namespace godobject::firmware {
 namespace {
 
-ControllerConfig::Workspace workspace() {
+ControllerConfig::Workspace workspace(const Quaternion& turn = Quaternion::Identity()) {
   ControllerConfig::Workspace workspace;
   workspace.posture << 0.0, -0.5, 0.0, 1.4, 0.0, -1.2, 0.0;
+  workspace.turn = turn;
   workspace.start.translation = Vector3(0.0, 0.0, 0.06);
   return workspace;
 }
@@ -38,8 +39,8 @@ const JointVector& SimulatedRun::posture() {
   return posture;
 }
 
-Placement run_placement() {
-  return place(workspace(), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero());
+Placement run_placement(const Quaternion& turn) {
+  return place(workspace(turn), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero());
 }
 
 void set_run_gains(double stiffness, Scene& scene) {
@@ -73,11 +74,12 @@ std::vector<Pose> run_path(const Placement& placement, std::span<const Vector3> 
 SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options)
     : scene_(test::open_scene(image)),
       load_(options.load),
-      placement_(run_placement()),
+      placement_(run_placement(options.turn)),
       path_R_(run_path(placement_, options.path)),
       faults_(options.faults),
       late_(options.late) {
   set_run_gains(options.scene_stiffness, scene_);
+  if (options.weightless) placement_.device.model.gravity_W.setZero();
   const ArmModel& arm = placement_.device.model;
   hardware_ = sim::usual_hardware(arm);
   for (auto& joint : hardware_) {

@@ -26,7 +26,8 @@ struct Waypoint {
 std::vector<Vector3> path_through(std::span<const Waypoint> waypoints);
 
 /// What all runs share: the light-weight robot, its tool 60 mm above the origin of a small scene.
-Placement run_placement();
+/// `turn` takes directions of the room to those of the scene.
+Placement run_placement(const Quaternion& turn = Quaternion::Identity());
 void set_run_gains(double stiffness, Scene& scene);
 CycleSetup run_setup(const Scene& scene, const Placement& placement);
 
@@ -63,6 +64,8 @@ class SimulatedRun {
     /// What is put on the tool in each cycle instead of a hand's grip, about its origin; the drives round nothing then,
     /// and motions that leave the tool at rest are not damped.
     std::function<Wrench(std::int64_t cycle, const sim::BodyState& tool)> load;
+    bool weightless = false;                   ///< neither is the arm drawn down nor held against it
+    Quaternion turn = Quaternion::Identity();  ///< as `run_placement`
   };
 
   SimulatedRun(const test::SceneImage& image, const Options& options);

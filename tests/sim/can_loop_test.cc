@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/device/stability.h"
 #include "hal/cia402/bus_plan.h"
 #include "hal/cia402/can_drives.h"
 #include "sim/can_device.h"
@@ -229,6 +230,59 @@ TEST(CanLoop, MeasuresTheDelayOfTheWire) {
               1e6 * loop.plan.timing.delay_s);
   EXPECT_NEAR(measured, expected, 0.05 * expected);
   EXPECT_LT(measured, loop.plan.timing.delay_s);
+}
+
+/// A4 over the wire, with the delay of the layout's frames: a torsional spring on one joint, let go at 20 mrad.
+TEST(CanLoop, DecaysBelowTheExactBoundaryOfItsDelayAndGrowsAbove) {
+  ArmModel arm = test::one_joint(1.0, 2.0);
+  arm.gravity_W.setZero();
+  for (const double share : {0.98, 1.02}) {
+    Plant plant(arm, JointVector::Constant(0.02));
+    Loop loop(arm, test::layout_of(arm), plant);
+    ASSERT_EQ(loop.bring_up().status, hal::BringUpStatus::kOk);
+    ArmLoop theory;
+    theory.joint_count = 1;
+    theory.mass(0, 0) = 1.0;
+    theory.damping[0] = 2.0;
+    theory.jacobian(0, 0) = 1.0;
+    theory.stiffness = 1.0;
+    theory.timing.delay = 1e-9 * static_cast<double>(loop.plan.unblocked_ns[0]);
+    theory.stiffness = share * stiffness_margin(theory);
+    const auto cycle = [&] {
+      const std::int64_t begin_ns = loop.device->now_ns();
+      loop.drives->request();
+      loop.clock->sleep_until(begin_ns + loop.drives->collect_ns());
+      loop.drives->receive(loop.reading);
+      JointVector torque = JointVector::Zero();
+      torque[0] = -theory.stiffness * loop.reading.position[0];
+      ASSERT_TRUE(loop.drives->send({torque, hal::PowerRequest::kEnable}));
+      loop.clock->sleep_until(begin_ns + 1'000'000);
+    };
+    const auto swing = [&] {
+      double low = 1.0;
+      double high = -1.0;
+      for (int i = 0; i < 500; ++i) {
+        cycle();
+        low = std::min(low, plant.positions()[0]);
+        high = std::max(high, plant.positions()[0]);
+      }
+      return high - low;
+    };
+    for (int i = 0; i < 500; ++i) cycle();
+    const double first = swing();
+    for (int i = 0; i < 7500; ++i) cycle();
+    const double growth = std::log(swing() / first);
+    const double expected = 8000.0 * std::log(spectral_radius(theory));
+    std::printf("[ measured ] %.0f N/m, %.2f of the boundary, delay %.1f us: e^%.4f in 8000 cycles, by theory e^%.4f\n",
+                theory.stiffness, share, 1e6 * theory.timing.delay, growth, expected);
+    if (share < 1.0) {
+      EXPECT_LT(growth, 0.0);
+    } else {
+      EXPECT_GT(growth, 0.0);
+    }
+    // heartbeats hold some torques up, and torques come in steps of a permille
+    EXPECT_NEAR(growth, expected, 0.05);
+  }
 }
 
 }  // namespace
