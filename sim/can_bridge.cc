@@ -7,6 +7,23 @@
 #include "hal/canopen/object_numbers.h"
 
 namespace godobject::sim {
+namespace {
+
+/// PDOs, SDO responses, emergencies and heartbeats of drives, whoever sent them; no node takes them.
+bool is_of_node(std::uint16_t id) noexcept {
+  using namespace hal::canopen;
+  constexpr int kMaxNode = 0x7F;  // the controller's own
+  const int node = id & kMaxNode;
+  switch (id - node) {
+    case kCobEmergency: return node != 0;
+    case kCobTpdo1:
+    case kCobSdoResponse: return true;
+    case kCobHeartbeat: return node != kMaxNode;
+    default: return false;
+  }
+}
+
+}  // namespace
 
 CanBridge::CanBridge(CanDevice& device, const hal::BusLayout& layout, const hal::BusTiming& timing,
                      std::span<hal::CanBus* const> buses) noexcept
@@ -42,7 +59,7 @@ void CanBridge::read() noexcept {
   hal::ReceivedFrame received;
   for (Side& side : sides()) {
     while (side.bus->receive(received)) {
-      if (received.own) continue;
+      if (received.own || is_of_node(received.frame.id)) continue;
       ++counters_.received;
       if (side.count == kInbox) {
         ++counters_.dropped;
@@ -89,7 +106,7 @@ bool CanBridge::sync_is_there(std::int64_t now_ns) noexcept {
   const auto all = sides();
   if (!std::any_of(all.begin(), all.end(), waits)) return false;
   if (first_sync_ns_ < 0) first_sync_ns_ = now_ns;
-  return std::all_of(all.begin(), all.end(), waits) || now_ns - first_sync_ns_ >= period_ns_ / 4;
+  return std::all_of(all.begin(), all.end(), waits) || now_ns - first_sync_ns_ >= period_ns_ / 20;
 }
 
 void CanBridge::begin_cycle() noexcept {
@@ -176,9 +193,14 @@ std::int64_t CanBridge::poll(std::int64_t now_ns) noexcept {
     if (has_all_torques()) device_.advance_to(begin_ns_ + period_ns_);
   }
   go_by_clock(now_ns);
-  if (!in_step_) return now_ns + period_ns_ / 5;
+  if (!in_step_) {
+    // shortly before the times at which SYNC may come, so that there is little left to run through then
+    const std::int64_t fifth_ns = period_ns_ / 5;
+    const std::int64_t since_ns = now_ns - begin_clock_ns_ + fifth_ns / 2;
+    return now_ns + fifth_ns - since_ns % fifth_ns;
+  }
   const std::int64_t left_alone_ns = begin_clock_ns_ + 2 * period_ns_ + 1;
-  return first_sync_ns_ < 0 ? left_alone_ns : std::min(left_alone_ns, first_sync_ns_ + period_ns_ / 4);
+  return first_sync_ns_ < 0 ? left_alone_ns : std::min(left_alone_ns, first_sync_ns_ + period_ns_ / 20);
 }
 
 }  // namespace godobject::sim

@@ -24,7 +24,7 @@ struct BridgeCounters {
 /// A CanDevice whose controller is in another process: frames are passed between its ends and buses of the machine.
 ///
 /// Lock-step: SYNC lets the device run on by one period and no more, whatever the clock says. With the SYNCs of all
-/// buses, which `poll` waits for as long as a quarter of a period, the device runs on until its drives have sampled,
+/// buses, which `poll` waits for as long as a twentieth of a period, the device runs on until its drives have sampled,
 /// and their answers are sent at once; buses of the machine that know no bit timing have them before they would have
 /// ended on a wire. The device then runs on to the time at which the controller collects. Torques are handed over then,
 /// or as long after SYNC as they have come if that is later, less the time that the layout gives to computing. Once

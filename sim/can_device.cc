@@ -29,6 +29,7 @@ CanopenNode* CanDevice::find_node(int bus, int node) noexcept {
 
 /// The faults that are no single frame's.
 void CanDevice::begin_cycle() noexcept {
+  if (!faults_.empty()) nodes_.settle();
   const std::int64_t cycle = nodes_.cycle();
   for (const BusFault& fault : faults_) {
     LoopbackEnd& end = *ends_[at(fault.bus)];
@@ -168,7 +169,7 @@ void CanDevice::advance_to_event(std::int64_t ns) noexcept {
   for (const Held& held : held_) {
     if (held.used) next_ns = std::min(next_ns, held.due_ns);
   }
-  nodes_.step_to(next_ns);
+  nodes_.pass_to(next_ns);
   end_frames();
   release_due();
   if (now_ns() == next_cycle_ns) begin_cycle();
@@ -177,6 +178,7 @@ void CanDevice::advance_to_event(std::int64_t ns) noexcept {
 
 void CanDevice::advance_to(std::int64_t ns) noexcept {
   while (now_ns() < ns) advance_to_event(ns);
+  nodes_.settle();
 }
 
 }  // namespace godobject::sim

@@ -16,7 +16,8 @@ namespace godobject::sim {
 
 /// A simulated arm behind CAN, in the same process and in virtual time: plant, drives and panel on the wires of a
 /// layout, whose other ends are the controller's. Nothing moves but while `advance_to` runs: frames end, timers run out
-/// and torques act at their own nanosecond, and the plant is integrated up to each of these.
+/// and torques act at their own nanosecond, and the plant is integrated up to each frame that is not a node's own, each
+/// timer and the end of `advance_to`.
 ///
 /// Nodes answer SYNC the layout's `answer` after it; a frame takes as long as its stuffing may make it, see
 /// LoopbackBus. What the controller has computed goes on the wire `layout.compute` after it is sent, see LoopbackEnd.
@@ -34,7 +35,7 @@ class CanDevice final : public World {
   std::int64_t now_ns() const noexcept override { return nodes_.now_ns(); }
   void advance_to(std::int64_t ns) noexcept override;
 
-  /// To the next thing that happens, at most to `ns`, which is ahead.
+  /// To the next thing that happens, at most to `ns`, which is ahead. The plant may stay behind it.
   void advance_to_event(std::int64_t ns) noexcept;
 
   /// Is shown each frame of a node when it is handed over to the wire, and each of the controller when it has ended

@@ -75,27 +75,37 @@ void CanNodes::update_panel() noexcept {
 
 void CanNodes::update_drives() noexcept {
   for (int i = 0; i < joint_count_; ++i) {
-    drives_[at(i)]->update(now_ns(), plant_.positions()[i], plant_.velocities()[i]);
+    drives_[at(i)]->update(plant_.now_ns(), plant_.positions()[i], plant_.velocities()[i]);
   }
 }
 
-void CanNodes::step_to(std::int64_t ns) noexcept {
-  while (now_ns() < ns) {
+void CanNodes::pass_to(std::int64_t ns) noexcept {
+  const std::int64_t next_cycle_ns = (cycle() + 1) * period_ns_;
+  assert(ns <= next_cycle_ns);
+  now_ns_ = ns;
+  if (now_ns_ < next_cycle_ns) return;
+  if (!script_.faults.empty()) settle();
+  begin_cycle();
+}
+
+void CanNodes::settle() noexcept {
+  const std::int64_t begin_ns = plant_.now_ns();
+  const std::int64_t steps = (now_ns_ - begin_ns + Plant::kStep_ns - 1) / Plant::kStep_ns;
+  for (std::int64_t step = 1; step <= steps; ++step) {
     update_drives();
     JointLoad load;
     for (int i = 0; i < joint_count_; ++i) {
       load.motor[i] = drives_[at(i)]->motor_torque();
       load.brake[i] = drives_[at(i)]->brake_torque();
     }
-    const std::int64_t next_cycle_ns = (cycle() + 1) * period_ns_;
-    const std::int64_t next_step_ns = (now_ns() / Plant::kStep_ns + 1) * Plant::kStep_ns;
-    plant_.step(std::min({ns, next_cycle_ns, next_step_ns}) - now_ns(), load);
-    if (now_ns() == next_cycle_ns) begin_cycle();
+    plant_.step(begin_ns + (now_ns_ - begin_ns) * step / steps - plant_.now_ns(), load);
   }
   update_drives();
 }
 
 void CanNodes::receive(int bus, const hal::CanFrame& frame, int sender) noexcept {
+  const bool of_node = sender >= 0 && sender < node_count();
+  if (!of_node && plant_.now_ns() < now_ns()) settle();
   update_panel();  // its switches are read when SYNC ends
   for (int i = 0; i < node_count(); ++i) {
     if (i != sender && bus_of(i) == bus) node(i).receive(frame, now_ns());
@@ -103,6 +113,8 @@ void CanNodes::receive(int bus, const hal::CanFrame& frame, int sender) noexcept
 }
 
 void CanNodes::run_timers() noexcept {
+  if (next_timer_ns() > now_ns()) return;
+  settle();
   for (int i = 0; i < node_count(); ++i) node(i).run_timers(now_ns());
 }
 

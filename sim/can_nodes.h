@@ -30,15 +30,20 @@ class CanNodes {
   CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
            const CanScript& script = {}) noexcept;
 
-  std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
+  std::int64_t now_ns() const noexcept { return now_ns_; }
   std::int64_t cycle() const noexcept { return now_ns() / period_ns_; }
   std::int64_t period_ns() const noexcept { return period_ns_; }
   int node_count() const noexcept { return joint_count_ + (panel_ ? 1 : 0); }
 
-  /// The plant and the drives' loops up to `ns`, in steps of at most `Plant::kStep_ns`; no timer may be due before.
-  void step_to(std::int64_t ns) noexcept;
+  /// Time goes on to `ns`, at most to the next cycle; no timer may be due before. The plant may stay behind until
+  /// something can act on it or read it.
+  void pass_to(std::int64_t ns) noexcept;
 
-  /// A frame that has ended now, to all nodes of a bus but the one that sent it (-1: none of them).
+  /// Plant and drives' loops up to now, in equal steps of at most `Plant::kStep_ns`.
+  void settle() noexcept;
+
+  /// A frame that has ended now, to all nodes of a bus but the one that sent it; -1, or beyond the nodes: none of
+  /// them. What a node sends moves no drive; before all other frames the plant settles.
   void receive(int bus, const hal::CanFrame& frame, int sender) noexcept;
 
   /// What is due now, once all frames that have ended now were received.
@@ -67,6 +72,7 @@ class CanNodes {
   CanScript script_;
   std::int64_t period_ns_;
   int joint_count_;
+  std::int64_t now_ns_ = 0;
   std::array<std::optional<Cia402Slave>, kMaxJoints> drives_;
   std::optional<Cia401Panel> panel_;
   bool emergency_stop_ = false;

@@ -32,14 +32,23 @@ void ObjectDictionary::add(const ObjectEntry& entry) noexcept {
   entries_[count_].initial = within(entry.initial, entry.type);
   entries_[count_].value = entries_[count_].initial;
   ++count_;
+  std::size_t slot = first_slot(entry.index, entry.sub);
+  while (slots_[slot] != 0) slot = (slot + 1) % kSlots;
+  slots_[slot] = static_cast<std::uint8_t>(count_);
+}
+
+/// Knuth's multiplicative hash.
+std::size_t ObjectDictionary::first_slot(std::uint16_t index, std::uint8_t sub) noexcept {
+  static_assert(kSlots == 1u << 8 && kCapacity < kSlots);
+  return (key(index, sub) * 2654435769u) >> 24;
 }
 
 const ObjectEntry* ObjectDictionary::search(std::uint16_t index, std::uint8_t sub) const noexcept {
-  const auto all = entries();
-  const auto found =
-      std::lower_bound(all.begin(), all.end(), key(index, sub),
-                       [](const ObjectEntry& entry, std::uint32_t k) { return key(entry.index, entry.sub) < k; });
-  return found != all.end() && found->index == index && found->sub == sub ? &*found : nullptr;
+  for (std::size_t slot = first_slot(index, sub); slots_[slot] != 0; slot = (slot + 1) % kSlots) {
+    const ObjectEntry& entry = entries_[slots_[slot] - 1u];
+    if (entry.index == index && entry.sub == sub) return &entry;
+  }
+  return nullptr;
 }
 
 ObjectEntry* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) noexcept {

@@ -64,10 +64,14 @@ class ObjectDictionary {
   void restore(std::uint16_t first, std::uint16_t last) noexcept;
 
  private:
+  static constexpr std::size_t kSlots = 256;
+
+  static std::size_t first_slot(std::uint16_t index, std::uint8_t sub) noexcept;
   const ObjectEntry* search(std::uint16_t index, std::uint8_t sub) const noexcept;
 
   std::array<ObjectEntry, kCapacity> entries_{};
   std::size_t count_ = 0;
+  std::array<std::uint8_t, kSlots> slots_{};  ///< 1 + place of the entry; of equal hashes the next free ones; 0: none
 };
 
 }  // namespace godobject::sim

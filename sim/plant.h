@@ -18,8 +18,6 @@ struct PlantWork {
   double operator_arm = 0.0;
   double load = 0.0;      ///< of the load on the tool
   double friction = 0.0;  ///< of viscous and dry friction and of brakes; what they take is negative
-
-  void add(double seconds, const PlantWork& power) noexcept;
 };
 
 /// What is put on the joints from outside for the length of a step [Nm].
@@ -28,7 +26,10 @@ struct JointLoad {
   JointVector brake = JointVector::Zero();  ///< largest torque that a brake holds or slows its joint with
 };
 
-/// Arm and hand, integrated: classic Runge-Kutta-Nystroem of fourth order. Viscous friction is the arm model's.
+/// Arm and hand, integrated by the position Verlet rule: positions drift to the middle of the step, the forces there,
+/// with velocities predicted by those at its begin, act for the whole of it, positions drift on. Of second order; it
+/// neither gains nor loses energy in the long run, and takes one mass matrix a step. Work is force times way: what
+/// changes the kinetic energy to the last digits. Viscous friction is the arm model's.
 ///
 /// Dry friction and brakes are Coulomb's law, exact in stick: within a step a joint either slips one way the whole
 /// step, or it is brought to rest by the end of it and stays there as long as the torque that this takes is within
@@ -45,7 +46,8 @@ class Plant {
   int joint_count() const noexcept { return arm_.joint_count(); }
   std::int64_t now_ns() const noexcept { return now_ns_; }
 
-  /// One step of the integration, 1 ns to `kStep_ns`. Cost: 4 us for seven joints with a hand.
+  /// One step of the integration, 1 ns to `kStep_ns`. Cost: 15,000 instructions for seven joints with
+  /// a hand.
   void step(std::int64_t duration_ns, const JointLoad& load) noexcept;
 
   /// A wrench on the tool about M's origin, in W, until it is set anew.
@@ -55,9 +57,9 @@ class Plant {
   const JointVector& positions() const noexcept { return q_; }
   const JointVector& velocities() const noexcept { return qd_; }
   const ArmDynamics& arm() const noexcept { return arm_; }
-  const ArmPosture& posture() const noexcept { return posture_; }
-  BodyState tool() const noexcept { return tool(posture_, qd_); }
-  const BodyState& hand() const noexcept { return hand_state_; }
+  ArmPosture posture() const noexcept;
+  BodyState tool() const noexcept { return tool(posture(), qd_); }
+  BodyState hand() const noexcept;  ///< unless a spring is between them, where the tool is
   const PlantWork& work() const noexcept { return work_; }
 
   /// Torques that would hold the arm, without the hand, against gravity [Nm].
@@ -77,25 +79,22 @@ class Plant {
     JointVector acceleration = JointVector::Zero();  ///< of the held joints
     JointVector slip_torque = JointVector::Zero();   ///< of dry friction on the others
   };
-  struct Instant {
-    const ArmPosture& posture;
-    const JointVector& qd;
-    const BodyState& hand;
-    const BodyState& target;
-  };
-  struct Rates {
-    JointVector qdd = JointVector::Zero();
-    Motion hand;  ///< accelerations
-    PlantWork power;
+  struct Forces {
+    JointVector applied;  ///< on the joints: all but dry friction's, inertial ones included
+    JointVector viscous;  ///< friction's part of it
+    HandWrenches hand;    ///< with what carries its weight
+    Motion hand_acceleration;
   };
 
   BodyState tool(const ArmPosture& posture, const JointVector& qd) const noexcept;
-  JointVector applied_torque(const Instant& instant, const JointVector& motor, Rates& rates) const noexcept;
+  Forces forces(const JointVector& qd, const BodyState& hand, const BodyState& target,
+                const JointVector& motor) const noexcept;
   Stick find_stick(double seconds, const JointVector& applied, const JointVector& capacity, JointVector& qdd) noexcept;
-  JointVector accelerations(const ArmPosture& posture, const JointVector& applied, const Stick& stick) const noexcept;
-  double dry_power(const Instant& instant, const JointVector& applied, const Stick& stick,
-                   const JointVector& qdd) const noexcept;
-  Rates rates(const Instant& instant, const JointVector& motor, const Stick& stick) const noexcept;
+  JointVector accelerations(const JointVector& applied, const Stick& stick) const noexcept;
+  double dry_work(const JointVector& applied, const Stick& stick, const JointVector& qdd,
+                  const JointVector& way) const noexcept;
+  void add_work(const Forces& forces, const JointVector& motor, const JointVector& way,
+                const Motion& hand_way) noexcept;
 
   ArmDynamics arm_;
   OperatorHand hand_;
@@ -107,12 +106,10 @@ class Plant {
   std::int64_t now_ns_ = 0;
   JointVector q_;
   JointVector qd_ = JointVector::Zero();
-  BodyState hand_state_;
-  BodyState target_;
-  ArmPosture posture_;  ///< of q_
+  BodyState hand_state_;  ///< with a spring grip
   PlantWork work_;
 
-  ArmPosture stage_posture_;
+  ArmPosture posture_;  ///< in the middle of a step
   MovingJoints moving_;
   JointVector last_slip_torque_ = JointVector::Zero();
 };

@@ -175,7 +175,8 @@ TEST(Hand, ExchangesMomentumWithTheArm) {
                            springs.inertia * hand.velocity.rotation.z();
     most = std::max(most, of_hand);
     ASSERT_NEAR(plant.velocities()[0] + of_hand, 1.0, 1e-6) << i;
-    ASSERT_NEAR(plant.arm_energy() + plant.hand_energy(), 0.5, 1e-5) << i;
+    // a step of 0.1 ms at 224 rad/s: the square of their product, by 8, of the energy comes and goes
+    ASSERT_NEAR(plant.arm_energy() + plant.hand_energy(), 0.5, 0.5 * 6.3e-5) << i;
   }
   EXPECT_GT(most, 0.5);
 }

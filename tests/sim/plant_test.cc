@@ -73,7 +73,8 @@ void expect_balance(Grip grip, const ArmModel& model, double torque, unsigned se
     // each time that a joint comes to rest or breaks away costs a term of the first order of a step
     EXPECT_NEAR(plant.arm_energy() - arm_before, on_arm, 3e-5 * turnover) << trial;
     if (grip == Grip::kSpring) {
-      EXPECT_NEAR(plant.hand_energy() - hand_before, work.operator_arm - work.hand.sum(), 3e-5 * turnover) << trial;
+      // and what swings in the grip its frequency times the step, squared, by 8
+      EXPECT_NEAR(plant.hand_energy() - hand_before, work.operator_arm - work.hand.sum(), 3e-4 * turnover) << trial;
     }
     EXPECT_LT(work.friction, 0.0);
     if (grip == Grip::kSpring) {
