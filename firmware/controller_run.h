@@ -29,6 +29,7 @@ struct RunSetup {
 struct RunReport {
   LoopStatistics loop;
   DurationHistogram computing;    ///< of a cycle, by the stopwatch
+  DurationHistogram round_trip;   ///< end of SYNC to the end of the last sample; for a reader that knows it
   std::uint64_t beyond_plan = 0;  ///< cycles in which it took longer than the bus plan gives it
   double largest_force = 0.0;     ///< rendered at the hand [N]
   double largest_torque = 0.0;    ///< [Nm]

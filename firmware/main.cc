@@ -236,6 +236,7 @@ void print_report(const firmware::RunReport& report, const firmware::CycleCounte
              counters.clipped, counters.slowed, counters.scaled, counters.rate_limited, counters.unconverged);
   fmt::print("computing: {}; longer than loop.compute in {}\n", quantiles(report.computing), report.beyond_plan);
   if (real_time) {
+    fmt::print("round trip: {}\n", quantiles(report.round_trip));
     fmt::print("waking late: {}\n", quantiles(report.loop.lateness));
     fmt::print("waking late for the samples: {}\n", quantiles(report.loop.collect_lateness));
     fmt::print("page faults in the loop: {}\n", faults_of_pages);
@@ -417,7 +418,9 @@ void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, c
     if (!start_nodes(*clock, link.names)) return warn("ended before the drives were started; none was enabled");
     const long before = firmware::page_faults();
     if (link.real_time) {
-      firmware::run_controller(setup, *clock, *cycle, requests, ring, run_report, [] {});
+      firmware::run_controller(setup, *clock, *cycle, requests, ring, run_report, [] {
+        if (drives->statistics().round_trip_ns > 0) run_report.round_trip.add(drives->statistics().round_trip_ns);
+      });
     } else {
       std::optional<HandLog> hand;
       if (records.telemetry) hand.emplace(config.telemetry.folder, *link.simulated);

@@ -115,6 +115,7 @@ void CanDrives::receive(JointReading& reading) noexcept {
 }
 
 void CanDrives::check_health() noexcept {
+  statistics_.round_trip_ns = 0;
   for (int b = 0; b < layout_.bus_count; ++b) {
     const Bus& bus = buses_[static_cast<std::size_t>(b)];
     const BusHealth health = bus.wire->health();
@@ -123,7 +124,7 @@ void CanDrives::check_health() noexcept {
     if (health.down || health.bus_off || unheard) alarm_.raise({.alarm = Alarm::kBusDown, .bus = b});
     if (bus.watch.finding().alarm != Alarm::kNone) alarm_.raise(bus.watch.finding());
     if (bus.sample_ns > 0 && bus.echo_ns > 0) {
-      statistics_.round_trip_ns = bus.sample_ns - bus.echo_ns;
+      statistics_.round_trip_ns = std::max(statistics_.round_trip_ns, bus.sample_ns - bus.echo_ns);
       statistics_.longest_round_trip_ns = std::max(statistics_.longest_round_trip_ns, statistics_.round_trip_ns);
     }
   }

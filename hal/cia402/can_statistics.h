@@ -18,7 +18,7 @@ struct CanStatistics {
   std::uint64_t warnings = 0;   ///< emergency messages that power may outlive
   std::array<std::uint64_t, kMaxJoints> lost{};  ///< cycles without a fresh sample
   std::array<std::uint64_t, kMaxJoints> late{};  ///< samples that came after their cycle, used by nobody
-  std::int64_t round_trip_ns = 0;                ///< of the last cycle: end of SYNC to the end of the last sample
+  std::int64_t round_trip_ns = 0;  ///< of the last cycle: end of SYNC to the end of the last sample; 0: none
   std::int64_t longest_round_trip_ns = 0;
 };
 
