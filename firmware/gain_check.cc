@@ -70,6 +70,7 @@ GainReport check_gains(const Scene& scene, const ArmModel& arm, const JointVecto
   const FeltCoupling felt = FeltCoupling::of(scene, scale);
   const Vector3 p_MB = scene.H_MB.translation / scale;  // as the hand has it
   GainReport report;
+  report.joint_count = arm.joint_count;
   report.passivity_excess = std::numeric_limits<double>::infinity();
   // the exact boundary takes twenty times as long as the radius at one stiffness, which finds the worst posture
   double largest = -1.0;
@@ -124,8 +125,9 @@ void require_stable_joints(const ArmModel& arm, const JointTorqueParameters& con
 }
 
 std::vector<std::string> judge_gains(const GainReport& report, const FeltCoupling& felt, double least) {
-  const std::string where = fmt::format("at joint positions {:.2f} [rad]",
-                                        fmt::join(report.posture.data(), report.posture.data() + kMaxJoints, " "));
+  const std::string where =
+      fmt::format("at joint positions {:.2f} [rad]",
+                  fmt::join(report.posture.data(), report.posture.data() + report.joint_count, " "));
   if (!(report.margin > 0.0)) {
     throw command::Failure(
         command::ExitCode::kBadConfig,
@@ -151,7 +153,7 @@ std::vector<std::string> judge_gains(const GainReport& report, const FeltCouplin
   const double ratio = report.coupling_gyration / report.gyration;
   if (ratio < 0.5 || ratio > 2.0) {
     warnings.push_back(
-        fmt::format("coupling.rotational counts a radian as {:.3g} m, the moving body's radius of "
+        fmt::format("gains.rotational counts a radian as {:.3g} m, the moving body's radius of "
                     "gyration is {:.3g} m: rotations yield too {} beside translations",
                     report.coupling_gyration, report.gyration, ratio > 1.0 ? "little" : "much"));
   }

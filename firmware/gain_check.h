@@ -24,6 +24,7 @@ struct FeltCoupling {
 struct GainReport {
   double margin = 0.0;             ///< smallest factor from the stiffness to the stability boundary [1]
   JointVector posture;             ///< where it is that small [rad]
+  int joint_count = 0;             ///< of the posture
   double passivity_excess = 0.0;   ///< smallest eigenvalue, over the postures [Nms/rad]
   double gyration = 0.0;           ///< radius of gyration of the moving body [m]
   double coupling_gyration = 0.0;  ///< rho = sqrt(k_VC,r / k_VC,x) [m]

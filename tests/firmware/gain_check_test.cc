@@ -93,6 +93,15 @@ TEST_F(GainCheckTest, RefusesWithTheBoundaryOnItsWrongSide) {
   EXPECT_NE(refusal(check(), 1.0), "");
 }
 
+TEST_F(GainCheckTest, NamesOnlyThePositionsOfJointsThatAreThere) {
+  EXPECT_EQ(check().joint_count, 7);
+  GainReport report;
+  report.margin = 0.5;
+  report.joint_count = 2;
+  report.posture << 0.1, -0.2, 3.0, 3.0, 3.0, 3.0, 3.0;
+  EXPECT_NE(refusal(report, 1.0).find(" at joint positions 0.10 -0.20 [rad],"), std::string::npos);
+}
+
 TEST_F(GainCheckTest, SaysThatTheDampingIsTooMuchWhereNoStiffnessIsStable) {
   scene_.settings.damping = 20.0;
   scene_.settings.coupling_rotation = 0.025;
