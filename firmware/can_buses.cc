@@ -32,10 +32,9 @@ std::vector<std::string> split_names(const std::string& names) {
 
 CanBuses::CanBuses(const std::vector<std::string>& interfaces, const hal::BusLayout& layout) {
   if (static_cast<int>(interfaces.size()) != layout.bus_count) {
-    throw Failure(
-        ExitCode::kBadConfig,
-        fmt::format("--bus names {} CAN interfaces, the device has {} buses; name one each, such as can0,can1",
-                    interfaces.size(), layout.bus_count));
+    throw Failure(ExitCode::kBadConfig,
+                  fmt::format("--bus names {} CAN interfaces, the device has {} buses; name one each, bus 0 first",
+                              interfaces.size(), layout.bus_count));
   }
   if (std::set<std::string>(interfaces.begin(), interfaces.end()).size() != interfaces.size()) {
     throw Failure(ExitCode::kBadConfig, "--bus names an interface twice; name another one for each bus");

@@ -82,11 +82,12 @@ Finding judge(const Right& right) {
     return {false, fmt::format("{}: {}, and root without {}", right.limit, have, right.capability),
             fmt::format("give {} back, a container's with --cap-add", right.capability), true};
   }
-  return {false, fmt::format("{}: {}", right.limit, have),
-          fmt::format("put '@realtime - {} {}' into /etc/security/limits.d/godobject.conf, join the group realtime and "
-                      "log in again",
-                      right.limit, right.wanted),
-          true};
+  return {
+      false, fmt::format("{}: {}", right.limit, have),
+      fmt::format("put '@realtime - {} {}' into /etc/security/limits.d/godobject.conf, groupadd -f realtime, usermod "
+                  "-aG realtime USER, and log in again",
+                  right.limit, right.wanted),
+      true};
 }
 
 std::vector<Finding> rights(int priority, const Path& root) {

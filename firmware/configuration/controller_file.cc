@@ -40,13 +40,12 @@ void read_workspace(const TomlTable& table, ControllerConfig& config) {
   ControllerConfig::Workspace& workspace = config.workspace;
   if (table.has("turn")) workspace.turn = read_rotation(table, "turn");
   const ArmModel& arm = config.device.model;
-  const std::vector<double> posture =
-      table.numbers("posture", static_cast<std::size_t>(arm.joint_count), {-10.0, 10.0});
+  const std::vector<double> posture = table.numbers("posture", static_cast<std::size_t>(arm.joint_count), {-1e3, 1e3});
   for (std::size_t i = 0; i < posture.size(); ++i) {
     const ArmJoint& joint = arm.joints[i];
     if (posture[i] < joint.lower || posture[i] > joint.upper) {
-      table.complain("posture", fmt::format("= {:g} of joint {} is beyond its limits, {:g} to {:g}", posture[i], i + 1,
-                                            joint.lower, joint.upper));
+      table.complain("posture", fmt::format("= {:g} of joint {} is beyond its limits, {:g} to {:g} rad", posture[i],
+                                            i + 1, joint.lower, joint.upper));
     }
     workspace.posture[static_cast<Eigen::Index>(i)] = posture[i];
   }
