@@ -13,7 +13,11 @@ namespace detail {
 
 void watch(const CycleRecord& record, RunReport& report) noexcept {
   const std::uint32_t waited = report.waiting.load(std::memory_order_relaxed);
-  report.waiting.store(record.mode == Mode::kIdle ? waited + 1 : 0, std::memory_order_relaxed);
+  const bool waits = record.mode == Mode::kIdle || record.mode == Mode::kArmed;
+  report.waiting.store(waits ? waited + 1 : 0, std::memory_order_relaxed);
+  const Standing standing{record.mode, record.fault, record.alarm, static_cast<std::int8_t>(record.alarm_joint)};
+  report.standing.store(standing, std::memory_order_relaxed);
+  ++report.in_mode[static_cast<std::size_t>(record.mode)];
   if (!(record.share > 0.0)) return;
   const double force = record.wrench_R.force.norm();
   ++report.rendering;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 
@@ -25,6 +26,15 @@ struct RunSetup {
   std::int64_t compute_ns = 0;  ///< that computing may take by the bus plan
 };
 
+/// How a run stands in a cycle, for who tells the operator.
+struct Standing {
+  Mode mode = Mode::kBoot;
+  Fault fault = Fault::kNone;
+  hal::Alarm alarm = hal::Alarm::kNone;
+  std::int8_t alarm_joint = -1;  ///< whose alarm; -1: nobody's alone
+};
+static_assert(std::atomic<Standing>::is_always_lock_free);
+
 /// What a run leaves beside its records.
 struct RunReport {
   LoopStatistics loop;
@@ -36,8 +46,10 @@ struct RunReport {
   double deepest = 0.0;           ///< of the god object while something was rendered [m]
   std::uint64_t rendering = 0;    ///< cycles with something granted
   std::uint64_t in_contact = 0;   ///< of those, with a force
-  /// Cycles in a row that it has waited for the enable switch; another thread may look at it.
+  std::array<std::uint64_t, kModeCount> in_mode{};  ///< cycles
+  /// Cycles in a row that it has waited for the operator, in kIdle or kArmed; another thread may look at it.
   std::atomic<std::uint32_t> waiting{0};
+  std::atomic<Standing> standing{};  ///< another thread may look at it
 };
 
 /// A fault in it ends the run: what was found wrong before anything was rendered will not mend itself.

@@ -1,8 +1,11 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -77,8 +80,8 @@ d and god object g of the moving mesh in the scene, force f and torque t rendere
 virtual time DIR/hand.csv has the work that the simulated hand has done on the tool until then.
 
 Exit codes: 0 done, 64 usage, 65 bad scene image or path, or an image without the solver or friction asked for, 66 an input is
-missing, 69 drives or bus not available, or stopped by a fault, 74 cannot write, 77 no right to read or write, 78 bad
-configuration.)";
+missing or a file of the configuration may not be read, 69 drives or bus not available, or stopped by a fault, 74 cannot write,
+77 no right to read the scene image, to a CAN interface or to real-time work, 78 bad configuration.)";
 
 const char* const kDoctorFooter = R"(Example:
   godobject-controller doctor firmware/controllers/lwr.toml --bus can0,can1,can2
@@ -128,7 +131,10 @@ void catch_signals() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaction(signal, &action, nullptr);
 }
 
-void warn(const std::string& what) { fmt::print(stderr, "godobject-controller: {}\n", what); }
+void warn(const std::string& what) {
+  std::fflush(stdout);  // what led to it comes before it, also where both go to one file
+  fmt::print(stderr, "godobject-controller: {}\n", what);
+}
 
 /// FOLDER/hand.csv, a row a cycle: by how much the simulated hand has worked on the tool. Not real-time safe.
 class HandLog {
@@ -224,11 +230,22 @@ std::string quantiles(const firmware::DurationHistogram& times) {
                      us(times.quantile_ns(0.999)), us(times.largest_ns()), times.count());
 }
 
+std::string seconds_in_modes(const firmware::RunReport& report) {
+  std::string text;
+  for (std::size_t mode = 0; mode < report.in_mode.size(); ++mode) {
+    if (report.in_mode[mode] == 0) continue;
+    text += fmt::format("{} {} {:.3f} s", text.empty() ? "" : ",", name(static_cast<firmware::Mode>(mode)),
+                        firmware::ControlCycle::kPeriod * static_cast<double>(report.in_mode[mode]));
+  }
+  return text;
+}
+
 void print_report(const firmware::RunReport& report, const firmware::CycleCounters& counters,
                   const hal::CanDrives& drives, bool real_time, long faults_of_pages) {
   fmt::print("rendered in {} of {} cycles, in contact in {}: at most {:.2f} N, {:.3f} Nm, {:.3f} mm deep\n",
              report.rendering, counters.cycles, report.in_contact, report.largest_force, report.largest_torque,
              1e3 * report.deepest);
+  fmt::print("modes:{}\n", seconds_in_modes(report));
   fmt::print("positions lost in {} cycles, jumps in {}, sends failed {}, overruns {}, periods skipped {}\n",
              counters.lost, counters.jumps, counters.sends_failed, counters.overruns, counters.skipped);
   fmt::print("{}", firmware::bus_summary(drives.statistics(), drives.joint_count()));
@@ -304,13 +321,24 @@ hal::BusPlan require_bus_plan(const hal::BusLayout& layout) {
   throw Failure(ExitCode::kBadConfig, firmware::bus_plan_objection(layout, plan));
 }
 
-/// Says once, each time, that it waits for longer than a moment for the operator to hold the enable switch.
-class WaitingNotice {
+/// Says once, each time, what the operator is to do: that it waits for longer than a moment, and why it has stopped.
+class OperatorNotice {
  public:
   void look() {
+    const firmware::Standing standing = run_report.standing.load(std::memory_order_relaxed);
     const bool waits = run_report.waiting.load(std::memory_order_relaxed) > kMoment;
-    if (waits && !said_) warn("waits for the enable switch: release it, then hold it");
-    said_ = waits;
+    if (waits && !said_waiting_) {
+      warn(standing.mode == firmware::Mode::kIdle
+               ? "waits for the enable switch: release it, then hold it"
+               : "waits with the arm held: the moving body is in the still one, or leans on it; move the tool away");
+    }
+    said_waiting_ = waits;
+    const bool stopped = standing.mode == firmware::Mode::kStopped && !refuses_to_start(standing.fault);
+    if (stopped && !said_stopped_) {
+      warn(fmt::format("stopped: {}; to go on, release enable switch and emergency stop, then kill -USR1 {}",
+                       why(standing), ::getpid()));
+    }
+    said_stopped_ = stopped;
   }
 
   /// A few times a second, until it is asked to stop: the thread beside the loop.
@@ -323,7 +351,14 @@ class WaitingNotice {
 
  private:
   static constexpr std::uint32_t kMoment = 3000;  // cycles
-  bool said_ = false;
+  bool said_waiting_ = false;
+  bool said_stopped_ = false;
+
+  static std::string why(const firmware::Standing& standing) {
+    if (standing.fault != firmware::Fault::kAlarm) return describe(standing.fault);
+    const std::string joint = standing.alarm_joint >= 0 ? fmt::format("joint {}: ", standing.alarm_joint + 1) : "";
+    return joint + firmware::describe(standing.alarm);
+  }
 };
 
 /// Files that are written beside the loop.
@@ -401,7 +436,7 @@ void commission(const Options& options) {
 /// From the nodes' start to their stop.
 void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, const ArmLink& link) {
   Records records(config, link.names);
-  WaitingNotice notice;
+  OperatorNotice notice;
   long faults_of_pages = 0;
   {
     std::vector<std::jthread> beside;  // before this thread is a real-time one, which they would become too
@@ -409,7 +444,7 @@ void run_loop(const firmware::RunSetup& setup, const ControllerConfig& config, c
       beside.push_back(firmware::start_worker(name, [&worker](const std::stop_token& stop) { worker.run(stop); }));
     };
     if (link.real_time) {
-      run_beside("godobject-controller: the notice of waiting", notice);
+      run_beside("godobject-controller: notices for the operator", notice);
       if (records.telemetry) run_beside("godobject-controller: telemetry", *records.telemetry);
       if (records.buses) run_beside("godobject-controller: the log of the buses", *records.buses);
       set_up_thread(config, link.device != nullptr);
@@ -455,6 +490,10 @@ void control(const Options& options) {
   if (!options.scene.empty()) config.scene.image = options.scene;
   if (!options.log.empty()) config.telemetry.folder = options.log;
   if (options.log_bus) config.telemetry.bus = true;
+  if (config.telemetry.bus && config.telemetry.folder.empty()) {
+    throw Failure(ExitCode::kUsage,
+                  "what goes over the buses has no folder to be written to; give --log or telemetry.folder");
+  }
   if (config.scene.image.empty()) {
     throw Failure(ExitCode::kBadConfig,
                   fmt::format("{}: scene.image is missing; add it or give --scene", options.controller));

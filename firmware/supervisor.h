@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/status.h"
@@ -27,6 +28,7 @@ enum class Mode : std::uint8_t {
   kEnding,     ///< was asked to end: what is rendered goes to nothing; then kStopping
   kEnded,      ///< no power once the drives rest; the loop may be left
 };
+inline constexpr std::size_t kModeCount = static_cast<std::size_t>(Mode::kEnded) + 1;
 
 /// Why power was taken away. The first one is latched.
 enum class Fault : std::uint8_t {

@@ -17,6 +17,7 @@ int fail(const CLI::App& app, ExitCode exit_code, std::string message) {
   for (char& c : message) {
     if (c == '\n' || c == '\r') c = ' ';
   }
+  std::fflush(stdout);  // what led to it comes before it, also where both go to one file
   fmt::print(stderr, "{}: {}\n", app.get_name(), message);
   return static_cast<int>(exit_code);
 }

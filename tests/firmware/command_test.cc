@@ -75,6 +75,7 @@ TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
   EXPECT_TRUE(says("--bus none0: ")) << words_;
   EXPECT_EQ(run(""), 64);
   EXPECT_EQ(run("c.toml --duration -1"), 64);
+  EXPECT_EQ(run("c.toml --log-bus"), 64) << "with no folder to write it to";
   EXPECT_EQ(run("nothing.toml"), 66);
   EXPECT_EQ(run("c.toml --scene nothing.scene"), 66);
   EXPECT_EQ(run("c.toml --scene c.toml"), 65);
@@ -109,6 +110,23 @@ TEST_F(ControllerCommandTest, UnitOfSystemdDrivesBuses) {
   replace("can0,can1,can2", "none0,none1,none2");
   EXPECT_EQ(run(arguments + " --duration 0.1"), 69) << words_;
   EXPECT_TRUE(says("--bus none0: ")) << words_;
+}
+
+TEST_F(ControllerCommandTest, NamesTheFolderOfALogThatCannotBeMade) {
+  EXPECT_EQ(run("c.toml --duration 0.1 --log c.toml/logs"), 74);
+  EXPECT_TRUE(says("c.toml/logs: no folder can be made there (Not a directory)")) << words_;
+}
+
+TEST_F(ControllerCommandTest, SaysWhereItsTimeWentAndThatNothingRendersFromInside) {
+  write_controller("[start]\nsign_test = false\n");
+  std::string file = text("c.toml");
+  file.replace(file.find("0.06, 1.0"), 4, "0.00");
+  std::ofstream(folder_ / "c.toml") << file;
+  EXPECT_EQ(run("c.toml --duration 6"), 0) << words_;
+  EXPECT_TRUE(says("waits with the arm held: ")) << words_;
+  EXPECT_TRUE(says("rendered in 0 of ")) << words_;
+  EXPECT_TRUE(says("modes: boot ") && says(", armed ") && !says("running")) << words_;
+  EXPECT_LT(words_.find("waits with the arm held: "), words_.find("rendered in 0 of ")) << "in the order it happened";
 }
 
 TEST_F(ControllerCommandTest, RefusesGainsBeyondTheBoundary) {

@@ -188,6 +188,7 @@ TEST_F(ControllerProcessTest, IsStoppedForGoodByAPauseOfTheProcess) {
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   process.send(SIGCONT);
   ASSERT_TRUE(see([&] { return has("stopped"); }));
+  ASSERT_TRUE(see([&] { return says("kill -USR1 "); })) << "the operator is told at once, with the cure";
   const std::size_t rows = modes().size();
   ASSERT_TRUE(see([&] { return modes().size() > rows + 300; })) << "it waits for the operator";
   process.send(SIGTERM);
