@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/device/joint_torque.h"
 #include "core/device/velocity_estimator.h"
@@ -65,6 +66,7 @@ struct CycleSetup {
   const Scene* scene = nullptr;
   Solver solver = Solver::kContact;
   bool friction = false;
+  std::span<double> search;  ///< GodObject::memory(*scene) numbers, or none
   const ArmModel* arm = nullptr;
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;
@@ -86,7 +88,7 @@ class ControlCycle {
   ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept;
 
   /// kNotInImage: the scene was compiled without that solver, or without friction. Before the first `run_once`.
-  Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction); }
+  Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction, setup_.search); }
 
   /// Begins a cycle: the joints are asked for their positions, which `run_once` takes `collect_ns` later.
   void request() noexcept { drives_.request(); }

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -185,9 +186,10 @@ class PacedClock final : public hal::Clock {
 };
 
 firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& scene,
-                                 const firmware::Placement& placement) {
+                                 const firmware::Placement& placement, std::span<double> search) {
   firmware::CycleSetup setup;
   setup.scene = &scene;
+  setup.search = search;
   setup.solver = config.scene.solver.value_or(scene.default_solver());
   setup.friction = config.scene.friction.value_or(scene.settings.friction != 0);
   setup.arm = &placement.device.model;
@@ -509,7 +511,8 @@ void control(const Options& options) {
   }
   const ArmLink link = link_arm(options, config, placement);
   drives.emplace(config.device.bus, link.buses, plan.timing, config.telemetry.bus ? &bus_ring : nullptr);
-  cycle.emplace(cycle_setup(config, scene, placement), *drives);
+  std::vector<double> search(GodObject::memory(scene));
+  cycle.emplace(cycle_setup(config, scene, placement, search), *drives);
   if (const Status status = cycle->start(); status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "

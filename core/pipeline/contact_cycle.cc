@@ -127,9 +127,9 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
   state.started = true;
   report.H_WS = result.H_WS;
   report.force = force;
-  report.penetration = -result.smallest;
+  report.penetration = -std::min(result.smallest, ContactLengths::make(q).shortest_reach);
   report.contacts = result.step.contact_count;
-  report.substeps = result.substeps;
+  report.substeps = std::max(1u, result.substeps);
   report.unconverged = result.step.unconverged;
   return Status::kOk;
 }

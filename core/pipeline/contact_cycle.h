@@ -9,6 +9,7 @@
 #include "core/pipeline/contact_rows.h"
 #include "core/pipeline/cycle.h"
 #include "core/pipeline/least_constraint.h"
+#include "core/pipeline/near_search.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
 
@@ -20,6 +21,7 @@ struct FeatureContacts {
   const BodyField& map;      ///< in S
   const Pointshell& points;  ///< in W, relative to `origin`
   Vector3 origin_W = Vector3::Zero();
+  double body_radius = 0.0;  ///< no point of the moving body's surface is farther from its origin [m]
 };
 
 /// Memory of one cycle of `contact`; nothing in it survives the cycle. About 540 KiB, touched as far as used.
@@ -50,10 +52,10 @@ struct ContactLengths {
   double wanted_margin;   ///< below it a gap may only grow, unless looking at the surface again does not help
   double least_margin;    ///< below it a gap may only grow
   double shortest_reach;  ///< near points are those within the reach
-  double longest_reach;
-  double opening;       ///< a gap this much wider than the margin is no contact
-  double largest_gain;  ///< that a point which started inside moves out in a sub-step
-  double radius;        ///< R_max
+  double longest_reach;   ///< wanted; ContactSearch says what the fields allow
+  double opening;         ///< a gap this much wider than the margin is no contact
+  double largest_gain;    ///< that a point which started inside moves out in a sub-step
+  double radius;          ///< R_max
   CouplingMetric metric;
 
   static ContactLengths make(const Parameters& q) noexcept;
@@ -63,7 +65,7 @@ namespace detail {
 
 /// What one sub-step knows about the surroundings at its start.
 struct Surroundings {
-  double left_out = std::numeric_limits<double>::infinity();  ///< |x| + R_max |r| up to which all other points are free
+  double left_out;  ///< |x| + R_max |r| up to which all points are free that are not near, or had no room [m]
   double smallest = std::numeric_limits<double>::infinity();  ///< stored distance of the near points
   bool swallowed = false;     ///< a point lies inside where the field does not say which way is out
   std::uint32_t dropped = 0;  ///< near points that found no room as rows
@@ -86,7 +88,9 @@ struct SampleDirection {
                               const Matrix3& R_field_shell) noexcept {
     return {shell, R_field_shell.transpose() * gradient};
   }
-  static double lever(const Vector3& shell, const Vector3&) noexcept { return shell.norm(); }
+
+  double stretch(double) const noexcept { return 1.0; }
+  double most_stretch() const noexcept { return 1.0; }
 };
 
 /// Feature points: they stand, the field moves with S. In S the point q moves by -(x + r x q).
@@ -100,13 +104,18 @@ struct FeatureDirection {
   static ContactPoint contact(const Vector3&, const Vector3& field, const Vector3& gradient, const Matrix3&) noexcept {
     return {field, -gradient};
   }
-  static double lever(const Vector3&, const Vector3& field) noexcept { return field.norm(); }
-};
 
-inline Vector3 center_of(const format::Node& node) noexcept {
-  return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
-          static_cast<double>(node.center[2])};
-}
+  FeatureDirection(const ContactLengths& lengths, double body_radius) noexcept
+      : radius(lengths.radius), near_radius(body_radius + lengths.longest_reach) {}
+
+  double radius;       ///< R_max [m]
+  double near_radius;  ///< within it lie the moving body's surface and, around it, the longest reach [m]
+
+  double stretch(double lever) const noexcept { return std::max(1.0, lever / radius); }
+  /// Of the points that a motion within the longest reach can bring to the body: what is farther than near_radius from
+  /// its origin comes nearer by the translation alone.
+  double most_stretch() const noexcept { return stretch(near_radius); }
+};
 
 inline constexpr double kFlat = 1e-3;     ///< a gradient this short has no direction
 inline constexpr double kRecovery = 0.3;  ///< share of a lost margin that is regained at once
@@ -122,59 +131,33 @@ inline void push_row(std::uint32_t id, const ContactPoint& contact, double dista
   rows.push(id, contact.gradient_S / steepness, contact.point_S, need);
 }
 
-/// Step #1 of `contact`, one direction: all points that a motion with |x| + R_max |r| < `reach` might bring to the
-/// surface, those of them with a gradient as rows while there is room.
+/// Step #1 of `contact`, one direction: all points with a clearance below `cut`, those of them with a gradient as rows
+/// while there is room.
 template <class Direction, DistanceField Field>
-void find_near(const Field& field, const Pointshell& shell, const Pose& H, double reach, const ContactLengths& lengths,
-               ContactWorkspace::NearPoints& near, ContactRows& rows, Surroundings& around) noexcept {
-  // spheres come in single precision: they may be this much too small
-  constexpr double kRounding = 2e-6;
+void find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
+               const Pose& H, double way, double cut, const ContactLengths& lengths, ContactWorkspace::NearPoints& near,
+               ContactRows& rows, Surroundings& around) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
-  const double per_radius = 1.0 / lengths.radius;
-  const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
   near.count = 0;
-  for (std::uint32_t n = 0; n < node_count;) {
-    const format::Node& node = shell.nodes[n];
-    const Vector3 center = center_of(node);
-    const Vector3 center_field = R * center + H.translation;
-    const double radius = static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center.norm();
-    const double farthest = Direction::lever(center, center_field) + radius;
-    const double room = (field.sample(center_field).clearance - radius) / std::max(1.0, farthest * per_radius);
-    if (room >= reach) {
-      around.left_out = std::min(around.left_out, room);
-      n = node.skip;
-      continue;
-    }
-    if (node.leaf != 0) {
-      for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-        const Vector3 p = shell.point(i);
-        const Vector3 p_field = R * p + H.translation;
-        const FieldSample sample = field.sample(p_field);
-        const double point_room = sample.clearance / std::max(1.0, Direction::lever(p, p_field) * per_radius);
-        if (point_room >= reach) {
-          around.left_out = std::min(around.left_out, point_room);
-          continue;
-        }
-        around.smallest = std::min(around.smallest, sample.distance);
-        around.swallowed |= !sample.known && sample.distance < 0.0;
-        if (near.count == ContactWorkspace::NearPoints::kCapacity) {
-          around.left_out = std::min(around.left_out, point_room);
-          around.swallowed |= sample.distance <= 0.0;  // nothing will bring it out
-          ++around.dropped;
-          continue;
-        }
-        near.point[near.count++] = {i, sample.distance, sample.clearance};
-        if (!sample.known) continue;
-        if (rows.full()) {
-          ++around.dropped;
-        } else {
-          push_row(Direction::kId | i, Direction::contact(p, p_field, sample.gradient, R), sample.distance, lengths,
-                   rows);
-        }
-      }
-    }
-    ++n;
-  }
+  search.find(direction, field, shell, H, way, cut,
+              [&](std::uint32_t i, const Vector3& p, const Vector3& p_field, const FieldSample& sample) noexcept {
+                around.smallest = std::min(around.smallest, sample.distance);
+                around.swallowed |= !sample.known && sample.distance < 0.0;
+                if (near.count == ContactWorkspace::NearPoints::kCapacity) {
+                  around.left_out = std::min(around.left_out, sample.clearance / direction.most_stretch());
+                  around.swallowed |= sample.distance <= 0.0;  // nothing will bring it out
+                  ++around.dropped;
+                  return;
+                }
+                near.point[near.count++] = {i, sample.distance, sample.clearance};
+                if (!sample.known) return;
+                if (rows.full()) {
+                  ++around.dropped;
+                } else {
+                  push_row(Direction::kId | i, Direction::contact(p, p_field, sample.gradient, R), sample.distance,
+                           lengths, rows);
+                }
+              });
 }
 
 /// Rows of the chosen near points of one direction: those not farther than `deepest`, and every `stride`-th of the
@@ -356,10 +339,20 @@ Arrival arrive(const Field& field, const Pointshell& shell, const FeatureContact
 struct ContactResult {
   Pose H_WS;
   ConstrainedStep step;
-  double smallest = 0.0;  ///< stored distance at the last sub-step's start
-  std::uint32_t substeps = 0;
+  double smallest = 0.0;       ///< stored distance at the last sub-step's start, of what was near
+  std::uint32_t substeps = 0;  ///< with something near
   std::uint32_t dropped = 0;
   bool cut = false;
+
+  /// Nothing is in the way of the device.
+  void follow(const Pose& H_WD) noexcept {
+    H_WS = H_WD;
+    step = ConstrainedStep{};
+    step.follows = true;
+    smallest = std::numeric_limits<double>::infinity();
+    dropped = 0;
+    cut = false;
+  }
 };
 
 /// Steps #6 and #7, the finite check, and the only place where `state` changes.
@@ -367,6 +360,40 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
               State& state, CycleReport& report) noexcept;
 
 }  // namespace detail
+
+/// What step #1 of `contact` remembers from cycle to cycle: where nothing can be near yet. Results do not depend on it.
+struct ContactSearch {
+  Odometer odometer;
+  NearSearch samples;
+  NearSearch features;
+  double longest_reach = 0.0;  ///< |x| + R_max |r| of a sub-step beyond which no field tells near from far [m]
+
+  /// Numbers that it remembers.
+  static std::size_t memory(const Pointshell& shell, const Pointshell& features) noexcept {
+    return NearSearch::memory(shell) + NearSearch::memory(features);
+  }
+
+  /// Begins anew. `memory`: as many numbers, which must outlive it; or none, then it looks everywhere in every cycle.
+  template <DistanceField Field, DistanceField BodyField>
+  void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* feature_contacts,
+             const ContactLengths& lengths, std::span<double> memory) noexcept {
+    *this = ContactSearch{};
+    longest_reach = std::min(lengths.longest_reach, field.band() / field.lipschitz());
+    const std::size_t of_samples = memory.empty() ? 0 : NearSearch::memory(shell);
+    if (feature_contacts != nullptr) {
+      const BodyField& map = feature_contacts->map;
+      const double stretch = detail::FeatureDirection{lengths, feature_contacts->body_radius}.most_stretch();
+      longest_reach = std::min(longest_reach, map.band() / (map.lipschitz() * stretch));
+      features.start(memory.subspan(of_samples), stretch * longest_reach);
+    }
+    samples.start(memory.first(of_samples), longest_reach);
+  }
+
+  /// The last look knows that in a motion with |x| + R_max |r| = `way` from here nothing will be near.
+  bool is_free(double way) const noexcept {
+    return samples.is_free(odometer.way() + way) && features.is_free(odometer.way() + way);
+  }
+};
 
 /// One cycle of `contact`: least-constraint motion over the contact points, in certified sub-steps; no filter.
 ///
@@ -386,18 +413,21 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
 /// free. `features` may be null. Real-time safe; times: step #1 holds every look-up, the certificate's as well.
 template <bool kFriction, DistanceField Field, DistanceField BodyField>
 Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* features,
-                     const Parameters& q, const CycleInput& input, State& state, ContactWorkspace& workspace,
-                     CycleReport& report, StepTimes* times = nullptr) noexcept {
+                     const Parameters& q, const CycleInput& input, ContactSearch& search, State& state,
+                     ContactWorkspace& workspace, CycleReport& report, StepTimes* times = nullptr) noexcept {
   using detail::FeatureDirection;
   using detail::SampleDirection;
   constexpr int kSecondLooks = 6;  // at what stood in the way
   constexpr int kAttempts = 14;
   constexpr double kOvershoot = 0.5;
+  constexpr std::uint32_t kFreeSubsteps = 64;
   detail::begin(times);
   const ContactLengths lengths = ContactLengths::make(q);
   const ContactFriction friction{q.friction.static_ratio, q.friction.kinetic_ratio,
                                  q.friction.viscous / (q.stiffness * q.coupling_translation * q.period)};
   const Vector3 origin_W = features != nullptr ? features->origin_W : Vector3::Zero();
+  const SampleDirection sample_direction;
+  const FeatureDirection feature_direction(lengths, features != nullptr ? features->body_radius : 0.0);
 
   detail::ContactResult result;
   result.H_WS = state.H_WS;
@@ -409,20 +439,29 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   detail::Budget budget;
   double reach =
       std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
-                 lengths.shortest_reach, lengths.longest_reach);
+                 std::min(lengths.shortest_reach, search.longest_reach), search.longest_reach);
+  std::uint32_t free_substeps = 0;
   do {
     const Pose H0 = result.H_WS;
     const Motion free = unconstrained_motion(H0, input.H_WD);  // #3 (32), (33)
-
-    if (result.substeps > 0) detail::end(times, &StepTimes::solve_ns);  // #1
-    detail::Surroundings around;
+    const double free_way = detail::travel(free, lengths);
+    if (result.substeps + free_substeps > 0) detail::end(times, &StepTimes::solve_ns);  // #1
+    search.odometer.move_to(H0, lengths.radius);
+    if (search.is_free(free_way)) {
+      result.follow(input.H_WD);
+      inside = false;
+      break;
+    }
+    detail::Surroundings around{.left_out = reach};
     workspace.rows.count = 0;
     const Pose H0_features = FeatureDirection::pose(H0, origin_W);
-    detail::find_near<SampleDirection>(field, shell, H0, reach, lengths, workspace.samples, workspace.rows, around);
+    const double gone = search.odometer.way();
+    detail::find_near(search.samples, sample_direction, field, shell, H0, gone, reach, lengths, workspace.samples,
+                      workspace.rows, around);
     workspace.features.count = 0;
     if (features != nullptr) {
-      detail::find_near<FeatureDirection>(features->map, features->points, H0_features, reach, lengths,
-                                          workspace.features, workspace.rows, around);
+      detail::find_near(search.features, feature_direction, features->map, features->points, H0_features, gone,
+                        reach * feature_direction.most_stretch(), lengths, workspace.features, workspace.rows, around);
     }
     if (around.dropped > 0) {
       const detail::Selection selection = detail::select_rows(workspace);
@@ -435,14 +474,23 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
     }
     detail::end(times, &StepTimes::step1_ns);
-    result.smallest = std::min(around.smallest, around.left_out);
+    result.smallest = around.smallest;
     result.dropped = around.dropped;
     // a point inside has no clearance, so it is near; the first pose is judged by both directions
-    inside = (inside || !(state.started || result.substeps > 0)) && around.smallest <= 0.0;
+    inside = (inside || !(state.started || result.substeps + free_substeps > 0)) && around.smallest <= 0.0;
+    const bool alone = workspace.samples.count + workspace.features.count == 0;
+    if (alone) {
+      ++free_substeps;
+    } else {
+      ++result.substeps;
+    }
+    if (alone && search.is_free(free_way)) {
+      result.follow(input.H_WD);
+      break;
+    }
 
     const ContactFriction* const cone = kFriction ? &friction : nullptr;
     least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);  // #4
-    ++result.substeps;
     if (inside && (around.swallowed || result.step.infeasible)) {  // nobody knows the way out: with the device
       result.step = ConstrainedStep{};
       result.H_WS = input.H_WD;
@@ -521,10 +569,15 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.H_WS = H1;
     result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
-    reach = std::min(2.0 * reach, lengths.longest_reach);
-  } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps);
-  // whether a point slipped is a matter of the whole cycle; the sum keeps the slip of a point that stuck at nought
-  if (result.substeps > 1) result.step.motion = whole;
+    reach = std::min(2.0 * reach, search.longest_reach);
+  } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps &&
+           free_substeps < kFreeSubsteps);
+  if (result.substeps == 0 && result.step.follows) {
+    result.step.motion = unconstrained_motion(state.H_WS, input.H_WD);  // however many pieces it came in
+  } else if (result.substeps + free_substeps > 1) {
+    // whether a point slipped is a matter of the whole cycle; the sum keeps the slip of a point that stuck at nought
+    result.step.motion = whole;
+  }
 
   const Status status = detail::finish(input, result, inside, q, state, report);  // #6, #7
   detail::end(times, &StepTimes::solve_ns);

@@ -5,25 +5,29 @@
 namespace godobject {
 namespace {
 
+FeatureContacts<Voxelmap> feature_contacts(const Scene& scene) noexcept {
+  return {scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius()};
+}
+
 /// The pipelines, all with one signature.
 template <bool kFriction>
-Status run_paper(const Scene& scene, const Parameters& q, const CycleInput& input, State& state, ContactWorkspace&,
-                 CycleReport& report, StepTimes* times) noexcept {
+Status run_paper(const Scene& scene, const Parameters& q, const CycleInput& input, ContactSearch&, State& state,
+                 ContactWorkspace&, CycleReport& report, StepTimes* times) noexcept {
   return paper_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
 }
 
 template <bool kFriction>
-Status run_corrected(const Scene& scene, const Parameters& q, const CycleInput& input, State& state, ContactWorkspace&,
-                     CycleReport& report, StepTimes* times) noexcept {
+Status run_corrected(const Scene& scene, const Parameters& q, const CycleInput& input, ContactSearch&, State& state,
+                     ContactWorkspace&, CycleReport& report, StepTimes* times) noexcept {
   return corrected_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
 }
 
 template <bool kFriction>
-Status run_contact(const Scene& scene, const Parameters& q, const CycleInput& input, State& state,
-                   ContactWorkspace& workspace, CycleReport& report, StepTimes* times) noexcept {
-  const FeatureContacts<Voxelmap> features{scene.body_map, scene.features, scene.features_origin};
+Status run_contact(const Scene& scene, const Parameters& q, const CycleInput& input, ContactSearch& search,
+                   State& state, ContactWorkspace& workspace, CycleReport& report, StepTimes* times) noexcept {
+  const FeatureContacts<Voxelmap> features = feature_contacts(scene);
   return contact_cycle<kFriction>(scene.voxelmap, scene.pointshell, scene.has_features() ? &features : nullptr, q,
-                                  input, state, workspace, report, times);
+                                  input, search, state, workspace, report, times);
 }
 
 Status refuse(Status status, const State& state, CycleReport& report) noexcept {
@@ -35,7 +39,7 @@ Status refuse(Status status, const State& state, CycleReport& report) noexcept {
 
 }  // namespace
 
-Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexcept {
+Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::span<double> memory) noexcept {
   if (!scene.holds(solver) || (friction && scene.settings.friction == 0)) return Status::kNotInImage;
   switch (solver) {
     case Solver::kPaper: cycle_ = friction ? &run_paper<true> : &run_paper<false>; break;
@@ -46,6 +50,12 @@ Status GodObject::start(const Scene& scene, Solver solver, bool friction) noexce
   H_MB_ = scene.H_MB;
   H_BM_ = scene.H_MB.inverse();
   parameters_ = Parameters::make(scene);
+  if (solver == Solver::kContact) {
+    const FeatureContacts<Voxelmap> features = feature_contacts(scene);
+    const std::size_t wanted = GodObject::memory(scene);
+    search_.start(scene.voxelmap, scene.pointshell, scene.has_features() ? &features : nullptr,
+                  ContactLengths::make(parameters_), memory.first(memory.size() < wanted ? 0 : wanted));
+  }
   reset();
   return Status::kOk;
 }
@@ -69,7 +79,7 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
     next.H_WS = cycle_input.H_WD;
     next.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, next.H_WS) < 0.0;
   }
-  const Status status = cycle_(*scene_, parameters_, cycle_input, next, workspace_, report, times);
+  const Status status = cycle_(*scene_, parameters_, cycle_input, search_, next, workspace_, report, times);
   if (status != Status::kOk) return refuse(status, state_, report);
   state_ = next;
   return Status::kOk;

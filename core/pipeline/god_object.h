@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "core/pipeline/contact_cycle.h"
 #include "core/pipeline/cycle.h"
 #include "core/scene/scene.h"
@@ -12,10 +15,11 @@ using Solver = format::Solver;
 ///
 /// Poses are those of the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
 /// No allocation, no exceptions, no locks; about 600 KiB, most of them the contact solver's workspace, of which a cycle
-/// touches what its contacts need. The scene must outlive it.
+/// touches what its contacts need. The scene must outlive it, and so must the memory that it is given.
 ///
 ///     GodObject god_object;
-///     if (god_object.start(scene, scene.default_solver(), true) != Status::kOk) ...
+///     std::vector<double> memory(GodObject::memory(scene));
+///     if (god_object.start(scene, scene.default_solver(), true, memory) != Status::kOk) ...
 ///     while (running) if (god_object.update({H_WM, velocity_W}, report) == Status::kOk) use(report.force.total_W);
 class GodObject {
  public:
@@ -25,9 +29,17 @@ class GodObject {
     Motion velocity_W;  ///< of the body's centre of mass [m/s], angular [rad/s]
   };
 
-  /// Chooses the pipeline once. Without a friction table in the scene `friction` = true is refused.
+  /// Numbers that `contact` remembers about the scene from cycle to cycle: one a sample or feature point and one a node
+  /// of their trees, where they cannot be near yet.
+  static std::size_t memory(const Scene& scene) noexcept {
+    return ContactSearch::memory(scene.pointshell, scene.features);
+  }
+
+  /// Chooses the pipeline once. Without a friction table in the scene `friction` = true is refused. `memory`: at least
+  /// memory(scene) numbers, this god object's alone; with fewer, or none, results are the same, and `contact` looks at
+  /// all nodes in every cycle.
   /// kNotInImage: the image was compiled without that solver, or without friction; nothing changed.
-  Status start(const Scene& scene, Solver solver, bool friction) noexcept;
+  Status start(const Scene& scene, Solver solver, bool friction, std::span<double> memory = {}) noexcept;
 
   /// Forgets the god object: the next update starts with it at the device pose.
   void reset() noexcept { state_ = State{}; }
@@ -36,7 +48,7 @@ class GodObject {
   /// penetrates, the outcome is kStartInside until it has come out: by a share of its depth a cycle where the field
   /// gives a direction, with the device where it gives none.
   /// kNotFinite, kNotUnit, kOutOfRange: the input is no pose, or would have led to a NaN; the god object is held, the
-  /// force is zero, the report's outcome is kBadInput. Cost: step #1's look-ups, about 60 ns each, and for the
+  /// force is zero, the report's outcome is kBadInput. Cost: step #1's look-ups, up to 60 ns each, and for the
   /// rest 0.3 us (`paper` and `corrected` 0.5 us), with friction 1-2 us; more where many contacts begin to hold at
   /// once. Real-time safe.
   Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
@@ -48,8 +60,8 @@ class GodObject {
   const State& state() const noexcept { return state_; }
 
  private:
-  using Cycle = Status (*)(const Scene&, const Parameters&, const CycleInput&, State&, ContactWorkspace&, CycleReport&,
-                           StepTimes*) noexcept;
+  using Cycle = Status (*)(const Scene&, const Parameters&, const CycleInput&, ContactSearch&, State&,
+                           ContactWorkspace&, CycleReport&, StepTimes*) noexcept;
 
   const Scene* scene_ = nullptr;
   Cycle cycle_ = nullptr;
@@ -57,6 +69,7 @@ class GodObject {
   Pose H_BM_;
   Parameters parameters_;
   State state_;
+  ContactSearch search_;
   ContactWorkspace workspace_;
 };
 

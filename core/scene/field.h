@@ -29,6 +29,8 @@ struct LayerSample {
 /// is
 ///                      the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
 ///                      least 0 is known.
+/// `lipschitz()`        L >= 1: for any points p and x, sample(x).clearance is at least
+///                      min(sample(p).clearance - |x - p|, band) / L.
 /// `voxel_size()`       s [m];  `band()`  distances beyond it are not known [m].
 template <class F>
 concept DistanceField = requires(const F& field, const Vector3& p, double r) {
@@ -37,6 +39,8 @@ concept DistanceField = requires(const F& field, const Vector3& p, double r) {
   { field.layer(p) }
   noexcept->std::same_as<LayerSample>;
   { field.lower_bound(p, r) }
+  noexcept->std::same_as<double>;
+  { field.lipschitz() }
   noexcept->std::same_as<double>;
   { field.voxel_size() }
   noexcept->std::same_as<double>;

@@ -23,6 +23,9 @@ class Voxelmap {
   double band() const noexcept { return band_; }
   double lipschitz() const noexcept { return lipschitz_seam_; }
 
+  /// No point of the surface is farther from the frame's origin [m].
+  double surface_radius() const noexcept { return surface_min_.cwiseAbs().cwiseMax(surface_max_.cwiseAbs()).norm(); }
+
   /// The stored field at p_W, trilinear but for bricks with an edge (format::Edge), and its exact gradient. Outside the
   /// grid is free space (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts
   /// as outside. The clearance is the distance over the Lipschitz constant, less where a seam is near, more beyond the

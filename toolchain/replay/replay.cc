@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cfenv>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -35,8 +36,9 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
+  std::vector<double> memory(GodObject::memory(scene));
   GodObject god_object;
-  if (god_object.start(scene, solver, friction) != Status::kOk) {
+  if (god_object.start(scene, solver, friction, memory) != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   "the scene image was compiled without this solver or without friction; compile it without "
                   "--only-solver, or with a [friction] table");

@@ -39,7 +39,10 @@ template <bool kFriction, DistanceField Field>
 Status run_alone(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                  State& state, CycleReport& report, StepTimes* times) {
   static const auto workspace = std::make_unique<ContactWorkspace>();
-  return contact_cycle<kFriction, Field, Field>(field, shell, nullptr, q, input, state, *workspace, report, times);
+  ContactSearch search;
+  const FeatureContacts<Field>* const none = nullptr;
+  search.start(field, shell, none, ContactLengths::make(q), {});
+  return contact_cycle<kFriction, Field, Field>(field, shell, none, q, input, search, state, *workspace, report, times);
 }
 
 template <class Shape, bool kFriction = false>
@@ -327,13 +330,15 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   const SampledBody spike({{{0.0, 0.0, 0.0}}, {{0.0, 0.0, -1.0}}}, Vector3::Ones());
   const Pointshell tip = spike.pointshell();
   const Vector3 tip_W(0.304, 0.007, 0.05);
-  const FeatureContacts<AnalyticField<BoxField>> features{box, tip, tip_W};
+  const FeatureContacts<AnalyticField<BoxField>> features{box, tip, tip_W, 0.05};
 
   Parameters q;
   q.mass = body.mass;
   q.voxel_size = kVoxel;
   q.margin = kMargin;
   const auto workspace = std::make_unique<ContactWorkspace>();
+  ContactSearch search;
+  search.start(nothing, body.pointshell(), &features, ContactLengths::make(q), {});
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   State state;
@@ -345,7 +350,8 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
     // wanders about the tip, mostly pressing upon it
     device.translation = tip_W + Vector3(0.01 * std::sin(0.013 * i), 0.01 * std::sin(0.017 * i), 0.008);
     device.rotation = exp_rotation(Vector3(0.3 * std::sin(0.011 * i), 0.3 * std::sin(0.019 * i), 0.002 * i));
-    ASSERT_EQ((contact_cycle<false>(nothing, body.pointshell(), &features, q, {device, {}}, state, *workspace, report)),
+    ASSERT_EQ((contact_cycle<false>(nothing, body.pointshell(), &features, q, {device, {}}, search, state, *workspace,
+                                    report)),
               Status::kOk);
     ASSERT_GT(BoxField{}.distance(state.H_WS.inverse() * tip_W), 0.0) << i;
   }
@@ -355,7 +361,7 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   State blind = state;
   for (int i = 0; i < 50; ++i) {
     ASSERT_EQ((contact_cycle<false, AnalyticField<HalfSpace>, AnalyticField<BoxField>>(
-                  nothing, body.pointshell(), nullptr, q, {device, {}}, blind, *workspace, report)),
+                  nothing, body.pointshell(), nullptr, q, {device, {}}, search, blind, *workspace, report)),
               Status::kOk);
   }
   EXPECT_LT(BoxField{}.distance(blind.H_WS.inverse() * tip_W), -0.001);

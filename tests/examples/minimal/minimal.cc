@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
   godobject::Scene scene;
   godobject::GodObject god_object;
   godobject::Status status = godobject::Scene::open(std::as_bytes(std::span(memory)).first(bytes), scene);
-  if (status == godobject::Status::kOk) status = god_object.start(scene, scene.default_solver(), false);
+  std::vector<double> search(godobject::GodObject::memory(scene));
+  if (status == godobject::Status::kOk) status = god_object.start(scene, scene.default_solver(), false, search);
 
   godobject::CycleReport report;
   for (int cycle = 0; cycle <= 100 && status == godobject::Status::kOk; ++cycle) {

@@ -34,6 +34,7 @@ class AnalyticField {
     const double bound = shape_.distance(center) - radius;
     return bound >= 0.0 ? bound : -std::numeric_limits<double>::infinity();
   }
+  double lipschitz() const noexcept { return 1.0; }
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return 1e3; }
 

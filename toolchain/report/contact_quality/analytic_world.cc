@@ -12,7 +12,8 @@ using Field = analytic::AnalyticField<analytic::Solid>;
 using ClosedForm = Status (*)(const Field&, const Pointshell&, const Parameters&, const CycleInput&, State&,
                               CycleReport&, StepTimes*) noexcept;
 using Contact = Status (*)(const Field&, const Pointshell&, const FeatureContacts<Voxelmap>*, const Parameters&,
-                           const CycleInput&, State&, ContactWorkspace&, CycleReport&, StepTimes*) noexcept;
+                           const CycleInput&, ContactSearch&, State&, ContactWorkspace&, CycleReport&,
+                           StepTimes*) noexcept;
 
 class AnalyticWorld : public World {
  public:
@@ -63,10 +64,20 @@ class AnalyticWorld : public World {
 
   /// One direction: the still body has no feature points here.
   Cycle contact(Contact cycle) const {
-    auto workspace = std::make_shared<ContactWorkspace>();
-    return [this, cycle, workspace, state = State{}](const Pose& H_WD, CycleReport& report, StepTimes& times) mutable {
+    struct Memory {
+      std::vector<double> values;
+      ContactSearch search;
+      ContactWorkspace workspace;
+    };
+    const Pointshell& shell = body_.scene().pointshell;
+    const FeatureContacts<Voxelmap>* const none = nullptr;
+    auto memory = std::make_shared<Memory>();
+    memory->values.resize(ContactSearch::memory(shell, {}));
+    memory->search.start(field_, shell, none, ContactLengths::make(q_), memory->values);
+    return [this, &shell, cycle, memory, state = State{}](const Pose& H_WD, CycleReport& report,
+                                                          StepTimes& times) mutable {
       begin(state, H_WD);
-      return cycle(field_, body_.scene().pointshell, nullptr, q_, CycleInput{H_WD, {}}, state, *workspace, report,
+      return cycle(field_, shell, nullptr, q_, CycleInput{H_WD, {}}, memory->search, state, memory->workspace, report,
                    &times);
     };
   }

@@ -24,10 +24,15 @@ class CompiledWorld : public World {
         points_(report::points_B(image_.scene)) {}
 
   Cycle start(Solver solver, bool friction) const override {
-    GodObject god_object;
-    if (god_object.start(image_.scene, solver, friction) != Status::kOk) return {};
-    return [god_object, H_BM = H_BM_](const Pose& H_WD, CycleReport& report, StepTimes& times) mutable {
-      return god_object.update({H_WD * H_BM, Motion{}}, report, &times);
+    struct Session {
+      std::vector<double> memory;
+      GodObject god_object;
+    };
+    auto session = std::make_shared<Session>();
+    session->memory.resize(GodObject::memory(image_.scene));
+    if (session->god_object.start(image_.scene, solver, friction, session->memory) != Status::kOk) return {};
+    return [session, H_BM = H_BM_](const Pose& H_WD, CycleReport& report, StepTimes& times) {
+      return session->god_object.update({H_WD * H_BM, Motion{}}, report, &times);
     };
   }
 
