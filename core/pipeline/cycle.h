@@ -49,11 +49,12 @@ struct State {
 struct CycleReport {
   Pose H_WS;          ///< god object after the cycle, frame B
   DeviceForce force;  ///< for the device, in W about the centre of mass
-  /// p = p_d - d of step #1, before the cycle's motion [m]; `contact`: minus the smallest stored distance
+  /// p = p_d - d of step #1, before the cycle's motion [m]; `contact`: minus the smallest stored distance,
+  /// known as far as it is below an eighth of a voxel
   double penetration = 0.0;
   std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force, two of one point are two
-  std::uint32_t substeps = 0;
-  bool unconverged = false;  ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
+  std::uint32_t substeps = 0;  ///< `contact`: with something near; 1 where nothing was
+  bool unconverged = false;    ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
   Outcome outcome = Outcome::kFree;
 };
 

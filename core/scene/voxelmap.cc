@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -39,15 +40,15 @@ Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> inde
       band_(grid.band),
       lipschitz_(std::max(1.0, grid.lipschitz)),
       lipschitz_seam_(std::max(1.0, grid.lipschitz_seam)),
-      nx_(grid.bricks[0]),
-      ny_(grid.bricks[1]),
-      nz_(grid.bricks[2]) {}
+      cells_(kBrickCells * Vector3(grid.bricks[0], grid.bricks[1], grid.bricks[2])),
+      stride_y_(grid.bricks[0]),
+      stride_z_(std::ptrdiff_t{grid.bricks[0]} * grid.bricks[1]) {}
 
 bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   const Vector3 node = (p_W - origin_) * per_voxel_;
   // written so that NaN falls outside
-  const bool within = node.x() >= 0.0 && node.y() >= 0.0 && node.z() >= 0.0 && node.x() < nx_ * kBrickCells &&
-                      node.y() < ny_ * kBrickCells && node.z() < nz_ * kBrickCells;
+  const bool within = node.x() >= 0.0 && node.y() >= 0.0 && node.z() >= 0.0 && node.x() < cells_.x() &&
+                      node.y() < cells_.y() && node.z() < cells_.z();
   if (!within) return false;
   const int ix = static_cast<int>(node.x());
   const int iy = static_cast<int>(node.y());
@@ -55,14 +56,13 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   cell.fx = static_cast<float>(node.x() - ix);
   cell.fy = static_cast<float>(node.y() - iy);
   cell.fz = static_cast<float>(node.z() - iz);
-  cell.x = ix % kBrickCells;
-  cell.y = iy % kBrickCells;
-  cell.z = iz % kBrickCells;
-  const auto brick =
-      static_cast<std::size_t>(ix / kBrickCells) +
-      static_cast<std::size_t>(nx_) * (static_cast<std::size_t>(iy / kBrickCells) +
-                                       static_cast<std::size_t>(ny_) * static_cast<std::size_t>(iz / kBrickCells));
-  cell.entry = index_[brick];
+  // shifts, not divisions: no coordinate is negative, which the compiler does not know
+  constexpr int kShift = std::countr_zero(static_cast<unsigned>(kBrickCells));
+  static_assert(1 << kShift == kBrickCells);
+  cell.x = ix & (kBrickCells - 1);
+  cell.y = iy & (kBrickCells - 1);
+  cell.z = iz & (kBrickCells - 1);
+  cell.entry = index_[(ix >> kShift) + stride_y_ * (iy >> kShift) + stride_z_ * (iz >> kShift)];
   return true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -65,7 +66,9 @@ class Voxelmap {
   double band_ = 0.0;
   double lipschitz_ = 1.0;
   double lipschitz_seam_ = 1.0;
-  int nx_ = 0, ny_ = 0, nz_ = 0;  ///< brick positions
+  Vector3 cells_ = Vector3::Zero();  ///< of the grid along x, y, z
+  std::ptrdiff_t stride_y_ = 0;      ///< brick positions from one to its neighbour in y, in z
+  std::ptrdiff_t stride_z_ = 0;
 };
 
 static_assert(DistanceField<Voxelmap>);
