@@ -61,7 +61,7 @@ torque away and is latched: SIGUSR1 resets it once emergency stop and enable swi
 the run in order: exit 0.
 
 --bus sim, the default, is a simulated device with a hand on it, in virtual time: as fast as the machine can. With
-loop.real_time it keeps to the clock, on a thread with real-time priority as far as that is permitted.
+--real-time (loop.real_time) it keeps to the clock, on a thread with real-time priority as far as that is permitted.
 
 CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [scene]      image, solver, friction
@@ -113,6 +113,7 @@ struct Options {
   std::string bus = "sim";
   std::string log;
   bool log_bus = false;
+  bool real_time = false;
   std::optional<double> duration;
 };
 
@@ -496,6 +497,7 @@ void control(const Options& options) {
     throw Failure(ExitCode::kUsage,
                   "what goes over the buses has no folder to be written to; give --log or telemetry.folder");
   }
+  if (options.real_time) config.loop.real_time = true;
   if (config.scene.image.empty()) {
     throw Failure(ExitCode::kBadConfig,
                   fmt::format("{}: scene.image is missing; add it or give --scene", options.controller));
@@ -576,6 +578,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.001, 1e7))
       ->option_text("SECONDS");
   app.add_option("--log", options.log, "folder for the telemetry, in place of telemetry.folder")->type_name("DIR");
+  app.add_flag("--real-time", options.real_time,
+               "simulated bus: keep to the clock, on a real-time thread, as loop.real_time");
   app.add_flag("--log-bus", options.log_bus, "writes what goes over the buses to the same folder, as telemetry.bus");
   CLI::App* doctor =
       app.add_subcommand("doctor", "says what this machine lacks for real-time work, each with its cure");
