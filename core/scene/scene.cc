@@ -8,6 +8,12 @@
 namespace godobject {
 namespace {
 
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+constexpr bool kLooksAtChecksums = false;  // a fuzzer does not guess them, and is to see what lies behind
+#else
+constexpr bool kLooksAtChecksums = true;
+#endif
+
 using format::SectionId;
 
 /// The sections of one image, by id; empty where absent.
@@ -51,7 +57,7 @@ Status read_header(std::span<const std::byte> image, format::Header& header) noe
   std::memcpy(head.data(), &cleared, sizeof(cleared));
   const std::uint64_t sum = format::checksum(image.data() + sizeof(format::Header), expected - sizeof(format::Header),
                                              format::checksum(head.data(), head.size()));
-  if (sum != header.checksum) return Status::kImageChecksum;
+  if (kLooksAtChecksums && sum != header.checksum) return Status::kImageChecksum;
   for (const std::uint64_t word : header.reserved) {
     if (word != 0) return Status::kImageLayout;
   }
@@ -70,7 +76,9 @@ Status read_sections(std::span<const std::byte> image, const format::Header& hea
     if (section.bytes > image.size() - section.offset) return Status::kImageLayout;
     const std::uint64_t padded = (section.bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
     if (padded > image.size() - section.offset) return Status::kImageLayout;
-    if (format::checksum(image.data() + section.offset, padded) != section.checksum) return Status::kImageChecksum;
+    if (kLooksAtChecksums && format::checksum(image.data() + section.offset, padded) != section.checksum) {
+      return Status::kImageChecksum;
+    }
     sections.of[id] = image.subspan(section.offset, section.bytes);
     next = section.offset + padded;
   }
