@@ -136,13 +136,16 @@ std::vector<std::string> judge_gains(const GainReport& report, const FeltCouplin
                     felt.damping, felt.rotation_damping, where));
   }
   if (!(report.margin >= least)) {
+    constexpr double kAdvised = 0.98;  // with another stiffness the worst posture is another one, too
     throw command::Failure(
         command::ExitCode::kBadConfig,
-        fmt::format("gains: the hand would feel {:.4g} N/m and {:.4g} Nm/rad; the stability boundary is {:.4g} N/m and "
-                    "{:.4g} Nm/rad {}, a factor of {:.3g} where gains.margin asks for {:g}: lower gains.stiffness, "
-                    "gains.rotational or workspace.scale",
-                    felt.stiffness, felt.rotation_stiffness, report.margin * felt.stiffness,
-                    report.margin * felt.rotation_stiffness, where, report.margin, least));
+        fmt::format(
+            "gains: the hand would feel {:.4g} N/m and {:.4g} Nm/rad; the stability boundary is {:.4g} N/m and "
+            "{:.4g} Nm/rad {}, a factor of {:.3g} where gains.margin asks for {:g}: lower gains.stiffness to {:.2f} of "
+            "what it is, or gains.rotational or workspace.scale",
+            felt.stiffness, felt.rotation_stiffness, report.margin * felt.stiffness,
+            report.margin * felt.rotation_stiffness, where, report.margin, least,
+            std::floor(100.0 * kAdvised * report.margin / least) / 100.0));
   }
   std::vector<std::string> warnings;
   if (!(report.passivity_excess > 0.0)) {

@@ -93,6 +93,17 @@ TEST_F(GainCheckTest, RefusesWithTheBoundaryOnItsWrongSide) {
   EXPECT_NE(refusal(check(), 1.0), "");
 }
 
+TEST_F(GainCheckTest, AcceptsAStiffnessThatTheRefusalAdvised) {
+  constexpr double kMargin = 1.25;
+  scene_.settings.stiffness = 50000.0;
+  const std::string message = refusal(check(), kMargin);
+  const std::string before = "lower gains.stiffness to ";
+  const std::size_t at = message.find(before);
+  ASSERT_NE(at, std::string::npos) << message;
+  scene_.settings.stiffness *= std::stod(message.substr(at + before.size()));
+  EXPECT_EQ(refusal(check(), kMargin), "");
+}
+
 TEST_F(GainCheckTest, NamesOnlyThePositionsOfJointsThatAreThere) {
   EXPECT_EQ(check().joint_count, 7);
   GainReport report;
