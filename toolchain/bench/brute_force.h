@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "core/spatial/pose.h"
+#include "toolchain/bench/point_scan.h"
+
+namespace godobject::bench {
+
+/// The peer of step #1 without a tree, without bricks and without a memory of the last cycle: every sample point is
+/// looked up in a tight dense grid of single-precision distances with the scene's voxel edge. Points stand in Morton
+/// order, so that neighbours in space are neighbours in memory. What it does not know of the scene: refined bricks,
+/// exact edges, seams, the second direction.
+class BruteForce {
+ public:
+  /// Copies points and distances at the lattice's nodes out of the scene. `cut`: scans find points nearer than that
+  /// [m]. Cost: a look-up a node of the tight grid.
+  BruteForce(const Scene& scene, double cut);
+
+  /// Scans the points with the body at H_WS; what was found holds until the next call.
+  const NearList& scan(PointScan how, const Pose& H_WS) noexcept;
+
+  std::size_t grid_bytes() const noexcept { return values_.size() * sizeof(float); }
+  std::span<const std::int32_t, 3> nodes() const noexcept { return grid_.nodes; }
+
+ private:
+  Vector3 origin_W_;
+  double voxel_size_;
+  ScanLimits limits_;
+  std::vector<float> values_;
+  GridView grid_;
+  std::vector<float> x_, y_, z_;
+  std::vector<std::uint32_t> order_;
+  PointView points_;
+  std::vector<std::uint32_t> scratch_;
+  std::vector<std::uint32_t> near_index_;
+  std::vector<float> near_distance_, near_gradient_x_, near_gradient_y_, near_gradient_z_;
+  NearList near_;
+};
+
+/// The scans that this processor can run, the plain ones first.
+std::vector<NamedScan> runnable_scans();
+
+}  // namespace godobject::bench
