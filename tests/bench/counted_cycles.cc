@@ -1,0 +1,50 @@
+// counted_cycles X.scene POSES.csv FIRST END FRICTION: replays a path with `contact` up to row END. Cycles from row
+// FIRST on pass through counted_update, by whose name callgrind collects.
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "core/pipeline/god_object.h"
+#include "firmware/command/pose_path.h"
+#include "toolchain/command/scene_image.h"
+
+namespace {
+
+using namespace godobject;
+
+GodObject god_object;
+
+Status plain_update(const Pose& H_WM, CycleReport& report) { return god_object.update({H_WM, Motion{}}, report); }
+
+}  // namespace
+
+[[gnu::noinline]] Status counted_update(const Pose& H_WM, CycleReport& report);
+[[gnu::noinline]] Status counted_update(const Pose& H_WM, CycleReport& report) {
+  return god_object.update({H_WM, Motion{}}, report);
+}
+
+int main(int argc, char** argv) try {
+  if (argc != 6) return 64;
+  const auto image = command::SceneImage::read(argv[1]);
+  const command::PosePath path = command::read_pose_path(argv[2]);
+  const auto first = static_cast<std::size_t>(std::atoi(argv[3]));
+  const auto end = static_cast<std::size_t>(std::atoi(argv[4]));
+  const bool friction = std::string_view(argv[5]) == "on";
+  std::vector<double> memory(GodObject::memory(image.scene));
+  if (god_object.start(image.scene, Solver::kContact, friction, memory) != Status::kOk || end > path.poses.size()) {
+    return 65;
+  }
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < end; ++i) {
+    CycleReport report;
+    const Status status = i < first ? plain_update(path.poses[i], report) : counted_update(path.poses[i], report);
+    if (status != Status::kOk) return 65;
+    if (i >= first) contacts += report.contacts;
+  }
+  std::printf("%zu cycles, %zu contacts\n", end - first, contacts);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 70;
+}
