@@ -16,20 +16,34 @@ DirectDrives::DirectDrives(Plant& plant, std::span<const JointHardwareParameters
                            std::span<const DriveFault> script) noexcept
     : plant_(plant), timing_(timing), script_(script) {
   assert(plant.now_ns() == 0 && static_cast<int>(joints.size()) >= plant.joint_count());
+  assert(timing.collect_ns < timing.period_ns);
   assert(timing.period_ns > 0 && timing.delay_ns >= 0 && timing.delay_ns <= 8 * timing.period_ns);
+  sampled_.fill(-1);
   delivered_.fill(-1);
   for (int i = 0; i < joint_count(); ++i) {
+    assert(timing.sampled_ns[at(i)] >= 0 && timing.sampled_ns[at(i)] <= timing.collect_ns);
+    assert(timing.acts_ns[at(i)] >= 0 && timing.acts_ns[at(i)] < timing.period_ns);
     hardware_[at(i)] = JointHardware(joints[at(i)]);
     counter_[at(i)] = joints[at(i)].counter_at_zero;
   }
   begin_cycle();
+  sample_due();
+}
+
+double DirectDrives::delay() const noexcept {
+  std::int64_t longest_ns = 0;
+  for (int i = 0; i < joint_count(); ++i) {
+    longest_ns = std::max(longest_ns, timing_.delay_ns + timing_.acts_ns[at(i)] - timing_.sampled_ns[at(i)]);
+  }
+  return 1e-9 * static_cast<double>(longest_ns);
 }
 
 const DriveFault* DirectDrives::fault(FaultKind kind, int joint) const noexcept {
   return find_fault(script_, kind, joint, cycle());
 }
 
-/// As a driver follows a counter: by differences, which a wrap does not disturb.
+/// As a driver follows a counter: by differences, which a wrap does not disturb. A count stands for the beginning of
+/// its step, as it does behind a bus.
 double DirectDrives::read_position(int i) noexcept {
   const JointHardware& joint = hardware_[at(i)];
   const double q = plant_.positions()[i];
@@ -39,30 +53,39 @@ double DirectDrives::read_position(int i) noexcept {
   counts_[at(i)] +=
       static_cast<std::int32_t>(static_cast<std::uint32_t>(now) - static_cast<std::uint32_t>(counter_[at(i)]));
   counter_[at(i)] = now;
-  return step * (static_cast<double>(counts_[at(i)]) + 0.5);
+  return step * static_cast<double>(counts_[at(i)]);
 }
 
 void DirectDrives::begin_cycle() noexcept {
-  const std::int64_t k = cycle();
   if (now_ns() >= timing_.enable_ns && now_ns() - timing_.period_ns < timing_.enable_ns) enable_switch_ = true;
-  Sample& sample = samples_[at(k % kHistory)];
-  const Sample& before = samples_[at((k + kHistory - 1) % kHistory)];
   for (int i = 0; i < joint_count(); ++i) {
     JointHardware& joint = hardware_[at(i)];
     joint.set_supply(fault(FaultKind::kSupplyLost, i) == nullptr, now_ns());
     if (fault(FaultKind::kDriveTrips, i) != nullptr) joint.trip(now_ns());
     if (fault(FaultKind::kDriveDisabled, i) != nullptr) joint.disable(now_ns());
-
-    sample.position[i] = read_position(i);
-    const DriveFault* stuck = fault(FaultKind::kEncoderStuck, i);
-    if (stuck != nullptr && k > stuck->first_cycle) sample.position[i] = before.position[i];
-    if (const DriveFault* jump = fault(FaultKind::kEncoderJump, i)) sample.position[i] += jump->value;
-    if (fault(FaultKind::kEncoderNotFinite, i) != nullptr) {
-      sample.position[i] = std::numeric_limits<double>::quiet_NaN();
-    }
-    sample.torque[i] = joint.measured_torque();
-    sample.state[at(i)] = joint.state();
   }
+}
+
+void DirectDrives::sample_due() noexcept {
+  for (int i = 0; i < joint_count(); ++i) {
+    if (sampled_[at(i)] < cycle() && now_ns() >= cycle() * timing_.period_ns + timing_.sampled_ns[at(i)]) sample(i);
+  }
+}
+
+void DirectDrives::sample(int i) noexcept {
+  const std::int64_t k = cycle();
+  Sample& sample = samples_[at(k % kHistory)];
+  const Sample& before = samples_[at((k + kHistory - 1) % kHistory)];
+  sample.position[i] = read_position(i);
+  const DriveFault* stuck = fault(FaultKind::kEncoderStuck, i);
+  if (stuck != nullptr && k > stuck->first_cycle) sample.position[i] = before.position[i];
+  if (const DriveFault* jump = fault(FaultKind::kEncoderJump, i)) sample.position[i] += jump->value;
+  if (fault(FaultKind::kEncoderNotFinite, i) != nullptr) {
+    sample.position[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  sample.torque[i] = hardware_[at(i)].measured_torque();
+  sample.state[at(i)] = hardware_[at(i)].state();
+  sampled_[at(i)] = k;
 }
 
 void DirectDrives::receive(hal::JointReading& reading) noexcept {
@@ -70,7 +93,7 @@ void DirectDrives::receive(hal::JointReading& reading) noexcept {
   for (int i = 0; i < joint_count(); ++i) {
     const DriveFault* late = fault(FaultKind::kReadingLate, i);
     const std::int64_t age = late == nullptr ? 0 : static_cast<std::int64_t>(late->value);
-    const std::int64_t newest = k - std::clamp<std::int64_t>(age, 0, kHistory - 1);
+    const std::int64_t newest = sampled_[at(i)] - std::clamp<std::int64_t>(age, 0, kHistory - 1);
     const Sample& sample = samples_[at(std::max<std::int64_t>(newest, 0) % kHistory)];
     const bool answers = sample.state[at(i)] != hal::DriveState::kUnavailable;
     if (!answers) last_.state[at(i)] = hal::DriveState::kUnavailable;
@@ -94,7 +117,7 @@ bool DirectDrives::send(const hal::JointCommand& command) noexcept {
   const bool full = end_pending_ - first_pending_ == kHistory;
   Pending& pending = pending_[at((full ? end_pending_ - 1 : end_pending_) % kHistory)];
   if (!full) ++end_pending_;
-  pending = {std::max(now_ns(), cycle() * timing_.period_ns + timing_.delay_ns), command, {}};
+  pending.command = command;
   bool sent = true;
   for (int i = 0; i < joint_count(); ++i) {
     double& torque = pending.command.torque[i];
@@ -103,43 +126,68 @@ bool DirectDrives::send(const hal::JointCommand& command) noexcept {
       torque = 0.0;
     }
     const bool fails = fault(FaultKind::kSendFails, i) != nullptr;
-    pending.dropped[at(i)] = fails || fault(FaultKind::kCommandLost, i) != nullptr;
-    if (pending.dropped[at(i)]) ++counters_.dropped;
+    const bool dropped = fails || fault(FaultKind::kCommandLost, i) != nullptr;
+    if (dropped) ++counters_.dropped;
+    pending.waits[at(i)] = !dropped;
+    pending.at_ns[at(i)] = std::max(now_ns(), cycle() * timing_.period_ns + timing_.delay_ns + timing_.acts_ns[at(i)]);
     if (fails) sent = false;
   }
   return sent;
 }
 
 void DirectDrives::apply_commands() noexcept {
-  for (; first_pending_ < end_pending_; ++first_pending_) {
-    const Pending& pending = pending_[at(first_pending_ % kHistory)];
-    if (pending.at_ns > now_ns()) return;
+  for (std::int64_t k = first_pending_; k < end_pending_; ++k) {
+    Pending& pending = pending_[at(k % kHistory)];
+    bool waits = false;
     for (int i = 0; i < joint_count(); ++i) {
-      if (pending.dropped[at(i)]) continue;
+      if (!pending.waits[at(i)]) continue;
+      if (pending.at_ns[at(i)] > now_ns()) {
+        waits = true;
+        continue;
+      }
+      pending.waits[at(i)] = false;
       hardware_[at(i)].command(pending.command.power, pending.command.torque[i], now_ns());
     }
+    if (!waits && k == first_pending_) ++first_pending_;
   }
 }
 
-/// One step of the plant, or up to `ns` if that is nearer, or to where the next command arrives.
-void DirectDrives::run_to(std::int64_t ns) noexcept {
-  apply_commands();
-  JointLoad load;
+/// When the next command arrives or the next joint is sampled.
+std::int64_t DirectDrives::next_event_ns() const noexcept {
+  std::int64_t next_ns = std::numeric_limits<std::int64_t>::max();
   for (int i = 0; i < joint_count(); ++i) {
-    hardware_[at(i)].update(now_ns(), plant_.positions()[i], plant_.velocities()[i]);
-    load.motor[i] = hardware_[at(i)].motor_torque();
-    load.brake[i] = hardware_[at(i)].brake_torque();
+    const std::int64_t sample_ns = (sampled_[at(i)] + 1) * timing_.period_ns + timing_.sampled_ns[at(i)];
+    next_ns = std::min(next_ns, sample_ns);
+    for (std::int64_t k = first_pending_; k < end_pending_; ++k) {
+      const Pending& pending = pending_[at(k % kHistory)];
+      if (pending.waits[at(i)]) next_ns = std::min(next_ns, pending.at_ns[at(i)]);
+    }
   }
-  std::int64_t next_ns = std::min(ns, (now_ns() / Plant::kStep_ns + 1) * Plant::kStep_ns);
-  if (first_pending_ < end_pending_) next_ns = std::min(next_ns, pending_[at(first_pending_ % kHistory)].at_ns);
-  plant_.step(next_ns - now_ns(), load);
+  return next_ns;
+}
+
+/// To `ns`, in equal steps of the plant; nothing is due before.
+void DirectDrives::run_to(std::int64_t ns) noexcept {
+  const std::int64_t begin_ns = now_ns();
+  const std::int64_t steps = (ns - begin_ns + Plant::kStep_ns - 1) / Plant::kStep_ns;
+  for (std::int64_t step = 1; step <= steps; ++step) {
+    JointLoad load;
+    for (int i = 0; i < joint_count(); ++i) {
+      hardware_[at(i)].update(now_ns(), plant_.positions()[i], plant_.velocities()[i]);
+      load.motor[i] = hardware_[at(i)].motor_torque();
+      load.brake[i] = hardware_[at(i)].brake_torque();
+    }
+    plant_.step(begin_ns + (ns - begin_ns) * step / steps - now_ns(), load);
+  }
 }
 
 void DirectDrives::advance_to(std::int64_t ns) noexcept {
   while (now_ns() < ns) {
     const std::int64_t next_cycle_ns = (cycle() + 1) * timing_.period_ns;
-    run_to(std::min(ns, next_cycle_ns));
+    apply_commands();
+    run_to(std::min({ns, next_cycle_ns, next_event_ns()}));
     if (now_ns() == next_cycle_ns) begin_cycle();
+    sample_due();
   }
 }
 

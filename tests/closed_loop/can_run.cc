@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "hal/canopen/network.h"
+
 namespace godobject::firmware {
 
 void DisturbedBus::begin_cycle(int flood, std::int64_t clock_ns) noexcept {
@@ -12,10 +14,30 @@ void DisturbedBus::begin_cycle(int flood, std::int64_t clock_ns) noexcept {
   taken_ = 0;
 }
 
+void DisturbedBus::answer_beside_the_wire(sim::CanNodes& nodes, int bus) noexcept {
+  nodes_ = &nodes;
+  number_ = bus;
+}
+
+hal::SendResult DisturbedBus::send(const hal::CanFrame& frame) noexcept {
+  const int node = hal::canopen::node_of(frame.id, hal::canopen::kCobSdoRequest);
+  if (nodes_ == nullptr || !cycles_ || node == 0) return bus_.send(frame);
+  for (int i = 0; i < nodes_->node_count(); ++i) {
+    if (nodes_->bus_of(i) != number_ || nodes_->node(i).number() != node) continue;
+    nodes_->node(i).receive(frame, nodes_->now_ns());
+    hal::CanFrame answer;
+    if (nodes_->node(i).take_frame(answer)) answer_ = answer;
+  }
+  return hal::SendResult::kSent;
+}
+
 bool DisturbedBus::receive(hal::ReceivedFrame& received) noexcept {
   if (flood_ > 0) {
     --flood_;
     received = {.frame = {.id = 0x7A0, .length = 8}};
+  } else if (answer_) {
+    received = {.frame = *answer_};
+    answer_.reset();
   } else if (!bus_.receive(received)) {
     return false;
   }
@@ -34,6 +56,11 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   hal::BusLayout& layout = placement_.device.bus;
   layout.drives[1].zero = options.zero;
   layout.boot_timeout = 1.0;
+  if (options.quiet) {
+    layout.drive_heartbeat = layout.mode_refresh = 3.0;
+    layout.heartbeat_timeout = 7.0;
+    layout.boot_timeout = 5.0;
+  }
   hardware_ = sim::usual_hardware(arm);
   sim::HandParameters hand;
   hand.grip = sim::Grip::kSpring;
@@ -41,11 +68,14 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
       std::make_unique<sim::Plant>(arm, SimulatedRun::posture(), JointVector::Zero(),
                                    sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
   device_ = std::make_unique<sim::CanDevice>(
-      *plant_, layout, hardware_, sim::CanScript{.hold_from_ns = 1'040'000'000, .faults = options_.drive_faults},
+      *plant_, layout, hardware_,
+      sim::CanScript{.hold_from_ns = std::llround(1e9 * options.hold_from), .faults = options_.drive_faults},
       options_.bus_faults);
   clock_ = std::make_unique<sim::VirtualClock>(*device_);
   buses_.reserve(hal::kMaxBuses);
   for (int i = 0; i < layout.bus_count; ++i) buses_.emplace_back(device_->bus(i));
+  for (int i = 0; options.quiet && i < layout.bus_count; ++i)
+    buses_.at(static_cast<std::size_t>(i)).answer_beside_the_wire(device_->nodes(), i);
   std::array<hal::CanBus*, 3> buses{&buses_.at(0), &buses_.at(1), &buses_.at(2)};
   drives_.emplace(layout, buses, hal::plan_buses(layout).timing);
   CycleSetup setup = run_setup(scene_, placement_);

@@ -12,19 +12,22 @@
 
 namespace godobject::firmware {
 
-/// A bus as the controller sees it, with what befalls its side of it: more frames than it may take in a cycle, and
-/// stamps by a clock that is set.
+/// A bus as the controller sees it, with what befalls its side of it: more frames than it may take in a cycle, stamps
+/// by a clock that is set, and SDO that takes no time on the wire.
 class DisturbedBus final : public hal::CanBus {
  public:
   explicit DisturbedBus(hal::CanBus& bus) noexcept : bus_(bus) {}
 
-  hal::SendResult send(const hal::CanFrame& frame) noexcept override { return bus_.send(frame); }
+  hal::SendResult send(const hal::CanFrame& frame) noexcept override;
   bool receive(hal::ReceivedFrame& received) noexcept override;
   hal::BusHealth health() const noexcept override { return bus_.health(); }
 
   /// So many foreign frames are before all others in this cycle; stamps are off by `clock_ns`.
   void begin_cycle(int flood, std::int64_t clock_ns) noexcept;
   int most_taken() const noexcept { return most_taken_; }  ///< frames in a cycle
+
+  /// SDO requests of the cycles reach this bus's nodes at once, and their answers the controller.
+  void answer_beside_the_wire(sim::CanNodes& nodes, int bus) noexcept;
 
  private:
   hal::CanBus& bus_;
@@ -33,6 +36,9 @@ class DisturbedBus final : public hal::CanBus {
   int taken_ = 0;
   int most_taken_ = 0;
   std::int64_t clock_ns_ = 0;
+  sim::CanNodes* nodes_ = nullptr;  // that answer beside the wire
+  int number_ = 0;
+  std::optional<hal::CanFrame> answer_;
 };
 
 /// The whole controller on the simulated arm over its three buses, in virtual time; otherwise as SimulatedRun.
@@ -43,7 +49,9 @@ class CanRun {
     double begin = 1.2;         ///< [s]
     std::vector<sim::BusFault> bus_faults;
     std::vector<sim::DriveFault> drive_faults;
-    double zero = 0.0;  ///< position of joint 2 where its counter is 0 [rad]
+    double zero = 0.0;        ///< position of joint 2 where its counter is 0 [rad]
+    double hold_from = 1.04;  ///< when the enable switch is held [s]
+    bool quiet = false;       ///< for 3 s from its first heartbeat on nothing is on the wires but SYNC and PDOs
     struct Flood {
       int bus = 0;
       std::int64_t first_cycle = 0;

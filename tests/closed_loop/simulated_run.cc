@@ -85,6 +85,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   for (auto& joint : hardware_) {
     joint.counter_at_zero = options.counter_at_zero;
     joint.command_deadline_ns = options.command_deadline_ns;
+    joint.enable_ns = options.enable_ns;
     if (load_) joint.encoder_step = joint.torque_step = 0.0;
   }
   if (load_) placement_.device.torque.null_damping.setZero();

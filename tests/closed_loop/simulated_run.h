@@ -61,6 +61,7 @@ class SimulatedRun {
     bool friction = true;
     HandLimits hand;                               ///< what the hand may be given
     std::int64_t command_deadline_ns = 4'000'000;  ///< without commands for longer a drive trips
+    std::int64_t enable_ns = 3'000'000;            ///< from the request to a drive's power stage
     /// What is put on the tool in each cycle instead of a hand's grip, about its origin; the drives round nothing then,
     /// and motions that leave the tool at rest are not damped.
     std::function<Wrench(std::int64_t cycle, const sim::BodyState& tool)> load;
