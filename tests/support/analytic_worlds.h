@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "core/pipeline/cycle.h"
-#include "core/scene/pointshell.h"
 #include "tests/support/analytic_shapes.h"
 #include "toolchain/report/analytic/field.h"
+#include "toolchain/report/analytic/sampled_body.h"
 
 namespace godobject::test {
 
@@ -30,35 +27,12 @@ struct Plate {
   Vector3 gradient(const Vector3& p) const noexcept { return {0.0, 0.0, p.z() < 0.0 ? -1.0 : 1.0}; }
 };
 
-/// Sample points with the sphere tree of one leaf; owns what its Pointshell looks at.
-class SampledBody {
+/// As that of the desk tools, from samples of a surface.
+class SampledBody : public analytic::SampledBody {
  public:
   /// `principal_inertia`: J_B / m [m^2].
   SampledBody(const SurfaceSamples& samples, const Vector3& principal_inertia, double voxel_size = 0.002)
-      : count_(samples.points.size()) {
-    for (const auto* vectors : {&samples.points, &samples.normals}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const Vector3& v : *vectors) values_.push_back(static_cast<float>(v[axis]));
-      }
-    }
-    float radius = 0.0f;
-    for (const Vector3& p : samples.points) radius = std::max(radius, static_cast<float>(p.norm() * (1.0 + 1e-6)));
-    node_ = {{0.0f, 0.0f, 0.0f}, radius, 1, 0, static_cast<std::uint32_t>(count_), 0, 1};
-    mass = MassModel::make(principal_inertia, static_cast<double>(radius),
-                           std::max(static_cast<double>(radius), voxel_size));
-  }
-
-  Pointshell pointshell() const {
-    const float* v = values_.data();
-    return {count_, v, v + count_, v + 2 * count_, v + 3 * count_, v + 4 * count_, v + 5 * count_, {&node_, 1}};
-  }
-
-  MassModel mass;
-
- private:
-  std::size_t count_;
-  std::vector<float> values_;
-  format::Node node_{};
+      : analytic::SampledBody(samples.points, samples.normals, principal_inertia, voxel_size) {}
 };
 
 /// A solid ball of 20 mm radius.
