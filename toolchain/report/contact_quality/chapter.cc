@@ -1,16 +1,14 @@
 #include "toolchain/report/contact_quality/chapter.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
 #include "firmware/command/input_file.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/work_folder.h"
+#include "toolchain/command/html_text.h"
 #include "toolchain/report/contact_quality/measure.h"
 #include "toolchain/report/contact_quality/scenes.h"
 #include "toolchain/report/contact_quality/table.h"
@@ -20,12 +18,6 @@ namespace {
 
 using command::ExitCode;
 using command::Failure;
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  command::AtomicFile out(file);
-  out.write(text);
-  out.commit();
-}
 
 std::vector<SceneSpec> chosen_scenes(const ContactQualityRequest& request) {
   std::vector<SceneSpec> all = scenes();
@@ -48,52 +40,98 @@ void require_meshes(const std::vector<SceneSpec>& chosen, const std::filesystem:
   }
 }
 
+std::vector<Measurement> measure_scene(const SceneSpec& scene, const ContactQualityRequest& request,
+                                       const std::filesystem::path& work) {
+  const Effort effort = request.quick ? Effort{.dashes = 5, .tremor_s = 2.0} : Effort{};
+  const Body body = make_body(name(scene.body), body_mesh(scene.body, request.meshes), body_points(scene.body), work);
+  const WorldSettings settings{.voxel_size = scene.voxel_size, .safety_distance = 1.5 * scene.voxel_size};
+  std::unique_ptr<World> world;
+  std::unique_ptr<World> still_world;
+  if (scene.kind == WorldKind::kCompiled) {
+    world = make_compiled_world(scene.name, placed(scene), body, settings, work);
+  } else {
+    world = make_analytic_world(scene.solid.moved(scene.H_WO), body, settings);
+    if (scene.kind == WorldKind::kMoved) still_world = make_analytic_world(scene.solid, body, settings);
+  }
+  std::vector<Measurement> measurements;
+  for (std::uint32_t s = 0; s < format::kSolverCount; ++s) {
+    const auto found = measure(scene, *world, still_world.get(), static_cast<Solver>(s), effort);
+    measurements.insert(measurements.end(), found.begin(), found.end());
+  }
+  return measurements;
+}
+
+const char* const kSheet = "contact_measurements";
+
+Sheet sheet_of(const std::vector<Measurement>& measurements) {
+  Sheet sheet{.name = kSheet, .columns = {"scene", "world", "solver", "quantity", "value"}, .rows = {}};
+  for (const Measurement& m : measurements) {
+    sheet.rows.push_back({m.scene, m.world, format::kSolverNames[static_cast<std::size_t>(m.solver)],
+                          spec(m.quantity).key, cell(m.value)});
+  }
+  return sheet;
+}
+
+std::vector<Measurement> measurements_of(const Sheet& sheet) {
+  std::vector<Measurement> measurements;
+  for (const auto& row : sheet.rows) {
+    const auto solver = std::find(std::begin(format::kSolverNames), std::end(format::kSolverNames), row[2]);
+    const auto quantity = std::find_if(quantities().begin(), quantities().end(),
+                                       [&](const QuantitySpec& candidate) { return candidate.key == row[3]; });
+    if (solver == std::end(format::kSolverNames) || quantity == quantities().end()) continue;
+    measurements.push_back(
+        {row[0], row[1], static_cast<Solver>(solver - std::begin(format::kSolverNames)), quantity->id, number(row[4])});
+  }
+  return measurements;
+}
+
+Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
+  const std::vector<Measurement> measurements = measurements_of(gathered(outcomes, kSheet));
+  Section section;
+  if (!measurements.empty()) {
+    write_file(folder / "contact_quality.csv", measurements_csv(measurements));
+    write_file(folder / "contact_summary.csv", summary_csv(measurements));
+    section.text = text_table(measurements);
+    section.html = fmt::format(
+        "<p>All solvers side by side, as <a href=\"contact_summary.csv\">CSV</a>; each scene, as <a "
+        "href=\"contact_quality.csv\">CSV</a>.</p>\n<div class=\"wide\"><pre>{}</pre></div>\n",
+        command::html_text(section.text));
+  }
+  section.findings = not_run(outcomes);
+  for (const QuantitySpec& quantity : quantities()) {
+    const auto verdict = judge(measurements, quantity.id, Solver::kContact);
+    if (!quantity.target || !verdict) continue;
+    section.findings.push_back({.row = quantity.title,
+                                .what = "contact",
+                                .unit = quantity.unit,
+                                .value = verdict->value,
+                                .most = quantity.target,
+                                .where = quantity.median ? "median of the scenes" : verdict->worst_scene});
+  }
+  return section;
+}
+
 }  // namespace
 
-std::vector<Measurement> contact_quality(const ContactQualityRequest& request) {
+Chapter contact_chapter(const ContactQualityRequest& request) {
   const std::vector<SceneSpec> chosen = chosen_scenes(request);
   require_meshes(chosen, request.meshes);
-  command::make_output_folder(request.output);
-  const std::filesystem::path table = request.output / "contact_quality.csv";
-  const std::filesystem::path summary = request.output / "contact_summary.csv";
-  command::output_target(summary);  // refused before the work, as the table is by its work folder
-  const command::WorkFolder work(table);
-  const Effort effort = request.quick ? Effort{.dashes = 5, .tremor_s = 2.0} : Effort{};
-
-  std::map<BodyShape, Body> bodies;
-  std::vector<Measurement> measurements;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const SceneSpec& scene = chosen[i];
-    const auto progress = [&](std::size_t solver) {
-      if (!request.progress) return;
-      const double done = static_cast<double>(i) + static_cast<double>(solver) / (format::kSolverCount + 1.0);
-      request.progress("contact quality", done / static_cast<double>(chosen.size()));
-    };
-    progress(0);
-    if (!bodies.contains(scene.body)) {
-      bodies.emplace(scene.body, make_body(name(scene.body), body_mesh(scene.body, request.meshes),
-                                           body_points(scene.body), work.path()));
-    }
-    const Body& body = bodies.at(scene.body);
-    const WorldSettings settings{.voxel_size = scene.voxel_size, .safety_distance = 1.5 * scene.voxel_size};
-    const std::string file_name = fmt::format("{}-{}", scene.name, name(scene.kind));
-    std::unique_ptr<World> world;
-    std::unique_ptr<World> still_world;
-    if (scene.kind == WorldKind::kCompiled) {
-      world = make_compiled_world(file_name, placed(scene), body, settings, work.path());
-    } else {
-      world = make_analytic_world(scene.solid.moved(scene.H_WO), body, settings);
-      if (scene.kind == WorldKind::kMoved) still_world = make_analytic_world(scene.solid, body, settings);
-    }
-    for (std::uint32_t s = 0; s < format::kSolverCount; ++s) {
-      progress(s + 1);
-      const auto found = measure(scene, *world, still_world.get(), static_cast<Solver>(s), effort);
-      measurements.insert(measurements.end(), found.begin(), found.end());
-    }
+  Chapter chapter{.name = "contact",
+                  .title = "Contact quality",
+                  .introduction =
+                      "<p>The three solvers in the same scenes along the same device paths; the targets are those of "
+                      "<code>contact</code>. Times grow where cases run side by side.</p>",
+                  .cases = {},
+                  .conclude = conclude};
+  for (const SceneSpec& scene : chosen) {
+    chapter.cases.push_back({.name = fmt::format("contact.{}-{}", scene.name, name(scene.kind)),
+                             .inputs = fmt::format("quick {}", request.quick),
+                             .run = [scene, request](const std::filesystem::path& work) {
+                               return CaseResult{.findings = {},
+                                                 .sheets = {sheet_of(measure_scene(scene, request, work))}};
+                             }});
   }
-  write(table, measurements_csv(measurements));
-  write(summary, summary_csv(measurements));
-  return measurements;
+  return chapter;
 }
 
 }  // namespace godobject::report

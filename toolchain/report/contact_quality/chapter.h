@@ -1,24 +1,20 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <vector>
 
-#include "toolchain/report/contact_quality/quantities.h"
+#include "toolchain/report/study/case.h"
 
 namespace godobject::report {
 
 struct ContactQualityRequest {
-  std::filesystem::path output;                                       ///< folder; made where it is not there
-  std::filesystem::path meshes;                                       ///< folder of the project's meshes
-  bool quick = false;                                                 ///< a few scenes, short
-  std::string scene;                                                  ///< only those whose name holds this
-  std::function<void(std::string_view phase, double done)> progress;  ///< may be empty
+  std::filesystem::path meshes;  ///< folder of the project's meshes
+  bool quick = false;            ///< a few scenes, short
+  std::string scene;             ///< only those whose name holds this
 };
 
-/// Runs all solvers through all scenes, writes OUTPUT/contact_quality.csv and OUTPUT/contact_summary.csv and returns
-/// the measurements. Throws Failure.
-std::vector<Measurement> contact_quality(const ContactQualityRequest& request);
+/// All solvers through all scenes, a case a scene; writes contact_quality.csv and contact_summary.csv. Throws Failure:
+/// kUsage where there is no such scene, kNoInput where a mesh is missing.
+Chapter contact_chapter(const ContactQualityRequest& request);
 
 }  // namespace godobject::report

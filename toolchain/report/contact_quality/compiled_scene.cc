@@ -5,7 +5,6 @@
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/report/contact_quality/body.h"
 #include "toolchain/report/contact_quality/meshes.h"
-#include "toolchain/scene_compiler/compile_scene.h"
 
 namespace godobject::report {
 
@@ -15,7 +14,8 @@ std::filesystem::path still_file(const std::string& name, const std::filesystem:
   return folder / (name + "-still.ply");
 }
 
-command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder) {
+scene_compiler::CompileReport compile_image(const std::string& name, const SceneText& scene,
+                                            const std::filesystem::path& folder) {
   const WorldSettings& q = scene.settings;
   write_ply(scene.still.mesh, still_file(name, folder));
   command::AtomicFile toml(folder / (name + ".toml"));
@@ -31,10 +31,15 @@ command::SceneImage compile(const std::string& name, const SceneText& scene, con
       q.margin, q.friction_static, q.friction_kinetic, q.friction_static, q.friction_kinetic, q.stiffness,
       q.coupling_rotation));
   toml.commit();
-  const std::filesystem::path image = folder / (name + ".scene");
-  scene_compiler::compile_scene(
-      {.scene_file = folder / (name + ".toml"), .output = image, .only_solver = scene.only_solver, .progress = {}});
-  return command::SceneImage::read(image);
+  return scene_compiler::compile_scene({.scene_file = folder / (name + ".toml"),
+                                        .output = folder / (name + ".scene"),
+                                        .only_solver = scene.only_solver,
+                                        .progress = {}});
+}
+
+command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder) {
+  static_cast<void>(compile_image(name, scene, folder));
+  return command::SceneImage::read(folder / (name + ".scene"));
 }
 
 }  // namespace godobject::report

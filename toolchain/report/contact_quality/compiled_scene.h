@@ -7,6 +7,7 @@
 
 #include "core/scene/format.h"
 #include "toolchain/command/scene_image.h"
+#include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/triangle_mesh.h"
 
 namespace godobject::report {
@@ -41,6 +42,10 @@ double shell_thickness(const WorldSettings& settings);
 
 /// Where `compile` puts the still body's mesh.
 std::filesystem::path still_file(const std::string& name, const std::filesystem::path& folder);
+
+/// Writes mesh and scene file NAME to `folder` and compiles them to NAME.scene.
+scene_compiler::CompileReport compile_image(const std::string& name, const SceneText& scene,
+                                            const std::filesystem::path& folder);
 
 /// Writes mesh and scene file NAME to `folder`, compiles them and reads the image.
 command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder);

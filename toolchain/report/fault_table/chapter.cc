@@ -1,33 +1,24 @@
 #include "toolchain/report/fault_table/chapter.h"
 
-#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include "firmware/command/failure.h"
 #include "firmware/command/input_file.h"
-#include "toolchain/command/atomic_file.h"
 #include "toolchain/command/external_program.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/work_folder.h"
+#include "toolchain/report/fault_table/results.h"
+#include "toolchain/report/study/result_file.h"
 
 namespace godobject::report {
 namespace {
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  command::AtomicFile out(file);
-  out.write(text);
-  out.commit();
-}
 
 /// The tests of each program.
 std::map<std::string, std::vector<std::string>> programs() {
   std::map<std::string, std::vector<std::string>> found;
   for (const Requirement& requirement : requirements()) {
     for (const Injection& injection : requirement.injections) {
-      if (injection.program != "hil") found[injection.program].push_back(injection.test);
+      found[injection.program].push_back(injection.test);
     }
   }
   return found;
@@ -51,54 +42,109 @@ std::vector<TestResult> run(const std::filesystem::path& program, const std::vec
   return none;
 }
 
-std::string where_it_was_made() {
-  utsname system{};
-  ::uname(&system);
-  return fmt::format("Made by godobject-report on {} {}, {}.", system.sysname, system.release, system.machine);
+std::vector<TestResult> read_hil_cases(const std::filesystem::path& tests, const std::vector<std::string>& names) {
+  std::vector<TestResult> results;
+  for (const std::string& name : names) results.push_back(read_hil_case(tests, name));
+  return results;
 }
 
-}  // namespace
+const char* const kSheet = "fault_tests";
+const char* const kVirtualMachine = "hil";
 
-std::vector<FaultRow> fault_table(const FaultTableRequest& request) {
-  const auto all = programs();
-  for (const auto& [program, tests] : all) {
-    command::require_regular_input(request.tests / program, "build it, and name its folder with --tests");
+Sheet sheet_of(const std::string& program, const std::vector<TestResult>& results) {
+  Sheet sheet{.name = kSheet,
+              .columns = {"program", "test", "ran", "passed", "why_not", "reaction", "found", "after", "cycles"},
+              .rows = {}};
+  for (const TestResult& r : results) {
+    sheet.rows.push_back({program, r.test, r.ran ? "1" : "0", r.passed ? "1" : "0", r.why_not, r.reaction, r.found,
+                          r.after, std::to_string(r.cycles)});
   }
-  command::make_output_folder(request.output);
-  const std::filesystem::path table = request.output / "faults.csv";
-  const std::filesystem::path page = request.output / "faults.html";
-  command::output_target(page);
-  const command::WorkFolder work(table);
+  return sheet;
+}
 
+std::map<std::string, TestResult> results_of(const Sheet& sheet) {
   std::map<std::string, TestResult> results;  // by program and test
-  double done = 0.0;
-  for (const auto& [program, tests] : all) {
-    if (request.progress) request.progress("faults", done / static_cast<double>(all.size()));
-    for (const TestResult& result : run(request.tests / program, tests, work.path() / (program + ".json"))) {
-      results[program + ' ' + result.test] = result;
-    }
-    done += 1.0;
+  for (const auto& row : sheet.rows) {
+    results[row[0] + ' ' + row[1]] = {.test = row[1],
+                                      .ran = row[2] == "1",
+                                      .passed = row[3] == "1",
+                                      .why_not = row[4],
+                                      .reaction = row[5],
+                                      .found = row[6],
+                                      .after = row[7],
+                                      .cycles = std::stoi(row[8])};
   }
+  return results;
+}
 
+Finding finding_of(const FaultRow& row) {
+  Finding finding{.row = row.requirement.fault,
+                  .what = "injections that are not as required: " + row.requirement.reaction,
+                  .unit = "",
+                  .value = row.verdict == FaultVerdict::kMissed ? 1.0 : 0.0,
+                  .most = 0.0,
+                  .where = row.verdict == FaultVerdict::kMissed ? row.result.test : ""};
+  if (row.verdict == FaultVerdict::kNotRun || row.verdict == FaultVerdict::kNotCovered) {
+    finding.not_judged = name(row.verdict);
+  }
+  return finding;
+}
+
+Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
+  const auto results = results_of(gathered(outcomes, kSheet));
   std::vector<FaultRow> rows;
   for (const Requirement& requirement : requirements()) {
     if (requirement.injections.empty()) rows.push_back({.requirement = requirement});
     for (const Injection& injection : requirement.injections) {
       FaultRow row{.requirement = requirement, .injection = injection};
-      if (injection.program == "hil") {
-        row.result = read_hil_case(request.tests, injection.test);
-      } else if (const auto found = results.find(injection.program + ' ' + injection.test); found != results.end()) {
-        row.result = found->second;
-      } else {
-        row.result = {.test = injection.test, .why_not = "the program has no such test"};
-      }
+      const auto found = results.find(injection.program + ' ' + injection.test);
+      row.result = found != results.end()
+                       ? found->second
+                       : TestResult{.test = injection.test, .why_not = "the program has no such test"};
       row.verdict = judge(requirement, row.result);
       rows.push_back(row);
     }
   }
-  write(table, fault_csv(rows));
-  write(page, fault_page(rows, where_it_was_made()));
-  return rows;
+  write_file(folder / "faults.csv", fault_csv(rows));
+  write_file(folder / "faults.html", fault_page(rows, fmt::format("Made by godobject-report on {}.", this_machine())));
+  Section section;
+  for (const FaultRow& row : rows) section.findings.push_back(finding_of(row));
+  section.findings = worst_of(section.findings);
+  section.text = fault_summary(rows) + "\n";
+  section.html = "<p>Each injection: <a href=\"faults.html\">table</a>, <a href=\"faults.csv\">CSV</a>.</p>\n";
+  return section;
+}
+
+/// What a case's result depends on: the test program, or what a session of the virtual machine has left.
+std::string inputs_of(const std::filesystem::path& tests, const std::string& program,
+                      const std::vector<std::string>& names) {
+  if (program != kVirtualMachine) return file_digest(tests / program);
+  return csv(sheet_of(program, read_hil_cases(tests, names)));
+}
+
+}  // namespace
+
+Chapter fault_chapter(const std::filesystem::path& tests) {
+  Chapter chapter{
+      .name = "faults",
+      .title = "Faults, injected",
+      .introduction = "<p>What the controller makes of faults, as the tests that inject them have measured it.</p>",
+      .cases = {},
+      .conclude = conclude};
+  for (const auto& [program, names] : programs()) {
+    if (program != kVirtualMachine) {
+      command::require_regular_input(tests / program, "build it, and name its folder with --tests");
+    }
+    chapter.cases.push_back({.name = "faults." + program,
+                             .inputs = inputs_of(tests, program, names),
+                             .run = [tests, program = program, names = names](const std::filesystem::path& work) {
+                               const auto results = program == kVirtualMachine
+                                                        ? read_hil_cases(tests, names)
+                                                        : run(tests / program, names, work / (program + ".json"));
+                               return CaseResult{.findings = {}, .sheets = {sheet_of(program, results)}};
+                             }});
+  }
+  return chapter;
 }
 
 }  // namespace godobject::report

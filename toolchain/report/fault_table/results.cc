@@ -11,6 +11,7 @@
 
 #include "firmware/command/failure.h"
 #include "toolchain/command/html_text.h"
+#include "toolchain/report/study/case.h"
 
 namespace godobject::report {
 namespace {
@@ -76,12 +77,6 @@ std::string seen_text(const FaultRow& row) {
   if (row.verdict == FaultVerdict::kNotCovered) return "no test";
   if (!row.result.passed) return row.result.why_not;
   return row.result.found.empty() ? row.result.reaction : row.result.reaction + ": " + row.result.found;
-}
-
-std::string csv_text(std::string text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
-  return '"' + text + '"';
 }
 
 const char* const kHead = R"(<!DOCTYPE html>

@@ -1,0 +1,166 @@
+// The list of cases: what is run, what is skipped, and what becomes of it on the page.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "firmware/command/failure.h"
+#include "toolchain/report/study/page.h"
+#include "toolchain/report/study/plot.h"
+#include "toolchain/report/study/study.h"
+
+namespace godobject::report {
+namespace {
+
+Finding finding(double value, double most) {
+  return {.row = "A", .what = "deviation", .unit = "%", .value = value, .most = most};
+}
+
+TEST(Finding, IsHeldUpToItsBound) {
+  EXPECT_EQ(verdict_text(finding(2.0, 2.0)), "held");
+  EXPECT_EQ(verdict_text(finding(2.5, 2.0)), "missed by 0.5 %");
+  EXPECT_EQ(verdict_text(finding(std::nan(""), 2.0)), "missed: no number");
+  EXPECT_EQ(verdict_text(finding(HUGE_VAL, 2.0)), "missed by inf %");
+  Finding open = finding(9.0, 0.0);
+  open.most.reset();
+  EXPECT_EQ(verdict_text(open), "-");
+}
+
+TEST(Finding, OfTheSameQuantityTheWorstCounts) {
+  Finding not_run = finding(0.0, 2.0);
+  not_run.not_judged = "not run";
+  EXPECT_EQ(worst_of({finding(1.0, 2.0), not_run, finding(1.5, 2.0)}).front().not_judged, "not run");
+  EXPECT_TRUE(std::isnan(worst_of({finding(3.0, 2.0), finding(std::nan(""), 2.0), not_run}).front().value))
+      << "what is missed is worse than what is not run";
+  EXPECT_EQ(summary({finding(1.0, 2.0), finding(3.0, 2.0)}), "2 rows: 1 held, 1 missed (A: deviation)");
+}
+
+TEST(Cell, ReadsBackTheSame) {
+  for (const double value : {0.1, -1e-300, 1.0 / 3.0, 6.02e23, HUGE_VAL}) EXPECT_EQ(number(cell(value)), value);
+  EXPECT_TRUE(std::isnan(number(cell(std::nan("")))));
+  EXPECT_TRUE(std::isnan(number("")));
+  EXPECT_EQ(csv({.name = "t", .columns = {"a", "b"}, .rows = {{"x,y", "say \"no\""}}}),
+            "a,b\n\"x,y\",\"say \"\"no\"\"\"\n");
+}
+
+TEST(Base64, IsThatOfTheStandard) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
+}
+
+TEST(Plot, LeavesOutWhatIsNotFinite) {
+  const std::string text = gnuplot_text(
+      {.title = "it's", .x = "x", .y = "y", .curves = {{"", "lines", {{1.0, 2.0}, {3.0, std::nan("")}}}}}, "a.png");
+  EXPECT_NE(text.find("1 2\nEND"), std::string::npos);
+  EXPECT_NE(text.find("'it''s'"), std::string::npos);
+}
+
+class StudyTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("godobject_study_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(case_folder(folder_));
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// A case that counts its runs and measures `value`.
+  StudyCase counted(const std::string& name, double value, const std::string& inputs = "") {
+    return {.name = name, .inputs = inputs, .run = [this, name, value](const std::filesystem::path& work) {
+              EXPECT_TRUE(std::filesystem::is_directory(work));
+              ++runs_;
+              CaseResult result;
+              result.findings.push_back({.row = name, .what = "value", .unit = "mm", .value = value, .most = 1.0});
+              result.sheets.push_back({.name = "values", .columns = {"case", "value"}, .rows = {{name, cell(value)}}});
+              return result;
+            }};
+  }
+
+  void run(const std::vector<Chapter>& chapters, int threads = 1) {
+    run_cases(all_cases(chapters), {.folder = case_folder(folder_), .threads = threads, .progress = {}});
+  }
+
+  static Chapter chapter(std::vector<StudyCase> cases) {
+    return {
+        .name = "things", .title = "Things & more", .introduction = "", .cases = std::move(cases), .conclude = gather};
+  }
+
+  std::string text_of(const std::filesystem::path& file) const {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  std::filesystem::path folder_;
+  std::atomic<int> runs_ = 0;
+};
+
+TEST_F(StudyTest, RunsAgainOnlyWhatIsNotThereOrHasOtherInputs) {
+  const std::vector<Chapter> chapters{chapter({counted("a", 0.1), counted("b", 0.2), counted("c", 3.0)})};
+  run(chapters);
+  EXPECT_EQ(runs_, 3);
+  run(chapters);
+  EXPECT_EQ(runs_, 3) << "all are there";
+  std::filesystem::remove(result_path(case_folder(folder_), "b"));
+  run(chapters);
+  EXPECT_EQ(runs_, 4) << "one was interrupted";
+  run({chapter({counted("a", 0.1), counted("b", 0.2, "other"), counted("c", 3.0)})});
+  EXPECT_EQ(runs_, 5) << "one has other inputs";
+  std::ofstream(result_path(case_folder(folder_), "a")) << "{\"form";
+  run(chapters);
+  EXPECT_EQ(runs_, 7) << "one is torn, one has other inputs again";
+}
+
+TEST_F(StudyTest, GivesTheSamePageFromSingleCasesAndSeveralThreads) {
+  std::vector<StudyCase> cases;
+  for (int i = 0; i < 40; ++i) cases.push_back(counted("case-" + std::to_string(i), 0.03 * i));
+  const std::vector<Chapter> chapters{chapter(cases)};
+  run(chapters, 4);
+  EXPECT_EQ(runs_, 40);
+  const std::string text = merge(chapters, folder_, "x");
+  const std::string values = text_of(folder_ / "values.csv");
+  std::filesystem::remove_all(case_folder(folder_));
+  std::filesystem::create_directories(case_folder(folder_));
+  for (auto it = cases.rbegin(); it != cases.rend(); ++it) {
+    const StudyCase* const only = &find_case(chapters, it->name);
+    run_cases({&only, 1}, {.folder = case_folder(folder_), .threads = 1, .progress = {}});
+  }
+  EXPECT_EQ(merge(chapters, folder_, "x"), text);
+  EXPECT_EQ(text_of(folder_ / "values.csv"), values);
+  EXPECT_NE(text.find("missed by 0.17 mm"), std::string::npos) << text;
+}
+
+TEST_F(StudyTest, SaysWhatWasNotRunAndDoesNotUseOldInputs) {
+  run({chapter({counted("a", 0.1), counted("b", 0.2)})});
+  const std::vector<Chapter> changed{chapter({counted("a", 0.1), counted("b", 0.2, "other"), counted("c", 0.3)})};
+  const std::string text = merge(changed, folder_, "x");
+  EXPECT_NE(text.find("3 rows: 1 held, 2 not run (b: the case; c: the case)"), std::string::npos) << text;
+  const std::string html = text_of(report_file(folder_));
+  EXPECT_NE(html.find("made from other inputs: b"), std::string::npos);
+  EXPECT_NE(html.find("Things &amp; more"), std::string::npos);
+}
+
+TEST_F(StudyTest, KeepsWhatIsDoneWhenACaseFails) {
+  const StudyCase fails{
+      .name = "fails", .inputs = "", .run = [](const auto&) -> CaseResult { throw std::runtime_error("no"); }};
+  const std::vector<Chapter> chapters{chapter({counted("a", 0.1), fails, counted("b", 0.2)})};
+  EXPECT_THROW(run(chapters), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::exists(result_path(case_folder(folder_), "a")));
+  EXPECT_FALSE(std::filesystem::exists(result_path(case_folder(folder_), "fails")));
+  EXPECT_THROW(find_case(chapters, "nothing"), command::Failure);
+}
+
+TEST_F(StudyTest, RefusesAResultOfAnotherCase) {
+  run({chapter({counted("a", 0.1)})});
+  std::filesystem::copy_file(result_path(case_folder(folder_), "a"), result_path(case_folder(folder_), "b"));
+  EXPECT_THROW(merge({chapter({counted("a", 0.1), counted("b", 0.1)})}, folder_, "x"), command::Failure);
+}
+
+}  // namespace
+}  // namespace godobject::report

@@ -1,0 +1,45 @@
+#include "toolchain/report/study/plot.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "toolchain/figures/gnuplot.h"
+
+namespace godobject::report {
+
+using figures::quoted;
+
+std::string color(std::size_t i) {
+  constexpr std::array<const char*, 7> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                  "#e69f00", "#56b4e9", "#222222"};
+  return fmt::format("lc rgb '{}'", kColors[i % kColors.size()]);
+}
+
+std::string gnuplot_text(const Plot& plot, const std::filesystem::path& png) {
+  std::string text;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    text += fmt::format("$data{} << END\n", i);
+    for (const auto& [x, y] : plot.curves[i].points) {
+      if (std::isfinite(x) && std::isfinite(y)) text += fmt::format("{:.9g} {:.9g}\n", x, y);
+    }
+    text += "END\n";
+  }
+  text += fmt::format(
+      "set terminal pngcairo size 1100,600 font 'DejaVu Sans,14' background rgb 'white' noenhanced\nset output {}\n"
+      "set title {}\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd'\nset tics nomirror\n"
+      "set key outside right top vertical reverse Left samplen 2\n",
+      quoted(png.string()), quoted(plot.title), quoted(plot.x), quoted(plot.y));
+  if (plot.log_x) text += "set logscale x\n";
+  if (plot.log_y) text += "set logscale y\n";
+  text += plot.settings + "plot ";
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    const Curve& curve = plot.curves[i];
+    text += fmt::format("{}$data{} using 1:2 with {} {}", i == 0 ? "" : ", ", i, curve.look,
+                        curve.title.empty() ? "notitle" : "title " + quoted(curve.title));
+  }
+  return text + "\nset output\n";
+}
+
+}  // namespace godobject::report
