@@ -1,0 +1,373 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <random>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include "core/device/dynamics.h"
+#include "core/device/stability.h"
+#include "firmware/command/input_file.h"
+#include "firmware/configuration/device_file.h"
+#include "hal/cia402/bus_plan.h"
+#include "hal/cia402/can_drives.h"
+#include "sim/can_device.h"
+#include "sim/direct_drives.h"
+#include "toolchain/report/stability/axis_loop.h"
+#include "toolchain/report/stability/cases.h"
+#include "toolchain/report/study/result_file.h"
+
+namespace godobject::report {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 1'000'000;
+constexpr double kPeriod = 1e-9 * kPeriod_ns;
+constexpr double kPercent = 100.0;
+
+/// The coupling of step #7 between the tool and a fixed pose, on both sides: a god object that does not move.
+struct Coupling {
+  double stiffness = 2000.0;        ///< k_D [N/m]
+  double damping = 20.0;            ///< b_D [Ns/m]
+  double rotation_stiffness = 6.0;  ///< k_D k_VC,r [Nm/rad]
+  double rotation_damping = 0.06;   ///< b_D k_VC,r [Nms/rad]
+};
+
+/// What an arm is used with: the light desktop device stands a sixteenth of the other's.
+struct ArmGains {
+  const char* device;
+  Coupling coupling;
+};
+constexpr ArmGains kGains[] = {{"lwr", {}}, {"desktop6", {125.0, 0.5, 0.75, 0.003}}};
+
+ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& coupling, double delay) {
+  const ArmKinematics kinematics = forward_kinematics(model, q);
+  ArmLoop loop;
+  loop.joint_count = model.joint_count;
+  loop.mass = mass_matrix(model, kinematics);
+  for (int i = 0; i < model.joint_count; ++i) loop.damping[i] = model.joints.at(static_cast<std::size_t>(i)).damping;
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  loop.stiffness = coupling.stiffness;
+  loop.rotation_stiffness = coupling.rotation_stiffness;
+  loop.tool_damping = coupling.damping;
+  loop.rotation_tool_damping = coupling.rotation_damping;
+  loop.timing = {kPeriod, delay, 2};
+  return loop;
+}
+
+/// The arm without weight (its compensation would be sampled and delayed as well) on drives that round nothing, in
+/// lock-step: the plant advances while the clock sleeps, and only then.
+class CoupledArm {
+ public:
+  CoupledArm(const ArmModel& model, const JointVector& q, const Coupling& coupling, double delay)
+      : model_(model),
+        coupling_(coupling),
+        plant_(model, q),
+        hardware_(ideal_hardware()),
+        drives_(plant_, hardware_, {kPeriod_ns, std::llround(1e9 * delay)}),
+        clock_(drives_) {
+    target_ = forward_kinematics(model, q).H_WM;
+    // let go a hundredth of a millimetre and of a milliradian off, in no direction in particular
+    target_.translation += 1e-5 * Vector3(0.6, -0.5, 0.62);
+    target_.rotation = exp_rotation(1e-5 * Vector3(-0.4, 0.7, 0.6)) * target_.rotation;
+  }
+
+  /// Root of the coupling's energy that was largest within the next `cycles` periods.
+  double swing(int cycles) {
+    double most = 0.0;
+    for (int i = 0; i < cycles; ++i) most = std::max(most, cycle());
+    return most;
+  }
+
+ private:
+  static std::array<sim::JointHardwareParameters, kMaxJoints> ideal_hardware() {
+    std::array<sim::JointHardwareParameters, kMaxJoints> hardware;
+    for (auto& joint : hardware) {
+      joint.torque_limit = 1e6;
+      joint.brake_open_ns = 0;
+      joint.enable_ns = 0;
+    }
+    return hardware;
+  }
+
+  double cycle() {
+    hal::JointReading reading;
+    drives_.receive(reading);
+    const ArmKinematics kinematics = forward_kinematics(model_, reading.position);
+    Motion x;
+    x.translation = kinematics.H_WM.translation - target_.translation;
+    x.rotation = log_rotation(kinematics.H_WM.rotation * target_.rotation.conjugate());
+    if (!started_) x_before_ = x;
+    started_ = true;
+    Eigen::Matrix<double, 6, 1> wrench;
+    wrench << -coupling_.stiffness * x.translation -
+                  coupling_.damping / kPeriod * (x.translation - x_before_.translation),
+        -coupling_.rotation_stiffness * x.rotation -
+            coupling_.rotation_damping / kPeriod * (x.rotation - x_before_.rotation);
+    x_before_ = x;
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    static_cast<void>(drives_.send({J.transpose() * wrench, hal::PowerRequest::kEnable}));
+    deadline_ns_ += kPeriod_ns;
+    clock_.sleep_until(deadline_ns_);
+    return std::sqrt(coupling_.stiffness * x.translation.squaredNorm() +
+                     coupling_.rotation_stiffness * x.rotation.squaredNorm());
+  }
+
+  ArmModel model_;
+  Coupling coupling_;
+  sim::Plant plant_;
+  std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
+  sim::DirectDrives drives_;
+  sim::VirtualClock clock_;
+  Pose target_;
+  Motion x_before_;
+  bool started_ = false;
+  std::int64_t deadline_ns_ = 0;
+};
+
+/// Where growth, linear in between, passes zero. Shares and what grew there.
+double zero_between(double low, double grown_low, double high, double grown_high) {
+  return low - grown_low * (high - low) / (grown_high - grown_low);
+}
+
+JointVector posture(const ArmModel& model, std::mt19937& random) {
+  JointVector q = JointVector::Zero();
+  for (int i = 0; i < model.joint_count; ++i) {
+    const ArmJoint& joint = model.joints.at(static_cast<std::size_t>(i));
+    std::uniform_real_distribution<double> within(0.3, 0.7);
+    q[i] = joint.lower + within(random) * (joint.upper - joint.lower);
+  }
+  return q;
+}
+
+/// A4 on the whole matrix: the boundary found between 0.98 and 1.02 of the exact one, at random postures.
+CaseResult whole_arm(const firmware::Device& device, const Coupling& coupling, bool quick) {
+  ArmModel model = device.model;
+  model.gravity_W.setZero();
+  CaseResult result;
+  Sheet sheet{.name = "stability_arm",
+              .columns = {"device", "posture", "t_d_ms", "margin_exact", "margin_simulated", "passivity_excess"},
+              .rows = {}};
+  std::mt19937 random(13);
+  double wrong = 0.0;
+  int judged = 0;
+  for (int i = 0; i < (quick ? 1 : 4); ++i) {
+    const JointVector q = posture(model, random);
+    for (const double delay : {1e-3, 1.3e-3}) {
+      const ArmLoop loop = loop_at(model, q, coupling, delay);
+      const double margin = stiffness_margin(loop);
+      double grown[2];
+      for (int side = 0; side < 2; ++side) {
+        const double share = side == 0 ? 0.98 : 1.02;
+        Coupling scaled = coupling;
+        scaled.stiffness *= share * margin;
+        scaled.rotation_stiffness *= share * margin;
+        CoupledArm arm(model, q, scaled, delay);
+        arm.swing(1500);
+        const double first = arm.swing(500);
+        arm.swing(2500);
+        grown[side] = std::log(arm.swing(500) / first);
+        if ((grown[side] < 0.0) != (side == 0)) wrong += 1.0;
+      }
+      const double measured = zero_between(0.98, grown[0], 1.02, grown[1]);
+      const std::string where = fmt::format("{} posture {} t_d {} ms", device.name, i, 1e3 * delay);
+      sheet.rows.push_back({device.name, std::to_string(i), cell(1e3 * delay), cell(margin), cell(measured * margin),
+                            cell(passivity_excess(loop))});
+      result.findings.push_back({.row = "A4",
+                                 .what = "simulated boundary against the exact one, arm, six axes",
+                                 .unit = "%",
+                                 .value = kPercent * std::fabs(measured - 1.0),
+                                 .most = 2.0,
+                                 .where = where});
+      result.findings.push_back({.row = "A13",
+                                 .what = "gains in use: stiffness over its boundary",
+                                 .unit = "",
+                                 .value = 1.0 / margin,
+                                 .most = 1.0,
+                                 .where = where});
+      result.findings.push_back({.row = "A13",
+                                 .what = "the same, passivity excess: below 0, not passive",
+                                 .unit = "Nms",
+                                 .value = passivity_excess(loop),
+                                 .most = {},
+                                 .where = where});
+      ++judged;
+    }
+  }
+  result.findings.push_back({.row = "A4",
+                             .what = "arm: 0.98 K grows or 1.02 K decays",
+                             .unit = "",
+                             .value = wrong,
+                             .most = 0.0,
+                             .where = fmt::format("{} loops", judged)});
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+/// A13, the linear rule: the joints are moved slowly to and fro along the direction that it calls the least passive.
+/// What spring, hold and delay give there, less what the joints' damping takes, is its eigenvalue.
+CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling) {
+  constexpr std::size_t kSamples = 2000;
+  const double w = 2.0 * M_PI / (kPeriod * kSamples);
+  CaseResult result;
+  Coupling spring = coupling;
+  spring.damping = spring.rotation_damping = 0.0;
+  std::mt19937 random(14);
+  for (int i = 0; i < 20; ++i) {
+    const JointVector q = posture(device.model, random);
+    for (const double delay : {0.0, 0.5e-3, 1.3e-3}) {
+      ArmLoop loop = loop_at(device.model, q, spring, delay);
+      const Eigen::Index n = loop.joint_count;
+      Eigen::Matrix<double, 6, 1> k;
+      k << Vector3::Constant(loop.stiffness), Vector3::Constant(loop.rotation_stiffness);
+      const Eigen::MatrixXd J = loop.jacobian.leftCols(n);
+      const Eigen::MatrixXd K = J.transpose() * k.asDiagonal() * J;
+      Eigen::MatrixXd rule = -(0.5 * kPeriod + delay) * K;
+      rule.diagonal() += loop.damping.head(n);
+      const Eigen::VectorXd way = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rule).eigenvectors().col(0);
+      std::vector<double> script(kSamples);
+      for (std::size_t s = 0; s < kSamples; ++s) script[s] = std::sin(w * kPeriod * static_cast<double>(s));
+      const ImposedWork work = imposed_work(script, {.stiffness = way.dot(K * way)}, delay / kPeriod);
+      const double taken = way.dot(loop.damping.head(n).asDiagonal() * way) * work.square_motion;
+      const double measured = (taken - work.generated) / work.square_motion;
+      const double stated = passivity_excess(loop);
+      result.findings.push_back(
+          {.row = "A13",
+           .what = "energy given along the least passive motion against the rule",
+           .unit = "%",
+           .value = kPercent * std::fabs(measured / stated - 1.0),
+           .most = 2.0,
+           .where = fmt::format("{} t_d {} ms: {:.4g} of {:.4g} Nms", device.name, 1e3 * delay, measured, stated)});
+    }
+  }
+  return result;
+}
+
+/// Rotors that do not touch each other, each a joint of the device's own buses: what the schedule delays is all that
+/// couples a position to its torque.
+/// Each grows or decays within seconds, and swings with half of its drive's torque.
+ArmModel rotors(const hal::BusLayout& layout) {
+  constexpr double kDampingOfTorque = 0.03;  // s/rad
+  constexpr double kSettling = 0.5;          // m/b [s]
+  ArmModel model;
+  model.joint_count = layout.joint_count;
+  for (int i = 0; i < layout.joint_count; ++i) {
+    ArmJoint& joint = model.joints.at(static_cast<std::size_t>(i));
+    joint.link = {1e-9, Vector3::Zero(), Matrix3::Zero()};
+    joint.torque = layout.drives.at(static_cast<std::size_t>(i)).torque_limit;
+    joint.damping = kDampingOfTorque * joint.torque;
+    joint.rotor = kSettling * joint.damping;
+    joint.lower = -10.0;
+    joint.upper = 10.0;
+    joint.velocity = 10.0;
+  }
+  model.gravity_W.setZero();
+  return model;
+}
+
+/// All joints of the device's layout over simulated CAN, the controller's own drives at the other end, each on a spring
+/// of its own: `share` of its exact boundary at the delay of the bus plan. -> growth of each, as logarithm.
+std::optional<JointVector> growth_on_the_bus(const hal::BusLayout& layout, const ArmModel& model, double share,
+                                             const JointVector& stiffness) {
+  constexpr int kSettle = 500;
+  constexpr int kStretch = 500;
+  constexpr int kApart = 4000;
+  auto hardware = sim::usual_hardware(model);
+  for (auto& joint : hardware) joint.encoder_step = 0.0;
+  sim::Plant plant(model, JointVector::Constant(0.02));
+  const auto device = std::make_unique<sim::CanDevice>(plant, layout, hardware);
+  sim::VirtualClock clock(*device);
+  std::array<hal::CanBus*, hal::kMaxBuses> wires{};
+  for (int i = 0; i < layout.bus_count; ++i) wires.at(static_cast<std::size_t>(i)) = &device->bus(i);
+  const hal::BusPlan plan = hal::plan_buses(layout);
+  std::optional<hal::CanDrives> drives;  // it may not stand on the heap
+  drives.emplace(layout, std::span(wires.data(), static_cast<std::size_t>(layout.bus_count)), plan.timing);
+  if (drives->bring_up(clock).status != hal::BringUpStatus::kOk) return std::nullopt;
+  clock.sleep_until((device->now_ns() / kPeriod_ns + 1) * kPeriod_ns);
+  JointVector low[2] = {JointVector::Constant(1e9), JointVector::Constant(1e9)};
+  JointVector high[2] = {JointVector::Constant(-1e9), JointVector::Constant(-1e9)};
+  hal::JointReading reading;
+  for (int k = 0; k < kSettle + 2 * kStretch + kApart; ++k) {
+    const std::int64_t begin_ns = device->now_ns();
+    drives->request();
+    clock.sleep_until(begin_ns + drives->collect_ns());
+    drives->receive(reading);
+    const JointVector torque = -share * stiffness.cwiseProduct(reading.position);
+    if (!drives->send({torque, hal::PowerRequest::kEnable})) return std::nullopt;
+    clock.sleep_until(begin_ns + kPeriod_ns);
+    const int stretch = k < kSettle ? -1 : k < kSettle + kStretch ? 0 : k < kSettle + kStretch + kApart ? -1 : 1;
+    if (stretch < 0) continue;
+    low[stretch] = low[stretch].cwiseMin(plant.positions());
+    high[stretch] = high[stretch].cwiseMax(plant.positions());
+  }
+  return JointVector(((high[1] - low[1]).array() / (high[0] - low[0]).array()).log().matrix());
+}
+
+CaseResult bus_schedule(const firmware::Device& device) {
+  CaseResult result;
+  Sheet sheet{
+      .name = "stability_bus", .columns = {"device", "joint", "t_d_plan_us", "K_exact", "K_measured"}, .rows = {}};
+  const hal::BusLayout& layout = device.bus;
+  const hal::BusPlan plan = hal::plan_buses(layout);
+  const ArmModel model = rotors(layout);
+  JointVector exact = JointVector::Zero();
+  for (int i = 0; i < layout.joint_count; ++i) {
+    AxisLoop loop;
+    loop.mass = model.joints.at(static_cast<std::size_t>(i)).rotor;
+    loop.damping = model.joints.at(static_cast<std::size_t>(i)).damping;
+    loop.timing.delay = 1e-9 * static_cast<double>(plan.unblocked_ns.at(static_cast<std::size_t>(i)));
+    exact[i] = stability_boundary(loop);
+  }
+  constexpr double kShares[2] = {0.96, 1.04};
+  const auto below = growth_on_the_bus(layout, model, kShares[0], exact);
+  const auto above = growth_on_the_bus(layout, model, kShares[1], exact);
+  for (int i = 0; i < layout.joint_count; ++i) {
+    const double measured =
+        below && above ? zero_between(kShares[0], (*below)[i], kShares[1], (*above)[i]) : std::nan("");
+    const double delay_us = 1e-3 * static_cast<double>(plan.unblocked_ns.at(static_cast<std::size_t>(i)));
+    sheet.rows.push_back({device.name, std::to_string(i), cell(delay_us), cell(exact[i]), cell(measured * exact[i])});
+    result.findings.push_back({.row = "bus schedule",
+                               .what = "boundary over CAN against A4 at the plan's delay",
+                               .unit = "%",
+                               .value = kPercent * std::fabs(measured - 1.0),
+                               .most = 2.0,
+                               .where = fmt::format("{} joint {} t_d {:.0f} us", device.name, i, delay_us)});
+  }
+  result.findings.push_back({.row = "bus schedule",
+                             .what = "longest delay of the plan, of two periods",
+                             .unit = "ms",
+                             .value = 1e3 * plan.timing.delay_s,
+                             .most = 2e3 * layout.period,
+                             .where = device.name});
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+}  // namespace
+
+std::vector<StudyCase> arm_cases(const StabilityRequest& request) {
+  std::vector<StudyCase> cases;
+  for (const auto& [name, coupling] : kGains) {
+    const std::filesystem::path file = request.devices / fmt::format("{}.toml", name);
+    command::require_regular_input(file, "name the folder of the device files with --devices");
+    const std::string inputs = fmt::format("quick {} device {}", request.quick, file_digest(file));
+    const auto add = [&](const char* what, std::function<CaseResult(const firmware::Device&)> run) {
+      cases.push_back(
+          {.name = fmt::format("stability.{}-{}", what, name),
+           .inputs = inputs,
+           .run = [file, run = std::move(run)](const auto&) { return run(firmware::read_device_file(file)); }});
+    };
+    add("arm", [&coupling = coupling, quick = request.quick](const firmware::Device& device) {
+      return whole_arm(device, coupling, quick);
+    });
+    add("passive-arm",
+        [&coupling = coupling](const firmware::Device& device) { return passive_arm(device, coupling); });
+    add("bus", bus_schedule);
+  }
+  return cases;
+}
+
+}  // namespace godobject::report

@@ -1,0 +1,505 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "core/device/stability.h"
+#include "toolchain/report/stability/axis_loop.h"
+#include "toolchain/report/stability/cases.h"
+
+namespace godobject::report {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kPeriod = 1e-3;
+constexpr double kPercent = 100.0;
+constexpr double kMilli = 1e3;
+
+double percent_off(double value, double expected) { return kPercent * std::fabs(value / expected - 1.0); }
+
+std::vector<double> cosine(std::size_t samples, std::size_t waves) {
+  std::vector<double> script(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    script[k] = std::cos(2.0 * kPi * static_cast<double>(waves * k) / static_cast<double>(samples));
+  }
+  return script;
+}
+
+/// Smallest device damping with which no motion at the samples gets energy: the worst of all frequencies.
+double needed_damping(const Wall& wall, double delay_in_periods, std::size_t samples) {
+  double most = 0.0;
+  for (std::size_t waves = 1; waves <= samples / 2; ++waves) {
+    const ImposedWork work = imposed_work(cosine(samples, waves), wall, delay_in_periods);
+    most = std::max(most, work.generated / work.square_motion);
+  }
+  return most;
+}
+
+/// A2 for all frequencies: its largest right side.
+double needed_by_formula(const Wall& wall, int d, std::size_t samples) {
+  double most = 0.0;
+  for (std::size_t waves = 1; waves <= samples / 2; ++waves) {
+    const double q = 2.0 * kPi * static_cast<double>(waves) / static_cast<double>(samples);
+    most = std::max(most, 0.5 * wall.stiffness * wall.period * std::sin((2 * d + 1) * q / 2.0) / std::sin(q / 2.0) -
+                              wall.damping * std::cos((d + 1) * q));
+  }
+  return most;
+}
+
+CaseResult passivity(bool quick) {
+  constexpr double kBound = 0.1;
+  const std::size_t samples = quick ? 400 : 1000;
+  CaseResult result;
+  Sheet sheet{.name = "stability_passivity",
+              .columns = {"K_N_per_m", "B_Ns_per_m", "delay_ms", "b_formula", "b_measured"},
+              .rows = {}};
+  const auto note = [&](const char* row, const char* what, const Wall& wall, double delay, double formula) {
+    const double measured = needed_damping(wall, delay, samples);
+    sheet.rows.push_back(
+        {cell(wall.stiffness), cell(wall.damping), cell(delay * wall.period * kMilli), cell(formula), cell(measured)});
+    result.findings.push_back(
+        {.row = row,
+         .what = what,
+         .unit = "%",
+         .value = percent_off(measured, formula),
+         .most = kBound,
+         .where = fmt::format("K {} B {} t_d {} ms", wall.stiffness, wall.damping, delay * wall.period * kMilli)});
+  };
+  for (const double stiffness : {500.0, 2000.0, 10000.0}) {
+    for (const double damping : {-5.0, 0.0, 2.0, 50.0}) {
+      const Wall wall{.stiffness = stiffness, .damping = damping, .period = kPeriod};
+      note("A1", "needed damping without delay against K T/2 + |B|", wall, 0.0,
+           0.5 * stiffness * kPeriod + std::fabs(damping));
+      for (const int d : {1, 2, 3}) {
+        note("A2", "needed damping with delay against the formula", wall, d, needed_by_formula(wall, d, samples));
+      }
+    }
+    const Wall spring{.stiffness = stiffness, .period = kPeriod};
+    for (const double delay : {0.0, 0.3, 1.0, 1.7, 2.5}) {
+      // the slowest wave of `samples` is not yet slow: (w T)^2 / 6 of it, which is within the bound
+      note("A2", "needed damping of a spring against K (T/2 + t_d)", spring, delay,
+           stiffness * kPeriod * (0.5 + delay));
+    }
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+AxisLoop theory_of(const AxisSetup& setup) {
+  AxisLoop loop;
+  loop.mass = setup.mass;
+  loop.damping = setup.damping;
+  loop.virtual_damping = setup.virtual_damping;
+  loop.timing = {setup.period, setup.delay, 2};
+  return loop;
+}
+
+/// STABILITY's table: exact K_crit [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms; 0: unstable.
+struct TableRow {
+  double delay;
+  std::array<double, 10> stiffness;
+};
+constexpr std::array<double, 10> kTableDamping = {0, 5, 10, 20, 50, 100, 200, 300, 400, 600};
+constexpr std::array<TableRow, 3> kTable = {{
+    {0.5e-3, {2001, 6968, 11885, 21571, 49440, 91977, 162703, 214874, 249153, 266530}},
+    {1e-3, {1334, 4643, 7916, 14349, 32755, 60431, 104359, 132703, 144989, 119132}},
+    {2e-3, {801, 2783, 4737, 8560, 19336, 34903, 56312, 63019, 52150, 0}},
+}};
+
+/// A3: how far true/rule is outside of what is stated, at B T / m.
+double outside_of_stated(double virtual_damping, double ratio) {
+  struct Stated {
+    double damping, low, high;
+  };
+  for (const Stated& stated : {Stated{10.0, 0.99, 0.99}, {100.0, 0.86, 0.90}, {200.0, 0.70, 0.82}}) {
+    if (virtual_damping == stated.damping) return std::max({0.0, stated.low - ratio, ratio - stated.high});
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// One row of the table, and the curve between.
+CaseResult boundaries(const TableRow& row, bool quick) {
+  constexpr double kBound = 2.0;
+  CaseResult result;
+  Sheet sheet{.name = "stability_boundary",
+              .columns = {"t_d_ms", "B_Ns_per_m", "K_table", "K_exact", "K_simulated", "K_rule"},
+              .rows = {}};
+  AxisSetup setup{.delay = row.delay, .periods = quick ? 20000 : 60000};
+  std::vector<std::pair<double, double>> points;  // B, K of the table or NaN
+  for (std::size_t i = 0; i < kTableDamping.size(); ++i) points.emplace_back(kTableDamping[i], row.stiffness[i]);
+  const double step = quick ? 100.0 : 20.0;
+  for (double damping = 0.0; damping <= 900.0; damping += step) points.emplace_back(damping, std::nan(""));
+  const double rule_time = 0.5 * setup.period + setup.delay;
+  for (const auto& [damping, stated] : points) {
+    setup.virtual_damping = damping;
+    const double exact = stability_boundary(theory_of(setup));
+    const double simulated = simulated_boundary(setup);
+    const double rule = (setup.damping + damping) / rule_time;
+    sheet.rows.push_back(
+        {cell(kMilli * row.delay), cell(damping), cell(stated), cell(exact), cell(simulated), cell(rule)});
+    const std::string where = fmt::format("B {} t_d {} ms", damping, kMilli * row.delay);
+    if (!std::isnan(stated)) {
+      result.findings.push_back({.row = "A4",
+                                 .what = "table of K_crit, computed",
+                                 .unit = "N/m",
+                                 .value = std::fabs(exact - stated),
+                                 .most = 1.0,
+                                 .where = where});
+    }
+    if (exact > 0.0) {
+      result.findings.push_back({.row = "A4",
+                                 .what = "simulated boundary against the exact one, 1 DoF",
+                                 .unit = "%",
+                                 .value = percent_off(simulated, exact),
+                                 .most = kBound,
+                                 .where = where});
+      int wrong = 0;
+      if (!(growth(setup, 0.98 * exact) < 0.0)) ++wrong;
+      if (!(growth(setup, 1.02 * exact) > 0.0)) ++wrong;
+      result.findings.push_back({.row = "A4",
+                                 .what = "0.98 K grows or 1.02 K decays",
+                                 .unit = "",
+                                 .value = static_cast<double>(wrong),
+                                 .most = 0.0,
+                                 .where = wrong > 0 ? where : ""});
+    } else {
+      result.findings.push_back({.row = "A4",
+                                 .what = "stiffness found stable where none is",
+                                 .unit = "N/m",
+                                 .value = simulated,
+                                 .most = 0.0,
+                                 .where = where});
+    }
+    const double outside = outside_of_stated(damping, simulated / rule);
+    if (std::isnan(stated) || std::isnan(outside)) continue;
+    result.findings.push_back({.row = "A3",
+                               .what = "true/rule outside of the stated range",
+                               .unit = "",
+                               .value = outside,
+                               .most = 0.005,
+                               .where = fmt::format("{}: {:.3f}", where, simulated / rule)});
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+CaseResult damping_limit(bool quick) {
+  struct Stated {
+    double delay, limit;
+  };
+  CaseResult result;
+  Sheet sheet{.name = "stability_damping_limit", .columns = {"t_d_in_T", "stated", "exact", "simulated"}, .rows = {}};
+  for (const Stated& stated : {Stated{0.0, 2.00}, {0.5, 1.14}, {1.0, 0.83}, {1.5, 0.65}, {2.0, 0.54}, {3.0, 0.40}}) {
+    AxisSetup setup{.damping = 0.0, .delay = stated.delay * kPeriod, .periods = quick ? 10000 : 40000};
+    const double softest = 1e-8 * setup.mass / (kPeriod * kPeriod);
+    const double simulated = kPeriod / setup.mass * boundary(1.0, [&](double damping) {
+                               setup.virtual_damping = damping;
+                               return growth(setup, softest) < 0.0;
+                             });
+    const double exact = kPeriod / setup.mass * damping_boundary(theory_of(setup));
+    sheet.rows.push_back({cell(stated.delay), cell(stated.limit), cell(exact), cell(simulated)});
+    const std::string where = fmt::format("t_d {} T", stated.delay);
+    result.findings.push_back({.row = "A5",
+                               .what = "damping limit B T/m against the stated one",
+                               .unit = "%",
+                               .value = percent_off(simulated, stated.limit),
+                               .most = 2.0,
+                               .where = where});
+    result.findings.push_back({.row = "A5",
+                               .what = "damping limit against the exact one",
+                               .unit = "%",
+                               .value = percent_off(simulated, exact),
+                               .most = 2.0,
+                               .where = where});
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+struct DryAxis {
+  double damping = 2.0;   ///< b [Ns/m]
+  double coulomb = 0.01;  ///< c [N]
+  double quantum = 5e-6;  ///< h [m]
+  double limit() const { return std::min(2.0 * damping / kPeriod, 2.0 * coulomb / quantum); }
+};
+
+/// The worst motion there is goes to and fro across the place where the reading changes, once a period: by less than a
+/// quantum where dry friction is what fails, by many where it is the damping.
+bool is_passive(const DryAxis& axis, double stiffness) {
+  const Wall wall{.stiffness = stiffness, .period = kPeriod, .quantum = axis.quantum};
+  for (double exponent = -6.0; exponent <= 6.0; exponent += 0.02) {
+    const double swing = std::pow(10.0, exponent) * axis.quantum;
+    const double edge = 0.5 * axis.quantum;
+    const ImposedWork work = imposed_work({edge - 0.5 * swing, edge + 0.5 * swing}, wall, 0.0);
+    if (work.generated > axis.damping * work.square_motion + axis.coulomb * 2.0 * swing) return false;
+  }
+  return true;
+}
+
+/// A free mass let go anywhere comes to rest.
+bool comes_to_rest(const DryAxis& axis, double stiffness, FreeAxis::State state) {
+  constexpr double kMass = 1.0;
+  constexpr int kPeriods = 60000;
+  Wall wall{.stiffness = stiffness, .period = kPeriod, .quantum = axis.quantum};
+  for (int k = 0; k < kPeriods; ++k) {
+    const double force = wall.force(state.x);
+    if (state.v == 0.0 && std::fabs(force) <= axis.coulomb) return true;
+    advance_with_friction(kMass, axis.damping, axis.coulomb, force, kPeriod, state);
+  }
+  return false;
+}
+
+CaseResult quantisation(bool quick) {
+  CaseResult result;
+  Sheet sheet{.name = "stability_quantisation", .columns = {"b", "c", "h_um", "K_stated", "K_measured"}, .rows = {}};
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  double restless = 0.0;
+  for (const DryAxis& axis : {DryAxis{.coulomb = 0.002},
+                              {.coulomb = 0.005},
+                              {.coulomb = 0.009},
+                              {.coulomb = 0.02},
+                              {.coulomb = 1.0},
+                              {.damping = 0.5, .coulomb = 0.01},
+                              {.damping = 5.0, .quantum = 1e-4}}) {
+    const double measured = boundary(1.0, [&](double stiffness) { return is_passive(axis, stiffness); });
+    sheet.rows.push_back(
+        {cell(axis.damping), cell(axis.coulomb), cell(1e6 * axis.quantum), cell(axis.limit()), cell(measured)});
+    result.findings.push_back(
+        {.row = "A6",
+         .what = "passive stiffness against min(2 b/T, 2 c/h)",
+         .unit = "%",
+         .value = percent_off(measured, axis.limit()),
+         .most = 1.0,
+         .where = fmt::format("b {} c {} h {} um", axis.damping, axis.coulomb, 1e6 * axis.quantum)});
+    for (int i = 0; i < (quick ? 5 : 50); ++i) {
+      const FreeAxis::State start{40.0 * axis.quantum * unit(random), 40.0 * axis.quantum * unit(random) * 30.0};
+      if (!comes_to_rest(axis, 0.99 * axis.limit(), start)) restless += 1.0;
+    }
+  }
+  result.findings.push_back({.row = "A6",
+                             .what = "masses let go below the limit that do not come to rest",
+                             .unit = "",
+                             .value = restless,
+                             .most = 0.0});
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+CaseResult energy_identity() {
+  constexpr std::size_t kSamples = 1000;  // a second
+  const double w = 2.0 * kPi / (kSamples * kPeriod);
+  const std::vector<double> script = cosine(kSamples, 1);  // 1 m of amplitude: all is linear
+  CaseResult result;
+  Sheet sheet{.name = "stability_energy",
+              .columns = {"K", "B", "t_d_ms", "h_of_amplitude", "E_stated_J", "E_measured_J"},
+              .rows = {}};
+  for (const double delay : {0.0, 0.25, 0.5, 1.0, 1.3, 2.0, 3.0}) {
+    for (const double damping : {0.0, 2.0, 10.0}) {
+      for (const double quantum : {0.0, 1e-3}) {
+        const Wall wall{.stiffness = 1000.0, .damping = damping, .period = kPeriod, .quantum = quantum};
+        const double time = kPeriod * (0.5 + delay);
+        const double stated = -kPi * w * (wall.stiffness * time - damping);
+        const double absorbed = -imposed_work(script, wall, delay).generated;
+        sheet.rows.push_back({cell(wall.stiffness), cell(damping), cell(delay * kPeriod * kMilli), cell(quantum),
+                              cell(stated), cell(absorbed)});
+        // of the larger of both terms: they cancel where the damper takes what the delay gives
+        const double scale = kPi * w * std::max(wall.stiffness * time, damping);
+        result.findings.push_back({.row = "A9",
+                                   .what = damping > 0.0 ? "energy a cycle, with B" : "energy a cycle, B = 0",
+                                   .unit = "%",
+                                   .value = kPercent * std::fabs(absorbed - stated) / scale,
+                                   .most = 2.0,
+                                   .where = fmt::format("B {} t_d {} T h {}", damping, delay, quantum)});
+        if (damping > 0.0) continue;
+        const double measured = -absorbed / (kPi * w * wall.stiffness) - 0.5 * kPeriod;
+        result.findings.push_back({.row = "A9",
+                                   .what = "delay measured by it, of T/2 + t_d",
+                                   .unit = "%",
+                                   .value = kPercent * std::fabs(measured - delay * kPeriod) / time,
+                                   .most = 2.0,
+                                   .where = fmt::format("t_d {} T h {}", delay, quantum)});
+      }
+    }
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+/// Mean growth a period, as logarithm, where a sample is lost with probability `loss` and the last force is held on.
+double growth_with_loss(double stiffness, double loss, int periods, unsigned seed) {
+  constexpr double kMass = 1.0;
+  const FreeAxis axis(kMass, 2.0, kPeriod);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  FreeAxis::State state{.x = 1.0};
+  double sent = 0.0;
+  double growth = 0.0;
+  for (int k = 0; k < periods; ++k) {
+    const double acts = sent;  // t_d = T
+    if (unit(random) >= loss) sent = -stiffness * state.x;
+    axis.advance(acts, state);
+    if (k % 64 != 63) continue;
+    const double swing = std::sqrt(state.x * state.x + state.v * state.v * kMass / stiffness);
+    growth += std::log(swing);
+    state.x /= swing;
+    state.v /= swing;
+    sent /= swing;
+  }
+  return growth / periods;
+}
+
+CaseResult frame_loss(bool quick) {
+  struct Stated {
+    double loss, falls;
+  };
+  CaseResult result;
+  Sheet sheet{.name = "stability_frame_loss", .columns = {"loss", "fall_stated", "fall_measured"}, .rows = {}};
+  const double whole = stability_boundary(theory_of({.delay = kPeriod}));
+  const int periods = quick ? 300'000 : 1'000'000;
+  const int seeds = quick ? 2 : 8;
+  for (const Stated& stated :
+       {Stated{0.0, 0.0}, {0.01, 0.005}, {0.02, std::nan("")}, {0.05, 0.035}, {0.10, 0.068}, {0.2, std::nan("")}}) {
+    double sum = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      double stable = 0.5 * whole;
+      double unstable = 1.2 * whole;
+      while (unstable - stable > 2e-4 * whole) {
+        const double middle = 0.5 * (stable + unstable);
+        const bool decays = growth_with_loss(middle, stated.loss, periods, static_cast<unsigned>(seed)) < 0.0;
+        (decays ? stable : unstable) = middle;
+      }
+      sum += 0.5 * (stable + unstable);
+    }
+    const double falls = 1.0 - sum / seeds / whole;
+    sheet.rows.push_back({cell(stated.loss), cell(stated.falls), cell(falls)});
+    const std::string where = fmt::format("{:.0f} % lost: falls by {:.2f} %", kPercent * stated.loss, kPercent * falls);
+    if (!std::isnan(stated.falls)) {
+      result.findings.push_back({.row = "A10",
+                                 .what = "fall of the boundary against the stated one, of K_crit",
+                                 .unit = "%",
+                                 .value = kPercent * std::fabs(falls - stated.falls),
+                                 .most = 2.0,
+                                 .where = where});
+    }
+    if (stated.loss <= 0.10) {
+      result.findings.push_back({.row = "A10",
+                                 .what = "fall at up to 10 % loss: 0.85 K_crit is stable",
+                                 .unit = "%",
+                                 .value = kPercent * falls,
+                                 .most = 15.0,
+                                 .where = where});
+    }
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+/// A11 of the law alone, a wall on one side: the hand does what it likes, from outside.
+CaseResult observer(bool quick) {
+  constexpr double kStiffness = 2000.0;
+  constexpr double kQuantum = 5e-6;
+  CaseResult result;
+  double lowest = 0.0;
+  double held = 0.0;
+  for (unsigned seed = 1; seed <= (quick ? 20u : 200u); ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> step(0.0,
+                                          std::pow(10.0, std::uniform_real_distribution<double>(-6.5, -3.0)(random)));
+    const Wall wall{.quantum = kQuantum};
+    double x = -kQuantum;
+    double q = wall.reading(x);
+    double force = 0.0;
+    double energy = 0.0;
+    double held_energy = 0.0;
+    for (int k = 0; k < 20000; ++k) {
+      const double before = q;
+      x = std::clamp(x + step(random), -1e-3, 5e-3);
+      q = wall.reading(x);
+      held_energy += force * (q - before);
+      force = kStiffness * std::max(0.0, q);
+      energy += force * (q - before);
+      lowest = std::min(lowest, energy);
+      held = std::min(held, held_energy);
+    }
+  }
+  const double allowed = 0.5 * kStiffness * kQuantum * kQuantum;
+  result.findings.push_back({.row = "A11",
+                             .what = "energy that the law has given away, of K h^2 / 2",
+                             .unit = "",
+                             .value = std::max(0.0, -lowest) / allowed,
+                             .most = 1.0});
+  result.findings.push_back({.row = "A11",
+                             .what = "what the held force has given away, of K h^2 / 2",
+                             .unit = "",
+                             .value = std::max(0.0, -held) / allowed,
+                             .most = {}});
+  return result;
+}
+
+/// K 200 .. 20000 N/m, m 0.1 .. 5 kg, t_d 0 .. 3 T and any damping: what is within 2 % of the boundary is left out.
+CaseResult random_loops(bool quick) {
+  CaseResult result;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto between = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
+  double grows = 0.0;
+  double decays = 0.0;
+  std::string worst;
+  const int loops = quick ? 300 : 3000;
+  int judged = 0;
+  for (int i = 0; i < loops; ++i) {
+    AxisSetup setup{.mass = between(0.1, 5.0), .damping = between(0.05, 20.0), .delay = 3.0 * kPeriod * unit(random)};
+    setup.virtual_damping = unit(random) < 0.3 ? 0.0 : unit(random) * setup.mass / kPeriod;
+    const double stiffness = between(200.0, 20000.0);
+    const double exact = stability_boundary(theory_of(setup));
+    if (std::fabs(stiffness / exact - 1.0) < 0.02) continue;
+    ++judged;
+    const bool stable = growth(setup, stiffness) < 0.0;
+    if (stable == (stiffness < exact)) continue;
+    (stable ? decays : grows) += 1.0;
+    worst = fmt::format("m {:.3g} b {:.3g} B {:.3g} t_d {:.3g} ms K {:.4g} of {:.4g}", setup.mass, setup.damping,
+                        setup.virtual_damping, kMilli * setup.delay, stiffness, exact);
+  }
+  result.findings.push_back({.row = "A4",
+                             .what = "random loops on the stable side that grow",
+                             .unit = "",
+                             .value = grows,
+                             .most = 0.0,
+                             .where = grows > 0.0 ? worst : fmt::format("{} loops", judged)});
+  result.findings.push_back({.row = "A4",
+                             .what = "random loops beyond the boundary that decay",
+                             .unit = "",
+                             .value = decays,
+                             .most = 0.0,
+                             .where = decays > 0.0 ? worst : fmt::format("{} loops", judged)});
+  return result;
+}
+
+}  // namespace
+
+std::vector<StudyCase> axis_cases(bool quick) {
+  const std::string inputs = fmt::format("quick {}", quick);
+  std::vector<StudyCase> cases;
+  const auto add = [&](const std::string& name, std::function<CaseResult()> run) {
+    cases.push_back(
+        {.name = "stability." + name, .inputs = inputs, .run = [run = std::move(run)](const auto&) { return run(); }});
+  };
+  add("passivity", [quick] { return passivity(quick); });
+  for (const TableRow& row : kTable) {
+    add(fmt::format("boundary-{}ms", kMilli * row.delay), [&row, quick] { return boundaries(row, quick); });
+  }
+  add("random-loops", [quick] { return random_loops(quick); });
+  add("damping-limit", [quick] { return damping_limit(quick); });
+  add("quantisation", [quick] { return quantisation(quick); });
+  add("energy", [] { return energy_identity(); });
+  add("frame-loss", [quick] { return frame_loss(quick); });
+  add("observer", [quick] { return observer(quick); });
+  return cases;
+}
+
+}  // namespace godobject::report
