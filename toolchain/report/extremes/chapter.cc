@@ -1,0 +1,172 @@
+#include "toolchain/report/extremes/chapter.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "firmware/command/failure.h"
+#include "firmware/command/input_file.h"
+#include "toolchain/command/output_target.h"
+#include "toolchain/command/work_folder.h"
+#include "toolchain/report/extremes/rows.h"
+#include "toolchain/report/extremes/run.h"
+#include "toolchain/report/extremes/setup.h"
+
+namespace godobject::report {
+namespace {
+
+const char* const kViolations = "extremes_violations";
+
+/// What a stretch of runs has come to: findings for its row, and a case file for each run that violates something.
+class Tally {
+ public:
+  explicit Tally(std::string row) : row_(std::move(row)) {
+    sheet_ = {.name = kViolations, .columns = {"row", "found", "case_file"}, .rows = {}};
+  }
+
+  void add(const Setup& setup, const Violations& found) {
+    (setup.solver == format::Solver::kContact ? contact_ : others_).add(found);
+    if (found.all() > 0) sheet_.rows.push_back({row_, found.first, case_file(setup, found.first)});
+  }
+
+  std::int64_t cycles() const { return contact_.cycles + others_.cycles; }
+
+  CaseResult result() const {
+    CaseResult result;
+    const auto note = [&](const char* what, std::int64_t value, const std::string& first) {
+      result.findings.push_back({.row = row_,
+                                 .what = what,
+                                 .unit = "",
+                                 .value = static_cast<double>(value),
+                                 .most = 0.0,
+                                 .where = value > 0 ? first : ""});
+    };
+    Violations both = contact_;
+    both.add(others_);
+    note("NaN in pose or force", both.not_finite, both.first);
+    note("rotations not of unit length", both.not_unit, both.first);
+    note("forces beyond spring and damper", both.unbounded, both.first);
+    note("poses refused, or taken that are none", both.bad_status, both.first);
+    note("contact: points that crossed a surface", contact_.crossings, contact_.first);
+    note("contact: further from the device than if it had stayed", contact_.pulled_away, contact_.first);
+    Sheet cycles{.name = "extremes_cycles", .columns = {"row", "cycles", "cycles_of_contact"}, .rows = {}};
+    cycles.rows.push_back({row_, std::to_string(both.cycles), std::to_string(contact_.cycles)});
+    result.sheets = {sheet_, cycles};
+    return result;
+  }
+
+ private:
+  std::string row_;
+  Violations contact_;
+  Violations others_;
+  Sheet sheet_;
+};
+
+CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t seed, bool meshes,
+                   const std::filesystem::path& work) {
+  std::mt19937 random(seed);
+  Tally tally(row);
+  bool compiled = !meshes;
+  while (tally.cycles() < cycles) {
+    Setup setup = row == "fuzzer" ? any_setup(random) : setup_of(row, random);
+    const bool wants_mesh = setup.world == "compiled" || row == kRows[3];
+    if (wants_mesh && !compiled) {
+      // one mesh in each stretch: it takes as long to compile as many runs
+      constexpr const char* kMeshes[] = {"mesh-box", "mesh-ball", "mesh-turned"};
+      setup.world = kMeshes[setup.seed % std::size(kMeshes)];
+      setup.body = setup.body == "ball" ? "ball" : "box";
+      setup.voxel = std::max(setup.voxel, 0.1);
+      setup.points = std::clamp(setup.points, 60, 200);
+      setup.start = std::max(setup.start, 2.0);
+      setup.far = 0.0;
+      setup.bad_every = 17;
+      setup.cycles = static_cast<int>(std::min<std::int64_t>(5000, std::max<std::int64_t>(cycles / 4, 500)));
+      compiled = true;
+    } else if (wants_mesh) {
+      setup.world = "heap";
+    }
+    const auto rig = make_rig(setup, work);
+    tally.add(setup, run_setup(setup, *rig));
+  }
+  return tally.result();
+}
+
+Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
+  Section section = gather(outcomes, folder);
+  const Sheet violations = gathered(outcomes, kViolations);
+  if (violations.rows.empty()) return section;
+  command::make_output_folder(folder / "violations");
+  section.html = "<p>Violations; <code>godobject-report --replay FILE</code> runs one again:</p>\n<ul>\n";
+  for (std::size_t i = 0; i < violations.rows.size(); ++i) {
+    const std::string name = fmt::format("violations/{:04}.json", i);
+    write_file(folder / name, violations.rows[i][2]);
+    section.html +=
+        fmt::format("<li><a href=\"{0}\">{0}</a>: {1}, {2}</li>\n", name, violations.rows[i][0], violations.rows[i][1]);
+  }
+  section.html += "</ul>\n";
+  return section;
+}
+
+}  // namespace
+
+Chapter extremes_chapter(const ExtremesRequest& request) {
+  const std::int64_t cycles = request.cycles > 0 ? request.cycles : request.quick ? 20'000 : 100'000;
+  const std::int64_t row_cycles = request.quick ? 2'000 : 100'000;
+  const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, 200);
+  const bool quick = request.quick;
+  Chapter chapter{
+      .name = "extremes",
+      .title = "Numerical extremes",
+      .introduction =
+          "<p>Generated cases at the edges of what numbers can do, then random ones with fixed seeds: worlds, bodies, "
+          "scales, motions, parameters. Stiffness, mass and delay on the right side of A4: the random loops of "
+          "the chapter on stability.</p>",
+      .cases = {},
+      .conclude = conclude};
+  const auto add = [&](const std::string& name, const std::string& inputs,
+                       std::function<CaseResult(const std::filesystem::path&)> run) {
+    chapter.cases.push_back({.name = "extremes." + name, .inputs = inputs, .run = std::move(run)});
+  };
+  const std::string inputs = fmt::format("quick {}", quick);
+  add("bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); });
+  add("gap", inputs, [quick](const auto& work) { return gap_near_the_voxel(quick, work); });
+  add("scale", inputs, [quick](const auto&) { return same_at_every_scale(quick); });
+  add("long-run", inputs, [quick](const auto&) { return long_run(quick); });
+  add("closed-path", inputs, [quick](const auto&) { return closed_path(quick); });
+  for (std::size_t i = 0; i < kRowCount; ++i) {
+    add(fmt::format("row-{}", i + 1), inputs, [i, row_cycles](const auto& work) {
+      return run_row(kRows[i], row_cycles, static_cast<std::uint32_t>(1000 + i), true, work);
+    });
+  }
+  for (std::int64_t i = 0; i < stretches; ++i) {
+    add(fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {}", quick, cycles / stretches),
+        [i, quick, each = cycles / stretches](const auto& work) {
+          return run_row("fuzzer", each, static_cast<std::uint32_t>(i), !quick, work);
+        });
+  }
+  return chapter;
+}
+
+bool replay(const std::filesystem::path& file) {
+  command::require_regular_input(file, "name a case file of the fuzzer");
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  Setup setup;
+  try {
+    setup = read_case(text);
+  } catch (const std::exception& error) {
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: no case file ({})", file.string(), error.what()));
+  }
+  const command::WorkFolder work(std::filesystem::temp_directory_path() / "case");
+  const auto rig = make_rig(setup, work.path());
+  const Violations found = run_setup(setup, *rig);
+  fmt::print("{}: {} cycles, {} violations{}\n", file.string(), found.cycles, found.all(),
+             found.all() > 0 ? "; first in " + found.first : std::string());
+  return found.all() > 0;
+}
+
+}  // namespace godobject::report

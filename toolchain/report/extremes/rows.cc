@@ -1,0 +1,289 @@
+#include "toolchain/report/extremes/rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "firmware/command/failure.h"
+#include "toolchain/report/analytic/field.h"
+#include "toolchain/report/contact_quality/compiled_scene.h"
+#include "toolchain/report/contact_quality/meshes.h"
+#include "toolchain/report/extremes/run.h"
+#include "toolchain/scene_compiler/compile_scene.h"
+
+namespace godobject::report {
+namespace {
+
+constexpr double kPeriod = 1e-3;
+
+double to_double(bool yes) { return yes ? 1.0 : 0.0; }
+
+/// A body for scenes that are only looked up.
+SceneText with_a_body(CompiledStill still, double voxel_size, const std::filesystem::path& work) {
+  const std::filesystem::path body = work / "body.ply";
+  write_ply(box_mesh(Vector3::Constant(-0.01), Vector3::Constant(0.01)), body);
+  return {.still = std::move(still),
+          .body = body,
+          .points = 60,
+          .settings = {.voxel_size = voxel_size, .safety_distance = 1.5 * voxel_size},
+          .only_solver = format::Solver::kPaper};
+}
+
+struct LookUps {
+  std::int64_t not_finite = 0;
+  std::int64_t wrong_sign = 0;  ///< where the exact distance is beyond a voxel
+};
+
+LookUps look_up(const Scene& scene, const Vector3& half, int count, bool open) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  LookUps found;
+  for (int i = 0; i < count; ++i) {
+    const double reach = i % 10 == 0 ? 100.0 : 1.3;  // some far outside of the grid
+    const Vector3 p = reach * half.cwiseProduct(Vector3(unit(random), unit(random), unit(random)));
+    const FieldSample sample = scene.voxelmap.sample(p);
+    const LayerSample layer = scene.voxelmap.layer(p);
+    if (!std::isfinite(sample.distance) || !sample.gradient.allFinite() || !layer.to_center.allFinite())
+      ++found.not_finite;
+    const double exact = analytic::box_distance(p, half);
+    if (!open && std::fabs(exact) > scene.grid.voxel_size && std::signbit(exact) != std::signbit(sample.distance)) {
+      ++found.wrong_sign;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+CaseResult bad_meshes(bool quick, const std::filesystem::path& work) {
+  const Vector3 half(0.03, 0.02, 0.01);
+  CaseResult result;
+  const auto note = [&](const std::string& what, double value, const std::string& where) {
+    result.findings.push_back(
+        {.row = "bad meshes", .what = what, .unit = "", .value = value, .most = 0.0, .where = where});
+  };
+  for (const char* kind : {"sound", "degenerate", "duplicate", "flipped", "open"}) {
+    CompiledStill still{.mesh = box_mesh(-half, half)};
+    auto& triangles = still.mesh.triangles;
+    const auto first = triangles.front();
+    const std::string name = kind;
+    if (name == "degenerate") {
+      for (int i = 0; i < 5; ++i) triangles.push_back({first[0], first[1], first[1]});
+    } else if (name == "duplicate") {
+      for (int i = 0; i < 5; ++i) triangles.push_back(first);
+    } else if (name == "flipped") {
+      std::swap(triangles.front()[0], triangles.front()[1]);
+    } else if (name == "open") {
+      triangles.pop_back();
+    }
+    const std::filesystem::path folder = work / name;
+    std::filesystem::create_directories(folder);
+    const SceneText text = with_a_body(still, 0.002, folder);
+    try {
+      const auto told = compile_image(name, text, folder);
+      const auto image = command::SceneImage::read(folder / (name + ".scene"));
+      const LookUps found = look_up(image.scene, half, quick ? 100'000 : 1'000'000, name == "open");
+      note("look-ups that are not finite", static_cast<double>(found.not_finite), name);
+      if (name != "flipped" && name != "open")
+        note("look-ups with the wrong sign beyond a voxel", static_cast<double>(found.wrong_sign), name);
+      const auto& report = told.still.report;
+      if (name == "degenerate") note("bad triangles not reported", to_double(report.degenerate_triangles != 5), name);
+      if (name == "duplicate") note("bad triangles not reported", to_double(report.duplicate_triangles != 5), name);
+      if (name == "flipped") note("bad triangles not reported", to_double(report.misoriented_edges == 0), name);
+      if (name == "open") note("bad triangles not reported", to_double(report.boundary_edges == 0), name);
+    } catch (const command::Failure& failure) {
+      // refused in words is as good, but not for a mesh that can be mended
+      note("meshes refused that can be mended",
+           to_double(name == "sound" || name == "degenerate" || name == "duplicate"),
+           fmt::format("{}: {}", name, failure.what()));
+    }
+  }
+  return result;
+}
+
+CaseResult gap_near_the_voxel(bool quick, const std::filesystem::path& work) {
+  constexpr double kVoxel = 0.002;
+  CaseResult result;
+  Sheet sheet{.name = "extremes_gap", .columns = {"gap_over_voxel", "outcome"}, .rows = {}};
+  const std::vector<double> gaps =
+      quick ? std::vector<double>{0.9, 1.5, 2.5} : std::vector<double>{0.5, 0.9, 1.1, 1.5, 1.9, 2.5, 4.0};
+  for (const double gap : gaps) {
+    const double half = 0.5 * gap * kVoxel;
+    const std::vector<double> x = {-0.02, -half, half, 0.02};
+    const TriangleMesh still =
+        cell_solid({x, {-0.02, 0.02}, {-0.02, -0.01, 0.02}}, [](int i, int, int k) { return i != 1 || k == 0; });
+    const std::string name = fmt::format("gap-{}", gap);
+    const std::filesystem::path folder = work / name;
+    std::filesystem::create_directories(folder);
+    const SceneText text = with_a_body({.mesh = still}, kVoxel, folder);
+    std::string outcome;
+    try {
+      const auto told = compile_image(name, text, folder);
+      outcome = told.thin.gaps.samples > 0 ? "flagged" : "taken";
+    } catch (const command::Failure& failure) {
+      outcome = "refused";
+    }
+    sheet.rows.push_back({cell(gap), outcome});
+    const bool wrong = gap < 2.0 ? outcome == "taken" : outcome == "refused";
+    result.findings.push_back({.row = "gap near the voxel",
+                               .what = "gaps below two voxels neither refused nor flagged, wider ones refused",
+                               .unit = "",
+                               .value = to_double(wrong),
+                               .most = 0.0,
+                               .where = fmt::format("{} voxels: {}", gap, outcome)});
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+CaseResult same_at_every_scale(bool quick) {
+  CaseResult result;
+  std::mt19937 random(11);
+  for (int i = 0; i < (quick ? 5 : 40); ++i) {
+    Setup setup = setup_of(kRows[0], random);
+    setup.motion = "press";
+    setup.world = i % 2 == 0 ? "plane" : "heap";
+    setup.far = 0.0;
+    setup.friction = false;
+    setup.cycles = 400;
+    const auto god_objects = [](const Setup& at) {
+      const auto rig = make_rig(at, {});
+      std::vector<Pose> poses;
+      CycleReport report;
+      for (const Pose& H_WD : device_path(at)) {
+        if (rig->update(H_WD, {}, report) != Status::kOk) report.H_WS.translation.setConstant(std::nan(""));
+        poses.push_back(report.H_WS);
+      }
+      return poses;
+    };
+    setup.scale =
+        1.0;  // powers of two from it: sample points are stored as floats, which must not be rounded otherwise
+    const auto unit = god_objects(setup);
+    for (const double scale : {0x1p-10, 0x1p-6, 0x1p6, 0x1p10}) {
+      Setup scaled = setup;
+      scaled.scale = scale;
+      const auto poses = god_objects(scaled);
+      double worst = 0.0;
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        const double off = (poses[k].translation / scale - unit[k].translation).norm() +
+                           poses[k].rotation.angularDistance(unit[k].rotation);
+        worst = std::isnan(off) ? off : std::max(worst, off);
+        if (std::isnan(off)) break;
+      }
+      result.findings.push_back({.row = kRows[0],
+                                 .what = "god object at another scale, off that of 1 m",
+                                 .unit = "voxels",
+                                 .value = worst / setup.voxel,
+                                 .most = 0.01,
+                                 .where = fmt::format("{}, {}, scale {} m", setup.world, setup.body, scale)});
+    }
+  }
+  return result;
+}
+
+CaseResult long_run(bool quick) {
+  CaseResult result;
+  Setup setup{.row = "long run", .world = "plane", .body = "box", .motion = "spin", .points = 60, .depth = 0.2};
+  setup.cycles = quick ? 100'000 : 1'000'000;
+  // all of the motion repeats once a second; what is compared is a second apart
+  const auto rig = make_rig(setup, {});
+  CycleReport report;
+  double off_unit = 0.0;
+  double drift = 0.0;
+  Pose first;
+  for (int k = 0; k < setup.cycles; ++k) {
+    const double w = 2.0 * M_PI * kPeriod * (k % 1000);
+    Pose H_WD;
+    H_WD.translation = setup.scale * Vector3(0.3 * std::sin(w), 0.3 * std::cos(w), 0.1 * std::sin(2.0 * w));
+    H_WD.rotation = exp_rotation({0.3 * std::sin(w), 0.2 * std::cos(w), 0.0}) * exp_rotation({0.0, 0.0, w});
+    if (rig->update(H_WD, {}, report) != Status::kOk) off_unit = std::nan("");
+    off_unit = std::max(off_unit, std::fabs(report.H_WS.rotation.norm() - 1.0));
+    if (k == 2999) first = report.H_WS;
+    if (k > 2999 && k % 1000 == 999) {
+      drift = std::max(drift, (report.H_WS.translation - first.translation).norm() / (setup.voxel * setup.scale));
+    }
+  }
+  result.findings.push_back({.row = "long run",
+                             .what = "rotations off unit length",
+                             .unit = "",
+                             .value = off_unit,
+                             .most = 1e-12,
+                             .where = fmt::format("{} cycles", setup.cycles)});
+  result.findings.push_back({.row = "long run",
+                             .what = "drift of a motion that repeats",
+                             .unit = "voxels",
+                             .value = drift,
+                             .most = 1e-3,
+                             .where = fmt::format("{} cycles", setup.cycles)});
+  return result;
+}
+
+CaseResult closed_path(bool quick) {
+  CaseResult result;
+  std::mt19937 random(12);
+  for (const char* world : {"plane", "groove", "heap"}) {
+    for (int i = 0; i < (quick ? 2 : 10); ++i) {
+      Setup setup = setup_of(kRows[0], random);
+      setup.world = world;
+      setup.body = i % 2 == 0 ? "box" : "ball";
+      setup.friction = false;
+      setup.damping = 0.0;
+      setup.scale = 0.02;
+      setup.far = 0.0;
+      setup.cycles = 6000;
+      const auto rig = make_rig(setup, {});
+      const auto again = make_rig(setup, {});
+      const Parameters& q = rig->parameters();
+      CycleReport report;
+      CycleReport repeated;
+      Pose before;
+      Wrench force_before;
+      double work = 0.0;
+      double peak = 0.0;
+      std::int64_t different = 0;
+      for (int k = 0; k < setup.cycles; ++k) {
+        // from above down and back, slowly, twice around: 3 s each
+        const double w = 2.0 * M_PI * k / 3000.0;
+        Pose H_WD;
+        H_WD.translation = setup.scale * Vector3(0.3 * std::sin(w), 0.2 * std::sin(2.0 * w),
+                                                 2.0 * std::cos(0.5 * w) * std::cos(0.5 * w) - 0.3);
+        H_WD.rotation = exp_rotation({0.2 * std::sin(w), 0.1 * std::sin(2.0 * w), 0.0});
+        const Status status = rig->update(H_WD, {}, report);
+        if (status != Status::kOk || again->update(H_WD, {}, repeated) != status) ++different;
+        if (report.H_WS.rotation.coeffs() != repeated.H_WS.rotation.coeffs() ||
+            report.H_WS.translation != repeated.H_WS.translation)
+          ++different;
+        const Wrench& force = report.force.spring_W;
+        if (k > 0) {
+          const Vector3 turned =
+              H_WD.rotation._transformVector(log_rotation(before.rotation.conjugate() * H_WD.rotation));
+          work += 0.5 * (force.force + force_before.force).dot(H_WD.translation - before.translation) +
+                  0.5 * (force.torque + force_before.torque).dot(turned);
+        }
+        const Motion x = get_motion(report.H_WS.inverse() * H_WD);
+        peak = std::max(
+            peak, 0.5 * q.stiffness * (x.translation.squaredNorm() + q.coupling_rotation * x.rotation.squaredNorm()));
+        before = H_WD;
+        force_before = force;
+      }
+      const std::string where = fmt::format("{}, {}, {}", world, setup.body, i);
+      result.findings.push_back({.row = "closed path",
+                                 .what = "net work on the hand, of the peak stored energy",
+                                 .unit = "",
+                                 .value = peak > 0.0 ? std::max(0.0, work) / peak : 0.0,
+                                 .most = 1e-3,
+                                 .where = where});
+      result.findings.push_back({.row = "closed path",
+                                 .what = "cycles that a replay gives otherwise",
+                                 .unit = "",
+                                 .value = static_cast<double>(different),
+                                 .most = 0.0,
+                                 .where = where});
+    }
+  }
+  return result;
+}
+
+}  // namespace godobject::report

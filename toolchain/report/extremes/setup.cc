@@ -1,0 +1,165 @@
+#include "toolchain/report/extremes/setup.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace godobject::report {
+namespace {
+
+class Choice {
+ public:
+  explicit Choice(std::mt19937& random) : random_(random) {}
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  double spread(double low, double high) { return low * std::pow(high / low, unit()); }
+  bool one_in(int n) { return unit() * n < 1.0; }
+  std::string of(std::initializer_list<const char*> names) {
+    return names.begin()[static_cast<std::size_t>(unit() * static_cast<double>(names.size()))];
+  }
+  std::uint32_t seed() { return static_cast<std::uint32_t>(random_()); }
+
+ private:
+  double unit() { return static_cast<double>(random_()) / 4294967296.0; }
+  std::mt19937& random_;
+};
+
+}  // namespace
+
+const char* const kRows[] = {"scale and place",     "slender and singular bodies", "start inside, deep, at the rim",
+                             "jumps and bad input", "opposing contacts",           "hundreds of constraints"};
+const std::size_t kRowCount = std::size(kRows);
+
+Setup any_setup(std::mt19937& random) {
+  Choice choice(random);
+  Setup setup;
+  setup.row = "fuzzer";
+  setup.world = choice.of({"plane", "slot", "groove", "bore", "plate", "heap", "heap", "compiled"});
+  setup.body = choice.of({"ball", "box", "box", "needle", "flat", "line", "point"});
+  setup.motion = choice.of({"press", "press", "dash", "jump", "spin", "rest"});
+  setup.seed = choice.seed();
+  setup.solver = choice.one_in(4) ? (choice.one_in(2) ? format::Solver::kPaper : format::Solver::kCorrected)
+                                  : format::Solver::kContact;
+  setup.friction = choice.one_in(2);
+  setup.points = static_cast<int>(choice.spread(1.0, 400.0));
+  setup.bad_every = choice.one_in(5) ? 37 : 0;
+  setup.scale = choice.one_in(2) ? 0.02 : choice.spread(1e-3, 1e3);
+  setup.far = choice.one_in(4) ? choice.spread(1.0, 1e3) : 0.0;
+  setup.width = choice.one_in(2) ? choice.between(1.0, 1.1) : choice.between(0.6, 2.0);
+  setup.start = choice.one_in(5) ? choice.between(-3.0, 1.0) : 2.0;
+  setup.depth = choice.spread(1e-3, 3.0);
+  setup.speed = choice.spread(0.1, 500.0);
+  setup.spin = choice.one_in(3) ? 0.0 : choice.spread(0.1, 50.0);
+  setup.voxel = choice.spread(0.02, 0.3);
+  setup.stiffness = choice.spread(200.0, 20000.0);
+  setup.damping = choice.one_in(3) ? 0.0 : choice.spread(1.0, 100.0);
+  setup.coupling_rotation = choice.spread(0.01, 10.0);
+  setup.friction_static = choice.spread(0.01, 2.0);
+  setup.friction_kinetic = choice.between(0.0, 1.0) * setup.friction_static;
+  return setup;
+}
+
+Setup setup_of(const std::string& row, std::mt19937& random) {
+  Setup setup = any_setup(random);
+  Choice choice(random);
+  setup.row = row;
+  setup.solver = format::Solver::kContact;
+  if (setup.world == "compiled") setup.world = "heap";
+  if (row == kRows[0]) {
+    setup.scale = choice.spread(1e-3, 1e3);
+    setup.far = choice.spread(1.0, 1e4);
+    setup.start = 2.0;
+  } else if (row == kRows[1]) {
+    setup.body = choice.of({"needle", "flat", "line", "point"});
+  } else if (row == kRows[2]) {
+    setup.start = choice.of({"deep", "just"}) == "deep" ? choice.between(-30.0, -1.0) : choice.between(-1.0, 1.0);
+  } else if (row == kRows[3]) {
+    setup.motion = choice.of({"jump", "dash"});
+    setup.scale = 0.02;
+    setup.speed = choice.spread(50.0, 500.0);  // up to 10 m/s
+    setup.spin = choice.spread(5.0, 50.0);
+    setup.bad_every = choice.one_in(2) ? 17 : 0;
+  } else if (row == kRows[4]) {
+    setup.world = choice.of({"slot", "groove", "bore"});
+    setup.width = choice.spread(1.0001, 1.05);
+    setup.body = choice.of({"ball", "box"});
+    setup.far = 0.0;
+    setup.start = 0.0;
+  } else {
+    setup.body = choice.of({"box", "flat"});
+    setup.points = static_cast<int>(choice.spread(1000.0, 4000.0));
+    setup.motion = choice.of({"press", "spin"});
+    setup.world = choice.of({"plane", "groove", "plate"});
+    setup.start = 2.0;
+    setup.cycles = 60;
+  }
+  return setup;
+}
+
+std::string case_file(const Setup& s, const std::string& found) {
+  return nlohmann::ordered_json{{"generator", kGenerator},
+                                {"found", found},
+                                {"row", s.row},
+                                {"world", s.world},
+                                {"body", s.body},
+                                {"motion", s.motion},
+                                {"seed", s.seed},
+                                {"cycles", s.cycles},
+                                {"solver", format::kSolverNames[static_cast<std::size_t>(s.solver)]},
+                                {"friction", s.friction},
+                                {"points", s.points},
+                                {"bad_every", s.bad_every},
+                                {"scale", s.scale},
+                                {"far", s.far},
+                                {"width", s.width},
+                                {"start", s.start},
+                                {"depth", s.depth},
+                                {"speed", s.speed},
+                                {"spin", s.spin},
+                                {"voxel", s.voxel},
+                                {"stiffness", s.stiffness},
+                                {"damping", s.damping},
+                                {"coupling_rotation", s.coupling_rotation},
+                                {"friction_static", s.friction_static},
+                                {"friction_kinetic", s.friction_kinetic}}
+             .dump(1) +
+         "\n";
+}
+
+Setup read_case(const std::string& text) {
+  const nlohmann::json all = nlohmann::json::parse(text);
+  if (all.at("generator") != kGenerator) throw std::runtime_error("made by another generator");
+  Setup s;
+  s.row = all.at("row");
+  s.world = all.at("world");
+  s.body = all.at("body");
+  s.motion = all.at("motion");
+  s.seed = all.at("seed");
+  s.cycles = all.at("cycles");
+  const std::string solver = all.at("solver");
+  std::uint32_t number = 0;
+  while (number < format::kSolverCount && solver != format::kSolverNames[number]) ++number;
+  if (number == format::kSolverCount) throw std::runtime_error(fmt::format("no solver {}", solver));
+  s.solver = static_cast<format::Solver>(number);
+  s.friction = all.at("friction");
+  s.points = all.at("points");
+  s.bad_every = all.at("bad_every");
+  s.scale = all.at("scale");
+  s.far = all.at("far");
+  s.width = all.at("width");
+  s.start = all.at("start");
+  s.depth = all.at("depth");
+  s.speed = all.at("speed");
+  s.spin = all.at("spin");
+  s.voxel = all.at("voxel");
+  s.stiffness = all.at("stiffness");
+  s.damping = all.at("damping");
+  s.coupling_rotation = all.at("coupling_rotation");
+  s.friction_static = all.at("friction_static");
+  s.friction_kinetic = all.at("friction_kinetic");
+  return s;
+}
+
+}  // namespace godobject::report
