@@ -1,83 +1,138 @@
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "firmware/command/run.h"
+#include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/report/contact_quality/chapter.h"
-#include "toolchain/report/contact_quality/table.h"
+#include "toolchain/report/extremes/chapter.h"
 #include "toolchain/report/fault_table/chapter.h"
+#include "toolchain/report/stability/chapter.h"
+#include "toolchain/report/study/study.h"
 
 namespace {
 
-const char* const kFooter = R"(Example:
-  godobject-report --only contact --quick -o report
-  godobject-report --only faults --tests build/release/tests -o report
+using namespace godobject::report;
 
-Chapter `contact`: the solvers paper, corrected and contact in the same scenes along the same device paths. Writes
-DIR/contact_quality.csv (a row for each scene, world, solver and quantity) and DIR/contact_summary.csv (a row for each
-quantity), and prints the latter as a table. Worlds: `analytic` (exact distance), `moved` (the same, turned and shifted
-by 10 m), `compiled` (through the scene compiler; lengths in s are voxel edges). A solver's figure is its worst scene;
-times are medians over the scenes of each scene's median and 99th percentile, over cycles in contact, of steps #2-#7
-alone unless it says whole cycle. Targets are those of `contact`; a missed one does not change the exit code.
+const char* const kFooter = R"(Examples:
+  godobject-report --only contact --only stability --quick -j 2 -o report
+  godobject-report --list | parallel godobject-report --case {} -o report && godobject-report --merge report
 
-The optimum is the pose S with all sample points at phi >= 0 that minimises |x|^2 + rho^2 |r|^2, (x, r) = log(S^-1 D),
-rho^2 = k_VC,r / k_VC,x. It may be a local one: a slow, independent method is started from around the god object, from
-half way to the device and from the device lifted out. `optimum_distance` is the metric distance from the god object to the
-nearest optimum found; `optimum_excess` is how much further from the device it is than the best one.
+The study is a list of independent cases. Each leaves one file, DIR/cases/NAME.json; a case whose file is there is not run again
+unless the program or its inputs have changed, so an interrupted run is gone on with by the same line. From these files
+DIR/report.html is made, one page with all pictures in it, and the tables beside it as CSV. --merge does the latter alone: with the
+same options the page of one machine and that of several are the same but for times and machines.
 
-Chapter `faults`: runs the test programs of --tests that inject faults into the controller, gathers what they have measured, and
-writes DIR/faults.csv and DIR/faults.html: a row for each fault of the table and each test that injects it, with the reaction
-that was seen, the cycles it took and those allowed: held, missed, not run or not covered. What `ctest -L hil` has left in the same
-build is read, not run. Half a minute.
+Chapters: `contact` (the solvers in the same scenes along the same paths; a figure is that of the worst scene, times are medians,
+and grow where cases run side by side), `faults` (runs the test programs of --tests that inject faults; what `ctest -L hil` has
+left in the same build is read), `stability` (theory and simulation, in virtual time), `extremes` (numerical extremes, and a
+fuzzer whose violations become files for --replay). Missed rows do not change the exit code.
 
-Exit codes: 0 done (whatever is missed), 64 usage, 65 bad mesh, 66 the bunny's mesh or a test program is missing or may not be read,
-74 cannot write, 77 no right to write.)";
+Exit codes: 0 done (whatever is missed), 1 --replay: still violated, 64 usage, 65 bad mesh or case file, 66 a mesh, device or test
+program is missing or may not be read, 70 gnuplot is missing, 74 cannot write, 77 no right to write.)";
+
+struct Options {
+  std::vector<std::string> only;
+  std::string output;
+  std::string merge_folder;
+  std::string case_name;
+  std::string replay_file;
+  bool list = false;
+  int threads = 1;
+  ContactQualityRequest contact{.meshes = "toolchain/scenes/meshes", .quick = false, .scene = {}};
+  std::string tests = "build/release/tests";
+  std::string devices = "firmware/devices";
+  std::int64_t cycles = 0;
+};
+
+bool wanted(const Options& options, const std::string& chapter) {
+  return options.only.empty() || std::find(options.only.begin(), options.only.end(), chapter) != options.only.end();
+}
+
+std::vector<Chapter> chapters(const Options& options) {
+  std::vector<Chapter> all;
+  if (wanted(options, "contact")) all.push_back(contact_chapter(options.contact));
+  if (wanted(options, "faults")) all.push_back(fault_chapter(options.tests));
+  if (wanted(options, "stability")) all.push_back(stability_chapter({options.devices, options.contact.quick}));
+  if (wanted(options, "extremes")) all.push_back(extremes_chapter({options.cycles, options.contact.quick}));
+  return all;
+}
+
+void run_all(const Options& options) {
+  const std::vector<Chapter> all = chapters(options);
+  std::vector<const StudyCase*> cases = all_cases(all);
+  if (!options.case_name.empty()) cases = {&find_case(all, options.case_name)};
+  godobject::command::make_output_folder(case_folder(options.output));
+  godobject::command::output_target(report_file(options.output));  // refused before the work
+  {
+    godobject::command::Progress progress;
+    run_cases(cases, {.folder = case_folder(options.output),
+                      .threads = options.threads,
+                      .progress = [&](std::string_view phase, double done) { progress.show(phase, done); }});
+  }
+  if (!options.case_name.empty()) return;
+  fmt::print(
+      "{}", merge(all, options.output,
+                  fmt::format("one process, {} threads{}", options.threads, options.contact.quick ? ", --quick" : "")));
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures, and writes tables: the quality of the solvers, what the controller makes of faults.",
+  CLI::App app("Measures, and makes one page: the quality of the solvers, faults, stability, numerical extremes.",
                "godobject-report");
   app.footer(kFooter);
-  std::string chapter = "contact";
-  godobject::report::ContactQualityRequest request;
-  request.meshes = "toolchain/scenes/meshes";
-  godobject::report::FaultTableRequest faults;
-  faults.tests = "build/release/tests";
-  app.add_option("--only", chapter, "chapter to make; default: contact")
-      ->check(CLI::IsMember({"contact", "faults"}))
+  Options options;
+  app.add_option("--only", options.only, "chapters to make, one each time; default: all")
+      ->check(CLI::IsMember({"contact", "faults", "stability", "extremes"}))
       ->option_text("CHAPTER");
-  app.add_flag("--quick", request.quick, "a few scenes, short: below a minute");
-  app.add_option("--scene", request.scene, "only scenes whose name holds this; default: all")->type_name("PART");
-  app.add_option("--meshes", request.meshes, "folder of bunny_npm.ply, the moving body of some scenes")
+  app.add_flag("--quick", options.contact.quick, "less of everything: below three minutes on two cores");
+  app.add_option("-j,--threads", options.threads, "cases at the same time")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N")
+      ->capture_default_str();
+  app.add_option("--cycles", options.cycles, "cycles of the fuzzer in all; default: 100000, with --quick 20000")
+      ->check(CLI::Range(std::int64_t{1000}, std::int64_t{1'000'000'000'000}))
+      ->option_text("N");
+  app.add_option("--scene", options.contact.scene, "chapter contact: only scenes whose name holds this; default: all")
+      ->type_name("PART");
+  app.add_option("--meshes", options.contact.meshes, "folder of bunny_npm.ply, the moving body of some scenes")
       ->type_name("FOLDER")
       ->capture_default_str();
-  app.add_option("--tests", faults.tests, "folder of the test programs that inject faults")
+  app.add_option("--tests", options.tests, "folder of the test programs that inject faults")
       ->type_name("FOLDER")
       ->capture_default_str();
-  app.add_option("-o,--output", request.output, "folder of what is written; made where it is not there")
-      ->required()
+  app.add_option("--devices", options.devices, "folder of the device files")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  auto* what = app.add_option_group("what to do");
+  auto* output =
+      what->add_option("-o,--output", options.output, "folder of what is written; made where it is not there")
+          ->type_name("DIR");
+  app.add_option("--case", options.case_name, "run this case only, and make no page")->type_name("NAME")->needs(output);
+  what->add_option("--merge", options.merge_folder, "run nothing: the page from the result files in DIR/cases")
       ->type_name("DIR");
-  return godobject::command::run(app, argc, argv, [&] {
-    if (chapter == "faults") {
-      std::vector<godobject::report::FaultRow> rows;
-      {
-        godobject::command::Progress progress;
-        faults.output = request.output;
-        faults.progress = [&](std::string_view phase, double done) { progress.show(phase, done); };
-        rows = godobject::report::fault_table(faults);
+  what->add_flag("--list", options.list, "print the names of the cases, one a line");
+  what->add_option("--replay", options.replay_file, "run a case file of the fuzzer again")->type_name("FILE");
+  what->require_option(1);
+  bool violated = false;
+  const int code = godobject::command::run(app, argc, argv, [&] {
+    if (!options.replay_file.empty()) {
+      violated = replay(options.replay_file);
+    } else if (options.list) {
+      for (const Chapter& chapter : chapters(options)) {
+        for (const StudyCase& study_case : chapter.cases) fmt::print("{}\n", study_case.name);
       }
-      fmt::print("{}\n", godobject::report::fault_summary(rows));
-      return;
+    } else if (!options.merge_folder.empty()) {
+      fmt::print("{}", merge(chapters(options), options.merge_folder,
+                             fmt::format("results of single cases{}", options.contact.quick ? ", --quick" : "")));
+    } else {
+      run_all(options);
     }
-    std::vector<godobject::report::Measurement> measurements;
-    {
-      godobject::command::Progress progress;
-      request.progress = [&](std::string_view phase, double done) { progress.show(phase, done); };
-      measurements = godobject::report::contact_quality(request);
-    }
-    fmt::print("{}", godobject::report::text_table(measurements));
   });
+  return violated ? 1 : code;
 }
