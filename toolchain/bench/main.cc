@@ -1,4 +1,6 @@
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,8 +10,9 @@
 #include "firmware/command/run.h"
 #include "toolchain/bench/chapters.h"
 #include "toolchain/bench/machine.h"
+#include "toolchain/bench/micro.h"
+#include "toolchain/bench/page.h"
 #include "toolchain/bench/scene_cache.h"
-#include "toolchain/command/atomic_file.h"
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 
@@ -23,20 +26,26 @@ const char* const kFooter = R"(Example:
   godobject-bench --only peers
 
 Chapters: cycles, whole cycles #1-#7 of every solver with and without friction on the bunny and the teapot, an ear in
-its handle, the peg in the hole and the thin plate, warm and cold; peers, brute force over all points and FCL at the same poses.
+its handle, the peg in the hole and the thin plate, warm and cold; peers, brute force over all points and FCL at the same poses;
+scaling, the sliding bunny with 10^3 .. 10^5 points and voxels of 2 and 1 mm, with --full to 10^6 and 0.25 mm; parts, look-ups, searches and
+solvers one by one under Google Benchmark, which also takes its own options (--benchmark_filter=look-up, ...).
 Scenes are compiled at the first run (some minutes) and kept in --cache.
 
 Exit codes: 0 done, 64 usage, 65 bad mesh, 66 an input is missing or may not be read, 74 cannot write, 77 no right to write.)";
 
-void write(const std::filesystem::path& file, const std::string& text) {
-  command::AtomicFile out(file);
-  out.write(text);
-  out.commit();
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  // what begins so is Google Benchmark's
+  std::vector<char*> ours;
+  std::vector<std::string> for_benchmark;
+  for (int i = 0; i < argc; ++i) {
+    if (i > 0 && std::string_view(argv[i]).starts_with("--benchmark_")) {
+      for_benchmark.emplace_back(argv[i]);
+    } else {
+      ours.push_back(argv[i]);
+    }
+  }
   CLI::App app("Measures run times: cycles, steps, and peers in the same run.", "godobject-bench");
   app.footer(kFooter);
   std::string only;
@@ -45,7 +54,7 @@ int main(int argc, char** argv) {
   request.scenes = "toolchain/scenes";
   request.cache = default_cache_folder();
   app.add_option("--only", only, "one chapter; default: all")
-      ->check(CLI::IsMember({"cycles", "peers"}))
+      ->check(CLI::IsMember({"cycles", "peers", "scaling", "parts"}))
       ->option_text("CHAPTER");
   app.add_flag("--full", request.full, "more passes, larger scenes");
   app.add_option("--scenes", request.scenes, "folder of the scene files; default: toolchain/scenes")
@@ -53,28 +62,31 @@ int main(int argc, char** argv) {
   app.add_option("--cache", request.cache, "folder of compiled scenes; default: ~/.cache/godobject-bench")
       ->type_name("FOLDER");
   app.add_option("-o,--out", output, "folder for CSV files and a page; made where it is not there")->type_name("DIR");
-  return command::run(app, argc, argv, [&] {
+  return command::run(app, static_cast<int>(ours.size()), ours.data(), [&] {
     if (!output.empty()) command::make_output_folder(output);
+    start_google_benchmark(request.full, for_benchmark);
     Chapter all;
     {
       command::Progress progress;
       request.progress = [&](std::string_view phase, double done) { progress.show(phase, done); };
       const std::vector<std::pair<std::string, Chapter (*)(const BenchRequest&)>> chapters = {
-          {"cycles", &cycles_chapter}, {"peers", &peers_chapter}};
+          {"cycles", &cycles_chapter},
+          {"peers", &peers_chapter},
+          {"scaling", &scaling_chapter},
+          {"parts", &micro_chapter}};
       for (const auto& [name, make] : chapters) {
         if (!only.empty() && only != name) continue;
         Chapter chapter = make(request);
         for (auto& table : chapter.tables) all.tables.push_back(std::move(table));
         for (auto& table : chapter.details) all.details.push_back(std::move(table));
+        for (auto& plot : chapter.plots) all.plots.push_back(std::move(plot));
         for (auto& remark : chapter.remarks) all.remarks.push_back(std::move(remark));
       }
     }
-    for (const auto& [key, value] : machine_facts()) fmt::print("{}: {}\n", key, value);
+    const auto machine = machine_facts();
+    for (const auto& [key, value] : machine) fmt::print("{}: {}\n", key, value);
     for (const Table& table : all.tables) fmt::print("\n{}", text_of(table));
     if (!all.remarks.empty()) fmt::print("\n{}\n", fmt::join(all.remarks, "\n"));
-    if (output.empty()) return;
-    for (const auto* tables : {&all.tables, &all.details}) {
-      for (const Table& table : *tables) write(std::filesystem::path(output) / (table.name + ".csv"), csv_of(table));
-    }
+    if (!output.empty()) write_page(all, machine, output);
   });
 }
