@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "firmware/supervisor.h"
+#include "hal/canopen/emergency.h"
 
 namespace godobject::firmware {
 namespace {
@@ -68,6 +69,11 @@ std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std
   std::string more;
   if (alarm.id != 0) append(more, fmt::format("COB-ID {:03X}", alarm.id));
   if (alarm.alarm == hal::Alarm::kDriveError) append(more, fmt::format("error code {:04X}", alarm.found));
+  if (alarm.alarm == hal::Alarm::kDriveError && alarm.found == hal::canopen::kRpdoTimeout) {
+    append(more,
+           "torques stayed away for longer than bus.command_deadline: the loop was late, or the bus lost them; run "
+           "godobject-controller doctor");
+  }
   if (alarm.alarm == hal::Alarm::kWrongMode && alarm.index != 0) {
     append(more, fmt::format("mode {} in place of {}", static_cast<std::int32_t>(alarm.found), alarm.expected));
   }

@@ -9,6 +9,7 @@
 
 #include "firmware/bus_messages.h"
 #include "firmware/command/failure.h"
+#include "hal/canopen/emergency.h"
 #include "hal/canopen/network.h"
 #include "hal/canopen/sdo.h"
 #include "hal/cia402/read_object.h"
@@ -23,7 +24,6 @@ constexpr std::int64_t kPeriod_ns = 1'000'000;
 constexpr int kSettle = 200;    // cycles until all drives answer
 constexpr int kRecover = 1000;  // cycles in which a drive must have come out of its fault
 constexpr int kSeenAfter = 2;   // cycles in which what a drive has sent is taken
-constexpr std::uint32_t kRpdoTimeout = 0x8250;
 
 /// Writes a mode. Milliseconds until the write was confirmed and TPDO2 told the mode; nothing: it did not within half a
 /// second, or the write was refused.
@@ -128,7 +128,7 @@ void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, int dea
     if (trial.fault || trial.emergency != 0) trial.after_ms = ms;
   }
   drives.withhold(-1);
-  const bool is_it = trial.fault || trial.emergency == kRpdoTimeout;
+  const bool is_it = trial.fault || trial.emergency == hal::canopen::kRpdoTimeout;
   trial.in_time = is_it && trial.after_ms <= deadline_ms + kSeenAfter;
   recover(cycles, drives, joint, names);
 }

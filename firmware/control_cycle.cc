@@ -160,7 +160,7 @@ void ControlCycle::count(const LoopEvents& events) noexcept {
   const auto add = [](bool happened) -> std::uint64_t { return happened ? 1 : 0; };
   const bool rendering = record_.share > 0.0;
   counters_.cycles += 1;
-  counters_.lost += add(positions_.lost > 0);
+  counters_.lost += add(positions_.lost > 0 && record_.mode != Mode::kBoot);  // before, none was expected
   counters_.jumps += add(positions_.jumps > 0);
   counters_.overruns += add(events.overrun_ns > 0);
   counters_.skipped += events.skipped;

@@ -313,6 +313,11 @@ ArmLink link_arm(const Options& options, const ControllerConfig& config, const f
   link.interfaces = std::make_unique<firmware::CanBuses>(link.names, layout);
   link.buses = link.interfaces->buses();
   for (const std::string& line : link.interfaces->warnings()) warn(line);
+  if (!(layout.drive_delay > 0.0)) {
+    warn(
+        "bus.drive_delay = 0: what the drives take to act on a torque is not in the delay that gains are checked with; "
+        "take it from their manual");
+  }
   return link;
 }
 

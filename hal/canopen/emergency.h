@@ -13,6 +13,9 @@ struct Emergency {
   std::uint8_t error_register = 0;  ///< 1001
 };
 
+/// Commands stayed away from a node for longer than the deadline of their PDO, 1400:5.
+inline constexpr std::uint16_t kRpdoTimeout = 0x8250;
+
 /// False: it is none.
 bool parse_emergency(const CanFrame& frame, Emergency& emergency) noexcept;
 

@@ -62,6 +62,7 @@ void start(CanRun& run) {
   run.run(kBegin - run.device().now_ns() / 1'000'000 - 1);
   ASSERT_EQ(run.cycles.back().record.fault, Fault::kNone) << describe(run.cycles.back().record.fault);
   ASSERT_GT(run.cycles.back().record.wrench_R.force.norm(), 2.0) << "the fault is to meet a contact";
+  ASSERT_EQ(run.controller().counters().lost, 0u) << "those that the probe at the start leaves out do not count";
 }
 
 struct Row {
