@@ -20,8 +20,8 @@ fail() {
 }
 
 # Below the controller's own priority, which sleeps while the arm answers.
-start_device() {  # [SECONDS until the enable switch is held]
-  chrt -f 70 "$HIL_BIN/godobject-simdevice" "$config" --scene "$HIL_SCENE" --bus "$devices" --enable-after "${1:-1.5}" \
+start_device() {  # [SECONDS until the enable switch is held: soon after the controller waits for it]
+  chrt -f 70 "$HIL_BIN/godobject-simdevice" "$config" --scene "$HIL_SCENE" --bus "$devices" --enable-after "${1:-1.1}" \
     >"$HIL_WORK/device" 2>&1 &
   device=$!
   sleep 0.1
@@ -62,7 +62,7 @@ never_again() {
 
 # What must not disturb: still running a moment later, to the end in order.
 goes_on_running() {
-  sleep 0.2
+  sleep 0.1
   [ "$(mode)" = running ] || fail "not running, but $(mode)"
 }
 
@@ -75,11 +75,10 @@ goes_on() {
   grep 'positions lost' "$HIL_WORK/controller"
 }
 
-# Nothing late, nothing lost, no page fault. The controller's probe after the start leaves SYNC out in four cycles. What a machine
-# without a real-time kernel is late is not the controller's fault.
+# Nothing late, nothing lost, no page fault. What a machine without a real-time kernel is late is not the controller's fault.
 not_late() {
   [ "$HIL_CLOCK" = "virtual time" ] || return 0
-  grep -q 'positions lost in 4 cycles, jumps in 0, sends failed 0, overruns 0, periods skipped 0' "$HIL_WORK/controller" ||
+  grep -q 'positions lost in 0 cycles, jumps in 0, sends failed 0, overruns 0, periods skipped 0' "$HIL_WORK/controller" ||
     fail "late or lost"
   grep -q 'samples lost 0, late 0; malformed 0, queue full 0, floods 0' "$HIL_WORK/controller" || fail "frames lost or late"
   grep -q 'page faults in the loop: 0' "$HIL_WORK/controller" || fail "page faults"
@@ -96,7 +95,7 @@ end_device() {
 # A fault that the controller must find: stopped, latched until SIGTERM, and the words of it on stderr.
 stopped_by() {  # WORDS
   until_mode stopped 2
-  sleep 0.2
+  sleep 0.1
   [ "$(mode)" = stopped ] || fail "not latched: $(mode)"
   kill -TERM "$controller"
   wait "$controller" || true
