@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "toolchain/bench/target.h"
+
 namespace godobject::bench {
 namespace {
 
@@ -28,6 +30,18 @@ TEST(Table, AsHtmlKeepsTextFromBeingMarkup) {
   const std::string html = html_of(kTable);
   EXPECT_NE(html.find("<td>&lt;fast&gt;</td>"), std::string::npos);
   EXPECT_NE(html.find("t.csv"), std::string::npos);
+}
+
+TEST(Targets, AreHeldUpToTheFigureItself) {
+  const Table table = table_of({{"time", "us", 4.0, 4.0, false},
+                                {"time", "us", 4.0, 4.01, false},
+                                {"ratio", "1", 100.0, 100.0, true},
+                                {"ratio", "1", 100.0, 99.0, true}});
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"time", "us", "<= 4.00", "4.00", "held"}));
+  EXPECT_EQ(table.rows[1].back(), "missed");
+  EXPECT_EQ(table.rows[2], (std::vector<std::string>{"ratio", "1", ">= 100", "100", "held"}));
+  EXPECT_EQ(table.rows[3].back(), "missed");
 }
 
 TEST(Digits, ShowsAboutThree) {

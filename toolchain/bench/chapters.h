@@ -8,6 +8,7 @@
 
 #include "toolchain/bench/scene_cache.h"
 #include "toolchain/bench/table.h"
+#include "toolchain/bench/target.h"
 
 namespace godobject::bench {
 
@@ -40,6 +41,7 @@ struct Chapter {
   std::vector<Table> tables;   ///< on stdout and on the page
   std::vector<Table> details;  ///< on the page and as CSV only
   std::vector<Plot> plots;
+  std::vector<Target> targets;
   std::vector<std::string> remarks;
 };
 

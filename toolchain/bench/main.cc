@@ -13,6 +13,7 @@
 #include "toolchain/bench/micro.h"
 #include "toolchain/bench/page.h"
 #include "toolchain/bench/scene_cache.h"
+#include "toolchain/bench/target.h"
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
     if (!output.empty()) command::make_output_folder(output);
     start_google_benchmark(request.full, for_benchmark);
     Chapter all;
+    std::vector<Target> targets;
     {
       command::Progress progress;
       request.progress = [&](std::string_view phase, double done) { progress.show(phase, done); };
@@ -80,9 +82,11 @@ int main(int argc, char** argv) {
         for (auto& table : chapter.tables) all.tables.push_back(std::move(table));
         for (auto& table : chapter.details) all.details.push_back(std::move(table));
         for (auto& plot : chapter.plots) all.plots.push_back(std::move(plot));
+        for (auto& target : chapter.targets) targets.push_back(std::move(target));
         for (auto& remark : chapter.remarks) all.remarks.push_back(std::move(remark));
       }
     }
+    if (!targets.empty()) all.tables.push_back(table_of(targets));
     const auto machine = machine_facts();
     for (const auto& [key, value] : machine) fmt::print("{}: {}\n", key, value);
     for (const Table& table : all.tables) fmt::print("\n{}", text_of(table));

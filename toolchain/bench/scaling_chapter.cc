@@ -53,8 +53,8 @@ double grid_bytes(const Scene& scene) {
 }
 
 Found measure(const Scene& scene, std::span<const Pose> device, const Phase& phase, bool full) {
-  const PassBudget budget{.least_passes = 2, .most_passes = 40, .seconds = full ? 3.0 : 0.5};
-  const std::vector<std::size_t> cold_cycles = thinned(phase.cycles, full ? 200 : 40);
+  const PassBudget budget{.least_passes = 2, .most_passes = 40, .seconds = full ? 3.0 : 0.3};
+  const std::vector<std::size_t> cold_cycles = thinned(phase.cycles, full ? 200 : 25);
   Found found;
   found.points = scene.pointshell.size;
   const Pipeline friction{Solver::kContact, true};
@@ -141,6 +141,7 @@ Chapter scaling_chapter(const BenchRequest& request) {
   by_voxels.name = "scaling_voxels";
   by_voxels.title = "Sliding, 5587 points: smaller voxels";
   by_voxels.x_label = "voxel [mm]";
+  double ten_thousand_ns = 0.0;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const Scale& scale = scales[i];
     const auto image = cache.image_of_text(fmt::format("sliding-{}-{:g}mm", scale.points, 1e3 * scale.voxel_size),
@@ -148,6 +149,15 @@ Chapter scaling_chapter(const BenchRequest& request) {
     request.progress("scaling", static_cast<double>(i) / static_cast<double>(scales.size()));
     const Found found = measure(image.scene, device, *sliding, request.full);
     table.rows.push_back(row(scale, found));
+    if (scale.points == 10000) ten_thousand_ns = found.friction.p50;
+    if (scale.points == 1000000) {
+      chapter.targets.push_back(
+          {"sliding, 10^6 points: cycle with friction, p99.9", "us", 40.0, 1e-3 * found.friction.p999, false});
+      chapter.targets.push_back(
+          {"sliding, 10^6 points: cycle with friction, own p99.9", "us", 40.0, 1e-3 * found.own_friction.p999, false});
+      chapter.targets.push_back(
+          {"sliding, p50: 10^6 points over 10^4", "1", 4.0, found.friction.p50 / ten_thousand_ns, false});
+    }
     const bool voxels = scale.points == 5587;
     Plot& plot = voxels ? by_voxels : by_points;
     const Distribution* const shown[] = {&found.friction, &found.cold, &found.brute, &found.brute_cold};
