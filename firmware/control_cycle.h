@@ -66,7 +66,7 @@ struct CycleSetup {
   const Scene* scene = nullptr;
   Solver solver = Solver::kContact;
   bool friction = false;
-  std::span<double> search;  ///< GodObject::memory(*scene) numbers, or none
+  std::span<std::uint32_t> search;  ///< GodObject::memory(*scene) words, or none
   const ArmModel* arm = nullptr;
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;

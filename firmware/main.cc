@@ -187,7 +187,7 @@ class PacedClock final : public hal::Clock {
 };
 
 firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& scene,
-                                 const firmware::Placement& placement, std::span<double> search) {
+                                 const firmware::Placement& placement, std::span<std::uint32_t> search) {
   firmware::CycleSetup setup;
   setup.scene = &scene;
   setup.search = search;
@@ -518,7 +518,7 @@ void control(const Options& options) {
   }
   const ArmLink link = link_arm(options, config, placement);
   drives.emplace(config.device.bus, link.buses, plan.timing, config.telemetry.bus ? &bus_ring : nullptr);
-  std::vector<double> search(GodObject::memory(scene));
+  std::vector<std::uint32_t> search(GodObject::memory(scene));
   cycle.emplace(cycle_setup(config, scene, placement, search), *drives);
   if (const Status status = cycle->start(); status != Status::kOk) {
     throw Failure(ExitCode::kBadData,

@@ -89,7 +89,7 @@ struct SampleDirection {
     return {shell, R_field_shell.transpose() * gradient};
   }
 
-  double stretch(double) const noexcept { return 1.0; }
+  static constexpr bool kStretches = false;
   double most_stretch() const noexcept { return 1.0; }
 };
 
@@ -107,6 +107,8 @@ struct FeatureDirection {
 
   FeatureDirection(const ContactLengths& lengths, double body_radius) noexcept
       : radius(lengths.radius), near_radius(body_radius + lengths.longest_reach) {}
+
+  static constexpr bool kStretches = true;
 
   double radius;       ///< R_max [m]
   double near_radius;  ///< within it lie the moving body's surface and, around it, the longest reach [m]
@@ -368,25 +370,27 @@ struct ContactSearch {
   NearSearch features;
   double longest_reach = 0.0;  ///< |x| + R_max |r| of a sub-step beyond which no field tells near from far [m]
 
-  /// Numbers that it remembers.
+  /// Words that it remembers.
   static std::size_t memory(const Pointshell& shell, const Pointshell& features) noexcept {
     return NearSearch::memory(shell) + NearSearch::memory(features);
   }
 
-  /// Begins anew. `memory`: as many numbers, which must outlive it; or none, then it looks everywhere in every cycle.
+  /// Begins anew. `memory`: as many words, which must outlive it; or none, then it looks everywhere in every cycle.
   template <DistanceField Field, DistanceField BodyField>
   void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>* feature_contacts,
-             const ContactLengths& lengths, std::span<double> memory) noexcept {
-    *this = ContactSearch{};
-    longest_reach = std::min(lengths.longest_reach, field.band() / field.lipschitz());
+             const ContactLengths& lengths, std::span<std::uint32_t> memory) noexcept {
+    odometer.reset();
+    longest_reach = std::min(lengths.longest_reach, field.assured_clearance());
     const std::size_t of_samples = memory.empty() ? 0 : NearSearch::memory(shell);
     if (feature_contacts != nullptr) {
       const BodyField& map = feature_contacts->map;
       const double stretch = detail::FeatureDirection{lengths, feature_contacts->body_radius}.most_stretch();
-      longest_reach = std::min(longest_reach, map.band() / (map.lipschitz() * stretch));
-      features.start(memory.subspan(of_samples), stretch * longest_reach);
+      longest_reach = std::min(longest_reach, map.assured_clearance() / stretch);
+      features.start(memory.subspan(of_samples), feature_contacts->points, stretch * longest_reach);
+    } else {
+      features.start_without_shell();
     }
-    samples.start(memory.first(of_samples), longest_reach);
+    samples.start(memory.first(of_samples), shell, longest_reach);
   }
 
   /// The last look knows that in a motion with |x| + R_max |r| = `way` from here nothing will be near.

@@ -39,7 +39,7 @@ Status refuse(Status status, const State& state, CycleReport& report) noexcept {
 
 }  // namespace
 
-Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::span<double> memory) noexcept {
+Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> memory) noexcept {
   if (!scene.holds(solver) || (friction && scene.settings.friction == 0)) return Status::kNotInImage;
   switch (solver) {
     case Solver::kPaper: cycle_ = friction ? &run_paper<true> : &run_paper<false>; break;

@@ -18,7 +18,7 @@ using Solver = format::Solver;
 /// touches what its contacts need. The scene must outlive it, and so must the memory that it is given.
 ///
 ///     GodObject god_object;
-///     std::vector<double> memory(GodObject::memory(scene));
+///     std::vector<std::uint32_t> memory(GodObject::memory(scene));
 ///     if (god_object.start(scene, scene.default_solver(), true, memory) != Status::kOk) ...
 ///     while (running) if (god_object.update({H_WM, velocity_W}, report) == Status::kOk) use(report.force.total_W);
 class GodObject {
@@ -29,17 +29,17 @@ class GodObject {
     Motion velocity_W;  ///< of the body's centre of mass [m/s], angular [rad/s]
   };
 
-  /// Numbers that `contact` remembers about the scene from cycle to cycle: one a sample or feature point and one a node
-  /// of their trees, where they cannot be near yet.
+  /// Words that `contact` remembers about the scene from cycle to cycle: some four a sample or feature point and a node
+  /// of their trees, until when they cannot be near.
   static std::size_t memory(const Scene& scene) noexcept {
     return ContactSearch::memory(scene.pointshell, scene.features);
   }
 
   /// Chooses the pipeline once. Without a friction table in the scene `friction` = true is refused. `memory`: at least
-  /// memory(scene) numbers, this god object's alone; with fewer, or none, results are the same, and `contact` looks at
+  /// memory(scene) words, this god object's alone; with fewer, or none, results are the same, and `contact` looks at
   /// all nodes in every cycle.
   /// kNotInImage: the image was compiled without that solver, or without friction; nothing changed.
-  Status start(const Scene& scene, Solver solver, bool friction, std::span<double> memory = {}) noexcept;
+  Status start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> memory = {}) noexcept;
 
   /// Forgets the god object: the next update starts with it at the device pose.
   void reset() noexcept { state_ = State{}; }

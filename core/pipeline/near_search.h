@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "core/pipeline/due_calendar.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
 #include "core/spatial/pose.h"
@@ -46,121 +47,221 @@ class Odometer {
 /// brought it there, so a cycle costs as much as there is near; what it finds does not depend on it.
 ///
 /// **Bound.** Let C = clearance(c) and |x - c| <= r + t for a point x that was within r of c when the body had gone t
-/// less. The stored field at x is then at least C - r - t, or at least the band: within the band it falls by at most
-/// lipschitz a metre along the way, and C is the distance divided by that; beyond it C is itself such a bound. A
-/// look-up divides a distance by at most L = lipschitz(), and one of at least the band gives at least band / L, so
-///     clearance(x) >= min(C - r - t, band) / L.
-/// For any bound `cut` <= band / L, x is not near while C - r - t >= L cut. Since L >= 1, also while
+/// less. The field says (DistanceField) that
+///     clearance(x) >= min((C - r - t) / L, A),   L = lipschitz(), A = assured_clearance().
+/// For any bound `cut` <= A, x is not near while C - r - t >= L cut. Since L >= 1, also while
 /// (C - r) / L - t >= cut, and while C - r - (L - 1) longest - t >= cut for all cuts up to `longest`. So the larger of
 ///     way + (C - r) / L   and   way + C - r - (L - 1) longest
-/// is kept, and neither node nor point is looked at again before way + cut exceeds it. Where x may move by f >= 1 times
-/// what the odometer says, both are divided by f.
+/// is when it comes due, and neither node nor point is looked at again before way + cut exceeds it. Where x may move by
+/// f >= 1 times what the odometer says, both are divided by f.
+///
+/// What is due is looked at in batches (DistanceField::clearances, which knows C as the bound needs it); a node that
+/// may be near gives way to its children, and takes their place again once they are far. Only points that may be near
+/// are looked up one by one.
 class NearSearch {
  public:
-  /// Numbers that a search of this shell remembers.
-  static std::size_t memory(const Pointshell& shell) noexcept { return shell.nodes.size() + shell.size; }
+  /// Words that a search of this shell remembers.
+  static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell); }
 
-  /// Begins anew. `memory`: memory(shell) numbers that outlive the search, or none; then all nodes are looked at in
-  /// every cycle. `longest`: largest `cut`, at most the field's band / lipschitz [m].
-  void start(std::span<double> memory, double longest) noexcept {
-    until_ = memory;
-    std::fill(until_.begin(), until_.end(), 0.0);
+  /// Begins anew. `memory`: memory(shell) words that outlive the search, or none; then all nodes are looked at in every
+  /// cycle. `longest`: largest `cut`, at most the field's assured clearance [m].
+  void start(std::span<std::uint32_t> memory, const Pointshell& shell, double longest) noexcept {
     longest_ = longest;
+    tick_ = longest / kTicks;
+    memory_ = memory;
     certain_ = 0.0;
+    if (!memory_.empty()) calendar_.start(memory_, shell);
+  }
+
+  /// There is no shell: nothing ever comes near.
+  void start_without_shell() noexcept {
+    memory_ = {};
+    certain_ = kNever;
   }
 
   /// The last `find` knows that up to this reading of the odometer nothing comes nearer than `longest`.
   bool is_free(double way) const noexcept { return way + longest_ <= certain_; }
 
   /// Calls visit(i, p, p_field, sample) for all points with a clearance below `cut` <= `longest`, ascending. The shell
-  /// is at H in the field's frame; `way` is the odometer's reading there. Cost: a comparison for each node and point
-  /// beside those that are near, a look-up for each that is due; at most all nodes and points.
+  /// is at H in the field's frame; `way` is the odometer's reading there. Cost: a share of a batch for each node and
+  /// point that is due, a look-up for each that may be near; at most all nodes and points.
   ///
   /// `Direction::stretch(lever)`: a point of the shell that stays within `lever` [m] of the moving body's origin moves
-  /// in the field's frame by at most this times the odometer's difference; 1 or more.
+  /// in the field's frame by at most this times the odometer's difference; 1 or more. Always 1 and not asked for
+  /// without `Direction::kStretches`.
   template <class Direction, DistanceField Field, class Visit>
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double way,
             double cut, Visit&& visit) noexcept {
     const Matrix3 R = H.rotation.toRotationMatrix();
-    const double needed = way + cut;
     const double slope = field.lipschitz();
+    const double per_slope = 1.0 / slope;
     const double rounding = kFieldRounding * field.voxel_size();
-    // until when a ball of this radius about a point of the field's frame is not near
-    const auto free_until = [&](double clearance, const Vector3& center_field, double radius) noexcept {
+    // until when a ball of this radius about a point of the shell is not near
+    const auto free_until = [&](double clearance, const Vector3& center, double radius) noexcept {
       const double free = clearance - radius - rounding;
-      const double room = std::max(free / slope, free - (slope - 1.0) * longest_);
-      return way + room / direction.stretch(center_field.norm() + radius + std::max(0.0, room));
+      const double room = std::max(free * per_slope, free - (slope - 1.0) * longest_);
+      if constexpr (Direction::kStretches) {
+        return way + room / direction.stretch((R * center + H.translation).norm() + radius + std::max(0.0, room));
+      } else {
+        return way + room;
+      }
     };
-    const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
-    std::array<Open, format::kMaxLevels + 1> open;
-    std::size_t depth = 0;
+    const auto look_up = [&](std::uint32_t i) noexcept {
+      const Vector3 p = shell.point(i);
+      const Vector3 p_field = R * p + H.translation;
+      const FieldSample sample = field.sample(p_field);
+      const bool near = sample.clearance < cut;
+      if (near) visit(i, p, p_field, sample);
+      return near ? way : free_until(sample.clearance, p, 0.0);
+    };
+    if (memory_.empty()) {
+      certain_ = look_everywhere(field, shell, R, H, way + cut, free_until, look_up);
+    } else {
+      look_at_due(field, shell, H, way, cut, free_until, look_up);
+      certain_ = tick_ * static_cast<double>(calendar_.certain());
+    }
+  }
+
+ private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kTicks = 64.0;          ///< of the calendar in the longest cut
+  static constexpr double kRounding = 2e-6;       ///< of spheres [1]
+  static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
+
+  static Vector3 center_of(const format::Node& node) noexcept {
+    return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+            static_cast<double>(node.center[2])};
+  }
+  /// Spheres come in single precision: they may be this much too small.
+  static double radius_of(const format::Node& node) noexcept {
+    return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
+  }
+
+  /// Without memory. Until when all that is not near is free.
+  template <DistanceField Field, class FreeUntil, class LookUp>
+  static double look_everywhere(const Field& field, const Pointshell& shell, const Matrix3& R, const Pose& H,
+                                double needed, const FreeUntil& free_until, const LookUp& look_up) noexcept {
     double least = kNever;
-    for (std::uint32_t n = 0;;) {
-      while (depth > 0 && n >= open[depth - 1].end) {
-        const Open& closing = open[--depth];
-        const double until = least >= needed ? least : kOpen;
-        remember(closing.node, until);
-        least = std::min(closing.least, until);
-      }
-      if (n >= node_count) break;
+    const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
+    for (std::uint32_t n = 0; n < node_count;) {
       const format::Node& node = shell.nodes[n];
-      double until = remembered(n);
-      if (until < needed && until != kOpen) {
-        const Vector3 center(static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
-                             static_cast<double>(node.center[2]));
-        // spheres come in single precision: they may be this much too small
-        const double radius = static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center.norm();
-        const Vector3 center_field = R * center + H.translation;
-        until = free_until(field.sample(center_field).clearance, center_field, radius);
-        remember(n, until >= needed ? until : kOpen);
-      }
+      const Vector3 center = center_of(node);
+      const double until = free_until(field.sample(R * center + H.translation).clearance, center, radius_of(node));
       if (until >= needed) {
         least = std::min(least, until);
         n = node.skip;
-        continue;
-      }
-      open[depth++] = {n, node.skip, least};
-      least = kNever;
-      if (node.leaf != 0) {
+      } else if (node.leaf != 0) {
         for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-          double point_until = remembered(node_count + i);
-          if (point_until < needed) {
-            const Vector3 p = shell.point(i);
-            const Vector3 p_field = R * p + H.translation;
-            const FieldSample sample = field.sample(p_field);
-            point_until = free_until(sample.clearance, p_field, 0.0);
-            remember(node_count + i, point_until);
-            if (sample.clearance < cut) visit(i, p, p_field, sample);
-          }
-          least = std::min(least, point_until);
+          least = std::min(least, look_up(i));
         }
         n = node.skip;
       } else {
         ++n;
       }
     }
-    certain_ = least;
+    return least;
   }
 
- private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
-  static constexpr double kOpen = -kNever;        ///< of a node: something below it was near at the last look
-  static constexpr double kRounding = 2e-6;       ///< of spheres [1]
-  static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
-
-  struct Open {
-    std::uint32_t node, end;
-    double least;  ///< of what was visited before, in the parent
-  };
-
-  double remembered(std::uint32_t i) const noexcept { return until_.empty() ? 0.0 : until_[i]; }
-  void remember(std::uint32_t i, double until) noexcept {
-    if (!until_.empty()) until_[i] = until;
+  template <DistanceField Field, class FreeUntil, class LookUp>
+  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double way, double cut,
+                   const FreeUntil& free_until, const LookUp& look_up) noexcept {
+    const double needed = way + cut;
+    const double per_tick = 1.0 / tick_;
+    // rounded down: due a little early
+    const auto tick_of = [&](double until) noexcept {
+      return static_cast<std::uint64_t>(std::clamp(until * per_tick, 0.0, kMostTicks));
+    };
+    const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
+    const std::uint64_t now = tick_of(needed);
+    PointBatch batch;
+    std::array<std::uint32_t, PointBatch::kCapacity> item;
+    std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
+    std::uint32_t leaving = DueCalendar::kNone;  // nodes that may stand for their children again
+    const auto file = [&](std::uint32_t i, double until) noexcept {
+      calendar_.file(i, tick_of(until));
+      const std::uint32_t parent = calendar_.parent_of(i);
+      if (parent == DueCalendar::kNone) return;
+      if (until - needed > kLeave * static_cast<double>(shell.nodes[parent].radius) && leaving != parent) {
+        calendar_.push(leaving, parent);
+      }
+    };
+    const auto until_of = [&](std::uint32_t k) noexcept {
+      const Vector3 center(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
+                           static_cast<double>(batch.z[k]));
+      const double radius = item[k] < node_count ? radius_of(shell.nodes[item[k]]) : 0.0;
+      return free_until(static_cast<double>(batch.clearance[k]), center, radius);
+    };
+    const auto flush = [&]() noexcept {
+      field.clearances(H, batch);
+      for (std::uint32_t k = 0; k < batch.count; ++k) {
+        const std::uint32_t i = item[k];
+        const double until = until_of(k);
+        if (until >= needed) {
+          file(i, until);
+        } else if (i < node_count) {
+          calendar_.push(opened, i);
+        } else {
+          calendar_.mark(i - node_count);
+        }
+      }
+      batch.count = 0;
+    };
+    const auto add = [&](std::uint32_t i) noexcept {
+      const std::uint32_t k = batch.count;
+      item[k] = i;
+      if (i < node_count) {
+        const format::Node& node = shell.nodes[i];
+        batch.x[k] = node.center[0];
+        batch.y[k] = node.center[1];
+        batch.z[k] = node.center[2];
+      } else {
+        batch.x[k] = shell.x[i - node_count];
+        batch.y[k] = shell.y[i - node_count];
+        batch.z[k] = shell.z[i - node_count];
+      }
+      batch.count = k + 1;
+      if (batch.count == PointBatch::kCapacity) flush();
+    };
+    calendar_.take_due(now, add);
+    while (batch.count > 0 || opened != DueCalendar::kNone) {
+      if (opened == DueCalendar::kNone) {
+        flush();
+      } else {
+        DueCalendar::for_each_child(shell, calendar_.pop(opened), add);
+      }
+    }
+    calendar_.take_marked([&](std::uint32_t i) noexcept {
+      const double until = look_up(i);
+      file(node_count + i, until);
+    });
+    // a node whose children are all filed and far
+    while (leaving != DueCalendar::kNone) {
+      const std::uint32_t n = calendar_.pop(leaving);
+      bool all = !calendar_.is_filed(n);
+      DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { all &= calendar_.is_filed(child); });
+      if (!all) continue;
+      item[0] = n;
+      const format::Node& node = shell.nodes[n];
+      batch.x[0] = node.center[0];
+      batch.y[0] = node.center[1];
+      batch.z[0] = node.center[2];
+      batch.count = 1;
+      field.clearances(H, batch);
+      const double until = until_of(0);
+      if (until - needed <= static_cast<double>(node.radius)) continue;
+      DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
+      file(n, until);
+    }
   }
 
-  std::span<double> until_;  ///< odometer readings [m], of nodes, then of points
+  static constexpr double kLeave = 2.0;  ///< children this many radii away may be stood for by their parent
+  static constexpr double kMostTicks = 1e18;
+
+  std::span<std::uint32_t> memory_;
+  DueCalendar calendar_;
   double longest_ = 0.0;
-  double certain_ = kNever;  ///< what is known of the whole shell as of a node [m]
+  double tick_ = 1.0;        ///< of the calendar [m]
+  double certain_ = kNever;  ///< until when nothing comes nearer than the longest cut [m]
 };
 
 }  // namespace godobject

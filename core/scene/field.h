@@ -1,7 +1,9 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 
+#include "core/spatial/pose.h"
 #include "core/spatial/vector.h"
 
 namespace godobject {
@@ -21,26 +23,54 @@ struct LayerSample {
   Vector3 to_center = Vector3::Zero();  ///< e: from the point to the voxel's centre C, in W [m]
 };
 
+/// Points whose clearances are looked up together.
+struct PointBatch {
+  static constexpr std::uint32_t kLanes = 8;
+  static constexpr std::uint32_t kCapacity = 64;
+
+  alignas(64) float x[kCapacity];  ///< [m]
+  alignas(64) float y[kCapacity];
+  alignas(64) float z[kCapacity];
+  alignas(64) float clearance[kCapacity];  ///< [m]
+  std::uint32_t count = 0;
+};
+
+/// DistanceField::clearances of a field that has nothing quicker than `sample`.
+template <class Field>
+void sample_clearances(const Field& field, const Pose& H, PointBatch& batch) noexcept {
+  constexpr double kRoundedDown = 1.0 - 1e-6;
+  for (std::uint32_t i = 0; i < batch.count; ++i) {
+    const Vector3 p(static_cast<double>(batch.x[i]), static_cast<double>(batch.y[i]), static_cast<double>(batch.z[i]));
+    batch.clearance[i] = static_cast<float>(kRoundedDown * field.sample(H * p).clearance);
+  }
+}
+
 /// A still body as steps #1-#7 see it: the compiled `Voxelmap`, or an analytic world in tests.
 ///
 /// `sample(p)`          distance, gradient and clearance at p_W.
 /// `layer(p)`           the paper's integer layer at p_W.
+/// `clearances(H, b)`   not more than sample(H p).clearance for each point p of the batch, which may cost much less.
 /// `lower_bound(c, r)`  no point x with |x - c| <= r is nearer to the surface: sample(x).distance is not below it, or
 /// is
 ///                      the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
 ///                      least 0 is known.
-/// `lipschitz()`        L >= 1: for any points p and x, sample(x).clearance is at least
-///                      min(sample(p).clearance - |x - p|, band) / L.
+/// `lipschitz()`        L >= 1, and
+/// `assured_clearance()`  C [m]: for any points p and x, sample(x).clearance is at least
+///                      min((sample(p).clearance - |x - p|) / L, C).
 /// `voxel_size()`       s [m];  `band()`  distances beyond it are not known [m].
 template <class F>
-concept DistanceField = requires(const F& field, const Vector3& p, double r) {
+concept DistanceField = requires(const F& field, const Vector3& p, double r, const Pose& H, PointBatch& batch) {
   { field.sample(p) }
   noexcept->std::same_as<FieldSample>;
+  { field.clearances(H, batch) }
+  noexcept->std::same_as<void>;
   { field.layer(p) }
   noexcept->std::same_as<LayerSample>;
   { field.lower_bound(p, r) }
   noexcept->std::same_as<double>;
   { field.lipschitz() }
+  noexcept->std::same_as<double>;
+  { field.assured_clearance() }
   noexcept->std::same_as<double>;
   { field.voxel_size() }
   noexcept->std::same_as<double>;

@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 3;
+inline constexpr std::uint32_t kVersion = 4;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -107,10 +107,11 @@ struct Grid {
   double surface_max[3];
   double lipschitz;           ///< bound of the field's gradient norm, seams (see Brick) left out [1]
   double lipschitz_seam;      ///< the same with seams [1]; equal where there is none
+  double clearance_slope;     ///< >= 1: of Brick::lipschitz and of far clearances, see there [1]
   std::int32_t bricks[3];     ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks, those of refinements included
 };
-static_assert(sizeof(Grid) == 120);
+static_assert(sizeof(Grid) == 128);
 
 inline constexpr int kBrickCells = 4;                ///< cells along an edge of a brick
 inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: neighbours share a face of nodes
@@ -123,9 +124,11 @@ inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 /// neighbouring nodes differ by more than the lattice edge: a *seam*.
 struct alignas(64) Brick {
   float value[kBrickValues];
-  float seam_clearance;  ///< no seam is nearer than this to any point of the brick [m]; FLT_MAX where none is near
-  std::uint32_t edge;    ///< 0: none; else 1 + the number of an Edge
-  float reserved;
+  float lipschitz;     ///< bound of the field's gradient norm in this brick's position and the 26 about it [1], >= 1;
+                       ///< from a position to its neighbour it changes by a factor of clearance_slope at most
+  std::uint32_t edge;  ///< 0: none; else 1 + the number of an Edge
+  float deviation;     ///< of a position's own nodes: the field, refined or with an edge, is nowhere in the position
+                       ///< farther than this from the trilinear interpolation of them [m]; 0 of octants
 };
 static_assert(sizeof(Brick) == 512);
 
@@ -157,18 +160,18 @@ struct Edge {
 static_assert(sizeof(Edge) == 256);
 
 /// One entry of the brick index, or of a refinement.
-///   bit 31 = 0: stored; bit 30: a seam is nearer than two bands, look at Brick::seam_clearance;
+///   bit 31 = 0: stored; bit 30 is 0;
 ///               bit 29 = 0: bits 0-27 are the brick's number, bit 28: it has an edge;
 ///               bit 29 = 1: refined, bits 0-27 are the number of a Refined.
 ///   bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right by
 ///   one:
-///               for every point of this brick position and every x within `r` of it, the stored field at x is at least
-///               clearance - r (outside), whatever brick x lies in. Inside it is not read.
+///               for every point of this brick position and every x within `r` of it (outside), whatever brick x lies
+///               in, the stored field at x is at least clearance - r, and min(field, band) at least
+///               lipschitz (clearance - r) / clearance_slope, lipschitz that of x. Inside it is not read.
 namespace index_entry {
 inline constexpr std::uint32_t kFar = 1u << 31;
 inline constexpr std::uint32_t kInside = 1u << 30;    // with kFar
-inline constexpr std::uint32_t kSeamNear = 1u << 30;  // without kFar
-inline constexpr std::uint32_t kLow = kSeamNear - 1;  // with kFar: the clearance
+inline constexpr std::uint32_t kLow = kInside - 1;    // with kFar: the clearance
 inline constexpr std::uint32_t kRefined = 1u << 29;   // without kFar
 inline constexpr std::uint32_t kEdged = 1u << 28;     // without kFar and kRefined
 inline constexpr std::uint32_t kNumber = kEdged - 1;  // without kFar: of a brick or a Refined
@@ -187,7 +190,7 @@ inline constexpr int kMaxRefinement = 4;
 /// ox + 2 oy + 4 oz) is a brick of kBrickCells^3 cells of half the edge, or refined again. Where an octant touches a
 /// coarser brick its nodes on the common face, edge or corner carry the coarser brick's interpolated value, and where
 /// it touches a position that is not stored that of its own position's nodes, so that the field is continuous. Every
-/// child is stored (never far), with the parent's kSeamNear and a seam clearance not below the parent's.
+/// child is stored (never far).
 ///
 /// Refinements are numbered in the order in which a walk meets them: index entries ascending, each refinement before
 /// those of its children, children ascending. None is met twice, none is left out.

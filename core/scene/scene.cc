@@ -102,6 +102,7 @@ bool valid_grid(const format::Grid& g) noexcept {
   if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, 1e6 * g.voxel_size)) return false;
   // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
   if (!in_range(g.lipschitz, 0.0, 2.0) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
+  if (!in_range(g.clearance_slope, 1.0, 1e6)) return false;
   for (int axis = 0; axis < 3; ++axis) {
     if (g.bricks[axis] < 1 || g.bricks[axis] > format::kMaxBricksPerAxis) return false;
     const double low = g.origin[axis];
@@ -136,7 +137,7 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
     std::size_t depth = 0;
     while (true) {
       if ((entry & format::index_entry::kFar) != 0) return false;
-      if (((entry ^ position) & format::index_entry::kSeamNear) != 0) return false;
+      if ((entry & format::index_entry::kInside) != 0) return false;
       const std::uint32_t number = entry & format::index_entry::kNumber;
       if ((entry & format::index_entry::kRefined) == 0) {
         if (number >= bricks.size()) return false;
@@ -158,8 +159,8 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
 bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count) noexcept {
   for (const format::Brick& brick : bricks) {
     if (!all_finite(brick.value, format::kBrickValues, 1e8f)) return false;
-    if (!(brick.seam_clearance >= 0.0f)) return false;
-    if (!(brick.reserved == 0.0f)) return false;
+    if (!(brick.lipschitz >= 1.0f && brick.lipschitz <= 2e6f)) return false;
+    if (!(brick.deviation >= 0.0f && brick.deviation <= 1e8f)) return false;
     if (brick.edge > edge_count) return false;
   }
   return true;

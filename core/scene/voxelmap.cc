@@ -17,11 +17,7 @@ using format::kBrickNodes;
 constexpr int kStrideY = kBrickNodes;
 constexpr int kStrideZ = kBrickNodes * kBrickNodes;
 
-/// Largest error of trilinear interpolation of a 1-Lipschitz function, in voxels: half the cell's diagonal. It holds
-/// for refinements too: nodes that carry a coarser brick's value weigh coarser nodes m, of mean x in all, so the error
-/// is at most the root of sum w_m |m - x|^2, which the halved edges leave below 3/4 (faces add 1/2, 1/8, ..., the cell
-/// itself 3/4 of its squared edge).
-constexpr double kInterpolationError = 0.8660254037844387;
+constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
@@ -38,8 +34,14 @@ Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> inde
       voxel_size_(grid.voxel_size),
       per_voxel_(1.0 / grid.voxel_size),
       band_(grid.band),
-      lipschitz_(std::max(1.0, grid.lipschitz)),
-      lipschitz_seam_(std::max(1.0, grid.lipschitz_seam)),
+      near_band_(std::min(grid.band, kBrickCells * grid.voxel_size)),
+      lipschitz_(std::max(1.0, grid.lipschitz_seam)),
+      clearance_slope_(grid.clearance_slope),
+      assured_clearance_(near_band_ / lipschitz_),
+      outside_share_(std::min(1.0, clearance_slope_ / lipschitz_)),
+      in_batches_(!bricks.empty() && index.size() < kMost &&
+                  bricks.size() < kMost / (sizeof(format::Brick) / sizeof(float)) &&
+                  refined.size() < kMost / (sizeof(format::Refined) / sizeof(std::uint32_t))),
       cells_(kBrickCells * Vector3(grid.bricks[0], grid.bricks[1], grid.bricks[2])),
       stride_y_(grid.bricks[0]),
       stride_z_(std::ptrdiff_t{grid.bricks[0]} * grid.bricks[1]) {}
@@ -103,21 +105,28 @@ double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
   return (surface_min_ - p_W).cwiseMax(p_W - surface_max_).cwiseMax(0.0).norm();
 }
 
+/// Of a point outside the grid, as a far entry has it: from the exact distance to the interpolated one it is
+/// kInterpolationError voxels at most, and any brick may be as steep as the steepest.
+double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept {
+  const double bound = distance_to_box(p_W) - kInterpolationError * voxel_size_;
+  return bound * outside_share_;
+}
+
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   FieldSample sample;
   sample.distance = band_;
   // from where nothing is stored any way to the surface enters stored bricks at a value of at least the band
-  const double beyond_band = band_ / lipschitz_seam_;
   Cell cell;
   if (!locate(p_W, cell)) {
-    sample.clearance = std::max(beyond_band, distance_to_box(p_W) - kInterpolationError * voxel_size_);
+    sample.clearance = std::max(assured_clearance_, outside_clearance(p_W));
     return sample;
   }
   if (cell.entry & format::index_entry::kFar) {
     if (cell.entry & format::index_entry::kInside) {
       sample.distance = -band_;
     } else {
-      sample.clearance = std::max(beyond_band, static_cast<double>(format::index_entry::far_clearance(cell.entry)));
+      sample.clearance =
+          std::max(assured_clearance_, static_cast<double>(format::index_entry::far_clearance(cell.entry)));
     }
     return sample;
   }
@@ -142,15 +151,9 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     wedge = wedge_distance(edge, p_W);
     distance += weight.value * (wedge.value - distance);
   }
-  if (distance > 0.0) {
-    // a straight way may leave the stored bricks, and enters them again at a value of at least the band
-    const double bound = std::min(distance, band_);
-    sample.clearance = bound / lipschitz_;
-    if (cell.entry & format::index_entry::kSeamNear) {
-      sample.clearance =
-          std::max(bound / lipschitz_seam_, std::min(sample.clearance, static_cast<double>(brick.seam_clearance)));
-    }
-  }
+  // A straight way of a brick's edge stays in the positions about this one, or leaves the stored bricks and enters them
+  // again at a value of at least the band.
+  if (distance > 0.0) sample.clearance = std::min(distance, near_band_) / static_cast<double>(brick.lipschitz);
   if (!(std::fabs(distance) < band_)) {
     if (distance < 0.0) sample.distance = -band_;
     return sample;
@@ -207,19 +210,17 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
   double bound = kNoBound;
   Cell cell;
   if (!locate(center_W, cell)) {
-    // from the exact distance to the interpolated one: off by at most kInterpolationError voxels
     bound = distance_to_box(center_W) - kInterpolationError * voxel_size_ - radius;
   } else if (cell.entry & format::index_entry::kFar) {
     if (cell.entry & format::index_entry::kInside) return kNoBound;
     bound = static_cast<double>(format::index_entry::far_clearance(cell.entry)) - radius;
   } else {
-    if (cell.entry & format::index_entry::kSeamNear) {
-      // the whole position's clearance: no octant of it can be nearer
-      if (!(radius < static_cast<double>(unrefined(cell.entry).seam_clearance))) return kNoBound;
-    }
-    // Along the segment from the centre to any x of the ball the stored field falls by at most lipschitz_ a metre while
-    // the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at least the band.
-    bound = sample(center_W).distance - lipschitz_ * radius;
+    // Along the segment from the centre to any x of the ball the stored field falls by at most the Lipschitz constant a
+    // metre while the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at
+    // least the band. The brick's own constant holds for a brick's edge.
+    const bool about = radius <= kBrickCells * voxel_size_;
+    const double lipschitz = about ? static_cast<double>(unrefined(cell.entry).lipschitz) : lipschitz_;
+    bound = sample(center_W).distance - lipschitz * radius;
   }
   // A ball that may reach the surface may also reach through a seam into the solid: no bound is known there.
   return bound >= 0.0 ? bound : kNoBound;

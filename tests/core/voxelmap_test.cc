@@ -44,10 +44,11 @@ struct OneBrick {
     grid.band = 4.0;
     grid.lipschitz = 1.0;
     grid.lipschitz_seam = 1.0;
+    grid.clearance_slope = 1.0;
     std::fill(std::begin(grid.surface_max), std::end(grid.surface_max), 1.0);
     std::fill(std::begin(grid.bricks), std::end(grid.bricks), 1);
     grid.brick_count = 1;
-    brick.seam_clearance = FLT_MAX;
+    brick.lipschitz = 1.0f;
   }
   float& node(int x, int y, int z) { return brick.value[x + 5 * (y + 5 * z)]; }
   Voxelmap map() const { return {grid, std::span(&index, 1), std::span(&brick, 1), {}}; }
@@ -121,14 +122,19 @@ TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
   EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, 2);
 }
 
-TEST(Voxelmap, KnowsNoBoundOnceTheBallReachesASeam) {
+TEST(Voxelmap, DividesByTheBricksSlopeAboutItAndByTheWholeFieldsBeyond) {
   OneBrick one;
   std::fill(std::begin(one.brick.value), std::end(one.brick.value), 3.0f);
-  one.brick.seam_clearance = 0.5f;
-  EXPECT_NEAR(one.map().lower_bound(Vector3::Constant(0.5), 1.0), 2.0, kAllowance) << "not marked in the index";
-  one.index |= format::index_entry::kSeamNear;
-  EXPECT_NEAR(one.map().lower_bound(Vector3::Constant(0.5), 0.25), 2.75, kAllowance);
-  EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 0.5), -kInfinity);
+  one.brick.lipschitz = 2.0f;
+  one.grid.lipschitz_seam = 2.5;
+  const Vector3 center = Vector3::Constant(0.5);
+  EXPECT_NEAR(one.map().lower_bound(center, 0.9), 1.2, 2.0 * kAllowance);
+  EXPECT_NEAR(one.map().lower_bound(center, 1.1), 0.25, 3.0 * kAllowance) << "longer than a brick's edge";
+  EXPECT_EQ(one.map().lower_bound(center, 1.3), -kInfinity);
+  EXPECT_EQ(one.map().sample(center).clearance, 0.5) << "no more than a brick's edge counts";
+  one.grid.band = 0.75;
+  EXPECT_EQ(one.map().sample(center).clearance, 0.375);
+  EXPECT_EQ(one.map().assured_clearance(), 0.3);
 }
 
 TEST(Voxelmap, TakesWhatIsNotFiniteForOutside) {
@@ -184,7 +190,7 @@ struct HalvedTwice {
     refined[1].brick = 1;
     for (std::size_t i = 0; i < bricks.size(); ++i) {
       std::fill(std::begin(bricks[i].value), std::end(bricks[i].value), 0.0625f * static_cast<float>(i));
-      bricks[i].seam_clearance = FLT_MAX;
+      bricks[i].lipschitz = 1.0f;
     }
   }
   Voxelmap map() const { return {one.grid, std::span(&one.index, 1), bricks, refined}; }
@@ -222,22 +228,16 @@ TEST(Voxelmap, TakesLayersFromTheUnrefinedNodes) {
   EXPECT_NEAR((halved.map().layer(Vector3(0.3, 0.1, 0.6)).to_center - Vector3(-0.05, -0.1, -0.1)).norm(), 0.0, 1e-7);
 }
 
-TEST(Voxelmap, KnowsNoBoundWhereAHalvedPositionIsNearASeam) {
+TEST(Voxelmap, BoundsAHalvedPositionByItsSlope) {
   HalvedTwice halved;
   for (format::Brick& brick : halved.bricks) {
     std::fill(std::begin(brick.value), std::end(brick.value), 3.0f);
-    brick.seam_clearance = 0.5f;
+    brick.lipschitz = 4.0f;
   }
-  EXPECT_NEAR(halved.map().lower_bound(Vector3::Constant(0.3), 1.0), 2.0, kAllowance) << "not marked in the index";
-  EXPECT_NEAR(halved.map().sample(Vector3::Constant(0.3)).clearance, 3.0, kAllowance);
   halved.one.grid.lipschitz_seam = 100.0;
-  halved.one.index |= format::index_entry::kSeamNear;
-  for (format::Refined& refined : halved.refined) {
-    for (std::uint32_t& child : refined.child) child |= format::index_entry::kSeamNear;
-  }
-  EXPECT_NEAR(halved.map().lower_bound(Vector3::Constant(0.3), 0.25), 2.75, kAllowance);
-  EXPECT_EQ(halved.map().lower_bound(Vector3::Constant(0.3), 0.5), -kInfinity);
-  EXPECT_EQ(halved.map().sample(Vector3::Constant(0.3)).clearance, 0.5);
+  EXPECT_NEAR(halved.map().lower_bound(Vector3::Constant(0.3), 0.25), 2.0, 4.0 * kAllowance);
+  EXPECT_EQ(halved.map().lower_bound(Vector3::Constant(0.3), 1.01), -kInfinity);
+  EXPECT_EQ(halved.map().sample(Vector3::Constant(0.3)).clearance, 0.25);
 }
 
 /// A union of balls and boxes, turned: 1-Lipschitz, with edges and saddles.
@@ -358,6 +358,45 @@ TEST_P(VoxelmapOfRandomShapes, NeverPromisesMoreThanTheBallHolds) {
     }
   }
   EXPECT_GT(promised, 1000);
+}
+
+/// A batch's clearance may be no larger than leads, a little farther on, to what `sample` says there; with any vectors.
+TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
+  ASSERT_TRUE(map_.in_batches());
+  int useful = 0;
+  for (int i = 0; i < 400; ++i) {
+    Pose H;
+    H.rotation = exp_rotation(random_point(3.0));
+    H.translation = random_point(i % 10 == 0 ? 1.0 : 0.02);
+    PointBatch batch;
+    batch.count = 1 + static_cast<std::uint32_t>(i) % PointBatch::kCapacity;
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      const Vector3 p = H.inverse() * random_point(k % 10 == 0 ? 0.2 : 0.04);
+      batch.x[k] = static_cast<float>(p.x());
+      batch.y[k] = static_cast<float>(p.y());
+      batch.z[k] = static_cast<float>(p.z());
+    }
+    map_.clearances(H, batch);
+    PointBatch scalar = batch;
+    detail::look_up_clearances(map_.in_cells(H), scalar.x, scalar.y, scalar.z, scalar.clearance, scalar.count);
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      const Vector3 p = H * Vector3(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
+                                    static_cast<double>(batch.z[k]));
+      const double clearance = std::max(0.0, static_cast<double>(batch.clearance[k]));
+      const double stored = map_.sample(p).clearance;
+      // a point within rounding of a brick's face may be taken for the neighbour's
+      const double other = std::max(0.0, static_cast<double>(scalar.clearance[k]));
+      ASSERT_GE(clearance, std::min(other, map_.assured_clearance()) / map_.lipschitz() - 1e-7) << p.transpose();
+      ASSERT_GE(other, std::min(clearance, map_.assured_clearance()) / map_.lipschitz() - 1e-7) << p.transpose();
+      if (clearance > 0.0 && stored < map_.assured_clearance()) ++useful;
+      for (int j = 0; j < 20; ++j) {
+        const Vector3 away = random_point(clearance);
+        const double bound = (std::max(clearance, other) - away.norm()) / map_.lipschitz();
+        ASSERT_GE(map_.sample(p + away).clearance, std::min(bound, map_.assured_clearance()) - 1e-8) << p.transpose();
+      }
+    }
+  }
+  EXPECT_GT(useful, 100);
 }
 
 TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {

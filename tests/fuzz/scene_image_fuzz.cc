@@ -41,7 +41,7 @@ void look_up(const Voxelmap& map, const format::Grid& grid, std::mt19937& random
 void run(const Scene& scene, Solver solver, bool friction, std::mt19937& random) {
   constexpr int kCycles = 100;
   static const auto god_object = std::make_unique<GodObject>();
-  std::vector<double> memory(GodObject::memory(scene));
+  std::vector<std::uint32_t> memory(GodObject::memory(scene));
   if (god_object->start(scene, solver, friction, memory) != Status::kOk) return;
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const Vector3 low(scene.grid.surface_min[0], scene.grid.surface_min[1], scene.grid.surface_min[2]);

@@ -145,46 +145,6 @@ TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
   expect_lower_bound_holds(field_of(load("sheet_open_2tri", 0.3), 0.004), 20000);
 }
 
-TEST(DistanceGrid, SeamClearanceHoldsNoSeamCell) {
-  const Field field = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
-                               0.004, SurfaceKind::kSolid);
-  const format::Grid& g = field.grid.grid;
-  const double s = g.voxel_size;
-  struct Placed {
-    Vector3d low;
-    const format::Brick* brick;
-    bool flagged;
-  };
-  std::vector<Placed> bricks;
-  std::vector<Vector3d> seam_cells;
-  for (int z = 0; z < g.bricks[2]; ++z) {
-    for (int y = 0; y < g.bricks[1]; ++y) {
-      for (int x = 0; x < g.bricks[0]; ++x) {
-        const std::uint32_t entry = field.grid.index[static_cast<std::size_t>(x + g.bricks[0] * (y + g.bricks[1] * z))];
-        if ((entry & format::index_entry::kFar) != 0) continue;
-        const format::Brick& brick = field.grid.bricks[entry & format::index_entry::kNumber];
-        const Vector3d low = Vector3d(g.origin[0], g.origin[1], g.origin[2]) + 4.0 * s * Vector3d(x, y, z);
-        bricks.push_back({low, &brick, (entry & format::index_entry::kSeamNear) != 0});
-        for (int n = 0; n < 125; ++n) {  // along z only: the opening is horizontal
-          if (n >= 100 || std::abs(brick.value[n + 25] - brick.value[n]) <= 1.01f * static_cast<float>(s)) continue;
-          seam_cells.push_back(low + s * Vector3d(n % 5, n / 5 % 5, n / 25 + 0.5));
-        }
-      }
-    }
-  }
-  ASSERT_FALSE(seam_cells.empty());
-  for (const Placed& placed : bricks) {
-    double nearest = 1e9;
-    for (const Vector3d& cell : seam_cells) {
-      const Vector3d gap = (placed.low - cell).cwiseMax(cell - placed.low - Vector3d::Constant(4.0 * s)).cwiseMax(0.0);
-      nearest = std::min(nearest, gap.norm());
-    }
-    if (nearest > 2.0 * g.band) continue;
-    ASSERT_LE(static_cast<double>(placed.brick->seam_clearance), nearest);
-    ASSERT_TRUE(placed.flagged);
-  }
-}
-
 TEST(DistanceGrid, RefusesAGridBeyondItsLimitAndNamesTheVoxel) {
   try {
     field_of(box(Vector3d::Zero(), Vector3d::Constant(100.0)), 1e-4);

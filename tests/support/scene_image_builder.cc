@@ -50,7 +50,6 @@ format::Grid frame_grid(const SceneDescription& description) {
 format::Brick sample_brick(const SceneDescription& description, const format::Grid& grid,
                            const std::array<int, 3>& at) {
   format::Brick brick{};
-  brick.seam_clearance = FLT_MAX;
   for (int z = 0, node = 0; z < kBrickNodes; ++z) {
     for (int y = 0; y < kBrickNodes; ++y) {
       for (int x = 0; x < kBrickNodes; ++x, ++node) {
@@ -132,7 +131,6 @@ class Octants {
 
   format::Brick brick(const Vector3& low, int level) const {
     format::Brick brick{};
-    brick.seam_clearance = FLT_MAX;
     for (int i = 0; i < format::kBrickValues; ++i) {
       const Vector3 node(i % kBrickNodes, i / kBrickNodes % kBrickNodes, i / kBrickNodes / kBrickNodes);
       brick.value[i] = static_cast<float>(node_value(low + cell_edge(level) * node, level));
@@ -227,8 +225,15 @@ StoredField store_field(const SceneDescription& description) {
   for (const format::Brick& brick : field.bricks) slope = std::max(slope, steepest(brick) / grid.voxel_size);
   if (description.refined) slope = std::max(slope, Octants(description, field).store());
   if (description.edge) name_edge(field);
-  grid.lipschitz = slope * (1.0 + 1e-6);  // single precision differences are taken again later
+  // single precision differences are taken again later; bricks say the same
+  grid.lipschitz = static_cast<double>(static_cast<float>(slope * (1.0 + 1e-6)));
   grid.lipschitz_seam = grid.lipschitz;
+  grid.clearance_slope = std::max(1.0, grid.lipschitz);
+  for (format::Brick& brick : field.bricks) {
+    brick.lipschitz = static_cast<float>(grid.clearance_slope);
+    // two interpolations of one distance, each within half a voxel's diagonal of it
+    if (description.refined || description.edge) brick.deviation = static_cast<float>(1.75 * grid.voxel_size);
+  }
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   return field;
 }

@@ -36,7 +36,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
-  std::vector<double> memory(GodObject::memory(scene));
+  std::vector<std::uint32_t> memory(GodObject::memory(scene));
   GodObject god_object;
   if (god_object.start(scene, solver, friction, memory) != Status::kOk) {
     throw Failure(ExitCode::kBadData,

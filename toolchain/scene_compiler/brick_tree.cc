@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/scene/edge.h"
+#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/straight_edges.h"
 
 namespace godobject::scene_compiler {
@@ -212,8 +213,7 @@ std::uint32_t& BrickTree::entry_of(std::uint32_t brick) {
 
 void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants) {
   std::uint32_t& entry = entry_of(brick);
-  const std::uint32_t seam_near = entry & format::index_entry::kSeamNear;
-  entry = seam_near | format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
+  entry = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
   places_[brick].halved = true;
   const Place parent = places_[brick];
   format::Refined refined{};
@@ -223,7 +223,7 @@ void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& o
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if ((octant >> axis & 1) != 0) place.low[axis] += brick_units(place.level);
     }
-    refined.child[octant] = seam_near | brick_count();
+    refined.child[octant] = brick_count();
     places_.push_back(place);
     fine_.push_back({octants[octant], octants[octant]});
     edges_of_.emplace_back();
@@ -291,20 +291,6 @@ std::uint32_t BrickTree::write_entry(std::uint32_t entry, std::vector<format::Re
 }
 
 void BrickTree::write(DistanceGrid& field) const {
-  FieldSlope positions(voxel_size_);
-  double steepest = 0.0;  // of the refined
-  for (std::uint32_t b = 0; b < brick_count(); ++b) {
-    if (places_[b].halved) continue;
-    if (places_[b].level == 0) {
-      add_slope(b, positions);
-      continue;
-    }
-    FieldSlope slope(cell_edge(places_[b].level));
-    add_slope(b, slope);
-    steepest = std::max(steepest, slope.largest_with_seams());
-  }
-  field.grid.lipschitz = std::max(positions.largest(), steepest);
-  field.grid.lipschitz_seam = std::max(positions.largest_with_seams(), steepest);
   field.refined.clear();
   for (std::size_t i = 0; i < index_.size(); ++i) {
     if ((index_[i] & format::index_entry::kFar) == 0) field.index[i] = write_entry(index_[i], field.refined);
@@ -313,6 +299,7 @@ void BrickTree::write(DistanceGrid& field) const {
   for (const Fine& fine : fine_) field.bricks.push_back(fine.stored);
   write_edges(field);
   field.grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
+  bound_clearances(field);
 }
 
 void BrickTree::write_edges(DistanceGrid& field) const {

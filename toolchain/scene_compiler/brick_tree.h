@@ -75,7 +75,7 @@ class BrickTree {
   /// Makes the field continuous: nodes that touch something coarser take its value. Coarse to fine.
   void join();
 
-  /// Into the field that the tree was made of; refinements numbered as the format wants them.
+  /// Into the field that the tree was made of; refinements numbered as the format wants them, clearances anew.
   void write(DistanceGrid& field) const;
 
  private:

@@ -11,6 +11,7 @@
 
 #include "firmware/command/failure.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/outer_surface.h"
 #include "toolchain/scene_compiler/second_direction.h"
@@ -184,6 +185,7 @@ void shrink(DistanceGrid& field, double slack) {
     for (float& value : brick.value) value += static_cast<float>(slack);
   }
   for (format::Edge& edge : field.edges) edge.offset += slack;
+  bound_clearances(field);
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/distance_probe.h"
-#include "toolchain/scene_compiler/field_slope.h"
 #include "toolchain/scene_compiler/seam_map.h"
 
 namespace godobject::scene_compiler {
@@ -268,7 +268,6 @@ DistanceGrid GridBuilder::assemble() {
   grid.band = band_;
   field.index.resize(bricks_.count());
   SeamMap seams(bricks_, origin_, voxel_size_);
-  FieldSlope slope(voxel_size_);
   for (std::size_t i = 0; i < field.index.size(); ++i) {
     const BrickPosition p = bricks_.position(i);
     const bool stored = evaluated_[i] && is_stored(p);
@@ -283,21 +282,20 @@ DistanceGrid GridBuilder::assemble() {
     field.bricks.push_back(brick(p));
     require_free_boundary(*std::min_element(field.bricks.back().value, std::end(field.bricks.back().value)) < 0.0f, p);
     seams.add(p, field.bricks.back());
-    slope.add(field.bricks.back());
   }
   seams.close();
+  field.far_clearance.resize(field.index.size());
+  field.beside_seam.resize(field.bricks.size());
   for (std::size_t i = 0; i < field.index.size(); ++i) {
-    std::uint32_t& entry = field.index[i];
+    const std::uint32_t entry = field.index[i];
     const BrickPosition p = bricks_.position(i);
     if ((entry & format::index_entry::kFar) == 0) {
-      const float clearance = seams.clearance_of_cells(p, 2.0 * band_);
-      field.bricks[entry].seam_clearance = clearance;
-      if (static_cast<double>(clearance) < 2.0 * band_) entry |= format::index_entry::kSeamNear;
+      field.beside_seam[entry] = seams.touches(p);
     } else if ((entry & format::index_entry::kInside) == 0) {
       const double to_surface =
           std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6) - kHalfBrickDiagonal * voxel_size_;
       const double clearance = std::min(to_surface, seams.clearance_of_bricks(p)) - kInterpolationError * voxel_size_;
-      entry = format::index_entry::encode_far(false, static_cast<float>(std::max(0.0, clearance) * (1.0 - 1e-6)));
+      field.far_clearance[i] = std::max(0.0, clearance);
     }
   }
   const Vector3d low = low_.cwiseMin(seams.low());
@@ -309,10 +307,9 @@ DistanceGrid GridBuilder::assemble() {
         low[axis];  // seams too: behind one the distance may be negative outside of the mesh's own box
     grid.surface_max[axis] = high[axis];
   }
-  grid.lipschitz = slope.largest();
-  grid.lipschitz_seam = slope.largest_with_seams();
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   field.seams = seams.report();
+  bound_clearances(field);
   return field;
 }
 

@@ -24,6 +24,8 @@ struct DistanceGrid {
   std::vector<format::Brick> bricks;
   std::vector<format::Refined> refined;
   std::vector<format::Edge> edges;
+  std::vector<double> far_clearance;  ///< of far positions outside: bound of the field in them and about them [m]
+  std::vector<bool> beside_seam;      ///< of bricks that are a position's own: a seam is in it or touches it
   SeamReport seams;
 };
 
@@ -38,7 +40,8 @@ inline constexpr double kInterpolationError = 0.8661;
 /// voxels at least; a quarter of a voxel is slack for the interpolation between nodes.
 double default_band(double voxel_size, double safety_distance);
 
-/// Exact signed distances at the nodes of all bricks that hold a node within `band` [m] or a change of sign.
+/// Exact signed distances at the nodes of all bricks that hold a node within `band` [m] or a change of sign, with
+/// clearances (bound_clearances).
 /// Deterministic. Throws Failure (kBadData) naming the cure if the grid would be too large or the sign does not close.
 DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band, const Progress& progress);
 

@@ -145,7 +145,7 @@ ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<P
                       const DistanceGrid& grid) {
   ErrorNorms norms;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const bool on_seam = grid.bricks[own_brick(grid, places[i].entry)].seam_clearance <= 0.0f;
+    const bool on_seam = grid.beside_seam[own_brick(grid, places[i].entry)];
     if (on_seam || std::abs(errors[i].exact) >= kNear * grid.grid.voxel_size) continue;
     const double error = std::abs(errors[i].stored - errors[i].exact);
     const double floor = std::abs(errors[i].floor - errors[i].exact);

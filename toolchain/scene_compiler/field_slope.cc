@@ -58,7 +58,28 @@ double largest_difference(const format::Edge& edge, const Vector3d& low, double 
   return largest;
 }
 
+/// Of a cell, x fastest.
+std::array<double, 8> nodes_of(const format::Brick& brick, int x, int y, int z) {
+  std::array<double, 8> nodes{};
+  for (unsigned c = 0; c < 8; ++c) {
+    const int node = x + static_cast<int>(c & 1) +
+                     kBrickNodes * (y + static_cast<int>(c >> 1 & 1) + kBrickNodes * (z + static_cast<int>(c >> 2)));
+    nodes[c] = static_cast<double>(brick.value[node]);
+  }
+  return nodes;
+}
+
 }  // namespace
+
+double edge_deviation(const format::Brick& brick, const format::Edge& edge, const Vector3d& low, double cell_edge) {
+  double largest = 0.0;
+  for_each_cell(brick, [&](const CellEdges&, int x, int y, int z) {
+    const Vector3d first = low + cell_edge * Vector3d(x, y, z);
+    if (!reaches(edge, first + Vector3d::Constant(0.5 * cell_edge), 0.5 * cell_edge)) return;
+    largest = std::max(largest, largest_difference(edge, first, cell_edge, nodes_of(brick, x, y, z)));
+  });
+  return largest;
+}
 
 void FieldSlope::add(const format::Brick& brick, const format::Edge& edge, const Vector3d& low) {
   const double half_diagonal = 0.5 * std::sqrt(3.0) * voxel_size_;
@@ -75,15 +96,8 @@ void FieldSlope::add(const format::Brick& brick, const format::Edge& edge, const
       const double weight = edge_weight(edge, center).value;
       const double least = std::max(0.0, weight - steepest * half_diagonal);
       const double most = std::min(1.0, weight + steepest * half_diagonal);
-      std::array<double, 8> nodes{};
-      for (unsigned c = 0; c < 8; ++c) {
-        const int node =
-            x + static_cast<int>(c & 1) +
-            kBrickNodes * (y + static_cast<int>(c >> 1 & 1) + kBrickNodes * (z + static_cast<int>(c >> 2)));
-        nodes[c] = static_cast<double>(brick.value[node]);
-      }
       gradient = std::max((1.0 - least) * plain + least, (1.0 - most) * plain + most);
-      if (least < 1.0) gradient += steepest * largest_difference(edge, first, voxel_size_, nodes);
+      if (least < 1.0) gradient += steepest * largest_difference(edge, first, voxel_size_, nodes_of(brick, x, y, z));
     }
     seamed_ = std::max(seamed_, gradient * kRounding);
     smooth_ = std::max(smooth_, gradient * kRounding);

@@ -37,4 +37,8 @@ class FieldSlope {
   double seamed_ = 0.0;
 };
 
+/// Bound of |phi - I[phi]| in a brick that names an edge (format::Edge), its first node at `low` [m].
+double edge_deviation(const format::Brick& brick, const format::Edge& edge, const Eigen::Vector3d& low,
+                      double cell_edge);
+
 }  // namespace godobject::scene_compiler

@@ -290,7 +290,6 @@ Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32
   Octants octants;
   for (int octant = 0; octant < 8; ++octant) {
     format::Brick& child = octants.bricks[static_cast<std::size_t>(octant)];
-    child.seam_clearance = parent.seam_clearance;
     for (int node = 0; node < kBrickValues; ++node) {
       child.value[node] = nodes.value(node % kBrickNodes + kBrickCells * (octant & 1),
                                       node / kBrickNodes % kBrickNodes + kBrickCells * (octant >> 1 & 1),
@@ -306,8 +305,7 @@ class Refinement {
   Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress)
       : field_(field), surface_(surface), tolerance_(tolerance), barred_(field.bricks.size()) {
     for (std::size_t i = 0; i < field.bricks.size(); ++i) {
-      const format::Brick& brick = field.bricks[i];
-      barred_[i] = brick.seam_clearance <= 0.0f && holds_seam(brick, field.grid.voxel_size);
+      barred_[i] = field.beside_seam[i] && holds_seam(field.bricks[i], field.grid.voxel_size);
     }
     triangles_.resize(surface.mesh().triangles.size());
     std::iota(triangles_.begin(), triangles_.end(), 0u);
@@ -377,7 +375,7 @@ class Refinement {
         if (!tree.is_leaf(b)) continue;
         const auto& edges = tree.edges_of(b);
         // a seam's jump must not be blended
-        if (!edges.empty() && field_.bricks[tree.root(b)].seam_clearance <= 0.0f) leave_out(edges, 0, left_out);
+        if (!edges.empty() && field_.beside_seam[tree.root(b)]) leave_out(edges, 0, left_out);
         if (edges.size() < 2) continue;
         if (barred[b] || tree.level(b) == format::kMaxRefinement) {
           leave_out(edges, 1, left_out);

@@ -1,7 +1,6 @@
 #include "toolchain/scene_compiler/seam_map.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <limits>
 
@@ -76,30 +75,25 @@ double SeamMap::clearance_of_bricks(const BrickPosition& position) const {
          (1.0 - 1e-6);
 }
 
-float SeamMap::clearance_of_cells(const BrickPosition& position, double reach) const {
-  if (clearance_of_bricks(position) > reach) return FLT_MAX;
-  const int around = static_cast<int>(std::ceil(reach / (kBrickCells * voxel_size_))) + 1;
-  double best = kInfinity;
-  for (int z = position[2] - around; z <= position[2] + around; ++z) {
-    for (int y = position[1] - around; y <= position[1] + around; ++y) {
-      for (int x = position[0] - around; x <= position[0] + around; ++x) {
-        const BrickPosition q = {x, y, z};
+bool SeamMap::touches(const BrickPosition& position) const {
+  if (clearance_of_bricks(position) > 0.0) return false;
+  for (int z = -1; z <= 1; ++z) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) {
+        const BrickPosition q = moved(position, {x, y, z});
         if (!bricks_.contains(q)) continue;
         const auto found = boxes_.find(bricks_.number(q));
         if (found == boxes_.end()) continue;
-        double squared = 0.0;
+        bool apart = false;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          const int below = found->second.low[axis] - kBrickCells * (position[axis] + 1);
-          const int above = kBrickCells * position[axis] - (found->second.high[axis] + 1);
-          const double gap = std::max({0, below, above});
-          squared += gap * gap;
+          apart = apart || found->second.low[axis] > kBrickCells * (position[axis] + 1) ||
+                  found->second.high[axis] + 1 < kBrickCells * position[axis];
         }
-        best = std::min(best, squared);
+        if (!apart) return true;
       }
     }
   }
-  const double clearance = voxel_size_ * std::sqrt(best) * (1.0 - 1e-6);
-  return clearance > reach ? FLT_MAX : static_cast<float>(clearance);
+  return false;
 }
 
 }  // namespace godobject::scene_compiler

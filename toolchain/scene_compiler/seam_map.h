@@ -26,8 +26,8 @@ class SeamMap {
   /// No seam cell is nearer to any point of the brick position [m], measured brick to brick; infinity if there is none.
   double clearance_of_bricks(const BrickPosition& position) const;
 
-  /// The same measured to the seam cells' boxes and rounded down; FLT_MAX where it would exceed `reach` [m].
-  float clearance_of_cells(const BrickPosition& position, double reach) const;
+  /// Whether a seam brick's box of seam cells touches the brick position.
+  bool touches(const BrickPosition& position) const;
 
  private:
   struct CellBox {

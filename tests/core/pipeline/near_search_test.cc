@@ -25,9 +25,14 @@ struct Counted {
     ++looks;
     return field.sample(p);
   }
+  void clearances(const Pose& H, PointBatch& batch) const noexcept {
+    looks += static_cast<int>(batch.count);
+    field.clearances(H, batch);
+  }
   LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
   double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
   double lipschitz() const noexcept { return field.lipschitz(); }
+  double assured_clearance() const noexcept { return field.assured_clearance(); }
   double voxel_size() const noexcept { return field.voxel_size(); }
   double band() const noexcept { return field.band(); }
 };
@@ -87,12 +92,12 @@ class Walk {
 void expect_the_points_of_brute_force(const Scene& scene, unsigned seed) {
   constexpr int kSteps = 3000;
   const double radius = Parameters::make(scene).mass.radius;
-  const double longest = scene.voxelmap.band() / scene.voxelmap.lipschitz();
+  const double longest = scene.voxelmap.assured_clearance();
   const detail::SampleDirection direction;
-  std::vector<double> memory(NearSearch::memory(scene.pointshell));
+  std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch remembers, forgets;
-  remembers.start(memory, longest);
-  forgets.start({}, longest);
+  remembers.start(memory, scene.pointshell, longest);
+  forgets.start({}, scene.pointshell, longest);
   Odometer odometer;
   Walk walk(seed, radius);
   std::size_t near = 0;
@@ -127,10 +132,10 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   q.mass.radius = 0.02;  // a moving body much smaller than where the points are
   const ContactLengths lengths = ContactLengths::make(q);
   const detail::FeatureDirection direction(lengths, scene.voxelmap.surface_radius());
-  const double longest = scene.voxelmap.band() / scene.voxelmap.lipschitz();
-  std::vector<double> memory(NearSearch::memory(scene.pointshell));
+  const double longest = scene.voxelmap.assured_clearance();
+  std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
-  search.start(memory, longest);
+  search.start(memory, scene.pointshell, longest);
   Odometer odometer;
   Walk walk(5, 0.1);
   std::size_t near = 0;
@@ -150,10 +155,10 @@ TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   const SceneImage image = ball_over_plate();
   const Scene scene = open_scene(image);
   const Counted<Voxelmap> field{scene.voxelmap};
-  std::vector<double> memory(NearSearch::memory(scene.pointshell));
+  std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
-  const double longest = field.band() / field.lipschitz();
-  search.start(memory, longest);
+  const double longest = field.assured_clearance();
+  search.start(memory, scene.pointshell, longest);
   Pose H;
   H.translation.z() = 0.01 + 0.02 + 1.5 * field.lipschitz() * longest;  // just out of reach
   const detail::SampleDirection direction;
@@ -170,9 +175,9 @@ TEST(NearSearch, KnowsForHowLongNothingComesNear) {
   const AnalyticField<HalfSpace> field({}, 0.002);
   const SampledBody body = ball_body();
   constexpr double kLongest = 0.003;
-  std::vector<double> memory(NearSearch::memory(body.pointshell()));
+  std::vector<std::uint32_t> memory(NearSearch::memory(body.pointshell()));
   NearSearch search;
-  search.start(memory, kLongest);
+  search.start(memory, body.pointshell(), kLongest);
   Pose H;
   H.translation.z() = 0.02 + 0.05;
   EXPECT_FALSE(search.is_free(0.0)) << "nobody has looked";

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   godobject::Scene scene;
   godobject::GodObject god_object;
   godobject::Status status = godobject::Scene::open(std::as_bytes(std::span(memory)).first(bytes), scene);
-  std::vector<double> search(godobject::GodObject::memory(scene));
+  std::vector<std::uint32_t> search(godobject::GodObject::memory(scene));
   if (status == godobject::Status::kOk) status = god_object.start(scene, scene.default_solver(), false, search);
 
   godobject::CycleReport report;

@@ -26,6 +26,7 @@ class AnalyticField {
     const double distance = shape_.distance(p);
     return {distance, shape_.gradient(p), true, std::max(0.0, distance)};
   }
+  void clearances(const Pose& H, PointBatch& batch) const noexcept { sample_clearances(*this, H, batch); }
   LayerSample layer(const Vector3& p) const noexcept {
     const Vector3 center = voxel_size_ * (p / voxel_size_).array().round().matrix();
     return {static_cast<int>(std::floor(0.5 - shape_.distance(center) / voxel_size_)), center - p};
@@ -35,6 +36,7 @@ class AnalyticField {
     return bound >= 0.0 ? bound : -std::numeric_limits<double>::infinity();
   }
   double lipschitz() const noexcept { return 1.0; }
+  double assured_clearance() const noexcept { return band(); }
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return 1e3; }
 

@@ -65,7 +65,7 @@ class AnalyticWorld : public World {
   /// One direction: the still body has no feature points here.
   Cycle contact(Contact cycle) const {
     struct Memory {
-      std::vector<double> values;
+      std::vector<std::uint32_t> values;
       ContactSearch search;
       ContactWorkspace workspace;
     };

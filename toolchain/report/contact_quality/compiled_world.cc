@@ -25,7 +25,7 @@ class CompiledWorld : public World {
 
   Cycle start(Solver solver, bool friction) const override {
     struct Session {
-      std::vector<double> memory;
+      std::vector<std::uint32_t> memory;
       GodObject god_object;
     };
     auto session = std::make_shared<Session>();

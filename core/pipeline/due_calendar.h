@@ -1,0 +1,203 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/scene/pointshell.h"
+
+namespace godobject {
+
+/// Which nodes and points of a shell have to be looked at next. Items are nodes, then points. Those that are filed are
+/// the *front*: every point is filed itself, or one node above it is. Each stands in a list of those that come due
+/// within one tick of the odometer, so that filing and taking cost the same however many there are (a hashed timing
+/// wheel: Varghese and Lauck, SOSP 1987). Real-time safe but for `start`.
+class DueCalendar {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  /// Words that `start` needs.
+  static std::size_t memory(const Pointshell& shell) noexcept {
+    return kWords * (shell.nodes.size() + shell.size) + mark_words(shell.size) + mark_words(mark_words(shell.size));
+  }
+
+  /// Files the root, due at once. `memory`: memory(shell) words that outlive the calendar. Cost: all items.
+  void start(std::span<std::uint32_t> memory, const Pointshell& shell) noexcept {
+    const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
+    const std::size_t items = nodes + shell.size;
+    words_ = memory.first(kWords * items);
+    marks_ = memory.subspan(kWords * items, mark_words(shell.size));
+    marked_words_ = memory.subspan(kWords * items + marks_.size(), mark_words(marks_.size()));
+    std::fill(marks_.begin(), marks_.end(), 0u);
+    std::fill(marked_words_.begin(), marked_words_.end(), 0u);
+    head_.fill(kNone);
+    filled_.fill(0);
+    hand_ = 0;
+    for (std::uint32_t i = 0; i < items; ++i) prev(i) = kNone;
+    if (nodes > 0) parent(0) = kNone;
+    for (std::uint32_t n = 0; n < nodes; ++n) {
+      for_each_child(shell, n, [&](std::uint32_t child) { parent(child) = n; });
+    }
+    if (nodes > 0) file(0, 0);
+  }
+
+  /// Calls visit(item) for the children of a node: nodes, or where it is a leaf points.
+  template <class Visit>
+  static void for_each_child(const Pointshell& shell, std::uint32_t n, Visit&& visit) noexcept {
+    const format::Node& node = shell.nodes[n];
+    if (node.leaf != 0) {
+      const auto first = static_cast<std::uint32_t>(shell.nodes.size()) + node.first_point;
+      for (std::uint32_t i = first; i < first + node.point_count; ++i) visit(i);
+    } else {
+      for (std::uint32_t child = n + 1; child < node.skip; child = shell.nodes[child].skip) visit(child);
+    }
+  }
+
+  bool is_filed(std::uint32_t item) const noexcept { return words_[kWords * item + kPrev] < kChained; }
+  std::uint32_t parent_of(std::uint32_t item) const noexcept { return words_[kWords * item + kParent]; }
+
+  /// An item that is not filed: due once the tick `due` is reached.
+  void file(std::uint32_t item, std::uint64_t due) noexcept {
+    const std::uint64_t latest = hand_ + kMostAhead;
+    const std::uint64_t tick = due < latest ? due : latest;
+    words_[kWords * item + kTick] = static_cast<std::uint32_t>(tick);
+    if (tick <= hand_) {
+      link(item, kCurrent);
+    } else {
+      link(item, (tick - hand_ < kSlots ? tick : hand_ + kSlots - 1) % kSlots);
+    }
+  }
+
+  /// An item that is filed.
+  void take(std::uint32_t item) noexcept { unlink(item); }
+
+  /// Takes out all items due at `now` or before and calls visit(item) for each; what is filed meanwhile stays.
+  template <class Visit>
+  void take_due(std::uint64_t now, Visit&& visit) noexcept {
+    visit_chain(detach(kCurrent), now, visit);
+    if (now <= hand_) return;
+    const std::uint64_t first = hand_ + 1;
+    const std::uint64_t slots = std::min<std::uint64_t>(now - hand_, kSlots);
+    hand_ = now;
+    for (std::uint64_t k = 0; k < slots; ++k) {
+      const std::uint64_t slot = (first + k) % kSlots;
+      if ((filled_[slot / 64] >> slot % 64 & 1) != 0) visit_chain(detach(slot), now, visit);
+    }
+  }
+
+  /// No item is due before this tick.
+  std::uint64_t certain() const noexcept {
+    if (head_[kCurrent] != kNone) return 0;
+    for (std::uint64_t ahead = 1; ahead < kSlots;) {
+      const std::uint64_t slot = (hand_ + ahead) % kSlots;
+      const std::uint64_t rest = filled_[slot / 64] >> slot % 64;
+      if (rest != 0) return hand_ + ahead + static_cast<std::uint64_t>(std::countr_zero(rest));
+      ahead += 64 - slot % 64;
+    }
+    return hand_ + kSlots - 1;
+  }
+
+  /// Chains of items that are not filed; `first` is the chain, kNone if empty. Nothing happens to an item in a chain.
+  void push(std::uint32_t& first, std::uint32_t item) noexcept {
+    if (words_[kWords * item + kPrev] == kChained) return;
+    words_[kWords * item + kPrev] = kChained;
+    next(item) = first;
+    first = item;
+  }
+  std::uint32_t pop(std::uint32_t& first) noexcept {
+    const std::uint32_t item = first;
+    first = next(item);
+    prev(item) = kNone;
+    return item;
+  }
+
+  void mark(std::uint32_t point) noexcept {
+    marks_[point / 32] |= 1u << point % 32;
+    marked_words_[point / 1024] |= 1u << point / 32 % 32;
+  }
+
+  /// Calls visit(point) for all that are marked, ascending, and unmarks them.
+  template <class Visit>
+  void take_marked(Visit&& visit) noexcept {
+    for (std::uint32_t w = 0; w < marked_words_.size(); ++w) {
+      while (marked_words_[w] != 0) {
+        const std::uint32_t word = 32 * w + static_cast<std::uint32_t>(std::countr_zero(marked_words_[w]));
+        marked_words_[w] &= marked_words_[w] - 1;
+        for (std::uint32_t bits = marks_[word]; bits != 0; bits &= bits - 1) {
+          visit(32 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+        marks_[word] = 0;
+      }
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t kSlots = 2048;          ///< ticks ahead that have a list each; a power of two
+  static constexpr std::uint64_t kCurrent = kSlots;      ///< the list of what is due at the hand or before
+  static constexpr std::uint64_t kMostAhead = 1u << 30;  ///< ticks that an item is filed ahead: 32 bits tell them apart
+  static constexpr std::uint32_t kHead = 1u << 31;       ///< in the link back: a list's head
+  static constexpr std::uint32_t kChained = 0xfffffffe;  ///< in the link back: in a chain, not filed
+  enum Word : std::size_t { kTick, kNext, kPrev, kParent, kWords };  ///< of an item; the tick's low 32 bits
+
+  static constexpr std::size_t mark_words(std::size_t bits) noexcept { return (bits + 31) / 32; }
+
+  std::uint32_t& next(std::uint32_t item) noexcept { return words_[kWords * item + kNext]; }
+  std::uint32_t& prev(std::uint32_t item) noexcept { return words_[kWords * item + kPrev]; }
+  std::uint32_t& parent(std::uint32_t item) noexcept { return words_[kWords * item + kParent]; }
+
+  void link(std::uint32_t item, std::uint64_t slot) noexcept {
+    const std::uint32_t first = head_[slot];
+    next(item) = first;
+    prev(item) = kHead | static_cast<std::uint32_t>(slot);
+    if (first != kNone) prev(first) = item;
+    head_[slot] = item;
+    filled_[slot / 64] |= std::uint64_t{1} << slot % 64;
+  }
+
+  void unlink(std::uint32_t item) noexcept {
+    const std::uint32_t before = prev(item);
+    const std::uint32_t after = next(item);
+    if (after != kNone) prev(after) = before;
+    if ((before & kHead) == 0) {
+      next(before) = after;
+    } else {
+      const std::uint32_t slot = before & ~kHead;
+      head_[slot] = after;
+      if (after == kNone) filled_[slot / 64] &= ~(std::uint64_t{1} << slot % 64);
+    }
+    prev(item) = kNone;
+  }
+
+  std::uint32_t detach(std::uint64_t slot) noexcept {
+    const std::uint32_t first = head_[slot];
+    head_[slot] = kNone;
+    filled_[slot / 64] &= ~(std::uint64_t{1} << slot % 64);
+    return first;
+  }
+
+  template <class Visit>
+  void visit_chain(std::uint32_t chain, std::uint64_t now, Visit& visit) noexcept {
+    while (chain != kNone) {
+      const std::uint32_t item = pop(chain);
+      const auto ahead = static_cast<std::int32_t>(words_[kWords * item + kTick] - static_cast<std::uint32_t>(now));
+      if (ahead <= 0) {
+        visit(item);
+      } else {
+        file(item, now + static_cast<std::uint64_t>(ahead));
+      }
+    }
+  }
+
+  std::span<std::uint32_t> words_;
+  std::span<std::uint32_t> marks_;         ///< a bit a point
+  std::span<std::uint32_t> marked_words_;  ///< a bit a word of them
+  std::array<std::uint32_t, kSlots + 1> head_{};
+  std::array<std::uint64_t, kSlots / 64 + 1> filled_{};  ///< lists that are not empty
+  std::uint64_t hand_ = 0;                               ///< the last tick up to which lists were taken
+};
+
+}  // namespace godobject

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/clearance_kernel.h"
+#include "core/scene/voxelmap.h"
+
+namespace godobject {
+namespace {
+
+detail::ClearanceKernel choose_kernel() noexcept {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &detail::look_up_clearances_avx2;
+#endif
+  return &detail::look_up_clearances;
+}
+
+/// Chosen when the program is loaded.
+const detail::ClearanceKernel kKernel = choose_kernel();
+
+constexpr std::uint32_t kNoRefinement = 0;
+
+}  // namespace
+
+detail::FieldOfCells Voxelmap::in_cells(const Pose& H) const noexcept {
+  detail::FieldOfCells f{};
+  f.index = index_;
+  f.bricks = bricks_[0].value;
+  f.refined = refined_ != nullptr ? &refined_[0].brick : &kNoRefinement;
+  f.stride_y = static_cast<std::int32_t>(stride_y_);
+  f.stride_z = static_cast<std::int32_t>(stride_z_);
+  const Matrix3 R = per_voxel_ * H.rotation.toRotationMatrix();
+  const Vector3 t = per_voxel_ * (H.translation - origin_);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int column = 0; column < 3; ++column) f.to_cells[axis][column] = static_cast<float>(R(axis, column));
+    f.to_cells[axis][3] = static_cast<float>(t[axis]);
+    f.cells[axis] = static_cast<float>(cells_[axis]);
+    f.surface_min[axis] = static_cast<float>(per_voxel_ * (surface_min_[axis] - origin_[axis]));
+    f.surface_max[axis] = static_cast<float>(per_voxel_ * (surface_max_[axis] - origin_[axis]));
+  }
+  f.offset = static_cast<float>(t.cwiseAbs().sum());
+  f.cell_edge = static_cast<float>(voxel_size_);
+  f.near_band = static_cast<float>(near_band_);
+  f.assured = static_cast<float>(assured_clearance_);
+  f.outside_share = static_cast<float>(outside_share_);
+  f.outside_off = static_cast<float>(kInterpolationError);
+  return f;
+}
+
+void Voxelmap::clearances(const Pose& H, PointBatch& batch) const noexcept {
+  if (!in_batches_) return sample_clearances(*this, H, batch);
+  const std::uint32_t lanes = (batch.count + PointBatch::kLanes - 1) / PointBatch::kLanes * PointBatch::kLanes;
+  for (std::uint32_t i = batch.count; i < lanes; ++i) batch.x[i] = batch.y[i] = batch.z[i] = 0.0f;
+  kKernel(in_cells(H), batch.x, batch.y, batch.z, batch.clearance, lanes);
+}
+
+}  // namespace godobject

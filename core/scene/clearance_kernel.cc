@@ -1,0 +1,68 @@
+#include "core/scene/clearance_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace godobject::detail {
+namespace {
+
+using format::kBrickNodes;
+namespace index_entry = format::index_entry;
+
+/// Of the distance from the surface's box.
+float clearance_outside(const FieldOfCells& f, const float (&g)[3]) noexcept {
+  float squared = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float away = std::max({f.surface_min[axis] - g[axis], g[axis] - f.surface_max[axis], 0.0f});
+    squared += away * away;
+  }
+  return std::max(f.assured, f.outside_share * f.cell_edge * (std::sqrt(squared) - f.outside_off));
+}
+
+float clearance_within(const FieldOfCells& f, const float (&g)[3]) noexcept {
+  const std::int32_t i[3] = {static_cast<std::int32_t>(g[0]), static_cast<std::int32_t>(g[1]),
+                             static_cast<std::int32_t>(g[2])};
+  const std::uint32_t entry =
+      f.index[(i[0] >> kBrickShift) + f.stride_y * (i[1] >> kBrickShift) + f.stride_z * (i[2] >> kBrickShift)];
+  if ((entry & index_entry::kFar) != 0) {
+    return (entry & index_entry::kInside) != 0 ? 0.0f : std::max(f.assured, index_entry::far_clearance(entry));
+  }
+  std::uint32_t number = entry & index_entry::kNumber;
+  if ((entry & index_entry::kRefined) != 0) number = f.refined[kRefinedWords * number];
+  constexpr int kCell = format::kBrickCells - 1;
+  constexpr int kY = kBrickNodes;
+  constexpr int kZ = kBrickNodes * kBrickNodes;
+  const float* const brick = f.bricks + static_cast<std::size_t>(number) * kBrickFloats;
+  const float* const v = brick + (i[0] & kCell) + kY * (i[1] & kCell) + kZ * (i[2] & kCell);
+  const float fx = g[0] - static_cast<float>(i[0]);
+  const float fy = g[1] - static_cast<float>(i[1]);
+  const float fz = g[2] - static_cast<float>(i[2]);
+  const float x00 = v[0] + fx * (v[1] - v[0]);
+  const float x10 = v[kY] + fx * (v[kY + 1] - v[kY]);
+  const float x01 = v[kZ] + fx * (v[kZ + 1] - v[kZ]);
+  const float x11 = v[kZ + kY] + fx * (v[kZ + kY + 1] - v[kZ + kY]);
+  const float y0 = x00 + fy * (x10 - x00);
+  const float y1 = x01 + fy * (x11 - x01);
+  const float distance = y0 + fz * (y1 - y0) - brick[kDeviationAt];
+  return std::clamp(distance, 0.0f, f.near_band) / brick[kLipschitzAt];
+}
+
+}  // namespace
+
+void look_up_clearances(const FieldOfCells& f, const float* x, const float* y, const float* z, float* clearance,
+                        std::uint32_t count) noexcept {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    float g[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const float(&m)[4] = f.to_cells[axis];
+      g[axis] = m[0] * x[i] + m[1] * y[i] + m[2] * z[i] + m[3];
+    }
+    // false for NaN
+    const bool within =
+        g[0] >= 0.0f && g[1] >= 0.0f && g[2] >= 0.0f && g[0] < f.cells[0] && g[1] < f.cells[1] && g[2] < f.cells[2];
+    const float shift = std::fabs(g[0]) + std::fabs(g[1]) + std::fabs(g[2]) + f.offset;
+    clearance[i] = (within ? clearance_within(f, g) : clearance_outside(f, g)) - kPointRounding * f.cell_edge * shift;
+  }
+}
+
+}  // namespace godobject::detail

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/scene/format.h"
+
+/// The inner loop of Voxelmap::clearances, once for each kind of vectors; with nothing that other sources share, so
+/// that what is compiled for wider ones cannot be linked into the rest.
+namespace godobject::detail {
+
+inline constexpr int kBrickFloats = sizeof(format::Brick) / sizeof(float);
+inline constexpr int kLipschitzAt = offsetof(format::Brick, lipschitz) / sizeof(float);
+inline constexpr int kDeviationAt = offsetof(format::Brick, deviation) / sizeof(float);
+inline constexpr int kRefinedWords = sizeof(format::Refined) / sizeof(std::uint32_t);
+static_assert(offsetof(format::Refined, brick) == 0);
+inline constexpr int kBrickShift = std::countr_zero(static_cast<unsigned>(format::kBrickCells));
+static_assert(1 << kBrickShift == format::kBrickCells);
+
+/// A voxelmap as the kernel reads it. Cells are those of its grid, from its origin.
+struct FieldOfCells {
+  const std::uint32_t* index;
+  const float* bricks;
+  const std::uint32_t* refined;          ///< at least one word
+  std::int32_t stride_y, stride_z;       ///< of the index
+  float to_cells[3][4];                  ///< from the points' frame; the last column is the translation
+  float cells[3];                        ///< of the grid
+  float surface_min[3], surface_max[3];  ///< [cells]
+  float cell_edge;                       ///< [m]
+  float near_band, assured;              ///< [m]
+  float outside_share;                   ///< of the distance to the surface's box, as clearance
+  float outside_off;                     ///< [cells]
+  float offset;                          ///< sum of |translation| [cells]
+};
+
+/// A transformed point is a sum of four rounded products of rounded factors: this much of them all, with room to spare.
+inline constexpr float kPointRounding = 1e-6f;
+
+using ClearanceKernel = void (*)(const FieldOfCells& field, const float* x, const float* y, const float* z,
+                                 float* clearance, std::uint32_t count) noexcept;
+
+void look_up_clearances(const FieldOfCells& field, const float* x, const float* y, const float* z, float* clearance,
+                        std::uint32_t count) noexcept;
+
+#if defined(__x86_64__)
+/// With AVX2 and FMA; `count` is a multiple of 8, the arrays aligned to 32 bytes.
+void look_up_clearances_avx2(const FieldOfCells& field, const float* x, const float* y, const float* z,
+                             float* clearance, std::uint32_t count) noexcept;
+#endif
+
+}  // namespace godobject::detail

@@ -1,0 +1,111 @@
+#include "toolchain/scene_compiler/clearance_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/scene/voxelmap.h"
+#include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/refinement.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+DistanceGrid field_of(const SolidSurface& surface, double s, bool refined) {
+  DistanceGrid field = make_distance_grid(surface, s, default_band(s, 1.5 * s), {});
+  if (refined) refine(field, surface, 0.05 * s, {});
+  return field;
+}
+
+Voxelmap map_of(const DistanceGrid& field) {
+  return {field.grid, field.index, field.bricks, field.refined, field.edges};
+}
+
+struct Body {
+  std::string name;
+  SurfaceKind kind;
+  bool refined;
+};
+
+SolidSurface surface_of(const Body& body, double s) {
+  TriangleMesh mesh = body.name == "open box"
+                          ? box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false})
+                          : load(body.name, 1.0);
+  return SolidSurface(std::move(mesh), body.kind, 2.0 * s);
+}
+
+class ClearancesOf : public ::testing::TestWithParam<Body> {};
+
+/// What DistanceField promises: no surface within the clearance, and not much less clearance a little farther on.
+TEST_P(ClearancesOf, HoldAroundEveryPoint) {
+  const SolidSurface surface = surface_of(GetParam(), 0.004);
+  const DistanceGrid field = field_of(surface, 0.004, GetParam().refined);
+  const Voxelmap map = map_of(field);
+  const format::Grid& g = field.grid;
+  const double slope = map.lipschitz();
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  int free = 0;
+  for (int i = 0; i < 40000; ++i) {
+    Vector3d p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double length = g.bricks[axis] * format::kBrickCells * g.voxel_size;
+      p[axis] = g.origin[axis] + (1.1 * unit(random) - 0.05) * length;
+    }
+    const double clearance = map.sample(p).clearance;
+    if (clearance <= 0.0) continue;
+    ++free;
+    for (int k = 0; k < 30; ++k) {
+      const Vector3d direction = Vector3d(normal(random), normal(random), normal(random)).normalized();
+      const double way = clearance * unit(random);
+      const FieldSample there = map.sample(p + way * direction);
+      ASSERT_GT(there.distance, -1e-9) << p.transpose() << ", " << way << " of " << clearance;
+      ASSERT_GE(there.clearance, std::min((clearance - way) / slope, map.assured_clearance()) - 1e-9)
+          << p.transpose() << ", " << way << " of " << clearance;
+    }
+  }
+  EXPECT_GT(free, 10000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, ClearancesOf,
+                         ::testing::Values(Body{"open box", SurfaceKind::kSolid, false},
+                                           Body{"open box", SurfaceKind::kSolid, true},
+                                           Body{"bracket", SurfaceKind::kSolid, false},
+                                           Body{"bracket", SurfaceKind::kSolid, true}),
+                         [](const auto& body) {
+                           std::string name = body.param.name + (body.param.refined ? "_refined" : "");
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+/// A seam jumps by many voxels; what is far from it must not pay for it.
+TEST(ClearanceBounds, LeaveASeamToThoseAboutIt) {
+  const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
+                             SurfaceKind::kSolid, 0.004);
+  const DistanceGrid field = field_of(surface, 0.002, false);
+  const Voxelmap map = map_of(field);
+  EXPECT_GT(field.grid.lipschitz_seam, 3.0);
+  EXPECT_GT(map.sample({0.05, 0.05, -0.003}).clearance, 0.003 / 1.5) << "under the closed side";
+  const double beside_seam = map.sample({0.05, 0.05, 0.103}).clearance;
+  EXPECT_LE(beside_seam, 0.003);
+}
+
+/// Twice is once: nothing is lost where the field is changed and bounded again.
+TEST(ClearanceBounds, AreThoseOfTheFieldAsItIs) {
+  const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
+                             SurfaceKind::kSolid, 0.008);
+  DistanceGrid field = field_of(surface, 0.004, true);
+  const DistanceGrid once = field;
+  bound_clearances(field);
+  EXPECT_EQ(field.index, once.index);
+  for (std::size_t i = 0; i < field.bricks.size(); ++i) ASSERT_EQ(field.bricks[i].lipschitz, once.bricks[i].lipschitz);
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler
