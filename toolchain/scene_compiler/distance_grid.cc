@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
-#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
+#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/distance_probe.h"
 #include "toolchain/scene_compiler/seam_map.h"
 

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kCoarsePerReach = 3.5;  // coarse places over the reach
-constexpr double kFineBelow = 1.75;       // coarse spacings: a fall over more is seen well enough by the coarse cloud
+constexpr double kFineBelow = 1.75;      // coarse spacings: a fall over more is seen well enough by the coarse cloud
 constexpr double kLeastCoarse = 4000.0;
 constexpr double kMostCoarse = 1u << 18;
 constexpr double kSharpPart = 0.25;  // of the fine spacing, along edges
