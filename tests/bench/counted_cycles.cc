@@ -1,5 +1,6 @@
 // counted_cycles X.scene POSES.csv FIRST END FRICTION: replays a path with `contact` up to row END. Cycles from row
 // FIRST on pass through counted_update, by whose name callgrind collects.
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -31,7 +32,7 @@ int main(int argc, char** argv) try {
   const auto first = static_cast<std::size_t>(std::atoi(argv[3]));
   const auto end = static_cast<std::size_t>(std::atoi(argv[4]));
   const bool friction = std::string_view(argv[5]) == "on";
-  std::vector<double> memory(GodObject::memory(image.scene));
+  std::vector<std::uint32_t> memory(GodObject::memory(image.scene));
   if (god_object.start(image.scene, Solver::kContact, friction, memory) != Status::kOk || end > path.poses.size()) {
     return 65;
   }
