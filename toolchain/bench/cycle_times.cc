@@ -31,7 +31,7 @@ class Runner {
   }
 
  private:
-  std::vector<double> memory_;
+  std::vector<std::uint32_t> memory_;
   std::unique_ptr<GodObject> god_object_;
 };
 
