@@ -182,7 +182,7 @@ class AnalyticRig final : public Rig {
   Parameters q_;
   Solver solver_;
   bool friction_;
-  std::vector<double> memory_;
+  std::vector<std::uint32_t> memory_;
   std::unique_ptr<ContactWorkspace> workspace_;
   ContactSearch search_;
   State state_;
@@ -250,7 +250,7 @@ class CompiledRig final : public Rig {
 
   command::SceneImage image_;
   std::unique_ptr<GodObject> god_object_;
-  std::vector<double> memory_;
+  std::vector<std::uint32_t> memory_;
   Pose H_BM_;
   Status started_ = Status::kOk;
 };

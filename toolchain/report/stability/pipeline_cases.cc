@@ -74,7 +74,7 @@ Swings let_go(const Press& press, const Floating& floating, double push, double 
   scene.settings.stiffness = floating.stiffness;
   scene.settings.damping = floating.height.virtual_damping;
   scene.settings.coupling_rotation = floating.coupling_rotation;
-  std::vector<double> memory(GodObject::memory(scene));
+  std::vector<std::uint32_t> memory(GodObject::memory(scene));
   const auto god_object = std::make_unique<GodObject>();
   Swings swings{HUGE_VAL, HUGE_VAL};
   if (god_object->start(scene, floating.solver, false, memory) != Status::kOk) return swings;
@@ -270,7 +270,7 @@ CaseResult pipeline_observer(bool quick, const std::filesystem::path& work) {
         phases[i] = phase(random);
         rates[i] = rate(random);
       }
-      std::vector<double> memory(GodObject::memory(scene));
+      std::vector<std::uint32_t> memory(GodObject::memory(scene));
       const auto god_object = std::make_unique<GodObject>();
       if (god_object->start(scene, solver, false, memory) != Status::kOk) continue;
       CycleReport report;
