@@ -30,6 +30,7 @@ class Page : public ::testing::Test {
       .tables = {{.name = "shown", .title = "Shown", .columns = {"a", "b"}, .rows = {{"1", "2"}}, .note = {}}},
       .details = {{.name = "detail", .title = "Detail", .columns = {"c"}, .rows = {{"3"}}, .note = {}}},
       .plots = {},
+      .targets = {},
       .remarks = {"left out: <something>"}};
 };
 

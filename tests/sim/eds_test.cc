@@ -24,7 +24,7 @@ using Section = std::map<std::string, std::string>;
 /// Sections of an INI file in the form that CiA 306 wants.
 std::map<std::string, Section> read_eds(const std::string& name) {
   std::map<std::string, Section> sections;
-  std::ifstream file(std::string(GODOBJECT_EDS_DIR) + "/" + name);
+  std::ifstream file(std::string(GODOBJECT_EDS_DIR "/") + name);
   std::string section;
   for (std::string line; std::getline(file, line);) {
     if (line.empty()) continue;
