@@ -101,7 +101,8 @@ bool valid_grid(const format::Grid& g) noexcept {
   constexpr double kLarge = 1e7;
   if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, 1e6 * g.voxel_size)) return false;
   // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
-  if (!in_range(g.lipschitz, 0.0, 2.0) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
+  // bricks are refined up to 2, written rounded up
+  if (!in_range(g.lipschitz, 0.0, 2.0 + 1e-4) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
   if (!in_range(g.clearance_slope, 1.0, 1e6)) return false;
   for (int axis = 0; axis < 3; ++axis) {
     if (g.bricks[axis] < 1 || g.bricks[axis] > format::kMaxBricksPerAxis) return false;
@@ -122,7 +123,8 @@ bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
 }
 
 /// Walks all refinements in the order that the format prescribes. Each is met once, at the number that is next: so none
-/// is out of reach, shared or contained in itself, and the walk is as long as index and refinements.
+/// is out of reach, shared or contained in itself, and the walk is as long as index and refinements. It names as many
+/// bricks as there are.
 bool valid_entries(std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
                    std::span<const format::Refined> refined) noexcept {
   struct Open {
@@ -131,6 +133,7 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
   };
   std::array<Open, format::kMaxRefinement> open{};
   std::size_t next = 0;
+  std::size_t named = 0;
   for (const std::uint32_t position : index) {
     if ((position & format::index_entry::kFar) != 0) continue;
     std::uint32_t entry = position;
@@ -139,6 +142,7 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
       if ((entry & format::index_entry::kFar) != 0) return false;
       if ((entry & format::index_entry::kInside) != 0) return false;
       const std::uint32_t number = entry & format::index_entry::kNumber;
+      ++named;
       if ((entry & format::index_entry::kRefined) == 0) {
         if (number >= bricks.size()) return false;
         if (((entry & format::index_entry::kEdged) != 0) != (bricks[number].edge != 0)) return false;
@@ -153,7 +157,7 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
       entry = parent.refined->child[parent.next_child++];
     }
   }
-  return next == refined.size();
+  return next == refined.size() && named == bricks.size();
 }
 
 bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count) noexcept {

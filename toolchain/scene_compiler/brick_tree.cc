@@ -1,6 +1,7 @@
 #include "toolchain/scene_compiler/brick_tree.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/scene/edge.h"
@@ -212,6 +213,7 @@ std::uint32_t& BrickTree::entry_of(std::uint32_t brick) {
 }
 
 void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants) {
+  assert(is_leaf(brick));
   std::uint32_t& entry = entry_of(brick);
   entry = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
   places_[brick].halved = true;

@@ -441,6 +441,11 @@ class Refinement {
   bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, std::vector<std::uint32_t>& wanted) {
     bool possible = true;
     std::vector<bool> left_out(edges_.size());
+    std::vector<bool> is_wanted(tree.brick_count());
+    const auto want = [&](std::uint32_t b) {
+      if (!is_wanted[b]) wanted.push_back(b);
+      is_wanted[b] = true;
+    };
     std::vector<char> steep(tree.brick_count());
     parallel_for(tree.brick_count(), [&](std::size_t i) {
       const auto b = static_cast<std::uint32_t>(i);
@@ -454,12 +459,12 @@ class Refinement {
       const bool edged = !tree.edges_of(b).empty();
       bool found = false;
       if (edged && !barred[b] && tree.level(b) < format::kMaxRefinement) {
-        wanted.push_back(b);
+        want(b);
         continue;
       }
       for (const BrickTree::Leaf& leaf : tree.leaves_about(b)) {
         if (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(b) || barred[leaf.brick]) continue;
-        if (std::find(wanted.begin(), wanted.end(), leaf.brick) == wanted.end()) wanted.push_back(leaf.brick);
+        want(leaf.brick);
         found = true;
       }
       if (found) continue;
