@@ -84,7 +84,10 @@ Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
 
   const Pose& H_WG = mapping_->scene_pose();
   H_WM_ = {H_WG.rotation, H_WG.translation - H_WG.rotation._transformVector(p_MB)};
-  if (!supervisor_.renders()) god_object_.reset();
+  if (!supervisor_.renders()) {
+    at_hand_ = limit_at_hand(setup_.hand, {}, velocity_R);
+    return god_object_.follow(H_WM_, report_);
+  }
   const Motion velocity_W = mapping_->velocity_in_scene(velocity_R);
   if (const Status status = god_object_.update({H_WM_, velocity_W}, report_); status != Status::kOk) return status;
 

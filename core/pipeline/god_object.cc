@@ -30,6 +30,18 @@ Status run_contact(const Scene& scene, const Parameters& q, const CycleInput& in
                                   input, search, state, workspace, report, times);
 }
 
+/// Refuses what is no pose; makes the rotation of one exactly unit.
+Status make_unit(Pose& H_WM) noexcept {
+  constexpr double kUnit = 1e-3;
+  constexpr double kFarthest_m = 1e7;  // what a scene image may hold
+  if (!H_WM.is_finite()) return Status::kNotFinite;
+  const double length = H_WM.rotation.norm();
+  if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return Status::kNotUnit;
+  if (H_WM.translation.cwiseAbs().maxCoeff() > kFarthest_m) return Status::kOutOfRange;
+  H_WM.rotation.coeffs() /= length;
+  return Status::kOk;
+}
+
 Status refuse(Status status, const State& state, CycleReport& report) noexcept {
   report = CycleReport{};
   report.H_WS = state.H_WS;
@@ -60,19 +72,23 @@ Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::s
   return Status::kOk;
 }
 
+Status GodObject::follow(const Pose& H_WM, CycleReport& report) noexcept {
+  Pose unit = H_WM;
+  if (const Status status = make_unit(unit); status != Status::kOk) return refuse(status, state_, report);
+  reset();
+  state_.H_WS = unit * H_MB_;
+  report = CycleReport{};
+  report.H_WS = state_.H_WS;
+  return Status::kOk;
+}
+
 Status GodObject::update(const Input& input, CycleReport& report, StepTimes* times) noexcept {
   assert(cycle_ != nullptr && "start() comes first");
-  constexpr double kUnit = 1e-3;
-  constexpr double kFarthest_m = 1e7;  // what a scene image may hold
-  if (!input.H_WM.is_finite() || !input.velocity_W.translation.allFinite() || !input.velocity_W.rotation.allFinite()) {
+  if (!input.velocity_W.translation.allFinite() || !input.velocity_W.rotation.allFinite()) {
     return refuse(Status::kNotFinite, state_, report);
   }
-  const double length = input.H_WM.rotation.norm();
-  if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return refuse(Status::kNotUnit, state_, report);
-  if (input.H_WM.translation.cwiseAbs().maxCoeff() > kFarthest_m) return refuse(Status::kOutOfRange, state_, report);
-
   Pose H_WM = input.H_WM;
-  H_WM.rotation.coeffs() /= length;
+  if (const Status status = make_unit(H_WM); status != Status::kOk) return refuse(status, state_, report);
   const CycleInput cycle_input{H_WM * H_MB_, input.velocity_W};
   State next = state_;
   if (!next.started) {

@@ -44,6 +44,10 @@ class GodObject {
   /// Forgets the god object: the next update starts with it at the device pose.
   void reset() noexcept { state_ = State{}; }
 
+  /// Nothing is rendered: forgets the god object and puts it at the device pose, without a look at the scene. The
+  /// report is that of a free cycle. Statuses as those of `update`, of the pose alone. Cost: 0.1 us. Real-time safe.
+  Status follow(const Pose& H_WM, CycleReport& report) noexcept;
+
   /// One cycle, steps #1-#7. The first one after `start` or `reset` puts the god object at the device pose; if that
   /// penetrates, the outcome is kStartInside until it has come out: by a share of its depth a cycle where the field
   /// gives a direction, with the device where it gives none.

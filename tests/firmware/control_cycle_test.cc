@@ -372,6 +372,20 @@ TEST_F(ControlCycleTest, CountsSendsThatFailAndStopsAtTheThirdInARow) {
   EXPECT_EQ(cycle_->record().fault, Fault::kSendFailed);
 }
 
+TEST_F(ControlCycleTest, StopsWithTheGodObjectAtTheToolWhereverThatIs) {
+  make();
+  run_to(Mode::kRunning);
+  press(0.035);
+  ASSERT_GT((cycle_->record().H_WM.translation - cycle_->record().god_object_W.translation).norm(), 1e-3);
+  drives_.reading.emergency_stop = true;
+  step();
+  drives_.reading.position = moved(Vector3(0.0, 0.0, -0.040));
+  step();
+  EXPECT_EQ(cycle_->record().fault, Fault::kEmergencyStop);
+  EXPECT_LT((cycle_->record().H_WM.translation - cycle_->record().god_object_W.translation).norm(), 1e-15);
+  EXPECT_EQ(cycle_->record().outcome, Outcome::kFree) << "nobody looks at the scene any more";
+}
+
 TEST_F(ControlCycleTest, StopsBeyondAJointLimit) {
   make();
   run_to(Mode::kRunning);

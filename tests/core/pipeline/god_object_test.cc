@@ -219,6 +219,31 @@ TEST_P(EachPipeline, CallsAFirstPoseThatPenetratesByItsNameHoweverLittleItDoes) 
   EXPECT_EQ(report_.outcome, Outcome::kStartInside);
 }
 
+TEST_P(EachPipeline, FollowsTheDeviceWithoutALookAndBeginsAnewAfterIt) {
+  start();
+  const double height = kWorldRadius + kBodyRadius;
+  for (int k = 0; k < 100; ++k) {
+    ASSERT_EQ(god_object_.update({mesh_pose({0.0, 0.0, height + 0.002 - 5e-5 * k}), Motion{}}, report_), Status::kOk);
+  }
+  ASSERT_GT(report_.force.spring_W.force.norm(), 1.0);
+
+  const Pose inside = mesh_pose({0.0, 0.0, height - 0.020});
+  ASSERT_EQ(god_object_.follow(inside, report_), Status::kOk);
+  EXPECT_EQ(report_.outcome, Outcome::kFree);
+  EXPECT_EQ(report_.contacts, 0U);
+  EXPECT_EQ(report_.force.total_W.force.norm(), 0.0);
+  EXPECT_LT((god_object_.mesh_pose().translation - inside.translation).norm(), 1e-15);
+  EXPECT_FALSE(god_object_.state().started);
+
+  Pose bad = inside;
+  bad.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(god_object_.follow(bad, report_), Status::kNotFinite);
+  EXPECT_LT((god_object_.mesh_pose().translation - inside.translation).norm(), 1e-15);
+
+  ASSERT_EQ(god_object_.update({inside, Motion{}}, report_), Status::kOk);
+  EXPECT_EQ(report_.outcome, Outcome::kStartInside);
+}
+
 TEST_F(GodObjectTest, RefusesPosesBeyondAnySceneAndStartsWithTheNextGoodOne) {
   GodObject god_object;
   ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, false), Status::kOk);
