@@ -17,6 +17,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kImageLayout,     ///< scene image: a section is missing, misplaced, or of the wrong size
     kImageValue,      ///< scene image: a number in it is out of its range
     kNotInImage,      ///< the solver or the friction asked for was left out of this image
+    kNotInBuild,      ///< this build is one for another scene, without what is asked for
     kArmShape,        ///< arm: joint count, or a rotation that is not of unit length
     kArmMass,         ///< arm: a mass or inertia tensor that no body has
     kArmLimits,       ///< arm: position, velocity or torque limits out of order
@@ -37,6 +38,7 @@ constexpr const char* describe(Status status) noexcept {
     case Status::kImageLayout: return "a section of the scene image is missing or misplaced";
     case Status::kImageValue: return "a value in the scene image is out of range";
     case Status::kNotInImage: return "the scene image was compiled without what is asked for";
+    case Status::kNotInBuild: return "this build is for another scene and without what is asked for";
     case Status::kArmShape: return "the arm's joint count or one of its rotations is not possible";
     case Status::kArmMass: return "the arm has a mass or inertia that no body has";
     case Status::kArmLimits: return "the arm's position, velocity or torque limits are out of order";

@@ -87,7 +87,8 @@ class ControlCycle {
   /// `setup` and `drives` outlive the cycle.
   ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept;
 
-  /// kNotInImage: the scene was compiled without that solver, or without friction. Before the first `run_once`.
+  /// kNotInImage: the scene was compiled without that solver, or without friction; kNotInBuild: this build is without.
+  /// Before the first `run_once`.
   Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction, setup_.search); }
 
   /// Begins a cycle: the joints are asked for their positions, which `run_once` takes `collect_ns` later.

@@ -24,6 +24,7 @@
 #include "firmware/can_buses.h"
 #include "firmware/can_interfaces.h"
 #include "firmware/command/failure.h"
+#include "firmware/command/in_build.h"
 #include "firmware/command/run.h"
 #include "firmware/commissioning.h"
 #include "firmware/configuration/controller_file.h"
@@ -519,8 +520,13 @@ void control(const Options& options) {
   const ArmLink link = link_arm(options, config, placement);
   drives.emplace(config.device.bus, link.buses, plan.timing, config.telemetry.bus ? &bus_ring : nullptr);
   std::vector<std::uint32_t> search(GodObject::memory(scene));
-  cycle.emplace(cycle_setup(config, scene, placement, search), *drives);
-  if (const Status status = cycle->start(); status != Status::kOk) {
+  const firmware::CycleSetup pipeline = cycle_setup(config, scene, placement, search);
+  cycle.emplace(pipeline, *drives);
+  const Status status = cycle->start();
+  if (status == Status::kNotInBuild) {
+    command::require_in_build(config.scene.image.string(), scene, pipeline.solver, pipeline.friction);
+  }
+  if (status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "
                               "table, or change scene.solver, scene.friction",

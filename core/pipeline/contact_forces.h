@@ -5,11 +5,13 @@
 
 namespace godobject::detail {
 
+/// The force of the half space.
+ContactForce force_of(const ContactSet& set, int half_space) noexcept;
+
+/// Two rows of one point, seen from two sides, are two.
+void count_contacts(ConstrainedStep& step) noexcept;
+
 /// The forces of the set's half spaces are those of the step, and their points its contacts.
 void take_forces(const ContactSet& set, ConstrainedStep& step) noexcept;
-
-/// They come to those of the step. More than six are replaced by six or fewer of the same sum: a vector in the cone of
-/// generators in six dimensions is a combination of six that are independent (Caratheodory).
-void add_forces(const ContactSet& set, ConstrainedStep& step) noexcept;
 
 }  // namespace godobject::detail

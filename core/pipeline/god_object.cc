@@ -5,31 +5,6 @@
 namespace godobject {
 namespace {
 
-FeatureContacts<Voxelmap> feature_contacts(const Scene& scene) noexcept {
-  return {scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius()};
-}
-
-/// The pipelines, all with one signature.
-template <bool kFriction>
-Status run_paper(const Scene& scene, const Parameters& q, const CycleInput& input, ContactSearch&, State& state,
-                 ContactWorkspace&, CycleReport& report, StepTimes* times) noexcept {
-  return paper_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
-}
-
-template <bool kFriction>
-Status run_corrected(const Scene& scene, const Parameters& q, const CycleInput& input, ContactSearch&, State& state,
-                     ContactWorkspace&, CycleReport& report, StepTimes* times) noexcept {
-  return corrected_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
-}
-
-template <bool kFriction>
-Status run_contact(const Scene& scene, const Parameters& q, const CycleInput& input, ContactSearch& search,
-                   State& state, ContactWorkspace& workspace, CycleReport& report, StepTimes* times) noexcept {
-  const FeatureContacts<Voxelmap> features = feature_contacts(scene);
-  return contact_cycle<kFriction>(scene.voxelmap, scene.pointshell, scene.has_features() ? &features : nullptr, q,
-                                  input, search, state, workspace, report, times);
-}
-
 /// Refuses what is no pose; makes the rotation of one exactly unit.
 Status make_unit(Pose& H_WM) noexcept {
   constexpr double kUnit = 1e-3;
@@ -49,24 +24,97 @@ Status refuse(Status status, const State& state, CycleReport& report) noexcept {
   return status;
 }
 
+/// The moving body's field in a build without the second direction. Known in this file only: so the compiler sees that
+/// there is none, and drops what would look at it.
+struct NoField : Voxelmap {};
+
 }  // namespace
+
+/// The pipelines, all with one signature, with and without friction.
+struct GodObject::Paper {
+  template <bool kFriction>
+  static Status cycle(const Scene& scene, const Parameters& q, const CycleInput& input, Memory&, State& state,
+                      CycleReport& report, StepTimes* times) noexcept {
+    return paper_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
+  }
+};
+
+struct GodObject::Corrected {
+  template <bool kFriction>
+  static Status cycle(const Scene& scene, const Parameters& q, const CycleInput& input, Memory&, State& state,
+                      CycleReport& report, StepTimes* times) noexcept {
+    return corrected_cycle<kFriction>(scene.voxelmap, scene.pointshell, q, input, state, report, times);
+  }
+};
+
+struct GodObject::Contact {
+  using BodyField = std::conditional_t<kSceneTraits.features, Voxelmap, NoField>;
+
+  /// Calls `work` with the second direction, or null where there is none.
+  template <class Work>
+  static auto with_features(const Scene& scene, Work&& work) noexcept {
+    using Features = FeatureContacts<BodyField>;
+    if constexpr (kSceneTraits.features) {
+      const Features features{scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius()};
+      return work(scene.has_features() ? &features : nullptr);
+    } else {
+      return work(static_cast<const Features*>(nullptr));
+    }
+  }
+
+  template <bool kFriction>
+  static Status cycle(const Scene& scene, const Parameters& q, const CycleInput& input, ContactMemory& memory,
+                      State& state, CycleReport& report, StepTimes* times) noexcept {
+    return with_features(scene, [&](const auto* features) noexcept {
+      return contact_cycle<kFriction>(scene.voxelmap, scene.pointshell, features, q, input, memory.search, state,
+                                      memory.workspace, report, times);
+    });
+  }
+
+  static void start(const Scene&, const Parameters&, std::span<std::uint32_t>, NoMemory&) noexcept {}
+
+  static void start(const Scene& scene, const Parameters& q, std::span<std::uint32_t> words,
+                    ContactMemory& memory) noexcept {
+    with_features(scene, [&](const auto* features) noexcept {
+      memory.search.start(scene.voxelmap, scene.pointshell, features, ContactLengths::make(q), words);
+    });
+  }
+};
+
+template <class Pipeline>
+GodObject::Cycle GodObject::cycle_of(bool friction) noexcept {
+  if constexpr (kSceneTraits.friction) {
+    if (friction) return &Pipeline::template cycle<true>;
+  }
+  return &Pipeline::template cycle<false>;
+}
+
+GodObject::Cycle GodObject::cycle_of(Solver solver, bool friction) noexcept {
+  switch (solver) {
+    case Solver::kPaper:
+      if constexpr (kSceneTraits.paper) return cycle_of<Paper>(friction);
+      break;
+    case Solver::kCorrected:
+      if constexpr (kSceneTraits.corrected) return cycle_of<Corrected>(friction);
+      break;
+    case Solver::kContact:
+      if constexpr (kSceneTraits.contact) return cycle_of<Contact>(friction);
+      break;
+  }
+  return nullptr;
+}
 
 Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> memory) noexcept {
   if (!scene.holds(solver) || (friction && scene.settings.friction == 0)) return Status::kNotInImage;
-  switch (solver) {
-    case Solver::kPaper: cycle_ = friction ? &run_paper<true> : &run_paper<false>; break;
-    case Solver::kCorrected: cycle_ = friction ? &run_corrected<true> : &run_corrected<false>; break;
-    case Solver::kContact: cycle_ = friction ? &run_contact<true> : &run_contact<false>; break;
-  }
+  if (missing_part(scene, solver, friction) != Part::kNone) return Status::kNotInBuild;
+  cycle_ = cycle_of(solver, friction);
   scene_ = &scene;
   H_MB_ = scene.H_MB;
   H_BM_ = scene.H_MB.inverse();
   parameters_ = Parameters::make(scene);
   if (solver == Solver::kContact) {
-    const FeatureContacts<Voxelmap> features = feature_contacts(scene);
     const std::size_t wanted = GodObject::memory(scene);
-    search_.start(scene.voxelmap, scene.pointshell, scene.has_features() ? &features : nullptr,
-                  ContactLengths::make(parameters_), memory.first(memory.size() < wanted ? 0 : wanted));
+    Contact::start(scene, parameters_, memory.first(memory.size() < wanted ? 0 : wanted), memory_);
   }
   reset();
   return Status::kOk;
@@ -95,7 +143,7 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
     next.H_WS = cycle_input.H_WD;
     next.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, next.H_WS) < 0.0;
   }
-  const Status status = cycle_(*scene_, parameters_, cycle_input, search_, next, workspace_, report, times);
+  const Status status = cycle_(*scene_, parameters_, cycle_input, memory_, next, report, times);
   if (status != Status::kOk) return refuse(status, state_, report);
   state_ = next;
   return Status::kOk;

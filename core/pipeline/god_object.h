@@ -1,15 +1,24 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "core/pipeline/contact_cycle.h"
 #include "core/pipeline/cycle.h"
+#include "core/pipeline/scene_traits.h"
 #include "core/scene/scene.h"
 
 namespace godobject {
 
 using Solver = format::Solver;
+
+/// What `contact` carries from cycle to cycle beside State, and its room to work in.
+struct ContactMemory {
+  ContactSearch search;
+  ContactWorkspace workspace;
+};
 
 /// The god object of a compiled scene: one `update` a millisecond, from the device's pose to the force on the device.
 ///
@@ -32,13 +41,14 @@ class GodObject {
   /// Words that `contact` remembers about the scene from cycle to cycle: some four a sample or feature point and a node
   /// of their trees, until when they cannot be near.
   static std::size_t memory(const Scene& scene) noexcept {
-    return ContactSearch::memory(scene.pointshell, scene.features);
+    return kSceneTraits.contact ? ContactSearch::memory(scene.pointshell, scene.features) : 0;
   }
 
   /// Chooses the pipeline once. Without a friction table in the scene `friction` = true is refused. `memory`: at least
   /// memory(scene) words, this god object's alone; with fewer, or none, results are the same, and `contact` looks at
   /// all nodes in every cycle.
-  /// kNotInImage: the image was compiled without that solver, or without friction; nothing changed.
+  /// kNotInImage: the image was compiled without that solver, or without friction; kNotInBuild: this build is without
+  /// (missing_part says what). Nothing changed.
   Status start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> memory = {}) noexcept;
 
   /// Forgets the god object: the next update starts with it at the device pose.
@@ -64,8 +74,17 @@ class GodObject {
   const State& state() const noexcept { return state_; }
 
  private:
-  using Cycle = Status (*)(const Scene&, const Parameters&, const CycleInput&, ContactSearch&, State&,
-                           ContactWorkspace&, CycleReport&, StepTimes*) noexcept;
+  struct NoMemory {};
+  using Memory = std::conditional_t<kSceneTraits.contact, ContactMemory, NoMemory>;
+  using Cycle = Status (*)(const Scene&, const Parameters&, const CycleInput&, Memory&, State&, CycleReport&,
+                           StepTimes*) noexcept;
+  struct Paper;
+  struct Corrected;
+  struct Contact;
+
+  template <class Pipeline>
+  static Cycle cycle_of(bool friction) noexcept;
+  static Cycle cycle_of(Solver solver, bool friction) noexcept;
 
   const Scene* scene_ = nullptr;
   Cycle cycle_ = nullptr;
@@ -73,8 +92,7 @@ class GodObject {
   Pose H_BM_;
   Parameters parameters_;
   State state_;
-  ContactSearch search_;
-  ContactWorkspace workspace_;
+  Memory memory_;
 };
 
 }  // namespace godobject

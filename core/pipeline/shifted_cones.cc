@@ -6,13 +6,6 @@ namespace {
 constexpr double kConeTolerance = 0.01;  // of the rows': cones are in double precision, and rest is exact
 constexpr double kCrawl = 0.02;
 
-bool is_active(const ActiveSet& active, std::uint32_t row) noexcept {
-  for (int j = 0; j < active.size(); ++j) {
-    if (active[j].tag.row == row) return true;
-  }
-  return false;
-}
-
 bool is_slip_free(const ContactSet& set, const Motion& m) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
     if (set.slip_of(set.contact(k), m).speed > set.metric().still) return false;
@@ -47,16 +40,6 @@ bool is_met(const ContactSet& set, const Motion& m) noexcept {
 }
 
 }  // namespace
-
-Additions meet_rows(ContactSet& set) noexcept {
-  for (int i = 0; i < kMostRowAdditions; ++i) {
-    const ContactRows::Violated worst = set.most_violated(set.motion());
-    // one that is active is violated by rounding only
-    if (worst.row == ContactRows::kNone || is_active(set.active(), worst.row)) return Additions::kMet;
-    if (!set.add(set.row_half_space(worst.row))) return Additions::kContradictory;
-  }
-  return Additions::kExhausted;
-}
 
 Additions meet_cones(Shift entering, ContactSet& set) noexcept {
   for (int i = 0; i < kMostConeAdditions; ++i) {

@@ -3,19 +3,9 @@
 #include <cstdint>
 
 #include "core/pipeline/contact_set.h"
+#include "core/pipeline/meet_rows.h"
 
 namespace godobject::detail {
-
-/// How adding half spaces to the active set ended.
-enum class Additions : std::uint8_t {
-  kMet,            ///< no inequality is violated
-  kExhausted,      ///< the most additions are made; what is met has not been looked at
-  kContradictory,  ///< no motion meets all of them
-};
-
-/// Without friction: adds the row that is violated most until all are met.
-inline constexpr int kMostRowAdditions = 100;
-Additions meet_rows(ContactSet& set) noexcept;
 
 /// What the cone of a contact that becomes one is shifted by.
 enum class Shift : std::uint8_t { kNone, kSlip };

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "firmware/command/failure.h"
+#include "firmware/command/in_build.h"
 #include "firmware/command/run.h"
 #include "firmware/command/solver_names.h"
 #include "toolchain/command/atomic_file.h"
@@ -53,7 +54,8 @@ The last line printed counts the cycles of the last four, and those of contact i
 the tolerance (gaps are kept all the same).
 
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is whole then), 66 an input is missing or
-may not be read, 74 cannot write, 77 no right to write, 78 --friction on for a scene without friction.)";
+may not be read, 74 cannot write, 77 no right to write, 78 --friction on for a scene without friction, or a scene
+that needs what this build leaves out.)";
 
 /// The field knows no depth, and no gap, beyond its band.
 std::string depth_text(double deepest, double band) {
@@ -128,6 +130,7 @@ int main(int argc, char** argv) {
                     fmt::format("{}: was compiled without the solver {}; compile it again without --only-solver",
                                 scene_path, solver_name));
     }
+    godobject::command::require_in_build(scene_path, scene, solver, friction);
     const godobject::command::PosePath path = godobject::command::read_pose_path(poses_path);
     godobject::command::AtomicFile out(out_path);
     godobject::replay::Summary summary;

@@ -269,6 +269,25 @@ TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   EXPECT_EQ(god_object.start(scene, Solver::kCorrected, false), Status::kOk);
 }
 
+TEST(SceneTraits, NameTheFirstPartThatAPipelineIsWithout) {
+  constexpr SceneTraits kAll;
+  for (const Solver solver : {Solver::kPaper, Solver::kCorrected, Solver::kContact}) {
+    for (const bool friction : {false, true}) {
+      for (const bool features : {false, true}) EXPECT_EQ(missing_part(kAll, solver, friction, features), Part::kNone);
+    }
+  }
+  constexpr SceneTraits kBall{.paper = false, .corrected = false, .friction = false, .features = false};
+  EXPECT_EQ(missing_part(kBall, Solver::kContact, false, false), Part::kNone);
+  EXPECT_EQ(missing_part(kBall, Solver::kContact, true, false), Part::kFriction);
+  EXPECT_EQ(missing_part(kBall, Solver::kContact, true, true), Part::kFeatures);
+  EXPECT_EQ(missing_part(kBall, Solver::kPaper, false, false), Part::kPaper);
+  EXPECT_EQ(missing_part(kBall, Solver::kCorrected, true, true), Part::kCorrected);
+  // the second direction is the contact solver's alone
+  constexpr SceneTraits kPaper{.corrected = false, .contact = false, .features = false};
+  EXPECT_EQ(missing_part(kPaper, Solver::kPaper, true, true), Part::kNone);
+  EXPECT_EQ(missing_part(kPaper, Solver::kContact, false, false), Part::kContact);
+}
+
 /// The tree must not lose a contact, whatever the pose: same points, bit for bit, as looking at all of them.
 TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
   std::mt19937 random(3);

@@ -1,0 +1,34 @@
+#include "firmware/command/in_build.h"
+
+#include <fmt/format.h>
+
+#include "core/pipeline/scene_traits.h"
+#include "firmware/command/failure.h"
+
+namespace godobject::command {
+namespace {
+
+const char* describe(Part part) {
+  switch (part) {
+    case Part::kNone: break;
+    case Part::kPaper: return "the solver paper";
+    case Part::kCorrected: return "the solver corrected";
+    case Part::kContact: return "the solver contact";
+    case Part::kFriction: return "friction";
+    case Part::kFeatures: return "the second direction (points of the still body against the moving body's field)";
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction) {
+  const Part missing = missing_part(scene, solver, friction);
+  if (missing == Part::kNone) return;
+  throw Failure(ExitCode::kBadConfig,
+                fmt::format("{}: needs {}, which this build leaves out; build without -DGODOBJECT_SCENE, or with this "
+                            "scene's traits (godobject-scenec --traits)",
+                            scene_name, describe(missing)));
+}
+
+}  // namespace godobject::command

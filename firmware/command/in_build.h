@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "core/scene/scene.h"
+
+namespace godobject::command {
+
+/// A build for one scene (-DGODOBJECT_SCENE) runs only what that scene needs. Throws Failure, kBadConfig, naming the
+/// scene, what this build is without, and the build option to drop, if the pipeline is not in it.
+void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction);
+
+}  // namespace godobject::command
