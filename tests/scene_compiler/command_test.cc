@@ -88,6 +88,7 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " --inspect", 64, "the image is missing");
   expect_refusal(kScenec + " --inspect a.scene b.scene", 64, "--inspect takes one image");
   expect_refusal(kScenec + " --inspect a.scene" + out, 64, "--inspect takes one image");
+  expect_refusal(kScenec + " --inspect a.scene --traits a.cmake", 64, "--inspect takes one image");
   expect_refusal(kScenec + " --inspect " + folder.write("x.scene", "nonsense").string(), 65,
                  "x.scene: is not a scene image (X.scene, made by godobject-scenec)");
   expect_refusal(kQuery + " " + good + " p.csv -o o.csv", 65, "s.toml: is not a scene image");

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "toolchain/scene_compiler/build_traits.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
@@ -115,6 +117,14 @@ Json settings_json(const format::Settings& s) {
         {"static", s.friction_static}, {"kinetic", s.friction_kinetic}, {"viscous", s.friction_viscous}};
   }
   return json;
+}
+
+Json traits_json(const SceneTraits& traits) {
+  return {{"paper", traits.paper},
+          {"corrected", traits.corrected},
+          {"contact", traits.contact},
+          {"friction", traits.friction},
+          {"features", traits.features}};
 }
 
 Json grid_json(const format::Grid& g) {
@@ -257,6 +267,7 @@ Json report_json(const CompileReport& report) {
           {"body", body},
           {"between_points", second_direction_json(report)},
           {"section_bytes", sections},
+          {"build_traits", traits_json(report.traits)},
           {"left_out", left_out_json(report)}};
 }
 
@@ -294,6 +305,7 @@ Json inspect_json(const command::SceneImage& image) {
           {"grid", grid_json(scene.grid)},
           {"body", body_json(scene.body)},
           {"sections", sections},
+          {"build_traits", traits_json(traits_of(scene))},
           {"provenance", provenance.is_discarded() ? Json(nullptr) : provenance}};
 }
 

@@ -11,6 +11,7 @@
 
 #include "firmware/command/failure.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/scene_compiler/build_traits.h"
 #include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/outer_surface.h"
@@ -247,6 +248,7 @@ CompileReport compile_scene(const CompileRequest& request) {
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
   report.field_error = phases.run("check", [&](const Progress& p) {
     const command::SceneImage image(make_image(sections), request.output.string());
+    report.traits = traits_of(image.scene);
     report.look_up = time_look_ups(parts.field, image.scene.voxelmap);
     return check_field(still, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/pipeline/scene_traits.h"
 #include "toolchain/scene_compiler/between_points.h"
 #include "toolchain/scene_compiler/distance_grid.h"
 #include "toolchain/scene_compiler/field_check.h"
@@ -63,6 +64,7 @@ struct CompileReport {
   SecondDirection second;
   FieldError field_error;
   LookUpTime look_up;
+  SceneTraits traits;                                                 ///< what a build for this image alone would hold
   std::vector<std::pair<format::SectionId, std::uint64_t>> sections;  ///< bytes, provenance left out
   std::uint64_t image_bytes = 0;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase

@@ -10,6 +10,7 @@
 #include "toolchain/command/output_target.h"
 #include "toolchain/command/progress.h"
 #include "toolchain/command/scene_image.h"
+#include "toolchain/scene_compiler/build_traits.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
@@ -23,6 +24,7 @@ constexpr const char* kFooter = R"(
 Examples:
   godobject-scenec teapot.toml -o teapot.scene --report teapot.json
   godobject-scenec teapot.toml -o teapot.scene --only-solver contact
+  godobject-scenec teapot.toml -o teapot.scene --traits teapot.cmake
   godobject-scenec --inspect teapot.scene
 
 A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
@@ -48,6 +50,7 @@ struct Options {
   std::string output;
   std::string report;
   std::string only_solver;
+  std::string traits;
   bool inspects = false;
   std::string inspected;  ///< if it follows --inspect; SCENE otherwise
 };
@@ -57,7 +60,7 @@ void compile(const Options& options) {
   request.scene_file = options.scene_file;
   request.output = options.output;
   if (!options.only_solver.empty()) request.only_solver = godobject::command::solver_of(options.only_solver);
-  for (const std::string& output : {options.output, options.report}) {
+  for (const std::string& output : {options.output, options.report, options.traits}) {
     if (!output.empty()) output_target(output);  // refused before the work, not after it
   }
   CompileReport report;
@@ -71,6 +74,11 @@ void compile(const Options& options) {
     file.write(full_report_json(report).dump(2) + "\n");
     file.commit();
   }
+  if (!options.traits.empty()) {
+    AtomicFile file(options.traits);
+    file.write(traits_text(report.traits, options.scene_file));
+    file.commit();
+  }
   fmt::print("{}", report_text(report));
 }
 
@@ -78,7 +86,8 @@ void compile(const Options& options) {
 void inspect(const Options& options) {
   const std::string& image = options.inspected.empty() ? options.scene_file : options.inspected;
   if (image.empty()) throw Failure(ExitCode::kUsage, "--inspect X.scene: the image is missing; name one");
-  const bool compiles = !options.output.empty() || !options.report.empty() || !options.only_solver.empty();
+  const bool compiles =
+      !options.output.empty() || !options.report.empty() || !options.only_solver.empty() || !options.traits.empty();
   if (compiles || (!options.inspected.empty() && !options.scene_file.empty())) {
     throw Failure(ExitCode::kUsage, "--inspect takes one image and nothing else; see godobject-scenec --help");
   }
@@ -104,6 +113,9 @@ int main(int argc, char** argv) {
                  "contact, corrected or paper: leave out what others read; default: hold all")
       ->check(CLI::IsMember(godobject::command::solver_names()))
       ->option_text("SOLVER");
+  app.add_option("--traits", options.traits,
+                 "also write what a build for this scene alone needs: cmake -DGODOBJECT_SCENE=TRAITS.cmake")
+      ->type_name("TRAITS.cmake");
   const CLI::Option* inspect =
       app.add_option("--inspect", options.inspected, "print the facts of a compiled image as JSON, nothing else")
           ->expected(0, 1)
