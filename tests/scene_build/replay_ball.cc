@@ -1,0 +1,74 @@
+// replay_ball X.scene SOLVER on|off: a ball sinks onto a plate, slides over it, turning, and rises again; friction on
+// or off. One line a cycle with every bit of pose and force. Cycles that slide pass through counted_update, by whose
+// name callgrind collects. Exit 78 with the status if the pipeline is refused.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <vector>
+
+#include "core/pipeline/god_object.h"
+
+namespace {
+
+using namespace godobject;
+
+GodObject god_object;
+
+/// The device in cycle `i`: 1 mm deep from cycle 100 to 899.
+GodObject::Input device(int i) {
+  const double ramp = std::min({1.0, i / 100.0, (999 - i) / 100.0});
+  const double t = 1e-3 * i;
+  GodObject::Input input;
+  input.H_WM.translation = Vector3(0.04 * (t - 0.5), 0.01 * std::sin(5.0 * t), 0.062 - 0.003 * ramp);
+  input.H_WM.rotation = Quaternion(Eigen::AngleAxisd(2.0 * t, Vector3(0.6, 0.0, 0.8)));
+  input.velocity_W.translation = Vector3(0.04, 0.05 * std::cos(5.0 * t), 0.0);
+  return input;
+}
+
+}  // namespace
+
+[[gnu::noinline]] Status counted_update(const GodObject::Input& input, CycleReport& report);
+[[gnu::noinline]] Status counted_update(const GodObject::Input& input, CycleReport& report) {
+  return god_object.update(input, report);
+}
+
+int main(int argc, char** argv) {
+  std::ifstream file(argc == 4 ? argv[1] : "", std::ios::binary | std::ios::ate);
+  if (!file) return std::fprintf(stderr, "usage: replay_ball X.scene SOLVER on|off\n"), 66;
+  struct alignas(format::kAlignment) Line {
+    char byte[format::kAlignment];
+  };
+  const auto bytes = static_cast<std::size_t>(file.tellg());
+  std::vector<Line> image(bytes / sizeof(Line) + 1);
+  file.seekg(0).read(image.data()->byte, static_cast<std::streamsize>(bytes));
+
+  Scene scene;
+  if (const Status status = Scene::open(std::as_bytes(std::span(image)).first(bytes), scene); status != Status::kOk) {
+    return std::fprintf(stderr, "%s\n", describe(status)), 65;
+  }
+  const auto* const name = std::find_if(std::begin(format::kSolverNames), std::end(format::kSolverNames),
+                                        [&](const char* solver) { return std::strcmp(solver, argv[2]) == 0; });
+  if (name == std::end(format::kSolverNames)) return 64;
+  const auto solver = static_cast<Solver>(name - std::begin(format::kSolverNames));
+  std::vector<std::uint32_t> memory(GodObject::memory(scene));
+  const Status started = god_object.start(scene, solver, std::strcmp(argv[3], "on") == 0, memory);
+  if (started != Status::kOk) return std::fprintf(stderr, "%s\n", describe(started)), 78;
+  for (int i = 0; i < 1000; ++i) {
+    CycleReport report;
+    const bool slides = i >= 200 && i < 800;
+    const Status status = slides ? counted_update(device(i), report) : god_object.update(device(i), report);
+    if (status != Status::kOk) return 70;
+    const Pose H_WM = god_object.mesh_pose();
+    const Vector3& p = H_WM.translation;
+    const Quaternion& q = H_WM.rotation;
+    const Wrench& f = report.force.total_W;
+    std::printf("%d %s %u %a %a %a %a %a %a %a %a %a %a %a %a %a\n", i, godobject::name(report.outcome),
+                report.contacts, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), f.force.x(), f.force.y(), f.force.z(),
+                f.torque.x(), f.torque.y(), f.torque.z());
+  }
+  return 0;
+}
