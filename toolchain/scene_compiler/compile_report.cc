@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "toolchain/scene_compiler/build_traits.h"
+#include "toolchain/scene_compiler/code_bytes.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -232,6 +233,35 @@ Json left_out_json(const CompileReport& report) {
   if (report.config.settings.friction == 0) {
     list.push_back({{"what", "friction: the scene has no friction table"}, {"bytes_saved", 0}});
   }
+  if (report.second.features.point_count == 0) {
+    const char* const why = report.second.sought            ? "no feature point is needed"
+                            : report.config.both_directions ? "only contact reads it"
+                                                            : "contact.both_directions = false";
+    list.push_back({{"what", std::string("the second direction: ") + why}, {"bytes_saved", nullptr}});  // never made
+  }
+  return list;
+}
+
+/// Of the core's code, by a build with these traits.
+Json left_out_code_json(const SceneTraits& traits) {
+  const CodeBytes& code = kCodeBytes;
+  Json list = Json::array();
+  const auto leave_out = [&list](const char* what, std::uint64_t bytes) {
+    list.push_back({{"what", what}, {"bytes_saved", bytes}});
+  };
+  if (!traits.paper) leave_out("the solver paper", code.paper + code.paper_with_friction);
+  if (!traits.corrected) leave_out("the solver corrected", code.corrected + code.corrected_with_friction);
+  if (!traits.paper && !traits.corrected) leave_out("what these two share", code.closed_forms);
+  if (!traits.contact) {
+    leave_out("the solver contact", code.contact + code.contact_with_friction + code.contact_features);
+  } else if (!traits.features) {
+    leave_out("the second direction", code.contact_features);
+  }
+  if (!traits.friction) {
+    leave_out("friction", (traits.paper ? code.paper_with_friction : 0) +
+                              (traits.corrected ? code.corrected_with_friction : 0) +
+                              (traits.contact ? code.contact_with_friction : 0));
+  }
   return list;
 }
 
@@ -282,6 +312,7 @@ Json full_report_json(const CompileReport& report) {
   }
   seconds["total"] = total;
   json["seconds"] = seconds;
+  json["left_out_code"] = left_out_code_json(report.traits);
   json["look_up_nanoseconds"] = {{"unrefined", report.look_up.unrefined}, {"refined", report.look_up.refined}};
   return json;
 }

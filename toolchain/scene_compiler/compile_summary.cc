@@ -164,6 +164,22 @@ std::string refinement_text(const CompileReport& report) {
   return text;
 }
 
+/// What a build for this scene alone would do without.
+std::string code_text(const CompileReport& report) {
+  std::vector<std::string> parts;
+  double total = 0.0;
+  const Json left_out = full_report_json(report)["left_out_code"];
+  for (const Json& item : left_out) {
+    const double saved = item["bytes_saved"].get<double>() / 1024.0;
+    if (saved <= 0.0) continue;  // this build is one for a scene and without it itself
+    total += saved;
+    parts.push_back(fmt::format("{} {:.1f} KiB", item["what"].get<std::string>(), saved));
+  }
+  if (parts.empty()) return {};
+  return fmt::format("code     that a build with this scene's --traits leaves out: {}; {:.1f} KiB in all\n",
+                     fmt::join(parts, ", "), total);
+}
+
 /// Walls or gaps.
 std::string thin_limit(const ThinPlaces& places, const char* what, const char* loss) {
   if (places.lost_area > 0.0) return fmt::format("{} thinner than a voxel, {}", what, loss);
@@ -223,10 +239,15 @@ std::string report_text(const CompileReport& report) {
   text += second_direction_text(report);
   const Json left_out = report_json(report)["left_out"];
   for (const Json& item : left_out) {
-    const double saved = item["bytes_saved"].get<double>();
-    if (saved <= 0.0) continue;  // a small grid may take more than it saves: the JSON says so
-    text += fmt::format("left out {}: {:.1f} KiB saved\n", item["what"].get<std::string>(), saved / 1024.0);
+    const std::string what = item["what"].get<std::string>();
+    const Json& saved = item["bytes_saved"];
+    if (saved.is_null()) {
+      text += fmt::format("left out {}\n", what);
+    } else if (saved.get<double>() > 0.0) {  // a small grid may take more than it saves: the JSON says so
+      text += fmt::format("left out {}: {:.1f} KiB saved\n", what, saved.get<double>() / 1024.0);
+    }
   }
+  text += code_text(report);
   double total = 0.0;
   for (const auto& [phase, time] : report.seconds) total += time;
   text += fmt::format("image    {:.1f} KiB, {:.2f} s\n", static_cast<double>(report.image_bytes) / 1024.0, total);
