@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/pipeline/scene_traits.h"
 #include "firmware/command/failure.h"
 
 namespace godobject::command {
@@ -22,8 +21,9 @@ const char* describe(Part part) {
 
 }  // namespace
 
-void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction) {
-  const Part missing = missing_part(scene, solver, friction);
+void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction,
+                      const SceneTraits& traits) {
+  const Part missing = missing_part(traits, solver, friction, scene.has_features());
   if (missing == Part::kNone) return;
   throw Failure(ExitCode::kBadConfig,
                 fmt::format("{}: needs {}, which this build leaves out; build without -DGODOBJECT_SCENE, or with this "
