@@ -60,8 +60,8 @@ namespace {
 /// The damping b_D on the device's velocity along the active normals, as a change of the spring's contact forces.
 /// With the normals' rows as the columns of C and the spring's loads on them, C load - (b_D / k_D) v is projected on
 /// the cone of what the normals can push: the change is never larger than b_D |(v, rho omega)|, is continuous, and no
-/// contact pulls. Where the loads are not the contacts' own (nobody can meet all rows) that does not hold: then there is
-/// none. `k` = k_D k_VC,x.
+/// contact pulls. Where the loads are not the contacts' own (nobody can meet all rows) that does not hold: then there
+/// is none. `k` = k_D k_VC,x.
 Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velocity_W, double gyration, double k,
                double damping_over_stiffness) noexcept {
   Wrench out;
@@ -93,12 +93,14 @@ Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velo
     }
     if (!(violation > tolerance) || !set.add(worst)) break;
   }
-  // a projection brings points no farther apart, and the loads alone are projected on 0
-  constexpr double kRoundedUp = 1.0 + 1e-6;
-  if (!(set.z().norm() <= kRoundedUp * asked.norm() + tolerance)) return out;
-  const Vector6 change = k * (set.z() - asked);
-  out.force = R_WS * change.head<3>();
-  out.torque = gyration * (R_WS * change.tail<3>());
+  // The loads alone are projected on 0, and of two points the projections' residuals are no farther apart than they.
+  // Rows that contradict each other but for their rounding carry loads whose sum is rounding only; a projection from
+  // there is none.
+  constexpr double kRoundedUp = 1.0 + 1e-9;
+  const Vector6 change = set.z() - asked;
+  if (!(change.norm() <= kRoundedUp * asked.norm())) return out;
+  out.force = k * (R_WS * change.head<3>());
+  out.torque = k * gyration * (R_WS * change.tail<3>());
   return out;
 }
 

@@ -404,6 +404,47 @@ TEST(ContactCycle, DampsByNoMoreThanTheVelocityAsksFor) {
   }
 }
 
+/// Rows that contradict each other but for their rounding may carry any load: what is left of their sum is rounding.
+TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const auto single = [](const Vector3& v) { return Vector3(v.cast<float>().cast<double>()); };
+  Parameters q;
+  q.stiffness = 2000.0;
+  q.damping = 20.0;
+  q.coupling_rotation = 0.01;
+  const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
+  int damped = 0;
+  for (int i = 0; i < 20000; ++i) {
+    detail::ContactResult result;
+    const Vector3 point = single(0.05 * vector());
+    const double load = std::pow(10.0, 16.0 * unit(random) - 3.0);
+    Vector3 sum = Vector3::Zero();
+    const std::uint32_t count = 2 + static_cast<std::uint32_t>(4.0 * unit(random));
+    for (std::uint32_t j = 0; j < count; ++j) {
+      ContactForce& force = result.step.forces[result.step.force_count++];
+      force.point = point;
+      const bool closes = j + 1 == count;
+      force.normal = single(closes ? Vector3(-sum.normalized()) : Vector3(vector().normalized()));
+      force.multiplier = load * (closes ? sum.norm() : unit(random));
+      if (!closes) sum += force.multiplier / load * force.normal;
+    }
+    CycleInput input;
+    input.velocity_W = {0.1 * vector(), vector()};
+    State state;
+    CycleReport report;
+    ASSERT_EQ(detail::finish(input, result, false, q, state, report), Status::kOk);
+    const Wrench& total = report.force.total_W;  // without a stretch there is no spring
+    const double speed = std::hypot(input.velocity_W.translation.norm(), gyration * input.velocity_W.rotation.norm());
+    ASSERT_LE(std::hypot(total.force.norm(), total.torque.norm() / gyration), q.damping * speed * 1.000001)
+        << "problem " << i << ", load " << load;
+    if (!total.force.isZero(0.0)) ++damped;
+  }
+  EXPECT_GT(damped, 5000);
+}
+
 /// Turned and shifted by ten metres the world is the same.
 TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
   const SampledBody body = box_body(7);
