@@ -11,9 +11,10 @@ namespace {
 
 constexpr int kRounds = 5;
 
-// rest, Newton's method once and in each round, the rounds' cones, the last word (more than coming to rest takes)
-static_assert(kMostConeAdditions + (1 + kRounds) * kMostNewtonSteps + kRounds * kMostConeAdditions +
-                  kMostRowAdditions ==
+// rest, Newton's method once and in each round, the rounds' cones; then the last word (more than coming to rest takes),
+// rest again, another last word
+static_assert(2 * kMostConeAdditions + (1 + kRounds) * kMostNewtonSteps + kRounds * kMostConeAdditions +
+                  2 * kMostRowAdditions ==
               kMostFrictionAdditions);
 
 /// The contact of the row, opened with the shift of the last motion if it is not yet.
@@ -49,6 +50,35 @@ bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
   return false;
 }
 
+/// The set's motion is Coulomb's.
+void conclude(ContactSet& set, ConstrainedStep& step) noexcept {
+  take_forces(set, step);
+  step.follows = step.force_count == 0;
+  step.unconverged = false;
+  step.motion = rests(set) ? Motion{} : set.motion();
+  set.close_all();
+}
+
+/// It is not: the normals have the last word. False: infeasible.
+bool conclude_with_rows(ContactSet& set, ConstrainedStep& step) noexcept {
+  take_forces(set, step);
+  step.follows = false;
+  step.unconverged = true;
+  set.restart_from_motion();
+  const bool feasible = meet_rows(set) != Additions::kContradictory;
+  add_forces(set, step);
+  step.motion = set.motion();
+  return feasible;
+}
+
+/// The motion found ends farther from the wanted one than rest does, by more than what lost gaps need. In the plain
+/// metric.
+bool leads_away(const ContactSet& set) noexcept {
+  constexpr double kNeeds = 1.001;  // of squares
+  const Vector6 wanted = set.target();
+  return (set.plain_motion() - wanted).squaredNorm() > kNeeds * wanted.squaredNorm();
+}
+
 }  // namespace
 
 void guess_cone(std::uint32_t row, const ContactForce& force, ContactSet& set) noexcept {
@@ -60,21 +90,19 @@ void guess_cone(std::uint32_t row, const ContactForce& force, ContactSet& set) n
 }
 
 bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
-  const bool converged = solve_friction(set, step);
-  if (converged) come_to_rest(set);
-  take_forces(set, step);
-  step.follows = converged && step.force_count == 0;
-  step.unconverged = !converged;
-  if (converged) {
-    step.motion = rests(set) ? Motion{} : set.motion();
-    set.close_all();
+  if (solve_friction(set, step)) {
+    come_to_rest(set);
+    conclude(set, step);
     return true;
   }
-  set.restart_from_motion();  // the normals have the last word
-  const bool feasible = meet_rows(set) != Additions::kContradictory;
-  add_forces(set, step);
-  step.motion = set.motion();
-  return feasible;
+  const ContactSet::Saved found = set.save();
+  const bool feasible = conclude_with_rows(set, step);
+  if (!feasible || !leads_away(set)) return feasible;
+  // shifts that are not the slip's own allow forces of any size; without them the cones hold at rest or lead nearer
+  set.restore(found);
+  if (!sticks(set)) return conclude_with_rows(set, step);
+  conclude(set, step);
+  return true;
 }
 
 }  // namespace godobject::detail

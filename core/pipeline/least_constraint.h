@@ -49,7 +49,7 @@ struct CouplingMetric {
 
 /// Most inequalities that one attempt of `least_constraint` adds, without and with friction.
 inline constexpr int kMostAdditions = 100;
-inline constexpr int kMostFrictionAdditions = 388;
+inline constexpr int kMostFrictionAdditions = 512;
 
 /// The motion (x, r) nearest to `wanted` in the metric of the virtual coupling, |x|^2 + rho^2 |r|^2, that meets all
 /// rows (Gauss' principle of least constraint; the multipliers are then the contact forces that the device displays,
@@ -80,8 +80,10 @@ inline constexpr int kMostFrictionAdditions = 388;
 /// 4. A motion that the tolerances may explain comes to rest if the cones without shifts can hold it.
 /// 5. If the rounds do not suffice (`unconverged`), the normals have the last word: all rows are met, and the
 ///    forces are those of the cones and of these rows together.
+/// 6. If that has led farther from the wanted motion than rest is, as no friction does, the cones without shifts: they
+///    hold it at rest, or lead nearer, and the normals have the last word again.
 ///
-/// Bounded: at most 100 additions without and 388 with friction (kMostAdditions, kMostFrictionAdditions), twice that
+/// Bounded: at most 100 additions without and 512 with friction (kMostAdditions, kMostFrictionAdditions), twice that
 /// where infeasible (seen in random problems: up to 27 and 196); an addition is one scan of the rows and at most
 /// seven exchanges. Newton's method takes at most 144 steps, each a scan and a system of at most twelve equations. No
 /// allocation. `rows.need` is restored but for infeasible rows. `step` holds the last cycle's result as the warm start;

@@ -534,7 +534,10 @@ void expect_balance(const Problem& p, const ConstrainedStep& step) {
     sum += push;
     load += f.multiplier;
   }
-  EXPECT_LE(sum.norm(), p.metric.tolerance + 1e-7 * load);  // rows give their normals in single precision
+  // rows give their normals in single precision; where the law is not found, cones may contradict each other, and the
+  // active set takes a gradient for dependent within 1e-6 of the others' span
+  const double rounding = step.unconverged ? 2e-7 : 1e-7;
+  EXPECT_LE(sum.norm(), p.metric.tolerance + rounding * load);
 }
 
 /// What must hold of every result with friction.
@@ -847,6 +850,61 @@ TEST(LeastConstraintFriction, FindsWhatTheFixedPointFinds) {
   std::printf("agree %d, differ %d, the slow solution did not settle %d, the solver did not converge %d\n", agree,
               differ, unsettled, unconverged);
   EXPECT_GT(agree, 10 * differ);
+}
+
+/// Friction takes energy from a motion, so the motion ends no farther from the wanted one than rest, whether the law
+/// was found or not: but for what lost gaps need.
+TEST(LeastConstraintFriction, LeadsNoFartherThanRest) {
+  // a point wedged between two sides, found by the fuzzer of the study: 9 mm farther than rest
+  Problem wedge;
+  wedge.metric = {.gyration = 3.9706573807056804, .tolerance = 6.9531960619130865e-7, .still = 6.9531960619130862e-8};
+  const Vector3 tip(2.3285748958587646, -1.4553593397140503, -0.87321561574935913);
+  wedge.push({-0.0045136795379221439, -0.56671237945556641, -0.82390332221984863}, tip, 7.92623832e-5);
+  wedge.push({-0.010666339658200741, 0.95273256301879883, -0.30362299084663391}, tip, -7.72785643e-5);
+  wedge.wanted = {{-0.24337254984313272, -1.474200753772325, 2.3045851490261082},
+                  {-0.28205338478556419, -0.3097183336202432, -0.2373144525195332}};
+  const Motion last{{0.0029707908596385835, -0.013760319682590505, 0.030725968058538111},
+                    {0.0066346478389297482, 0.0090652654043932041, 0.0033928774206781389}};
+  ConstrainedStep warm;
+  warm.force_count = 1;
+  warm.forces[0] = {0,
+                    tip,
+                    wedge.rows->normal(0),
+                    {-0.13891518949517556, -0.81556779783941546, 0.56173991958457581},
+                    0.77723188555836231,
+                    1.0967414617843547};
+  const auto reach = [](const Problem& p, const Motion& m) {
+    return (six(m, p.metric.gyration) - six(p.wanted, p.metric.gyration)).norm();
+  };
+  constexpr double kNeeds = 4.0 * 7.93e-5;
+  const ContactFriction friction{0.78678757567704649, 0.77723188555836231, 0.0};
+  EXPECT_LE(reach(wedge, wedge.solve(friction, last, warm).motion), reach(wedge, {}) + kNeeds);
+
+  Random random(36);
+  double worst = 0.0;
+  int unconverged = 0;
+  for (int problem = 0; problem < 5000; ++problem) {
+    Problem p;
+    const int points = random.integer(1, 3);
+    for (int i = 0; i < points; ++i) {
+      const Vector3 point = random.in_cube(kBody);
+      const Vector3 normal = random.direction();
+      p.push(normal, point, random.between(-1e-5, 0.0));
+      p.push((0.5 * random.direction() - normal).normalized(), point, random.between(-1e-5, 0.0));
+    }
+    p.wanted = random.motion(0.01, 0.3);
+    const double ratio = random.between(0.3, 2.0);
+    ConstrainedStep step;
+    Motion before;
+    for (int cycle = 0; cycle < 3; ++cycle) {  // from its own forces, too
+      step = p.solve({1.2 * ratio, ratio, 0.0}, before, step);
+      before = step.motion;
+      unconverged += step.unconverged ? 1 : 0;
+      worst = std::max(worst, reach(p, step.motion) / reach(p, {}));
+    }
+  }
+  std::printf("[ measured ] unconverged %d of 15000, at most %.9f of rest's distance\n", unconverged, worst);
+  EXPECT_LE(worst, 1.0005);
 }
 
 }  // namespace
