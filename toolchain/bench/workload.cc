@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/pose_path.h"
-#include "toolchain/path/keyframes.h"
-#include "toolchain/path/trajectory.h"
+#include "toolchain/path/pose_file.h"
 
 namespace godobject::bench {
 namespace {
@@ -48,11 +46,7 @@ const std::vector<Workload>& workloads() {
 }
 
 std::vector<Pose> device_poses(const Workload& workload, const std::filesystem::path& scenes) {
-  const std::filesystem::path file = scenes / "paths" / workload.path;
-  if (file.extension() == ".csv") return command::read_pose_path(file).poses;
-  std::vector<Pose> poses;
-  for (const path::Sample& sample : path::sample(path::read_keyframes(file))) poses.push_back(sample.pose);
-  return poses;
+  return path::read_poses(scenes / "paths" / workload.path);
 }
 
 std::string Pipeline::name() const {

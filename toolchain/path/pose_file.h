@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/spatial/pose.h"
+
+namespace godobject::path {
+
+/// The poses of a motion, recorded (.csv, see firmware/command/pose_path.h) or of key frames (TOML): of the moving
+/// mesh's frame in W, one a millisecond. Throws Failure.
+std::vector<Pose> read_poses(const std::filesystem::path& file);
+
+}  // namespace godobject::path
