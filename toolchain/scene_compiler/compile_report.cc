@@ -279,26 +279,28 @@ Json report_json(const CompileReport& report) {
   body["level_sizes"] = report.body.level_sizes;
   body["point_spacing"] = report.body.spacing;
   body["largest_distance_of_the_surface_from_a_point"] = report.body.coverage;
-  return {{"compiler", "godobject-scenec " GODOBJECT_VERSION},
-          {"settings", settings},
-          {"still", mesh_json(config.still, report.still, config.thickness)},
-          {"moving", mesh_json(config.moving, report.moving, config.thickness)},
-          {"walls", thin_json(report.thin.walls)},
-          {"walls_rule", kRefusalRule},
-          {"gaps", thin_json(report.thin.gaps)},
-          {"wall_sample_spacing", report.thin.sample_spacing},
-          {"grid", grid_json(report.grid)},
-          {"seams",
-           {{"cells", report.seams.cells},
-            {"largest_jump", report.seams.largest_jump},
-            {"at", vector_json(report.seams.at)}}},
-          {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
-          {"refinement", refinement_json(report)},
-          {"body", body},
-          {"between_points", second_direction_json(report)},
-          {"section_bytes", sections},
-          {"build_traits", traits_json(report.traits)},
-          {"left_out", left_out_json(report)}};
+  Json json = {{"compiler", "godobject-scenec " GODOBJECT_VERSION},
+               {"settings", settings},
+               {"still", mesh_json(config.still, report.still, config.thickness)},
+               {"moving", mesh_json(config.moving, report.moving, config.thickness)},
+               {"walls", thin_json(report.thin.walls)},
+               {"walls_rule", kRefusalRule},
+               {"gaps", thin_json(report.thin.gaps)},
+               {"wall_sample_spacing", report.thin.sample_spacing},
+               {"grid", grid_json(report.grid)},
+               {"seams",
+                {{"cells", report.seams.cells},
+                 {"largest_jump", report.seams.largest_jump},
+                 {"at", vector_json(report.seams.at)}}},
+               {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
+               {"refinement", refinement_json(report)},
+               {"body", body},
+               {"between_points", second_direction_json(report)},
+               {"section_bytes", sections},
+               {"build_traits", traits_json(report.traits)},
+               {"left_out", left_out_json(report)}};
+  if (!report.choice.is_null()) json["budget"] = report.choice;
+  return json;
 }
 
 Json full_report_json(const CompileReport& report) {

@@ -195,7 +195,8 @@ CompileReport compile_scene(const CompileRequest& request) {
   CompileReport report;
   Phases phases(request, report);
   report.only_solver = request.only_solver;
-  report.config = read_scene_config(request.scene_file);
+  report.choice = request.choice;
+  report.config = request.config ? *request.config : read_scene_config(request.scene_file);
   const SceneConfig& config = report.config;
 
   const auto open_mesh = [&](const SceneConfig::Mesh& mesh, MeshFacts& facts) {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/pipeline/scene_traits.h"
 #include "toolchain/scene_compiler/between_points.h"
 #include "toolchain/scene_compiler/distance_grid.h"
@@ -25,8 +27,10 @@ inline constexpr const char* kRefinementPhase = "sharp edges";
 
 struct CompileRequest {
   std::filesystem::path scene_file;
+  std::optional<SceneConfig> config = {};  ///< taken in place of the file
   std::filesystem::path output;
   std::optional<format::Solver> only_solver;
+  nlohmann::ordered_json choice = {};  ///< how the settings were chosen, for the provenance; null: by the scene file
   std::function<void(const char* phase, double done)> progress;  ///< may be empty
 };
 
@@ -53,6 +57,7 @@ struct SecondDirection {
 struct CompileReport {
   SceneConfig config;
   std::optional<format::Solver> only_solver;
+  nlohmann::ordered_json choice;  ///< that of the request
   MeshFacts still;
   MeshFacts moving;
   ThinReport thin;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/scene/field.h"
+#include "toolchain/scene_compiler/solid_surface.h"
+
+namespace godobject::precision {
+
+/// The exact signed distance to a mesh as the pipeline reads a field: no voxels. Some microseconds a look-up.
+class MeshField {
+ public:
+  /// `surface` is read later on: it must stay alive. `voxel_size` is what lengths of the solvers follow [m].
+  MeshField(const scene_compiler::SolidSurface& surface, double voxel_size)
+      : surface_(&surface), voxel_size_(voxel_size) {}
+
+  double distance(const Vector3& p) const noexcept { return surface_->signed_distance(p); }
+
+  FieldSample sample(const Vector3& p) const noexcept;
+  void clearances(const Pose& H, PointBatch& batch) const noexcept { sample_clearances(*this, H, batch); }
+  LayerSample layer(const Vector3& p) const noexcept;
+  double lower_bound(const Vector3& center, double radius) const noexcept;
+  double lipschitz() const noexcept { return 1.0; }
+  double assured_clearance() const noexcept { return band(); }
+  double voxel_size() const noexcept { return voxel_size_; }
+  double band() const noexcept { return 1e3; }
+
+ private:
+  const scene_compiler::SolidSurface* surface_;
+  double voxel_size_;
+};
+
+static_assert(DistanceField<MeshField>);
+
+}  // namespace godobject::precision

@@ -1,0 +1,195 @@
+#include "toolchain/precision/recommendation.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "firmware/command/failure.h"
+#include "toolchain/command/scene_image.h"
+#include "toolchain/precision/press_path.h"
+#include "toolchain/scene_compiler/compile_scene.h"
+
+namespace godobject::precision {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+std::vector<Wrench> wrenches(const std::vector<TracedCycle>& cycles) {
+  std::vector<Wrench> all;
+  for (const TracedCycle& cycle : cycles) all.push_back(cycle.spring_W);
+  return all;
+}
+
+Paths or_pressed(Paths paths, const ExactScene& exact, const scene_compiler::SceneConfig& config) {
+  if (paths.empty()) paths = press_paths(exact);
+  if (!paths.empty()) return paths;
+  throw Failure(ExitCode::kBadData, fmt::format("{} and {}: the bodies meet from no side; name a motion with --path",
+                                                config.moving.name, config.still.name));
+}
+
+std::string us(double nanoseconds) { return fmt::format("{:.3g} us", 1e-3 * nanoseconds); }
+
+std::string line(const Result& result) {
+  return fmt::format("{:>9}  {:>9.4g} %  {:>9.4g} mm  {}", us(result.cost.p99_ns), 100.0 * result.wrench.relative,
+                     1e3 * result.penetration.deepest, name(result.setting));
+}
+
+/// The best that `paper` does at no more than `budget_ns`, or nothing.
+const Result* best_of_paper(const std::vector<Result>& tried, double budget_ns) {
+  std::vector<Trade> trades;
+  for (const Result& result : tried) {
+    const bool is_paper = result.setting.solver == Solver::kPaper;
+    trades.push_back(is_paper ? trade(result) : Trade{HUGE_VAL, HUGE_VAL});
+  }
+  const auto best = best_within(trades, budget_ns);
+  return best ? &tried[*best] : nullptr;
+}
+
+nlohmann::ordered_json json(const Result& result) {
+  return {{"solver", format::kSolverNames[static_cast<std::size_t>(result.setting.solver)]},
+          {"friction", result.setting.friction},
+          {"voxel_size", result.setting.image.voxel_size},
+          {"refined", result.setting.image.refined},
+          {"both_directions", result.setting.image.both_directions},
+          {"points", result.setting.image.points},
+          {"levels", result.setting.image.levels},
+          {"margin", result.setting.margin},
+          {"p50_ns", result.cost.p50_ns},
+          {"p99_ns", result.cost.p99_ns},
+          {"max_ns", result.cost.max_ns},
+          {"wrench_error", result.wrench.relative},
+          {"wrench_error_rms", result.wrench.rms},
+          {"deepest_penetration", result.penetration.deepest},
+          {"image_bytes", result.image_bytes}};
+}
+
+}  // namespace
+
+Trade trade(const Result& result) { return {result.cost.p99_ns, result.wrench.relative}; }
+
+std::vector<ImageSetting> candidate_images(const scene_compiler::SceneConfig& config) {
+  const ImageSetting written = image_setting(config);
+  std::vector<ImageSetting> images{written};
+  const auto changed = [&](auto change) {
+    images.push_back(written);
+    change(images.back());
+  };
+  changed([](ImageSetting& image) { image.voxel_size *= 2.0; });
+  changed([](ImageSetting& image) { image.voxel_size *= 0.5; });
+  changed([](ImageSetting& image) { image.refined = !image.refined; });
+  changed([](ImageSetting& image) { image.both_directions = !image.both_directions; });
+  changed([](ImageSetting& image) { image.points = std::max(image.points / 4, std::min(image.points, 200u)); });
+  changed([](ImageSetting& image) { image.points = std::min(4 * image.points, format::kMaxPoints); });
+  changed([](ImageSetting& image) { image.refined = image.both_directions = false; });
+  return images;
+}
+
+Trial::Trial(const scene_compiler::SceneConfig& config, Paths paths, std::uint32_t points)
+    : config_(config), exact_(config, points), paths_(or_pressed(std::move(paths), exact_, config)) {}
+
+const std::vector<TracedCycle>& Trial::reference(bool friction) {
+  std::vector<TracedCycle>& wanted = reference_[friction ? 1 : 0];
+  if (wanted.empty()) wanted = exact_.reference(paths_, friction);
+  return wanted;
+}
+
+std::vector<Result> Trial::operator()(const Image& image, std::span<const Variant> variants) {
+  const scene_compiler::SceneConfig config = with(config_, image.setting);
+  const auto compiled = scene_compiler::compile_scene({.scene_file = {},
+                                                       .config = config,
+                                                       .output = image.file,
+                                                       .only_solver = image.only_solver,
+                                                       .choice = {},
+                                                       .progress = {}});
+  const command::SceneImage scene = command::SceneImage::read(image.file);
+  std::filesystem::remove(image.file);
+  const Parameters& q = exact_.parameters();
+  std::vector<Session> sessions;
+  std::vector<Result> results;
+  for (const Variant& variant : variants) {
+    Result result{.setting = {.image = image.setting,
+                              .solver = variant.solver,
+                              .friction = variant.friction,
+                              .margin = variant.margin_ratio * config.settings.margin},
+                  .wrench = {},
+                  .penetration = {},
+                  .cost = {},
+                  .image_bytes = compiled.image_bytes,
+                  .cycles = {}};
+    sessions.emplace_back(scene.scene, result.setting);
+    result.cycles = trace(sessions.back(), paths_);
+    result.wrench = wrench_error(wrenches(result.cycles), wrenches(reference(variant.friction)),
+                                 q.coupling_rotation / q.coupling_translation);
+    result.penetration = penetration_error(exact_, result.cycles, kPenetrationStride);
+    results.push_back(std::move(result));
+  }
+  const std::vector<CycleCost> costs = time_cycles(sessions, paths_, image.passes);
+  for (std::size_t i = 0; i < results.size(); ++i) results[i].cost = costs[i];
+  return results;
+}
+
+Recommendation recommend(const std::vector<ImageSetting>& images, double budget_ns,
+                         const std::function<std::vector<Result>(const ImageSetting&)>& evaluate) {
+  Recommendation recommendation;
+  for (const ImageSetting& image : images) {
+    std::vector<Result> results = evaluate(image);
+    for (Result& result : results) {
+      result.cycles.clear();  // only what they have come to is kept
+      recommendation.tried.push_back(std::move(result));
+    }
+  }
+  std::vector<Trade> trades;
+  for (const Result& result : recommendation.tried) trades.push_back(trade(result));
+  recommendation.chosen = best_within(trades, budget_ns);
+  return recommendation;
+}
+
+double parse_budget_ns(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
+  const double scale = unit == "ns" ? 1.0 : unit == "us" ? 1e3 : unit == "ms" ? 1e6 : 0.0;
+  if (error != std::errc() || scale == 0.0 || !(value > 0.0) || !std::isfinite(value)) {
+    throw Failure(ExitCode::kUsage, fmt::format("--budget {}: give a time for a cycle with its unit: 20us", text));
+  }
+  return scale * value;
+}
+
+std::string text(const Recommendation& recommendation, double budget_ns) {
+  const std::vector<Result>& tried = recommendation.tried;
+  std::vector<std::size_t> by_cost(tried.size());
+  std::iota(by_cost.begin(), by_cost.end(), 0u);
+  std::sort(by_cost.begin(), by_cost.end(),
+            [&](std::size_t a, std::size_t b) { return tried[a].cost.p99_ns < tried[b].cost.p99_ns; });
+  std::string text = fmt::format(
+      "budget   {} a cycle (p99 on this machine); wrench error against exact meshes, deepest "
+      "penetration of them:\n",
+      us(budget_ns));
+  for (const std::size_t i : by_cost) {
+    text += fmt::format("  {} {}\n", recommendation.chosen == i ? '*' : ' ', line(tried[i]));
+  }
+  if (!recommendation.chosen) return text;
+  const Result& chosen = tried[*recommendation.chosen];
+  text += fmt::format("chosen   {}: the smallest wrench error, {:.3g} %, at {} or less\n", name(chosen.setting),
+                      100.0 * chosen.wrench.relative, us(budget_ns));
+  if (const Result* paper = best_of_paper(tried, budget_ns); paper != nullptr && paper != &chosen) {
+    text += fmt::format("         paper's best under this budget: {:.3g} %, {:.3g} times as much\n",
+                        100.0 * paper->wrench.relative, paper->wrench.relative / chosen.wrench.relative);
+  }
+  return text;
+}
+
+nlohmann::ordered_json json(const Recommendation& recommendation, double budget_ns) {
+  nlohmann::ordered_json all{{"budget_ns", budget_ns}, {"chosen", nullptr}, {"tried", nlohmann::ordered_json::array()}};
+  if (recommendation.chosen) all["chosen"] = json(recommendation.tried[*recommendation.chosen]);
+  for (const Result& result : recommendation.tried) all["tried"].push_back(json(result));
+  return all;
+}
+
+}  // namespace godobject::precision
