@@ -13,6 +13,7 @@
 #include "toolchain/report/fault_table/chapter.h"
 #include "toolchain/report/stability/chapter.h"
 #include "toolchain/report/study/study.h"
+#include "toolchain/report/work_precision/chapter.h"
 
 namespace {
 
@@ -29,7 +30,7 @@ same options the page of one machine and that of several are the same but for ti
 
 Chapters: `contact` (the solvers in the same scenes along the same paths; a figure is that of the worst scene, times are medians,
 and grow where cases run side by side), `faults` (runs the test programs of --tests that inject faults; what `ctest -L hil` has
-left in the same build is read), `stability` (theory and simulation, in virtual time), `extremes` (numerical extremes, and a
+left in the same build is read), `precision` (error against run time, and which settings to use under a budget), `stability` (theory and simulation, in virtual time), `extremes` (numerical extremes, and a
 fuzzer whose violations become files for --replay). Missed rows do not change the exit code.
 
 Exit codes: 0 done (whatever is missed), 1 --replay: still violated, 64 usage, 65 bad mesh or case file, 66 a mesh, device or test
@@ -46,6 +47,7 @@ struct Options {
   ContactQualityRequest contact{.meshes = "toolchain/scenes/meshes", .quick = false, .scene = {}};
   std::string tests = "build/release/tests";
   std::string devices = "firmware/devices";
+  std::string scenes = "toolchain/scenes";
   std::int64_t cycles = 0;
 };
 
@@ -57,6 +59,7 @@ std::vector<Chapter> chapters(const Options& options) {
   std::vector<Chapter> all;
   if (wanted(options, "contact")) all.push_back(contact_chapter(options.contact));
   if (wanted(options, "faults")) all.push_back(fault_chapter(options.tests));
+  if (wanted(options, "precision")) all.push_back(work_precision_chapter({options.scenes, options.contact.quick}));
   if (wanted(options, "stability")) all.push_back(stability_chapter({options.devices, options.contact.quick}));
   if (wanted(options, "extremes")) all.push_back(extremes_chapter({options.cycles, options.contact.quick}));
   return all;
@@ -84,12 +87,12 @@ void run_all(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures, and makes one page: the quality of the solvers, faults, stability, numerical extremes.",
+  CLI::App app("Measures, and makes one page: solvers, faults, error against run time, stability, numerical extremes.",
                "godobject-report");
   app.footer(kFooter);
   Options options;
   app.add_option("--only", options.only, "chapters to make, one each time; default: all")
-      ->check(CLI::IsMember({"contact", "faults", "stability", "extremes"}))
+      ->check(CLI::IsMember({"contact", "faults", "precision", "stability", "extremes"}))
       ->option_text("CHAPTER");
   app.add_flag("--quick", options.contact.quick, "less of everything: below three minutes on two cores");
   app.add_option("-j,--threads", options.threads, "cases at the same time")
@@ -108,6 +111,9 @@ int main(int argc, char** argv) {
       ->type_name("FOLDER")
       ->capture_default_str();
   app.add_option("--devices", options.devices, "folder of the device files")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  app.add_option("--scenes", options.scenes, "folder of the scene files and their motions")
       ->type_name("FOLDER")
       ->capture_default_str();
   auto* what = app.add_option_group("what to do");

@@ -1,0 +1,242 @@
+#include "toolchain/report/work_precision/chapter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "firmware/command/input_file.h"
+#include "toolchain/command/html_text.h"
+#include "toolchain/figures/gnuplot.h"
+#include "toolchain/precision/pareto.h"
+#include "toolchain/report/study/plot.h"
+#include "toolchain/report/study/result_file.h"
+#include "toolchain/report/work_precision/settings_tried.h"
+
+namespace godobject::report {
+namespace {
+
+constexpr double kBudget_us = 20.0;
+constexpr std::size_t kKeyColumns = 9;
+
+/// A setting of a scene with all that was measured, by the columns' names.
+using Measured = std::map<std::string, std::string>;
+
+double value(const Measured& row, const std::string& column) { return number(row.at(column)); }
+
+/// Rows of both sheets that have the same setting.
+std::vector<Measured> joined(const Sheet& errors, const Sheet& costs) {
+  const auto key = [](const std::vector<std::string>& row) {
+    return std::vector<std::string>(row.begin(), row.begin() + kKeyColumns);
+  };
+  std::map<std::vector<std::string>, const std::vector<std::string>*> cost_of;
+  for (const auto& row : costs.rows) cost_of[key(row)] = &row;
+  std::vector<Measured> all;
+  for (const auto& row : errors.rows) {
+    const auto cost = cost_of.find(key(row));
+    if (cost == cost_of.end()) continue;
+    Measured measured;
+    for (std::size_t i = 0; i < row.size(); ++i) measured[errors.columns[i]] = row[i];
+    for (std::size_t i = kKeyColumns; i < cost->second->size(); ++i) measured[costs.columns[i]] = (*cost->second)[i];
+    all.push_back(std::move(measured));
+  }
+  return all;
+}
+
+std::string words(const Measured& row) {
+  return fmt::format("{}, friction {}, voxel {} mm, {}, {}, {} points, {} levels, margin {} um", row.at("solver"),
+                     row.at("friction"), row.at("voxel_mm"), row.at("refined") == "yes" ? "refined" : "not refined",
+                     row.at("both_directions") == "yes" ? "both directions" : "one direction", row.at("points"),
+                     row.at("levels"), row.at("margin_um"));
+}
+
+/// Settings of one scene with friction, as a user runs them, and their front.
+struct Field {
+  std::string scene;
+  std::vector<Measured> rows;
+  std::vector<precision::Trade> trades;  ///< p99 [us] against relative error of the wrench
+  std::vector<std::size_t> front;
+
+  Field(std::string name, const std::vector<Measured>& all) : scene(std::move(name)) {
+    for (const Measured& row : all) {
+      if (row.at("scene") != scene || row.at("friction") != "on") continue;
+      rows.push_back(row);
+      trades.push_back({value(row, "p99_us"), value(row, "wrench_error")});
+    }
+    front = precision::pareto_front(trades);
+  }
+
+  std::optional<std::size_t> best(const std::string& solver, double budget_us) const {
+    std::vector<precision::Trade> chosen = trades;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!solver.empty() && rows[i].at("solver") != solver) chosen[i] = {HUGE_VAL, HUGE_VAL};
+    }
+    return precision::best_within(chosen, budget_us);
+  }
+};
+
+char letter(std::size_t i) { return static_cast<char>('A' + i % 26); }
+
+/// `quantity` against p99, the front of the wrench's error named by letters in both pictures.
+Picture picture(const Field& field, const std::string& quantity, double scale, const std::string& y,
+                const std::string& caption) {
+  constexpr double kLeast = 1e-4;  // what is drawn at the bottom of a logarithmic axis for 0
+  Plot plot{.title = field.scene + ", with friction",
+            .x = "p99 of a cycle [us]",
+            .y = y,
+            .log_x = true,
+            .log_y = true,
+            .curves = {}};
+  const auto at = [&](std::size_t i) {
+    return std::pair(field.trades[i].cost, std::max(kLeast, scale * value(field.rows[i], quantity)));
+  };
+  for (std::size_t s = 0; s < format::kSolverCount; ++s) {
+    Curve curve{format::kSolverNames[s], fmt::format("points pt {} ps 1.4 {}", 5 + 2 * s, color(s)), {}};
+    for (std::size_t i = 0; i < field.rows.size(); ++i) {
+      if (field.rows[i].at("solver") == curve.title) curve.points.push_back(at(i));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  Curve front{"Pareto front of the wrench", "lines lw 2 dt 2 " + color(6), {}};
+  for (std::size_t k = 0; k < field.front.size(); ++k) {
+    front.points.push_back(at(field.front[k]));
+    plot.settings +=
+        fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6\n", figures::quoted(std::string(1, letter(k))),
+                    front.points.back().first, front.points.back().second);
+  }
+  plot.curves.push_back(std::move(front));
+  plot.settings += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dt 3 {1}\n", kBudget_us, color(6));
+  return {"work_precision_" + field.scene + "_" + quantity, caption,
+          [plot](const std::filesystem::path& png) { return gnuplot_text(plot, png); }};
+}
+
+std::string front_table(const Field& field) {
+  std::string html =
+      "<div class=\"wide\"><table><tr><th></th><th>p50</th><th>p99</th><th>max [us]</th><th>instructions</th>"
+      "<th>wrench error [%]</th><th>[N]</th><th>direction [mrad]</th><th>deepest penetration [mm]</th>"
+      "<th>rms</th><th>friction ratio</th><th>chatter [N]</th><th>image [MB]</th><th>setting</th></tr>\n";
+  for (std::size_t k = 0; k < field.front.size(); ++k) {
+    const Measured& row = field.rows[field.front[k]];
+    const auto number_of = [&](const char* column, double scale) {
+      const double measured = scale * value(row, column);
+      return std::isnan(measured) ? std::string("-") : fmt::format("{:.3g}", measured);
+    };
+    html += fmt::format("<tr><td>{}</td>", letter(k));
+    for (const auto& [column, scale] :
+         std::initializer_list<std::pair<const char*, double>>{{"p50_us", 1.0},
+                                                               {"p99_us", 1.0},
+                                                               {"max_us", 1.0},
+                                                               {"instructions_a_cycle", 1.0},
+                                                               {"wrench_error", 100.0},
+                                                               {"wrench_error_N", 1.0},
+                                                               {"force_direction_rad", 1e3},
+                                                               {"penetration_deepest_mm", 1.0},
+                                                               {"penetration_rms_mm", 1.0},
+                                                               {"friction_ratio", 1.0},
+                                                               {"chatter_N", 1.0},
+                                                               {"image_bytes", 1e-6}}) {
+      html += fmt::format("<td class=\"number\">{}</td>", number_of(column, scale));
+    }
+    html += fmt::format("<td>{}</td></tr>\n", command::html_text(words(row)));
+  }
+  return html + "</table></div>\n";
+}
+
+/// The setting under the budget, and how much better it is than the paper's own.
+void recommend(const Field& field, Section& section) {
+  const auto chosen = field.best("", kBudget_us);
+  Finding within{.row = field.scene,
+                 .what = "p99 of the recommended setting",
+                 .unit = "us",
+                 .value = chosen ? field.trades[*chosen].cost : std::nan(""),
+                 .most = kBudget_us,
+                 .where = chosen ? words(field.rows[*chosen]) : "all settings cost more"};
+  section.findings.push_back(within);
+  if (!chosen) return;
+  const double error = field.trades[*chosen].error;
+  std::string html = fmt::format(
+      "<p><b>{}: under a budget of {:g} us a cycle, use {}</b>: p99 {:.3g} us, wrench error {:.3g} % of the reference, "
+      "deepest penetration {:.3g} mm.",
+      command::html_text(field.scene), kBudget_us, command::html_text(words(field.rows[*chosen])),
+      field.trades[*chosen].cost, 100.0 * error, value(field.rows[*chosen], "penetration_deepest_mm"));
+  if (const auto paper = field.best("paper", field.trades[*chosen].cost)) {
+    const double of_paper = field.trades[*paper].error;
+    html += fmt::format(" The paper's solver at no more than the same cost has {:.3g} %, {:.3g} times as much ({}).",
+                        100.0 * of_paper, of_paper / error, command::html_text(words(field.rows[*paper])));
+    section.findings.push_back({.row = field.scene,
+                                .what = "its wrench error over that of paper at no more than its cost",
+                                .unit = "",
+                                .value = error / of_paper,
+                                .most = 1.0,
+                                .where = words(field.rows[*paper])});
+  } else if (const auto cheapest = field.best("paper", HUGE_VAL)) {
+    html += fmt::format(" The paper's solver costs more in every setting; its best has {:.3g} % at {:.3g} us.",
+                        100.0 * field.trades[*cheapest].error, field.trades[*cheapest].cost);
+  }
+  section.html += html + "</p>\n";
+}
+
+Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
+  Section section = gather(outcomes, folder);
+  const std::vector<Measured> all = joined(gathered(outcomes, kErrors), gathered(outcomes, kCosts));
+  for (const PrecisionScene& scene : precision_scenes()) {
+    const Field field(scene.name, all);
+    if (field.rows.empty()) continue;
+    section.pictures.push_back(picture(field, "wrench_error", 100.0, "wrench error [% of the reference]",
+                                       field.scene +
+                                           ": error of the wrench against the solver contact on the exact meshes. "
+                                           "Letters: the table below. Dotted: 20 us."));
+    section.pictures.push_back(picture(field, "penetration_deepest_mm", 1.0, "deepest penetration [mm]",
+                                       field.scene +
+                                           ": deepest point of either body in the other's exact mesh; at the bottom: "
+                                           "0.1 um or less. The line is the front of the picture above."));
+    recommend(field, section);
+    section.html += front_table(field);
+  }
+  for (const Measured& row : all) {
+    if (value(row, "load") <= 1.5) continue;
+    section.html += "<p>Other work ran on the machine: times are indicative.</p>\n";
+    break;
+  }
+  section.html +=
+      "<p>All settings: <a href=\"work_precision_errors.csv\">errors</a>, <a "
+      "href=\"work_precision_costs.csv\">costs</a>.</p>\n";
+  return section;
+}
+
+}  // namespace
+
+Chapter work_precision_chapter(const WorkPrecisionRequest& request) {
+  Chapter chapter{
+      .name = "precision",
+      .title = "Error against run time",
+      .introduction =
+          "<p>Settings that a user may choose, along the scenes' motions. Reference: the solver <code>contact</code> "
+          "without voxels, on the exact distances to both meshes. Wrench error: rms of the difference over the rms of "
+          "the reference, torques by the coupling's metric. A cycle's time is the median of interleaved passes.</p>",
+      .cases = {},
+      .conclude = conclude};
+  for (const PrecisionScene& scene : precision_scenes()) {
+    if (request.quick && scene.name != "bunny-teapot") continue;
+    const std::filesystem::path file = request.scenes / (scene.name + ".toml");
+    const std::filesystem::path motion = request.scenes / "paths" / scene.path;
+    for (const auto& input : {file, motion}) {
+      command::require_regular_input(input,
+                                     "name the folder of the scenes with --scenes: toolchain/scenes of the sources");
+    }
+    const precision::ImageSetting written = precision::image_setting(scene_compiler::read_scene_config(file));
+    for (const TriedImage& image : tried_images(written, request.quick)) {
+      chapter.cases.push_back(
+          {.name = fmt::format("precision.{}-{}", scene.name, image.name),
+           .inputs = fmt::format("quick {} scene {} motion {}", request.quick, file_digest(file), file_digest(motion)),
+           .run = [scene, image, request](const std::filesystem::path& work) {
+             return try_image(scene, image, request.scenes, work, request.quick);
+           }});
+    }
+  }
+  return chapter;
+}
+
+}  // namespace godobject::report

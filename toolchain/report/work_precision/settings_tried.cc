@@ -1,0 +1,183 @@
+#include "toolchain/report/work_precision/settings_tried.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "toolchain/path/pose_file.h"
+#include "toolchain/report/contact_quality/reference.h"
+#include "toolchain/report/contact_quality/signals.h"
+#include "toolchain/scene_compiler/sample_elimination.h"
+
+namespace godobject::report {
+namespace {
+
+using precision::ImageSetting;
+
+std::vector<Vector3> forces(const std::vector<precision::TracedCycle>& cycles) {
+  std::vector<Vector3> all;
+  for (const precision::TracedCycle& cycle : cycles) all.push_back(cycle.spring_W.force);
+  return all;
+}
+
+/// Tangential over normal spring force while sliding, mean of its cycles; NaN where it is not measured.
+double friction_ratio(const PrecisionScene& scene, const precision::Result& result) {
+  double sum = 0.0;
+  double count = 0.0;
+  if (!scene.sliding || !result.setting.friction) return std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = scene.sliding->begin; k < std::min(scene.sliding->end, result.cycles.size()); ++k) {
+    const Vector3& force = result.cycles[k].spring_W.force;
+    const double normal = force.dot(scene.sliding->normal);
+    if (normal <= 0.0) continue;
+    sum += across(force, scene.sliding->normal).norm() / normal;
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+/// Cycles in which the reference pushes hardest, one in each of `wanted` parts of the motion.
+std::vector<std::size_t> checkpoints(const std::vector<precision::TracedCycle>& reference, std::size_t wanted) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t part = 0; part < wanted; ++part) {
+    const std::size_t begin = part * reference.size() / wanted;
+    const std::size_t end = (part + 1) * reference.size() / wanted;
+    std::size_t hardest = begin;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (reference[k].spring_W.force.norm() > reference[hardest].spring_W.force.norm()) hardest = k;
+    }
+    if (reference[hardest].spring_W.force.norm() > 0.0) chosen.push_back(hardest);
+  }
+  return chosen;
+}
+
+/// Largest distance of the god object to the constrained optimum on the exact still mesh at a few poses; without
+/// friction only, NaN with it and where no reference was found. [m]
+double optimum_distance(const precision::ExactScene& exact, const std::vector<Pose>& path,
+                        const std::vector<std::size_t>& cycles, const precision::Result& result) {
+  double farthest = std::numeric_limits<double>::quiet_NaN();
+  if (result.setting.friction) return farthest;
+  OptimumProblem problem;
+  problem.rho_squared = exact.parameters().coupling_rotation / exact.parameters().coupling_translation;
+  for (std::size_t i = 0; i < exact.points().size; ++i) problem.points_B.push_back(exact.points().point(i));
+  problem.pieces = [&](const Vector3& p_W, std::vector<analytic::Piece>& out) {
+    const FieldSample sample = exact.still().sample(p_W);
+    out.push_back({sample.distance, sample.gradient});
+  };
+  for (const std::size_t k : cycles) {
+    problem.H_WD = path[k] * exact.H_MB();
+    const OptimumGap gap = optimum_gap(problem, result.cycles[k].H_WM * exact.H_MB(), true);
+    if (gap.known) farthest = std::isnan(farthest) ? gap.distance : std::max(farthest, gap.distance);
+  }
+  return farthest;
+}
+
+const std::vector<std::string> kKey = {"scene",           "solver", "friction", "voxel_mm", "refined",
+                                       "both_directions", "points", "levels",   "margin_um"};
+
+std::vector<std::string> key_of(const std::string& scene, const precision::Setting& setting) {
+  return {scene,
+          format::kSolverNames[static_cast<std::size_t>(setting.solver)],
+          setting.friction ? "on" : "off",
+          fmt::format("{:.6g}", 1e3 * setting.image.voxel_size),
+          setting.image.refined ? "yes" : "no",
+          setting.image.both_directions ? "yes" : "no",
+          std::to_string(setting.image.points),
+          std::to_string(setting.image.levels),
+          fmt::format("{:.6g}", 1e6 * setting.margin)};
+}
+
+Sheet sheet(const char* name, const std::vector<std::string>& values) {
+  Sheet made{.name = name, .columns = kKey, .rows = {}};
+  made.columns.insert(made.columns.end(), values.begin(), values.end());
+  return made;
+}
+
+void add(Sheet& sheet, std::vector<std::string> row, std::initializer_list<double> values) {
+  for (const double value : values) row.push_back(cell(value));
+  sheet.rows.push_back(std::move(row));
+}
+
+}  // namespace
+
+const std::vector<PrecisionScene>& precision_scenes() {
+  static const std::vector<PrecisionScene> all = {
+      {.name = "bunny-teapot", .path = "bunny-teapot.csv"},
+      {.name = "bunny-plate", .path = "through-plate.toml", .sliding = Sliding{.begin = 550, .end = 700}},
+      {.name = "peg-hole", .path = "peg-hole.toml", .reference_points = 1500}};
+  return all;
+}
+
+std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick) {
+  std::vector<TriedImage> images;
+  const auto add = [&](const std::string& name, auto change) {
+    ImageSetting setting = written;
+    change(setting);
+    setting.levels = std::min(setting.levels, scene_compiler::most_levels(setting.points));
+    images.push_back({name, setting, name == "as-written"});
+  };
+  const auto plain = [](ImageSetting& setting) { setting.refined = setting.both_directions = false; };
+  if (quick) {
+    add("voxel-1-points-1000-plain", [&](ImageSetting& s) { plain(s), s.points = 1000; });
+    add("voxel-1-plain", plain);
+    return images;
+  }
+  add("as-written", [](ImageSetting&) {});
+  add("voxel-2", [](ImageSetting& s) { s.voxel_size *= 2.0; });
+  add("voxel-0.5", [](ImageSetting& s) { s.voxel_size *= 0.5; });
+  add("points-1000", [](ImageSetting& s) { s.points = 1000; });
+  add("points-20000", [](ImageSetting& s) { s.points = 20000; });
+  add("levels-4", [](ImageSetting& s) { s.levels = 4; });
+  add("not-refined", [](ImageSetting& s) { s.refined = false; });
+  add("one-direction", [](ImageSetting& s) { s.both_directions = false; });
+  for (const double ratio : {2.0, 1.0, 0.5, 0.25}) {
+    for (const std::uint32_t points : {1000u, written.points, 20000u}) {
+      add(fmt::format("voxel-{:g}-points-{}-plain", ratio, points), [&](ImageSetting& s) {
+        plain(s);
+        s.voxel_size *= ratio;
+        s.points = points;
+      });
+    }
+  }
+  return images;
+}
+
+CaseResult try_image(const PrecisionScene& scene, const TriedImage& image, const std::filesystem::path& scenes,
+                     const std::filesystem::path& work, bool quick) {
+  const std::vector<Pose> path = path::read_poses(scenes / "paths" / scene.path);
+  precision::Trial trial(scene_compiler::read_scene_config(scenes / (scene.name + ".toml")), {path},
+                         scene.reference_points);
+  std::vector<precision::Variant> variants;
+  for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
+    for (const bool friction : {false, true}) variants.push_back({static_cast<Solver>(i), friction, 1.0});
+  }
+  if (image.margins) variants.insert(variants.end(), {{Solver::kContact, true, 0.1}, {Solver::kContact, true, 10.0}});
+  const std::size_t passes = quick ? 3 : 5;
+  const std::vector<precision::Result> results =
+      trial({.setting = image.setting, .file = work / "tried.scene", .only_solver = {}, .passes = passes}, variants);
+  double load = 0.0;
+  ::getloadavg(&load, 1);
+
+  Sheet errors = sheet(kErrors, {"wrench_error", "wrench_error_N", "force_magnitude_N", "force_direction_rad",
+                                 "penetration_deepest_mm", "penetration_rms_mm", "optimum_distance_mm",
+                                 "friction_ratio", "chatter_N", "chatter_of_reference_N", "image_bytes"});
+  Sheet costs = sheet(kCosts, {"p50_us", "p99_us", "max_us", "instructions_a_cycle", "load"});
+  const std::vector<std::size_t> checked = checkpoints(trial.reference(false), quick ? 1 : 3);
+  for (const precision::Result& result : results) {
+    const std::vector<std::string> key = key_of(scene.name, result.setting);
+    add(errors, key,
+        {result.wrench.relative, result.wrench.rms, result.wrench.magnitude, result.wrench.direction,
+         1e3 * result.penetration.deepest, 1e3 * result.penetration.rms,
+         1e3 * optimum_distance(trial.exact(), path, checked, result), friction_ratio(scene, result),
+         chatter(forces(result.cycles)), chatter(forces(trial.reference(result.setting.friction))),
+         static_cast<double>(result.image_bytes)});
+    add(costs, key,
+        {1e-3 * result.cost.p50_ns, 1e-3 * result.cost.p99_ns, 1e-3 * result.cost.max_ns, result.cost.instructions,
+         load});
+  }
+  return {.findings = {}, .sheets = {errors, costs}};
+}
+
+}  // namespace godobject::report
