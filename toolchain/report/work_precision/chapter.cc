@@ -79,7 +79,7 @@ struct Field {
 
 char letter(std::size_t i) { return static_cast<char>('A' + i % 26); }
 
-/// `quantity` against p99, the front of the wrench's error named by letters in both pictures.
+/// `quantity` against p99, with its own front; letters are those of the wrench's front, as in the table.
 Picture picture(const Field& field, const std::string& quantity, double scale, const std::string& y,
                 const std::string& caption) {
   constexpr double kLeast = 1e-4;  // what is drawn at the bottom of a logarithmic axis for 0
@@ -89,24 +89,26 @@ Picture picture(const Field& field, const std::string& quantity, double scale, c
             .log_x = true,
             .log_y = true,
             .curves = {}};
-  const auto at = [&](std::size_t i) {
-    return std::pair(field.trades[i].cost, std::max(kLeast, scale * value(field.rows[i], quantity)));
-  };
+  std::vector<precision::Trade> trades;
+  for (std::size_t i = 0; i < field.rows.size(); ++i) {
+    trades.push_back({field.trades[i].cost, std::max(kLeast, scale * value(field.rows[i], quantity))});
+  }
   for (std::size_t s = 0; s < format::kSolverCount; ++s) {
     Curve curve{format::kSolverNames[s], fmt::format("points pt {} ps 1.4 {}", 5 + 2 * s, color(s)), {}};
-    for (std::size_t i = 0; i < field.rows.size(); ++i) {
-      if (field.rows[i].at("solver") == curve.title) curve.points.push_back(at(i));
+    for (std::size_t i = 0; i < trades.size(); ++i) {
+      if (field.rows[i].at("solver") == curve.title) curve.points.emplace_back(trades[i].cost, trades[i].error);
     }
     plot.curves.push_back(std::move(curve));
   }
-  Curve front{"Pareto front of the wrench", "lines lw 2 dt 2 " + color(6), {}};
-  for (std::size_t k = 0; k < field.front.size(); ++k) {
-    front.points.push_back(at(field.front[k]));
-    plot.settings +=
-        fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6\n", figures::quoted(std::string(1, letter(k))),
-                    front.points.back().first, front.points.back().second);
-  }
+  Curve front{"Pareto front", "lines lw 2 dt 2 " + color(6), {}};
+  for (const std::size_t i : precision::pareto_front(trades))
+    front.points.emplace_back(trades[i].cost, trades[i].error);
   plot.curves.push_back(std::move(front));
+  for (std::size_t k = 0; k < field.front.size(); ++k) {
+    const precision::Trade& at = trades[field.front[k]];
+    plot.settings += fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6\n",
+                                 figures::quoted(std::string(1, letter(k))), at.cost, at.error);
+  }
   plot.settings += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dt 3 {1}\n", kBudget_us, color(6));
   return {"work_precision_" + field.scene + "_" + quantity, caption,
           [plot](const std::filesystem::path& png) { return gnuplot_text(plot, png); }};
@@ -191,7 +193,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
     section.pictures.push_back(picture(field, "penetration_deepest_mm", 1.0, "deepest penetration [mm]",
                                        field.scene +
                                            ": deepest point of either body in the other's exact mesh; at the bottom: "
-                                           "0.1 um or less. The line is the front of the picture above."));
+                                           "0.1 um or less. Letters: those of the picture above."));
     recommend(field, section);
     section.html += front_table(field);
   }
