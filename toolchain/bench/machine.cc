@@ -10,6 +10,7 @@
 
 #include "toolchain/bench/build_facts.h"
 #include "toolchain/bench/cycle_times.h"
+#include "toolchain/command/source_commit.h"
 
 namespace godobject::bench {
 namespace {
@@ -51,7 +52,7 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
       {"caches", cache_sizes()},
       {"system", fmt::format("{} {}, {}", system.sysname, system.release, system.machine)},
       {"compiler", __VERSION__},
-      {"commit", kSourceCommit},
+      {"commit", command::kSourceCommit},
       {"load", load()},
       {"clock", fmt::format("two readings in a row: {:.0f} ns (p50), {:.0f} ns (p99), in every time of a cycle",
                             clock.p50, clock.p99)},

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "toolchain/command/source_commit.h"
 #include "toolchain/figures/gnuplot.h"
-#include "toolchain/report/study/commit.h"
 #include "toolchain/report/study/page.h"
 #include "toolchain/report/study/result_file.h"
 
@@ -24,7 +24,7 @@ struct Origin {
   std::vector<std::string> stale;  ///< cases whose result was made from other inputs
 
   std::vector<std::string> sentences(const std::string& what_was_run) const {
-    std::vector<std::string> all{fmt::format("Commit {}. Made by: {}.", commit(), what_was_run)};
+    std::vector<std::string> all{fmt::format("Commit {}. Made by: {}.", command::kSourceCommit, what_was_run)};
     for (const auto& [machine, count] : machines) all.push_back(fmt::format("{} cases on {}.", count, machine));
     if (programs.size() > 1) {
       all.push_back(fmt::format("The cases were run by {} different builds.", programs.size()));
