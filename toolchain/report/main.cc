@@ -49,6 +49,7 @@ struct Options {
   std::string devices = "firmware/devices";
   std::string scenes = "toolchain/scenes";
   std::int64_t cycles = 0;
+  std::uint32_t seed = 0;
 };
 
 bool wanted(const Options& options, const std::string& chapter) {
@@ -61,7 +62,8 @@ std::vector<Chapter> chapters(const Options& options) {
   if (wanted(options, "faults")) all.push_back(fault_chapter(options.tests));
   if (wanted(options, "precision")) all.push_back(work_precision_chapter({options.scenes, options.contact.quick}));
   if (wanted(options, "stability")) all.push_back(stability_chapter({options.devices, options.contact.quick}));
-  if (wanted(options, "extremes")) all.push_back(extremes_chapter({options.cycles, options.contact.quick}));
+  if (wanted(options, "extremes"))
+    all.push_back(extremes_chapter({options.cycles, options.contact.quick, options.seed}));
   return all;
 }
 
@@ -102,6 +104,10 @@ int main(int argc, char** argv) {
   app.add_option("--cycles", options.cycles, "cycles of the fuzzer in all; default: 100000, with --quick 20000")
       ->check(CLI::Range(std::int64_t{1000}, std::int64_t{1'000'000'000'000}))
       ->option_text("N");
+  app.add_option("--seed", options.seed, "of the fuzzer; each gives other runs")
+      ->check(CLI::Range(0u, 1'000'000u))
+      ->option_text("N")
+      ->capture_default_str();
   app.add_option("--scene", options.contact.scene, "chapter contact: only scenes whose name holds this; default: all")
       ->type_name("PART");
   app.add_option("--meshes", options.contact.meshes, "folder of bunny_npm.ply, the moving body of some scenes")

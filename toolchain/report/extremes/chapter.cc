@@ -19,6 +19,7 @@ namespace godobject::report {
 namespace {
 
 const char* const kViolations = "extremes_violations";
+constexpr std::uint32_t kMostStretches = 200;  ///< that the fuzzer is cut into, each with a seed
 
 /// What a stretch of runs has come to: findings for its row, and a case file for each run that violates something.
 class Tally {
@@ -115,7 +116,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
 Chapter extremes_chapter(const ExtremesRequest& request) {
   const std::int64_t cycles = request.cycles > 0 ? request.cycles : request.quick ? 20'000 : 100'000;
   const std::int64_t row_cycles = request.quick ? 2'000 : 100'000;
-  const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, 200);
+  const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, kMostStretches);
   const bool quick = request.quick;
   Chapter chapter{
       .name = "extremes",
@@ -142,9 +143,10 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
     });
   }
   for (std::int64_t i = 0; i < stretches; ++i) {
-    add(fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {}", quick, cycles / stretches),
-        [i, quick, each = cycles / stretches](const auto& work) {
-          return run_row("fuzzer", each, static_cast<std::uint32_t>(i), !quick, work);
+    const auto seed = request.seed * kMostStretches + static_cast<std::uint32_t>(i);
+    add(fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {} seed {}", quick, cycles / stretches, seed),
+        [seed, quick, each = cycles / stretches](const auto& work) {
+          return run_row("fuzzer", each, seed, !quick, work);
         });
   }
   return chapter;

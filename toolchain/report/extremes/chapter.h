@@ -10,6 +10,7 @@ namespace godobject::report {
 struct ExtremesRequest {
   std::int64_t cycles = 0;  ///< of the fuzzer in all; 0: as many as fit
   bool quick = false;
+  std::uint32_t seed = 0;  ///< of the fuzzer: another one, other runs
 };
 
 /// Numerical extremes, and the fuzzer.
