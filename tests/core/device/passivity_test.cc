@@ -1,0 +1,176 @@
+#include "core/device/passivity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/random.h"
+
+namespace godobject {
+namespace {
+
+constexpr double kPeriod = 1e-3;
+
+JointVector joint(double value) {
+  JointVector all = JointVector::Zero();
+  all[0] = value;
+  return all;
+}
+
+/// Torque 2 Nm from sample 0 on, at rest until then, a way of 0.1 rad a sample.
+double after(PassivityObserver& observer, int samples) {
+  for (int k = 0; k <= samples; ++k) {
+    observer.observe(joint(0.1 * k));
+    observer.send(joint(2.0));
+  }
+  return observer.absorbed();
+}
+
+TEST(PassivityObserver, CountsWhatActsAndNotWhatIsSent) {
+  // by hand: 0.2 J a sample is given once it acts, at d = 1.25 a period and a quarter after the first sample
+  PassivityObserver at_once(0.0);
+  EXPECT_NEAR(after(at_once, 3), -0.6, 1e-15);
+  PassivityObserver later(1.0);
+  EXPECT_NEAR(after(later, 3), -0.4, 1e-15);
+  PassivityObserver between(1.25);
+  EXPECT_NEAR(after(between, 3), -0.35, 1e-15);
+  between.reset();
+  EXPECT_EQ(between.absorbed(), 0.0);
+  EXPECT_NEAR(after(between, 3), -0.35, 1e-15);
+}
+
+TEST(PassivityObserver, BringsTheDelayIntoItsRange) {
+  PassivityObserver farthest(PassivityObserver::kMostDelay);
+  PassivityObserver beyond(1e3);
+  EXPECT_NEAR(after(farthest, 20), -0.2 * (20 - PassivityObserver::kMostDelay), 1e-12);
+  EXPECT_EQ(after(beyond, 20), farthest.absorbed());
+  PassivityObserver before(-1.0);
+  EXPECT_NEAR(after(before, 3), -0.6, 1e-15);
+}
+
+TEST(PassivityObserver, SumsOverJoints) {
+  PassivityObserver observer(0.0);
+  test::Random random(3);
+  JointVector q = JointVector::Zero();
+  double given = 0.0;
+  JointVector torque = JointVector::Zero();
+  observer.observe(q);
+  for (int k = 0; k < 100; ++k) {
+    for (int i = 0; i < kMaxJoints; ++i) torque[i] = random.between(-1.0, 1.0);
+    observer.send(torque);
+    JointVector next = q;
+    for (int i = 0; i < kMaxJoints; ++i) next[i] += random.between(-0.1, 0.1);
+    for (int i = 0; i < kMaxJoints; ++i) given += torque[i] * (next[i] - q[i]);
+    q = next;
+    observer.observe(q);
+  }
+  EXPECT_NEAR(observer.absorbed(), -given, 1e-12);
+}
+
+/// A9: a slow sine on a spring gets pi w A^2 K (T/2 + t_d) a cycle; over joint 1, K in Nm/rad.
+TEST(PassivityObserver, SeesWhatHoldAndDelayGive) {
+  constexpr double kStiffness = 1000.0;
+  constexpr int kSamples = 1000;
+  const double w = 2.0 * M_PI / (kSamples * kPeriod);
+  for (const double delay : {0.0, 0.5, 1.0, 2.3}) {
+    PassivityObserver observer(delay);
+    const auto run_cycle = [&] {
+      for (int k = 0; k < kSamples; ++k) {
+        const double x = std::sin(2.0 * M_PI * k / kSamples);
+        observer.observe(joint(x));
+        observer.send(joint(-kStiffness * x));
+      }
+    };
+    run_cycle();
+    const double before = observer.absorbed();
+    run_cycle();
+    const double expected = -M_PI * w * kStiffness * kPeriod * (0.5 + delay);
+    EXPECT_NEAR(observer.absorbed() - before, expected, 0.001 * std::fabs(expected)) << "delay " << delay;
+  }
+}
+
+const Wrench kPush{{0.0, 0.0, 10.0}, {}};
+const Motion kIn{{0.0, 0.0, -0.1}, {}};
+const Motion kOut{{0.0, 0.0, 0.1}, {}};
+
+TEST(PassivityController, LeavesTheWrenchAloneWithoutADebt) {
+  PassivityController controller({.most_damping = 50.0});
+  for (const double absorbed : {0.0, 1e-9, 1.0}) {
+    EXPECT_EQ(controller.apply(absorbed, kPush, kIn).force, kPush.force);
+    EXPECT_EQ(controller.damping(), 0.0);
+  }
+  PassivityController off(PassivityController::Parameters{});
+  EXPECT_EQ(off.apply(-1.0, kPush, kIn).force, kPush.force);
+}
+
+TEST(PassivityController, PaysTheDebtWithinAPeriodWhereItMay) {
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  // by hand: 1e-4 J in 1 ms at 0.1 m/s are 1 N
+  EXPECT_NEAR(controller.apply(-1e-4, kPush, kIn).force.z(), 11.0, 1e-12);
+  EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
+  EXPECT_NEAR(controller.apply(-1e-4, kPush, kOut).force.z(), 9.0, 1e-12);
+  // at most 50 Ns/m
+  EXPECT_NEAR(controller.apply(-1.0, kPush, kIn).force.z(), 15.0, 1e-12);
+  EXPECT_EQ(controller.damping(), 50.0);
+}
+
+TEST(PassivityController, NeverTurnsAPushIntoAPull) {
+  PassivityController controller({.most_damping = 500.0, .period = kPeriod});
+  EXPECT_EQ(controller.apply(-1.0, kPush, kOut).force.z(), 0.0);
+  EXPECT_TRUE(controller.apply(-1.0, {}, kOut).force.isZero(0.0));
+}
+
+/// Random wrenches and motions: direction kept, what it takes in a period is neither negative nor more than the debt,
+/// and the change is no larger than the largest damper's, all in the coupling's lengths.
+TEST(PassivityController, TakesNoMoreThanTheDebtAndTheLargestDamper) {
+  constexpr double kLength = 0.16;
+  constexpr double kMost = 40.0;
+  test::Random random(4);
+  for (int i = 0; i < 100000; ++i) {
+    PassivityController controller({.most_damping = kMost, .period = kPeriod, .rotation_length = kLength});
+    const double size = std::pow(10.0, random.between(-6.0, 2.0));
+    const Wrench F{size * random.in_cube(1.0), size * random.in_cube(0.2)};
+    const double speed = std::pow(10.0, random.between(-6.0, 1.0));
+    const Motion V{speed * random.in_cube(1.0), speed * random.in_cube(5.0)};
+    const double debt = std::pow(10.0, random.between(-12.0, 1.0));
+    const Wrench out = controller.apply(-debt, F, V);
+    const Vector3 df = out.force - F.force;
+    const Vector3 dt = out.torque - F.torque;
+    const double taken = -kPeriod * (df.dot(V.translation) + dt.dot(V.rotation));
+    ASSERT_GE(taken, 0.0);
+    const double rounding =
+        1e-15 * kPeriod * (F.force.norm() * V.translation.norm() + F.torque.norm() * V.rotation.norm());
+    ASSERT_LE(taken, debt * (1.0 + 1e-9) + 4.0 * rounding);
+    const double change = std::hypot(df.norm(), dt.norm() / kLength);
+    ASSERT_LE(change, kMost * std::hypot(V.translation.norm(), kLength * V.rotation.norm()) * (1.0 + 1e-9));
+    ASSERT_LE(out.force.cross(F.force).norm(), 1e-12 * F.force.squaredNorm() + 1e-12 * out.force.squaredNorm());
+    ASSERT_GE(out.force.dot(F.force) + out.torque.dot(F.torque), 0.0);
+  }
+}
+
+TEST(PassivityController, ForgetsASurplusOnceNothingIsRenderedButNotADebt) {
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  constexpr double kSurplus = 0.1;
+  for (int k = 1; k < PassivityController::kForget; ++k) controller.apply(kSurplus, {}, kIn);
+  EXPECT_EQ(controller.apply(kSurplus - 0.01, kPush, kIn).force, kPush.force);  // too early: it may still act
+  for (int k = 0; k < PassivityController::kForget; ++k) controller.apply(kSurplus, {}, kIn);
+  EXPECT_GT(controller.apply(kSurplus - 0.01, kPush, kIn).force.z(), 10.0);
+  for (int k = 0; k < PassivityController::kForget; ++k) controller.apply(kSurplus - 0.01, {}, kIn);
+  EXPECT_GT(controller.apply(kSurplus - 0.01, kPush, kIn).force.z(), 10.0);
+  controller.reset();
+  EXPECT_EQ(controller.apply(0.0, kPush, kIn).force, kPush.force);
+}
+
+TEST(PassivityController, StaysFiniteAtTheEdgesOfNumbers) {
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  for (const double force : {1e-200, 1e-160, 1e-30, 1e30}) {
+    for (const double speed : {1e-200, 1e-160, 1e-30, 1e3}) {
+      const Wrench out = controller.apply(-1.0, {{0.0, force, 0.0}, {}}, {{0.0, speed, 0.0}, {}});
+      EXPECT_TRUE(out.force.allFinite());
+      EXPECT_LE(out.force.norm(), force);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace godobject
