@@ -10,7 +10,9 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
       position_check_(*setup.arm, setup.stuck_torque, kPeriod),
       velocity_(setup.velocity_window, kPeriod),
       supervisor_(*setup.arm, setup.supervisor),
-      limiter_(*setup.arm, setup.torque) {}
+      limiter_(*setup.arm, setup.torque),
+      observer_(drives.delay() / kPeriod),
+      passivity_(setup.passivity) {}
 
 // clang-format off: the steps stand in a column
 void ControlCycle::run_once(const LoopEvents& events) noexcept {
@@ -18,12 +20,14 @@ void ControlCycle::run_once(const LoopEvents& events) noexcept {
   if (!supervisor_.follows_positions()) begin_positions_anew();
   position_check_.update(reading_, qd_, limiter_.pushed(), events.skipped, positions_);
   Status status = estimate_velocity(events.skipped);
+  observe_energy();
   const ArmKinematics kinematics = forward_kinematics(*setup_.arm, positions_.q);
   if (status == Status::kOk) status = render(kinematics);          // mapping, #1 - #7, limits at the hand
   if (status == Status::kOk) status = compute_torque(kinematics);  // J^T
   const Decision decision = supervisor_.step(observe(events, status));
   const JointVector torque = limiter_.apply(decision, computed_, qd_);
   const bool sent = drives_.send({torque, decision.power});
+  observer_.send(limiter_.pushed());
   // clang-format on
   sends_failed_ = sent ? 0 : sends_failed_ + 1;
   record_.torque = torque;
@@ -38,6 +42,15 @@ void ControlCycle::begin_positions_anew() noexcept {
   position_check_.restart();
   velocity_.reset();
   last_q_ = reading_.position;
+}
+
+/// Before anything is rendered there is no account.
+void ControlCycle::observe_energy() noexcept {
+  if (!supervisor_.renders()) {
+    observer_.reset();
+    passivity_.reset();
+  }
+  if (positions_.finite) observer_.observe(positions_.q);
 }
 
 /// Periods without a cycle are filled with positions in between, since the estimator wants one a period.
@@ -91,7 +104,9 @@ Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   const Motion velocity_W = mapping_->velocity_in_scene(velocity_R);
   if (const Status status = god_object_.update({H_WM_, velocity_W}, report_); status != Status::kOk) return status;
 
-  at_hand_ = limit_at_hand(setup_.hand, mapping_->wrench_at_hand(report_.force.total_W), velocity_R);
+  const Wrench wrench_R =
+      passivity_.apply(observer_.absorbed(), mapping_->wrench_at_hand(report_.force.total_W), velocity_R);
+  at_hand_ = limit_at_hand(setup_.hand, wrench_R, velocity_R);
   return Status::kOk;
 }
 
@@ -146,6 +161,8 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   record_.H_WM = H_WM_;
   record_.god_object_W = god_object_.mesh_pose();
   record_.share = decision.share;
+  record_.absorbed = observer_.absorbed();
+  record_.injected_damping = passivity_.damping();
   if (!decision.of_last) {
     const Wrench& rendered = joint_torque_.rendered_W;  // about M's origin
     granted_R_ = {decision.share * rendered.force, decision.share * (rendered.torque - lever_R_.cross(rendered.force))};

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/device/joint_torque.h"
+#include "core/device/passivity.h"
 #include "core/device/velocity_estimator.h"
 #include "core/device/workspace_mapping.h"
 #include "core/pipeline/god_object.h"
@@ -54,7 +55,10 @@ struct CycleRecord {
   Pose god_object_W;                         ///< the moving mesh as the god object holds it
   Wrench wrench_R;                           ///< on the hand, at the centre of mass, share included [N, Nm]
   double share = 0.0;                        ///< of what is rendered
-  double penetration = 0.0;                  ///< as CycleReport [m]
+  /// Taken from arm and hand by what was pushed since rendering began; below zero: given to them [J]
+  double absorbed = 0.0;
+  double injected_damping = 0.0;  ///< of the passivity controller, along the wrench at the hand [Ns/m]
+  double penetration = 0.0;       ///< as CycleReport [m]
   std::uint32_t contacts = 0;
   std::uint32_t lost = 0;
   bool clutch_is_open = false;  ///< the tool moves, the mesh rests
@@ -72,6 +76,7 @@ struct CycleSetup {
   WorkspaceMappingParameters mapping;
   int velocity_window = 4;
   double stuck_torque = 0.005;  ///< as PositionCheck
+  PassivityController::Parameters passivity;
   HandLimits hand;
   TorqueLimits torque;
   Supervisor::Parameters supervisor;
@@ -104,6 +109,7 @@ class ControlCycle {
 
  private:
   void begin_positions_anew() noexcept;
+  void observe_energy() noexcept;
   Status estimate_velocity(std::uint32_t skipped) noexcept;
   bool opens_clutch() noexcept;
   double contact_force() const noexcept;
@@ -132,6 +138,8 @@ class ControlCycle {
   LimitedWrench at_hand_;
   bool clutch_is_open_ = false;
   Wrench granted_R_;  // at the hand, in the last cycle that was none of a FADE
+  PassivityObserver observer_;
+  PassivityController passivity_;
   JointTorque joint_torque_;
   ComputedTorque computed_;
   std::uint32_t sends_failed_ = 0;

@@ -55,6 +55,31 @@ ArmLoop loop_at(const ArmModel& arm, const JointVector& q, const Vector3& p_MB, 
   return loop;
 }
 
+/// The exact boundary takes twenty times as long as the radius at one stiffness, which finds the worst posture.
+JointVector worst_posture(const ArmModel& arm, const JointVector& posture, const Vector3& p_MB,
+                          const FeltCoupling& felt, const LoopTiming& timing) {
+  double largest = -1.0;
+  JointVector worst = posture;
+  for (int i = 0; i <= kPostures; ++i) {
+    const JointVector q = posture_near(arm, posture, i);
+    ArmLoop stiffer = loop_at(arm, q, p_MB, felt, timing);
+    stiffer.stiffness *= kProbe;
+    stiffer.rotation_stiffness *= kProbe;
+    const double radius = spectral_radius(stiffer);
+    if (radius > largest) {
+      largest = radius;
+      worst = q;
+    }
+  }
+  return worst;
+}
+
+FeltCoupling with(FeltCoupling felt, double damping, double rotation_length) noexcept {
+  felt.damping += damping;
+  felt.rotation_damping += damping * rotation_length * rotation_length;
+  return felt;
+}
+
 }  // namespace
 
 FeltCoupling FeltCoupling::of(const Scene& scene, double scale) noexcept {
@@ -72,21 +97,11 @@ GainReport check_gains(const Scene& scene, const ArmModel& arm, const JointVecto
   GainReport report;
   report.joint_count = arm.joint_count;
   report.passivity_excess = std::numeric_limits<double>::infinity();
-  // the exact boundary takes twenty times as long as the radius at one stiffness, which finds the worst posture
-  double largest = -1.0;
   for (int i = 0; i <= kPostures; ++i) {
-    const JointVector q = posture_near(arm, posture, i);
-    const ArmLoop loop = loop_at(arm, q, p_MB, felt, timing);
+    const ArmLoop loop = loop_at(arm, posture_near(arm, posture, i), p_MB, felt, timing);
     report.passivity_excess = std::min(report.passivity_excess, passivity_excess(loop));
-    ArmLoop stiffer = loop;
-    stiffer.stiffness *= kProbe;
-    stiffer.rotation_stiffness *= kProbe;
-    const double radius = spectral_radius(stiffer);
-    if (radius > largest) {
-      largest = radius;
-      report.posture = q;
-    }
   }
+  report.posture = worst_posture(arm, posture, p_MB, felt, timing);
   report.margin = stiffness_margin(loop_at(arm, report.posture, p_MB, felt, timing));
   report.gyration = std::sqrt(parameters.mass.inertia.sum() / 3.0);
   report.coupling_gyration = std::sqrt(parameters.coupling_rotation / parameters.coupling_translation);
@@ -122,6 +137,31 @@ void require_stable_joints(const ArmModel& arm, const JointTorqueParameters& con
       refuse("limit_stiffness", stiffness, most, "Nm/rad");
     }
   }
+}
+
+void require_stable_injection(const Scene& scene, const ArmModel& arm, const JointVector& posture, double scale,
+                              const LoopTiming& timing, const InjectedDamping& injected, double least) {
+  if (!(injected.most > 0.0)) return;
+  const FeltCoupling felt = FeltCoupling::of(scene, scale);
+  const Vector3 p_MB = scene.H_MB.translation / scale;
+  const JointVector worst =
+      worst_posture(arm, posture, p_MB, with(felt, injected.most, injected.rotation_length), timing);
+  const auto is_stable = [&](double damping) {
+    return stiffness_margin(loop_at(arm, worst, p_MB, with(felt, damping, injected.rotation_length), timing)) >= least;
+  };
+  if (is_stable(injected.most)) return;
+  double low = 0.0;
+  double high = injected.most;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_stable(middle) ? low : high) = middle;
+  }
+  throw command::Failure(
+      command::ExitCode::kBadConfig,
+      fmt::format(
+          "passivity.damping = {:g} Ns/m beside {:.4g} Ns/m of gains.damping leaves less than gains.margin = {:g} "
+          "to the stability boundary: at most {:.3g} Ns/m, or lower gains.stiffness",
+          injected.most, felt.damping, least, low));
 }
 
 std::vector<std::string> judge_gains(const GainReport& report, const FeltCoupling& felt, double least) {

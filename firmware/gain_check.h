@@ -48,6 +48,18 @@ inline constexpr double kSpread = 0.5;  ///< [rad]
 void require_stable_joints(const ArmModel& arm, const JointTorqueParameters& control, const JointVector& posture,
                            const LoopTiming& timing);
 
+/// What the passivity controller may add: a damper along the wrench at the hand.
+struct InjectedDamping {
+  double most = 0.0;             ///< [Ns/m]
+  double rotation_length = 0.1;  ///< metres that a radian counts [m]
+};
+
+/// The damping that the passivity controller injects varies between none and `injected.most`; with the latter on all
+/// six axes all the time, beside b_D, the stiffness must stay below the stability boundary by the factor `least`, too.
+/// Throws command::Failure (kBadConfig) with the most that does where it does not. Cost: at start-up, about 0.3 s.
+void require_stable_injection(const Scene& scene, const ArmModel& arm, const JointVector& posture, double scale,
+                              const LoopTiming& timing, const InjectedDamping& injected, double least);
+
 /// Throws command::Failure (kBadConfig) with the boundary if the margin is below `least`. Returns what is only to be
 /// warned of, one line each.
 std::vector<std::string> judge_gains(const GainReport& report, const FeltCoupling& felt, double least);

@@ -70,6 +70,7 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [workspace]  posture, start, turn, scale
   [loop]       real_time, cpu, priority, velocity_window, compute
   [gains]      stiffness, damping, rotational, margin
+  [passivity]  damping
   [limits]     force, torque, speed, speed_stop, turn, turn_stop, joint_speed, joint_speed_stop, torque_rate,
                stuck_torque
   [engage]     force, ramp
@@ -78,8 +79,8 @@ CONTROLLER.toml, units SI; firmware/README.md explains each key:
   [simulation] path, slower, begin
 
 --log DIR writes DIR/telemetry.csv, a row a cycle: times, mode, fault, joint positions q, velocities qd and torques, device pose
-d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions. In
-virtual time DIR/hand.csv has the work that the simulated hand has done on the tool until then.
+d and god object g of the moving mesh in the scene, force f and torque t rendered at the hand in the room's directions, depth, energy
+absorbed from arm and hand, damping injected. In virtual time DIR/hand.csv has the work that the simulated hand has done on the tool until then.
 
 Exit codes: 0 done, 64 usage, 65 bad scene image or path, or an image without the solver or friction asked for, 66 an input is
 missing or a file of the configuration may not be read, 69 drives or bus not available, or stopped by a fault, 74 cannot write,
@@ -198,6 +199,8 @@ firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& sc
   setup.joint_torque = &placement.device.torque;
   setup.mapping = placement.mapping;
   setup.velocity_window = config.loop.velocity_window;
+  setup.passivity = {config.passivity.damping, firmware::ControlCycle::kPeriod,
+                     placement.device.torque.rotation_length};
   const ControllerConfig::Limits& limits = config.limits;
   setup.hand = {limits.force, limits.torque, limits.speed, limits.speed_stop, limits.turn, limits.turn_stop};
   setup.stuck_torque = limits.stuck_torque;
@@ -223,6 +226,8 @@ void check_gains(const ControllerConfig& config, const Scene& scene, const firmw
       firmware::check_gains(scene, device.model, config.workspace.posture, scale, timing);
   const auto felt = firmware::FeltCoupling::of(scene, scale);
   for (const std::string& line : firmware::judge_gains(report, felt, config.gains.margin)) warn(line);
+  firmware::require_stable_injection(scene, device.model, config.workspace.posture, scale, timing,
+                                     {config.passivity.damping, device.torque.rotation_length}, config.gains.margin);
   fmt::print(
       "{}: {:.4g} N/m and {:.4g} Nm/rad at the hand, stable up to {:.3g} times as much with {:.3g} ms of delay\n",
       device.name, felt.stiffness, felt.rotation_stiffness, report.margin, 1e3 * delay);

@@ -17,7 +17,7 @@ std::string header(int joint_count) {
   for (const char* frame : {"d", "g"}) {  // device pose and god object, as godobject-replay names them
     text += fmt::format(",{0}px_m,{0}py_m,{0}pz_m,{0}qw,{0}qx,{0}qy,{0}qz", frame);
   }
-  return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m\n";
+  return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m\n";
 }
 
 void append(std::string& text, const Pose& pose) {
@@ -44,8 +44,8 @@ void append(std::string& text, const TelemetryRecord& record, int joint_count) {
   append(text, cycle.god_object_W);
   const Vector3& f = cycle.wrench_R.force;
   const Vector3& t = cycle.wrench_R.torque;
-  fmt::format_to(std::back_inserter(text), ",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.x(), f.y(), f.z(),
-                 t.x(), t.y(), t.z(), cycle.penetration);
+  fmt::format_to(std::back_inserter(text), ",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.x(),
+                 f.y(), f.z(), t.x(), t.y(), t.z(), cycle.penetration, cycle.absorbed, cycle.injected_damping);
 }
 
 }  // namespace

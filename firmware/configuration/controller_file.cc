@@ -98,9 +98,9 @@ void read_start(const TomlTable& table, ControllerConfig::Start& start) {
 
 ControllerConfig read_controller_file(const std::filesystem::path& file) {
   const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(
-      root, file,
-      {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "telemetry", "simulation"});
+  command::allow_tables(root, file,
+                        {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "passivity",
+                         "telemetry", "simulation"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   ControllerConfig config;
   read_scene(table("scene"), file, config);
@@ -132,6 +132,10 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   read_start(table("start"), config.start);
 
   read_gains(table("gains"), config.gains);
+
+  const TomlTable passivity = table("passivity");
+  passivity.allow({"damping"});
+  config.passivity.damping = passivity.number("damping", {0.0, 1e5}, config.passivity.damping);
 
   const TomlTable telemetry = table("telemetry");
   telemetry.allow({"folder", "every", "bus"});

@@ -71,6 +71,11 @@ struct ControllerConfig {
     double margin = 1.25;              ///< factor by which the stiffness must be below the stability boundary [1]
   } gains;
 
+  /// Of the time-domain passivity controller.
+  struct Passivity {
+    double damping = 0.0;  ///< most that it injects at the hand [Ns/m]; 0: it is off
+  } passivity;
+
   struct Telemetry {
     std::filesystem::path folder;  ///< empty: none is written
     int every = 1;                 ///< cycles a record

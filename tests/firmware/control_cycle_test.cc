@@ -14,6 +14,7 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "core/device/dynamics.h"
 #include "core/device/kinematics.h"
@@ -246,6 +247,46 @@ TEST_F(ControlCycleTest, ClutchThatTurnsTheMeshGivesNoWorkOnAClosedPath) {
   go(begin, 500);
   std::printf("[ measured ] %.4f mJ stored, %.4f mJ given in a closed path\n", 1e3 * stored, 1e3 * work);
   EXPECT_LT(std::fabs(work), 0.02 * stored);
+}
+
+/// In and out of the plate again and again, without b_D: the delay gives energy, which the telemetry tells and the
+/// passivity controller pays back.
+TEST_F(ControlCycleTest, TellsTheEnergyThatTheDelayGivesAndPaysItBack) {
+  scene_.settings.damping = 0.0;
+  double given[2] = {};
+  for (const bool controlled : {false, true}) {
+    setup_.passivity = {controlled ? 50.0 : 0.0, ControlCycle::kPeriod, 0.16};
+    drives_ = FakeDrives(7);
+    drives_.reading.position = q0_;
+    make();
+    run_to(Mode::kRunning);
+    EXPECT_EQ(cycle_->record().absorbed, 0.0);
+    std::vector<JointVector> way;
+    for (int i = 0; i <= 100; ++i) way.push_back(moved(Vector3(0.0, 0.0, -0.033 * i / 100.0)));
+    JointVector sent = JointVector::Zero();
+    JointVector acts = JointVector::Zero();  // a period later, as FakeDrives say
+    double work = 0.0;
+    double injected = 0.0;
+    for (int i = 0; i < 4 * 200; ++i) {
+      const int at = i % 200;
+      const JointVector next = way[static_cast<std::size_t>(at <= 100 ? at : 200 - at)];
+      work += acts.dot(next - drives_.reading.position);
+      drives_.reading.position = next;
+      step();
+      acts = sent;
+      sent = drives_.sent.torque - gravity_torque(arm_.model, forward_kinematics(arm_.model, next));
+      ASSERT_NEAR(cycle_->record().absorbed, -work, 1e-12) << i;
+      ASSERT_GE(cycle_->record().wrench_R.force.z(), 0.0) << "it pulls";
+      injected = std::max(injected, cycle_->record().injected_damping);
+    }
+    ASSERT_EQ(cycle_->record().mode, Mode::kRunning) << describe(cycle_->record().fault);
+    given[controlled ? 1 : 0] = work;
+    EXPECT_EQ(injected > 0.0, controlled);
+    EXPECT_LE(injected, 50.0);
+  }
+  // four presses of 3 mm at 0.33 m/s: K (T/2 + t_d) v x a way, both ways
+  EXPECT_NEAR(given[0], 4.0 * 2.0 * 2000.0 * 1.5e-3 * 0.33 * 0.003, 0.2 * given[0]);
+  EXPECT_LT(given[1], 0.5 * given[0]);
 }
 
 TEST_F(ControlCycleTest, EstimatesTheVelocityOverPeriodsThatWereSkipped) {

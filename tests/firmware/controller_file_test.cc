@@ -97,6 +97,8 @@ TEST_F(ControllerFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"[limits]\nforces = 1.0\n", "limits.forces is not a known key"},
            {"[engage]\nforce = 31.0\n", "engage.force = 31 is out of range"},
            {"[gains]\nmargin = 0.9\n", "gains.margin = 0.9 is out of range"},
+           {"[passivity]\ndamping = -1.0\n", "passivity.damping = -1 is out of range"},
+           {"[passivity]\ndampng = 1.0\n", "passivity.dampng"},
            {"[scene]\nsolver = \"best\"\n", "scene.solver = \"best\" is not known"},
            {"[scene]\nfriction = 1\n", "scene.friction must be true or false"},
            {"[gain]\nmargin = 2.0\n", "gain is not a known table"},

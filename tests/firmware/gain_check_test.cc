@@ -62,6 +62,31 @@ TEST_F(GainCheckTest, RefusesJointsWhoseOwnFeedbackIsBeyondTheBoundary) {
   EXPECT_NE(refused(control).find("joint 7 has limit_stiffness"), std::string::npos) << refused(control);
 }
 
+/// What the passivity controller may inject leaves the margin where it is injected all the time, and the refusal names
+/// the most that does.
+TEST_F(GainCheckTest, RefusesAnInjectionBeyondTheBoundary) {
+  constexpr double kLength = 0.16;
+  constexpr double kLeast = 1.25;
+  const auto refused = [&](double most) {
+    try {
+      require_stable_injection(scene_, arm_.model, posture_, 1.0, timing_, {most, kLength}, kLeast);
+    } catch (const command::Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadConfig);
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(0.0), "");
+  const std::string message = refused(1e4);
+  const std::string begin = "at most ";
+  ASSERT_NE(message.find("passivity.damping = 10000 Ns/m"), std::string::npos) << message;
+  ASSERT_NE(message.find(begin), std::string::npos) << message;
+  const double most = std::stod(message.substr(message.find(begin) + begin.size()));
+  EXPECT_GT(most, 1.0);
+  EXPECT_EQ(refused(0.9 * most), "");
+  EXPECT_NE(refused(1.1 * most), "");
+}
+
 TEST_F(GainCheckTest, FindsTheExactBoundaryAtItsWorstPosture) {
   const GainReport report = check();
   ASSERT_GT(report.margin, 1.5);

@@ -52,6 +52,8 @@ class TelemetryTest : public testing::Test {
     record.times.deadline_ns = i * 1'000'000LL;
     record.cycle.mode = Mode::kRunning;
     record.cycle.q[1] = 0.25;
+    record.cycle.absorbed = -0.125;
+    record.cycle.injected_damping = 7.5;
     return record;
   }
 
@@ -70,11 +72,13 @@ TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
   const std::vector<std::string> all = lines();
   ASSERT_EQ(all.size(), 101u);
   const auto columns = [](const std::string& line) { return 1 + std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 7);
+  EXPECT_EQ(columns(all[0]), 9 + 3 * 3 + 14 + 9);
   for (const std::string& line : all) EXPECT_EQ(columns(line), columns(all[0]));
   EXPECT_EQ(all[0].substr(0, 22), "t_s,late_us,compute_us");
   EXPECT_EQ(all[43].substr(0, 39), "0.042000,0.000,0.000,running,0,0,free,0");
   EXPECT_NE(all[0].find("q2_rad"), std::string::npos);
+  EXPECT_TRUE(all[0].ends_with(",depth_m,absorbed_J,injected_Ns_per_m"));
+  EXPECT_TRUE(all[43].ends_with(",-0.125,7.5"));
 }
 
 TEST_F(TelemetryTest, CarriesEveryRecordInOrderBetweenTwoThreads) {
