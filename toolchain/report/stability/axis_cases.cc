@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/device/stability.h"
 #include "toolchain/report/stability/axis_loop.h"
+#include "toolchain/report/stability/axis_theory.h"
 #include "toolchain/report/stability/cases.h"
 
 namespace godobject::report {
@@ -87,15 +87,6 @@ CaseResult passivity(bool quick) {
   }
   result.sheets.push_back(sheet);
   return result;
-}
-
-AxisLoop theory_of(const AxisSetup& setup) {
-  AxisLoop loop;
-  loop.mass = setup.mass;
-  loop.damping = setup.damping;
-  loop.virtual_damping = setup.virtual_damping;
-  loop.timing = {setup.period, setup.delay, 2};
-  return loop;
 }
 
 /// STABILITY's table: exact K_crit [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms; 0: unstable.

@@ -45,15 +45,13 @@ void DelayedHold::send(double force) {
   sent_[(oldest_ + sent_.size() - 1) % sent_.size()] = force;
 }
 
-double growth(const AxisSetup& setup, double stiffness) {
+double growth(const AxisSetup& setup, FreeAxis::State state, const std::function<double(double)>& law) {
   constexpr double kGone = 1e-12;
   constexpr double kBeyond = 1e12;
   DelayedHold hold(setup.delay / setup.period);
   const double split = hold.share_before() * setup.period;
   const FreeAxis first(setup.mass, setup.damping, split);
   const FreeAxis second(setup.mass, setup.damping, setup.period - split);
-  Wall wall{.stiffness = stiffness, .damping = setup.virtual_damping, .period = setup.period, .before = 1.0};
-  FreeAxis::State state{.x = 1.0};
   const int quarter = setup.periods / 4;
   double early = 0.0;
   double late = 0.0;
@@ -68,11 +66,16 @@ double growth(const AxisSetup& setup, double stiffness) {
       if (lately < kGone) return -HUGE_VAL;
       lately = 0.0;
     }
-    hold.send(wall.force(state.x));
+    hold.send(law(state.x));
     first.advance(hold.before(), state);
     second.advance(hold.after(), state);
   }
   return std::log(late / early);
+}
+
+double growth(const AxisSetup& setup, double stiffness) {
+  Wall wall{.stiffness = stiffness, .damping = setup.virtual_damping, .period = setup.period, .before = 1.0};
+  return growth(setup, {.x = 1.0}, [&wall](double x) { return wall.force(x); });
 }
 
 double simulated_boundary(const AxisSetup& setup) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 /// One degree of freedom in lock-step virtual time, without any integration error: between two changes of the force the
@@ -79,8 +80,11 @@ struct AxisSetup {
   int periods = 40000;           ///< that a run takes at most
 };
 
-/// Of a run from x = 1: the logarithm of what becomes of the swing from its second quarter to its last.
-/// Plus or minus infinity where it has left for good or died out.
+/// Of a run under `law`, the force that a sampled position [m] gives, once a period [N]: the logarithm of what becomes
+/// of the swing from its second quarter to its last. Plus or minus infinity where it has left for good or died out.
+double growth(const AxisSetup& setup, FreeAxis::State start, const std::function<double(double)>& law);
+
+/// The same on the wall, from x = 1.
 double growth(const AxisSetup& setup, double stiffness);
 
 /// Largest value with `stable(value)` by bisection to 1e-4 of it, found from `start` upwards by doubling; 0 if `start`

@@ -128,6 +128,24 @@ Picture loss_picture(const Sheet& sheet) {
           drawn(plot)};
 }
 
+Picture passivity_picture(const Sheet& sheet) {
+  Plot plot{.title = "K_crit with and without the passivity controller: 1 kg, 2 Ns/m, T = 1 ms",
+            .x = "B [Ns/m]",
+            .y = "K_crit [N/m]",
+            .curves = {}};
+  const auto without = by(sheet, "t_d_ms", "B_Ns_per_m", "K_without");
+  std::size_t i = 0;
+  for (const auto& [delay, points] : by(sheet, "t_d_ms", "B_Ns_per_m", "K_with")) {
+    plot.curves.push_back({"with, t_d " + delay + " ms", "linespoints lw 2 pt 6 " + color(i), points});
+    plot.curves.push_back({"without", "lines dt 2 lw 1 " + color(i), without.at(delay)});
+    ++i;
+  }
+  return {"stability_passivity_controller",
+          "The boundary found by simulation with the time-domain passivity controller, which may inject a quarter of "
+          "the damping that the loop would stand beside B, and without it.",
+          drawn(plot)};
+}
+
 Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
   Section section = gather(outcomes, folder);
   const auto draw = [&](const char* name, Picture (*picture)(const Sheet&)) {
@@ -139,6 +157,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   draw("stability_z_width", z_width_picture);
   draw("stability_gyration", gyration_picture);
   draw("stability_frame_loss", loss_picture);
+  draw("stability_passivity_controller", passivity_picture);
   return section;
 }
 
@@ -154,7 +173,8 @@ Chapter stability_chapter(const StabilityRequest& request) {
                       "quantum.</p>",
                   .cases = {},
                   .conclude = conclude};
-  for (auto&& cases : {axis_cases(request.quick), pipeline_cases(request.quick), arm_cases(request)}) {
+  for (auto&& cases :
+       {axis_cases(request.quick), passivity_cases(request.quick), pipeline_cases(request.quick), arm_cases(request)}) {
     chapter.cases.insert(chapter.cases.end(), cases.begin(), cases.end());
   }
   return chapter;

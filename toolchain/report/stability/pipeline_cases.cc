@@ -11,6 +11,7 @@
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/meshes.h"
 #include "toolchain/report/stability/axis_loop.h"
+#include "toolchain/report/stability/axis_theory.h"
 #include "toolchain/report/stability/cases.h"
 
 namespace godobject::report {
@@ -148,15 +149,6 @@ Swings let_go(const Press& press, const Floating& floating, double push, double 
   swings.height = growth_of(0, push * std::sqrt(kMass / floating.stiffness));
   swings.tilt = growth_of(1, turn * std::sqrt(kMass * g2 / (floating.stiffness * floating.coupling_rotation)));
   return swings;
-}
-
-AxisLoop theory_of(const AxisSetup& setup) {
-  AxisLoop loop;
-  loop.mass = setup.mass;
-  loop.damping = setup.damping;
-  loop.virtual_damping = setup.virtual_damping;
-  loop.timing = {setup.period, setup.delay, 2};
-  return loop;
 }
 
 /// Z-width: the stiffest plate that a solver renders stably, for each virtual damping.

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/device/stability.h"
+#include "toolchain/report/stability/axis_loop.h"
+
+namespace godobject::report {
+
+/// The loop of a setup as the theory has it.
+inline AxisLoop theory_of(const AxisSetup& setup) {
+  AxisLoop loop;
+  loop.mass = setup.mass;
+  loop.damping = setup.damping;
+  loop.virtual_damping = setup.virtual_damping;
+  loop.timing = {setup.period, setup.delay, 2};
+  return loop;
+}
+
+}  // namespace godobject::report
