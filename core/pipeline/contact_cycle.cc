@@ -15,6 +15,7 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.opening = 0.01 * q.voxel_size;
   lengths.largest_gain = 0.25 * q.voxel_size;
   lengths.radius = q.mass.radius;
+  lengths.point_budget = q.point_budget;
   lengths.metric.gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
   lengths.metric.tolerance = std::max(1e-3 * q.margin, 1e-6 * q.voxel_size);
   lengths.metric.still = 1e-6 * q.voxel_size;
@@ -65,7 +66,6 @@ namespace {
 Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velocity_W, double gyration, double k,
                double damping_over_stiffness) noexcept {
   Wrench out;
-  if (step.force_count == 0) return out;
   const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
   Vector6 asked;  // (b_D / k_D) v
   asked << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
@@ -108,16 +108,21 @@ Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velo
 
 Status finish(const CycleInput& input, const ContactResult& result, bool inside, const Parameters& q, State& state,
               CycleReport& report) noexcept {
-  const Motion stretch = coupling_stretch(input.H_WD, result.H_WS);                                // #6 (44), (45)
-  const Wrench coupling = constraint_force(stretch, q.coupling_translation, q.coupling_rotation);  // (46)
-  DeviceForce force;                                                                               // #7
-  force.spring_W.force = q.stiffness * input.H_WD.rotation._transformVector(coupling.force);
-  force.spring_W.torque = q.stiffness * input.H_WD.rotation._transformVector(coupling.torque);
-  const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
-  const Wrench damped = damping(result.step, result.H_WS, input.velocity_W, gyration,
-                                q.stiffness * q.coupling_translation, q.damping / q.stiffness);
-  force.total_W.force = force.spring_W.force + damped.force;
-  force.total_W.torque = force.spring_W.torque + damped.torque;
+  DeviceForce force;
+  if (!(result.H_WS == input.H_WD)) {
+    const Motion stretch = coupling_stretch(input.H_WD, result.H_WS);                                // #6 (44), (45)
+    const Wrench coupling = constraint_force(stretch, q.coupling_translation, q.coupling_rotation);  // (46)
+    force.spring_W.force = q.stiffness * input.H_WD.rotation._transformVector(coupling.force);       // #7
+    force.spring_W.torque = q.stiffness * input.H_WD.rotation._transformVector(coupling.torque);
+    force.total_W = force.spring_W;
+  }
+  if (result.step.force_count > 0) {
+    const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
+    const Wrench damped = damping(result.step, result.H_WS, input.velocity_W, gyration,
+                                  q.stiffness * q.coupling_translation, q.damping / q.stiffness);
+    force.total_W.force += damped.force;
+    force.total_W.torque += damped.torque;
+  }
   const bool finite = result.H_WS.is_finite() && force.total_W.force.allFinite() && force.total_W.torque.allFinite() &&
                       force.spring_W.force.allFinite() && force.spring_W.torque.allFinite();
   if (!finite) return Status::kNotFinite;
@@ -135,6 +140,7 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
   report.force = force;
   report.penetration = -std::min(result.smallest, ContactLengths::make(q).shortest_reach);
   report.contacts = result.step.contact_count;
+  report.dropped = result.dropped;
   report.substeps = std::max(1u, result.substeps);
   report.unconverged = result.step.unconverged;
   return Status::kOk;

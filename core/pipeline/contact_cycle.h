@@ -47,15 +47,16 @@ struct ContactWorkspace {
 
 /// Lengths of the contact solver, all from the voxel edge s and the margin m.
 struct ContactLengths {
-  double margin;          ///< m: the gap that is kept
-  double rounding;        ///< of stored distances: a gap this much smaller is no smaller
-  double wanted_margin;   ///< below it a gap may only grow, unless looking at the surface again does not help
-  double least_margin;    ///< below it a gap may only grow
-  double shortest_reach;  ///< near points are those within the reach
-  double longest_reach;   ///< wanted; ContactSearch says what the fields allow
-  double opening;         ///< a gap this much wider than the margin is no contact
-  double largest_gain;    ///< that a point which started inside moves out in a sub-step
-  double radius;          ///< R_max
+  double margin;               ///< m: the gap that is kept
+  double rounding;             ///< of stored distances: a gap this much smaller is no smaller
+  double wanted_margin;        ///< below it a gap may only grow, unless looking at the surface again does not help
+  double least_margin;         ///< below it a gap may only grow
+  double shortest_reach;       ///< near points are those within the reach
+  double longest_reach;        ///< wanted; ContactSearch says what the fields allow
+  double opening;              ///< a gap this much wider than the margin is no contact
+  double largest_gain;         ///< that a point which started inside moves out in a sub-step
+  double radius;               ///< R_max
+  std::uint32_t point_budget;  ///< as Parameters
   CouplingMetric metric;
 
   static ContactLengths make(const Parameters& q) noexcept;
@@ -69,6 +70,7 @@ struct Surroundings {
   double smallest = std::numeric_limits<double>::infinity();  ///< stored distance of the near points
   bool swallowed = false;     ///< a point lies inside where the field does not say which way is out
   std::uint32_t dropped = 0;  ///< near points that found no room as rows
+  std::uint32_t unseen = 0;   ///< points for which the budget did not suffice
 };
 
 /// Identifies feature points among contacts.
@@ -134,32 +136,36 @@ inline void push_row(std::uint32_t id, const ContactPoint& contact, double dista
 }
 
 /// Step #1 of `contact`, one direction: all points with a clearance below `cut`, those of them with a gradient as rows
-/// while there is room.
+/// while there is room. `near` is empty before.
 template <class Direction, DistanceField Field>
 void find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
                const Pose& H, double way, double cut, const ContactLengths& lengths, ContactWorkspace::NearPoints& near,
                ContactRows& rows, Surroundings& around) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
-  near.count = 0;
-  search.find(direction, field, shell, H, way, cut,
-              [&](std::uint32_t i, const Vector3& p, const Vector3& p_field, const FieldSample& sample) noexcept {
-                around.smallest = std::min(around.smallest, sample.distance);
-                around.swallowed |= !sample.known && sample.distance < 0.0;
-                if (near.count == ContactWorkspace::NearPoints::kCapacity) {
-                  around.left_out = std::min(around.left_out, sample.clearance / direction.most_stretch());
-                  around.swallowed |= sample.distance <= 0.0;  // nothing will bring it out
-                  ++around.dropped;
-                  return;
-                }
-                near.point[near.count++] = {i, sample.distance, sample.clearance};
-                if (!sample.known) return;
-                if (rows.full()) {
-                  ++around.dropped;
-                } else {
-                  push_row(Direction::kId | i, Direction::contact(p, p_field, sample.gradient, R), sample.distance,
-                           lengths, rows);
-                }
-              });
+  search.find(
+      direction, field, shell, H, way, cut, PointBudget{lengths.point_budget, lengths.margin},
+      [&](std::uint32_t i, const Vector3& p, const Vector3& p_field, const FieldSample& sample) noexcept {
+        around.smallest = std::min(around.smallest, sample.distance);
+        around.swallowed |= !sample.known && sample.distance < 0.0;
+        if (near.count == ContactWorkspace::NearPoints::kCapacity) {
+          around.left_out = std::min(around.left_out, sample.clearance / direction.most_stretch());
+          around.swallowed |= sample.distance <= 0.0;  // nothing will bring it out
+          ++around.dropped;
+          return;
+        }
+        near.point[near.count++] = {i, sample.distance, sample.clearance};
+        if (!sample.known) return;
+        if (rows.full()) {
+          ++around.dropped;
+        } else {
+          push_row(Direction::kId | i, Direction::contact(p, p_field, sample.gradient, R), sample.distance, lengths,
+                   rows);
+        }
+      },
+      [&](double clearance) noexcept {
+        around.left_out = std::min(around.left_out, clearance / direction.most_stretch());
+        ++around.unseen;
+      });
 }
 
 /// Rows of the chosen near points of one direction: those not farther than `deepest`, and every `stride`-th of the
@@ -232,9 +238,10 @@ template <DistanceField Field>
 bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1, double kept,
                     const ContactLengths& lengths, const ContactWorkspace::NearPoints& near, Budget& budget,
                     Obstacle& obstacle) noexcept {
+  obstacle.exhausted = false;
+  if (near.count == 0) return true;
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
-  obstacle.exhausted = false;
   const auto fails = [&](std::uint32_t k) noexcept {
     const ContactWorkspace::NearPoint& start = near.point[k];
     if (start.distance <= 0.0) return false;
@@ -343,14 +350,15 @@ struct ContactResult {
   ConstrainedStep step;
   double smallest = 0.0;       ///< stored distance at the last sub-step's start, of what was near
   std::uint32_t substeps = 0;  ///< with something near
-  std::uint32_t dropped = 0;
+  std::uint32_t dropped = 0;   ///< Surroundings' dropped and unseen
   bool cut = false;
+
+  explicit ContactResult(const State& state) noexcept : H_WS(state.H_WS), step(state.contact) {}
 
   /// Nothing is in the way of the device.
   void follow(const Pose& H_WD) noexcept {
     H_WS = H_WD;
-    step = ConstrainedStep{};
-    step.follows = true;
+    step.release();
     smallest = std::numeric_limits<double>::infinity();
     dropped = 0;
     cut = false;
@@ -410,6 +418,9 @@ struct ContactSearch {
 /// for the motion they are bounded for, the others' chords lie in free balls. (Not before the first pose's penetration
 /// is left, see below.)
 ///
+/// A point that may be near but is not looked up, because the budget is spent, is left out and free for as far as its
+/// bound says: then the god object may lag, which is counted, but it crosses nothing.
+///
 /// Bounds: a look-up a point and attempt (at most 14 a sub-step), Budget::balls for the chords, 7 solves a sub-step.
 ///
 /// A first pose that penetrates is left by moving out along the gradients; where they contradict each other or the
@@ -433,9 +444,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   const SampleDirection sample_direction;
   const FeatureDirection feature_direction(lengths, features != nullptr ? features->body_radius : 0.0);
 
-  detail::ContactResult result;
-  result.H_WS = state.H_WS;
-  result.step = state.contact;
+  detail::ContactResult result(state);
+  const Motion wanted = unconstrained_motion(state.H_WS, input.H_WD);
   Motion last = state.contact.motion;
   bool inside = state.inside;
   bool opened = false;
@@ -447,9 +457,10 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   std::uint32_t free_substeps = 0;
   do {
     const Pose H0 = result.H_WS;
-    const Motion free = unconstrained_motion(H0, input.H_WD);  // #3 (32), (33)
+    const bool first = result.substeps + free_substeps == 0;
+    const Motion free = first ? wanted : unconstrained_motion(H0, input.H_WD);  // #3 (32), (33)
     const double free_way = detail::travel(free, lengths);
-    if (result.substeps + free_substeps > 0) detail::end(times, &StepTimes::solve_ns);  // #1
+    if (!first) detail::end(times, &StepTimes::solve_ns);  // #1
     search.odometer.move_to(H0, lengths.radius);
     if (search.is_free(free_way)) {
       result.follow(input.H_WD);
@@ -458,37 +469,42 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     }
     detail::Surroundings around{.left_out = reach};
     workspace.rows.count = 0;
-    const Pose H0_features = FeatureDirection::pose(H0, origin_W);
     const double gone = search.odometer.way();
-    detail::find_near(search.samples, sample_direction, field, shell, H0, gone, reach, lengths, workspace.samples,
-                      workspace.rows, around);
+    workspace.samples.count = 0;
+    if (!search.samples.is_free(gone, reach)) {
+      detail::find_near(search.samples, sample_direction, field, shell, H0, gone, reach, lengths, workspace.samples,
+                        workspace.rows, around);
+    }
     workspace.features.count = 0;
-    if (features != nullptr) {
+    Pose H0_features;
+    const double feature_reach = reach * feature_direction.most_stretch();
+    if (features != nullptr && !search.features.is_free(gone, feature_reach)) {
+      H0_features = FeatureDirection::pose(H0, origin_W);
       detail::find_near(search.features, feature_direction, features->map, features->points, H0_features, gone,
-                        reach * feature_direction.most_stretch(), lengths, workspace.features, workspace.rows, around);
+                        feature_reach, lengths, workspace.features, workspace.rows, around);
     }
     if (around.dropped > 0) {
       const detail::Selection selection = detail::select_rows(workspace);
       workspace.rows.count = 0;
       detail::push_selected<SampleDirection>(field, shell, H0, selection.deepest, selection.stride, lengths,
                                              workspace.samples, workspace.rows);
-      if (features != nullptr) {
+      if (workspace.features.count > 0) {
         detail::push_selected<FeatureDirection>(features->map, features->points, H0_features, selection.deepest,
                                                 selection.stride, lengths, workspace.features, workspace.rows);
       }
     }
     detail::end(times, &StepTimes::step1_ns);
     result.smallest = around.smallest;
-    result.dropped = around.dropped;
+    result.dropped = around.dropped + around.unseen;
     // a point inside has no clearance, so it is near; the first pose is judged by both directions
-    inside = (inside || !(state.started || result.substeps + free_substeps > 0)) && around.smallest <= 0.0;
+    inside = (inside || (first && !state.started)) && around.smallest <= 0.0;
     const bool alone = workspace.samples.count + workspace.features.count == 0;
     if (alone) {
       ++free_substeps;
     } else {
       ++result.substeps;
     }
-    if (alone && search.is_free(free_way)) {
+    if (alone && (search.is_free(free_way) || detail::allowed_share(free, around, reach, lengths, false) == 1.0)) {
       result.follow(input.H_WD);
       break;
     }
@@ -519,13 +535,16 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
       H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
       detail::end(times, &StepTimes::solve_ns);  // the certificate
-      const Pose H1_features = FeatureDirection::pose(H1, origin_W);
+      Pose H1_features;
       const double kept = looks > 0 ? lengths.wanted_margin : lengths.least_margin;
       const bool samples_free =
           detail::motion_is_free(field, shell, H0, H1, kept, lengths, workspace.samples, budget, at_sample);
-      const bool features_free =
-          features == nullptr || detail::motion_is_free(features->map, features->points, H0_features, H1_features, kept,
-                                                        lengths, workspace.features, budget, at_feature);
+      bool features_free = true;
+      if (workspace.features.count > 0) {
+        H1_features = FeatureDirection::pose(H1, origin_W);
+        features_free = detail::motion_is_free(features->map, features->points, H0_features, H1_features, kept, lengths,
+                                               workspace.features, budget, at_feature);
+      }
       const bool is_free = samples_free && features_free;
       detail::Arrival arrival;
       if (is_free && share == 1.0 && detail::travel(motion, lengths) > lengths.metric.tolerance) {
@@ -577,7 +596,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps &&
            free_substeps < kFreeSubsteps);
   if (result.substeps == 0 && result.step.follows) {
-    result.step.motion = unconstrained_motion(state.H_WS, input.H_WD);  // however many pieces it came in
+    result.step.motion = wanted;  // however many pieces it came in
   } else if (result.substeps + free_substeps > 1) {
     // whether a point slipped is a matter of the whole cycle; the sum keeps the slip of a point that stuck at nought
     result.step.motion = whole;

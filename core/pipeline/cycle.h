@@ -28,7 +28,7 @@ enum class Outcome : std::uint8_t {
   kContact,      ///< constrained
   kStartInside,  ///< the first pose penetrated, and the god object is still on its way out
   kCut,          ///< a motion was shortened so as not to jump over the surface
-  kOverflow,     ///< more contacts than a workspace holds (contact solver)
+  kOverflow,     ///< more near points than a workspace holds or the budget allows (contact solver)
   kBadInput,     ///< the device pose was no pose; the god object was held
   kInfeasible,   ///< constraints without a solution (contact solver)
 };
@@ -53,6 +53,7 @@ struct CycleReport {
   /// known as far as it is below an eighth of a voxel
   double penetration = 0.0;
   std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force, two of one point are two
+  std::uint32_t dropped = 0;   ///< `contact`: near points for which rows or the budget did not suffice, last sub-step
   std::uint32_t substeps = 0;  ///< `contact`: with something near; 1 where nothing was
   bool unconverged = false;    ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
   Outcome outcome = Outcome::kFree;

@@ -120,6 +120,19 @@ class DueCalendar {
     marked_words_[point / 1024] |= 1u << point / 32 % 32;
   }
 
+  /// Calls visit(point) for all that are marked, ascending.
+  template <class Visit>
+  void for_each_marked(Visit&& visit) const noexcept {
+    for (std::uint32_t w = 0; w < marked_words_.size(); ++w) {
+      for (std::uint32_t words = marked_words_[w]; words != 0; words &= words - 1) {
+        const std::uint32_t word = 32 * w + static_cast<std::uint32_t>(std::countr_zero(words));
+        for (std::uint32_t bits = marks_[word]; bits != 0; bits &= bits - 1) {
+          visit(32 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+      }
+    }
+  }
+
   /// Calls visit(point) for all that are marked, ascending, and unmarks them.
   template <class Visit>
   void take_marked(Visit&& visit) noexcept {

@@ -138,14 +138,16 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
   Pose H_WM = input.H_WM;
   if (const Status status = make_unit(H_WM); status != Status::kOk) return refuse(status, state_, report);
   const CycleInput cycle_input{H_WM * H_MB_, input.velocity_W};
-  State next = state_;
-  if (!next.started) {
-    next.H_WS = cycle_input.H_WD;
-    next.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, next.H_WS) < 0.0;
+  const Pose held = state_.H_WS;
+  if (!state_.started) {
+    state_.H_WS = cycle_input.H_WD;
+    state_.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, state_.H_WS) < 0.0;
   }
-  const Status status = cycle_(*scene_, parameters_, cycle_input, memory_, next, report, times);
-  if (status != Status::kOk) return refuse(status, state_, report);
-  state_ = next;
+  const Status status = cycle_(*scene_, parameters_, cycle_input, memory_, state_, report, times);
+  if (status != Status::kOk) {
+    state_.H_WS = held;
+    return refuse(status, state_, report);
+  }
   return Status::kOk;
 }
 

@@ -38,6 +38,13 @@ struct ConstrainedStep {
   bool follows = false;             ///< nothing holds it: the motion is the wanted one
   bool infeasible = false;          ///< not all needs could be met; gaps were only kept from shrinking
   bool unconverged = false;         ///< friction after the last round is not Coulomb's to the tolerance
+
+  /// Nothing holds it.
+  void release() noexcept {
+    force_count = contact_count = iterations = 0;
+    follows = true;
+    infeasible = unconverged = false;
+  }
 };
 
 /// Scales of the problem.

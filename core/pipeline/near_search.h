@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +43,13 @@ class Odometer {
   bool started_ = false;
 };
 
+/// How many points a search may look up one by one. Of more that may be near it takes those with the least bound of
+/// their clearance, and where bounds are equal some spread over the shell.
+struct PointBudget {
+  std::uint32_t points = std::numeric_limits<std::uint32_t>::max();
+  double always = 0.0;  ///< whose bound is no more than this is looked up in any case [m]
+};
+
 /// Step #1 of `contact`: the points of a shell whose clearance in a field is below a bound. With memory of its own it
 /// looks at a node of the sphere tree, or at a point, only when the motion since it was last looked at could have
 /// brought it there, so a cycle costs as much as there is near; what it finds does not depend on it.
@@ -57,11 +65,11 @@ class Odometer {
 ///
 /// What is due is looked at in batches (DistanceField::clearances, which knows C as the bound needs it); a node that
 /// may be near gives way to its children, and takes their place again once they are far. Only points that may be near
-/// are looked up one by one.
+/// are looked up one by one, as far as a budget goes.
 class NearSearch {
  public:
   /// Words that a search of this shell remembers.
-  static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell); }
+  static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
   /// Begins anew. `memory`: memory(shell) words that outlive the search, or none; then all nodes are looked at in every
   /// cycle. `longest`: largest `cut`, at most the field's assured clearance [m].
@@ -70,7 +78,10 @@ class NearSearch {
     tick_ = longest / kTicks;
     memory_ = memory;
     certain_ = 0.0;
-    if (!memory_.empty()) calendar_.start(memory_, shell);
+    if (memory_.empty()) return;
+    const std::size_t of_calendar = DueCalendar::memory(shell);
+    calendar_.start(memory_.first(of_calendar), shell);
+    bounds_ = memory_.subspan(of_calendar, shell.size);
   }
 
   /// There is no shell: nothing ever comes near.
@@ -80,18 +91,23 @@ class NearSearch {
   }
 
   /// The last `find` knows that up to this reading of the odometer nothing comes nearer than `longest`.
-  bool is_free(double way) const noexcept { return way + longest_ <= certain_; }
+  bool is_free(double way) const noexcept { return is_free(way, longest_); }
+  /// ... than `cut` <= `longest`.
+  bool is_free(double way, double cut) const noexcept { return way + cut < certain_; }
 
   /// Calls visit(i, p, p_field, sample) for all points with a clearance below `cut` <= `longest`, ascending. The shell
   /// is at H in the field's frame; `way` is the odometer's reading there. Cost: a share of a batch for each node and
   /// point that is due, a look-up for each that may be near; at most all nodes and points.
   ///
+  /// With memory the budget is kept, and leave_out(clearance) is called for each point that may be near but was not
+  /// looked up, with a bound of its clearance, more than `budget.always`.
+  ///
   /// `Direction::stretch(lever)`: a point of the shell that stays within `lever` [m] of the moving body's origin moves
   /// in the field's frame by at most this times the odometer's difference; 1 or more. Always 1 and not asked for
   /// without `Direction::kStretches`.
-  template <class Direction, DistanceField Field, class Visit>
+  template <class Direction, DistanceField Field, class Visit, class LeaveOut>
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double way,
-            double cut, Visit&& visit) noexcept {
+            double cut, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
     const Matrix3 R = H.rotation.toRotationMatrix();
     const double slope = field.lipschitz();
     const double per_slope = 1.0 / slope;
@@ -117,7 +133,7 @@ class NearSearch {
     if (memory_.empty()) {
       certain_ = look_everywhere(field, shell, R, H, way + cut, free_until, look_up);
     } else {
-      look_at_due(field, shell, H, way, cut, free_until, look_up);
+      look_at_due(field, shell, H, way, cut, budget, free_until, look_up, leave_out);
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
   }
@@ -162,9 +178,10 @@ class NearSearch {
     return least;
   }
 
-  template <DistanceField Field, class FreeUntil, class LookUp>
+  template <DistanceField Field, class FreeUntil, class LookUp, class LeaveOut>
   void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double way, double cut,
-                   const FreeUntil& free_until, const LookUp& look_up) noexcept {
+                   const PointBudget& budget, const FreeUntil& free_until, const LookUp& look_up,
+                   LeaveOut& leave_out) noexcept {
     const double needed = way + cut;
     const double per_tick = 1.0 / tick_;
     // rounded down: due a little early
@@ -175,6 +192,7 @@ class NearSearch {
     const std::uint64_t now = tick_of(needed);
     PointBatch batch;
     std::array<std::uint32_t, PointBatch::kCapacity> item;
+    std::uint32_t marked = 0;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
     std::uint32_t leaving = DueCalendar::kNone;  // nodes that may stand for their children again
     const auto file = [&](std::uint32_t i, double until) noexcept {
@@ -202,6 +220,8 @@ class NearSearch {
           calendar_.push(opened, i);
         } else {
           calendar_.mark(i - node_count);
+          bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
+          ++marked;
         }
       }
       batch.count = 0;
@@ -230,10 +250,21 @@ class NearSearch {
         DueCalendar::for_each_child(shell, calendar_.pop(opened), add);
       }
     }
-    calendar_.take_marked([&](std::uint32_t i) noexcept {
-      const double until = look_up(i);
-      file(node_count + i, until);
-    });
+    if (marked <= budget.points) {
+      calendar_.take_marked([&](std::uint32_t i) noexcept { file(node_count + i, look_up(i)); });
+    } else {
+      NearestFirst nearest(budget, static_cast<float>(field.lipschitz() * cut));
+      calendar_.for_each_marked([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
+      nearest.spread();
+      calendar_.take_marked([&](std::uint32_t i) noexcept {
+        if (nearest.takes(bound(i))) {
+          file(node_count + i, look_up(i));
+        } else {
+          leave_out(static_cast<double>(bound(i)));
+          file(node_count + i, way);
+        }
+      });
+    }
     // a node whose children are all filed and far
     while (leaving != DueCalendar::kNone) {
       const std::uint32_t n = calendar_.pop(leaving);
@@ -254,11 +285,55 @@ class NearSearch {
     }
   }
 
+  /// Keeps a budget: counts bounds by their size, then takes the least ones.
+  class NearestFirst {
+   public:
+    NearestFirst(const PointBudget& budget, float longest) noexcept
+        : points_(budget.points), always_(static_cast<float>(budget.always)), per_bound_(kSizes / longest) {}
+
+    void count(float bound) noexcept {
+      if (bound > always_) {
+        ++count_[size(bound)];
+      } else if (points_ > 0) {
+        --points_;
+      }
+    }
+
+    void spread() noexcept {
+      while (last_ + 1 < kSizes && count_[last_] <= points_) points_ -= count_[last_++];
+      stride_ = points_ > 0 ? (count_[last_] + points_ - 1) / points_ : std::numeric_limits<std::uint32_t>::max();
+    }
+
+    bool takes(float bound) noexcept {
+      if (!(bound > always_)) return true;
+      const std::uint32_t size_here = size(bound);
+      return size_here < last_ || (size_here == last_ && points_ > 0 && seen_++ % stride_ == 0);
+    }
+
+   private:
+    static constexpr std::uint32_t kSizes = 256;
+
+    std::uint32_t size(float bound) const noexcept {
+      return std::min(kSizes - 1, static_cast<std::uint32_t>(std::max(0.0f, bound * per_bound_)));
+    }
+
+    std::array<std::uint32_t, kSizes> count_{};
+    std::uint32_t points_;  ///< left
+    float always_;
+    float per_bound_;
+    std::uint32_t last_ = 0;  ///< the size of which some are taken
+    std::uint32_t stride_ = 1;
+    std::uint32_t seen_ = 0;
+  };
+
+  float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(bounds_[point]); }
+
   static constexpr double kLeave = 2.0;  ///< children this many radii away may be stood for by their parent
   static constexpr double kMostTicks = 1e18;
 
   std::span<std::uint32_t> memory_;
   DueCalendar calendar_;
+  std::span<std::uint32_t> bounds_;  ///< of a marked point's clearance, a float a point [m]
   double longest_ = 0.0;
   double tick_ = 1.0;        ///< of the calendar [m]
   double certain_ = kNever;  ///< until when nothing comes nearer than the longest cut [m]

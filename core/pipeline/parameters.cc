@@ -34,6 +34,7 @@ Parameters Parameters::make(const Scene& scene) noexcept {
   p.damping = s.damping;
   p.coupling_translation = s.coupling_translation;
   p.coupling_rotation = s.coupling_rotation;
+  if (s.point_budget > 0) p.point_budget = s.point_budget;
   p.friction = {s.friction_static, s.friction_kinetic, s.friction_viscous};
   p.paper_friction = {s.friction_static, s.friction_kinetic, s.paper_rotation_static, s.paper_rotation_kinetic,
                       s.paper_viscous};

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "core/scene/scene.h"
 #include "core/spatial/vector.h"
 
@@ -46,6 +49,8 @@ struct Parameters {
   double damping = 20.0;              ///< b_D [Ns/m]
   double coupling_translation = 1.0;  ///< k_VC,x of eq (46) [1]
   double coupling_rotation = 0.025;   ///< k_VC,r of eq (46) [m^2]
+  /// Points of either direction that a sub-step of `contact` looks up one by one, those that touch aside.
+  std::uint32_t point_budget = std::numeric_limits<std::uint32_t>::max();
   FrictionCoefficients friction;
   PaperFriction paper_friction;
   MassModel mass;

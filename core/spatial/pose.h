@@ -56,6 +56,11 @@ struct Pose {
     return inverted;
   }
 
+  /// The same numbers.
+  bool operator==(const Pose& other) const noexcept {
+    return rotation.coeffs() == other.rotation.coeffs() && translation == other.translation;
+  }
+
   bool is_finite() const noexcept { return rotation.coeffs().allFinite() && translation.allFinite(); }
 };
 

@@ -70,7 +70,7 @@ TEST(SceneConfig, ReadsEveryKey) {
   const SceneConfig config = read(
       "[still]\nmesh = \"m/a.ply\"\nscale = 2\nvoxel_size = 0.001\nsurface = \"shell\"\nthickness = 0.003\n"
       "[moving]\nmesh = \"b.stl\"\nscale = 0.5\nsurface = \"solid\"\npoints = 100\nlevels = 3\n"
-      "[contact]\nsolver = \"paper\"\nsafety_distance = 0.002\nmargin = 1e-5\n"
+      "[contact]\nsolver = \"paper\"\nsafety_distance = 0.002\nmargin = 1e-5\npoint_budget = 500\n"
       "[friction]\nstatic = 0.3\nkinetic = 0.25\nviscous = 0.1\n"
       "[paper]\nrotation_static = 0.1\nrotation_kinetic = 0.05\nviscous = 0.001\n"
       "[coupling]\nstiffness = 1000\ndamping = 0\nrotational = 0.01\n");
@@ -80,6 +80,7 @@ TEST(SceneConfig, ReadsEveryKey) {
   EXPECT_EQ(config.moving.surface, SurfaceKind::kSolid);
   EXPECT_EQ(config.points, 100u);
   EXPECT_EQ(config.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kPaper));
+  EXPECT_EQ(config.settings.point_budget, 500u);
   EXPECT_EQ(config.settings.friction, 1u);
   EXPECT_DOUBLE_EQ(config.settings.friction_kinetic, 0.25);
   EXPECT_DOUBLE_EQ(config.settings.paper_viscous, 0.001);
@@ -106,6 +107,7 @@ TEST(SceneConfig, RefusesWithLineAndKey) {
   expect_refused(still + moving + "levels = 99\n", ":6:", "moving.levels");
   expect_refused(still + moving + "[contact]\nsolver = \"best\"\n", ":7:", "contact.solver");
   expect_refused(still + moving + "[contact]\nmargin = 0.1\n", ":7:", "contact.margin");
+  expect_refused(still + moving + "[contact]\npoint_budget = -1\n", ":7:", "contact.point_budget");
   expect_refused(still + moving + "[friction]\nkinetic = 0.1\n", ":6:", "below [friction] write static = 0.2");
   expect_refused(still + moving + "[friction]\nstatic = 0.1\nkinetic = 0.2\n", ":8:", "friction.kinetic");
   expect_refused(still + moving + "[coupling]\nstiffness = 0\n", ":7:", "coupling.stiffness");

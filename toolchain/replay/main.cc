@@ -43,8 +43,8 @@ of the look-ups (step #1 and, with contact, its certificate) and of the rest of 
                 field does not know the way it goes with the device, without force
   cut           the motion could not be finished in eight sub-steps, or something stood in its way: the god object goes on
                 in the next cycle
-  overflow      contact only: more points near the surface than the rows hold; those left out of the solution are still
-                looked at before the god object moves
+  overflow      contact only: more points near the surface than the rows hold, or than the scene's point_budget allows;
+                the god object moves no further than those left out are known to be free
   infeasible    contact only: the gaps asked for cannot all be had at once; none was allowed to shrink
   bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, force and torque
                 are zero, exit 65 at the end
@@ -71,6 +71,7 @@ std::string outcomes_text(const godobject::replay::Summary& summary, bool contac
   std::string text;
   for (const Outcome outcome : {Outcome::kOverflow, Outcome::kCut, Outcome::kInfeasible, Outcome::kStartInside})
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name(outcome), summary.count(outcome));
+  if (summary.most_dropped > 0) text += fmt::format(", near points left out at most {}", summary.most_dropped);
   if (contact_friction) text += fmt::format(", friction not found in {} cycles", summary.unconverged);
   return text;
 }

@@ -61,6 +61,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
     const double depth =
         state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
     summary.deepest = std::max(summary.deepest, depth);
+    summary.most_dropped = std::max(summary.most_dropped, report.dropped);
     summary.unconverged += report.unconverged ? 1 : 0;
     summary.peak_force = std::max(summary.peak_force, report.force.spring_W.force.norm());
 

@@ -23,6 +23,7 @@ struct Summary {
                                                  ///< smallest gap; the field tells none beyond its band [m]
   double peak_force = 0.0;                       ///< [N]
   std::size_t unconverged = 0;                   ///< cycles whose friction was not found to the tolerance
+  std::uint32_t most_dropped = 0;                ///< near points, in the cycle that had most
   int float_exceptions = 0;  ///< of FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW: those that a cycle raised
 
   /// How many cycles went so.

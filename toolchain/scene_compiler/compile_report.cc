@@ -103,6 +103,7 @@ Json settings_json(const format::Settings& s) {
   Json json = {{"solver", format::kSolverNames[s.default_solver]},
                {"solvers_held", solvers},
                {"safety_distance", s.safety_distance},
+               {"point_budget", s.point_budget},
                {"margin", s.margin},
                {"stiffness", s.stiffness},
                {"damping", s.damping},

@@ -86,7 +86,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   format::Settings& settings = config.settings;
   const TomlTable contact = table("contact");
-  contact.allow({"solver", "safety_distance", "margin", "both_directions", "between_points"});
+  contact.allow({"solver", "safety_distance", "margin", "both_directions", "between_points", "point_budget"});
   settings.default_solver = read_solver(contact);
   settings.solvers = (1u << format::kSolverCount) - 1;
   settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
@@ -94,6 +94,9 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   config.both_directions = contact.flag("both_directions", true);
   config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, s);
+
+  settings.point_budget =
+      static_cast<std::uint32_t>(contact.whole_number("point_budget", {0.0, format::kMaxPoints}, 0.0));
 
   read_friction(table("friction"), settings);
   read_paper(table("paper"), settings);

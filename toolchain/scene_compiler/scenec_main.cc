@@ -40,6 +40,8 @@ A scene file (TOML; lengths in metres, values in brackets are defaults, s is vox
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
               both_directions [true]: also points of the still body against the moving body's field,
               between_points [s]: how deep bodies may meet where no point sees it; points are added for it
+              point_budget [0: none]: near points of either body that a sub-step looks up, nearest first;
+              with more of them the god object may lag, it crosses nothing
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
   [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cfenv>
 #include <limits>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -254,6 +256,37 @@ TEST_F(GodObjectTest, RefusesPosesBeyondAnySceneAndStartsWithTheNextGoodOne) {
   ASSERT_EQ(god_object.update({good, Motion{}}, report), Status::kOk);
   EXPECT_EQ(report.outcome, Outcome::kFree);
   EXPECT_NEAR((god_object.mesh_pose().translation - good.translation).norm(), 0.0, 1e-15);
+}
+
+/// With next to no budget the god object may lag, but it crosses nothing, and it arrives where it would without.
+TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
+  SceneDescription small = balls();
+  const test::SceneImage all_image = build_scene_image(small);
+  small.settings.point_budget = 3;
+  const test::SceneImage few_image = build_scene_image(small);
+  Scene all_scene, few_scene;
+  ASSERT_EQ(Scene::open(all_image.bytes(), all_scene), Status::kOk);
+  ASSERT_EQ(Scene::open(few_image.bytes(), few_scene), Status::kOk);
+  std::vector<std::uint32_t> all_memory(GodObject::memory(all_scene));
+  std::vector<std::uint32_t> few_memory(GodObject::memory(few_scene));
+  const auto owner = std::make_unique<std::array<GodObject, 2>>();
+  auto& [all, few] = *owner;
+  ASSERT_EQ(all.start(all_scene, Solver::kContact, false, all_memory), Status::kOk);
+  ASSERT_EQ(few.start(few_scene, Solver::kContact, false, few_memory), Status::kOk);
+  CycleReport all_report, few_report;
+  const double height = kWorldRadius + kBodyRadius;
+  std::uint32_t dropped = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const double way = 1e-5 * std::min(k, 1500);
+    const GodObject::Input input{mesh_pose({way, 0.5 * way, height + 0.002 - 0.7 * way}), Motion{}};
+    ASSERT_EQ(all.update(input, all_report), Status::kOk);
+    ASSERT_EQ(few.update(input, few_report), Status::kOk);
+    ASSERT_LT(few_report.penetration, 0.0) << "cycle " << k;
+    dropped += few_report.dropped;
+    ASSERT_EQ(all_report.dropped, 0u);
+  }
+  EXPECT_GT(dropped, 100u) << "the budget must be put to the test";
+  EXPECT_LT((few_report.H_WS.translation - all_report.H_WS.translation).norm(), 2e-5) << "a margin";
 }
 
 TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -41,8 +43,10 @@ template <class Direction, class Field>
 std::vector<std::uint32_t> found(NearSearch& search, const Direction& direction, const Field& field,
                                  const Pointshell& shell, const Pose& H, double way, double cut) {
   std::vector<std::uint32_t> near;
-  search.find(direction, field, shell, H, way, cut,
-              [&near](std::uint32_t i, const Vector3&, const Vector3&, const FieldSample&) { near.push_back(i); });
+  search.find(
+      direction, field, shell, H, way, cut, {},
+      [&near](std::uint32_t i, const Vector3&, const Vector3&, const FieldSample&) { near.push_back(i); },
+      [](double) { FAIL() << "no budget, so nothing is left out"; });
   return near;
 }
 
@@ -149,6 +153,55 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
     near += expected.size();
   }
   EXPECT_GT(near, 1000u) << "the walk must come near";
+}
+
+/// What is left out is as far as it was said to be, what is nearer than that was found, and the budget is kept but for
+/// points that touch.
+TEST(NearSearch, KeepsItsBudgetNearestFirst) {
+  const SceneImage image = ball_over_plate();
+  const Scene scene = open_scene(image);
+  const Counted<Voxelmap> field{scene.voxelmap};
+  const Pointshell& shell = scene.pointshell;
+  const double longest = field.assured_clearance();
+  std::vector<std::uint32_t> memory(NearSearch::memory(shell));
+  NearSearch search;
+  search.start(memory, shell, longest);
+  Odometer odometer;
+  const PointBudget budget{7, 2e-4};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform;
+  int short_of_it = 0;
+  Pose H;
+  H.translation.z() = 0.01 + 0.02 + 0.002;
+  for (int step = 0; step < 3000; ++step) {
+    H.translation += 2e-4 * Vector3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
+    H.translation.z() = std::clamp(H.translation.z(), 0.01 + 0.02 - 0.001, 0.01 + 0.02 + 0.004);
+    H.rotation = (H.rotation * exp_rotation(0.02 * Vector3(uniform(random), 0.0, -uniform(random)))).normalized();
+    odometer.move_to(H, scene.body.radius);
+    const double cut = longest * (0.3 + 0.7 * uniform(random));
+    const Matrix3 R = H.rotation.toRotationMatrix();
+    const auto clearance = [&](std::uint32_t i) {
+      return scene.voxelmap.sample(R * shell.point(i) + H.translation).clearance;
+    };
+    std::vector<std::uint32_t> near;
+    double least_left_out = std::numeric_limits<double>::infinity();
+    search.find(
+        detail::SampleDirection{}, field, shell, H, odometer.way(), cut, budget,
+        [&](std::uint32_t i, const Vector3&, const Vector3&, const FieldSample&) { near.push_back(i); },
+        [&](double bound) {
+          ++short_of_it;
+          EXPECT_GT(bound, budget.always);
+          least_left_out = std::min(least_left_out, bound);
+        });
+    ASSERT_TRUE(std::is_sorted(near.begin(), near.end()));
+    const auto touches = [&](std::uint32_t i) { return clearance(i) <= 4.0 * budget.always; };
+    ASSERT_LE(near.size(), budget.points + static_cast<std::size_t>(std::count_if(near.begin(), near.end(), touches)));
+    for (const std::uint32_t i : near_by_brute_force(scene.voxelmap, shell, H, cut)) {
+      if (std::binary_search(near.begin(), near.end(), i)) continue;
+      ASSERT_GE(clearance(i), least_left_out) << "point " << i << " in step " << step;
+    }
+  }
+  EXPECT_GT(short_of_it, 1000) << "the budget must be put to the test";
 }
 
 TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
