@@ -488,7 +488,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       workspace.rows.count = 0;
       detail::push_selected<SampleDirection>(field, shell, H0, selection.deepest, selection.stride, lengths,
                                              workspace.samples, workspace.rows);
-      if (workspace.features.count > 0) {
+      if (features != nullptr && workspace.features.count > 0) {
         detail::push_selected<FeatureDirection>(features->map, features->points, H0_features, selection.deepest,
                                                 selection.stride, lengths, workspace.features, workspace.rows);
       }
@@ -540,7 +540,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       const bool samples_free =
           detail::motion_is_free(field, shell, H0, H1, kept, lengths, workspace.samples, budget, at_sample);
       bool features_free = true;
-      if (workspace.features.count > 0) {
+      if (features != nullptr && workspace.features.count > 0) {
         H1_features = FeatureDirection::pose(H1, origin_W);
         features_free = detail::motion_is_free(features->map, features->points, H0_features, H1_features, kept, lengths,
                                                workspace.features, budget, at_feature);
@@ -570,7 +570,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
         seen = detail::push_obstacle<SampleDirection>(shell, H0, H1, lengths, workspace.samples, at_sample,
                                                       workspace.rows);
       }
-      if (looks > 0 && !features_free) {
+      if (features != nullptr && looks > 0 && !features_free) {
         seen = detail::push_obstacle<FeatureDirection>(features->points, H0_features, H1_features, lengths,
                                                        workspace.features, at_feature, workspace.rows) ||
                seen;

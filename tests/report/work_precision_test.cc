@@ -1,5 +1,6 @@
 // The chapter on error against run time, on a ball on a block that stands in for a real one.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -19,7 +20,7 @@ namespace {
 class WorkPrecisionTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "godobject_work_precision";
+    folder_ = std::filesystem::path(testing::TempDir()) / ("godobject_work_precision_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_ / "paths");
     write_ply(box_mesh(Vector3(-0.04, -0.04, -0.03), Vector3(0.04, 0.04, 0.0)), folder_ / "block.ply");
     write_ply(ball_mesh(0.012, 8), folder_ / "ball.ply");
