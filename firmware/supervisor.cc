@@ -185,7 +185,10 @@ Fault Supervisor::find_fault(const Observation& seen) const noexcept {
     if (!seen.drives.all_answer || seen.drives.any_fault || !seen.drives.none_moves) return Fault::kDriveLeft;
     if (seen.jumps >= 2 || too_many_jumps_) return Fault::kPositionJump;
   }
-  return seen.lost >= 3 ? Fault::kPositionLost : Fault::kNone;
+  if (seen.lost < 3) return Fault::kNone;
+  // a bus that takes no frames brings no positions: fading out needs one that does
+  const bool cannot_send = powered() && mode_ != Mode::kFade && seen.sends_failed > 0;
+  return cannot_send ? Fault::kSendFailed : Fault::kPositionLost;
 }
 
 bool Supervisor::moved(const Observation& seen, double more_than) const noexcept {

@@ -214,6 +214,33 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+/// The first frames still find room in the queue: positions are lost a cycle or two before sending fails.
+TEST(Supervisor, ABusThatTakesNoFramesIsTheFaultNotThePositionsThatItDoesNotBring) {
+  for (std::uint32_t taken : {1u, 2u}) {
+    Bench bench;
+    bench.run_to(Mode::kRunning);
+    for (std::uint32_t k = 1; k <= 3; ++k) {
+      bench.seen.lost = k;
+      bench.seen.sends_failed = k > taken ? k - taken : 0;
+      bench.step();
+    }
+    EXPECT_EQ(bench.supervisor.fault(), Fault::kSendFailed) << taken;
+    EXPECT_EQ(bench.supervisor.mode(), Mode::kStopping) << taken;
+  }
+}
+
+TEST(Supervisor, FadingGoesOnWhenAFrameIsNotTaken) {
+  Bench bench;
+  bench.run_to(Mode::kRunning);
+  for (std::uint32_t k = 1; k <= 5; ++k) {
+    bench.seen.lost = k;
+    bench.seen.sends_failed = k == 4 ? 1 : 0;
+    bench.step();
+  }
+  EXPECT_EQ(bench.supervisor.fault(), Fault::kPositionLost);
+  EXPECT_EQ(bench.supervisor.mode(), Mode::kFade);
+}
+
 TEST(Supervisor, GoesOnWhenAPositionIsLostOnceOrTwice) {
   Bench bench;
   bench.run_to(Mode::kRunning);
