@@ -13,8 +13,8 @@ namespace {
 /// A solver that does what it is told in one cycle, and follows the device in the others.
 class Cheat final : public Rig {
  public:
-  enum class Trick { kNone, kRefuses, kNan, kLongRotation, kFallsThrough, kPushesTooHard, kRunsAway };
-  explicit Cheat(Trick trick) : trick_(trick) {}
+  enum class Trick { kNone, kRefuses, kNan, kLongRotation, kFallsThrough, kPushesTooHard, kRunsAway, kStepsOut };
+  explicit Cheat(Trick trick, std::vector<Touch> touches = {}) : trick_(trick), touches_(std::move(touches)) {}
 
   Status update(const Pose& H_WD, const Motion&, CycleReport& report) override {
     report = CycleReport{};
@@ -29,21 +29,24 @@ class Cheat final : public Rig {
       case Trick::kFallsThrough: gap_ = -1e-6; break;
       case Trick::kPushesTooHard: report.force.total_W.force.x() = 1e3; break;
       case Trick::kRunsAway: report.H_WS.translation.x() += 1.0; break;
+      case Trick::kStepsOut: report.H_WS.translation.x() += 0.25 * parameters_.voxel_size; break;
     }
     return Status::kOk;
   }
   double smallest_gap(const Pose&) const override { return gap_; }
+  std::vector<Touch> touches(const Pose&) const override { return touches_; }
   const Parameters& parameters() const override { return parameters_; }
 
  private:
   Trick trick_;
+  std::vector<Touch> touches_;
   int cycle_ = 0;
   double gap_ = 1.0;
   Parameters parameters_;
 };
 
-Violations with(Cheat::Trick trick) {
-  Cheat cheat(trick);
+Violations with(Cheat::Trick trick, std::vector<Touch> touches = {}) {
+  Cheat cheat(trick, std::move(touches));
   return run_setup({.row = "test", .motion = "rest", .cycles = 200}, cheat);
 }
 
@@ -60,6 +63,16 @@ TEST(Watch, SeesEachViolationOnce) {
     EXPECT_EQ(with(trick).all(), 1);
     EXPECT_EQ(with(trick).first.substr(0, 9), "cycle 99:");
   }
+}
+
+TEST(Watch, AllowsTheWayOutOfALostMarginAndNoMore) {
+  const std::vector<Touch> inside = {{Vector3::Zero(), Vector3::UnitX(), -1.0}};
+  const std::vector<Touch> otherwise = {{Vector3::Zero(), -Vector3::UnitX(), -1.0}};
+  EXPECT_EQ(with(Cheat::Trick::kStepsOut).pulled_away, 1) << "nothing is lost";
+  EXPECT_EQ(with(Cheat::Trick::kStepsOut, inside).all(), 0);
+  EXPECT_EQ(with(Cheat::Trick::kRunsAway, inside).pulled_away, 1);
+  EXPECT_EQ(with(Cheat::Trick::kStepsOut, otherwise).all(), 0) << "as far from the device as the way out";
+  EXPECT_EQ(with(Cheat::Trick::kRunsAway, otherwise).pulled_away, 1);
 }
 
 TEST(CaseFile, BringsARunBack) {

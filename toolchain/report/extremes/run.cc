@@ -135,6 +135,31 @@ Parameters parameters_of(const Setup& setup, const MassModel& mass) {
   return q;
 }
 
+/// Reach of the longest sub-step: what is farther away is in no row.
+double reach_of(const Parameters& q) { return ContactLengths::make(q).longest_reach; }
+
+/// Calls visit(p, p_field, normal, gap) for the points of the shell, which is at H in the field's frame, that are near.
+template <class Field, class Visit>
+void visit_near(const Field& field, const Pointshell& shell, const Pose& H, double reach, const Visit& visit) {
+  for (std::size_t i = 0; i < shell.size; ++i) {
+    const Vector3 p = shell.point(i);
+    const Vector3 p_field = H * p;
+    const FieldSample sample = field.sample(p_field);
+    const double steepness = sample.gradient.norm();
+    if (!(sample.distance < reach) || !(steepness > 1e-3)) continue;
+    visit(p, p_field, Vector3(sample.gradient / steepness), sample.distance / steepness);
+  }
+}
+
+template <class Field>
+std::vector<Touch> sample_touches(const Field& field, const Pointshell& shell, const Pose& H_WS, double reach) {
+  std::vector<Touch> touches;
+  visit_near(field, shell, H_WS, reach, [&](const Vector3& p, const Vector3&, const Vector3& n, double gap) {
+    touches.push_back({p, H_WS.rotation.conjugate() * n, gap});
+  });
+  return touches;
+}
+
 class AnalyticRig final : public Rig {
  public:
   explicit AnalyticRig(const Setup& setup)
@@ -171,6 +196,9 @@ class AnalyticRig final : public Rig {
   }
 
   double smallest_gap(const Pose& H_WS) const override { return smallest_distance(field_, shell_, H_WS); }
+  std::vector<Touch> touches(const Pose& H_WS) const override {
+    return sample_touches(field_, shell_, H_WS, reach_of(q_));
+  }
   const Parameters& parameters() const override { return q_; }
 
  private:
@@ -227,6 +255,19 @@ class CompiledRig final : public Rig {
 
   double smallest_gap(const Pose& H_WS) const override {
     return smallest_distance(image_.scene.voxelmap, image_.scene.pointshell, H_WS);
+  }
+  std::vector<Touch> touches(const Pose& H_WS) const override {
+    const Scene& scene = image_.scene;
+    const double reach = reach_of(god_object_->parameters());
+    std::vector<Touch> touches = sample_touches(scene.voxelmap, scene.pointshell, H_WS, reach);
+    if (!scene.has_features()) return touches;
+    Pose H_WF;
+    H_WF.translation = scene.features_origin;
+    visit_near(scene.body_map, scene.features, H_WS.inverse() * H_WF, reach,
+               [&](const Vector3&, const Vector3& q_S, const Vector3& n, double gap) {
+                 touches.push_back({q_S, -n, gap});
+               });
+    return touches;
   }
   const Parameters& parameters() const override { return god_object_->parameters(); }
 
@@ -337,9 +378,14 @@ class Watch {
     const double rho_squared = q_.coupling_rotation / q_.coupling_translation;
     const double now = stretch(report.H_WS, H_WD, rho_squared);
     const double stayed = stretch(last_, H_WD, rho_squared);
-    if (now > stayed + 4.0 * q_.margin) {
-      note(found.pulled_away, cycle, fmt::format("{} m from the device, {} if it had stayed", now, stayed));
-    }
+    if (now <= stayed + 4.0 * q_.margin) return;
+    const Motion wanted = get_motion(last_.inverse() * H_WD);
+    Vector6 to_device;
+    to_device << wanted.translation, std::sqrt(rho_squared) * wanted.rotation;
+    const double out = (way_out(rig_.touches(last_), q_) - to_device).norm();
+    if (now <= out + 4.0 * q_.margin) return;
+    note(found.pulled_away, cycle,
+         fmt::format("{} m from the device, {} if it had stayed, {} by the shortest way out", now, stayed, out));
   }
 
   const Setup& setup_;

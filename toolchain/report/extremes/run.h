@@ -8,6 +8,7 @@
 
 #include "core/pipeline/god_object.h"
 #include "toolchain/report/extremes/setup.h"
+#include "toolchain/report/extremes/way_out.h"
 
 namespace godobject::report {
 
@@ -19,6 +20,7 @@ class Rig {
   /// Frame B of the body as the device holds it.
   virtual Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) = 0;
   virtual double smallest_gap(const Pose& H_WS) const = 0;  ///< of all sample points, in the distance that it sees [m]
+  virtual std::vector<Touch> touches(const Pose& H_WS) const = 0;  ///< what is near there, of both directions
   virtual const Parameters& parameters() const = 0;
 };
 
@@ -38,7 +40,7 @@ struct Violations {
   std::int64_t not_unit = 0;     ///< a rotation off by more than 1e-9
   std::int64_t crossings = 0;    ///< contact: a sample point inside that did not start there
   std::int64_t unbounded = 0;    ///< a force beyond spring times stretch and damper times velocity
-  std::int64_t pulled_away = 0;  ///< contact: further from the device than if it had stayed
+  std::int64_t pulled_away = 0;  ///< contact: further from the device than if it had stayed or gone the way out
   std::string first = {};        ///< in words
 
   std::int64_t all() const { return bad_status + not_finite + not_unit + crossings + unbounded + pulled_away; }
