@@ -7,19 +7,37 @@
 namespace godobject {
 namespace {
 
-detail::ClearanceKernel choose_kernel() noexcept {
+/// The widest first, the scalar one last.
+constexpr detail::ClearanceKernel kKernels[] = {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &detail::look_up_clearances_avx2;
+    {"AVX-512", 16, &detail::look_up_clearances_avx512},
+    {"AVX2", 8, &detail::look_up_clearances_avx2},
+#elif defined(__aarch64__)
+    {"NEON", 4, &detail::look_up_clearances_neon},
 #endif
-  return &detail::look_up_clearances;
+    {"scalar", 1, &detail::look_up_clearances},
+};
+
+/// How many of them are too wide for this processor.
+std::size_t too_wide() noexcept {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return 0;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? 1 : 2;
+#else
+  return 0;
+#endif
 }
 
 /// Chosen when the program is loaded.
-const detail::ClearanceKernel kKernel = choose_kernel();
+const detail::ClearanceKernel kKernel = kKernels[too_wide()];
 
 constexpr std::uint32_t kNoRefinement = 0;
 
 }  // namespace
+
+std::span<const detail::ClearanceKernel> detail::clearance_kernels() noexcept {
+  return std::span(kKernels).subspan(too_wide());
+}
 
 detail::FieldOfCells Voxelmap::in_cells(const Pose& H) const noexcept {
   detail::FieldOfCells f{};
@@ -48,9 +66,9 @@ detail::FieldOfCells Voxelmap::in_cells(const Pose& H) const noexcept {
 
 void Voxelmap::clearances(const Pose& H, PointBatch& batch) const noexcept {
   if (!in_batches_) return sample_clearances(*this, H, batch);
-  const std::uint32_t lanes = (batch.count + PointBatch::kLanes - 1) / PointBatch::kLanes * PointBatch::kLanes;
-  for (std::uint32_t i = batch.count; i < lanes; ++i) batch.x[i] = batch.y[i] = batch.z[i] = 0.0f;
-  kKernel(in_cells(H), batch.x, batch.y, batch.z, batch.clearance, lanes);
+  const std::uint32_t count = (batch.count + kKernel.lanes - 1) / kKernel.lanes * kKernel.lanes;
+  for (std::uint32_t i = batch.count; i < count; ++i) batch.x[i] = batch.y[i] = batch.z[i] = 0.0f;
+  kKernel.look_up(in_cells(H), batch.x, batch.y, batch.z, batch.clearance, count);
 }
 
 }  // namespace godobject

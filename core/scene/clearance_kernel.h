@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/scene/format.h"
 
@@ -37,15 +38,32 @@ struct FieldOfCells {
 /// A transformed point is a sum of four rounded products of rounded factors: this much of them all, with room to spare.
 inline constexpr float kPointRounding = 1e-6f;
 
-using ClearanceKernel = void (*)(const FieldOfCells& field, const float* x, const float* y, const float* z,
-                                 float* clearance, std::uint32_t count) noexcept;
+/// Clearances of `count` points. A kernel of several lanes takes a multiple of them, in arrays aligned to its vectors.
+using LookUpClearances = void(const FieldOfCells& field, const float* x, const float* y, const float* z,
+                              float* clearance, std::uint32_t count) noexcept;
+
+struct ClearanceKernel {
+  const char* name;
+  std::uint32_t lanes;  ///< a divisor of PointBatch::kCapacity
+  LookUpClearances* look_up;
+};
+
+/// Those that this processor can run, the widest first.
+std::span<const ClearanceKernel> clearance_kernels() noexcept;
 
 void look_up_clearances(const FieldOfCells& field, const float* x, const float* y, const float* z, float* clearance,
                         std::uint32_t count) noexcept;
 
 #if defined(__x86_64__)
-/// With AVX2 and FMA; `count` is a multiple of 8, the arrays aligned to 32 bytes.
+/// Eight lanes; needs AVX2 and FMA.
 void look_up_clearances_avx2(const FieldOfCells& field, const float* x, const float* y, const float* z,
+                             float* clearance, std::uint32_t count) noexcept;
+/// Sixteen lanes; needs AVX-512 F and DQ.
+void look_up_clearances_avx512(const FieldOfCells& field, const float* x, const float* y, const float* z,
+                               float* clearance, std::uint32_t count) noexcept;
+#elif defined(__aarch64__)
+/// Four lanes.
+void look_up_clearances_neon(const FieldOfCells& field, const float* x, const float* y, const float* z,
                              float* clearance, std::uint32_t count) noexcept;
 #endif
 

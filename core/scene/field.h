@@ -25,7 +25,6 @@ struct LayerSample {
 
 /// Points whose clearances are looked up together.
 struct PointBatch {
-  static constexpr std::uint32_t kLanes = 8;
   static constexpr std::uint32_t kCapacity = 64;
 
   alignas(64) float x[kCapacity];  ///< [m]

@@ -376,9 +376,19 @@ TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
       batch.y[k] = static_cast<float>(p.y());
       batch.z[k] = static_cast<float>(p.z());
     }
-    map_.clearances(H, batch);
+    const std::span<const detail::ClearanceKernel> kernels = detail::clearance_kernels();
+    const detail::ClearanceKernel& kernel = kernels[static_cast<std::size_t>(i) % kernels.size()];
+    SCOPED_TRACE(kernel.name);
     PointBatch scalar = batch;
     detail::look_up_clearances(map_.in_cells(H), scalar.x, scalar.y, scalar.z, scalar.clearance, scalar.count);
+    const std::uint32_t lanes = (batch.count + kernel.lanes - 1) / kernel.lanes * kernel.lanes;
+    std::fill(batch.x + batch.count, batch.x + lanes, std::numeric_limits<float>::quiet_NaN());  // lanes that nobody asks for
+    kernel.look_up(map_.in_cells(H), batch.x, batch.y, batch.z, batch.clearance, lanes);
+    if (&kernel == &kernels.front()) {
+      PointBatch chosen = batch;
+      map_.clearances(H, chosen);
+      ASSERT_TRUE(std::equal(batch.clearance, batch.clearance + batch.count, chosen.clearance));
+    }
     for (std::uint32_t k = 0; k < batch.count; ++k) {
       const Vector3 p = H * Vector3(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
                                     static_cast<double>(batch.z[k]));

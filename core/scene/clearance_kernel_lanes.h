@@ -1,0 +1,100 @@
+#pragma once
+
+#include "core/scene/clearance_kernel.h"
+
+/// Included once by a source for each kind of vectors, which is compiled for them: what is here must be that source's
+/// own, so that none of it is linked into what runs elsewhere.
+namespace godobject::detail {
+namespace {
+
+using format::kBrickNodes;
+namespace index_entry = format::index_entry;
+
+template <class F>
+F larger(F a, F b) noexcept {
+  return a > b ? a : b;
+}
+template <class F>
+F smaller(F a, F b) noexcept {
+  return a < b ? a : b;
+}
+template <class F>
+F between(F low, F high, F at) noexcept {
+  return low + at * (high - low);
+}
+
+template <class Vectors>
+struct Axis {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+
+  Floats cells;  ///< from the grid's origin
+  Ints within;   ///< -1 or 0, 0 for NaN
+  Ints cell;     ///< of it, 0 where it is not within
+  Floats at;     ///< in the cell
+
+  Axis(const FieldOfCells& f, int axis, Floats x, Floats y, Floats z) noexcept {
+    const float(&m)[4] = f.to_cells[axis];
+    cells = m[0] * x + m[1] * y + m[2] * z + m[3];
+    within = (cells >= 0.0f) & (cells < f.cells[axis]);
+    cell = Vectors::truncated(cells) & within;
+    at = cells - __builtin_convertvector(cell, Floats);
+  }
+
+  Floats squared_away(const FieldOfCells& f, int axis) const noexcept {
+    const Floats away = larger(larger(f.surface_min[axis] - cells, cells - f.surface_max[axis]), Floats{});
+    return away * away;
+  }
+  Floats absolute() const noexcept { return cells < 0.0f ? -cells : cells; }
+};
+
+/// `Vectors` are `Floats` and `Ints` of `kLanes` elements of 32 bits, for which the compiler knows arithmetic,
+/// comparisons (-1 or 0) and selections, and what it has no operator for: gather, truncated, root. `count`: a multiple
+/// of kLanes; the arrays are aligned to the vectors.
+template <class Vectors>
+void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, const float* zs, float* clearance,
+                   std::uint32_t count) noexcept {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+  const Floats zero = {};
+  for (std::uint32_t i = 0; i < count; i += Vectors::kLanes) {
+    const Floats px = *reinterpret_cast<const Floats*>(xs + i);
+    const Floats py = *reinterpret_cast<const Floats*>(ys + i);
+    const Floats pz = *reinterpret_cast<const Floats*>(zs + i);
+    const Axis<Vectors> x(f, 0, px, py, pz);
+    const Axis<Vectors> y(f, 1, px, py, pz);
+    const Axis<Vectors> z(f, 2, px, py, pz);
+    const Ints within = x.within & y.within & z.within;
+    const Ints position =
+        (x.cell >> kBrickShift) + f.stride_y * (y.cell >> kBrickShift) + f.stride_z * (z.cell >> kBrickShift);
+    const Ints entry = Vectors::gather(f.index, position & within);
+    const Ints far = entry < 0;
+    const Ints halved = ((entry & static_cast<int>(index_entry::kRefined)) != 0) & ~far;
+    const Ints number = entry & static_cast<int>(index_entry::kNumber) & ~far;
+    const Ints own = Vectors::gather(f.refined, kRefinedWords * number & halved);
+    const Ints brick = kBrickFloats * (halved ? own : number);
+    constexpr int kCell = format::kBrickCells - 1;
+    constexpr int kY = kBrickNodes;
+    constexpr int kZ = kBrickNodes * kBrickNodes;
+    const Ints v = brick + (x.cell & kCell) + kY * (y.cell & kCell) + kZ * (z.cell & kCell);
+    const auto edge = [&](int node) noexcept {
+      return between(Vectors::gather(f.bricks + node, v), Vectors::gather(f.bricks + node + 1, v), x.at);
+    };
+    const Floats near_face = between(edge(0), edge(kY), y.at);
+    const Floats far_face = between(edge(kZ), edge(kZ + kY), y.at);
+    const Floats distance = between(near_face, far_face, z.at) - Vectors::gather(f.bricks + kDeviationAt, brick);
+    const Floats stored =
+        smaller(larger(distance, zero), zero + f.near_band) / Vectors::gather(f.bricks + kLipschitzAt, brick);
+    const Floats free =
+        larger(reinterpret_cast<Floats>((entry & static_cast<int>(index_entry::kLow)) << 1), zero + f.assured);
+    const Ints inside = (entry & static_cast<int>(index_entry::kInside)) != 0;
+    const Floats away = Vectors::root(x.squared_away(f, 0) + y.squared_away(f, 1) + z.squared_away(f, 2));
+    const Floats outside = larger(f.outside_share * f.cell_edge * (away - f.outside_off), zero + f.assured);
+    const Floats bound = within ? (far ? (inside ? zero : free) : stored) : outside;
+    const Floats shift = x.absolute() + y.absolute() + z.absolute() + f.offset;
+    *reinterpret_cast<Floats*>(clearance + i) = bound - kPointRounding * f.cell_edge * shift;
+  }
+}
+
+}  // namespace
+}  // namespace godobject::detail
