@@ -382,7 +382,8 @@ TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
     PointBatch scalar = batch;
     detail::look_up_clearances(map_.in_cells(H), scalar.x, scalar.y, scalar.z, scalar.clearance, scalar.count);
     const std::uint32_t lanes = (batch.count + kernel.lanes - 1) / kernel.lanes * kernel.lanes;
-    std::fill(batch.x + batch.count, batch.x + lanes, std::numeric_limits<float>::quiet_NaN());  // lanes that nobody asks for
+    // lanes that nobody asks for
+    std::fill(batch.x + batch.count, batch.x + lanes, std::numeric_limits<float>::quiet_NaN());
     kernel.look_up(map_.in_cells(H), batch.x, batch.y, batch.z, batch.clearance, lanes);
     if (&kernel == &kernels.front()) {
       PointBatch chosen = batch;
