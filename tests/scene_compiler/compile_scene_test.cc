@@ -253,7 +253,7 @@ TEST_F(CompileScene, AnswersQueries) {
   compile({.still = "cube_100mm"});
   const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
   const auto points = folder_.write("p.csv", "x,y,z\r\n0.0,0.0,0.053\n0, 0 ,0\n1e3,0,0\n\n");
-  const std::uint64_t rows = query_points(image.scene.voxelmap, points, folder_.file("d.csv"), {});
+  const std::uint64_t rows = query_points(image.scene, points, folder_.file("d.csv"), {});
   EXPECT_EQ(rows, 3u);
   std::istringstream lines(slurp(folder_.file("d.csv")));
   std::string line;
@@ -278,7 +278,7 @@ TEST_F(CompileScene, TakesPointsAsOtherTablesAreTaken) {
   compile({.still = "cube_100mm"});
   const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
   for (const char* text : {"\xef\xbb\xbf+0.01,0,0\n0,0,0\n", "# made by hand\nx,y,z\n0,0,0\n\n# end\n1,1,1"}) {
-    EXPECT_EQ(query_points(image.scene.voxelmap, folder_.write("p.csv", text), folder_.file("d.csv"), {}), 2u) << text;
+    EXPECT_EQ(query_points(image.scene, folder_.write("p.csv", text), folder_.file("d.csv"), {}), 2u) << text;
   }
 }
 
@@ -287,8 +287,7 @@ TEST_F(CompileScene, NamesTheLineOfABadRow) {
   const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
   for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0", "+-1,0,0"}) {
     try {
-      query_points(image.scene.voxelmap, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"),
-                   folder_.file("d.csv"), {});
+      query_points(image.scene, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"), folder_.file("d.csv"), {});
       FAIL() << "took " << row;
     } catch (const command::Failure& failure) {
       EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);

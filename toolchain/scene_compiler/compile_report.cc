@@ -215,6 +215,11 @@ Json second_direction_json(const CompileReport& report) {
   return json;
 }
 
+Json ball_json(const std::optional<Ball>& ball) {
+  if (!ball) return nullptr;
+  return {{"center", vector_json(ball->center)}, {"radius", ball->radius}, {"deviation", ball->deviation}};
+}
+
 Json left_out_json(const CompileReport& report) {
   const format::Grid& g = report.grid;
   std::uint64_t nodes = 1;
@@ -227,15 +232,22 @@ Json left_out_json(const CompileReport& report) {
                   {"dense_bytes", dense},
                   {"stored_bytes", sparse},
                   {"bytes_saved", static_cast<std::int64_t>(dense) - static_cast<std::int64_t>(sparse)}});
-  if (section_bytes(report, format::SectionId::kNormals) == 0) {
+  if (!report.ball && section_bytes(report, format::SectionId::kNormals) == 0) {
     list.push_back({{"what", "normals, which only the paper's solver reads"},
                     {"bytes_saved", section_bytes(report, format::SectionId::kPoints)}});
   }
   if (report.config.settings.friction == 0) {
     list.push_back({{"what", "friction: the scene has no friction table"}, {"bytes_saved", 0}});
   }
+  if (report.ball) {
+    const std::uint64_t point = section_bytes(report, format::SectionId::kPoints);
+    list.push_back({{"what", fmt::format("{} points of the ball, which its centre stands for", report.config.points)},
+                    {"bytes_saved", (report.config.points - 1) * point}});
+    list.push_back({{"what", "straight edges: the surface at the ball's radius has none"}, {"bytes_saved", nullptr}});
+  }
   if (report.second.features.point_count == 0) {
-    const char* const why = report.second.sought            ? "no feature point is needed"
+    const char* const why = report.ball                     ? "a ball meets a convex body where its centre is near"
+                            : report.second.sought          ? "no feature point is needed"
                             : report.config.both_directions ? "only contact reads it"
                                                             : "contact.both_directions = false";
     list.push_back({{"what", std::string("the second direction: ") + why}, {"bytes_saved", nullptr}});  // never made
@@ -295,6 +307,7 @@ Json report_json(const CompileReport& report) {
                  {"at", vector_json(report.seams.at)}}},
                {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
                {"refinement", refinement_json(report)},
+               {"ball", ball_json(report.ball)},
                {"body", body},
                {"between_points", second_direction_json(report)},
                {"section_bytes", sections},

@@ -82,7 +82,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
-  if (!report.only_solver || report.only_solver == format::Solver::kPaper)
+  if (!body.normals.empty() && report.only_solver.value_or(format::Solver::kPaper) == format::Solver::kPaper)
     sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
   sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
   if (parts.features.points.empty()) return sections;
@@ -129,7 +129,7 @@ auto naming_moving_mesh(const SceneConfig& config, Work&& work) {
 
 /// Whether the scene wants the second direction, and the image is for the solver that reads it.
 bool wants_features(const CompileReport& report) {
-  return report.config.both_directions &&
+  return report.config.both_directions && !report.ball &&
          report.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
 }
 
@@ -158,6 +158,15 @@ void write_image(const command::AlignedBytes& image, const std::filesystem::path
 /// How much smaller the moving body is in its field, in voxels: what refinement may hold off at its edges (kHeldOff
 /// tolerances). A still edge that lies in the plane of a face in contact would catch on that otherwise.
 double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
+
+/// A ball has no normals at its surface.
+void require_held(const SceneConfig& config, std::optional<format::Solver> only_solver) {
+  if (!only_solver || (config.settings.solvers >> static_cast<std::uint32_t>(*only_solver) & 1u) != 0) return;
+  throw command::Failure(command::ExitCode::kBadConfig,
+                         fmt::format("--only-solver {}: needs points with normals, a ball has its centre alone; take "
+                                     "contact or corrected, or leave out moving.ball",
+                                     format::kSolverNames[static_cast<std::size_t>(*only_solver)]));
+}
 
 /// Features of the still body, and more points of the moving one where its own are too few to do with them.
 StillFeatures find_features(const SolidSurface& still, const OuterSurface& moving, MovingSampling& sampling,
@@ -189,6 +198,31 @@ void shrink(DistanceGrid& field, double slack) {
   bound_clearances(field);
 }
 
+/// The moving body by its points, and into `parts` what the second direction reads.
+void sample_bodies(const SolidSurface& still, const SolidSurface& moving, Phases& phases, CompileReport& report,
+                   SceneParts& parts) {
+  const SceneConfig& config = report.config;
+  const OuterSurface outer(moving);
+  MovingSampling sampling = phases.run("points", [&](const Progress& p) {
+    return naming_moving_mesh(config, [&] { return sample_moving_body(outer, config.points, config.levels, p); });
+  });
+  if (wants_features(report)) {
+    parts.features = phases.run("between points",
+                                [&](const Progress& p) { return find_features(still, outer, sampling, report, p); });
+  }
+  report.body = phases.run("body", [&](const Progress&) { return make_moving_body(outer, sampling); });
+  if (parts.features.points.empty()) return;
+  parts.body_field = phases.run("body distances", [&](const Progress& p) {
+    const double body_band = default_band(config.body_voxel_size, config.settings.safety_distance);
+    const SolidSurface body = in_body_frame(moving, report.body.body, config);
+    DistanceGrid field = make_distance_grid(body, config.body_voxel_size, body_band, part_of(p, 0.0, 0.5));
+    refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(p, 0.5, 1.0));
+    shrink(field, report.second.slack);
+    return field;
+  });
+  report.second.grid = parts.body_field.grid;
+}
+
 }  // namespace
 
 CompileReport compile_scene(const CompileRequest& request) {
@@ -198,6 +232,7 @@ CompileReport compile_scene(const CompileRequest& request) {
   report.choice = request.choice;
   report.config = request.config ? *request.config : read_scene_config(request.scene_file);
   const SceneConfig& config = report.config;
+  require_held(config, request.only_solver);
 
   const auto open_mesh = [&](const SceneConfig::Mesh& mesh, MeshFacts& facts) {
     return SolidSurface(import_mesh(mesh.file, mesh.scale, facts.report), mesh.surface, config.thickness);
@@ -209,40 +244,34 @@ CompileReport compile_scene(const CompileRequest& request) {
       phases.run("moving mesh", [&](const Progress&) { return open_mesh(config.moving, report.moving); });
   report.moving.components = moving.components();
 
-  report.thin =
-      phases.run("walls and gaps", [&](const Progress& p) { return find_thin_places(still, config.voxel_size, p); });
-  require_walls_that_last(report.thin, config.voxel_size, config.still.file.string());
+  std::optional<SolidSurface> dilated;
+  if (config.ball) {
+    report.ball = phases.run("ball", [&](const Progress&) {
+      return require_ball(moving, config.moving.file.string(), still, config.still.file.string(), config.voxel_size);
+    });
+    dilated.emplace(still.mesh(), config.still.surface, config.thickness, report.ball->radius);
+  } else {
+    report.thin =
+        phases.run("walls and gaps", [&](const Progress& p) { return find_thin_places(still, config.voxel_size, p); });
+    require_walls_that_last(report.thin, config.voxel_size, config.still.file.string());
+  }
+  const SolidSurface& met = dilated ? *dilated : still;
 
   const double band = default_band(config.voxel_size, config.settings.safety_distance);
   SceneParts parts;
   parts.field =
-      phases.run("distances", [&](const Progress& p) { return make_distance_grid(still, config.voxel_size, band, p); });
+      phases.run("distances", [&](const Progress& p) { return make_distance_grid(met, config.voxel_size, band, p); });
   require_some_inside(parts.field, config.still.file.string());
   report.refinement = phases.run(kRefinementPhase, [&](const Progress& p) {
-    return refine(parts.field, still, config.field_tolerance * config.voxel_size, p);
+    return refine(parts.field, met, config.field_tolerance * config.voxel_size, p);
   });
   report.grid = parts.field.grid;
   report.seams = parts.field.seams;
   report.brick_positions = parts.field.index.size();
-  const OuterSurface outer(moving);
-  MovingSampling sampling = phases.run("points", [&](const Progress& p) {
-    return naming_moving_mesh(config, [&] { return sample_moving_body(outer, config.points, config.levels, p); });
-  });
-  if (wants_features(report)) {
-    parts.features = phases.run("between points",
-                                [&](const Progress& p) { return find_features(still, outer, sampling, report, p); });
-  }
-  report.body = phases.run("body", [&](const Progress&) { return make_moving_body(outer, sampling); });
-  if (!parts.features.points.empty()) {
-    parts.body_field = phases.run("body distances", [&](const Progress& p) {
-      const double body_band = default_band(config.body_voxel_size, config.settings.safety_distance);
-      const SolidSurface body = in_body_frame(moving, report.body.body, config);
-      DistanceGrid field = make_distance_grid(body, config.body_voxel_size, body_band, part_of(p, 0.0, 0.5));
-      refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(p, 0.5, 1.0));
-      shrink(field, report.second.slack);
-      return field;
-    });
-    report.second.grid = parts.body_field.grid;
+  if (report.ball) {
+    report.body = make_ball_body(*report.ball);
+  } else {
+    sample_bodies(still, moving, phases, report, parts);
   }
 
   std::vector<SectionBytes> sections = lay_out(report, parts);
@@ -251,7 +280,7 @@ CompileReport compile_scene(const CompileRequest& request) {
     const command::SceneImage image(make_image(sections), request.output.string());
     report.traits = traits_of(image.scene);
     report.look_up = time_look_ups(parts.field, image.scene.voxelmap);
-    return check_field(still, parts.field, image.scene.voxelmap, kCheckedPoints, p);
+    return check_field(met, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });
   require_exact_nodes(report.field_error, config.voxel_size);
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/scene_traits.h"
+#include "toolchain/scene_compiler/ball.h"
 #include "toolchain/scene_compiler/between_points.h"
 #include "toolchain/scene_compiler/distance_grid.h"
 #include "toolchain/scene_compiler/field_check.h"
@@ -60,7 +61,8 @@ struct CompileReport {
   nlohmann::ordered_json choice;  ///< that of the request
   MeshFacts still;
   MeshFacts moving;
-  ThinReport thin;
+  std::optional<Ball> ball;  ///< of a scene that has one: no points but its centre, a dilated field
+  ThinReport thin;           ///< of a ball's scene nothing is looked for: dilated by more than a voxel nothing is thin
   format::Grid grid{};
   RefinementReport refinement;
   SeamReport seams;

@@ -70,6 +70,15 @@ const char* reason(Stopped stopped) {
 }
 
 std::string points_text(const CompileReport& report) {
+  if (report.ball) {
+    const Ball& ball = *report.ball;
+    return fmt::format(
+        "ball     of {} radius, the mesh up to {} within it: its centre is the one point, distances are less by the "
+        "radius\n"
+        "         it turns with the device: no torque arises at the centre{}\n",
+        millimetres(ball.radius), millimetres(ball.deviation),
+        report.config.settings.friction != 0 ? ", nor that of friction, whose lever the radius is" : "");
+  }
   const format::Body& body = report.body.body;
   const std::uint32_t added = report.second.added_points;
   return fmt::format(
@@ -82,6 +91,7 @@ std::string points_text(const CompileReport& report) {
 
 std::string second_direction_text(const CompileReport& report) {
   const SecondDirection& second = report.second;
+  if (report.ball) return {};
   if (!second.sought) return "between  the points: not looked at; the still body gives no features\n";
   const BetweenPoints& between = second.between;
   std::string text;
@@ -188,9 +198,10 @@ std::string thin_limit(const ThinPlaces& places, const char* what, const char* l
 
 /// What of the image is not as wished.
 std::vector<std::string> limits(const CompileReport& report) {
+  const SceneConfig& config = report.config;
   const ErrorNorms& near = report.field_error.near;
   const double s = report.grid.voxel_size;
-  const double off = kHeldOff * report.config.field_tolerance;  // what refinement may leave on either side
+  const double off = kHeldOff * config.field_tolerance;  // what refinement may leave on either side
   std::vector<std::string> found;
   if (near.largest > off * s)
     found.push_back(
@@ -200,11 +211,13 @@ std::vector<std::string> limits(const CompileReport& report) {
   if (report.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
   const SecondDirection& second = report.second;
   const double bound = second.between.bound + second.slack;
-  if (!second.sought) {
+  if (report.ball) {
+    if (config.settings.friction != 0) found.push_back("friction turns no ball that is met by its centre");
+  } else if (!second.sought) {
     found.push_back("nobody looks between the points");
-  } else if (bound > report.config.between_points) {
+  } else if (bound > config.between_points) {
     found.push_back(std::isfinite(bound) ? fmt::format("bodies may meet {} deep between the points ({} wanted)",
-                                                       millimetres(bound), millimetres(report.config.between_points))
+                                                       millimetres(bound), millimetres(config.between_points))
                                          : std::string("no bound is known between the points"));
   }
   std::erase(found, "");
@@ -216,6 +229,7 @@ std::vector<std::string> limits(const CompileReport& report) {
 std::string verdict_text(const CompileReport& report) {
   const std::vector<std::string> found = limits(report);
   if (!found.empty()) return fmt::format("ready, with limits: {}", fmt::join(found, "; "));
+  if (report.ball) return "ready: the field is within its tolerance near the surface at the ball's radius";
   return fmt::format(
       "ready: the field is within its tolerance near the surface, no wall or gap is too thin, bodies meet no deeper "
       "than {} "
@@ -227,10 +241,10 @@ std::string report_text(const CompileReport& report) {
   const double voxel_size = report.grid.voxel_size;
   std::string text = mesh_text("still", report.config.still, report.still);
   text += mesh_text("moving", report.config.moving, report.moving);
-  text += thin_text("walls", report.thin.walls);
+  text += report.ball ? "" : thin_text("walls", report.thin.walls);
   text += lost_text(report.thin.walls, "too thin for the field to hold, bodies may pass there", voxel_size);
   if (report.thin.walls.lost_area > 0.0) text += fmt::format("         a wall is {}\n", kRefusalRule);
-  text += thin_text("gaps", report.thin.gaps);
+  text += report.ball ? "" : thin_text("gaps", report.thin.gaps);
   text += lost_text(report.thin.gaps, "too thin for the field to hold, solid may stand there", voxel_size);
   text += field_text(report);
   text += error_text(report);

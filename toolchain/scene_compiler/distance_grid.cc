@@ -69,7 +69,7 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
   const TriangleMesh& mesh = surface.mesh();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const bool shell = surface.components()[surface.component_of_triangle()[i]].shell;
-    const Vector3d thickened = Vector3d::Constant(shell ? 0.5 * surface.thickness() : 0.0);
+    const Vector3d thickened = Vector3d::Constant(surface.dilation() + (shell ? 0.5 * surface.thickness() : 0.0));
     for (const std::uint32_t v : mesh.triangles[i]) {
       low_ = low_.cwiseMin(mesh.vertices[v] - thickened);
       high_ = high_.cwiseMax(mesh.vertices[v] + thickened);

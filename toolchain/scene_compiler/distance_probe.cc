@@ -27,7 +27,7 @@ double DistanceProbe::signed_distance(const Eigen::Vector3d& p) {
     path_left_ = surface_.constant_side_path(p, winding_number);
   }
   last_ = p;
-  return std::min(inside_ ? -to_solids_ : to_solids_, to_shells_ - 0.5 * surface_.thickness());
+  return std::min(inside_ ? -to_solids_ : to_solids_, to_shells_ - 0.5 * surface_.thickness()) - surface_.dilation();
 }
 
 }  // namespace godobject::scene_compiler

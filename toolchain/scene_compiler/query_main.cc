@@ -14,6 +14,8 @@ Example:
 
 POINTS.csv holds rows x,y,z in the still mesh's frame, in metres. OUT.csv gets x,y,z,distance,nx,ny,nz,known:
 known = 1 within the stored band, n the outward normal; known = 0 beyond it: distance is plus or minus the band, n is 0.
+Where the moving body is a ball the band lies about the surface at its radius: beyond it the distance is the radius
+plus or minus the band.
 
 Exit codes: 0 done, 64 usage, 65 bad image or row, 66 an input is missing or may not be read, 74 cannot write, 77 no right to write.)";
 
@@ -33,7 +35,6 @@ int main(int argc, char** argv) {
     command::output_target(output);  // refused before anything is read
     const command::SceneImage image = command::SceneImage::read(scene);
     command::Progress line;
-    scene_compiler::query_points(image.scene.voxelmap, points, output,
-                                 [&line](double done) { line.show("points", done); });
+    scene_compiler::query_points(image.scene, points, output, [&line](double done) { line.show("points", done); });
   });
 }

@@ -10,6 +10,7 @@
 
 #include "firmware/command/csv_lines.h"
 #include "toolchain/command/atomic_file.h"
+#include "toolchain/scene_compiler/ball.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -31,23 +32,23 @@ bool names_columns(std::string_view line) {
          line.find_first_of("xX") != std::string_view::npos;
 }
 
-void append_row(std::string& text, std::string_view point_text, const Vector3& point, const Voxelmap& field) {
-  const FieldSample sample = field.sample(point);
+void append_row(std::string& text, std::string_view point_text, const FieldSample& sample, double dilation) {
   const double length = sample.gradient.norm();
   const Vector3 normal = length > 0.0 ? Vector3(sample.gradient / length) : Vector3::Zero();
-  fmt::format_to(std::back_inserter(text), "{},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", point_text, sample.distance,
-                 normal.x(), normal.y(), normal.z(), sample.known ? 1 : 0);
+  fmt::format_to(std::back_inserter(text), "{},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", point_text,
+                 sample.distance + dilation, normal.x(), normal.y(), normal.z(), sample.known ? 1 : 0);
 }
 
 }  // namespace
 
-std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& points,
-                           const std::filesystem::path& output, const Progress& progress) {
+std::uint64_t query_points(const Scene& scene, const std::filesystem::path& points, const std::filesystem::path& output,
+                           const Progress& progress) {
   command::CsvLines lines(points);
   std::error_code unknown;  // of a pipe: no progress is shown
   const std::uintmax_t size = std::filesystem::file_size(points, unknown);
   command::AtomicFile file(output);
   std::string text = "x,y,z,distance,nx,ny,nz,known\n";
+  const double dilation = ball_radius(scene);
   std::uint64_t rows = 0;
   bool first = true;
   for (std::string_view row; lines.next(row); first = false) {
@@ -56,7 +57,7 @@ std::uint64_t query_points(const Voxelmap& field, const std::filesystem::path& p
     if (!read_point(row, point)) {
       lines.refuse(fmt::format("\"{}\" is not three finite numbers x,y,z; mend or drop the row", row.substr(0, 60)));
     }
-    append_row(text, row, point, field);
+    append_row(text, row, scene.voxelmap.sample(point), dilation);
     ++rows;
     if (text.size() > 1u << 20) {
       file.write(text);

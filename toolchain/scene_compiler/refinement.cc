@@ -35,6 +35,7 @@ constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
 constexpr double kSteepest = 1.95;    // of the refined field; Scene::open takes gradients up to 2
 constexpr double kWidestTube = 2.4;   // about a straight edge, in voxels
+constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
 constexpr int kFineNodes = 2 * kBrickCells + 1;
 
 /// What a look at the surface found.
@@ -51,9 +52,15 @@ class SurfaceCheck {
       : surface_(surface), tree_(tree), barred_(barred), tolerance_(tolerance), marked_(tree.brick_count()) {}
 
   Misses run(const std::vector<std::uint32_t>& triangles, const Progress& progress) {
-    std::vector<char> missed(triangles.size());
-    parallel_for(
-        triangles.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i]) ? 1 : 0; }, progress);
+    const bool dilated = surface_.dilation() > 0.0;
+    std::vector<char> missed(triangles.size(), dilated ? 1 : 0);
+    if (dilated) {
+      parallel_for(
+          tree_.brick_count(), [&](std::size_t i) { check_brick(static_cast<std::uint32_t>(i)); }, progress);
+    } else {
+      parallel_for(
+          triangles.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i]) ? 1 : 0; }, progress);
+    }
     Misses misses;
     for (std::uint32_t b = 0; b < marked_.size(); ++b) {
       if (marked_[b].load(std::memory_order_relaxed)) misses.bricks.push_back(b);
@@ -131,18 +138,46 @@ class SurfaceCheck {
     return divide(other, sides) || missed;
   }
 
-  /// Of the field's value on the surface.
-  bool good(const BrickTree::Leaf& leaf, double stored) const {
+  /// A dilated surface has no triangles: looked at in the middle of the cells about it, where trilinear interpolation
+  /// misses a convex function most, against the exact distance there.
+  void check_brick(std::uint32_t brick) {
+    if (!tree_.is_leaf(brick)) return;
+    const BrickTree::Leaf leaf{brick, tree_.level(brick)};
+    const double edge = tree_.cell_edge(leaf.level);
+    const format::Brick& nodes = tree_.exact(brick);
+    const auto [low, high] = std::minmax_element(std::begin(nodes.value), std::end(nodes.value));
+    if (static_cast<double>(*low) > kCellDiagonal * edge || static_cast<double>(*high) < -kCellDiagonal * edge) return;
+    DistanceProbe probe(surface_);
+    for (int z = 0; z < kBrickCells; ++z) {
+      for (int y = 0; y < kBrickCells; ++y) {
+        for (int x = 0; x < kBrickCells; ++x) {
+          const Vector3d p = tree_.low(brick) + edge * Vector3d(x + 0.5, y + 0.5, z + 0.5);
+          const double exact = probe.signed_distance(p);
+          if (std::abs(exact) < 0.5 * kCellDiagonal * edge) check_value(p, leaf, exact, [] { return true; });
+        }
+      }
+    }
+  }
+
+  /// Of the field's error on the surface.
+  bool good(const BrickTree::Leaf& leaf, double error) const {
     const double tolerance = tree_.edges_of(leaf.brick).empty() ? tolerance_ : kBlendSlack * tolerance_;
-    return stored <= tolerance && stored >= -kHeldOff * tolerance;
+    return error <= tolerance && error >= -kHeldOff * tolerance;
   }
 
   /// `leaf` holds p, `center` is a point of the same triangle off its rim.
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
-    if (leaf.brick == BrickTree::kNone || good(leaf, tree_.interpolate(leaf, p))) return false;
+    if (leaf.brick == BrickTree::kNone) return false;
+    return check_value(p, leaf, 0.0, [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); });
+  }
+
+  /// `leaf` holds p, where the exact distance is `exact`; a miss counts only if `matters` says so.
+  template <class Matters>
+  bool check_value(const Vector3d& p, const BrickTree::Leaf& leaf, double exact, Matters&& matters) {
+    if (good(leaf, tree_.interpolate(leaf, p) - exact)) return false;
     std::array<std::uint32_t, BrickTree::kMostAbout> about{};
-    const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p)) ? tree_.coarser_about(leaf, p, about)
-                                                                           : tree_.holding(leaf, p, about);
+    const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p) - exact) ? tree_.coarser_about(leaf, p, about)
+                                                                                   : tree_.holding(leaf, p, about);
     bool possible = false;
     bool known = true;
     for (std::size_t i = 0; i < count; ++i) {
@@ -153,7 +188,7 @@ class SurfaceCheck {
     }
     if (!possible) return false;
     if (known) return true;
-    if (!bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides)) return false;
+    if (!matters()) return false;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t brick = about[i];
       if (barred_[brick] || tree_.level(brick) == format::kMaxRefinement) continue;
@@ -197,8 +232,8 @@ class FineNodes {
  public:
   FineNodes(const SolidSurface& surface, const format::Brick& parent, const Vector3d& low, double edge)
       : surface_(surface), low_(low), edge_(edge) {
-    const bool no_shells = surface.shell_triangles().empty();
-    for (int i = 0; i < kCount; ++i) measure(i, parent, no_shells);
+    const bool values_tell = surface.shell_triangles().empty() && surface.dilation() == 0.0;
+    for (int i = 0; i < kCount; ++i) measure(i, parent, values_tell);
     std::iota(order_.begin(), order_.end(), 0);
     std::sort(order_.begin(), order_.end(), [this](int a, int b) {
       return to_solids_[at(a)] != to_solids_[at(b)] ? to_solids_[at(a)] > to_solids_[at(b)] : a < b;
@@ -212,7 +247,8 @@ class FineNodes {
     const std::size_t i = at(number(x, y, z));
     if (given_[i]) return value_[i];
     return static_cast<float>(
-        std::min(inside_[i] ? -to_solids_[i] : to_solids_[i], to_shells_[i] - 0.5 * surface_.thickness()));
+        std::min(inside_[i] ? -to_solids_[i] : to_solids_[i], to_shells_[i] - 0.5 * surface_.thickness()) -
+        surface_.dilation());
   }
 
  private:
@@ -228,12 +264,13 @@ class FineNodes {
     return low_ + edge_ * Vector3d(x, y, z);
   }
 
-  void measure(int i, const format::Brick& parent, bool no_shells) {
+  /// `values_tell`: a given value is the distance to the solids.
+  void measure(int i, const format::Brick& parent, bool values_tell) {
     const auto [x, y, z] = place(i);
     trusted_[at(i)] = -1.0;
     given_[at(i)] = x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
     if (given_[at(i)]) value_[at(i)] = parent.value[x / 2 + kBrickNodes * (y / 2 + kBrickNodes * (z / 2))];
-    if (given_[at(i)] && no_shells) {
+    if (given_[at(i)] && values_tell) {
       to_solids_[at(i)] = std::abs(static_cast<double>(value_[at(i)]));
       inside_[at(i)] = value_[at(i)] < 0.0f;
       if (surface_.sealed()) trusted_[at(i)] = std::numeric_limits<double>::infinity();

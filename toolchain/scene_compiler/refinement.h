@@ -29,8 +29,9 @@ inline constexpr double kHeldOff = 5.0;
 /// at more than `tolerance` [m] (convex edges and corners, thin walls, which a touching body would sink into) or solid
 /// at more than kHeldOff times as much (re-entrant edges, narrow gaps, where it would be held off). Judged on the
 /// surface itself, where the exact distance is 0, at all edges and vertices of the mesh and in between at a cell's
-/// spacing. A neighbour is halved only where its values on the common face spoil the finer brick's or are too steep for
-/// it. Left as they are: bricks that hold a seam, and those in which one would appear.
+/// spacing; that of a dilated body, which has no mesh, in the middle of all cells about it. A neighbour is halved only
+/// where its values on the common face spoil the finer brick's or are too steep for it. Left as they are: bricks that
+/// hold a seam, and those in which one would appear.
 ///
 /// Deterministic. Updates the constants of `field.grid` with it. Throws Failure (kBadData) naming the cure where the
 /// bricks would be more than kMaxBricks.

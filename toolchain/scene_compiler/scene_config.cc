@@ -41,6 +41,17 @@ std::uint32_t read_solver(const TomlTable& contact) {
   return static_cast<std::uint32_t>(*solver);
 }
 
+/// Which reads normals at points of the moving surface.
+void leave_out_paper(const TomlTable& contact, format::Settings& settings) {
+  constexpr auto kPaper = static_cast<std::uint32_t>(format::Solver::kPaper);
+  settings.solvers &= ~(1u << kPaper);
+  if (settings.default_solver == kPaper) {
+    contact.complain("solver",
+                     "= \"paper\" needs points with normals, a ball has its centre alone; take contact or "
+                     "corrected, or leave out moving.ball");
+  }
+}
+
 void read_friction(const TomlTable& friction, format::Settings& settings) {
   friction.allow({"static", "kinetic", "viscous"});
   if (!friction.present()) return;
@@ -78,10 +89,11 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   config.field_tolerance = still.number("field_tolerance", {1e-3, 1e3}, 0.05);
 
   const TomlTable moving = table("moving");
-  moving.allow({"mesh", "scale", "points", "levels", "surface", "voxel_size"});
+  moving.allow({"mesh", "scale", "points", "levels", "surface", "voxel_size", "ball"});
   config.moving = read_mesh(moving, folder);
   config.body_voxel_size = moving.number("voxel_size", kVoxel, s);
   config.points = static_cast<std::uint32_t>(moving.whole_number("points", {1.0, format::kMaxPoints}, 5000));
+  config.ball = moving.flag("ball", false);
   config.levels = static_cast<std::uint32_t>(moving.whole_number("levels", {1.0, format::kMaxLevels}, 7));
 
   format::Settings& settings = config.settings;
@@ -89,6 +101,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   contact.allow({"solver", "safety_distance", "margin", "both_directions", "between_points", "point_budget"});
   settings.default_solver = read_solver(contact);
   settings.solvers = (1u << format::kSolverCount) - 1;
+  if (config.ball) leave_out_paper(contact, settings);
   settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
   settings.margin = contact.number("margin", {1e-6 * s, s}, 0.01 * s);
 

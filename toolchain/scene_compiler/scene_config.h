@@ -23,7 +23,8 @@ struct SceneConfig {
   double field_tolerance = 0.0;  ///< depth of the stored surface in the still body; off it 5 times as much [voxels]
   Mesh moving;
   double body_voxel_size = 0.0;  ///< of the moving body's own field [m]
-  std::uint32_t points = 0;
+  bool ball = false;             ///< the moving mesh is a ball, to be rendered by its centre alone
+  std::uint32_t points = 0;      ///< not of a ball; nor what follows, but the settings
   std::uint32_t levels = 0;
   bool both_directions = true;  ///< feature points of the still body against the moving body's field
   double between_points = 0.0;  ///< wanted bound of penetration that no point sees [m]

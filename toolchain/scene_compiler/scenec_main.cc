@@ -36,7 +36,9 @@ Examples:
 A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
   [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s],
               field_tolerance at the surface, in voxels [0.05; large: bricks are never refined]
-  [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s]
+  [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s],
+              ball [false]: render the mesh, a ball, by its centre alone, against a convex still body, without points
+              and second direction: no torque arises, with friction none either
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
               both_directions [true]: also points of the still body against the moving body's field,
               between_points [s]: how deep bodies may meet where no point sees it; points are added for it
@@ -75,6 +77,11 @@ struct Options {
 void choose_within_budget(const Options& options, CompileRequest& request) {
   const double budget_ns = precision::parse_budget_ns(options.budget);
   const SceneConfig config = read_scene_config(request.scene_file);
+  if (config.ball) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget chooses points and directions, a ball has its centre "
+                                                    "alone; leave out moving.ball or --budget",
+                                                    options.scene_file));
+  }
   precision::Paths paths;
   if (!options.path.empty()) paths.push_back(path::read_poses(options.path));
   std::vector<precision::Variant> variants;

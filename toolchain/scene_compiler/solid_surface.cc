@@ -122,6 +122,7 @@ void decide(SolidSurface::Component& component, SurfaceKind kind) {
 struct SolidSurface::Impl {
   TriangleMesh mesh;
   double thickness = 0.0;
+  double dilation = 0.0;
   std::vector<Component> components;
   std::vector<std::uint32_t> component_of;
   TriangleTree solids;
@@ -180,9 +181,11 @@ double SolidSurface::Impl::winding_number(const Vector3d& p) const {
   return winding;
 }
 
-SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness) : impl_(std::make_unique<Impl>()) {
+SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness, double dilation)
+    : impl_(std::make_unique<Impl>()) {
   impl_->mesh = std::move(mesh);
   impl_->thickness = thickness;
+  impl_->dilation = dilation;
   impl_->classify(kind);
   impl_->solids = tree_of(impl_->mesh, impl_->components, impl_->component_of, false, true);
   impl_->boundary = open_boundary(impl_->mesh, impl_->components, impl_->component_of);
@@ -196,6 +199,7 @@ const TriangleMesh& SolidSurface::mesh() const { return impl_->mesh; }
 const std::vector<SolidSurface::Component>& SolidSurface::components() const { return impl_->components; }
 const std::vector<std::uint32_t>& SolidSurface::component_of_triangle() const { return impl_->component_of; }
 double SolidSurface::thickness() const { return impl_->thickness; }
+double SolidSurface::dilation() const { return impl_->dilation; }
 const TriangleTree& SolidSurface::solid_triangles() const { return impl_->solids; }
 const TriangleTree& SolidSurface::shell_triangles() const { return impl_->shells; }
 bool SolidSurface::sealed() const { return impl_->boundary.edges.empty(); }
@@ -212,9 +216,9 @@ double SolidSurface::signed_distance(const Vector3d& p, double hint) const {
   // with both kinds a bound to any triangle bounds neither
   const double bound = impl_->solids.empty() || impl_->shells.empty() ? hint : -1.0;
   const double to_shell = distance_to_shells(p, bound) - 0.5 * impl_->thickness;
-  if (impl_->solids.empty()) return to_shell;
+  if (impl_->solids.empty()) return to_shell - impl_->dilation;
   const double to_solid = distance_to_solids(p, bound);
-  return std::min(impl_->winding_number(p) > 0.5 ? -to_solid : to_solid, to_shell);
+  return std::min(impl_->winding_number(p) > 0.5 ? -to_solid : to_solid, to_shell) - impl_->dilation;
 }
 
 double SolidSurface::constant_side_path(const Vector3d& p, double winding_number) const {

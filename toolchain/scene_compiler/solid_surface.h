@@ -29,8 +29,9 @@ class SolidSurface {
     std::uint32_t triangle = 0;
   };
 
-  /// `thickness` of shells [m].
-  SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness);
+  /// `thickness` of shells [m]. `dilation` [m]: the body is taken with all that is this near to it, every distance is
+  /// less by it; inside that is exact only of convex solids, which it is for.
+  SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness, double dilation = 0.0);
   SolidSurface(SolidSurface&& other) noexcept;
   ~SolidSurface();
 
@@ -38,10 +39,11 @@ class SolidSurface {
   const std::vector<Component>& components() const;
   const std::vector<std::uint32_t>& component_of_triangle() const;
   double thickness() const;
+  double dilation() const;
 
   /// Signed distance, positive outside: of solid components |d| with the sign of (winding number > 0.5 is inside), of
-  /// shells |d| - thickness / 2, the smaller of both. `hint` (if not negative) is an upper bound of the unsigned
-  /// distance to any triangle.
+  /// shells |d| - thickness / 2, the smaller of both; less the dilation. `hint` (if not negative) is an upper bound of
+  /// the unsigned distance to any triangle.
   double signed_distance(const Eigen::Vector3d& p, double hint = -1.0) const;
 
   /// Nearest triangle of any component.

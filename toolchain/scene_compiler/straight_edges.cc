@@ -318,6 +318,7 @@ void keep_apart(format::Edge& edge, const format::Edge& other, double gap) {
 }  // namespace
 
 std::vector<format::Edge> straight_edges(const SolidSurface& surface, double voxel_size, double largest_radius) {
+  if (surface.dilation() > 0.0) return {};
   const BodyMesh body(surface);
   const std::vector<Crease> creases = Creases(body, voxel_size).all();
   if (creases.empty()) return {};

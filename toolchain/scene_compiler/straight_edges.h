@@ -14,7 +14,8 @@ namespace godobject::scene_compiler {
 ///
 /// Mesh edges on one line between the same two planes are one. About each stretch nothing but the two planes is nearer
 /// than R / kShare, and stretches on one line are half a voxel apart, so that the tubes of different edges are. R stays
-/// below `largest_radius` [m]; where it would be less than kEndRadius voxels a stretch ends. Deterministic. Cost: as a
+/// below `largest_radius` [m]; where it would be less than kEndRadius voxels a stretch ends. A dilated surface is round
+/// and has none. Deterministic. Cost: as a
 /// look at all triangles about each edge, every tenth of a voxel.
 std::vector<format::Edge> straight_edges(const SolidSurface& surface, double voxel_size, double largest_radius);
 
