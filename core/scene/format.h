@@ -78,10 +78,10 @@ inline constexpr const char* kSolverNames[kSolverCount] = {"paper", "corrected",
 
 /// What the scene file decides for the pipeline. SI units.
 struct Settings {
-  std::uint32_t default_solver;  ///< format::Solver
-  std::uint32_t solvers;         ///< bit (1 << Solver) set: this image holds what that solver reads
-  std::uint32_t friction;        ///< 1: the scene has a friction table
-  std::uint32_t point_budget;    ///< near points that a sub-step of `contact` looks up, of each direction; 0: all
+  std::uint32_t default_solver;   ///< format::Solver
+  std::uint32_t solvers;          ///< bit (1 << Solver) set: this image holds what that solver reads
+  std::uint32_t friction;         ///< 1: the scene has a friction table
+  std::uint32_t point_budget;     ///< near points that a sub-step of `contact` looks up, of each direction; 0: all
   double safety_distance;         ///< d [m], > 0
   double margin;                  ///< m of the contact solver [m], > 0
   double stiffness;               ///< k_D [N/m], > 0

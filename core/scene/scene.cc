@@ -88,12 +88,12 @@ Status read_sections(std::span<const std::byte> image, const format::Header& hea
 bool valid_settings(const format::Settings& s) noexcept {
   constexpr double kLarge = 1e9;
   return s.default_solver < format::kSolverCount && s.solvers < (1u << format::kSolverCount) &&
-         ((s.solvers >> s.default_solver) & 1u) != 0 && s.friction <= 1 &&
-         in_range(s.safety_distance, 1e-12, kLarge) && in_range(s.margin, 1e-12, kLarge) &&
-         in_range(s.stiffness, 1e-12, kLarge) && in_range(s.damping, 0.0, kLarge) &&
-         in_range(s.coupling_translation, 1e-12, kLarge) && in_range(s.coupling_rotation, 1e-18, kLarge) &&
-         in_range(s.friction_static, 0.0, 10.0) && in_range(s.friction_kinetic, 0.0, s.friction_static) &&
-         in_range(s.friction_viscous, 0.0, kLarge) && in_range(s.paper_rotation_static, 0.0, 10.0) &&
+         ((s.solvers >> s.default_solver) & 1u) != 0 && s.friction <= 1 && in_range(s.safety_distance, 1e-12, kLarge) &&
+         in_range(s.margin, 1e-12, kLarge) && in_range(s.stiffness, 1e-12, kLarge) &&
+         in_range(s.damping, 0.0, kLarge) && in_range(s.coupling_translation, 1e-12, kLarge) &&
+         in_range(s.coupling_rotation, 1e-18, kLarge) && in_range(s.friction_static, 0.0, 10.0) &&
+         in_range(s.friction_kinetic, 0.0, s.friction_static) && in_range(s.friction_viscous, 0.0, kLarge) &&
+         in_range(s.paper_rotation_static, 0.0, 10.0) &&
          in_range(s.paper_rotation_kinetic, 0.0, s.paper_rotation_static) && in_range(s.paper_viscous, 0.0, 10.0);
 }
 
