@@ -184,9 +184,9 @@ class NearSearch {
                    LeaveOut& leave_out) noexcept {
     const double needed = way + cut;
     const double per_tick = 1.0 / tick_;
-    // rounded down: due a little early
+    // rounded down: due a little early; by way of a signed number, which the processor converts to
     const auto tick_of = [&](double until) noexcept {
-      return static_cast<std::uint64_t>(std::clamp(until * per_tick, 0.0, kMostTicks));
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(until * per_tick, 0.0, kMostTicks)));
     };
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
     const std::uint64_t now = tick_of(needed);

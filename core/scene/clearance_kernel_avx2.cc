@@ -21,6 +21,8 @@ struct Avx2 {
   }
   static Ints truncated(Floats x) noexcept { return reinterpret_cast<Ints>(_mm256_cvttps_epi32(x)); }
   static Floats root(Floats x) noexcept { return _mm256_sqrt_ps(x); }
+  static Floats larger(Floats a, Floats b) noexcept { return _mm256_max_ps(a, b); }
+  static Floats smaller(Floats a, Floats b) noexcept { return _mm256_min_ps(a, b); }
 };
 
 }  // namespace

@@ -24,6 +24,8 @@ struct Avx512 {
   }
   static Ints truncated(Floats x) noexcept { return reinterpret_cast<Ints>(_mm512_maskz_cvttps_epi32(kAll, x)); }
   static Floats root(Floats x) noexcept { return _mm512_maskz_sqrt_ps(kAll, x); }
+  static Floats larger(Floats a, Floats b) noexcept { return _mm512_maskz_max_ps(kAll, a, b); }
+  static Floats smaller(Floats a, Floats b) noexcept { return _mm512_maskz_min_ps(kAll, a, b); }
 };
 
 }  // namespace

@@ -11,14 +11,6 @@ using format::kBrickNodes;
 namespace index_entry = format::index_entry;
 
 template <class F>
-F larger(F a, F b) noexcept {
-  return a > b ? a : b;
-}
-template <class F>
-F smaller(F a, F b) noexcept {
-  return a < b ? a : b;
-}
-template <class F>
 F between(F low, F high, F at) noexcept {
   return low + at * (high - low);
 }
@@ -42,14 +34,16 @@ struct Axis {
   }
 
   Floats squared_away(const FieldOfCells& f, int axis) const noexcept {
-    const Floats away = larger(larger(f.surface_min[axis] - cells, cells - f.surface_max[axis]), Floats{});
+    const Floats away =
+        Vectors::larger(Vectors::larger(f.surface_min[axis] - cells, cells - f.surface_max[axis]), Floats{});
     return away * away;
   }
-  Floats absolute() const noexcept { return cells < 0.0f ? -cells : cells; }
+  Floats absolute() const noexcept { return reinterpret_cast<Floats>(reinterpret_cast<Ints>(cells) & 0x7fffffff); }
 };
 
 /// `Vectors` are `Floats` and `Ints` of `kLanes` elements of 32 bits, for which the compiler knows arithmetic,
-/// comparisons (-1 or 0) and selections, and what it has no operator for: gather, truncated, root. `count`: a multiple
+/// comparisons (-1 or 0) and selections, and what it has no operator for: gather, truncated,
+/// root, larger, smaller. `count`: a multiple
 /// of kLanes; the arrays are aligned to the vectors.
 template <class Vectors>
 void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, const float* zs, float* clearance,
@@ -83,13 +77,13 @@ void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, cons
     const Floats near_face = between(edge(0), edge(kY), y.at);
     const Floats far_face = between(edge(kZ), edge(kZ + kY), y.at);
     const Floats distance = between(near_face, far_face, z.at) - Vectors::gather(f.bricks + kDeviationAt, brick);
-    const Floats stored =
-        smaller(larger(distance, zero), zero + f.near_band) / Vectors::gather(f.bricks + kLipschitzAt, brick);
+    const Floats stored = Vectors::smaller(Vectors::larger(distance, zero), zero + f.near_band) /
+                          Vectors::gather(f.bricks + kLipschitzAt, brick);
     const Floats free =
-        larger(reinterpret_cast<Floats>((entry & static_cast<int>(index_entry::kLow)) << 1), zero + f.assured);
+        Vectors::larger(reinterpret_cast<Floats>((entry & static_cast<int>(index_entry::kLow)) << 1), zero + f.assured);
     const Ints inside = (entry & static_cast<int>(index_entry::kInside)) != 0;
     const Floats away = Vectors::root(x.squared_away(f, 0) + y.squared_away(f, 1) + z.squared_away(f, 2));
-    const Floats outside = larger(f.outside_share * f.cell_edge * (away - f.outside_off), zero + f.assured);
+    const Floats outside = Vectors::larger(f.outside_share * f.cell_edge * (away - f.outside_off), zero + f.assured);
     const Floats bound = within ? (far ? (inside ? zero : free) : stored) : outside;
     const Floats shift = x.absolute() + y.absolute() + z.absolute() + f.offset;
     *reinterpret_cast<Floats*>(clearance + i) = bound - kPointRounding * f.cell_edge * shift;

@@ -22,6 +22,8 @@ struct Neon {
   }
   static Ints truncated(Floats x) noexcept { return vcvtq_s32_f32(x); }
   static Floats root(Floats x) noexcept { return vsqrtq_f32(x); }
+  static Floats larger(Floats a, Floats b) noexcept { return vmaxnmq_f32(a, b); }
+  static Floats smaller(Floats a, Floats b) noexcept { return vminnmq_f32(a, b); }
 };
 
 }  // namespace

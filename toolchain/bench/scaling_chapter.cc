@@ -53,7 +53,7 @@ double grid_bytes(const Scene& scene) {
 }
 
 Found measure(const Scene& scene, std::span<const Pose> device, const Phase& phase, bool full) {
-  const PassBudget budget{.least_passes = 2, .most_passes = 40, .seconds = full ? 3.0 : 0.3};
+  const PassBudget budget{.least_passes = full ? 2u : 1u, .most_passes = 40, .seconds = full ? 3.0 : 0.3};
   const std::vector<std::size_t> cold_cycles = thinned(phase.cycles, full ? 200 : 25);
   Found found;
   found.points = scene.pointshell.size;
