@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include <sys/wait.h>
@@ -120,6 +123,59 @@ TEST(Command, CompilesInspectsAndQueries) {
   expect_refusal(kQuery + " " + image + " p.csv -o /nowhere/o.csv", 74, "there is no folder /nowhere");
   const std::string points = folder.write("p.csv", "0,0,0.06\n").string();
   EXPECT_EQ(run(kQuery + " " + image + " " + points + " -o " + folder.file("d.csv").string()).exit_code, 0);
+}
+
+/// A small tilted cube that is pressed on the top of a large one and moved along: one pose a millisecond.
+std::string pressed_cube() {
+  std::string rows = "t,px,py,pz,qw,qx,qy,qz\n";
+  for (int k = 0; k < 40; ++k) {
+    const double height = 0.082 - 0.0005 * std::min(k, 20);
+    rows += std::to_string(1e-3 * k) + "," + std::to_string(1e-4 * k) + ",0.003," + std::to_string(height) +
+            ",0.98,0.14,0.14,0\n";
+  }
+  return rows;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// `more` goes to the command that tries settings of a small scene for a budget and writes IMAGE.
+Outcome tried(const ScratchFolder& folder, const std::string& image, const std::string& more) {
+  const std::string mesh = "mesh = \"" + mesh_file("cube_100mm").string() + "\"\n";
+  const std::string text = "[still]\n" + mesh + "voxel_size = 0.02\nfield_tolerance = 2\n[moving]\n" + mesh +
+                           "scale = 0.4\npoints = 60\nlevels = 2\n[contact]\nboth_directions = false\n";
+  return run(kScenec + " " + folder.write("s.toml", text).string() + " -o " + folder.file(image).string() + " --path " +
+             folder.write("p.csv", pressed_cube()).string() + more);
+}
+
+TEST(Command, ChoosesSettingsForABudget) {
+  const ScratchFolder folder;
+  const Outcome generous = tried(folder, "a.scene", " --budget 1000ms");  // everything fits, so no time has a say
+  ASSERT_EQ(generous.exit_code, 0) << generous.output;
+  EXPECT_NE(generous.output.find("chosen   contact,"), std::string::npos) << generous.output;
+  const Outcome inspected = run(kScenec + " --inspect " + folder.file("a.scene").string());
+  EXPECT_NE(inspected.output.find("\"budget_ns\": 1000000000.0"), std::string::npos) << inspected.output;
+  EXPECT_EQ(inspected.output.find("p99"), std::string::npos) << "a time in the image: " << inspected.output;
+  ASSERT_EQ(tried(folder, "b.scene", " --budget 1000ms").exit_code, 0);
+  EXPECT_TRUE(bytes_of(folder.file("a.scene")) == bytes_of(folder.file("b.scene"))) << "the same choice, another image";
+}
+
+TEST(Command, RefusesABudgetThatNothingFits) {
+  const ScratchFolder folder;
+  const Outcome hopeless = tried(folder, "c.scene", " --budget 1ns --only-solver paper");
+  EXPECT_EQ(hopeless.exit_code, 65) << hopeless.output;
+  EXPECT_NE(hopeless.output.find("--budget 1ns: none of the 8 settings that were tried is that quick"),
+            std::string::npos)
+      << hopeless.output;
+  const Outcome without_unit = tried(folder, "c.scene", " --budget 20");
+  EXPECT_EQ(without_unit.exit_code, 64);
+  EXPECT_NE(without_unit.output.find("give a time for a cycle with its unit"), std::string::npos);
+  const Outcome without_budget = tried(folder, "c.scene", "");
+  EXPECT_EQ(without_budget.exit_code, 64);
+  EXPECT_NE(without_budget.output.find("--path is for --budget"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("c.scene")));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
-#include "toolchain/command/scene_image.h"
 #include "toolchain/precision/press_path.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
@@ -59,9 +58,6 @@ nlohmann::ordered_json json(const Result& result) {
           {"points", result.setting.image.points},
           {"levels", result.setting.image.levels},
           {"margin", result.setting.margin},
-          {"p50_ns", result.cost.p50_ns},
-          {"p99_ns", result.cost.p99_ns},
-          {"max_ns", result.cost.max_ns},
           {"wrench_error", result.wrench.relative},
           {"wrench_error_rms", result.wrench.rms},
           {"deepest_penetration", result.penetration.deepest},
@@ -89,8 +85,11 @@ std::vector<ImageSetting> candidate_images(const scene_compiler::SceneConfig& co
   return images;
 }
 
-Trial::Trial(const scene_compiler::SceneConfig& config, Paths paths, std::uint32_t points)
-    : config_(config), exact_(config, points), paths_(or_pressed(std::move(paths), exact_, config)) {}
+Trial::Trial(const scene_compiler::SceneConfig& config, Paths paths, const Judging& judging)
+    : config_(config),
+      judging_(judging),
+      exact_(config, judging.points),
+      paths_(or_pressed(std::move(paths), exact_, config)) {}
 
 const std::vector<TracedCycle>& Trial::reference(bool friction) {
   std::vector<TracedCycle>& wanted = reference_[friction ? 1 : 0];
@@ -98,37 +97,62 @@ const std::vector<TracedCycle>& Trial::reference(bool friction) {
   return wanted;
 }
 
-std::vector<Result> Trial::operator()(const Image& image, std::span<const Variant> variants) {
-  const scene_compiler::SceneConfig config = with(config_, image.setting);
-  const auto compiled = scene_compiler::compile_scene({.scene_file = {},
-                                                       .config = config,
-                                                       .output = image.file,
-                                                       .only_solver = image.only_solver,
-                                                       .choice = {},
-                                                       .progress = {}});
-  const command::SceneImage scene = command::SceneImage::read(image.file);
-  std::filesystem::remove(image.file);
-  const Parameters& q = exact_.parameters();
-  std::vector<Session> sessions;
-  std::vector<Result> results;
+void Trial::give_reference(bool friction, std::vector<TracedCycle> cycles) {
+  reference_[friction ? 1 : 0] = std::move(cycles);
+}
+
+std::vector<Setting> settings_of(const scene_compiler::SceneConfig& config, const ImageSetting& image,
+                                 std::span<const Variant> variants) {
+  const double margin = with(config, image).settings.margin;
+  std::vector<Setting> settings;
   for (const Variant& variant : variants) {
-    Result result{.setting = {.image = image.setting,
-                              .solver = variant.solver,
-                              .friction = variant.friction,
-                              .margin = variant.margin_ratio * config.settings.margin},
+    settings.push_back({.image = image,
+                        .solver = variant.solver,
+                        .friction = variant.friction,
+                        .margin = variant.margin_ratio * margin});
+  }
+  return settings;
+}
+
+std::vector<CycleCost> costs_of(const Scene& scene, std::span<const Setting> settings, const Paths& paths,
+                                std::size_t passes) {
+  std::vector<Session> sessions;
+  for (const Setting& setting : settings) sessions.emplace_back(scene, setting);
+  return time_cycles(sessions, paths, passes);
+}
+
+std::vector<Result> Trial::errors(const command::SceneImage& image, std::span<const Setting> settings) {
+  const Parameters& q = exact_.parameters();
+  std::vector<Result> results;
+  for (const Setting& setting : settings) {
+    Result result{.setting = setting,
                   .wrench = {},
                   .penetration = {},
                   .cost = {},
-                  .image_bytes = compiled.image_bytes,
+                  .image_bytes = image.bytes.span().size(),
                   .cycles = {}};
-    sessions.emplace_back(scene.scene, result.setting);
-    result.cycles = trace(sessions.back(), paths_);
-    result.wrench = wrench_error(wrenches(result.cycles), wrenches(reference(variant.friction)),
+    Session session(image.scene, setting);
+    result.cycles = trace(session, paths_);
+    result.wrench = wrench_error(wrenches(result.cycles), wrenches(reference(setting.friction)),
                                  q.coupling_rotation / q.coupling_translation);
-    result.penetration = penetration_error(exact_, result.cycles, kPenetrationStride);
+    result.penetration = penetration_error(exact_, result.cycles, judging_.penetration_stride);
     results.push_back(std::move(result));
   }
-  const std::vector<CycleCost> costs = time_cycles(sessions, paths_, image.passes);
+  return results;
+}
+
+std::vector<Result> Trial::operator()(const Image& image, std::span<const Variant> variants) {
+  scene_compiler::compile_scene({.scene_file = {},
+                                 .config = with(config_, image.setting),
+                                 .output = image.file,
+                                 .only_solver = image.only_solver,
+                                 .choice = {},
+                                 .progress = {}});
+  const command::SceneImage scene = command::SceneImage::read(image.file);
+  std::filesystem::remove(image.file);
+  const std::vector<Setting> settings = settings_of(config_, image.setting, variants);
+  std::vector<Result> results = errors(scene, settings);
+  const std::vector<CycleCost> costs = costs_of(scene.scene, settings, paths_, image.passes);
   for (std::size_t i = 0; i < results.size(); ++i) results[i].cost = costs[i];
   return results;
 }

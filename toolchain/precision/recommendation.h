@@ -13,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "toolchain/command/scene_image.h"
 #include "toolchain/precision/errors.h"
 #include "toolchain/precision/exact_scene.h"
 #include "toolchain/precision/pareto.h"
@@ -21,11 +22,11 @@
 
 namespace godobject::precision {
 
-/// Points on each body of the exact scene that settings are judged by.
-inline constexpr std::uint32_t kReferencePoints = 6000;
-
-/// Every so many cycles a pose is held against the exact meshes.
-inline constexpr std::size_t kPenetrationStride = 8;
+/// How closely settings are judged.
+struct Judging {
+  std::uint32_t points = 6000;         ///< on each body of the exact scene
+  std::size_t penetration_stride = 8;  ///< every so many cycles a pose is held against the exact meshes
+};
 
 /// What of a setting is chosen when the image is there.
 struct Variant {
@@ -50,12 +51,19 @@ Trade trade(const Result& result);
 /// The images worth trying for a scene: as it is written, then with one thing changed at a time.
 std::vector<ImageSetting> candidate_images(const scene_compiler::SceneConfig& config);
 
-/// Tries settings of one scene: compiles them and runs them along the paths.
+/// Each variant on an image of a scene.
+std::vector<Setting> settings_of(const scene_compiler::SceneConfig& config, const ImageSetting& image,
+                                 std::span<const Variant> variants);
+
+/// What cycles of the settings, all of one image, take: time_cycles.
+std::vector<CycleCost> costs_of(const Scene& scene, std::span<const Setting> settings, const Paths& paths,
+                                std::size_t passes);
+
+/// Tries settings of one scene: runs them along the paths and holds them against the exact meshes.
 class Trial {
  public:
-  /// `paths`: none: those of press_paths(). `points` on each body of the exact scene. Throws Failure where the body
-  /// meets nothing.
-  Trial(const scene_compiler::SceneConfig& config, Paths paths, std::uint32_t points = kReferencePoints);
+  /// `paths`: none: those of press_paths(). Throws Failure where the body meets nothing.
+  Trial(const scene_compiler::SceneConfig& config, Paths paths, const Judging& judging = {});
 
   struct Image {
     ImageSetting setting;
@@ -64,14 +72,23 @@ class Trial {
     std::size_t passes = 5;             ///< that times are medians of
   };
 
-  /// Each variant on one image.
+  /// Compiles one image; each variant on it.
   std::vector<Result> operator()(const Image& image, std::span<const Variant> variants);
 
+  /// All but the costs, of settings that are all of this image.
+  std::vector<Result> errors(const command::SceneImage& image, std::span<const Setting> settings);
+
   const ExactScene& exact() const { return exact_; }
+
+  /// Along all paths; run where it is asked for first, unless it was given.
   const std::vector<TracedCycle>& reference(bool friction);
+
+  /// As another trial of the same scene, paths and points has run it.
+  void give_reference(bool friction, std::vector<TracedCycle> cycles);
 
  private:
   scene_compiler::SceneConfig config_;
+  Judging judging_;
   ExactScene exact_;
   Paths paths_;
   std::array<std::vector<TracedCycle>, 2> reference_;  ///< without and with friction, once it was asked for
@@ -92,7 +109,7 @@ double parse_budget_ns(std::string_view text);
 /// What was tried, cheapest first, what was chosen and why, and what `paper` does at no more than its cost.
 std::string text(const Recommendation& recommendation, double budget_ns);
 
-/// The same for an image's provenance.
+/// The same for an image's provenance, but for the times: the same choice gives the same image.
 nlohmann::ordered_json json(const Recommendation& recommendation, double budget_ns);
 
 }  // namespace godobject::precision
