@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <stdexcept>
+#include <thread>
 
 #include "firmware/command/failure.h"
+#include "toolchain/report/study/made_once.h"
 #include "toolchain/report/study/page.h"
 #include "toolchain/report/study/plot.h"
 #include "toolchain/report/study/study.h"
@@ -123,7 +126,7 @@ TEST_F(StudyTest, GivesTheSamePageFromSingleCasesAndSeveralThreads) {
   const std::vector<Chapter> chapters{chapter(cases)};
   run(chapters, 4);
   EXPECT_EQ(runs_, 40);
-  const std::string text = merge(chapters, folder_, "x");
+  const std::string text = merge(chapters, folder_, "x").text;
   const std::string values = text_of(folder_ / "values.csv");
   std::filesystem::remove_all(case_folder(folder_));
   std::filesystem::create_directories(case_folder(folder_));
@@ -131,7 +134,7 @@ TEST_F(StudyTest, GivesTheSamePageFromSingleCasesAndSeveralThreads) {
     const StudyCase* const only = &find_case(chapters, it->name);
     run_cases({&only, 1}, {.folder = case_folder(folder_), .threads = 1, .progress = {}});
   }
-  EXPECT_EQ(merge(chapters, folder_, "x"), text);
+  EXPECT_EQ(merge(chapters, folder_, "x").text, text);
   EXPECT_EQ(text_of(folder_ / "values.csv"), values);
   EXPECT_NE(text.find("missed by 0.17 mm"), std::string::npos) << text;
 }
@@ -139,7 +142,7 @@ TEST_F(StudyTest, GivesTheSamePageFromSingleCasesAndSeveralThreads) {
 TEST_F(StudyTest, SaysWhatWasNotRunAndDoesNotUseOldInputs) {
   run({chapter({counted("a", 0.1), counted("b", 0.2)})});
   const std::vector<Chapter> changed{chapter({counted("a", 0.1), counted("b", 0.2, "other"), counted("c", 0.3)})};
-  const std::string text = merge(changed, folder_, "x");
+  const std::string text = merge(changed, folder_, "x").text;
   EXPECT_NE(text.find("3 rows: 1 held, 2 not run (b: the case; c: the case)"), std::string::npos) << text;
   const std::string html = text_of(report_file(folder_));
   EXPECT_NE(html.find("made from other inputs: b"), std::string::npos);
@@ -154,6 +157,110 @@ TEST_F(StudyTest, KeepsWhatIsDoneWhenACaseFails) {
   EXPECT_TRUE(std::filesystem::exists(result_path(case_folder(folder_), "a")));
   EXPECT_FALSE(std::filesystem::exists(result_path(case_folder(folder_), "fails")));
   EXPECT_THROW(find_case(chapters, "nothing"), command::Failure);
+}
+
+TEST_F(StudyTest, BeginsWithTheLongestCaseAndTakesTimesAlone) {
+  std::atomic<int> running = 0;
+  std::atomic<int> beside_times = 0;
+  std::mutex mutex;
+  std::vector<std::string> begun;
+  const auto noted = [&](const std::string& name, double seconds, bool takes_times) {
+    return StudyCase{.name = name,
+                     .inputs = "",
+                     .run =
+                         [&, name, takes_times](const auto&) {
+                           {
+                             const std::lock_guard lock(mutex);
+                             begun.push_back(name);
+                           }
+                           if (takes_times) beside_times += running;
+                           ++running;
+                           std::this_thread::yield();
+                           --running;
+                           return CaseResult{};
+                         },
+                     .seconds = seconds,
+                     .takes_times = takes_times};
+  };
+  const std::vector<Chapter> chapters{chapter({noted("t1", 5.0, true), noted("a", 1.0, false), noted("b", 9.0, false),
+                                               noted("t2", 50.0, true), noted("c", 4.0, false)})};
+  std::vector<std::string> order;
+  for (const StudyCase* study_case : in_running_order(all_cases(chapters))) order.push_back(study_case->name);
+  EXPECT_EQ(order, (std::vector<std::string>{"b", "c", "a", "t2", "t1"}));
+  run(chapters);
+  EXPECT_EQ(begun, order);
+  std::filesystem::remove_all(case_folder(folder_));
+  std::filesystem::create_directories(case_folder(folder_));
+  run(chapters, 4);
+  EXPECT_EQ(beside_times, 0);
+  EXPECT_EQ(begun.size(), 10u);
+}
+
+TEST_F(StudyTest, SaysHowLongItStillTakes) {
+  std::vector<StudyCase> cases{counted("things.a", 0.1), counted("things.b", 0.2)};
+  for (StudyCase& study_case : cases) study_case.seconds = 100.0;
+  std::vector<RunProgress> seen;
+  run_cases(all_cases({chapter(cases)}),
+            {.folder = case_folder(folder_), .threads = 1, .progress = [&](const auto& now) { seen.push_back(now); }});
+  for (const RunProgress& now : seen) {
+    EXPECT_EQ(now.chapter, "things");
+    EXPECT_GE(now.done, 0.0);
+    EXPECT_LE(now.done, 1.0);
+    EXPECT_LE(now.seconds_left, 200.0) << "never more than what was expected: it goes faster";
+  }
+}
+
+TEST_F(StudyTest, ListsEveryVerdict) {
+  const std::vector<Chapter> chapters{chapter({counted("a", 0.1), counted("b", 3.0)})};
+  run(chapters);
+  static_cast<void>(merge(chapters, folder_, "x"));
+  EXPECT_EQ(text_of(folder_ / "verdicts.csv"),
+            "chapter,row,quantity,unit,measured,at_most,by,verdict,where\nthings,a,value,mm,0.1,1,computation,held,\n"
+            "things,b,value,mm,3,1,computation,missed by 2 mm,\n");
+}
+
+TEST_F(StudyTest, TellsNewMissesFromKnownOnes) {
+  const auto verdict = [](const std::string& row, double value, bool timed = false) {
+    Finding measured = finding(value, 2.0);
+    measured.row = row;
+    measured.timed = timed;
+    return PageVerdict{"things", measured};
+  };
+  const std::filesystem::path file = folder_ / "known.toml";
+  std::ofstream(file) << "[[missed]]\nchapter = \"things\"\nrow = \"B\"\nquantity = \"deviation\"\nmeasured = 3.0\n"
+                         "[[missed]]\nchapter = \"things\"\nrow = \"C\"\nquantity = \"deviation\"\n";
+  const std::vector<KnownMiss> known = read_known_misses(file);
+  ASSERT_EQ(known.size(), 2u);
+  EXPECT_TRUE(news({verdict("A", 2.0), verdict("B", 3.2), verdict("C", 99.0), verdict("D", 9.0, true)}, known).empty());
+  EXPECT_EQ(news({verdict("A", 2.1)}, known).size(), 1u) << "not in the list";
+  EXPECT_EQ(news({verdict("B", 3.4)}, known).size(), 1u) << "worse than is known";
+  EXPECT_EQ(news({verdict("B", std::nan(""))}, known).size(), 1u);
+  PageVerdict elsewhere = verdict("B", 3.0);
+  elsewhere.chapter = "other things";
+  EXPECT_EQ(news({elsewhere}, known).size(), 1u);
+  PageVerdict not_run = verdict("A", 9.0);
+  not_run.finding.not_judged = "not run";
+  EXPECT_TRUE(news({not_run}, known).empty());
+  std::ofstream(file) << "[[missed]]\nchapter = \"things\"\n";
+  EXPECT_THROW(read_known_misses(file), command::Failure);
+}
+
+TEST_F(StudyTest, MakesAFileForSeveralCasesOnce) {
+  const std::filesystem::path file = folder_ / "shared";
+  std::atomic<int> made = 0;
+  const auto make = [&] {
+    ++made;
+    std::this_thread::yield();
+    write_file(file, "whole");
+  };
+  EXPECT_THROW(make_once(file, [] { throw std::runtime_error("no"); }), std::runtime_error);
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 8; ++i) threads.emplace_back([&] { make_once(file, make); });
+  }
+  EXPECT_EQ(made, 1) << "also after a first attempt that failed";
+  EXPECT_EQ(text_of(file), "whole");
+  EXPECT_THROW(make_once(folder_ / "nowhere" / "shared", make), command::Failure);
 }
 
 TEST_F(StudyTest, RefusesAResultOfAnotherCase) {

@@ -40,18 +40,27 @@ class WorkPrecisionTest : public testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
+  static std::size_t files_in(const std::filesystem::path& folder, const std::string& ending) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) count += entry.path().extension() == ending;
+    return count;
+  }
+
   std::filesystem::path folder_;
 };
 
 TEST_F(WorkPrecisionTest, GivesTheSameErrorsFromSingleCasesAndSeveralThreads) {
-  const std::vector<Chapter> chapters{work_precision_chapter({folder_, true})};
+  const std::vector<Chapter> chapters{work_precision_chapter({folder_, folder_ / "kept", true})};
   const auto together = folder_ / "together";
   const auto single = folder_ / "single";
   for (const auto& output : {together, single}) std::filesystem::create_directories(case_folder(output));
   run_cases(all_cases(chapters), {.folder = case_folder(together), .threads = 2, .progress = {}});
+  std::filesystem::remove_all(folder_ / "kept");
   for (const StudyCase* study_case : all_cases(chapters)) {
     run_cases({&study_case, 1}, {.folder = case_folder(single), .threads = 1, .progress = {}});
   }
+  EXPECT_EQ(files_in(folder_ / "kept", ".scene"), 2u) << "one for each image, errors and times";
+  EXPECT_EQ(files_in(folder_ / "kept", ".cycles"), 2u) << "the reference, without and with friction";
   static_cast<void>(merge(chapters, together, "x"));
   static_cast<void>(merge(chapters, single, "x"));
   const std::string errors = text_of(together / "work_precision_errors.csv");
@@ -65,7 +74,7 @@ TEST_F(WorkPrecisionTest, TriesEachImageOnceUnderAName) {
   for (const bool quick : {true, false}) {
     std::set<std::string> names;
     std::set<std::string> settings;
-    const auto images = tried_images(written, quick);
+    const auto images = tried_images(written, quick, true);
     for (const TriedImage& image : images) {
       names.insert(image.name);
       settings.insert(precision::name(image.setting));
@@ -76,8 +85,8 @@ TEST_F(WorkPrecisionTest, TriesEachImageOnceUnderAName) {
 }
 
 TEST_F(WorkPrecisionTest, RefusesAFolderWithoutScenes) {
-  EXPECT_THROW(work_precision_chapter({folder_ / "nowhere", true}), command::Failure);
-  EXPECT_THROW(work_precision_chapter({folder_, false}), command::Failure) << "the other scenes are not there";
+  EXPECT_THROW(work_precision_chapter({folder_ / "nowhere", {}, true}), command::Failure);
+  EXPECT_THROW(work_precision_chapter({folder_, {}, false}), command::Failure) << "the other scenes are not there";
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
                                 .unit = quantity.unit,
                                 .value = verdict->value,
                                 .most = quantity.target,
-                                .where = quantity.median ? "median of the scenes" : verdict->worst_scene});
+                                .where = quantity.median ? "median of the scenes" : verdict->worst_scene,
+                                .timed = std::string_view(quantity.unit) == "us"});
   }
   return section;
 }
@@ -126,10 +127,12 @@ Chapter contact_chapter(const ContactQualityRequest& request) {
   for (const SceneSpec& scene : chosen) {
     chapter.cases.push_back({.name = fmt::format("contact.{}-{}", scene.name, name(scene.kind)),
                              .inputs = fmt::format("quick {}", request.quick),
-                             .run = [scene, request](const std::filesystem::path& work) {
-                               return CaseResult{.findings = {},
-                                                 .sheets = {sheet_of(measure_scene(scene, request, work))}};
-                             }});
+                             .run =
+                                 [scene, request](const std::filesystem::path& work) {
+                                   return CaseResult{.findings = {},
+                                                     .sheets = {sheet_of(measure_scene(scene, request, work))}};
+                                 },
+                             .seconds = (scene.kind == WorldKind::kCompiled ? 25.0 : 3.0)});
   }
   return chapter;
 }

@@ -19,6 +19,7 @@ namespace godobject::report {
 namespace {
 
 const char* const kViolations = "extremes_violations";
+const char* const kCycles = "extremes_cycles";
 constexpr std::uint32_t kMostStretches = 200;  ///< that the fuzzer is cut into, each with a seed
 
 /// What a stretch of runs has come to: findings for its row, and a case file for each run that violates something.
@@ -53,7 +54,7 @@ class Tally {
     note("poses refused, or taken that are none", both.bad_status, both.first);
     note("contact: points that crossed a surface", contact_.crossings, contact_.first);
     note("contact: further from the device than if it had stayed", contact_.pulled_away, contact_.first);
-    Sheet cycles{.name = "extremes_cycles", .columns = {"row", "cycles", "cycles_of_contact"}, .rows = {}};
+    Sheet cycles{.name = kCycles, .columns = {"row", "cycles", "cycles_of_contact"}, .rows = {}};
     cycles.rows.push_back({row_, std::to_string(both.cycles), std::to_string(contact_.cycles)});
     result.sheets = {sheet_, cycles};
     return result;
@@ -95,12 +96,28 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
   return tally.result();
 }
 
+/// How many cycles the rows stand on.
+std::string cycles_html(const Sheet& cycles) {
+  std::int64_t all = 0;
+  std::int64_t of_contact = 0;
+  for (const auto& row : cycles.rows) {
+    all += std::stoll(row[1]);
+    of_contact += std::stoll(row[2]);
+  }
+  return fmt::format(
+      "<p>Generated rows and fuzzer: {} cycles, {} of them of the solver <code>contact</code>; a row's figure is that "
+      "of "
+      "its worst stretch. <a href=\"{}.csv\">Each stretch</a>.</p>\n",
+      all, of_contact, kCycles);
+}
+
 Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
   Section section = gather(outcomes, folder);
+  section.html = cycles_html(gathered(outcomes, kCycles));
   const Sheet violations = gathered(outcomes, kViolations);
   if (violations.rows.empty()) return section;
   command::make_output_folder(folder / "violations");
-  section.html = "<p>Violations; <code>godobject-report --replay FILE</code> runs one again:</p>\n<ul>\n";
+  section.html += "<p>Violations; <code>godobject-report --replay FILE</code> runs one again:</p>\n<ul>\n";
   for (std::size_t i = 0; i < violations.rows.size(); ++i) {
     const std::string name = fmt::format("violations/{:04}.json", i);
     write_file(folder / name, violations.rows[i][2]);
@@ -128,26 +145,36 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
       .cases = {},
       .conclude = conclude};
   const auto add = [&](const std::string& name, const std::string& inputs,
-                       std::function<CaseResult(const std::filesystem::path&)> run) {
-    chapter.cases.push_back({.name = "extremes." + name, .inputs = inputs, .run = std::move(run)});
+                       std::function<CaseResult(const std::filesystem::path&)> run, double seconds) {
+    chapter.cases.push_back({.name = "extremes." + name, .inputs = inputs, .run = std::move(run), .seconds = seconds});
   };
   const std::string inputs = fmt::format("quick {}", quick);
-  add("bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); });
-  add("gap", inputs, [quick](const auto& work) { return gap_near_the_voxel(quick, work); });
-  add("scale", inputs, [quick](const auto&) { return same_at_every_scale(quick); });
-  add("long-run", inputs, [quick](const auto&) { return long_run(quick); });
-  add("closed-path", inputs, [quick](const auto&) { return closed_path(quick); });
+  add(
+      "bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); }, 10.0);
+  add(
+      "gap", inputs, [quick](const auto& work) { return gap_near_the_voxel(quick, work); }, quick ? 10.0 : 20.0);
+  add(
+      "scale", inputs, [quick](const auto&) { return same_at_every_scale(quick); }, quick ? 2.0 : 15.0);
+  add(
+      "long-run", inputs, [quick](const auto&) { return long_run(quick); }, quick ? 2.0 : 20.0);
+  add(
+      "closed-path", inputs, [quick](const auto&) { return closed_path(quick); }, quick ? 1.0 : 5.0);
   for (std::size_t i = 0; i < kRowCount; ++i) {
-    add(fmt::format("row-{}", i + 1), inputs, [i, row_cycles](const auto& work) {
-      return run_row(kRows[i], row_cycles, static_cast<std::uint32_t>(1000 + i), true, work);
-    });
+    add(
+        fmt::format("row-{}", i + 1), inputs,
+        [i, row_cycles](const auto& work) {
+          return run_row(kRows[i], row_cycles, static_cast<std::uint32_t>(1000 + i), true, work);
+        },
+        quick ? 1.0 : 15.0);
   }
   for (std::int64_t i = 0; i < stretches; ++i) {
     const auto seed = request.seed * kMostStretches + static_cast<std::uint32_t>(i);
-    add(fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {} seed {}", quick, cycles / stretches, seed),
+    add(
+        fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {} seed {}", quick, cycles / stretches, seed),
         [seed, quick, each = cycles / stretches](const auto& work) {
           return run_row("fuzzer", each, seed, !quick, work);
-        });
+        },
+        1e-4 * static_cast<double>(cycles / stretches));
   }
   return chapter;
 }

@@ -137,12 +137,14 @@ Chapter fault_chapter(const std::filesystem::path& tests) {
     }
     chapter.cases.push_back({.name = "faults." + program,
                              .inputs = inputs_of(tests, program, names),
-                             .run = [tests, program = program, names = names](const std::filesystem::path& work) {
-                               const auto results = program == kVirtualMachine
-                                                        ? read_hil_cases(tests, names)
-                                                        : run(tests / program, names, work / (program + ".json"));
-                               return CaseResult{.findings = {}, .sheets = {sheet_of(program, results)}};
-                             }});
+                             .run =
+                                 [tests, program = program, names = names](const std::filesystem::path& work) {
+                                   const auto results = program == kVirtualMachine
+                                                            ? read_hil_cases(tests, names)
+                                                            : run(tests / program, names, work / (program + ".json"));
+                                   return CaseResult{.findings = {}, .sheets = {sheet_of(program, results)}};
+                                 },
+                             .seconds = 8.0});
   }
   return chapter;
 }

@@ -87,10 +87,10 @@ double growth(const AxisSetup& setup, FreeAxis::State start, const std::function
 /// The same on the wall, from x = 1.
 double growth(const AxisSetup& setup, double stiffness);
 
-/// Largest value with `stable(value)` by bisection to 1e-4 of it, found from `start` upwards by doubling; 0 if `start`
-/// is not stable, infinity if 1e9 times `start` is.
+/// Largest value with `stable(value)` by bisection to `resolution` of it, found from `start` upwards by doubling; 0 if
+/// `start` is not stable, infinity if 1e9 times `start` is.
 template <class Stable>
-double boundary(double start, Stable stable) {
+double boundary(double start, Stable stable, double resolution = 1e-4) {
   constexpr double kFarthest = 1e9;
   if (!stable(start)) return 0.0;
   double low = start;
@@ -100,7 +100,7 @@ double boundary(double start, Stable stable) {
     low = high;
     high *= 2.0;
   }
-  while (high - low > 1e-4 * high) {
+  while (high - low > resolution * high) {
     const double middle = 0.5 * (low + high);
     (stable(middle) ? low : high) = middle;
   }

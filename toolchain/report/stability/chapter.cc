@@ -146,6 +146,22 @@ Picture passivity_picture(const Sheet& sheet) {
           drawn(plot)};
 }
 
+/// What the longer cases take [s], by the beginning of their names.
+double seconds(const std::string& name, bool quick) {
+  struct Taken {
+    const char* begins;
+    double quick, whole;
+  };
+  constexpr Taken kTaken[] = {{"stability.z-width", 12.0, 60.0},      {"stability.gyration", 10.0, 80.0},
+                              {"stability.pipeline-observer", 3, 20}, {"stability.frame-loss", 3.0, 60.0},
+                              {"stability.passivity", 1.0, 10.0},     {"stability.random-loops", 1.0, 10.0},
+                              {"stability.boundary", 1.0, 8.0},       {"stability.arm", 2.0, 6.0}};
+  for (const Taken& taken : kTaken) {
+    if (name.starts_with(taken.begins)) return quick ? taken.quick : taken.whole;
+  }
+  return 1.0;
+}
+
 Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
   Section section = gather(outcomes, folder);
   const auto draw = [&](const char* name, Picture (*picture)(const Sheet&)) {
@@ -177,6 +193,7 @@ Chapter stability_chapter(const StabilityRequest& request) {
        {axis_cases(request.quick), passivity_cases(request.quick), pipeline_cases(request.quick), arm_cases(request)}) {
     chapter.cases.insert(chapter.cases.end(), cases.begin(), cases.end());
   }
+  for (StudyCase& study_case : chapter.cases) study_case.seconds = seconds(study_case.name, request.quick);
   return chapter;
 }
 

@@ -40,6 +40,8 @@ struct StudyCase {
   std::string inputs;  ///< all that the result depends on beside the program, as text
   /// `work` is a folder of its own that is gone afterwards. May run beside others in a thread of its own.
   std::function<CaseResult(const std::filesystem::path& work)> run;
+  double seconds = 1.0;      ///< that it takes, about: what takes longest is begun first
+  bool takes_times = false;  ///< by the clock: begun when nothing else runs
 };
 
 /// A picture of the page.

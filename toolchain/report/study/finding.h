@@ -15,6 +15,7 @@ struct Finding {
   std::optional<double> most = {};  ///< held up to here; nothing: for information
   std::string where = {};           ///< what it was measured on, where it is the worst of several
   std::string not_judged = {};      ///< "not run"; empty: it was measured
+  bool timed = false;               ///< by the clock: it differs from run to run
 };
 
 /// True where there is nothing to miss.

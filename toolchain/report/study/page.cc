@@ -43,16 +43,15 @@ std::string value_text(double value, const std::string& unit) {
 
 std::string verdict_rows(const std::vector<Finding>& findings) {
   std::string text =
-      "<div class=\"wide\"><table><tr><th>row</th><th>quantity</th><th>measured</th><th>at most</th><th>verdict</th>"
+      "<div class=\"wide\"><table><tr><th>row</th><th>quantity</th><th>verdict</th><th>measured</th><th>at most</th>"
       "<th>where</th></tr>\n";
   for (const Finding& finding : findings) {
     text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"{}\">{}</td>"
+        "<tr><td>{}</td><td>{}</td><td class=\"{}\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td>{}</td></tr>\n",
-        html_text(finding.row), html_text(finding.what),
+        html_text(finding.row), html_text(finding.what), look(finding), html_text(verdict_text(finding)),
         finding.not_judged.empty() ? value_text(finding.value, finding.unit) : "-",
-        finding.most ? value_text(*finding.most, finding.unit) : "-", look(finding), html_text(verdict_text(finding)),
-        html_text(finding.where));
+        finding.most ? value_text(*finding.most, finding.unit) : "-", html_text(finding.where));
   }
   return text + "</table></div>\n";
 }

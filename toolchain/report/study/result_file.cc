@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -36,7 +36,8 @@ std::string processor() {
 
 json json_of(const Finding& finding) {
   json all{{"row", finding.row},           {"what", finding.what},   {"unit", finding.unit},
-           {"value", cell(finding.value)}, {"where", finding.where}, {"not_judged", finding.not_judged}};
+           {"value", cell(finding.value)}, {"where", finding.where}, {"not_judged", finding.not_judged},
+           {"timed", finding.timed}};
   if (finding.most) all["most"] = cell(*finding.most);
   return all;
 }
@@ -48,7 +49,8 @@ Finding finding_of(const json& all) {
                   .value = number(all.at("value")),
                   .most = {},
                   .where = all.at("where"),
-                  .not_judged = all.at("not_judged")};
+                  .not_judged = all.at("not_judged"),
+                  .timed = all.at("timed")};
   if (all.contains("most")) finding.most = number(all.at("most"));
   return finding;
 }

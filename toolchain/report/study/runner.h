@@ -12,14 +12,25 @@
 
 namespace godobject::report {
 
-struct RunRequest {
-  std::filesystem::path folder;                                       ///< of the result files; must be there
-  int threads = 1;                                                    ///< cases at the same time
-  std::function<void(std::string_view phase, double done)> progress;  ///< called on this thread only; may be empty
+/// How far a run is.
+struct RunProgress {
+  std::string chapter;        ///< of the case begun last
+  double done = 0.0;          ///< share of the time that all cases take
+  double seconds_left = 0.0;  ///< by the pace so far
 };
 
-/// Runs each case that has no result file of this program and its inputs, in their order, and writes it. What a case
-/// throws ends the run when those under way are finished, and is thrown on; their results stay.
+struct RunRequest {
+  std::filesystem::path folder;                      ///< of the result files; must be there
+  int threads = 1;                                   ///< cases at the same time
+  std::function<void(const RunProgress&)> progress;  ///< called on this thread only; may be empty
+};
+
+/// As they are run: what takes longest first, and what takes times last.
+std::vector<const StudyCase*> in_running_order(std::span<const StudyCase* const> cases);
+
+/// Runs each case that has no result file of this program and its inputs, in running order, and writes it; those that
+/// take times one by one. What a case throws ends the run when those under way are finished, and is thrown on; their
+/// results stay.
 void run_cases(std::span<const StudyCase* const> cases, const RunRequest& request);
 
 }  // namespace godobject::report

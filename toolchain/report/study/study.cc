@@ -68,6 +68,18 @@ PageChapter concluded(const Chapter& chapter, const std::filesystem::path& folde
   return entry;
 }
 
+Sheet sheet_of(const std::vector<PageVerdict>& verdicts) {
+  Sheet sheet{.name = "verdicts",
+              .columns = {"chapter", "row", "quantity", "unit", "measured", "at_most", "by", "verdict", "where"},
+              .rows = {}};
+  for (const auto& [chapter, finding] : verdicts) {
+    sheet.rows.push_back({chapter, finding.row, finding.what, finding.unit, cell(finding.value),
+                          finding.most ? cell(*finding.most) : "", finding.timed ? "clock" : "computation",
+                          verdict_text(finding), finding.where});
+  }
+  return sheet;
+}
+
 std::string text_of(const PageChapter& entry) {
   std::string text = entry.section.text;
   if (text.empty()) {
@@ -82,6 +94,8 @@ std::string text_of(const PageChapter& entry) {
 }  // namespace
 
 std::filesystem::path case_folder(const std::filesystem::path& folder) { return folder / "cases"; }
+
+std::filesystem::path kept_folder(const std::filesystem::path& folder) { return folder / "kept"; }
 
 std::filesystem::path report_file(const std::filesystem::path& folder) { return folder / "report.html"; }
 
@@ -100,18 +114,23 @@ const StudyCase& find_case(const std::vector<Chapter>& chapters, const std::stri
   throw command::Failure(command::ExitCode::kUsage, fmt::format("--case {}: no such case; see --list", name));
 }
 
-std::string merge(const std::vector<Chapter>& chapters, const std::filesystem::path& folder,
-                  const std::string& what_was_run) {
+Merged merge(const std::vector<Chapter>& chapters, const std::filesystem::path& folder,
+             const std::string& what_was_run) {
   Origin origin;
   PageContent content;
-  std::string text;
+  Merged merged;
   for (const Chapter& chapter : chapters) {
     content.chapters.push_back(concluded(chapter, folder, origin));
-    text += text_of(content.chapters.back());
+    merged.text += text_of(content.chapters.back());
+    for (const Finding& finding : content.chapters.back().section.findings) {
+      merged.verdicts.push_back({chapter.name, finding});
+    }
   }
   content.made_by = origin.sentences(what_was_run);
+  write_file(folder / "verdicts.csv", csv(sheet_of(merged.verdicts)));
   write_file(report_file(folder), page(content));
-  return text;
+  merged.text += fmt::format("page: {}\n", report_file(folder).string());
+  return merged;
 }
 
 }  // namespace godobject::report

@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "toolchain/report/study/case.h"
+#include "toolchain/report/study/known_misses.h"
 #include "toolchain/report/study/runner.h"
 
 namespace godobject::report {
 
 /// FOLDER/cases: the result files.
 std::filesystem::path case_folder(const std::filesystem::path& folder);
+
+/// FOLDER/kept: what several cases need. May be removed at any time; cases make it anew.
+std::filesystem::path kept_folder(const std::filesystem::path& folder);
 
 /// FOLDER/report.html
 std::filesystem::path report_file(const std::filesystem::path& folder);
@@ -21,9 +25,14 @@ std::vector<const StudyCase*> all_cases(const std::vector<Chapter>& chapters);
 /// The case of that name. Throws Failure (kUsage).
 const StudyCase& find_case(const std::vector<Chapter>& chapters, const std::string& name);
 
-/// Reads the result files of FOLDER that were made from the present inputs, writes each chapter's files, the pictures
-/// and FOLDER/report.html. Returns what a terminal is told. Throws Failure.
-std::string merge(const std::vector<Chapter>& chapters, const std::filesystem::path& folder,
-                  const std::string& what_was_run);
+struct Merged {
+  std::string text;  ///< for a terminal
+  std::vector<PageVerdict> verdicts;
+};
+
+/// Reads the result files of FOLDER that were made from the present inputs, writes each chapter's files, the pictures,
+/// FOLDER/verdicts.csv and FOLDER/report.html. Throws Failure.
+Merged merge(const std::vector<Chapter>& chapters, const std::filesystem::path& folder,
+             const std::string& what_was_run);
 
 }  // namespace godobject::report

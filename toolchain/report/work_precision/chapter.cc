@@ -154,7 +154,8 @@ void recommend(const Field& field, Section& section) {
                  .unit = "us",
                  .value = chosen ? field.trades[*chosen].cost : std::nan(""),
                  .most = kBudget_us,
-                 .where = chosen ? words(field.rows[*chosen]) : "all settings cost more"};
+                 .where = chosen ? words(field.rows[*chosen]) : "all settings cost more",
+                 .timed = true};
   section.findings.push_back(within);
   if (!chosen) return;
   const double error = field.trades[*chosen].error;
@@ -172,12 +173,20 @@ void recommend(const Field& field, Section& section) {
                                 .unit = "",
                                 .value = error / of_paper,
                                 .most = 1.0,
-                                .where = words(field.rows[*paper])});
+                                .where = words(field.rows[*paper]),
+                                .timed = true});
   } else if (const auto cheapest = field.best("paper", HUGE_VAL)) {
     html += fmt::format(" The paper's solver costs more in every setting; its best has {:.3g} % at {:.3g} us.",
                         100.0 * field.trades[*cheapest].error, field.trades[*cheapest].cost);
   }
   section.html += html + "</p>\n";
+}
+
+/// What an image takes to compile and to judge, about [s].
+double seconds(const ImageTrial& trial) {
+  const precision::ImageSetting& image = trial.image.setting;
+  const double judged = trial.quick ? 5.0 : 15.0;
+  return judged + (image.refined ? 20.0 : 5.0) + (image.both_directions ? 40.0 : 0.0);
 }
 
 Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
@@ -228,14 +237,24 @@ Chapter work_precision_chapter(const WorkPrecisionRequest& request) {
       command::require_regular_input(input,
                                      "name the folder of the scenes with --scenes: toolchain/scenes of the sources");
     }
-    const precision::ImageSetting written = precision::image_setting(scene_compiler::read_scene_config(file));
-    for (const TriedImage& image : tried_images(written, request.quick)) {
-      chapter.cases.push_back(
-          {.name = fmt::format("precision.{}-{}", scene.name, image.name),
-           .inputs = fmt::format("quick {} scene {} motion {}", request.quick, file_digest(file), file_digest(motion)),
-           .run = [scene, image, request](const std::filesystem::path& work) {
-             return try_image(scene, image, request.scenes, work, request.quick);
-           }});
+    const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(file);
+    const std::string inputs =
+        fmt::format("scene {} meshes {} {} motion {}", file_digest(file), file_digest(config.still.file),
+                    file_digest(config.moving.file), file_digest(motion));
+    for (const TriedImage& image :
+         tried_images(precision::image_setting(config), request.quick, scene.finest_refined)) {
+      const ImageTrial trial{scene, image, request.scenes, request.kept, inputs, request.quick};
+      const std::string name = fmt::format("precision.{}-{}", scene.name, image.name);
+      const std::string of_case = fmt::format("quick {} {}", request.quick, inputs);
+      chapter.cases.push_back({.name = name,
+                               .inputs = of_case,
+                               .run = [trial](const auto&) { return image_errors(trial); },
+                               .seconds = seconds(trial)});
+      chapter.cases.push_back({.name = name + "-times",
+                               .inputs = of_case,
+                               .run = [trial](const auto&) { return image_costs(trial); },
+                               .seconds = 3.0,
+                               .takes_times = true});
     }
   }
   return chapter;

@@ -8,6 +8,7 @@ namespace godobject::report {
 
 struct WorkPrecisionRequest {
   std::filesystem::path scenes;  ///< folder of the scene files; their motions in its folder `paths`
+  std::filesystem::path kept;    ///< made where it is not there: images and references that several cases need
   bool quick = false;
 };
 

@@ -10,6 +10,7 @@
 #include "toolchain/path/pose_file.h"
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/contact_quality/signals.h"
+#include "toolchain/report/work_precision/kept.h"
 #include "toolchain/scene_compiler/sample_elimination.h"
 
 namespace godobject::report {
@@ -100,17 +101,39 @@ void add(Sheet& sheet, std::vector<std::string> row, std::initializer_list<doubl
   sheet.rows.push_back(std::move(row));
 }
 
+std::filesystem::path path_file(const ImageTrial& trial) { return trial.scenes / "paths" / trial.scene.path; }
+
+scene_compiler::SceneConfig scene_config(const ImageTrial& trial) {
+  return scene_compiler::read_scene_config(trial.scenes / (trial.scene.name + ".toml"));
+}
+
+command::SceneImage image_of(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
+  return kept_image(trial.kept, fmt::format("{} image {}", trial.inputs, trial.image.name),
+                    precision::with(config, trial.image.setting));
+}
+
+/// All solvers with and without friction.
+std::vector<precision::Setting> settings(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
+  std::vector<precision::Variant> variants;
+  for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
+    for (const bool friction : {false, true}) variants.push_back({static_cast<Solver>(i), friction, 1.0});
+  }
+  if (trial.image.margins)
+    variants.insert(variants.end(), {{Solver::kContact, true, 0.1}, {Solver::kContact, true, 10.0}});
+  return precision::settings_of(config, trial.image.setting, variants);
+}
+
 }  // namespace
 
 const std::vector<PrecisionScene>& precision_scenes() {
   static const std::vector<PrecisionScene> all = {
-      {.name = "bunny-teapot", .path = "bunny-teapot.csv"},
+      {.name = "bunny-teapot", .path = "bunny-teapot.csv", .finest_refined = true},
       {.name = "bunny-plate", .path = "through-plate.toml", .sliding = Sliding{.begin = 550, .end = 700}},
-      {.name = "peg-hole", .path = "peg-hole.toml", .reference_points = 1500}};
+      {.name = "peg-hole", .path = "peg-hole.toml", .judging = {.points = 400, .penetration_stride = 32}}};
   return all;
 }
 
-std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick) {
+std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick, bool finest_refined) {
   std::vector<TriedImage> images;
   const auto add = [&](const std::string& name, auto change) {
     ImageSetting setting = written;
@@ -126,7 +149,7 @@ std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick) {
   }
   add("as-written", [](ImageSetting&) {});
   add("voxel-2", [](ImageSetting& s) { s.voxel_size *= 2.0; });
-  add("voxel-0.5", [](ImageSetting& s) { s.voxel_size *= 0.5; });
+  if (finest_refined) add("voxel-0.5", [](ImageSetting& s) { s.voxel_size *= 0.5; });
   add("points-1000", [](ImageSetting& s) { s.points = 1000; });
   add("points-20000", [](ImageSetting& s) { s.points = 20000; });
   add("levels-4", [](ImageSetting& s) { s.levels = 4; });
@@ -144,40 +167,46 @@ std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick) {
   return images;
 }
 
-CaseResult try_image(const PrecisionScene& scene, const TriedImage& image, const std::filesystem::path& scenes,
-                     const std::filesystem::path& work, bool quick) {
-  const std::vector<Pose> path = path::read_poses(scenes / "paths" / scene.path);
-  precision::Trial trial(scene_compiler::read_scene_config(scenes / (scene.name + ".toml")), {path},
-                         scene.reference_points);
-  std::vector<precision::Variant> variants;
-  for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
-    for (const bool friction : {false, true}) variants.push_back({static_cast<Solver>(i), friction, 1.0});
+CaseResult image_errors(const ImageTrial& trial) {
+  const scene_compiler::SceneConfig config = scene_config(trial);
+  const std::vector<Pose> path = path::read_poses(path_file(trial));
+  precision::Trial judge(config, {path}, trial.scene.judging);
+  for (const bool friction : {false, true}) {
+    const std::string key = fmt::format("{} reference, friction {}", trial.inputs, friction);
+    judge.give_reference(friction, kept_cycles(trial.kept, key, [&] { return judge.reference(friction); }));
   }
-  if (image.margins) variants.insert(variants.end(), {{Solver::kContact, true, 0.1}, {Solver::kContact, true, 10.0}});
-  const std::size_t passes = quick ? 3 : 5;
-  const std::vector<precision::Result> results =
-      trial({.setting = image.setting, .file = work / "tried.scene", .only_solver = {}, .passes = passes}, variants);
-  double load = 0.0;
-  ::getloadavg(&load, 1);
+  const std::vector<precision::Result> results = judge.errors(image_of(trial, config), settings(trial, config));
 
   Sheet errors = sheet(kErrors, {"wrench_error", "wrench_error_N", "force_magnitude_N", "force_direction_rad",
                                  "penetration_deepest_mm", "penetration_rms_mm", "optimum_distance_mm",
                                  "friction_ratio", "chatter_N", "chatter_of_reference_N", "image_bytes"});
-  Sheet costs = sheet(kCosts, {"p50_us", "p99_us", "max_us", "instructions_a_cycle", "load"});
-  const std::vector<std::size_t> checked = checkpoints(trial.reference(false), quick ? 1 : 3);
+  const std::vector<std::size_t> checked = checkpoints(judge.reference(false), trial.quick ? 1 : 3);
   for (const precision::Result& result : results) {
-    const std::vector<std::string> key = key_of(scene.name, result.setting);
-    add(errors, key,
+    add(errors, key_of(trial.scene.name, result.setting),
         {result.wrench.relative, result.wrench.rms, result.wrench.magnitude, result.wrench.direction,
          1e3 * result.penetration.deepest, 1e3 * result.penetration.rms,
-         1e3 * optimum_distance(trial.exact(), path, checked, result), friction_ratio(scene, result),
-         chatter(forces(result.cycles)), chatter(forces(trial.reference(result.setting.friction))),
+         1e3 * optimum_distance(judge.exact(), path, checked, result), friction_ratio(trial.scene, result),
+         chatter(forces(result.cycles)), chatter(forces(judge.reference(result.setting.friction))),
          static_cast<double>(result.image_bytes)});
-    add(costs, key,
-        {1e-3 * result.cost.p50_ns, 1e-3 * result.cost.p99_ns, 1e-3 * result.cost.max_ns, result.cost.instructions,
-         load});
   }
-  return {.findings = {}, .sheets = {errors, costs}};
+  return {.findings = {}, .sheets = {errors}};
+}
+
+CaseResult image_costs(const ImageTrial& trial) {
+  const scene_compiler::SceneConfig config = scene_config(trial);
+  const std::vector<precision::Setting> tried = settings(trial, config);
+  const command::SceneImage image = image_of(trial, config);
+  const precision::Paths paths{path::read_poses(path_file(trial))};
+  const std::vector<precision::CycleCost> found = precision::costs_of(image.scene, tried, paths, trial.quick ? 3 : 5);
+  double load = 0.0;
+  ::getloadavg(&load, 1);
+  Sheet costs = sheet(kCosts, {"p50_us", "p99_us", "max_us", "instructions_a_cycle", "load"});
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    const precision::CycleCost& cost = found[i];
+    add(costs, key_of(trial.scene.name, tried[i]),
+        {1e-3 * cost.p50_ns, 1e-3 * cost.p99_ns, 1e-3 * cost.max_ns, cost.instructions, load});
+  }
+  return {.findings = {}, .sheets = {costs}};
 }
 
 }  // namespace godobject::report

@@ -24,8 +24,9 @@ struct Sliding {
 struct PrecisionScene {
   std::string name;
   std::string path;  ///< in the folder `paths`
-  std::uint32_t reference_points = precision::kReferencePoints;
+  precision::Judging judging = {};
   std::optional<Sliding> sliding = {};  ///< where the friction's ratio is measured
+  bool finest_refined = false;          ///< also refined at half the voxel edge, which takes minutes to compile
 };
 
 const std::vector<PrecisionScene>& precision_scenes();
@@ -36,14 +37,26 @@ struct TriedImage {
   precision::ImageSetting setting;
   bool margins = false;  ///< `contact` also with a tenth and ten times of its margin
 };
-std::vector<TriedImage> tried_images(const precision::ImageSetting& written, bool quick);
+std::vector<TriedImage> tried_images(const precision::ImageSetting& written, bool quick, bool finest_refined);
 
 /// Names of the sheets that a case fills: what does not differ from run to run, and what does.
 inline constexpr const char* kErrors = "work_precision_errors";
 inline constexpr const char* kCosts = "work_precision_costs";
 
-/// Compiles the image, runs all solvers with and without friction along the scene's motion.
-CaseResult try_image(const PrecisionScene& scene, const TriedImage& image, const std::filesystem::path& scenes,
-                     const std::filesystem::path& work, bool quick);
+/// An image and what it is tried on.
+struct ImageTrial {
+  PrecisionScene scene;
+  TriedImage image;
+  std::filesystem::path scenes;  ///< folder of the scene files
+  std::filesystem::path kept;    ///< for images and references that several cases need
+  std::string inputs;            ///< scene file, meshes and motion, as text
+  bool quick = false;
+};
+
+/// All solvers with and without friction along the scene's motion: the errors.
+CaseResult image_errors(const ImageTrial& trial);
+
+/// Of the same settings what cycles cost.
+CaseResult image_costs(const ImageTrial& trial);
 
 }  // namespace godobject::report
