@@ -29,7 +29,8 @@ std::string gnuplot_text(const Plot& plot, const std::filesystem::path& png) {
   // half as wide on a phone, where the letters must still be read
   text += fmt::format(
       "set terminal pngcairo size 760,680 font 'DejaVu Sans,15' background rgb 'white' noenhanced\nset output {}\n"
-      "set title {} font ',13'\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd'\nset tics nomirror\n"
+      "set title {} font ',13'\nset xlabel {} offset 0,0.4\nset ylabel {}\nset grid lc rgb '#dddddd'\nset tics "
+      "nomirror\n"
       "set key below horizontal maxcols 2 reverse Left samplen 2\n",
       quoted(png.string()), quoted(plot.title), quoted(plot.x), quoted(plot.y));
   if (plot.log_x) text += "set logscale x\n";
