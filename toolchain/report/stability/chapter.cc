@@ -108,7 +108,7 @@ Picture gyration_picture(const Sheet& sheet) {
   return {"stability_gyration",
           "A device with radius of gyration g stands k_VC,r up to g<sup>2</sup> times the factor that is left of k_D; "
           "measured by "
-          "the tilt of a slab on a compiled plate, solver contact.",
+          "the tilt of a body on three feet on a compiled plate, solver contact.",
           drawn(plot)};
 }
 
