@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "core/pipeline/ball_cycle.h"
+
 namespace godobject {
 namespace {
 
@@ -27,6 +29,12 @@ Status refuse(Status status, const State& state, CycleReport& report) noexcept {
 /// The moving body's field in a build without the second direction. Known in this file only: so the compiler sees that
 /// there is none, and drops what would look at it.
 struct NoField : Voxelmap {};
+
+template <class Memory>
+Status cycle_of_ball(const Scene& scene, const Parameters& q, const CycleInput& input, Memory&, State& state,
+                     CycleReport& report, StepTimes* times) noexcept {
+  return ball_cycle(scene.voxelmap, q, input, state, report, times);
+}
 
 }  // namespace
 
@@ -112,6 +120,9 @@ Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::s
   H_MB_ = scene.H_MB;
   H_BM_ = scene.H_MB.inverse();
   parameters_ = Parameters::make(scene);
+  if constexpr (kSceneTraits.contact) {
+    if (solver == Solver::kContact && !friction && is_ball(scene)) cycle_ = &cycle_of_ball<Memory>;
+  }
   if (solver == Solver::kContact) {
     const std::size_t wanted = GodObject::memory(scene);
     Contact::start(scene, parameters_, memory.first(memory.size() < wanted ? 0 : wanted), memory_);

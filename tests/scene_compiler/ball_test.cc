@@ -290,6 +290,48 @@ TEST_P(BallOnCube, StandsWhereGeometryHasIt) {
 
 INSTANTIATE_TEST_SUITE_P(OfTolerance, BallOnCube, testing::Values(Tolerated{0.05, 1.0}, Tolerated{0.005, 0.5}));
 
+/// The same image by `contact_cycle`, which has the ball's centre as one point among any number.
+TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
+  compile({});
+  Rendered ball(folder_.file("out.scene"));
+  const Scene& scene = ball.image.scene;
+  const Parameters& parameters = ball.god_object->parameters();
+  const auto workspace = std::make_unique<ContactWorkspace>();
+  std::vector<std::uint32_t> memory(ContactSearch::memory(scene.pointshell, {}));
+  const FeatureContacts<Voxelmap>* const no_features = nullptr;
+  ContactSearch search;
+  search.start(scene.voxelmap, scene.pointshell, no_features, ContactLengths::make(parameters), memory);
+  State state;
+  double apart = 0.0, force_apart = 0.0, damped_apart = 0.0;
+  int cycle = 0;
+  follow_cube([&](const Vector3d& on_cube, const Vector3d& normal) {
+    const Vector3d center = on_cube + (kRadius - kDepth * std::sin(2e-3 * cycle++)) * normal;
+    CycleInput input;
+    input.H_WD.rotation = Quaternion(Eigen::AngleAxisd(1e-3 * cycle, Vector3d(0.6, 0.0, 0.8)));
+    input.H_WD.translation = center;
+    input.velocity_W.translation = Vector3(0.05 * std::cos(0.01 * cycle), 0.03, -0.04);
+    GodObject::Input device;
+    device.H_WM = input.H_WD * scene.H_MB.inverse();
+    device.velocity_W = input.velocity_W;
+    CycleReport report, expected;
+    ASSERT_EQ(ball.god_object->update(device, report), Status::kOk);
+    if (!state.started) state.H_WS = input.H_WD;
+    ASSERT_EQ((contact_cycle<false>(scene.voxelmap, scene.pointshell, no_features, parameters, input, search, state,
+                                    *workspace, expected)),
+              Status::kOk);
+    EXPECT_EQ(report.outcome, expected.outcome) << cycle;
+    apart = std::max(apart, (report.H_WS.translation - expected.H_WS.translation).norm());
+    force_apart = std::max(force_apart, (report.force.spring_W.force - expected.force.spring_W.force).norm());
+    damped_apart = std::max(damped_apart, (report.force.total_W.force - expected.force.total_W.force).norm());
+  });
+  fmt::print("{} cycles: {:.3g} m apart, {:.3g} N, {:.3g} N with damping\n", cycle, apart, force_apart, damped_apart);
+  // needs met up to the tolerance are met, and ContactRows keeps them in single precision
+  const double tolerance = 1.5 * ContactLengths::make(parameters).metric.tolerance;
+  EXPECT_LT(apart, tolerance);
+  EXPECT_LT(force_apart, kStiffness * tolerance);
+  EXPECT_LT(damped_apart, 0.01) << "of 1.2 N: the normals are those of places as far apart";
+}
+
 TEST_F(BallScene, StandsOnFacesWhereManyPointsStand) {
   const CompileReport with = compile({}, "with.scene");
   const CompileReport without =
