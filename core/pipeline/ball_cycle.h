@@ -5,12 +5,6 @@
 
 namespace godobject {
 
-/// Whether the moving body is a ball that is met by its centre: its one sample point is the centre of mass, and the
-/// still body's distances are less by the radius.
-inline bool is_ball(const Scene& scene) noexcept {
-  return scene.pointshell.size == 1 && scene.pointshell.point(0).isZero(0.0) && !scene.has_features();
-}
-
 /// One cycle of `contact` without friction for a ball (is_ball), in three dimensions and in W: what `contact_cycle`
 /// does for its one point, with the same margins, second looks and certificate, but no search and no rotation. The god
 /// object turns with the device; no torque.

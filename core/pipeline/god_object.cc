@@ -106,7 +106,7 @@ GodObject::Cycle GodObject::cycle_of(Solver solver, bool friction) noexcept {
       if constexpr (kSceneTraits.corrected) return cycle_of<Corrected>(friction);
       break;
     case Solver::kContact:
-      if constexpr (kSceneTraits.contact) return cycle_of<Contact>(friction);
+      if constexpr (kHasSearch) return cycle_of<Contact>(friction);
       break;
   }
   return nullptr;

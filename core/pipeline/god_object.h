@@ -41,7 +41,7 @@ class GodObject {
   /// Words that `contact` remembers about the scene from cycle to cycle: some four a sample or feature point and a node
   /// of their trees, until when they cannot be near.
   static std::size_t memory(const Scene& scene) noexcept {
-    return kSceneTraits.contact ? ContactSearch::memory(scene.pointshell, scene.features) : 0;
+    return kHasSearch ? ContactSearch::memory(scene.pointshell, scene.features) : 0;
   }
 
   /// Chooses the pipeline once. Without a friction table in the scene `friction` = true is refused. `memory`: at least
@@ -74,8 +74,9 @@ class GodObject {
   const State& state() const noexcept { return state_; }
 
  private:
+  static constexpr bool kHasSearch = kSceneTraits.contact && kSceneTraits.points;
   struct NoMemory {};
-  using Memory = std::conditional_t<kSceneTraits.contact, ContactMemory, NoMemory>;
+  using Memory = std::conditional_t<kHasSearch, ContactMemory, NoMemory>;
   using Cycle = Status (*)(const Scene&, const Parameters&, const CycleInput&, Memory&, State&, CycleReport&,
                            StepTimes*) noexcept;
   struct Paper;

@@ -15,6 +15,7 @@ const char* describe(Part part) {
     case Part::kContact: return "the solver contact";
     case Part::kFriction: return "friction";
     case Part::kFeatures: return "the second direction (points of the still body against the moving body's field)";
+    case Part::kPoints: return "points of a moving body that is no ball without friction";
   }
   return "nothing";
 }
@@ -23,7 +24,7 @@ const char* describe(Part part) {
 
 void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction,
                       const SceneTraits& traits) {
-  const Part missing = missing_part(traits, solver, friction, scene.has_features());
+  const Part missing = missing_part(traits, solver, friction, scene.has_features(), is_ball(scene));
   if (missing == Part::kNone) return;
   throw Failure(ExitCode::kBadConfig,
                 fmt::format("{}: needs {}, which this build leaves out; build without -DGODOBJECT_SCENE, or with this "

@@ -13,6 +13,7 @@ SceneTraits traits_of(const Scene& scene) noexcept {
   traits.contact = scene.holds(format::Solver::kContact);
   traits.friction = scene.settings.friction != 0;
   traits.features = traits.contact && scene.has_features();
+  traits.points = traits.contact && (traits.friction || !is_ball(scene));
   return traits;
 }
 
@@ -26,8 +27,9 @@ std::string traits_text(const SceneTraits& traits, const std::string& scene_name
       "# What {} needs of the core, for a build of its own: cmake -DGODOBJECT_SCENE=<this file>\n"
       "set(GODOBJECT_SCENE_SOLVERS {})\n"
       "set(GODOBJECT_SCENE_FRICTION {})\n"
-      "set(GODOBJECT_SCENE_FEATURES {})\n",
-      scene_name, fmt::join(solvers, " "), on(traits.friction), on(traits.features));
+      "set(GODOBJECT_SCENE_FEATURES {})\n"
+      "set(GODOBJECT_SCENE_POINTS {})\n",
+      scene_name, fmt::join(solvers, " "), on(traits.friction), on(traits.features), on(traits.points));
 }
 
 }  // namespace godobject::scene_compiler

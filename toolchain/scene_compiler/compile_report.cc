@@ -122,11 +122,8 @@ Json settings_json(const format::Settings& s) {
 }
 
 Json traits_json(const SceneTraits& traits) {
-  return {{"paper", traits.paper},
-          {"corrected", traits.corrected},
-          {"contact", traits.contact},
-          {"friction", traits.friction},
-          {"features", traits.features}};
+  return {{"paper", traits.paper},       {"corrected", traits.corrected}, {"contact", traits.contact},
+          {"friction", traits.friction}, {"features", traits.features},   {"points", traits.points}};
 }
 
 Json grid_json(const format::Grid& g) {
@@ -266,9 +263,11 @@ Json left_out_code_json(const SceneTraits& traits) {
   if (!traits.corrected) leave_out("the solver corrected", code.corrected + code.corrected_with_friction);
   if (!traits.paper && !traits.corrected) leave_out("what these two share", code.closed_forms);
   if (!traits.contact) {
-    leave_out("the solver contact", code.contact + code.contact_with_friction + code.contact_features);
-  } else if (!traits.features) {
-    leave_out("the second direction", code.contact_features);
+    leave_out("the solver contact",
+              code.contact + code.contact_with_points + code.contact_with_friction + code.contact_features);
+  } else {
+    if (!traits.features) leave_out("the second direction", code.contact_features);
+    if (!traits.points) leave_out("points other than a ball's centre", code.contact_with_points);
   }
   if (!traits.friction) {
     leave_out("friction", (traits.paper ? code.paper_with_friction : 0) +

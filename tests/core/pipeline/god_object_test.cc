@@ -315,6 +315,11 @@ TEST(SceneTraits, NameTheFirstPartThatAPipelineIsWithout) {
   EXPECT_EQ(missing_part(kBall, Solver::kContact, true, true), Part::kFeatures);
   EXPECT_EQ(missing_part(kBall, Solver::kPaper, false, false), Part::kPaper);
   EXPECT_EQ(missing_part(kBall, Solver::kCorrected, true, true), Part::kCorrected);
+  constexpr SceneTraits kCenter{
+      .paper = false, .corrected = false, .friction = false, .features = false, .points = false};
+  EXPECT_EQ(missing_part(kCenter, Solver::kContact, false, false, true), Part::kNone);
+  EXPECT_EQ(missing_part(kCenter, Solver::kContact, false, false, false), Part::kPoints);
+  EXPECT_EQ(missing_part(kCenter, Solver::kContact, true, false, true), Part::kPoints);
   // the second direction is the contact solver's alone
   constexpr SceneTraits kPaper{.corrected = false, .contact = false, .features = false};
   EXPECT_EQ(missing_part(kPaper, Solver::kPaper, true, true), Part::kNone);
