@@ -71,12 +71,13 @@ bool conclude_with_rows(ContactSet& set, ConstrainedStep& step) noexcept {
   return feasible;
 }
 
-/// The motion found ends farther from the wanted one than rest does, by more than what lost gaps need. In the plain
-/// metric.
+/// From the motion found to the wanted one, squared, in the plain metric.
+double squared_distance(const ContactSet& set) noexcept { return (set.plain_motion() - set.target()).squaredNorm(); }
+
+/// The motion found ends farther from the wanted one than rest does, by more than what lost gaps need.
 bool leads_away(const ContactSet& set) noexcept {
   constexpr double kNeeds = 1.001;  // of squares
-  const Vector6 wanted = set.target();
-  return (set.plain_motion() - wanted).squaredNorm() > kNeeds * wanted.squaredNorm();
+  return squared_distance(set) > kNeeds * set.target().squaredNorm();
 }
 
 }  // namespace
@@ -98,10 +99,16 @@ bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
   const ContactSet::Saved found = set.save();
   const bool feasible = conclude_with_rows(set, step);
   if (!feasible || !leads_away(set)) return feasible;
-  // shifts that are not the slip's own allow forces of any size; without them the cones hold at rest or lead nearer
+  // shifts that are not the slip's own allow forces of any size; without them the cones hold at rest, or may lead
+  // nearer
+  const ConstrainedStep farther = step;
+  const double distance = squared_distance(set);
   set.restore(found);
-  if (!sticks(set)) return conclude_with_rows(set, step);
-  conclude(set, step);
+  if (sticks(set)) {
+    conclude(set, step);
+  } else if (!conclude_with_rows(set, step) || !(squared_distance(set) < distance)) {
+    step = farther;
+  }
   return true;
 }
 

@@ -88,7 +88,7 @@ inline constexpr int kMostFrictionAdditions = 512;
 /// 5. If the rounds do not suffice (`unconverged`), the normals have the last word: all rows are met, and the
 ///    forces are those of the cones and of these rows together.
 /// 6. If that has led farther from the wanted motion than rest is, as no friction does, the cones without shifts: they
-///    hold it at rest, or lead nearer, and the normals have the last word again.
+///    hold it at rest, or the normals have the last word again, and of the two motions the nearer one is taken.
 ///
 /// Bounded: at most 100 additions without and 512 with friction (kMostAdditions, kMostFrictionAdditions), twice that
 /// where infeasible (seen in random problems: up to 27 and 196); an addition is one scan of the rows and at most
