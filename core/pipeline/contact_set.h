@@ -111,6 +111,8 @@ class ContactSet {
 
   /// Brings the half spaces up to date with the contacts' ratios and shifts and solves for them; what pulls leaves.
   void resolve() noexcept;
+  /// From now on the point nearest to the wanted motion, in the plain metric and without contacts.
+  void restart() noexcept;
   /// From now on the point nearest to the motion found, in the plain metric and without contacts.
   void restart_from_motion() noexcept;
 

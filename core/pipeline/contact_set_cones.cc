@@ -68,6 +68,12 @@ void ContactSet::resolve() noexcept {
   close_idle();
 }
 
+void ContactSet::restart() noexcept {
+  close_all();
+  space_.reset();
+  active_.start(target());
+}
+
 void ContactSet::restart_from_motion() noexcept {
   close_all();
   const Vector6 reached = plain_motion();

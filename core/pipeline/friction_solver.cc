@@ -12,7 +12,7 @@ namespace {
 constexpr int kRounds = 5;
 
 // rest, Newton's method once and in each round, the rounds' cones; then the last word (more than coming to rest takes),
-// rest again, another last word
+// rest again, the rows alone
 static_assert(2 * kMostConeAdditions + (1 + kRounds) * kMostNewtonSteps + kRounds * kMostConeAdditions +
                   2 * kMostRowAdditions ==
               kMostFrictionAdditions);
@@ -71,13 +71,21 @@ bool conclude_with_rows(ContactSet& set, ConstrainedStep& step) noexcept {
   return feasible;
 }
 
-/// From the motion found to the wanted one, squared, in the plain metric.
-double squared_distance(const ContactSet& set) noexcept { return (set.plain_motion() - set.target()).squaredNorm(); }
+/// The motion without friction, after conclude_with_rows. False: infeasible.
+bool conclude_without_friction(ContactSet& set, ConstrainedStep& step) noexcept {
+  set.restart();
+  const bool feasible = meet_rows(set) != Additions::kContradictory;
+  take_forces(set, step);
+  step.motion = set.motion();
+  return feasible;
+}
 
-/// The motion found ends farther from the wanted one than rest does, by more than what lost gaps need.
+/// The motion found ends farther from the wanted one than rest does, by more than what lost gaps need. In the plain
+/// metric.
 bool leads_away(const ContactSet& set) noexcept {
   constexpr double kNeeds = 1.001;  // of squares
-  return squared_distance(set) > kNeeds * set.target().squaredNorm();
+  const Vector6 wanted = set.target();
+  return (set.plain_motion() - wanted).squaredNorm() > kNeeds * wanted.squaredNorm();
 }
 
 }  // namespace
@@ -99,16 +107,11 @@ bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
   const ContactSet::Saved found = set.save();
   const bool feasible = conclude_with_rows(set, step);
   if (!feasible || !leads_away(set)) return feasible;
-  // shifts that are not the slip's own allow forces of any size; without them the cones hold at rest, or may lead
-  // nearer
-  const ConstrainedStep farther = step;
-  const double distance = squared_distance(set);
+  // Shifts that are not the slip's own allow forces of any size. Without them the cones may hold at rest; if not,
+  // without friction no motion that meets all rows is nearer.
   set.restore(found);
-  if (sticks(set)) {
-    conclude(set, step);
-  } else if (!conclude_with_rows(set, step) || !(squared_distance(set) < distance)) {
-    step = farther;
-  }
+  if (!sticks(set)) return conclude_without_friction(set, step);
+  conclude(set, step);
   return true;
 }
 

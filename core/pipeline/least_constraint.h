@@ -87,8 +87,9 @@ inline constexpr int kMostFrictionAdditions = 512;
 /// 4. A motion that the tolerances may explain comes to rest if the cones without shifts can hold it.
 /// 5. If the rounds do not suffice (`unconverged`), the normals have the last word: all rows are met, and the
 ///    forces are those of the cones and of these rows together.
-/// 6. If that has led farther from the wanted motion than rest is, as no friction does, the cones without shifts: they
-///    hold it at rest, or the normals have the last word again, and of the two motions the nearer one is taken.
+/// 6. If that has led farther from the wanted motion than rest is, as no friction does, the cones without shifts, if
+/// they
+///    hold it at rest, and otherwise the motion without friction: no other that meets all rows is nearer.
 ///
 /// Bounded: at most 100 additions without and 512 with friction (kMostAdditions, kMostFrictionAdditions), twice that
 /// where infeasible (seen in random problems: up to 27 and 196); an addition is one scan of the rows and at most
