@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 4;
+inline constexpr std::uint32_t kVersion = 5;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -180,24 +180,29 @@ inline constexpr std::uint32_t kNumber = kEdged - 1;  // without kFar: of a bric
 constexpr std::uint32_t encode_far(bool inside, float clearance) noexcept {
   return kFar | (inside ? kInside : 0u) | (std::bit_cast<std::uint32_t>(clearance) >> 1);
 }
+/// Of Refined::child, with kEdged where the brick that holds it has an edge.
+inline constexpr std::uint32_t kCoarse = kFar;
+
 constexpr float far_clearance(std::uint32_t entry) noexcept { return std::bit_cast<float>((entry & kLow) << 1); }
 }  // namespace index_entry
 
 /// Finest refinement: kMaxRefinement times halved.
 inline constexpr int kMaxRefinement = 4;
 
-/// A brick position where trilinear interpolation between its own nodes is not good enough: each octant (x fastest:
-/// ox + 2 oy + 4 oz) is a brick of kBrickCells^3 cells of half the edge, or refined again. Where an octant touches a
-/// coarser brick its nodes on the common face, edge or corner carry the coarser brick's interpolated value, and where
-/// it touches a position that is not stored that of its own position's nodes, so that the field is continuous. Every
-/// child is stored (never far).
+/// A brick where trilinear interpolation between its own nodes is not good enough everywhere. An octant of it (x
+/// fastest: ox + 2 oy + 4 oz) is either a brick of kBrickCells^3 cells of half the edge, which may be refined again, or
+/// coarse: looked up in the brick's own nodes. Where an octant touches a coarser brick its nodes on the common face,
+/// edge or corner carry the coarser brick's interpolated value, and where it touches a position that is not stored that
+/// of its own position's nodes, so that the field is continuous.
 ///
 /// Refinements are numbered in the order in which a walk meets them: index entries ascending, each refinement before
 /// those of its children, children ascending. None is met twice, none is left out.
 struct Refined {
-  std::uint32_t brick;     ///< the position's own nodes, as if it were not refined: what the paper's layers read
-  std::uint32_t child[8];  ///< index entries
+  std::uint32_t brick;     ///< number of the own nodes. Of a position always: clearances and the paper's layers read
+                           ///< them. Of an octant only where a child is coarse, else kNoBrick
+  std::uint32_t child[8];  ///< index entries; kCoarse: looked up in `brick`
 };
+inline constexpr std::uint32_t kNoBrick = ~0u;
 static_assert(sizeof(Refined) == 36);
 
 /// Of the still body's feature points, what Body is for the sample points: where the sample points of the moving body

@@ -122,6 +122,26 @@ bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
   return true;
 }
 
+/// The brick that an entry or a refinement names: whether there is one, and whether it knows its edge.
+bool valid_brick_name(std::uint32_t number, bool edged, std::span<const format::Brick> bricks) noexcept {
+  return number < bricks.size() && edged == (bricks[number].edge != 0);
+}
+
+/// Of a refinement's own nodes: named where they are read.
+bool valid_own_nodes(const format::Refined& refined, bool of_position, std::span<const format::Brick> bricks) noexcept {
+  std::uint32_t coarse = 0;  // those that are must all say the same of an edge
+  bool any = false;
+  for (const std::uint32_t child : refined.child) {
+    if ((child & format::index_entry::kFar) == 0) continue;
+    if ((child & ~format::index_entry::kEdged) != format::index_entry::kCoarse || (any && child != coarse))
+      return false;
+    any = true;
+    coarse = child;
+  }
+  if (!any && !of_position) return refined.brick == format::kNoBrick;
+  return valid_brick_name(refined.brick, (coarse & format::index_entry::kEdged) != 0, bricks);
+}
+
 /// Walks all refinements in the order that the format prescribes. Each is met once, at the number that is next: so none
 /// is out of reach, shared or contained in itself, and the walk is as long as index and refinements. It names as many
 /// bricks as there are.
@@ -139,17 +159,20 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
     std::uint32_t entry = position;
     std::size_t depth = 0;
     while (true) {
-      if ((entry & format::index_entry::kFar) != 0) return false;
-      if ((entry & format::index_entry::kInside) != 0) return false;
-      const std::uint32_t number = entry & format::index_entry::kNumber;
-      ++named;
-      if ((entry & format::index_entry::kRefined) == 0) {
-        if (number >= bricks.size()) return false;
-        if (((entry & format::index_entry::kEdged) != 0) != (bricks[number].edge != 0)) return false;
-      } else {
-        if (number != next || next >= refined.size() || depth == open.size()) return false;
-        if ((entry & format::index_entry::kEdged) != 0 || refined[next].brick >= bricks.size()) return false;
-        open[depth++] = {&refined[next++], 0};
+      const bool coarse = (entry & format::index_entry::kFar) != 0;  // valid_own_nodes has seen it
+      if (!coarse) {
+        if ((entry & format::index_entry::kInside) != 0) return false;
+        const std::uint32_t number = entry & format::index_entry::kNumber;
+        if ((entry & format::index_entry::kRefined) == 0) {
+          ++named;
+          if (!valid_brick_name(number, (entry & format::index_entry::kEdged) != 0, bricks)) return false;
+        } else {
+          if (number != next || next >= refined.size() || depth == open.size()) return false;
+          if ((entry & format::index_entry::kEdged) != 0 || !valid_own_nodes(refined[next], depth == 0, bricks))
+            return false;
+          if (refined[next].brick != format::kNoBrick) ++named;
+          open[depth++] = {&refined[next++], 0};
+        }
       }
       while (depth > 0 && open[depth - 1].next_child == std::size(open[depth - 1].refined->child)) --depth;
       if (depth == 0) break;

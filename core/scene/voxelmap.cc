@@ -68,21 +68,24 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   return true;
 }
 
-/// From a refined position to the cell of the octant, of the octant's octant, ... that holds the point. Gives the
-/// inverse of that cell's edge [1/m].
+/// From a refined position to the cell that holds the point: of the octant, of the octant's octant, ... down to what is
+/// not refined. Gives the inverse of that cell's edge [1/m].
 double Voxelmap::descend(Cell& cell) const noexcept {
   constexpr int kHalf = kBrickCells / 2;
   std::array<double, 3> at = {cell.x + static_cast<double>(cell.fx), cell.y + static_cast<double>(cell.fy),
                               cell.z + static_cast<double>(cell.fz)};  // cells of the brick; halving is exact
   double per_cell = per_voxel_;
   for (int level = 0; level < format::kMaxRefinement && (cell.entry & format::index_entry::kRefined) != 0; ++level) {
+    const format::Refined& refined = refined_[cell.entry & format::index_entry::kNumber];
     unsigned octant = 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const bool upper = at[axis] >= kHalf;
-      octant |= (upper ? 1u : 0u) << axis;
-      at[axis] = 2.0 * (upper ? at[axis] - kHalf : at[axis]);
+    for (unsigned axis = 0; axis < 3; ++axis) octant |= (at[axis] >= kHalf ? 1u : 0u) << axis;
+    const std::uint32_t child = refined.child[octant];
+    if ((child & format::index_entry::kCoarse) != 0) {
+      cell.entry = refined.brick | (child & format::index_entry::kEdged);
+      break;
     }
-    cell.entry = refined_[cell.entry & format::index_entry::kNumber].child[octant];
+    for (unsigned axis = 0; axis < 3; ++axis) at[axis] = 2.0 * (at[axis] - ((octant >> axis & 1u) != 0 ? kHalf : 0));
+    cell.entry = child;
     per_cell *= 2.0;
   }
   // rounding to float may have moved the point onto the brick's upper face

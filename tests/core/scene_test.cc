@@ -9,6 +9,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
@@ -57,7 +58,8 @@ format::Edge any_edge() {
   return edge;
 }
 
-/// The same ball with two positions refined, 0 and 2, and the last octant of the first one, 1.
+/// The same ball with two positions refined, 0 and 2, and the last octant of the first one, 1. Coarse are: of the
+/// second position the lowest octant.
 SceneImage refined_image(std::optional<format::Edge> edge = {}) {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
@@ -70,6 +72,9 @@ SceneImage refined_image(std::optional<format::Edge> edge = {}) {
   description.refined = [](const Vector3& center, double size) {
     if (size > 0.03) return center.y() < 0.0 && center.z() < 0.0;  // two positions, side by side along x
     return size > 0.015 && center.norm() < 0.001;                  // the last octant of the first
+  };
+  description.coarse = [](const Vector3& center, double) {
+    return (center - Vector3(0.02, -0.02, -0.02)).norm() < 1e-6;
   };
   description.edge = edge;
   return test::build_scene_image(description);
@@ -388,10 +393,15 @@ constexpr std::uint32_t kToRefined = format::index_entry::kRefined;
 constexpr Spoiled kRefinements[] = {
     {"a section cut short", Status::kImageLayout, SECTION(kRefined, x.bytes -= 4)},
     {"no refinements", Status::kImageValue, SECTION(kRefined, x.id = static_cast<SectionId>(20))},
-    {"a brick number of its own nodes", Status::kImageValue, REFINED(1, x.brick = 1000)},
+    {"a brick number of its own nodes", Status::kImageValue, REFINED(0, x.brick = 1000)},
+    {"a position without nodes of its own", Status::kImageValue, REFINED(0, x.brick = format::kNoBrick)},
+    {"an octant's own nodes that none reads", Status::kImageValue, REFINED(1, x.brick = 1)},
+    {"a coarse octant without own nodes", Status::kImageValue, REFINED(1, x.child[7] = format::index_entry::kCoarse)},
+    {"a coarse octant with a clearance", Status::kImageValue, REFINED(2, x.child[0] |= 1u)},
+    {"a coarse octant that is inside", Status::kImageValue, REFINED(2, x.child[0] |= format::index_entry::kInside)},
     {"a brick number of an octant", Status::kImageValue, REFINED(2, x.child[7] = 1000)},
     {"a refinement's number of an octant", Status::kImageValue, REFINED(2, x.child[7] = kToRefined | 3u)},
-    {"an octant that is not stored", Status::kImageValue, REFINED(2, x.child[0] |= format::index_entry::kFar)},
+    {"an octant that is not stored", Status::kImageValue, REFINED(2, x.child[1] |= format::index_entry::kFar)},
     {"an octant with an unknown bit", Status::kImageValue, REFINED(0, x.child[0] |= format::index_entry::kInside)},
     {"a refinement of itself", Status::kImageValue, REFINED(0, x.child[7] = kToRefined)},
     {"a cycle of two", Status::kImageValue, REFINED(1, x.child[3] = kToRefined)},
@@ -440,54 +450,62 @@ constexpr Spoiled kEdges[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Edge, SceneRefusesEdges, ::testing::ValuesIn(kEdges));
 
-/// A chain of refinements, each of the first octant of the one before, as deep as `depth`.
-SceneImage chain_image(int depth) {
-  SceneImage image = refined_image();
-  auto* index = &section_item<std::uint32_t>(image, SectionId::kBrickIndex);
-  auto* refined = &section_item<format::Refined>(image, SectionId::kRefined);
-  for (int i = 0; i < 3; ++i) {
-    std::fill(std::begin(refined[i].child), std::end(refined[i].child), 1u);
-    if (i + 1 < depth) refined[i].child[0] = kToRefined | static_cast<std::uint32_t>(i + 1);
-  }
-  index[1] = depth < 3 ? kToRefined | 2u : 1u;
-  test::seal(image);
-  return image;
+/// The first octant of the first octant ... of the first position, `depth` times halved, and the position beside it. Of
+/// each refinement the last octant is coarse, if asked for.
+SceneImage chain_image(int depth, bool last_coarse) {
+  test::SceneDescription description;
+  description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
+  description.surface_min = Vector3::Constant(-0.01);
+  description.surface_max = Vector3::Constant(0.05);  // roomy: some positions are far
+  description.voxel_size = 0.01;
+  description.points = {Vector3(0.01, 0.0, 0.0)};
+  const Vector3 low = description.surface_min - Vector3::Constant(0.05);  // band of four voxels, and one
+  description.refined = [depth, low](const Vector3& center, double edge) {
+    if (edge > 0.03 && (center - low - 0.04 * Vector3::UnitX()).cwiseAbs().maxCoeff() < 0.51 * edge) return true;
+    return edge > 0.045 * std::exp2(-depth) && (center - low).cwiseAbs().maxCoeff() < 0.51 * edge;
+  };
+  description.coarse = [low, last_coarse](const Vector3& center, double edge) {
+    return last_coarse && (center - low - Vector3::Constant(1.5 * edge)).cwiseAbs().maxCoeff() < 0.01 * edge;
+  };
+  return test::build_scene_image(description);
 }
 
 TEST(Scene, TakesRefinementsOfRefinements) {
-  for (const int depth : {2, 3}) {
-    const SceneImage image = chain_image(depth);
-    EXPECT_EQ(open_over_another(image.bytes()), Status::kOk) << depth;
+  for (int depth = 1; depth <= format::kMaxRefinement; ++depth) {
+    for (const bool last_coarse : {false, true}) {
+      SceneImage image = chain_image(depth, last_coarse);
+      EXPECT_EQ(open_over_another(image.bytes()), Status::kOk) << depth;
+      const auto refined = static_cast<std::size_t>(depth) + 1;
+      ASSERT_EQ(test::section_bytes(image, SectionId::kRefined).size(), refined * sizeof(format::Refined));
+      const std::uint32_t own = section_item<format::Refined>(image, SectionId::kRefined, refined - 2).brick;
+      EXPECT_EQ(own == format::kNoBrick, depth > 1 && !last_coarse);
+    }
   }
 }
 
 TEST(Scene, RefusesRefinementsTooDeep) {
-  test::SceneDescription description;
-  description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
-  description.surface_min = Vector3::Constant(-0.01);
-  description.surface_max = Vector3::Constant(0.01);
-  description.voxel_size = 0.01;
-  description.points = {Vector3(0.01, 0.0, 0.0)};
-  // the first octant of the first octant ..., as deep as the format goes, and one more position beside it
-  description.refined = [&description](const Vector3& center, double edge) {
-    const Vector3 low = description.surface_min - Vector3::Constant(0.05);  // band of four voxels, and one
-    return (center - low).cwiseAbs().maxCoeff() < 0.51 * edge ||
-           (edge > 0.03 && (center - low - 0.04 * Vector3::UnitX()).cwiseAbs().maxCoeff() < 0.51 * edge);
-  };
-  SceneImage image = test::build_scene_image(description);
+  SceneImage image = chain_image(format::kMaxRefinement, false);
+  auto* index = &section_item<std::uint32_t>(image, SectionId::kBrickIndex);
   auto* refined = &section_item<format::Refined>(image, SectionId::kRefined);
-  ASSERT_EQ(test::section_bytes(image, SectionId::kRefined).size(), 5 * sizeof(format::Refined));
-  EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
-  // the fifth becomes an octant of the fourth
-  section_item<std::uint32_t>(image, SectionId::kBrickIndex, 1) = refined[4].brick;
+  // the fifth becomes an octant of the fourth, and all bricks stay named
+  std::uint32_t* far = index;
+  while ((*far & format::index_entry::kFar) == 0) ++far;
+  *far = refined[3].child[7];
+  index[1] = std::exchange(refined[4].brick, format::kNoBrick);
   refined[3].child[7] = kToRefined | 4u;
   test::seal(image);
   EXPECT_EQ(open_over_another(image.bytes()), Status::kImageValue);
+  // as an octant of the third it is not too deep
+  refined[3].child[7] = *far;
+  *far = refined[2].child[7];
+  refined[2].child[7] = kToRefined | 4u;
+  test::seal(image);
+  EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
 }
 
 /// As above: a flipped bit behind a right checksum. The sanitizers judge.
 TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
-  SceneImage image = refined_image();
+  SceneImage image = refined_image(any_edge());
   const auto bytes = test::section_bytes(image, SectionId::kRefined);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};

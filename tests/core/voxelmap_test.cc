@@ -174,12 +174,13 @@ TEST(Voxelmap, ReproducesALinearFieldToFloatRounding) {
 }
 
 /// A brick whose lowest octant is halved again: octant 0 is refined, octants 1 .. 7 of it and of the brick are bricks.
+/// `coarse` makes the last octants of both coarse: looked up in bricks 0 and 1.
 struct HalvedTwice {
   OneBrick one;
   std::array<format::Brick, 17> bricks{};
   std::array<format::Refined, 2> refined{};
 
-  HalvedTwice() {
+  explicit HalvedTwice(bool coarse = false) {
     one.index = format::index_entry::kRefined;
     one.grid.brick_count = static_cast<std::uint32_t>(bricks.size());
     for (std::uint32_t i = 0; i < 8; ++i) {
@@ -187,7 +188,8 @@ struct HalvedTwice {
       refined[1].child[i] = 9 + i;
     }
     refined[0].brick = 0;
-    refined[1].brick = 1;
+    refined[1].brick = coarse ? 1 : format::kNoBrick;
+    if (coarse) refined[0].child[7] = refined[1].child[7] = format::index_entry::kCoarse;
     for (std::size_t i = 0; i < bricks.size(); ++i) {
       std::fill(std::begin(bricks[i].value), std::end(bricks[i].value), 0.0625f * static_cast<float>(i));
       bricks[i].lipschitz = 1.0f;
@@ -209,6 +211,27 @@ TEST(Voxelmap, DescendsToTheOctantThatHoldsThePoint) {
     EXPECT_EQ(number(0.25 * low), 9 + octant);
     EXPECT_EQ(number(0.25 * low + Vector3::Constant(0.249)), 9 + octant);
   }
+}
+
+TEST(Voxelmap, LooksCoarseOctantsUpInTheOwnNodes) {
+  HalvedTwice halved(true);
+  for (format::Brick& brick : halved.bricks) std::fill(std::begin(brick.value), std::end(brick.value), 1.0f);
+  const auto set = [&halved](std::size_t brick, int x, int y, int z, float value) {
+    halved.bricks[brick].value[x + 5 * (y + 5 * z)] = value;
+  };
+  set(0, 2, 2, 2, 0.25f);  // the middle of the position, in cells of 1/4 m
+  set(0, 3, 2, 2, 0.75f);
+  set(1, 2, 2, 2, -0.25f);  // the middle of its lowest octant, in cells of 1/8 m
+  set(1, 3, 2, 2, 0.5f);
+  const Voxelmap map = halved.map();
+  EXPECT_EQ(map.sample(Vector3::Constant(0.5)).distance, 0.25);
+  EXPECT_EQ(map.sample(Vector3(0.625, 0.5, 0.5)).distance, 0.5);
+  EXPECT_EQ(map.sample(Vector3(0.625, 0.5, 0.5)).gradient.x(), 2.0);
+  EXPECT_EQ(map.sample(Vector3::Constant(0.25)).distance, -0.25);
+  EXPECT_EQ(map.sample(Vector3(0.3125, 0.25, 0.25)).distance, 0.125);
+  EXPECT_EQ(map.sample(Vector3(0.3125, 0.25, 0.25)).gradient.x(), 6.0);
+  EXPECT_EQ(map.sample(Vector3(0.49, 0.5, 0.5)).distance, 1.0);  // the octants beside them are not coarse
+  EXPECT_EQ(map.sample(Vector3(0.24, 0.25, 0.25)).distance, 1.0);
 }
 
 TEST(Voxelmap, InterpolatesInTheHalvedCellByHand) {
@@ -262,8 +285,10 @@ class RandomShapes {
   Quaternion turn_;
 };
 
-/// Seeds from kRefinedFrom on have bricks refined along the surface.
+/// Seeds from kRefinedFrom on have bricks refined along the surface, those from kCoarseFrom on only the octants near
+/// it.
 constexpr unsigned kRefinedFrom = 9;
+constexpr unsigned kCoarseFrom = 11;
 
 class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
  protected:
@@ -286,6 +311,11 @@ class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
       const Vector3 second = shapes_.centers()[1] + Vector3(0.006, 0.0, 0.0);
       description.refined = [first, second](const Vector3& center, double edge) {
         return std::min((center - first).norm(), (center - second).norm()) < 2.6 * edge;
+      };
+    }
+    if (GetParam() >= kCoarseFrom) {
+      description.coarse = [distance = shapes_](const Vector3& center, double edge) {
+        return std::fabs(distance(center)) > 1.2 * edge;
       };
     }
     return description;
@@ -422,7 +452,7 @@ TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, kRefinedFrom + 2u));
+INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, kCoarseFrom + 2u));
 
 TEST(Voxelmap, NumbersTheLayersByHand) {
   OneBrick one;  // voxels of 1/4 m around the nodes; the surface stands at x = 1/2

@@ -35,6 +35,7 @@ bool write(const std::filesystem::path& file, const SceneImage& image) {
 int run(const std::filesystem::path& folder) {
   SceneDescription refined = small_plate();
   refined.refined = [](const Vector3& center, double edge) { return center.x() > 0.0 && edge > 0.02; };
+  refined.coarse = [](const Vector3& center, double) { return center.y() > 0.0; };
   SceneDescription frictionless = small_plate();
   frictionless.settings.friction = 0;
   frictionless.normals.clear();

@@ -114,17 +114,32 @@ class Octants {
     return level < format::kMaxRefinement && description_.refined(low + Vector3::Constant(0.5 * edge), edge);
   }
 
+  /// Of the octant whose lowest corner is `low`.
+  bool is_coarse(const Vector3& low, int level) const {
+    const double edge = brick_edge(level);
+    return description_.coarse && description_.coarse(low + Vector3::Constant(0.5 * edge), edge);
+  }
+
+  std::uint32_t add_brick(const Vector3& low, int level) {
+    field_.bricks.push_back(brick(low, level));
+    slope_ = std::max(slope_, steepest(field_.bricks.back()) / cell_edge(level));
+    return static_cast<std::uint32_t>(field_.bricks.size() - 1);
+  }
+
+  /// `own`: number of a position's brick. An octant has none yet.
   std::uint32_t store(const Vector3& low, int level, std::uint32_t own) {
-    if (!is_refined(low, level)) return own;
+    if (!is_refined(low, level)) return own != format::kNoBrick ? own : add_brick(low, level);
     const std::size_t number = field_.refined.size();
     field_.refined.push_back({own, {}});
     for (int octant = 0; octant < 8; ++octant) {
       const Vector3 corner = low + brick_edge(level + 1) * Vector3(octant & 1, octant >> 1 & 1, octant >> 2);
-      const auto child = static_cast<std::uint32_t>(field_.bricks.size());
-      field_.bricks.push_back(brick(corner, level + 1));
-      slope_ = std::max(slope_, steepest(field_.bricks.back()) / cell_edge(level + 1));
-      const std::uint32_t entry = store(corner, level + 1, child);
-      field_.refined[number].child[octant] = entry;
+      std::uint32_t child = format::index_entry::kCoarse;
+      if (!is_coarse(corner, level + 1)) {
+        child = store(corner, level + 1, format::kNoBrick);
+      } else if (field_.refined[number].brick == format::kNoBrick) {
+        field_.refined[number].brick = add_brick(low, level);
+      }
+      field_.refined[number].child[octant] = child;
     }
     return format::index_entry::kRefined | static_cast<std::uint32_t>(number);
   }
@@ -148,10 +163,12 @@ class Octants {
     if ((field_.index[static_cast<std::size_t>(position)] & format::index_entry::kFar) != 0) return -1;
     low = origin() + brick_edge(0) * low;
     int level = 0;
-    for (; is_refined(low, level); ++level) {
+    while (is_refined(low, level)) {
       for (int axis = 0; axis < 3; ++axis) {
         if (p[axis] >= low[axis] + brick_edge(level + 1)) low[axis] += brick_edge(level + 1);
       }
+      if (is_coarse(low, level + 1)) break;
+      ++level;
     }
     return level;
   }
@@ -194,7 +211,12 @@ void name_edge(StoredField& field) {
   };
   for (std::uint32_t& entry : field.index) name(entry);
   for (format::Refined& refined : field.refined) {
-    for (std::uint32_t& entry : refined.child) name(entry);
+    for (std::uint32_t& entry : refined.child) {
+      name(entry);
+      if (entry != format::index_entry::kCoarse) continue;
+      field.bricks[refined.brick].edge = 1;
+      entry |= format::index_entry::kEdged;
+    }
   }
 }
 

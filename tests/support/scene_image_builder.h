@@ -42,6 +42,8 @@ struct SceneDescription {
   /// Whether the brick that is the cube of `edge` about `center` is refined; asked of stored positions, then of their
   /// octants. Empty: none is.
   std::function<bool(const Vector3& center, double edge)> refined;
+  /// Whether the octant of a refined brick that is the cube of `edge` about `center` is left coarse. Empty: none is.
+  std::function<bool(const Vector3& center, double edge)> coarse;
 
   /// Named by every brick that is looked up; grid.lipschitz is that of the field without.
   std::optional<format::Edge> edge;

@@ -1,8 +1,8 @@
 #include "toolchain/scene_compiler/brick_tree.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "core/scene/edge.h"
 #include "toolchain/scene_compiler/clearance_bounds.h"
@@ -23,6 +23,22 @@ int cell_units(int level) { return BrickTree::kUnits >> level; }
 
 int position_of(int unit) { return unit >= 0 ? unit / kPositionUnits : -1; }
 
+/// Of a brick of `level`, the octant that holds the unit cell.
+std::uint8_t octant_at(const BrickTree::Units& unit_cell, int level) {
+  const int half = brick_units(level + 1);
+  unsigned octant = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(unit_cell[axis] / half & 1) << axis;
+  return static_cast<std::uint8_t>(octant);
+}
+
+bool is_coarse(std::uint32_t child) { return (child & format::index_entry::kCoarse) != 0; }
+
+/// Appends what is new.
+void add(const BrickTree::Octant& octant, BrickTree::Octants& octants, std::size_t& count) {
+  const auto end = octants.begin() + static_cast<std::ptrdiff_t>(count);
+  if (std::find(octants.begin(), end, octant) == end) octants[count++] = octant;
+}
+
 }  // namespace
 
 BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>& edges)
@@ -38,7 +54,7 @@ BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>&
     if ((index_[i] & format::index_entry::kFar) != 0) continue;
     const std::uint32_t brick = index_[i] & format::index_entry::kNumber;
     const BrickPosition p = lattice_.position(i);
-    places_[brick] = {{kPositionUnits * p[0], kPositionUnits * p[1], kPositionUnits * p[2]}, 0, brick, false};
+    places_[brick] = {{kPositionUnits * p[0], kPositionUnits * p[1], kPositionUnits * p[2]}, 0, brick, 0};
   }
   const double position_edge = kBrickCells * voxel_size_;
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -83,9 +99,9 @@ double BrickTree::with_edges(std::uint32_t brick, const Vector3d& p, double inte
 
 void BrickTree::add_slope(std::uint32_t brick, FieldSlope& slope) const {
   if (edges_of_[brick].empty()) {
-    slope.add(stored(brick));
+    slope.add(stored(brick), whole(brick));
   } else {
-    slope.add(stored(brick), edges_[edges_of_[brick].front()], low(brick));
+    slope.add(stored(brick), whole(brick), edges_[edges_of_[brick].front()], low(brick));
   }
 }
 
@@ -115,13 +131,13 @@ BrickTree::Leaf BrickTree::find(const Units& unit_cell) const {
   if ((entry & format::index_entry::kFar) != 0) return {};
   int level = 0;
   while ((entry & format::index_entry::kRefined) != 0) {
-    const int half = brick_units(level + 1);
-    int octant = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) octant |= (unit_cell[axis] / half & 1) << axis;
-    entry = refined_[entry & format::index_entry::kNumber].child[octant];
+    const format::Refined& refined = refined_[entry & format::index_entry::kNumber];
+    const std::uint8_t octant = octant_at(unit_cell, level);
+    if (is_coarse(refined.child[octant])) return {refined.brick, level, octant};
+    entry = refined.child[octant];
     ++level;
   }
-  return {entry & format::index_entry::kNumber, level};
+  return {entry & format::index_entry::kNumber, level, octant_at(unit_cell, level)};
 }
 
 double BrickTree::interpolate(const Place& place, const format::Brick& brick,
@@ -156,21 +172,18 @@ double BrickTree::interpolate_exact(const Leaf& leaf, const Vector3d& p) const {
   return with_edges(leaf.brick, p, interpolate(places_[leaf.brick], exact(leaf.brick), {units[0], units[1], units[2]}));
 }
 
-std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p,
-                               std::array<std::uint32_t, kMostAbout>& bricks) const {
+std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p, Octants& octants) const {
   constexpr double kTouching = 1e-6;  // cells
   std::size_t count = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3d side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
     const Leaf about = find(unit_cell(p + kTouching * cell_edge(leaf.level) * side));
-    const auto end = bricks.begin() + static_cast<std::ptrdiff_t>(count);
-    if (about.brick != kNone && std::find(bricks.begin(), end, about.brick) == end) bricks[count++] = about.brick;
+    if (about.brick != kNone) add(about.where(), octants, count);
   }
   return count;
 }
 
-std::size_t BrickTree::coarser_about(const Leaf& leaf, const Vector3d& p,
-                                     std::array<std::uint32_t, kMostAbout>& bricks) const {
+std::size_t BrickTree::coarser_about(const Leaf& leaf, const Vector3d& p, Octants& octants) const {
   const Units unit = unit_cell(p);
   const int edge = cell_units(leaf.level);
   std::size_t count = 0;
@@ -179,22 +192,24 @@ std::size_t BrickTree::coarser_about(const Leaf& leaf, const Vector3d& p,
     Units cell{};
     for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] = unit[axis] + edge * step[axis];
     const Leaf about = find(cell);
-    const auto end = bricks.begin() + static_cast<std::ptrdiff_t>(count);
-    if (about.brick == kNone || about.level >= leaf.level) continue;
-    if (std::find(bricks.begin(), end, about.brick) == end) bricks[count++] = about.brick;
+    if (about.brick != kNone && about.level < leaf.level) add(about.where(), octants, count);
   }
   return count;
 }
 
-std::array<BrickTree::Leaf, 8> BrickTree::leaves_about(std::uint32_t brick) const {
+std::array<BrickTree::Leaf, 26> BrickTree::leaves_about(std::uint32_t brick) const {
+  constexpr int kItself = 13;
   const Place& place = places_[brick];
-  std::array<Leaf, 8> leaves;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    Units cell{};
+  std::array<Leaf, 26> leaves;
+  std::size_t count = 0;
+  for (int neighbour = 0; neighbour < 27; ++neighbour) {
+    if (neighbour == kItself) continue;
+    const std::array<int, 3> step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
+    Units cell = place.low;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      cell[axis] = place.low[axis] + ((corner >> axis & 1) != 0 ? brick_units(place.level) : -1);
+      if (step[axis] != 0) cell[axis] += step[axis] > 0 ? brick_units(place.level) : -1;
     }
-    leaves[corner] = find(cell);
+    leaves[count++] = find(cell);
   }
   return leaves;
 }
@@ -204,24 +219,24 @@ std::uint32_t& BrickTree::entry_of(std::uint32_t brick) {
   std::uint32_t* entry = &index_[lattice_.number(
       {place.low[0] / kPositionUnits, place.low[1] / kPositionUnits, place.low[2] / kPositionUnits})];
   for (int level = 0; level < place.level; ++level) {
-    const int half = brick_units(level + 1);
-    int octant = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) octant |= (place.low[axis] / half & 1) << axis;
-    entry = &refined_[*entry & format::index_entry::kNumber].child[octant];
+    entry = &refined_[*entry & format::index_entry::kNumber].child[octant_at(place.low, level)];
   }
   return *entry;
 }
 
-void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants) {
-  assert(is_leaf(brick));
+void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array<format::Brick, 8>& octants) {
   std::uint32_t& entry = entry_of(brick);
-  entry = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
-  places_[brick].halved = true;
-  const Place parent = places_[brick];
-  format::Refined refined{};
-  refined.brick = brick;
+  if (places_[brick].halved == 0) {
+    entry = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
+    format::Refined& whole = refined_.emplace_back();
+    whole.brick = brick;
+    std::fill(std::begin(whole.child), std::end(whole.child), format::index_entry::kCoarse);
+  }
+  format::Refined& refined = refined_[entry & format::index_entry::kNumber];
   for (std::size_t octant = 0; octant < 8; ++octant) {
-    Place place = {parent.low, parent.level + 1, parent.root, false};
+    if ((wanted >> octant & 1) == 0 || !is_coarse(refined.child[octant])) continue;
+    const Place& parent = places_[brick];
+    Place place = {parent.low, parent.level + 1, parent.root, 0};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if ((octant >> axis & 1) != 0) place.low[axis] += brick_units(place.level);
     }
@@ -231,7 +246,7 @@ void BrickTree::halve(std::uint32_t brick, const std::array<format::Brick, 8>& o
     edges_of_.emplace_back();
     find_edges(brick_count() - 1, edges_of_[brick]);
   }
-  refined_.push_back(refined);
+  places_[brick].halved = static_cast<std::uint8_t>(places_[brick].halved | wanted);
 }
 
 /// Of the leaves that touch a node; a position that is not stored counts as coarse, with the values of `root`.
@@ -251,7 +266,7 @@ void BrickTree::join_brick(std::uint32_t brick) {
   const Place& place = places_[brick];
   Fine& fine = fine_[brick - field_.bricks.size()];
   fine.stored = fine.exact;
-  const std::array<Leaf, 8> about = leaves_about(brick);
+  const std::array<Leaf, 26> about = leaves_about(brick);
   const auto coarser = [&place](const Leaf& leaf) { return leaf.brick == kNone || leaf.level < place.level; };
   if (std::none_of(about.begin(), about.end(), coarser)) return;
   for (int i = 0; i < kBrickValues; ++i) {
@@ -278,44 +293,60 @@ void BrickTree::join() {
   }
 }
 
-std::uint32_t BrickTree::write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const {
-  if ((entry & format::index_entry::kRefined) == 0) {
-    return edges_of_[entry & format::index_entry::kNumber].empty() ? entry : entry | format::index_entry::kEdged;
-  }
+/// A position's own nodes always are.
+bool BrickTree::is_looked_up(std::uint32_t brick) const { return brick < field_.bricks.size() || whole(brick) != 0; }
+
+/// `number`: of each brick in the field.
+std::uint32_t BrickTree::write_entry(std::uint32_t entry, const std::vector<std::uint32_t>& number,
+                                     std::vector<format::Refined>& refined) const {
+  const auto edged = [this](std::uint32_t brick) {
+    return edges_of_[brick].empty() ? 0u : format::index_entry::kEdged;
+  };
+  if ((entry & format::index_entry::kRefined) == 0) return number[entry] | edged(entry);
   const format::Refined& from = refined_[entry & format::index_entry::kNumber];
-  const auto number = static_cast<std::uint32_t>(refined.size());
-  refined.push_back(from);
+  const std::size_t own = refined.size();
+  refined.push_back({is_looked_up(from.brick) ? number[from.brick] : format::kNoBrick, {}});
   for (std::size_t octant = 0; octant < 8; ++octant) {
-    const std::uint32_t child = write_entry(from.child[octant], refined);
-    refined[number].child[octant] = child;
+    const std::uint32_t child = from.child[octant];
+    const std::uint32_t written =
+        is_coarse(child) ? format::index_entry::kCoarse | edged(from.brick) : write_entry(child, number, refined);
+    refined[own].child[octant] = written;
   }
-  return (entry & ~format::index_entry::kNumber) | number;
+  return format::index_entry::kRefined | static_cast<std::uint32_t>(own);
 }
 
 void BrickTree::write(DistanceGrid& field) const {
+  std::vector<std::uint32_t> number(brick_count());
+  std::uint32_t count = 0;
+  for (std::uint32_t b = 0; b < brick_count(); ++b) number[b] = is_looked_up(b) ? count++ : format::kNoBrick;
   field.refined.clear();
   for (std::size_t i = 0; i < index_.size(); ++i) {
-    if ((index_[i] & format::index_entry::kFar) == 0) field.index[i] = write_entry(index_[i], field.refined);
+    if ((index_[i] & format::index_entry::kFar) == 0) field.index[i] = write_entry(index_[i], number, field.refined);
   }
-  field.bricks.reserve(field.bricks.size() + fine_.size());
-  for (const Fine& fine : fine_) field.bricks.push_back(fine.stored);
-  write_edges(field);
-  field.grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
+  const std::size_t whole_positions = field.bricks.size();
+  field.bricks.reserve(count);
+  for (std::size_t i = 0; i < fine_.size(); ++i) {
+    if (number[whole_positions + i] != format::kNoBrick) field.bricks.push_back(fine_[i].stored);
+  }
+  write_edges(number, field);
+  field.grid.brick_count = count;
   bound_clearances(field);
 }
 
-void BrickTree::write_edges(DistanceGrid& field) const {
+void BrickTree::write_edges(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const {
   std::vector<std::uint32_t> number(edges_.size());  // 1 + that in the field
   field.edges.clear();
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
-    field.bricks[b].edge = 0;
-    if (!is_leaf(b) || edges_of_[b].empty()) continue;
+    if (brick_number[b] == format::kNoBrick) continue;
+    format::Brick& brick = field.bricks[brick_number[b]];
+    brick.edge = 0;
+    if (whole(b) == 0 || edges_of_[b].empty()) continue;
     const std::uint32_t edge = edges_of_[b].front();
     if (number[edge] == 0) {
       field.edges.push_back(edges_[edge]);
       number[edge] = static_cast<std::uint32_t>(field.edges.size());
     }
-    field.bricks[b].edge = number[edge];
+    brick.edge = number[edge];
   }
 }
 

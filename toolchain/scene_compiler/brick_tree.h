@@ -10,22 +10,37 @@
 
 namespace godobject::scene_compiler {
 
-/// The bricks of a field while they are halved. Bricks are numbered: first those of the field, then octants in the
-/// order in which they were made. Places are counted in cells of the finest level ("units") from the lattice's origin.
+/// The bricks of a field while octants of them are halved. Bricks are numbered: first those of the field, then octants
+/// in the order in which they were made. Octants that are not halved are looked up in the brick's own nodes: it stays
+/// a leaf there. Places are counted in cells of the finest level ("units") from the lattice's origin.
 class BrickTree {
  public:
   static constexpr std::uint32_t kNone = ~0u;
   static constexpr int kUnits = 1 << format::kMaxRefinement;  ///< along a voxel
 
-  static constexpr std::size_t kMostAbout = 27;  ///< leaves that touch a cell of the finest of them
+  static constexpr std::size_t kMostAbout = 27;  ///< octants that touch a cell of the finest leaf about it
 
   using Units = std::array<int, 3>;
 
-  /// A brick that is not halved; kNone at a position that is not stored.
+  /// One octant of a brick.
+  struct Octant {
+    std::uint32_t brick;
+    std::uint8_t number;
+
+    bool operator==(const Octant&) const = default;
+    std::uint8_t bit() const { return static_cast<std::uint8_t>(1u << number); }
+  };
+
+  /// Where a cell is looked up: a brick, in an octant that is not halved; kNone at a position that is not stored.
   struct Leaf {
     std::uint32_t brick = kNone;
     int level = 0;
+    std::uint8_t octant = 0;
+
+    Octant where() const { return {brick, octant}; }
   };
+
+  using Octants = std::array<Octant, kMostAbout>;
 
   /// `field`, which must have no refinement yet, must outlive the tree and keep still until `write`; so must `edges`,
   /// of the same surface.
@@ -34,7 +49,8 @@ class BrickTree {
   std::uint32_t brick_count() const { return static_cast<std::uint32_t>(places_.size()); }
   int level(std::uint32_t brick) const { return places_[brick].level; }
   std::uint32_t root(std::uint32_t brick) const { return places_[brick].root; }
-  bool is_leaf(std::uint32_t brick) const { return !places_[brick].halved; }
+  /// Octants that are not halved.
+  std::uint8_t whole(std::uint32_t brick) const { return static_cast<std::uint8_t>(~places_[brick].halved); }
   Eigen::Vector3d low(std::uint32_t brick) const;
   /// Its lowest node in units, and its level.
   std::array<int, 4> place(std::uint32_t brick) const {
@@ -54,23 +70,25 @@ class BrickTree {
   double interpolate(const Leaf& leaf, const Eigen::Vector3d& p) const;
   double interpolate_exact(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
-  /// All leaves that hold p, `leaf` among them. Returns how many.
-  std::size_t holding(const Leaf& leaf, const Eigen::Vector3d& p, std::array<std::uint32_t, kMostAbout>& bricks) const;
+  /// All octants that hold p, that of `leaf` among them. Returns how many.
+  std::size_t holding(const Leaf& leaf, const Eigen::Vector3d& p, Octants& octants) const;
 
-  /// Leaves coarser than `leaf` that the nodes of its cell around p touch: `join` lets those nodes carry their values.
-  std::size_t coarser_about(const Leaf& leaf, const Eigen::Vector3d& p,
-                            std::array<std::uint32_t, kMostAbout>& bricks) const;
+  /// Octants of coarser leaves than `leaf` that the nodes of its cell around p touch: `join` lets those nodes carry
+  /// their values.
+  std::size_t coarser_about(const Leaf& leaf, const Eigen::Vector3d& p, Octants& octants) const;
 
-  /// The leaves at the eight corners about a brick, outside of it: every leaf coarser than it that touches it is one.
-  std::array<Leaf, 8> leaves_about(std::uint32_t brick) const;
+  /// Where the cells at the faces, edges and corners of a brick are looked up, outside of it: every octant of a coarser
+  /// leaf that touches the brick is one, since it is as large or larger.
+  std::array<Leaf, 26> leaves_about(std::uint32_t brick) const;
 
   /// Numbers of the edges of which some w > 0 may be in the brick.
   const std::vector<std::uint32_t>& edges_of(std::uint32_t brick) const { return edges_of_[brick]; }
 
-  /// Adds the leaf, which names one edge at most.
+  /// Adds the octants that are not halved of a brick, which names one edge at most.
   void add_slope(std::uint32_t brick, FieldSlope& slope) const;
 
-  void halve(std::uint32_t brick, const std::array<format::Brick, 8>& octants);
+  /// Makes bricks of those of `wanted` that are not halved yet, with the nodes of `octants`.
+  void halve(std::uint32_t brick, std::uint8_t wanted, const std::array<format::Brick, 8>& octants);
 
   /// Makes the field continuous: nodes that touch something coarser take its value. Coarse to fine.
   void join();
@@ -82,8 +100,8 @@ class BrickTree {
   struct Place {
     Units low;
     int level;
-    std::uint32_t root;  ///< brick of the whole position
-    bool halved;
+    std::uint32_t root;   ///< brick of the whole position
+    std::uint8_t halved;  ///< octants
   };
   struct Fine {
     format::Brick exact, stored;
@@ -94,16 +112,18 @@ class BrickTree {
   void join_brick(std::uint32_t brick);
   double interpolate(const Place& place, const format::Brick& brick, const std::array<double, 3>& units) const;
   double with_edges(std::uint32_t brick, const Eigen::Vector3d& p, double interpolated) const;
-  void write_edges(DistanceGrid& field) const;
+  void write_edges(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const;
   std::uint32_t& entry_of(std::uint32_t brick);
-  std::uint32_t write_entry(std::uint32_t entry, std::vector<format::Refined>& refined) const;
+  bool is_looked_up(std::uint32_t brick) const;
+  std::uint32_t write_entry(std::uint32_t entry, const std::vector<std::uint32_t>& number,
+                            std::vector<format::Refined>& refined) const;
 
   const DistanceGrid& field_;
   Eigen::Vector3d origin_;
   double voxel_size_;
   BrickLattice lattice_;
   std::vector<std::uint32_t> index_;
-  std::vector<format::Refined> refined_;
+  std::vector<format::Refined> refined_;  ///< with the numbers of bricks and refinements here
   std::vector<Place> places_;
   std::vector<Fine> fine_;  ///< of the octants
   const std::vector<format::Edge>& edges_;

@@ -103,21 +103,28 @@ class ClearanceBounds {
 
   void add_leaves(std::uint32_t entry, const Position& position, const Vector3d& low, double cell_edge,
                   PositionFacts& facts) const {
-    const std::uint32_t number = entry & index_entry::kNumber;
+    std::uint32_t number = entry & index_entry::kNumber;
+    std::uint8_t octants = kAllOctants;
     if ((entry & index_entry::kRefined) != 0) {
-      for (int octant = 0; octant < 8; ++octant) {
+      const format::Refined& refined = field_.refined[number];
+      octants = 0;
+      for (unsigned octant = 0; octant < 8; ++octant) {
+        if ((refined.child[octant] & index_entry::kCoarse) != 0) {
+          octants = static_cast<std::uint8_t>(octants | 1u << octant);
+          continue;
+        }
         const Vector3d side(octant & 1, octant >> 1 & 1, octant >> 2);
-        add_leaves(field_.refined[number].child[octant], position, low + 0.5 * kBrickCells * cell_edge * side,
-                   0.5 * cell_edge, facts);
+        add_leaves(refined.child[octant], position, low + 0.5 * kBrickCells * cell_edge * side, 0.5 * cell_edge, facts);
       }
-      return;
+      if (octants == 0) return;
+      number = refined.brick;
     }
     FieldSlope of_leaf(cell_edge);
     const format::Brick& brick = field_.bricks[number];
     if (brick.edge == 0) {
-      of_leaf.add(brick);
+      of_leaf.add(brick, octants);
     } else {
-      of_leaf.add(brick, field_.edges[brick.edge - 1], low);
+      of_leaf.add(brick, octants, field_.edges[brick.edge - 1], low);
     }
     // what is refined has no seam: refinement keeps off them
     const bool halved = cell_edge < field_.grid.voxel_size;
@@ -126,15 +133,17 @@ class ClearanceBounds {
     double deviation = 0.0;
     if (halved) {
       // trilinear in each of the leaf's cells, so largest at its nodes
-      for (int node = 0; node < format::kBrickValues; ++node) {
-        const Vector3d at(node % format::kBrickNodes, node / format::kBrickNodes % format::kBrickNodes,
-                          node / (format::kBrickNodes * format::kBrickNodes));
-        const Vector3d cells = (low - position.low + cell_edge * at) / field_.grid.voxel_size;
-        deviation =
-            std::max(deviation, std::abs(static_cast<double>(brick.value[node]) - interpolated(position.own, cells)));
-      }
+      for_each_cell(brick, octants, [&](const CellEdges&, int x, int y, int z) {
+        for (int corner = 0; corner < 8; ++corner) {
+          const Vector3d at(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2));
+          const Vector3d cells = (low - position.low + cell_edge * at) / field_.grid.voxel_size;
+          const auto node = static_cast<int>(at.x() + format::kBrickNodes * (at.y() + format::kBrickNodes * at.z()));
+          deviation =
+              std::max(deviation, std::abs(static_cast<double>(brick.value[node]) - interpolated(position.own, cells)));
+        }
+      });
     }
-    if (brick.edge != 0) deviation += edge_deviation(brick, field_.edges[brick.edge - 1], low, cell_edge);
+    if (brick.edge != 0) deviation += edge_deviation(brick, octants, field_.edges[brick.edge - 1], low, cell_edge);
     facts.deviation = std::max(facts.deviation, deviation);
   }
 
@@ -174,11 +183,15 @@ class ClearanceBounds {
 
   void set_lipschitz(std::uint32_t entry, float lipschitz) {
     const std::uint32_t number = entry & index_entry::kNumber;
-    const bool refined = (entry & index_entry::kRefined) != 0;
-    format::Brick& brick = field_.bricks[refined ? field_.refined[number].brick : number];
-    brick.lipschitz = lipschitz;
-    if (!refined) return;
-    for (const std::uint32_t child : field_.refined[number].child) set_lipschitz(child, lipschitz);
+    if ((entry & index_entry::kRefined) == 0) {
+      field_.bricks[number].lipschitz = lipschitz;
+      return;
+    }
+    const format::Refined& refined = field_.refined[number];
+    if (refined.brick != format::kNoBrick) field_.bricks[refined.brick].lipschitz = lipschitz;
+    for (const std::uint32_t child : refined.child) {
+      if ((child & index_entry::kCoarse) == 0) set_lipschitz(child, lipschitz);
+    }
   }
 
   /// Least distance of each position from the set, brick to brick [m]; `set` must not be empty.

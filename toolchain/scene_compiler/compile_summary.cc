@@ -122,8 +122,7 @@ std::string second_direction_text(const CompileReport& report) {
 
 std::string field_text(const CompileReport& report) {
   const format::Grid& g = report.grid;
-  constexpr std::uint64_t kOctants = 8;
-  const std::uint64_t finer = kOctants * report.refinement.refined;
+  const std::uint64_t finer = report.refinement.finer;
   std::string text = fmt::format(
       "field    {} x {} x {} voxels of {}, distances kept up to {} from the surface (the band): {} of {} positions "
       "stored, "

@@ -97,14 +97,18 @@ void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, con
   Vector3d low = place.position;
   double edge = grid.grid.voxel_size;
   while (is_refined(entry)) {
-    edge *= 0.5;
-    std::size_t octant = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (place.point[axis] < low[axis] + kBrickCells * edge) continue;
-      low[axis] += kBrickCells * edge;
-      octant |= std::size_t{1} << axis;
+    const format::Refined& refined = grid.refined[entry & format::index_entry::kNumber];
+    const double half = 0.5 * kBrickCells * edge;
+    Vector3d side = Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) side[axis] = place.point[axis] < low[axis] + half ? 0.0 : 1.0;
+    const std::uint32_t child = refined.child[static_cast<std::size_t>(side.x() + 2.0 * side.y() + 4.0 * side.z())];
+    if ((child & format::index_entry::kCoarse) != 0) {
+      entry = refined.brick;
+      break;
     }
-    entry = grid.refined[entry & format::index_entry::kNumber].child[octant];
+    entry = child;
+    low += half * side;
+    edge *= 0.5;
   }
   const Vector3d cell = ((place.point - low) / edge).array().floor().max(0.0).min(kBrickCells - 1.0);
   for (int step = 0; step < 8; ++step) {

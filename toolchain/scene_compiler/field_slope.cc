@@ -71,9 +71,10 @@ std::array<double, 8> nodes_of(const format::Brick& brick, int x, int y, int z) 
 
 }  // namespace
 
-double edge_deviation(const format::Brick& brick, const format::Edge& edge, const Vector3d& low, double cell_edge) {
+double edge_deviation(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge, const Vector3d& low,
+                      double cell_edge) {
   double largest = 0.0;
-  for_each_cell(brick, [&](const CellEdges&, int x, int y, int z) {
+  for_each_cell(brick, octants, [&](const CellEdges&, int x, int y, int z) {
     const Vector3d first = low + cell_edge * Vector3d(x, y, z);
     if (!reaches(edge, first + Vector3d::Constant(0.5 * cell_edge), 0.5 * cell_edge)) return;
     largest = std::max(largest, largest_difference(edge, first, cell_edge, nodes_of(brick, x, y, z)));
@@ -81,9 +82,9 @@ double edge_deviation(const format::Brick& brick, const format::Edge& edge, cons
   return largest;
 }
 
-void FieldSlope::add(const format::Brick& brick, const format::Edge& edge, const Vector3d& low) {
+void FieldSlope::add(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge, const Vector3d& low) {
   const double half_diagonal = 0.5 * std::sqrt(3.0) * voxel_size_;
-  for_each_cell(brick, [&](const CellEdges& edges, int x, int y, int z) {
+  for_each_cell(brick, octants, [&](const CellEdges& edges, int x, int y, int z) {
     const double plain = edges.largest_gradient(voxel_size_);
     const Vector3d first = low + voxel_size_ * Vector3d(x, y, z);
     const Vector3d center = first + Vector3d::Constant(0.5 * voxel_size_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -13,8 +14,9 @@ class FieldSlope {
  public:
   explicit FieldSlope(double voxel_size) : voxel_size_(voxel_size) {}
 
-  void add(const format::Brick& brick) {
-    for_each_cell(brick, [this](const CellEdges& edges, int, int, int) {
+  /// `octants`: those of the brick that count, x fastest, a bit each.
+  void add(const format::Brick& brick, std::uint8_t octants) {
+    for_each_cell(brick, octants, [this](const CellEdges& edges, int, int, int) {
       const double gradient = edges.largest_gradient(voxel_size_) * kRounding;
       seamed_ = std::max(seamed_, gradient);
       if (!edges.on_seam(voxel_size_)) smooth_ = std::max(smooth_, gradient);
@@ -24,7 +26,7 @@ class FieldSlope {
   /// A brick that names an edge, its first node at `low`: a bound of the gradient of format::Edge's field,
   ///
   ///   |grad phi| <= (1 - w) |grad I[phi]| + w + |g - I[g]| |grad w|.
-  void add(const format::Brick& brick, const format::Edge& edge, const Eigen::Vector3d& low);
+  void add(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }
@@ -37,8 +39,8 @@ class FieldSlope {
   double seamed_ = 0.0;
 };
 
-/// Bound of |phi - I[phi]| in a brick that names an edge (format::Edge), its first node at `low` [m].
-double edge_deviation(const format::Brick& brick, const format::Edge& edge, const Eigen::Vector3d& low,
-                      double cell_edge);
+/// Bound of |phi - I[phi]| in octants of a brick that names an edge (format::Edge), its first node at `low` [m].
+double edge_deviation(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge,
+                      const Eigen::Vector3d& low, double cell_edge);
 
 }  // namespace godobject::scene_compiler

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -38,9 +39,17 @@ constexpr double kWidestTube = 2.4;   // about a straight edge, in voxels
 constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
 constexpr int kFineNodes = 2 * kBrickCells + 1;
 
+/// Octants of bricks that are to be halved: by brick, a bit each.
+using Wanted = std::map<std::uint32_t, std::uint8_t>;
+
+void want(Wanted& wanted, std::uint32_t brick, std::uint8_t octants) {
+  std::uint8_t& of_brick = wanted[brick];
+  of_brick = static_cast<std::uint8_t>(of_brick | octants);
+}
+
 /// What a look at the surface found.
 struct Misses {
-  std::vector<std::uint32_t> bricks;     ///< to be halved where the stored field misses the surface
+  Wanted wanted;                         ///< where the stored field misses the surface
   std::vector<std::uint32_t> triangles;  ///< on which it does
 };
 
@@ -63,7 +72,8 @@ class SurfaceCheck {
     }
     Misses misses;
     for (std::uint32_t b = 0; b < marked_.size(); ++b) {
-      if (marked_[b].load(std::memory_order_relaxed)) misses.bricks.push_back(b);
+      const std::uint8_t octants = marked_[b].load(std::memory_order_relaxed);
+      if (octants != 0) misses.wanted.emplace_hint(misses.wanted.end(), b, octants);
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       if (missed[i] != 0) misses.triangles.push_back(triangles[i]);
@@ -138,12 +148,13 @@ class SurfaceCheck {
     return divide(other, sides) || missed;
   }
 
-  /// A dilated surface has no triangles: looked at in the middle of the cells about it, where trilinear interpolation
-  /// misses a convex function most, against the exact distance there.
+  /// A dilated surface has no triangles: looked at in the cells about it, in the middle, where trilinear interpolation
+  /// misses a convex function most, and between there and the corners, as the curvature may begin within the cell.
+  /// Against the exact distance there.
   void check_brick(std::uint32_t brick) {
-    if (!tree_.is_leaf(brick)) return;
-    const BrickTree::Leaf leaf{brick, tree_.level(brick)};
-    const double edge = tree_.cell_edge(leaf.level);
+    const std::uint8_t whole = tree_.whole(brick);
+    if (whole == 0) return;
+    const double edge = tree_.cell_edge(tree_.level(brick));
     const format::Brick& nodes = tree_.exact(brick);
     const auto [low, high] = std::minmax_element(std::begin(nodes.value), std::end(nodes.value));
     if (static_cast<double>(*low) > kCellDiagonal * edge || static_cast<double>(*high) < -kCellDiagonal * edge) return;
@@ -151,9 +162,18 @@ class SurfaceCheck {
     for (int z = 0; z < kBrickCells; ++z) {
       for (int y = 0; y < kBrickCells; ++y) {
         for (int x = 0; x < kBrickCells; ++x) {
-          const Vector3d p = tree_.low(brick) + edge * Vector3d(x + 0.5, y + 0.5, z + 0.5);
-          const double exact = probe.signed_distance(p);
-          if (std::abs(exact) < 0.5 * kCellDiagonal * edge) check_value(p, leaf, exact, [] { return true; });
+          const unsigned octant = octant_of_cell(x, y, z);
+          if ((whole >> octant & 1) == 0) continue;
+          const BrickTree::Leaf leaf{brick, tree_.level(brick), static_cast<std::uint8_t>(octant)};
+          const Vector3d middle = tree_.low(brick) + edge * Vector3d(x + 0.5, y + 0.5, z + 0.5);
+          const double exact = probe.signed_distance(middle);
+          if (std::abs(exact) >= 0.5 * kCellDiagonal * edge) continue;
+          bool missed = check_value(middle, leaf, exact, [] { return true; });
+          for (int corner = 0; corner < 8 && !missed; ++corner) {
+            const Vector3d side((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);
+            const Vector3d p = middle + 0.5 * edge * side;
+            missed = check_value(p, leaf, probe.signed_distance(p), [] { return true; });
+          }
         }
       }
     }
@@ -175,26 +195,27 @@ class SurfaceCheck {
   template <class Matters>
   bool check_value(const Vector3d& p, const BrickTree::Leaf& leaf, double exact, Matters&& matters) {
     if (good(leaf, tree_.interpolate(leaf, p) - exact)) return false;
-    std::array<std::uint32_t, BrickTree::kMostAbout> about{};
+    BrickTree::Octants about{};
     const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p) - exact) ? tree_.coarser_about(leaf, p, about)
                                                                                    : tree_.holding(leaf, p, about);
     bool possible = false;
     bool known = true;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t brick = about[i];
-      if (barred_[brick] || tree_.level(brick) == format::kMaxRefinement) continue;
+      if (!can_be_halved(about[i])) continue;
       possible = true;
-      known = known && marked_[brick].load(std::memory_order_relaxed);
+      known = known && (marked_[about[i].brick].load(std::memory_order_relaxed) & about[i].bit()) != 0;
     }
     if (!possible) return false;
     if (known) return true;
     if (!matters()) return false;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t brick = about[i];
-      if (barred_[brick] || tree_.level(brick) == format::kMaxRefinement) continue;
-      marked_[brick].store(true, std::memory_order_relaxed);
+      if (can_be_halved(about[i])) marked_[about[i].brick].fetch_or(about[i].bit(), std::memory_order_relaxed);
     }
     return true;
+  }
+
+  bool can_be_halved(const BrickTree::Octant& octant) const {
+    return !barred_[octant.brick] && tree_.level(octant.brick) < format::kMaxRefinement;
   }
 
   /// Not where a triangle runs within the body, of itself or of another component.
@@ -210,12 +231,13 @@ class SurfaceCheck {
   const BrickTree& tree_;
   const std::vector<bool>& barred_;
   double tolerance_;
-  std::vector<std::atomic<bool>> marked_;
+  std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants, by brick
 };
 
 bool holds_seam(const format::Brick& brick, double cell_edge) {
   bool holds = false;
-  for_each_cell(brick, [&](const CellEdges& edges, int, int, int) { holds = holds || edges.on_seam(cell_edge); });
+  for_each_cell(brick, kAllOctants,
+                [&](const CellEdges& edges, int, int, int) { holds = holds || edges.on_seam(cell_edge); });
   return holds;
 }
 
@@ -358,7 +380,7 @@ class Refinement {
     while (true) {
       const bool whole = triangles.size() == triangles_.size();
       Misses misses = SurfaceCheck(surface_, tree, barred, kSlack * tolerance_).run(triangles, progress);
-      std::vector<std::uint32_t> wanted = std::move(misses.bricks);
+      Wanted wanted = std::move(misses.wanted);
       if (wanted.empty() && !whole) {
         triangles = triangles_;  // a neighbour's halving may have changed what was good
         continue;
@@ -374,8 +396,9 @@ class Refinement {
     tree.write(field_);
     report_.refined = field_.refined.size();
     report_.edges = field_.edges.size();
+    report_.finer = field_.bricks.size() - barred_.size();
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
-      if (tree.is_leaf(b)) ++report_.bricks[static_cast<std::size_t>(tree.level(b))];
+      if (tree.whole(b) != 0) ++report_.bricks[static_cast<std::size_t>(tree.level(b))];
     }
     return true;
   }
@@ -394,8 +417,8 @@ class Refinement {
     const std::vector<format::Edge> none;
     const BrickTree without(field_, none);
     std::vector<bool> needed(all.size());
-    for (const std::uint32_t b :
-         SurfaceCheck(surface_, without, barred_, kSlack * tolerance_).run(triangles_, progress).bricks) {
+    const Misses misses = SurfaceCheck(surface_, without, barred_, kSlack * tolerance_).run(triangles_, progress);
+    for (const auto& [b, octants] : misses.wanted) {
       for (const std::uint32_t e : unrefined.edges_of(b)) needed[e] = true;
     }
     for (std::size_t e = 0; e < all.size(); ++e) {
@@ -406,10 +429,10 @@ class Refinement {
   /// Halves bricks until none names two edges. False if some edge had to be left out: begin again without it.
   bool part_edges(BrickTree& tree, std::vector<bool>& barred) {
     while (true) {
-      std::vector<std::uint32_t> wanted;
+      Wanted wanted;
       std::vector<bool> left_out(edges_.size());
       for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
-        if (!tree.is_leaf(b)) continue;
+        if (tree.whole(b) == 0) continue;
         const auto& edges = tree.edges_of(b);
         // a seam's jump must not be blended
         if (!edges.empty() && field_.beside_seam[tree.root(b)]) leave_out(edges, 0, left_out);
@@ -417,7 +440,7 @@ class Refinement {
         if (barred[b] || tree.level(b) == format::kMaxRefinement) {
           leave_out(edges, 1, left_out);
         } else {
-          wanted.push_back(b);
+          want(wanted, b, kAllOctants);
         }
       }
       if (drop(left_out)) return false;
@@ -444,29 +467,28 @@ class Refinement {
   }
 
   /// Halves what can be halved of `wanted` and bars the rest.
-  void halve(BrickTree& tree, const std::vector<std::uint32_t>& wanted, std::vector<bool>& barred) {
+  void halve(BrickTree& tree, const Wanted& wanted, std::vector<bool>& barred) {
     if (tree.brick_count() + 8 * wanted.size() > kMaxBricks) {
       throw command::Failure(command::ExitCode::kBadData,
                              fmt::format("a field_tolerance of {:g} m needs more than the limit of {} bricks; take a "
                                          "larger one, or a larger voxel_size",
                                          tolerance_, kMaxBricks));
     }
-    std::vector<Octants*> octants(wanted.size());
-    std::vector<std::size_t> unknown;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      if (barred[wanted[i]]) continue;
-      const auto [found, fresh] = known_.try_emplace(tree.place(wanted[i]));
-      octants[i] = &found->second;
-      if (fresh) unknown.push_back(i);
+    std::vector<std::pair<std::uint32_t, Octants*>> unknown;
+    for (const auto& [brick, octants] : wanted) {
+      if (barred[brick]) continue;
+      const auto [found, fresh] = known_.try_emplace(tree.place(brick));
+      if (fresh) unknown.emplace_back(brick, &found->second);
     }
     parallel_for(unknown.size(),
-                 [&](std::size_t i) { *octants[unknown[i]] = evaluate(surface_, tree, wanted[unknown[i]]); });
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const std::uint32_t brick = wanted[i];
-      if (!barred[brick] && !octants[i]->seamed) {
-        tree.halve(brick, octants[i]->bricks);
-      } else {
+                 [&](std::size_t i) { *unknown[i].second = evaluate(surface_, tree, unknown[i].first); });
+    for (const auto& [brick, octants] : wanted) {
+      if (barred[brick]) continue;
+      const Octants& finer = known_.at(tree.place(brick));
+      if (finer.seamed) {
         barred[brick] = true;
+      } else {
+        tree.halve(brick, octants, finer.bricks);
       }
     }
     barred.resize(tree.brick_count());
@@ -475,18 +497,13 @@ class Refinement {
   /// A coarse brick's values beside finer exact ones may be steep, and so may be the change to an edge's exact
   /// distance; where too steep, halve it too. False if that cannot be: then the whole position is barred, or the edge
   /// left out.
-  bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, std::vector<std::uint32_t>& wanted) {
+  bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, Wanted& wanted) {
     bool possible = true;
     std::vector<bool> left_out(edges_.size());
-    std::vector<bool> is_wanted(tree.brick_count());
-    const auto want = [&](std::uint32_t b) {
-      if (!is_wanted[b]) wanted.push_back(b);
-      is_wanted[b] = true;
-    };
     std::vector<char> steep(tree.brick_count());
     parallel_for(tree.brick_count(), [&](std::size_t i) {
       const auto b = static_cast<std::uint32_t>(i);
-      if (!tree.is_leaf(b) || (tree.level(b) == 0 && tree.edges_of(b).empty())) return;
+      if (tree.whole(b) == 0 || (tree.level(b) == 0 && tree.edges_of(b).empty())) return;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
       tree.add_slope(b, slope);
       steep[i] = slope.largest_with_seams() > kSteepest ? 1 : 0;
@@ -496,12 +513,12 @@ class Refinement {
       const bool edged = !tree.edges_of(b).empty();
       bool found = false;
       if (edged && !barred[b] && tree.level(b) < format::kMaxRefinement) {
-        want(b);
+        want(wanted, b, kAllOctants);
         continue;
       }
       for (const BrickTree::Leaf& leaf : tree.leaves_about(b)) {
         if (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(b) || barred[leaf.brick]) continue;
-        want(leaf.brick);
+        want(wanted, leaf.brick, leaf.where().bit());
         found = true;
       }
       if (found) continue;
