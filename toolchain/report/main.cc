@@ -66,7 +66,7 @@ std::vector<Chapter> chapters(const Options& options) {
     all.push_back(work_precision_chapter({options.scenes, kept_folder(options.output), options.contact.quick}));
   if (wanted(options, "stability")) all.push_back(stability_chapter({options.devices, options.contact.quick}));
   if (wanted(options, "extremes"))
-    all.push_back(extremes_chapter({options.cycles, options.contact.quick, options.seed}));
+    all.push_back(extremes_chapter({options.devices, options.cycles, options.contact.quick, options.seed}));
   return all;
 }
 
