@@ -143,8 +143,8 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
       .introduction =
           "<p>Generated cases at the edges of what numbers can do, then random ones with fixed seeds: worlds, bodies, "
           "scales, motions, parameters. Torque rate: the whole control cycle on an arm that is led through places "
-          "where "
-          "the field jumps, and the same without its supervisor; of the solvers alone, for comparison, what they would "
+          "where the field jumps, and the same without its supervisor; of the solvers alone, for comparison, what they "
+          "would "
           "ask of the joints there. Stiffness, mass and delay on the right side of A4: the random loops of "
           "the chapter on stability.</p>",
       .cases = {},
