@@ -1,9 +1,11 @@
 #include "firmware/command/run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -28,6 +30,10 @@ int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body)
   app.get_formatter()->column_width(38);  // names of options and values in one line with what they mean
   app.set_version_flag("--version", app.get_name() + " " GODOBJECT_VERSION);
   try {
+    // an empty word before one that is unknown, and the parser goes round for ever where there is a group of options
+    if (std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word).empty(); })) {
+      throw CLI::ParseError("an argument is empty", CLI::ExitCodes::ExtrasError);
+    }
     app.parse(argc, argv);
     body();
     if (std::fflush(stdout) != 0) throw Failure(ExitCode::kIo, "standard output: writing failed; check where it goes");

@@ -2,11 +2,13 @@
 #include "toolchain/report/stability/axis_loop.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "core/device/stability.h"
 #include "tests/support/random.h"
+#include "toolchain/report/stability/cases.h"
 
 namespace godobject::report {
 namespace {
@@ -89,6 +91,19 @@ TEST(SimulatedBoundary, IsTheExactOne) {
     const double exact = stability_boundary(loop);
     EXPECT_NEAR(simulated_boundary(setup), exact, 1e-3 * exact);
   }
+}
+
+/// Above the boundary the damping takes all that a plate may push, and the swing stays as it is: no plate that is
+/// stable.
+TEST(StiffestStablePlate, DoesNotCountASwingThatStays) {
+  const std::filesystem::path work = testing::TempDir() + "/stiffest_stable_plate";
+  std::filesystem::create_directories(work);
+  const AxisSetup setup{.damping = 2.0, .virtual_damping = 400.0, .delay = 2e-3};
+  const double exact = stability_boundary(
+      {.mass = setup.mass, .damping = setup.damping, .virtual_damping = 400.0, .timing = {1e-3, setup.delay, 2}});
+  const double measured = stiffest_stable_plate(Solver::kContact, setup.delay, 400.0, 8000, work);
+  EXPECT_NEAR(measured / exact, 1.0, 0.02);
+  std::filesystem::remove_all(work);
 }
 
 }  // namespace

@@ -116,6 +116,9 @@ TEST_F(StudyTest, RunsAgainOnlyWhatIsNotThereOrHasOtherInputs) {
   run({chapter({counted("a", 0.1), counted("b", 0.2, "other"), counted("c", 3.0)})});
   EXPECT_EQ(runs_, 5) << "one has other inputs";
   std::ofstream(result_path(case_folder(folder_), "a")) << "{\"form";
+  std::vector<std::string> missing;
+  for (const StudyCase* it : without_result(all_cases(chapters), case_folder(folder_))) missing.push_back(it->name);
+  EXPECT_EQ(missing, (std::vector<std::string>{"a", "b"}));
   run(chapters);
   EXPECT_EQ(runs_, 7) << "one is torn, one has other inputs again";
 }
@@ -144,8 +147,14 @@ TEST_F(StudyTest, SaysWhatWasNotRunAndDoesNotUseOldInputs) {
   const std::vector<Chapter> changed{chapter({counted("a", 0.1), counted("b", 0.2, "other"), counted("c", 0.3)})};
   const std::string text = merge(changed, folder_, "x").text;
   EXPECT_NE(text.find("3 rows: 1 held, 2 not run (b: the case; c: the case)"), std::string::npos) << text;
+  const Finding not_run{.row = "a", .what = "the case", .unit = "", .not_judged = "not run"};
+  EXPECT_TRUE(summary(std::vector<Finding>(60, not_run)).ends_with("; a: the case; and 56 more)"));
+  EXPECT_EQ(summary(std::vector<Finding>(60, finding(2.0, 1.0))).find("more"), std::string::npos)
+      << "all that is missed";
   const std::string html = text_of(report_file(folder_));
   EXPECT_NE(html.find("made from other inputs: b"), std::string::npos);
+  EXPECT_NE(text_of(folder_ / "verdicts.csv").find("things,c,the case,,,,computation,not run,"), std::string::npos)
+      << "what was not measured has no number";
   EXPECT_NE(html.find("Things &amp; more"), std::string::npos);
 }
 

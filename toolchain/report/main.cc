@@ -43,6 +43,7 @@ struct Options {
   std::string merge_folder;
   std::string case_name;
   std::string replay_file;
+  std::string missing_in;
   std::string known_misses;
   bool list = false;
   int threads = 1;
@@ -66,7 +67,7 @@ std::vector<Chapter> chapters(const Options& options) {
     all.push_back(work_precision_chapter({options.scenes, kept_folder(options.output), options.contact.quick}));
   if (wanted(options, "stability")) all.push_back(stability_chapter({options.devices, options.contact.quick}));
   if (wanted(options, "extremes"))
-    all.push_back(extremes_chapter({options.cycles, options.contact.quick, options.seed}));
+    all.push_back(extremes_chapter({options.devices, options.cycles, options.contact.quick, options.seed}));
   return all;
 }
 
@@ -150,7 +151,10 @@ int main(int argc, char** argv) {
   app.add_option("--case", options.case_name, "run this case only, and make no page")->type_name("NAME")->needs(output);
   what->add_option("--merge", options.merge_folder, "run nothing: the page from the result files in DIR/cases")
       ->type_name("DIR");
-  what->add_flag("--list", options.list, "print the names of the cases, one a line");
+  auto* list = what->add_flag("--list", options.list, "print the names of the cases, one a line");
+  app.add_option("--missing-in", options.missing_in, "list only the cases that have no result in DIR yet")
+      ->type_name("DIR")
+      ->needs(list);
   what->add_option("--replay", options.replay_file, "run a case file of the fuzzer again")->type_name("FILE");
   what->require_option(1);
   bool failed = false;
@@ -159,7 +163,10 @@ int main(int argc, char** argv) {
       failed = replay(options.replay_file);
     } else if (options.list) {
       const std::vector<Chapter> all = chapters(options);
-      for (const StudyCase* study_case : in_running_order(all_cases(all))) fmt::print("{}\n", study_case->name);
+      const std::vector<const StudyCase*> cases = options.missing_in.empty()
+                                                      ? in_running_order(all_cases(all))
+                                                      : without_result(all_cases(all), case_folder(options.missing_in));
+      for (const StudyCase* study_case : cases) fmt::print("{}\n", study_case->name);
     } else if (!options.merge_folder.empty()) {
       failed = conclude(options, chapters(options), options.merge_folder, "results of single cases");
     } else {

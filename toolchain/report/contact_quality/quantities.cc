@@ -17,8 +17,8 @@ const std::vector<QuantitySpec>& quantities() {
   using enum Quantity;
   static const std::vector<QuantitySpec> kQuantities = {
       {kPenetration, "penetration", "penetration (field)", "mm", 0.0, 4, false},
-      {kTruePenetrationSmooth, "true_penetration_smooth", "penetration (mesh), smooth", "s", 0.05, 3, false},
-      {kTruePenetrationSharp, "true_penetration_sharp", "penetration (mesh), sharp", "s", 0.05, 3, false},
+      {kTruePenetrationSmooth, "true_penetration_smooth", "penetration (mesh), smooth", "voxels", 0.05, 3, false},
+      {kTruePenetrationSharp, "true_penetration_sharp", "penetration (mesh), sharp", "voxels", 0.05, 3, false},
       {kCrossings, "crossings", "crossings of plate and sheet", "points", 0.0, 0, false},
       {kOptimum, "optimum_distance", "distance to the optimum", "mm", 0.04, 4, false,
        "a body in a groove keeps the margin from both walls: m / sin(half its angle) away, 0.04 mm at 60 degrees"},

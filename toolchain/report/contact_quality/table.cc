@@ -63,9 +63,9 @@ std::string legend(const std::vector<Measurement>& measurements) {
   return fmt::format(
       "{} scenes; a figure is that of the solver's worst scene, a time the median over the scenes (us: of steps #2-#7; "
       "whole cycle: #1 too).\n"
-      "s: edges of a voxel of the scene; mesh: against the exact mesh, field: against the stored distances; optimum: "
+      "voxels: their edges in the scene; mesh: against the exact mesh, field: against the stored distances; optimum: "
       "the "
-      "pose nearest to the\ndevice that does not penetrate; targets are those of contact.\n",
+      "pose nearest to\nthe device that does not penetrate; targets are those of contact.\n",
       scenes.size());
 }
 

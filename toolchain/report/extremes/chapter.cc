@@ -14,6 +14,8 @@
 #include "toolchain/report/extremes/rows.h"
 #include "toolchain/report/extremes/run.h"
 #include "toolchain/report/extremes/setup.h"
+#include "toolchain/report/extremes/torque_places.h"
+#include "toolchain/report/study/result_file.h"
 
 namespace godobject::report {
 namespace {
@@ -140,7 +142,10 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
       .title = "Numerical extremes",
       .introduction =
           "<p>Generated cases at the edges of what numbers can do, then random ones with fixed seeds: worlds, bodies, "
-          "scales, motions, parameters. Stiffness, mass and delay on the right side of A4: the random loops of "
+          "scales, motions, parameters. Torque rate: the whole control cycle on an arm that is led through places "
+          "where the field jumps, and the same without its supervisor; of the solvers alone, for comparison, what they "
+          "would "
+          "ask of the joints there. Stiffness, mass and delay on the right side of A4: the random loops of "
           "the chapter on stability.</p>",
       .cases = {},
       .conclude = conclude};
@@ -166,6 +171,16 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
           return run_row(kRows[i], row_cycles, static_cast<std::uint32_t>(1000 + i), true, work);
         },
         quick ? 1.0 : 15.0);
+  }
+  const std::filesystem::path device = request.devices / "lwr.toml";
+  command::require_regular_input(device, "name the folder of the device files with --devices");
+  for (std::size_t i = 0; i < kPlaceCount; ++i) {
+    add(
+        fmt::format("torque-{}", i + 1), fmt::format("{} device {}", inputs, file_digest(device)),
+        [i, device, row_cycles](const auto& work) {
+          return torque_rate(static_cast<Place>(i), device, row_cycles, work);
+        },
+        quick ? 3.0 : 15.0);
   }
   for (std::int64_t i = 0; i < stretches; ++i) {
     const auto seed = request.seed * kMostStretches + static_cast<std::uint32_t>(i);

@@ -9,6 +9,8 @@
 namespace godobject::report {
 namespace {
 
+constexpr std::size_t kNamed = 4;  ///< rows in a sentence
+
 /// 2: missed, 1: not judged, 0: held.
 int rank(const Finding& finding) {
   if (!finding.not_judged.empty()) return 1;
@@ -65,8 +67,13 @@ std::string summary(const std::vector<Finding>& findings) {
     }
   }
   std::string text = fmt::format("{} rows: {} held", judged, held);
-  for (const auto& [verdict, rows] : others)
-    text += fmt::format(", {} {} ({})", rows.size(), verdict, fmt::join(rows, "; "));
+  for (const auto& [verdict, rows] : others) {
+    // all that is missed; of what was not judged some
+    const std::size_t named = verdict == "missed" ? rows.size() : std::min(kNamed, rows.size());
+    text += fmt::format(", {} {} ({}", rows.size(), verdict,
+                        fmt::join(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(named), "; "));
+    text += named < rows.size() ? fmt::format("; and {} more)", rows.size() - named) : ")";
+  }
   return text;
 }
 

@@ -22,7 +22,7 @@ body { font: 16px/1.5 sans-serif; color: #222; max-width: 1000px; margin: 1.5em 
 table { border-collapse: collapse; font-size: 13px; margin: 1em 0 }
 th, td { padding: 3px 8px; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top }
 td.number { text-align: right; white-space: nowrap }
-.wide { overflow-x: auto }
+.wide { overflow-x: auto } .wide td:nth-child(2) { min-width: 14em }
 .held { color: #1b6e2c } .missed { color: #b00020; font-weight: bold } .not { color: #777 }
 img { max-width: 100%; height: auto }
 figure { margin: 1.5em 0 } figcaption { font-size: 14px; color: #444 }

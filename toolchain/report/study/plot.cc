@@ -1,5 +1,6 @@
 #include "toolchain/report/study/plot.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -17,6 +18,19 @@ std::string color(std::size_t i) {
   return fmt::format("lc rgb '{}'", kColors[i % kColors.size()]);
 }
 
+namespace {
+
+constexpr int kBelowAxis = 4;  ///< lines: numbers, name, and air
+
+/// The key has two columns.
+std::ptrdiff_t lines_of_key(const Plot& plot) {
+  const auto titles =
+      std::count_if(plot.curves.begin(), plot.curves.end(), [](const Curve& it) { return !it.title.empty(); });
+  return (titles + 1) / 2;
+}
+
+}  // namespace
+
 std::string gnuplot_text(const Plot& plot, const std::filesystem::path& png) {
   std::string text;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
@@ -28,13 +42,14 @@ std::string gnuplot_text(const Plot& plot, const std::filesystem::path& png) {
   }
   // half as wide on a phone, where the letters must still be read
   text += fmt::format(
-      "set terminal pngcairo size 760,680 font 'DejaVu Sans,15' background rgb 'white' noenhanced\nset output {}\n"
-      "set title {} font ',13'\nset xlabel {} offset 0,0.4\nset ylabel {}\nset grid lc rgb '#dddddd'\nset tics "
-      "nomirror\n"
-      "set key below horizontal maxcols 2 reverse Left samplen 2\n",
-      quoted(png.string()), quoted(plot.title), quoted(plot.x), quoted(plot.y));
-  if (plot.log_x) text += "set logscale x\n";
-  if (plot.log_y) text += "set logscale y\n";
+      "set terminal pngcairo size 760,680 font 'DejaVu Sans,15' background rgb 'white'\nset output {}\n"
+      "set title {} font ',13' noenhanced\nset xlabel {} offset 0,0.4 noenhanced\nset ylabel {} noenhanced\n"
+      "set grid xtics ytics lt 1 lc rgb '#dddddd'\nset tics nomirror\n"
+      "set key at screen 0.5,0.01 bottom center horizontal maxcols 2 reverse Left samplen 2 noenhanced\n"
+      "set bmargin {}\n",
+      quoted(png.string()), quoted(plot.title), quoted(plot.x), quoted(plot.y), kBelowAxis + lines_of_key(plot));
+  if (plot.log_x) text += "set logscale x\nset format x '10^{%L}'\n";
+  if (plot.log_y) text += "set logscale y\nset format y '10^{%L}'\n";
   text += plot.settings + "plot ";
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const Curve& curve = plot.curves[i];

@@ -96,11 +96,17 @@ std::vector<const StudyCase*> in_running_order(std::span<const StudyCase* const>
   return order;
 }
 
-void run_cases(std::span<const StudyCase* const> cases, const RunRequest& request) {
-  std::vector<const StudyCase*> waiting = in_running_order(cases);
-  std::erase_if(waiting, [&](const StudyCase* study_case) {
-    return is_done(*study_case, result_path(request.folder, study_case->name));
+std::vector<const StudyCase*> without_result(std::span<const StudyCase* const> cases,
+                                             const std::filesystem::path& folder) {
+  std::vector<const StudyCase*> missing = in_running_order(cases);
+  std::erase_if(missing, [&](const StudyCase* study_case) {
+    return is_done(*study_case, result_path(folder, study_case->name));
   });
+  return missing;
+}
+
+void run_cases(std::span<const StudyCase* const> cases, const RunRequest& request) {
+  const std::vector<const StudyCase*> waiting = without_result(cases, request.folder);
   const auto times = std::find_if(waiting.begin(), waiting.end(), [](const auto* it) { return it->takes_times; });
   const Pace pace(expected(waiting));
   double seconds_done = 0.0;

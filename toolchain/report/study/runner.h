@@ -28,9 +28,12 @@ struct RunRequest {
 /// As they are run: what takes longest first, and what takes times last.
 std::vector<const StudyCase*> in_running_order(std::span<const StudyCase* const> cases);
 
-/// Runs each case that has no result file of this program and its inputs, in running order, and writes it; those that
-/// take times one by one. What a case throws ends the run when those under way are finished, and is thrown on; their
-/// results stay.
+/// Those that have no result file of this program and their inputs in the folder, in running order.
+std::vector<const StudyCase*> without_result(std::span<const StudyCase* const> cases,
+                                             const std::filesystem::path& folder);
+
+/// Runs each case without a result and writes it, in running order; those that take times one by one. What a case
+/// throws ends the run when those under way are finished, and is thrown on; their results stay.
 void run_cases(std::span<const StudyCase* const> cases, const RunRequest& request);
 
 }  // namespace godobject::report

@@ -73,7 +73,8 @@ Sheet sheet_of(const std::vector<PageVerdict>& verdicts) {
               .columns = {"chapter", "row", "quantity", "unit", "measured", "at_most", "by", "verdict", "where"},
               .rows = {}};
   for (const auto& [chapter, finding] : verdicts) {
-    sheet.rows.push_back({chapter, finding.row, finding.what, finding.unit, cell(finding.value),
+    const bool judged = finding.not_judged.empty();
+    sheet.rows.push_back({chapter, finding.row, finding.what, finding.unit, judged ? cell(finding.value) : "",
                           finding.most ? cell(*finding.most) : "", finding.timed ? "clock" : "computation",
                           verdict_text(finding), finding.where});
   }
@@ -84,8 +85,9 @@ std::string text_of(const PageChapter& entry) {
   std::string text = entry.section.text;
   if (text.empty()) {
     for (const Finding& finding : entry.section.findings) {
-      text += fmt::format("{:<22} {:<64} {:>11.4g} {:<6} {}\n", finding.row, finding.what, finding.value, finding.unit,
-                          verdict_text(finding));
+      const bool judged = finding.not_judged.empty();
+      text += fmt::format("{:<34} {:<64} {:>11} {:<6} {}\n", finding.row, finding.what,
+                          judged ? fmt::format("{:.4g}", finding.value) : "", finding.unit, verdict_text(finding));
     }
   }
   return text + entry.chapter->name + ": " + summary(entry.section.findings) + "\n";

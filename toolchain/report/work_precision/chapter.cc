@@ -106,7 +106,7 @@ Picture picture(const Field& field, const std::string& quantity, double scale, c
   plot.curves.push_back(std::move(front));
   for (std::size_t k = 0; k < field.front.size(); ++k) {
     const precision::Trade& at = trades[field.front[k]];
-    plot.settings += fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6\n",
+    plot.settings += fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6 noenhanced\n",
                                  figures::quoted(std::string(1, letter(k))), at.cost, at.error);
   }
   plot.settings += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dt 3 {1}\n", kBudget_us, color(6));

@@ -1,0 +1,153 @@
+#include "toolchain/report/extremes/led_arm.h"
+
+#include <memory>
+
+#include <Eigen/LU>
+
+#include "firmware/command/failure.h"
+
+namespace godobject::report {
+namespace {
+
+using namespace firmware;
+
+constexpr int kStartCycles = 400;  ///< until the drives have power, and some more
+
+/// Drives of joints that are where they are put, enabled as soon as they are asked.
+class LedDrives final : public hal::JointDrives {
+ public:
+  explicit LedDrives(int joint_count) : joint_count_(joint_count) {}
+
+  int joint_count() const noexcept override { return joint_count_; }
+  void request() noexcept override {}
+  std::int64_t collect_ns() const noexcept override { return 0; }
+  double delay() const noexcept override { return ControlCycle::kPeriod; }
+
+  /// The enable switch is held once it was seen released.
+  void receive(hal::JointReading& reading) noexcept override {
+    reading.position = position;
+    reading.state.fill(state_);
+    reading.enable_switch = ++cycles_ > kStartCycles / 2;
+  }
+
+  bool send(const hal::JointCommand& command) noexcept override {
+    sent = command.torque;
+    state_ = command.power == hal::PowerRequest::kEnable ? hal::DriveState::kEnabled : hal::DriveState::kOff;
+    return true;
+  }
+
+  JointVector position = JointVector::Zero();
+  JointVector sent = JointVector::Zero();
+
+ private:
+  int joint_count_;
+  int cycles_ = 0;
+  hal::DriveState state_ = hal::DriveState::kOff;
+};
+
+/// Brings the tool to H_RM, by Newton's method from a posture that is near.
+JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
+  constexpr double kSingular = 1e-6;  // keeps the step finite at singular postures
+  for (int i = 0; i < 3; ++i) {
+    const ArmKinematics kinematics = forward_kinematics(model, q);
+    Eigen::Matrix<double, 6, 1> off;
+    off << H_RM.translation - kinematics.H_WM.translation,
+        log_rotation(H_RM.rotation * kinematics.H_WM.rotation.conjugate());
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    Eigen::Matrix<double, 6, 6> A = J * J.transpose();
+    A.diagonal().array() += kSingular;
+    q += J.transpose() * A.inverse() * off;
+  }
+  return q;
+}
+
+/// Everything but the supervisor: renders in full from the first cycle on.
+class Unsupervised {
+ public:
+  Unsupervised(const LedArm& arm, const CycleSetup& setup)
+      : setup_(setup),
+        memory_(GodObject::memory(*arm.scene)),
+        god_object_(std::make_unique<GodObject>()),
+        limiter_(*setup.arm, setup.torque) {
+    if (god_object_->start(*arm.scene, arm.solver, arm.friction, memory_) != Status::kOk) {
+      throw command::Failure(command::ExitCode::kInternal, "the scene lacks the solver");
+    }
+  }
+
+  /// At the positions of the controller's record.
+  void cycle(LedCycle& cycle) {
+    TorqueRequest request;
+    request.q = cycle.record.q;
+    request.qd = cycle.record.qd;
+    request.kinematics = forward_kinematics(*setup_.arm, request.q);
+    request.p_W = request.kinematics.H_WM * setup_.scene->H_MB.translation;
+    const Motion velocity = tool_velocity(geometric_jacobian(request.kinematics, request.p_W), request.qd);
+    if (god_object_->update({cycle.record.H_WM, velocity}, report_) == Status::kOk) {
+      request.F_W = limit_at_hand(setup_.hand, report_.force.total_W, velocity).wrench_R;
+    }
+    JointTorque torque;
+    static_cast<void>(joint_torque(*setup_.arm, *setup_.joint_torque, request, torque));
+    Decision all;
+    all.holds_arm = true;
+    all.share = 1.0;
+    cycle.computed_at_once = torque.torque;
+    cycle.sent_at_once = limiter_.apply(all, {torque.gravity, torque.torque - torque.gravity}, request.qd);
+    cycle.wrench_W = report_.force.total_W;
+    cycle.outcome = report_.outcome;
+    cycle.contacts = report_.contacts;
+  }
+
+ private:
+  CycleSetup setup_;
+  std::vector<std::uint32_t> memory_;
+  std::unique_ptr<GodObject> god_object_;
+  TorqueLimiter limiter_;
+  CycleReport report_;
+};
+
+ControllerConfig::Workspace workspace(const Pose& start) {
+  ControllerConfig::Workspace workspace;
+  workspace.posture << 0.0, -0.5, 0.0, 1.4, 0.0, -1.2, 0.0;  // bent, far from the joints' limits
+  workspace.start = start;
+  return workspace;
+}
+
+}  // namespace
+
+std::vector<LedCycle> lead(const LedArm& arm, std::span<const Pose> path) {
+  const ControllerConfig::Workspace at_start = workspace(path.front());
+  const Placement placement = place(at_start, *arm.device, arm.scene->H_MB.translation);
+  const ArmModel& model = placement.device.model;
+  std::vector<std::uint32_t> memory(GodObject::memory(*arm.scene));
+  CycleSetup setup;
+  setup.scene = arm.scene;
+  setup.solver = arm.solver;
+  setup.friction = arm.friction;
+  setup.search = memory;
+  setup.arm = &model;
+  setup.joint_torque = &placement.device.torque;
+  setup.mapping = placement.mapping;
+  setup.torque = arm.torque;
+  setup.supervisor.sign_test = false;   // the joints do not yield
+  setup.supervisor.engage_cycles = 20;  // soon all is rendered
+  LedDrives drives(model.joint_count);
+  const auto controller = std::make_unique<ControlCycle>(setup, drives);
+  Unsupervised unsupervised(arm, setup);
+  if (controller->start() != Status::kOk) {
+    throw command::Failure(command::ExitCode::kInternal, "the scene lacks the solver");
+  }
+
+  drives.position = at_start.posture;
+  const Pose H_RW = placement.mapping.H_WR.inverse();
+  std::vector<LedCycle> cycles(kStartCycles + path.size());
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    if (k >= kStartCycles) drives.position = reached(model, drives.position, H_RW * path[k - kStartCycles]);
+    controller->run_once({});
+    cycles[k].record = controller->record();
+    cycles[k].sent = drives.sent;
+    unsupervised.cycle(cycles[k]);
+  }
+  return cycles;
+}
+
+}  // namespace godobject::report

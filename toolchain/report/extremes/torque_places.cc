@@ -1,0 +1,220 @@
+#include "toolchain/report/extremes/torque_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <random>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "toolchain/report/contact_quality/compiled_scene.h"
+#include "toolchain/report/contact_quality/meshes.h"
+#include "toolchain/report/extremes/led_arm.h"
+
+namespace godobject::report {
+namespace {
+
+constexpr double kMillimetre = 1e-3;
+constexpr double kVoxel = 2.0 * kMillimetre;
+constexpr double kMayChangeBy = 0.05;              ///< of a joint's torque limit, a cycle: what the controller promises
+constexpr double kHalfWidth = 30.0 * kMillimetre;  ///< of the still body
+constexpr double kDepth = 40.0 * kMillimetre;      ///< of the block, its top at z = 0
+constexpr int kPathCycles = 2200;
+
+Vector3 half_of_body(Place place) {
+  return kMillimetre * (place == Place::kGridBorder ? Vector3(30.0, 4.0, 4.0) : Vector3(10.0, 8.0, 6.0));
+}
+
+Vector3 top_of_grid(const Scene& scene) {
+  const Vector3 bricks(scene.grid.bricks[0], scene.grid.bricks[1], scene.grid.bricks[2]);
+  return Eigen::Map<const Vector3>(scene.grid.origin) + format::kBrickCells * scene.grid.voxel_size * bricks;
+}
+
+/// The field tells that p is inside, and no more.
+bool is_beyond_band(const Scene& scene, const Vector3& p_W) {
+  const FieldSample sample = scene.voxelmap.sample(p_W);
+  return !sample.known && sample.distance < 0.0;
+}
+
+/// The cycle is what the place is for.
+bool is_there(Place place, const Scene& scene, const LedCycle& cycle) {
+  const Pose& H_WM = cycle.record.H_WM;
+  const Vector3& p_W = H_WM.translation;
+  const bool all_rendered = cycle.record.share == 1.0;
+  const bool inside_at_start = cycle.outcome == Outcome::kStartInside;
+  switch (place) {
+    case Place::kStartInside: return inside_at_start;
+    case Place::kStartDeep: return inside_at_start && is_beyond_band(scene, p_W);
+    case Place::kDeep: return all_rendered && is_beyond_band(scene, p_W);
+    case Place::kOutsideGrid: return all_rendered && p_W.x() > top_of_grid(scene).x();
+    case Place::kGridBorder: {
+      const Vector3 end = H_WM * Vector3(half_of_body(place).x(), 0.0, 0.0);
+      return all_rendered && cycle.contacts > 0 && end.x() > top_of_grid(scene).x();
+    }
+    case Place::kMedialAxis: return std::fabs(p_W.z()) < 0.25 * kVoxel && cycle.contacts > 0;
+  }
+  return false;
+}
+
+/// Of the changes from one cycle to the next, that of the joint which comes nearest to what it may.
+double largest_step(const ArmModel& arm, const JointVector& now, const JointVector& before) {
+  double most = 0.0;
+  for (int i = 0; i < arm.joint_count; ++i) {
+    const double may = kMayChangeBy * arm.joints.at(static_cast<std::size_t>(i)).torque;
+    const double step = std::fabs(now[i] - before[i]) / may;
+    most = std::isnan(step) ? step : std::max(most, step);
+    if (std::isnan(step)) break;
+  }
+  return most;
+}
+
+/// A maximum that keeps what is no number.
+void raise(double& most, double value) {
+  if (std::isnan(value) || value > most) most = value;
+}
+
+}  // namespace
+
+const char* const kPlaceNames[] = {"start inside",     "start beyond the band", "pressed beyond the band",
+                                   "outside the grid", "border of the grid",    "medial axis of a plate"};
+const std::size_t kPlaceCount = std::size(kPlaceNames);
+
+command::SceneImage place_scene(Place place, const std::filesystem::path& work) {
+  const double bottom = place == Place::kMedialAxis ? -kVoxel : -kDepth;
+  const double top = place == Place::kMedialAxis ? kVoxel : 0.0;
+  const Vector3 half_body = half_of_body(place);
+  const std::filesystem::path body = work / "body.ply";
+  write_ply(box_mesh(-half_body, half_body), body);
+  return compile("place",
+                 {.still = {.mesh = box_mesh({-kHalfWidth, -kHalfWidth, bottom}, {kHalfWidth, kHalfWidth, top})},
+                  .body = body,
+                  .points = 60,
+                  .settings = {.voxel_size = kVoxel, .safety_distance = 1.5 * kVoxel}},
+                 work);
+}
+
+std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
+  };
+  const double outside = top_of_grid(scene).x() / kMillimetre + 15.0;
+  Vector3 begin(between(-12.0, 12.0), between(-12.0, 12.0), 15.0);  // [mm] down to where both are scaled
+  Vector3 reach(0.0, 0.0, 0.0);                                     // to there and back, twice
+  switch (place) {
+    case Place::kStartInside:
+      begin.z() = between(-8.0, 5.0);
+      reach.z() = 25.0 - begin.z();
+      break;
+    case Place::kStartDeep:
+      begin.z() = between(-24.0, -16.0);
+      reach.z() = 20.0 - begin.z();
+      break;
+    case Place::kDeep: reach.z() = between(-38.0, -32.0); break;
+    case Place::kOutsideGrid:
+      begin.x() = outside;
+      begin.z() = between(-30.0, -10.0);
+      reach.x() = between(20.0, 30.0) - outside;
+      break;
+    case Place::kGridBorder:
+      begin.x() = between(25.0, 35.0);
+      reach.z() = between(-30.0, -17.0);
+      break;
+    case Place::kMedialAxis:
+      if (seed % 2 == 0) begin.z() = 0.0;  // else through the plate and back
+      reach.z() = seed % 2 == 0 ? 25.0 : -35.0;
+      break;
+  }
+  begin *= kMillimetre;
+  reach *= kMillimetre;
+  const Vector3 rates(between(2.0, 6.0), between(2.0, 6.0), between(2.0, 6.0));    // [rad/s]
+  const Vector3 aside(between(0.0, 0.015), between(0.0, 0.015), 0.0);              // [m]
+  const Vector3 tilt(between(-0.2, 0.2), between(-0.2, 0.2), between(-0.2, 0.2));  // [rad]
+  std::vector<Pose> path;
+  for (int k = 0; k < kPathCycles; ++k) {
+    const double t = 1e-3 * k;
+    const double there = 0.5 - 0.5 * std::cos(4.0 * M_PI * k / kPathCycles);
+    const Vector3 waves = (rates * t).array().sin();
+    Pose H_WM;
+    H_WM.translation = begin + there * reach + aside.cwiseProduct(waves);
+    H_WM.rotation = exp_rotation(tilt.cwiseProduct(waves));
+    path.push_back(H_WM);
+  }
+  return path;
+}
+
+void TorqueSteps::add(const TorqueSteps& other) {
+  cycles += other.cycles;
+  there += other.there;
+  rendered += other.rendered;
+  idle_runs += other.idle_runs;
+  raise(sent, other.sent);
+  raise(sent_at_once, other.sent_at_once);
+  raise(computed, other.computed);
+  raise(force, other.force);
+}
+
+TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device& device, Solver solver, bool friction,
+                         const firmware::TorqueLimits& used, std::uint32_t seed) {
+  const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, used}, place_path(place, scene, seed));
+  TorqueSteps found{.cycles = static_cast<std::int64_t>(cycles.size())};
+  LedCycle before = cycles.front();  // the weight of the arm, all at once, is no flip
+  before.sent.setZero();
+  for (const LedCycle& cycle : cycles) {
+    raise(found.sent, largest_step(device.model, cycle.sent, before.sent));
+    raise(found.sent_at_once, largest_step(device.model, cycle.sent_at_once, before.sent_at_once));
+    raise(found.computed, largest_step(device.model, cycle.computed_at_once, before.computed_at_once));
+    raise(found.force, (cycle.wrench_W.force - before.wrench_W.force).norm());
+    if (is_there(place, scene, cycle)) ++found.there;
+    if (cycle.record.share == 1.0) ++found.rendered;
+    before = cycle;
+  }
+  const bool stopped = cycles.back().record.fault != firmware::Fault::kNone;
+  // who starts inside may come out on the other side: then the controller stays silent for good
+  const bool begins_inside = cycles.front().outcome == Outcome::kStartInside;
+  if (stopped || found.there == 0 || (found.rendered == 0 && !begins_inside)) found.idle_runs = 1;
+  return found;
+}
+
+CaseResult torque_rate(Place place, const std::filesystem::path& device_file, std::int64_t cycles,
+                       const std::filesystem::path& work) {
+  const firmware::Device device = firmware::read_device_file(device_file);
+  command::SceneImage image = place_scene(place, work);
+  firmware::set_gains({.stiffness = 2000.0, .damping = 5.0, .rotational = 0.003}, image.scene);
+  CaseResult result;
+  Sheet sheet{.name = "extremes_torque",
+              .columns = {"place", "solver", "friction", "cycles", "cycles_there", "cycles_rendered", "sent_of_allowed",
+                          "computed_of_allowed", "force_step_N"},
+              .rows = {}};
+  const std::string row = fmt::format("torque rate, {}", kPlaceNames[static_cast<std::size_t>(place)]);
+  const auto note = [&](const std::string& what, double value, std::optional<double> most, const std::string& where) {
+    result.findings.push_back({.row = row, .what = what, .unit = "", .value = value, .most = most, .where = where});
+  };
+  constexpr int kVariants = 2 * static_cast<int>(format::kSolverCount);
+  for (int variant = 0; variant < kVariants; ++variant) {
+    const auto solver = static_cast<Solver>(variant / 2);
+    const bool friction = variant % 2 == 1;
+    TorqueSteps all;
+    for (std::uint32_t seed = 0; all.cycles * kVariants < cycles || seed < 2; ++seed) {
+      all.add(torque_steps(place, image.scene, device, solver, friction, {}, seed));
+    }
+    const std::string name = format::kSolverNames[static_cast<std::size_t>(solver)];
+    const std::string where = fmt::format("{}, friction {}", name, friction ? "on" : "off");
+    constexpr double kRounding = 1e-9;
+    const char* const kSent = "change of a joint torque in a cycle, as sent, over the 5 % of its limit";
+    note(kSent, all.sent, 1.0 + kRounding, where);
+    note(kSent, all.sent_at_once, 1.0 + kRounding, where + ", without supervisor");
+    note("runs that stopped, or did not get to the place", static_cast<double>(all.idle_runs), 0.0, where);
+    note(fmt::format("{}: the same as computed, before the torque limiter",
+                     solver == Solver::kContact ? name : "paper, corrected"),
+         all.computed, {}, fmt::format("{}: {:.2g} N", where, all.force));
+    sheet.rows.push_back({kPlaceNames[static_cast<std::size_t>(place)], name, friction ? "on" : "off",
+                          std::to_string(all.cycles), std::to_string(all.there), std::to_string(all.rendered),
+                          cell(std::max(all.sent, all.sent_at_once)), cell(all.computed), cell(all.force)});
+  }
+  result.sheets.push_back(sheet);
+  return result;
+}
+
+}  // namespace godobject::report
