@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 4;
+inline constexpr std::uint32_t kVersion = 5;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -49,6 +49,8 @@ enum class SectionId : std::uint32_t {
 
   kEdges = 18,      ///< Edge[]: of the still body; left out where no brick has one
   kBodyEdges = 19,  ///< Edge[]: of the moving body, in B
+
+  kWorkspace = 20,  ///< one Workspace; left out where the moving body may be everywhere
 };
 
 struct Header {
@@ -96,6 +98,16 @@ struct Settings {
   double paper_viscous;           ///< mu_v of Algorithm 1, per cycle [1]: x and r alike
 };
 static_assert(sizeof(Settings) == 112);
+
+/// The box that the origin of B, the moving body's centre of mass, does not leave, along the axes of W [m]; low <=
+/// high. What cannot be reached from it may be missing in the image: a brick position that no look-up of a cycle meets
+/// is far and inside, whatever it was (so a point that did come there would count as inside), and points that can touch
+/// nothing are left out.
+struct Workspace {
+  double low[3];
+  double high[3];
+};
+static_assert(sizeof(Workspace) == 48);
 
 /// A body's signed distance: nodes on a lattice of edge `voxel_size`, kept in bricks of kBrickCells^3 cells.
 /// Node (i, j, k) stands at origin + voxel_size * (i, j, k). The still body's stands in W, the moving body's in B.
