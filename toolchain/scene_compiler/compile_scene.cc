@@ -14,7 +14,9 @@
 #include "toolchain/scene_compiler/build_traits.h"
 #include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/leaving_out.h"
 #include "toolchain/scene_compiler/outer_surface.h"
+#include "toolchain/scene_compiler/reachable_bricks.h"
 #include "toolchain/scene_compiler/second_direction.h"
 #include "toolchain/scene_compiler/still_features.h"
 
@@ -75,6 +77,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   }
   std::vector<SectionBytes> sections;
   sections.push_back({SectionId::kSettings, bytes_of_one(settings)});
+  if (report.config.workspace) sections.push_back({SectionId::kWorkspace, bytes_of_one(*report.config.workspace)});
   sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
   sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
   sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
@@ -223,6 +226,17 @@ void sample_bodies(const SolidSurface& still, const SolidSurface& moving, Phases
   report.second.grid = parts.body_field.grid;
 }
 
+std::uint64_t leave_out_bricks(CompileReport& report, SceneParts& parts) {
+  if (!report.config.workspace) return 0;
+  const LeftOutBricks left_out =
+      leave_out_unreachable(parts.field, *report.config.workspace, look_up_radius(report.body.body, report.body.nodes));
+  report.grid = parts.field.grid;
+  report.refinement.refined -= left_out.refined;
+  report.refinement.edges -= left_out.edges;
+  for (std::size_t i = 0; i < left_out.bricks.size(); ++i) report.refinement.bricks[i] -= left_out.bricks[i];
+  return left_out.positions;
+}
+
 }  // namespace
 
 CompileReport compile_scene(const CompileRequest& request) {
@@ -274,6 +288,10 @@ CompileReport compile_scene(const CompileRequest& request) {
     sample_bodies(still, moving, phases, report, parts);
   }
 
+  LeavingOut leaving_out([&] { return lay_out(report, parts); }, request.times_left_out);
+  leaving_out.step("brick positions that no look-up reaches from the workspace",
+                   [&] { return leave_out_bricks(report, parts); });
+
   std::vector<SectionBytes> sections = lay_out(report, parts);
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
   report.field_error = phases.run("check", [&](const Progress& p) {
@@ -283,6 +301,10 @@ CompileReport compile_scene(const CompileRequest& request) {
     return check_field(met, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });
   require_exact_nodes(report.field_error, config.voxel_size);
+  if (request.times_left_out) {
+    report.cycle_ns = phases.run("times", [&](const Progress& p) { return leaving_out.time(p); });
+  }
+  report.left_out = leaving_out.items();
 
   const std::string provenance = report_json(report).dump(1);
   const auto text = std::as_bytes(std::span(provenance));

@@ -14,6 +14,7 @@
 #include "toolchain/scene_compiler/between_points.h"
 #include "toolchain/scene_compiler/distance_grid.h"
 #include "toolchain/scene_compiler/field_check.h"
+#include "toolchain/scene_compiler/leaving_out.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 #include "toolchain/scene_compiler/moving_body.h"
 #include "toolchain/scene_compiler/refinement.h"
@@ -32,6 +33,7 @@ struct CompileRequest {
   std::filesystem::path output;
   std::optional<format::Solver> only_solver;
   nlohmann::ordered_json choice = {};  ///< how the settings were chosen, for the provenance; null: by the scene file
+  bool times_left_out = false;         ///< also time what was left out, in some seconds
   std::function<void(const char* phase, double done)> progress;  ///< may be empty
 };
 
@@ -71,7 +73,9 @@ struct CompileReport {
   SecondDirection second;
   FieldError field_error;
   LookUpTime look_up;
-  SceneTraits traits;                                                 ///< what a build for this image alone would hold
+  std::vector<LeftOut> left_out;
+  std::optional<double> cycle_ns;  ///< that a cycle takes where `left_out` was timed, with nothing left out
+  SceneTraits traits;              ///< what a build for this image alone would hold
   std::vector<std::pair<format::SectionId, std::uint64_t>> sections;  ///< bytes, provenance left out
   std::uint64_t image_bytes = 0;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase
