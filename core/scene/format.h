@@ -239,9 +239,11 @@ struct Body {
 static_assert(sizeof(Body) == 112);
 
 /// Sphere tree over the sample points, in pre-order: the children of node i start at i + 1; `skip` is the next node
-/// once the subtree of i is left out. Node 0 (level 0) holds all points. The nodes of level k = 1 .. level_count - 1
-/// are the samples of hierarchy level k, each level a sampling of the whole surface; the points themselves are level
-/// level_count. A subtree's points are contiguous, and the first of them is the node's own sample: levels are nested.
+/// once the subtree of i is left out. Node 0 (level 0) holds all points, which are in tree order: a subtree's are
+/// contiguous. As it is sampled the nodes of level k = 1 .. level_count - 1 are hierarchy level k, each level a
+/// sampling of the whole surface that holds the one before, and a subtree's first point is the node's own sample; the
+/// points themselves are level level_count. Points that can touch nothing, and levels that make nothing quicker, are
+/// left out afterwards: then neither need be.
 struct Node {
   float center[3];  ///< of a sphere around all points of the subtree, in B; minimal up to rounding, never too small
   float radius;

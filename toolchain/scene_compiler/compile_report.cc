@@ -254,6 +254,7 @@ Json left_out_json(const CompileReport& report) {
   }
   if (report.second.features.point_count == 0) {
     const char* const why = report.ball                     ? "a ball meets a convex body where its centre is near"
+                            : report.second.found() > 0     ? "all feature points are left out"
                             : report.second.sought          ? "no feature point is needed"
                             : report.config.both_directions ? "only contact reads it"
                                                             : "contact.both_directions = false";

@@ -52,8 +52,10 @@ struct SecondDirection {
   std::uint32_t on_edges = 0;      ///< on its sharp edges and rims
   std::uint32_t on_faces = 0;      ///< where it bends away too tightly
   double slack = 0.0;              ///< that the moving body's field is of a body smaller by [m]
-  format::Features features{};     ///< point_count = 0: none needed, the image holds no second direction
+  format::Features features{};     ///< of the image; point_count = 0: none needed, it holds no second direction
   format::Grid grid{};             ///< of the moving body's field
+
+  std::uint32_t found() const { return corners + on_edges + on_faces; }  ///< features, those left out included
 };
 
 /// Everything that the compiler found and measured.

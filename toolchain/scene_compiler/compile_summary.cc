@@ -69,6 +69,11 @@ const char* reason(Stopped stopped) {
   return "the field of the moving body takes too much; set moving.voxel_size lower, or contact.between_points higher";
 }
 
+/// Points that touch nothing.
+std::string without(std::uint32_t left_out) {
+  return left_out == 0 ? "" : fmt::format(", {} of these left out", left_out);
+}
+
 std::string points_text(const CompileReport& report) {
   if (report.ball) {
     const Ball& ball = *report.ball;
@@ -80,13 +85,13 @@ std::string points_text(const CompileReport& report) {
         report.config.settings.friction != 0 ? ", nor that of friction, whose lever the radius is" : "");
   }
   const format::Body& body = report.body.body;
+  const std::uint32_t asked = report.config.points;
   const std::uint32_t added = report.second.added_points;
   return fmt::format(
-      "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends; {} apart, no "
-      "place "
-      "of the surface further than {} from one\n",
-      body.point_count, body.level_count, body.point_count - added, added, millimetres(report.body.spacing),
-      millimetres(report.body.coverage));
+      "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends{}; {} apart, no "
+      "place of the surface further than {} from one\n",
+      body.point_count, body.level_count, asked, added, without(asked + added - body.point_count),
+      millimetres(report.body.spacing), millimetres(report.body.coverage));
 }
 
 std::string second_direction_text(const CompileReport& report) {
@@ -98,10 +103,12 @@ std::string second_direction_text(const CompileReport& report) {
   if (second.features.point_count > 0) {
     text += fmt::format(
         "features {} points of the still body, looked up in the moving body's own field: {} at corners, {} on edges, "
-        "{} "
-        "on bent faces\n         that field has {} bricks, finer ones included, voxels of {}\n",
-        second.features.point_count, second.corners, second.on_edges, second.on_faces, second.grid.brick_count,
+        "{} on bent faces{}\n         that field has {} bricks, finer ones included, voxels of {}\n",
+        second.features.point_count, second.corners, second.on_edges, second.on_faces,
+        without(second.found() - second.features.point_count), second.grid.brick_count,
         millimetres(second.grid.voxel_size));
+  } else if (second.found() > 0) {
+    text += fmt::format("features {} points of the still body, all left out\n", second.found());
   } else {
     text += "features none needed\n";
   }
