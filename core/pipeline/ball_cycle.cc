@@ -98,7 +98,7 @@ Vector3 damped(const Held& held, const Vector3& velocity_W, double damping_over_
 class Center {
  public:
   Center(const Voxelmap& field, const Parameters& q, const Vector3& at) noexcept
-      : field_(field), lengths_(ContactLengths::make(q)), at_(at) {
+      : field_(field), box_(q.workspace), lengths_(ContactLengths::make(q)), at_(at) {
     reach_ = std::min(lengths_.longest_reach, field.assured_clearance());
   }
 
@@ -133,6 +133,7 @@ class Center {
   double overshoot(const Vector3& motion) noexcept;
 
   const Voxelmap& field_;
+  const WorkspaceBox& box_;
   const ContactLengths lengths_;
   Vector3 at_;
   double reach_;
@@ -143,13 +144,23 @@ class Center {
   detail::Budget budget_;
 };
 
-/// The motion nearest to `way` that all half spaces allow; those that contradict each other lose what they need to
-/// gain.
+/// The motion nearest to `way` that all half spaces and the workspace allow; half spaces that contradict each other
+/// lose what they need to gain.
 void Center::aim(const Vector3& way) noexcept {
-  if (project(spaces_, way, lengths_.metric.tolerance, motion_, held)) return;
-  infeasible = true;
-  for (double& need : spaces_.need) need = std::min(need, 0.0);
-  project(spaces_, way, lengths_.metric.tolerance, motion_, held);
+  const auto end_of = [&](const Vector3& push) noexcept {
+    const Vector3 wanted = way - push;
+    if (!project(spaces_, wanted, lengths_.metric.tolerance, motion_, held)) {
+      infeasible = true;
+      for (double& need : spaces_.need) need = std::min(need, 0.0);
+      project(spaces_, wanted, lengths_.metric.tolerance, motion_, held);
+    }
+    return Vector3(at_ + motion_);
+  };
+  if (box_.limited) {
+    push_within(box_, lengths_.metric.tolerance, end_of);
+  } else {
+    end_of(Vector3::Zero());
+  }
 }
 
 /// The chord to `end` meets no surface, and the gap does not shrink below `kept`.
@@ -207,7 +218,8 @@ bool Center::step(const Vector3& goal) noexcept {
   for (int attempt = 0;; ++attempt) {
     if (attempt == kAttempts) return cut = true, false;
     const Vector3 motion = share * motion_;
-    const Vector3 end = share == 1.0 && held.count == 0 ? goal : Vector3(at_ + motion);
+    const bool unheld = share == 1.0 && held.count == 0;
+    const Vector3 end = unheld ? goal : box_.nearest(at_ + motion);
     if (certify(end, looks > 0 ? lengths_.wanted_margin : lengths_.least_margin)) {
       if (share == 1.0 && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
         if (const double over = overshoot(motion); over > kOvershoot) {

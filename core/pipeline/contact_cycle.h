@@ -344,6 +344,31 @@ Arrival arrive(const Field& field, const Pointshell& shell, const FeatureContact
   return arrival;
 }
 
+/// Step #4: `least_constraint` with the workspace's faces. The motion ends in it but for what rounding and tolerances
+/// leave.
+inline void least_constraint_within(const WorkspaceBox& box, const Pose& H0, ContactRows& rows, const Motion& wanted,
+                                    const CouplingMetric& metric, const ContactFriction* friction, const Motion& last,
+                                    ConstrainedStep& step) noexcept {
+  if (!box.limited) return least_constraint(rows, wanted, metric, friction, last, step);
+  bool infeasible = false;
+  push_within(box, metric.tolerance, [&](const Vector3& push_W) noexcept {
+    Motion pushed = wanted;
+    pushed.translation -= H0.rotation.conjugate()._transformVector(push_W);
+    least_constraint(rows, pushed, metric, friction, last, step);
+    infeasible |= step.infeasible;
+    step.follows &= push_W.isZero(0.0);
+    return H0 * step.motion.translation;
+  });
+  step.infeasible = infeasible;
+}
+
+/// Moves the origin of H1 to the nearest point of the workspace, and has the motion from H0 end there.
+inline void cut_off(const WorkspaceBox& box, const Pose& H0, Pose& H1, Motion& motion) noexcept {
+  if (!box.limited || box.contains(H1.translation)) return;
+  H1.translation = box.nearest(H1.translation);
+  motion.translation = H0.rotation.conjugate()._transformVector(H1.translation - H0.translation);
+}
+
 /// What the sub-steps came to.
 struct ContactResult {
   Pose H_WS;
@@ -510,7 +535,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     }
 
     const ContactFriction* const cone = kFriction ? &friction : nullptr;
-    least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);  // #4
+    detail::least_constraint_within(q.workspace, H0, workspace.rows, free, lengths.metric, cone, last,
+                                    result.step);                  // #4
     if (inside && (around.swallowed || result.step.infeasible)) {  // nobody knows the way out: with the device
       result.step = ConstrainedStep{};
       result.H_WS = input.H_WD;
@@ -534,6 +560,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
       motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
       H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
+      detail::cut_off(q.workspace, H0, H1, motion);
       detail::end(times, &StepTimes::solve_ns);  // the certificate
       Pose H1_features;
       const double kept = looks > 0 ? lengths.wanted_margin : lengths.least_margin;
@@ -578,7 +605,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       looks = seen ? looks - 1 : 0;
       if (seen) {
         const bool infeasible = result.step.infeasible;
-        least_constraint(workspace.rows, free, lengths.metric, cone, last, result.step);
+        detail::least_constraint_within(q.workspace, H0, workspace.rows, free, lengths.metric, cone, last, result.step);
         result.step.infeasible |= infeasible;
         share = detail::allowed_share(result.step.motion, around, reach, lengths, true);
       } else {

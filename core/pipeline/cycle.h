@@ -12,13 +12,14 @@
 #include "core/pipeline/penalty_contacts.h"
 #include "core/pipeline/projection.h"
 #include "core/pipeline/proxy_filter.h"
+#include "core/pipeline/workspace_limit.h"
 #include "core/status.h"
 
 namespace godobject {
 
 /// What the operator's side gives to one cycle: the body's pose on the device and its velocity, in W.
 struct CycleInput {
-  Pose H_WD;          ///< frame B of the moving body as the device holds it
+  Pose H_WD;          ///< frame B of the moving body as the device holds it, its origin in the workspace
   Motion velocity_W;  ///< of D's origin [m/s] and angular [rad/s]; damping only
 };
 
@@ -56,6 +57,7 @@ struct CycleReport {
   std::uint32_t dropped = 0;   ///< `contact`: near points for which rows or the budget did not suffice, last sub-step
   std::uint32_t substeps = 0;  ///< `contact`: with something near; 1 where nothing was
   bool unconverged = false;    ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
+  bool outside = false;        ///< the device is outside of the workspace: it is pushed back, once it has been inside
   Outcome outcome = Outcome::kFree;
 };
 
@@ -133,9 +135,10 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
           paper_friction(x_restricted, x.perpendicular, mu.translation_static, mu.translation_kinetic, mu.viscous);
       step.rotation +=
           paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
-    }                                                                        //    (47), (48)
-    const Pose H_WS_unfiltered = H_WSc * set_matrix(step);                   //    (41), (42)
-    H_WS = filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period);  // #5 (43)
+    }                                                       //    (47), (48)
+    const Pose H_WS_unfiltered = H_WSc * set_matrix(step);  //    (41), (42)
+    H_WS = kept_within(q.workspace, state.H_WS,
+                       filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period));  // #5 (43)
   }
   const Status status = detail::finish(input, H_WS, contacts, Projection{}, 1, q, state, report);  // #6, #7 (44)-(46)
   detail::end(times, &StepTimes::solve_ns);
@@ -169,7 +172,7 @@ Status corrected_cycle(const Field& field, const Pointshell& shell, const Parame
                      step.next);  // #2-#4
     }
     const bool follows = !step.cut && contacts.depth <= 0.0;  // the device pose itself, without rounding
-    H_WS = follows ? input.H_WD : H_WS * set_matrix(step.motion);
+    H_WS = follows ? input.H_WD : kept_within(q.workspace, H_WS, H_WS * set_matrix(step.motion));
   } while (step.cut && ++substeps < kMaxSubsteps);
   const Status status =
       detail::finish(input, H_WS, contacts, step, std::min(substeps + 1, kMaxSubsteps), q, state, report);  // #6, #7

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "core/pipeline/ball_cycle.h"
+#include "core/pipeline/workspace_limit.h"
 
 namespace godobject {
 namespace {
@@ -148,18 +149,49 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
   }
   Pose H_WM = input.H_WM;
   if (const Status status = make_unit(H_WM); status != Status::kOk) return refuse(status, state_, report);
-  const CycleInput cycle_input{H_WM * H_MB_, input.velocity_W};
+  CycleInput cycle_input{H_WM * H_MB_, input.velocity_W};
+  if (parameters_.workspace.limited) {
+    const Vector3 device = cycle_input.H_WD.translation;
+    cycle_input.H_WD.translation = parameters_.workspace.nearest(device);
+    const Vector3 back_W = cycle_input.H_WD.translation - device;
+    if (!back_W.isZero(0.0)) {
+      if (state_.started) return run_pushed(cycle_input, back_W, report, times);
+      const Status status = follow(H_WM, report);
+      report.outside = status == Status::kOk;
+      return status;
+    }
+  }
+  return run(cycle_input, report, times);
+}
+
+/// The device's origin is in the workspace.
+Status GodObject::run(const CycleInput& input, CycleReport& report, StepTimes* times) noexcept {
   const Pose held = state_.H_WS;
   if (!state_.started) {
-    state_.H_WS = cycle_input.H_WD;
+    state_.H_WS = input.H_WD;
     state_.inside = smallest_distance(scene_->voxelmap, scene_->pointshell, state_.H_WS) < 0.0;
   }
-  const Status status = cycle_(*scene_, parameters_, cycle_input, memory_, state_, report, times);
+  const Status status = cycle_(*scene_, parameters_, input, memory_, state_, report, times);
   if (status != Status::kOk) {
     state_.H_WS = held;
     return refuse(status, state_, report);
   }
+  report.outside = false;
   return Status::kOk;
+}
+
+/// It was moved there by `back_W`, of which the push is the coupling's share: the spring is linear in translations.
+Status GodObject::run_pushed(const CycleInput& input, const Vector3& back_W, CycleReport& report,
+                             StepTimes* times) noexcept {
+  const DeviceForce push = workspace_push(back_W, input.velocity_W.translation, parameters_);
+  const State before = state_;
+  if (const Status status = run(input, report, times); status != Status::kOk) return status;
+  report.force.spring_W.force += push.spring_W.force;
+  report.force.total_W.force += push.total_W.force;
+  report.outside = true;
+  if (report.force.spring_W.force.allFinite() && report.force.total_W.force.allFinite()) return Status::kOk;
+  state_ = before;
+  return refuse(Status::kNotFinite, state_, report);
 }
 
 }  // namespace godobject

@@ -65,6 +65,10 @@ class GodObject {
   /// force is zero, the report's outcome is kBadInput. Cost: step #1's look-ups, up to 60 ns each, and for the
   /// rest 0.3 us (`paper` and `corrected` 0.5 us), with friction 1-2 us; more where many contacts begin to hold at
   /// once. Real-time safe.
+  ///
+  /// In a scene with a workspace the god object follows the device within it only; the device feels the workspace's
+  /// faces, as stiff as the coupling (workspace_limit.h). Until it has been within for the first time nothing is
+  /// rendered, as by `follow`. `report.outside` tells either.
   Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
 
   /// The god object as a pose of the moving mesh's frame in W.
@@ -86,6 +90,8 @@ class GodObject {
   template <class Pipeline>
   static Cycle cycle_of(bool friction) noexcept;
   static Cycle cycle_of(Solver solver, bool friction) noexcept;
+  Status run(const CycleInput& input, CycleReport& report, StepTimes* times) noexcept;
+  Status run_pushed(const CycleInput& input, const Vector3& back_W, CycleReport& report, StepTimes* times) noexcept;
 
   const Scene* scene_ = nullptr;
   Cycle cycle_ = nullptr;

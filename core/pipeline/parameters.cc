@@ -40,6 +40,7 @@ Parameters Parameters::make(const Scene& scene) noexcept {
                       s.paper_viscous};
   p.mass = MassModel::make(Vector3(scene.body.inertia[0], scene.body.inertia[1], scene.body.inertia[2]),
                            scene.body.radius, std::max(scene.body.radius, scene.grid.voxel_size));
+  p.workspace = scene.workspace;
   return p;
 }
 

@@ -54,6 +54,7 @@ struct Parameters {
   FrictionCoefficients friction;
   PaperFriction paper_friction;
   MassModel mass;
+  WorkspaceBox workspace;
 
   static Parameters make(const Scene& scene) noexcept;
 };

@@ -49,6 +49,8 @@ enum class SectionId : std::uint32_t {
 
   kEdges = 18,      ///< Edge[]: of the still body; left out where no brick has one
   kBodyEdges = 19,  ///< Edge[]: of the moving body, in B
+
+  kWorkspace = 20,  ///< one Workspace; left out where the moving body may be everywhere
 };
 
 struct Header {
@@ -96,6 +98,16 @@ struct Settings {
   double paper_viscous;           ///< mu_v of Algorithm 1, per cycle [1]: x and r alike
 };
 static_assert(sizeof(Settings) == 112);
+
+/// The box that the origin of B, the moving body's centre of mass, does not leave, along the axes of W [m]; low <=
+/// high. What cannot be reached from it may be missing in the image: a brick position that no look-up of a cycle meets
+/// is far and inside, whatever it was (so a point that did come there would count as inside), and points that can touch
+/// nothing are left out.
+struct Workspace {
+  double low[3];
+  double high[3];
+};
+static_assert(sizeof(Workspace) == 48);
 
 /// A body's signed distance: nodes on a lattice of edge `voxel_size`, kept in bricks of kBrickCells^3 cells.
 /// Node (i, j, k) stands at origin + voxel_size * (i, j, k). The still body's stands in W, the moving body's in B.
@@ -232,9 +244,11 @@ struct Body {
 static_assert(sizeof(Body) == 112);
 
 /// Sphere tree over the sample points, in pre-order: the children of node i start at i + 1; `skip` is the next node
-/// once the subtree of i is left out. Node 0 (level 0) holds all points. The nodes of level k = 1 .. level_count - 1
-/// are the samples of hierarchy level k, each level a sampling of the whole surface; the points themselves are level
-/// level_count. A subtree's points are contiguous, and the first of them is the node's own sample: levels are nested.
+/// once the subtree of i is left out. Node 0 (level 0) holds all points, which are in tree order: a subtree's are
+/// contiguous. As it is sampled the nodes of level k = 1 .. level_count - 1 are hierarchy level k, each level a
+/// sampling of the whole surface that holds the one before, and a subtree's first point is the node's own sample; the
+/// points themselves are level level_count. Points that can touch nothing, and levels that make nothing quicker, are
+/// left out afterwards: then neither need be.
 struct Node {
   float center[3];  ///< of a sphere around all points of the subtree, in B; minimal up to rounding, never too small
   float radius;

@@ -384,6 +384,22 @@ Status open_features(const Sections& sections, Scene& scene) noexcept {
                   grid, scene.body_map);
 }
 
+/// `box` stays unlimited where the image has none.
+Status open_workspace(const Sections& sections, WorkspaceBox& box) noexcept {
+  const auto bytes = sections[SectionId::kWorkspace];
+  if (bytes.data() == nullptr) return Status::kOk;
+  format::Workspace workspace{};
+  if (!read_one(bytes, workspace)) return Status::kImageLayout;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!in_range(workspace.low[axis], -1e7, 1e7) || !in_range(workspace.high[axis], workspace.low[axis], 1e7))
+      return Status::kImageValue;
+    box.low[axis] = workspace.low[axis];
+    box.high[axis] = workspace.high[axis];
+  }
+  box.limited = true;
+  return Status::kOk;
+}
+
 }  // namespace
 
 Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
@@ -408,6 +424,8 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   // contacts begin at the safety distance: there the field must be known
   if (opened.grid.band < opened.settings.safety_distance) return Status::kImageValue;
 
+  status = open_workspace(sections, opened.workspace);
+  if (status != Status::kOk) return status;
   const auto normals = sections[SectionId::kNormals];
   if (normals.data() == nullptr && opened.holds(format::Solver::kPaper)) return Status::kImageLayout;
   status = open_shell(sections[SectionId::kPoints], normals, sections[SectionId::kNodes],

@@ -6,6 +6,7 @@
 #include "core/scene/format.h"
 #include "core/scene/pointshell.h"
 #include "core/scene/voxelmap.h"
+#include "core/scene/workspace_box.h"
 #include "core/spatial/pose.h"
 #include "core/status.h"
 
@@ -18,6 +19,7 @@ struct Scene {
   format::Settings settings{};
   format::Grid grid{};
   format::Body body{};
+  WorkspaceBox workspace;
   Voxelmap voxelmap;
   Pointshell pointshell;
   Voxelmap body_map;    ///< of the moving body, in B; only with features

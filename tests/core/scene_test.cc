@@ -39,6 +39,7 @@ SceneImage small_image() {
   description.level_count = 3;
   description.H_MB.rotation = Quaternion(0.5, 0.5, -0.5, 0.5);
   description.H_MB.translation = Vector3(0.1, 0.2, 0.3);
+  description.workspace = format::Workspace{{-1.0, -2.0, -3.0}, {1.0, 2.0, -3.0}};
   description.provenance = R"({"still": "ball"})";
   return test::build_scene_image(description);
 }
@@ -112,6 +113,9 @@ TEST(Scene, ShowsWhatTheImageHolds) {
   EXPECT_EQ(scene.voxelmap.voxel_size(), 0.01);
   EXPECT_EQ(scene.voxelmap.band(), 0.01);
   EXPECT_NEAR(scene.voxelmap.sample(Vector3(0.01, 0.0, 0.0)).distance, 0.0, 1e-9);  // a node, rounded to float
+  EXPECT_TRUE(scene.workspace.limited);
+  EXPECT_EQ(scene.workspace.low, Vector3(-1.0, -2.0, -3.0));
+  EXPECT_EQ(scene.workspace.high, Vector3(1.0, 2.0, -3.0));
   EXPECT_EQ(scene.H_MB.translation, Vector3(0.1, 0.2, 0.3));
   EXPECT_EQ(scene.H_MB.rotation.coeffs(), Quaternion(0.5, 0.5, -0.5, 0.5).coeffs());
   EXPECT_EQ(scene.provenance.size(), std::strlen(R"({"still": "ball"})"));
@@ -131,6 +135,8 @@ TEST(Scene, OpensWithoutNormalsWhenPaperIsNotHeld) {
   const SceneImage image = test::build_scene_image(description);
   const Scene scene = test::open_scene(image);
   EXPECT_EQ(scene.pointshell.normal_x, nullptr);
+  EXPECT_FALSE(scene.workspace.limited);
+  EXPECT_TRUE(scene.workspace.contains(Vector3(1e7, -1e7, 0.0)));
   EXPECT_FALSE(scene.holds(format::Solver::kPaper));
 }
 
@@ -260,6 +266,7 @@ void leave_out(SceneImage& image) {
 #define GRID(CHANGE) ITEM(format::Grid, kGrid, 0, CHANGE)
 #define BODY(CHANGE) ITEM(format::Body, kBody, 0, CHANGE)
 #define BRICK(CHANGE) ITEM(format::Brick, kBricks, 1, CHANGE)
+#define WORKSPACE(CHANGE) ITEM(format::Workspace, kWorkspace, 0, CHANGE)
 #define NODE(N, CHANGE) ITEM(format::Node, kNodes, N, CHANGE)
 
 constexpr Spoiled kLayouts[] = {
@@ -293,6 +300,7 @@ constexpr Spoiled kLayouts[] = {
     {"no normals for paper", Status::kImageLayout, leave_out<SectionId::kNormals>},
     {"no nodes", Status::kImageLayout, leave_out<SectionId::kNodes>},
     {"short settings", Status::kImageLayout, SECTION(kSettings, x.bytes -= 8)},
+    {"short workspace", Status::kImageLayout, SECTION(kWorkspace, x.bytes -= 8)},
     {"short points", Status::kImageLayout, SECTION(kPoints, x.bytes -= 4)},
     {"short normals", Status::kImageLayout, SECTION(kNormals, x.bytes -= 4)},
     {"brick count", Status::kImageLayout, GRID(x.brick_count += 1)},
@@ -312,6 +320,8 @@ constexpr Spoiled kNumbers[] = {
     {"negative damping", Status::kImageValue, SETTINGS(x.damping = -1.0)},
     {"kinetic over static", Status::kImageValue, SETTINGS(x.friction_kinetic = x.friction_static + 0.1)},
     {"negative kinetic", Status::kImageValue, SETTINGS(x.friction_kinetic = -0.1)},
+    {"workspace inside out", Status::kImageValue, WORKSPACE(x.low[1] = x.high[1] + 1e-9)},
+    {"workspace without end", Status::kImageValue, WORKSPACE(x.high[2] = 1e8)},
     {"no voxel", Status::kImageValue, GRID(x.voxel_size = 0.0)},
     {"negative voxel", Status::kImageValue, GRID(x.voxel_size = -0.01)},
     {"band under a voxel", Status::kImageValue, GRID(x.band = 0.5 * x.voxel_size)},
@@ -540,6 +550,8 @@ TEST(Scene, RefusesWhatIsNotFinite) {
   constexpr std::size_t kSettingsFirst = offsetof(format::Settings, safety_distance);
   expect_each_double_is_checked<format::Settings, SectionId::kSettings>(
       kSettingsFirst, (sizeof(format::Settings) - kSettingsFirst) / sizeof(double));
+  expect_each_double_is_checked<format::Workspace, SectionId::kWorkspace>(0,
+                                                                          sizeof(format::Workspace) / sizeof(double));
   expect_each_double_is_checked<format::Grid, SectionId::kGrid>(0, offsetof(format::Grid, bricks) / sizeof(double));
   expect_each_double_is_checked<format::Body, SectionId::kBody>(
       0, offsetof(format::Body, inertia_from_points) / sizeof(double));

@@ -219,7 +219,7 @@ TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   EXPECT_NEAR(ball_radius(scene), kRadius, 1e-8);
   const std::string text = report_text(report);
   EXPECT_NE(text.find("ball     of 10 mm radius, the mesh up to 0.00685"), std::string::npos) << text;
-  EXPECT_NE(text.find("left out 1000 points of the ball"), std::string::npos) << text;
+  EXPECT_NE(text.find("points of the ball, which its centre stands for"), std::string::npos) << text;
   EXPECT_EQ(text.find("friction, whose lever"), std::string::npos) << text;
   EXPECT_EQ(verdict_text(report), "ready: the field is within its tolerance near the surface at the ball's radius");
   const CompileReport rough = compile({.more = "[friction]\nstatic = 0.2\n"});

@@ -66,6 +66,31 @@ TEST(SceneConfig, ReadsTheFieldsTolerance) {
   expect_refused(std::string(kStill) + "field_tolerance = \"fine\"\n" + kMoving, ":4:", "still.field_tolerance");
 }
 
+TEST(SceneConfig, ReadsTheWorkspace) {
+  const std::string bodies = std::string(kStill) + kMoving;
+  EXPECT_FALSE(read(bodies).workspace);
+  const SceneConfig config = read(bodies + "[workspace]\nlow = [-0.1, 0, -1e-3]\nhigh = [0.1, 0, 2]\n");
+  ASSERT_TRUE(config.workspace);
+  EXPECT_EQ(config.workspace->low[0], -0.1);
+  EXPECT_EQ(config.workspace->low[2], -1e-3);
+  EXPECT_EQ(config.workspace->high[1], 0.0);  // flat is allowed
+  EXPECT_EQ(config.workspace->high[2], 2.0);
+  const auto refused = [&](const std::string& low, const std::string& high, const char* line, const char* words) {
+    expect_refused(bodies + "[workspace]\nlow = " + low + "\nhigh = " + high + "\n", line, words);
+  };
+  refused("[0, 0, 0]", "[1, -1e-9, 1]", ":8", "workspace.high lies below low along y, -1e-09 < 0");
+  refused("[0, 0]", "[1, 1, 1]", ":7", "workspace.low");
+  refused("[0, 0, 0]", "[1, 1, 1, 1]", ":8", "workspace.high");
+  refused("[0, nan, 0]", "[1, 1, 1]", ":7", "workspace.low");
+  refused("[0, 0, 0]", "[1, 1, inf]", ":8", "workspace.high");
+  refused("[0, 0, -2e7]", "[1, 1, 1]", ":7", "workspace.low");
+  refused("[0, 0, \"0\"]", "[1, 1, 1]", ":7", "workspace.low");
+  refused("0", "[1, 1, 1]", ":7", "workspace.low");
+  expect_refused(bodies + "[workspace]\nlow = [0, 0, 0]\n", ":6", "workspace.high");
+  expect_refused(bodies + "[workspace]\nhigh = [0, 0, 0]\n", ":6", "workspace.low");
+  expect_refused(bodies + "[workspace]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nmiddle = 0\n", ":9", "workspace.middle");
+}
+
 TEST(SceneConfig, ReadsEveryKey) {
   const SceneConfig config = read(
       "[still]\nmesh = \"m/a.ply\"\nscale = 2\nvoxel_size = 0.001\nsurface = \"shell\"\nthickness = 0.003\n"

@@ -410,6 +410,7 @@ SceneImage build_scene_image(const SceneDescription& description) {
 
   std::vector<Part> parts;
   parts.push_back(part(SectionId::kSettings, std::span(&settings, 1)));
+  if (description.workspace) parts.push_back(part(SectionId::kWorkspace, std::span(&*description.workspace, 1)));
   parts.push_back(part(SectionId::kGrid, std::span(&field.grid, 1)));
   parts.push_back(part(SectionId::kBrickIndex, std::span(field.index)));
   parts.push_back(part(SectionId::kBricks, std::span(field.bricks)));

@@ -54,6 +54,7 @@ struct SceneDescription {
   Pose H_MB;
   std::array<double, 3> inertia{};  ///< principal moments over mass, ascending [m^2]; zeros: those of a solid ball
 
+  std::optional<format::Workspace> workspace;
   format::Settings settings{};  ///< where a length or stiffness is 0: the scene file's default
   std::string provenance = "{}";
 };

@@ -32,6 +32,7 @@ const char* name_of(format::SectionId id) {
     case format::SectionId::kFeatureNodes: return "feature_nodes";
     case format::SectionId::kEdges: return "edges";
     case format::SectionId::kBodyEdges: return "body_edges";
+    case format::SectionId::kWorkspace: return "workspace";
   }
   return "unknown";
 }
@@ -119,6 +120,11 @@ Json settings_json(const format::Settings& s) {
         {"static", s.friction_static}, {"kinetic", s.friction_kinetic}, {"viscous", s.friction_viscous}};
   }
   return json;
+}
+
+Json workspace_json(const std::optional<format::Workspace>& workspace) {
+  if (!workspace) return nullptr;
+  return {{"low", array_json(workspace->low)}, {"high", array_json(workspace->high)}};
 }
 
 Json traits_json(const SceneTraits& traits) {
@@ -225,12 +231,15 @@ Json left_out_json(const CompileReport& report) {
   const std::uint64_t sparse =
       section_bytes(report, format::SectionId::kBrickIndex) + section_bytes(report, format::SectionId::kBricks);
   Json list = Json::array();
+  for (const LeftOut& item : report.left_out)
+    list.push_back({{"what", item.what}, {"count", item.count}, {"bytes_saved", item.bytes}});
   list.push_back({{"what", "distances beyond the band"},
                   {"dense_bytes", dense},
                   {"stored_bytes", sparse},
                   {"bytes_saved", static_cast<std::int64_t>(dense) - static_cast<std::int64_t>(sparse)}});
   if (!report.ball && section_bytes(report, format::SectionId::kNormals) == 0) {
     list.push_back({{"what", "normals, which only the paper's solver reads"},
+                    {"count", report.body.body.point_count},
                     {"bytes_saved", section_bytes(report, format::SectionId::kPoints)}});
   }
   if (report.config.settings.friction == 0) {
@@ -238,12 +247,14 @@ Json left_out_json(const CompileReport& report) {
   }
   if (report.ball) {
     const std::uint64_t point = section_bytes(report, format::SectionId::kPoints);
-    list.push_back({{"what", fmt::format("{} points of the ball, which its centre stands for", report.config.points)},
+    list.push_back({{"what", "points of the ball, which its centre stands for"},
+                    {"count", report.config.points - 1},
                     {"bytes_saved", (report.config.points - 1) * point}});
     list.push_back({{"what", "straight edges: the surface at the ball's radius has none"}, {"bytes_saved", nullptr}});
   }
   if (report.second.features.point_count == 0) {
     const char* const why = report.ball                     ? "a ball meets a convex body where its centre is near"
+                            : report.second.found() > 0     ? "all feature points are left out"
                             : report.second.sought          ? "no feature point is needed"
                             : report.config.both_directions ? "only contact reads it"
                                                             : "contact.both_directions = false";
@@ -293,6 +304,7 @@ Json report_json(const CompileReport& report) {
   body["largest_distance_of_the_surface_from_a_point"] = report.body.coverage;
   Json json = {{"compiler", "godobject-scenec " GODOBJECT_VERSION},
                {"settings", settings},
+               {"workspace", workspace_json(config.workspace)},
                {"still", mesh_json(config.still, report.still, config.thickness)},
                {"moving", mesh_json(config.moving, report.moving, config.thickness)},
                {"walls", thin_json(report.thin.walls)},
@@ -319,6 +331,13 @@ Json report_json(const CompileReport& report) {
 Json full_report_json(const CompileReport& report) {
   Json json = report_json(report);
   json["image_bytes"] = report.image_bytes;
+  for (std::size_t i = 0; i < report.left_out.size(); ++i) {  // they come first
+    const std::optional<Saving>& cycle = report.left_out[i].cycle;
+    if (!cycle) continue;
+    json["left_out"][i]["nanoseconds_saved"] = cycle->ns;
+    json["left_out"][i]["nanoseconds_uncertainty"] = cycle->uncertainty;
+  }
+  if (report.cycle_ns) json["cycle_nanoseconds_with_all"] = *report.cycle_ns;
   Json seconds;
   double total = 0.0;
   for (const auto& [phase, time] : report.seconds) {
@@ -345,9 +364,13 @@ Json inspect_json(const command::SceneImage& image) {
   }
   const std::string text(reinterpret_cast<const char*>(scene.provenance.data()), scene.provenance.size());
   const Json provenance = Json::parse(text, nullptr, false);
+  Json workspace;
+  if (scene.workspace.limited)
+    workspace = {{"low", vector_json(scene.workspace.low)}, {"high", vector_json(scene.workspace.high)}};
   return {{"version", header.version},
           {"bytes", header.total_bytes},
           {"settings", settings_json(scene.settings)},
+          {"workspace", workspace},
           {"grid", grid_json(scene.grid)},
           {"body", body_json(scene.body)},
           {"sections", sections},

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -14,9 +15,12 @@
 #include "toolchain/scene_compiler/build_traits.h"
 #include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/leaving_out.h"
 #include "toolchain/scene_compiler/outer_surface.h"
+#include "toolchain/scene_compiler/scene_parts.h"
 #include "toolchain/scene_compiler/second_direction.h"
 #include "toolchain/scene_compiler/still_features.h"
+#include "toolchain/scene_compiler/unneeded_data.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -35,68 +39,24 @@ class Phases {
       if (request_.progress) request_.progress(name, done);
     };
     progress(0.0);
-    auto result = work(progress);
-    report_.seconds.emplace_back(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    return result;
+    const auto end = [&] {
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+      report_.seconds.emplace_back(name, time.count());
+    };
+    if constexpr (std::is_void_v<decltype(work(progress))>) {
+      work(progress);
+      end();
+    } else {
+      auto result = work(progress);
+      end();
+      return result;
+    }
   }
 
  private:
   const CompileRequest& request_;
   CompileReport& report_;
 };
-
-template <class T>
-std::vector<std::byte> bytes_of(const std::vector<T>& values) {
-  const auto bytes = std::as_bytes(std::span(values));
-  return {bytes.begin(), bytes.end()};
-}
-
-template <class T>
-std::vector<std::byte> bytes_of_one(const T& value) {
-  const auto bytes = std::as_bytes(std::span(&value, 1));
-  return {bytes.begin(), bytes.end()};
-}
-
-/// Everything that goes into the image but the provenance.
-struct SceneParts {
-  DistanceGrid field;
-  StillFeatures features;
-  DistanceGrid body_field;  ///< only with features
-};
-
-std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts& parts) {
-  using format::SectionId;
-  const DistanceGrid& field = parts.field;
-  const MovingBody& body = report.body;
-  format::Settings settings = report.config.settings;
-  if (report.only_solver) {
-    settings.solvers = 1u << static_cast<std::uint32_t>(*report.only_solver);
-    settings.default_solver = static_cast<std::uint32_t>(*report.only_solver);
-  }
-  std::vector<SectionBytes> sections;
-  sections.push_back({SectionId::kSettings, bytes_of_one(settings)});
-  sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
-  sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
-  sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
-  if (!field.refined.empty()) sections.push_back({SectionId::kRefined, bytes_of(field.refined)});
-  if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
-  sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
-  sections.push_back({SectionId::kPoints, bytes_of(body.points)});
-  if (!body.normals.empty() && report.only_solver.value_or(format::Solver::kPaper) == format::Solver::kPaper)
-    sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
-  sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
-  if (parts.features.points.empty()) return sections;
-  sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});
-  sections.push_back({SectionId::kBodyBrickIndex, bytes_of(parts.body_field.index)});
-  sections.push_back({SectionId::kBodyBricks, bytes_of(parts.body_field.bricks)});
-  if (!parts.body_field.refined.empty())
-    sections.push_back({SectionId::kBodyRefined, bytes_of(parts.body_field.refined)});
-  if (!parts.body_field.edges.empty()) sections.push_back({SectionId::kBodyEdges, bytes_of(parts.body_field.edges)});
-  sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
-  sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
-  sections.push_back({SectionId::kFeatureNodes, bytes_of(parts.features.nodes)});
-  return sections;
-}
 
 bool has_inside(const DistanceGrid& field) {
   return std::any_of(field.bricks.begin(), field.bricks.end(), [](const format::Brick& brick) {
@@ -274,6 +234,9 @@ CompileReport compile_scene(const CompileRequest& request) {
     sample_bodies(still, moving, phases, report, parts);
   }
 
+  LeavingOut leaving_out([&] { return lay_out(report, parts); }, request.times_left_out);
+  phases.run("unneeded data", [&](const Progress&) { leave_out_unneeded(still, moving, report, parts, leaving_out); });
+
   std::vector<SectionBytes> sections = lay_out(report, parts);
   for (const SectionBytes& section : sections) report.sections.emplace_back(section.id, section.bytes.size());
   report.field_error = phases.run("check", [&](const Progress& p) {
@@ -283,6 +246,10 @@ CompileReport compile_scene(const CompileRequest& request) {
     return check_field(met, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });
   require_exact_nodes(report.field_error, config.voxel_size);
+  if (request.times_left_out) {
+    report.cycle_ns = phases.run("times", [&](const Progress& p) { return leaving_out.time(p); });
+  }
+  report.left_out = leaving_out.items();
 
   const std::string provenance = report_json(report).dump(1);
   const auto text = std::as_bytes(std::span(provenance));

@@ -14,6 +14,7 @@
 #include "toolchain/scene_compiler/between_points.h"
 #include "toolchain/scene_compiler/distance_grid.h"
 #include "toolchain/scene_compiler/field_check.h"
+#include "toolchain/scene_compiler/leaving_out.h"
 #include "toolchain/scene_compiler/mesh_import.h"
 #include "toolchain/scene_compiler/moving_body.h"
 #include "toolchain/scene_compiler/refinement.h"
@@ -32,6 +33,7 @@ struct CompileRequest {
   std::filesystem::path output;
   std::optional<format::Solver> only_solver;
   nlohmann::ordered_json choice = {};  ///< how the settings were chosen, for the provenance; null: by the scene file
+  bool times_left_out = false;         ///< also time what was left out, in some seconds
   std::function<void(const char* phase, double done)> progress;  ///< may be empty
 };
 
@@ -50,8 +52,10 @@ struct SecondDirection {
   std::uint32_t on_edges = 0;      ///< on its sharp edges and rims
   std::uint32_t on_faces = 0;      ///< where it bends away too tightly
   double slack = 0.0;              ///< that the moving body's field is of a body smaller by [m]
-  format::Features features{};     ///< point_count = 0: none needed, the image holds no second direction
+  format::Features features{};     ///< of the image; point_count = 0: none needed, it holds no second direction
   format::Grid grid{};             ///< of the moving body's field
+
+  std::uint32_t found() const { return corners + on_edges + on_faces; }  ///< features, those left out included
 };
 
 /// Everything that the compiler found and measured.
@@ -71,7 +75,9 @@ struct CompileReport {
   SecondDirection second;
   FieldError field_error;
   LookUpTime look_up;
-  SceneTraits traits;                                                 ///< what a build for this image alone would hold
+  std::vector<LeftOut> left_out;
+  std::optional<double> cycle_ns;  ///< that a cycle takes where `left_out` was timed, with nothing left out
+  SceneTraits traits;              ///< what a build for this image alone would hold
   std::vector<std::pair<format::SectionId, std::uint64_t>> sections;  ///< bytes, provenance left out
   std::uint64_t image_bytes = 0;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each phase

@@ -69,6 +69,11 @@ const char* reason(Stopped stopped) {
   return "the field of the moving body takes too much; set moving.voxel_size lower, or contact.between_points higher";
 }
 
+/// Points that touch nothing.
+std::string without(std::uint32_t left_out) {
+  return left_out == 0 ? "" : fmt::format(", {} of these left out", left_out);
+}
+
 std::string points_text(const CompileReport& report) {
   if (report.ball) {
     const Ball& ball = *report.ball;
@@ -80,13 +85,13 @@ std::string points_text(const CompileReport& report) {
         report.config.settings.friction != 0 ? ", nor that of friction, whose lever the radius is" : "");
   }
   const format::Body& body = report.body.body;
+  const std::uint32_t asked = report.config.points;
   const std::uint32_t added = report.second.added_points;
   return fmt::format(
-      "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends; {} apart, no "
-      "place "
-      "of the surface further than {} from one\n",
-      body.point_count, body.level_count, body.point_count - added, added, millimetres(report.body.spacing),
-      millimetres(report.body.coverage));
+      "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends{}; {} apart, no "
+      "place of the surface further than {} from one\n",
+      body.point_count, body.level_count, asked, added, without(asked + added - body.point_count),
+      millimetres(report.body.spacing), millimetres(report.body.coverage));
 }
 
 std::string second_direction_text(const CompileReport& report) {
@@ -98,10 +103,12 @@ std::string second_direction_text(const CompileReport& report) {
   if (second.features.point_count > 0) {
     text += fmt::format(
         "features {} points of the still body, looked up in the moving body's own field: {} at corners, {} on edges, "
-        "{} "
-        "on bent faces\n         that field has {} bricks, finer ones included, voxels of {}\n",
-        second.features.point_count, second.corners, second.on_edges, second.on_faces, second.grid.brick_count,
+        "{} on bent faces{}\n         that field has {} bricks, finer ones included, voxels of {}\n",
+        second.features.point_count, second.corners, second.on_edges, second.on_faces,
+        without(second.found() - second.features.point_count), second.grid.brick_count,
         millimetres(second.grid.voxel_size));
+  } else if (second.found() > 0) {
+    text += fmt::format("features {} points of the still body, all left out\n", second.found());
   } else {
     text += "features none needed\n";
   }
@@ -189,6 +196,31 @@ std::string code_text(const CompileReport& report) {
                      fmt::join(parts, ", "), total);
 }
 
+/// Data, a line each. Times only of what was timed.
+std::string left_out_text(const CompileReport& report) {
+  const Json left_out = full_report_json(report)["left_out"];
+  std::string text = fmt::format("left out {:<64}{:>10}{:>12}{:>18}\n", "", "how many", "bytes", "ns a cycle");
+  for (const Json& item : left_out) {
+    const auto cell = [&item](const char* key, const char* form) {
+      const bool known = item.contains(key) && !item[key].is_null();
+      return known ? fmt::format(fmt::runtime(form), item[key].get<double>()) : std::string("-");
+    };
+    const std::string time = cell("nanoseconds_saved", "{:.1f}");
+    const std::string scatter = time == "-" ? "" : " +- " + cell("nanoseconds_uncertainty", "{:.1f}");
+    // a small grid may take more than a dense one would
+    text += fmt::format("         {:<64}{:>10}{:>12}{:>18}\n", item["what"].get<std::string>(), cell("count", "{:.0f}"),
+                        cell("bytes_saved", "{:.0f}"), time + scatter);
+  }
+  if (report.cycle_ns) {
+    text += fmt::format(
+        "         times of the processor by a short motion in contact on this machine, of {:.0f} ns a cycle with all "
+        "of "
+        "it\n",
+        *report.cycle_ns);
+  }
+  return text;
+}
+
 /// Walls or gaps.
 std::string thin_limit(const ThinPlaces& places, const char* what, const char* loss) {
   if (places.lost_area > 0.0) return fmt::format("{} thinner than a voxel, {}", what, loss);
@@ -250,16 +282,7 @@ std::string report_text(const CompileReport& report) {
   text += refinement_text(report);
   text += points_text(report);
   text += second_direction_text(report);
-  const Json left_out = report_json(report)["left_out"];
-  for (const Json& item : left_out) {
-    const std::string what = item["what"].get<std::string>();
-    const Json& saved = item["bytes_saved"];
-    if (saved.is_null()) {
-      text += fmt::format("left out {}\n", what);
-    } else if (saved.get<double>() > 0.0) {  // a small grid may take more than it saves: the JSON says so
-      text += fmt::format("left out {}: {:.1f} KiB saved\n", what, saved.get<double>() / 1024.0);
-    }
-  }
+  text += left_out_text(report);
   text += code_text(report);
   double total = 0.0;
   for (const auto& [phase, time] : report.seconds) total += time;

@@ -1,5 +1,7 @@
 #include "toolchain/scene_compiler/scene_config.h"
 
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "firmware/command/solver_names.h"
@@ -71,11 +73,29 @@ void read_paper(const TomlTable& paper, format::Settings& settings) {
   settings.paper_viscous = paper.number("viscous", kRatio, 0.002);
 }
 
+std::optional<format::Workspace> read_workspace(const TomlTable& table) {
+  constexpr Range kPlace{-1e7, 1e7};
+  table.allow({"low", "high"});
+  if (!table.present()) return std::nullopt;
+  const std::vector<double> low = table.numbers("low", 3, kPlace);
+  const std::vector<double> high = table.numbers("high", 3, kPlace);
+  format::Workspace workspace{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (low[axis] > high[axis]) {
+      table.complain("high", fmt::format("lies below low along {}, {:g} < {:g}; it must not along any axis: swap them",
+                                         "xyz"[axis], high[axis], low[axis]));
+    }
+    workspace.low[axis] = low[axis];
+    workspace.high[axis] = high[axis];
+  }
+  return workspace;
+}
+
 }  // namespace
 
 SceneConfig read_scene_config(const std::filesystem::path& file) {
   const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling"});
+  command::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling", "workspace"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   const std::filesystem::path folder = file.parent_path();
   SceneConfig config;
@@ -120,6 +140,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   settings.damping = coupling.number("damping", {0.0, 1e6}, 20.0);
   settings.coupling_translation = 1.0;  // the spring along the translation is k_D itself
   settings.coupling_rotation = coupling.number("rotational", {1e-15, 1e9}, 0.025);
+  config.workspace = read_workspace(table("workspace"));
   return config;
 }
 

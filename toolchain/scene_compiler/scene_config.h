@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "core/scene/format.h"
 #include "toolchain/scene_compiler/solid_surface.h"
@@ -26,8 +27,9 @@ struct SceneConfig {
   bool ball = false;             ///< the moving mesh is a ball, to be rendered by its centre alone
   std::uint32_t points = 0;      ///< not of a ball; nor what follows, but the settings
   std::uint32_t levels = 0;
-  bool both_directions = true;  ///< feature points of the still body against the moving body's field
-  double between_points = 0.0;  ///< wanted bound of penetration that no point sees [m]
+  bool both_directions = true;                 ///< feature points of the still body against the moving body's field
+  double between_points = 0.0;                 ///< wanted bound of penetration that no point sees [m]
+  std::optional<format::Workspace> workspace;  ///< that the moving body's centre of mass does not leave, in W
   format::Settings settings{};
 };
 

@@ -47,6 +47,9 @@ A scene file (TOML; lengths in metres, values in brackets are defaults, s is vox
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
   [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
+  [workspace] low, high: [x, y, z] in metres in the still mesh's frame: the box that the moving body's centre of mass does
+              not leave; the device feels its faces, and what cannot be reached from it is left out of the image.
+              Without the table: everywhere
 Meshes are PLY, STL or OBJ, found relative to the scene file.
 
 Walls and gaps of the still mesh thinner than two voxels are reported. A wall of a solid is
@@ -80,6 +83,11 @@ void choose_within_budget(const Options& options, CompileRequest& request) {
   if (config.ball) {
     throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget chooses points and directions, a ball has its centre "
                                                     "alone; leave out moving.ball or --budget",
+                                                    options.scene_file));
+  }
+  if (config.workspace) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget looks at motions everywhere; leave out [workspace], "
+                                                    "and put it back for the settings that were found",
                                                     options.scene_file));
   }
   precision::Paths paths;
@@ -121,6 +129,7 @@ void compile(const Options& options) {
     throw Failure(ExitCode::kUsage, "--path is for --budget: the motion that settings are tried on");
   }
   CompileRequest request;
+  request.times_left_out = !options.report.empty();
   request.scene_file = options.scene_file;
   request.output = options.output;
   if (!options.only_solver.empty()) request.only_solver = godobject::command::solver_of(options.only_solver);
@@ -173,7 +182,8 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("SCENE.toml", options.scene_file, "scene file: meshes and settings")->type_name("");
   app.add_option("-o,--output", options.output, "scene image to write")->type_name("OUT.scene");
-  app.add_option("--report", options.report, "also write what was found and measured")->type_name("REPORT.json");
+  app.add_option("--report", options.report, "also write what was found and measured, and time what was left out")
+      ->type_name("REPORT.json");
   app.add_option("--only-solver", options.only_solver,
                  "contact, corrected or paper: leave out what others read; default: hold all")
       ->check(CLI::IsMember(godobject::command::solver_names()))

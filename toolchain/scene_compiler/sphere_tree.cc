@@ -110,6 +110,8 @@ class Layout {
   SphereTree tree_;
 };
 
+}  // namespace
+
 /// Center and radius as floats; the radius grows by what the center's rounding moved it, then to the next float, so
 /// that the last bit of whoever computes a distance to the center does not matter.
 void set_sphere(std::span<const Vector3d> points, format::Node& node) {
@@ -120,8 +122,6 @@ void set_sphere(std::span<const Vector3d> points, format::Node& node) {
   const auto rounded = static_cast<float>(radius);
   node.radius = radius > 0.0 ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : 0.0f;
 }
-
-}  // namespace
 
 SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
                              const std::vector<std::vector<std::uint32_t>>& levels) {

@@ -22,6 +22,9 @@ struct SphereTree {
 SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
                              const std::vector<std::vector<std::uint32_t>>& levels);
 
+/// The sphere of a node that holds these points: minimal up to the rounding of its numbers to float, never too small.
+void set_sphere(std::span<const Eigen::Vector3d> points, format::Node& node);
+
 /// x[n], y[n], z[n] of values[order[0]], values[order[1]], ..
 std::vector<float> by_axis(std::span<const Eigen::Vector3f> values, std::span<const std::uint32_t> order);
 

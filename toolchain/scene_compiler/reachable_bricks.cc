@@ -1,0 +1,149 @@
+#include "toolchain/scene_compiler/reachable_bricks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "firmware/command/failure.h"
+#include "toolchain/scene_compiler/brick_lattice.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+using format::kBrickCells;
+namespace index_entry = format::index_entry;
+
+/// Beyond the radius: a look-up in single precision may take the next position for the one that it is in. [voxels]
+constexpr double kSlack = 1.0;
+
+/// The entries that stay, renumbered in the order in which a walk meets them.
+class Selection {
+ public:
+  explicit Selection(DistanceGrid& field) : field_(field), keeps_(field.bricks.size(), true) {}
+
+  /// Of a stored position, with all that hangs on it.
+  void drop(std::uint32_t entry, LeftOutBricks& left_out, std::size_t halvings = 0) {
+    if ((entry & index_entry::kFar) != 0) return;
+    const std::uint32_t number = entry & index_entry::kNumber;
+    if ((entry & index_entry::kRefined) == 0) {
+      keeps_[number] = false;
+      ++left_out.bricks[halvings];
+      return;
+    }
+    const format::Refined& refined = field_.refined[number];
+    keeps_[refined.brick] = false;
+    ++left_out.refined;
+    for (const std::uint32_t child : refined.child) drop(child, left_out, halvings + 1);
+  }
+
+  /// `field.index` names what stays and nothing else.
+  void apply(LeftOutBricks& left_out) {
+    number_bricks(left_out);
+    number_edges(left_out);
+    std::vector<format::Refined> refined;
+    for (std::uint32_t& entry : field_.index) entry = renumbered(entry, refined);
+    field_.refined = std::move(refined);
+    field_.grid.brick_count = static_cast<std::uint32_t>(field_.bricks.size());
+  }
+
+ private:
+  void number_bricks(LeftOutBricks& left_out) {
+    number_.resize(keeps_.size());
+    std::vector<format::Brick> bricks;
+    std::vector<bool> beside_seam;
+    for (std::size_t i = 0; i < keeps_.size(); ++i) {
+      if (!keeps_[i]) continue;
+      number_[i] = static_cast<std::uint32_t>(bricks.size());
+      bricks.push_back(field_.bricks[i]);
+      if (i < field_.beside_seam.size()) beside_seam.push_back(field_.beside_seam[i]);
+    }
+    left_out.all_bricks = keeps_.size() - bricks.size();
+    field_.bricks = std::move(bricks);
+    field_.beside_seam = std::move(beside_seam);
+  }
+
+  void number_edges(LeftOutBricks& left_out) {
+    std::vector<std::uint32_t> number(field_.edges.size() + 1);  // from 1, as bricks name them
+    std::vector<format::Edge> edges;
+    for (format::Brick& brick : field_.bricks) {
+      if (brick.edge == 0) continue;
+      if (number[brick.edge] == 0) {
+        edges.push_back(field_.edges[brick.edge - 1]);
+        number[brick.edge] = static_cast<std::uint32_t>(edges.size());
+      }
+      brick.edge = number[brick.edge];
+    }
+    left_out.edges = field_.edges.size() - edges.size();
+    field_.edges = std::move(edges);
+  }
+
+  std::uint32_t renumbered(std::uint32_t entry, std::vector<format::Refined>& refined) const {
+    if ((entry & index_entry::kFar) != 0) return entry;
+    const std::uint32_t old = entry & index_entry::kNumber;
+    const std::uint32_t kind = entry & ~index_entry::kNumber;
+    if ((entry & index_entry::kRefined) == 0) return kind | number_[old];
+    const format::Refined& from = field_.refined[old];
+    const auto number = static_cast<std::uint32_t>(refined.size());
+    refined.push_back(from);
+    refined[number].brick = number_[from.brick];
+    for (std::size_t octant = 0; octant < std::size(from.child); ++octant) {
+      const std::uint32_t child = renumbered(from.child[octant], refined);
+      refined[number].child[octant] = child;
+    }
+    return kind | number;
+  }
+
+  DistanceGrid& field_;
+  std::vector<bool> keeps_;            // by brick
+  std::vector<std::uint32_t> number_;  // of those that stay
+};
+
+}  // namespace
+
+double look_up_radius(const format::Body& body, const std::vector<format::Node>& nodes) {
+  double radius = body.radius;
+  for (const format::Node& node : nodes) {
+    radius = std::max(radius, Eigen::Map<const Eigen::Vector3f>(node.center).cast<double>().norm());
+  }
+  return radius;
+}
+
+LeftOutBricks leave_out_unreachable(DistanceGrid& field, const format::Workspace& workspace, double radius) {
+  const format::Grid& grid = field.grid;
+  const BrickLattice lattice{{grid.bricks[0], grid.bricks[1], grid.bricks[2]}};
+  const Eigen::Map<const Vector3d> low(workspace.low);
+  const Eigen::Map<const Vector3d> high(workspace.high);
+  const double edge = kBrickCells * grid.voxel_size;
+  const double reach = radius + kSlack * grid.voxel_size;
+  LeftOutBricks left_out;
+  Selection selection(field);
+  bool any_stays = false;
+  for (std::size_t i = 0; i < field.index.size(); ++i) {
+    std::uint32_t& entry = field.index[i];
+    if ((entry & index_entry::kFar) != 0) continue;
+    const BrickPosition p = lattice.position(i);
+    const Vector3d from = Eigen::Map<const Vector3d>(grid.origin) + edge * Vector3d(p[0], p[1], p[2]);
+    const Vector3d gap = (low - (from.array() + edge).matrix()).cwiseMax(from - high).cwiseMax(0.0);
+    if (gap.norm() <= reach) {
+      any_stays = true;
+      continue;
+    }
+    selection.drop(entry, left_out);
+    entry = index_entry::encode_far(true, 0.0f);
+    ++left_out.positions;
+  }
+  if (!any_stays) {
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        "[workspace]: from nowhere in it the moving body reaches the still one; set low and high, in "
+        "metres in the still mesh's frame, to where its centre of mass is to move");
+  }
+  selection.apply(left_out);
+  return left_out;
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/leaving_out.h"
+#include "toolchain/scene_compiler/scene_parts.h"
+#include "toolchain/scene_compiler/solid_surface.h"
+
+namespace godobject::scene_compiler {
+
+/// Leaves out what no cycle of the scene looks at: points that touch nothing, bricks that nothing reaches. `report` and
+/// `parts` are complete otherwise. Throws Failure (kBadConfig) naming the cure where from the workspace nothing is
+/// touched at all.
+void leave_out_unneeded(const SolidSurface& still, const SolidSurface& moving, CompileReport& report, SceneParts& parts,
+                        LeavingOut& leaving_out);
+
+}  // namespace godobject::scene_compiler
