@@ -31,6 +31,10 @@ struct Counted {
     looks += static_cast<int>(batch.count);
     field.clearances(H, batch);
   }
+  void samples(const Pose& H, SampleBatch& batch) const noexcept {
+    looks += static_cast<int>(batch.count);
+    field.samples(H, batch);
+  }
   LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
   double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
   double lipschitz() const noexcept { return field.lipschitz(); }
