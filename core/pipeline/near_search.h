@@ -122,18 +122,16 @@ class NearSearch {
         return way + room;
       }
     };
-    const auto look_up = [&](std::uint32_t i) noexcept {
-      const Vector3 p = shell.point(i);
-      const Vector3 p_field = R * p + H.translation;
-      const FieldSample sample = field.sample(p_field);
+    const auto is_near = [&](std::uint32_t i, const Vector3& p, const Vector3& p_field,
+                             const FieldSample& sample) noexcept {
       const bool near = sample.clearance < cut;
       if (near) visit(i, p, p_field, sample);
-      return near ? way : free_until(sample.clearance, p, 0.0);
+      return near;
     };
     if (memory_.empty()) {
-      certain_ = look_everywhere(field, shell, R, H, way + cut, free_until, look_up);
+      certain_ = look_everywhere(field, shell, R, H, way, cut, free_until, is_near);
     } else {
-      look_at_due(field, shell, H, way, cut, budget, free_until, look_up, leave_out);
+      look_at_due(field, shell, H, way, cut, budget, free_until, is_near, leave_out);
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
   }
@@ -154,21 +152,24 @@ class NearSearch {
   }
 
   /// Without memory. Until when all that is not near is free.
-  template <DistanceField Field, class FreeUntil, class LookUp>
+  template <DistanceField Field, class FreeUntil, class IsNear>
   static double look_everywhere(const Field& field, const Pointshell& shell, const Matrix3& R, const Pose& H,
-                                double needed, const FreeUntil& free_until, const LookUp& look_up) noexcept {
+                                double way, double cut, const FreeUntil& free_until, const IsNear& is_near) noexcept {
     double least = kNever;
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
     for (std::uint32_t n = 0; n < node_count;) {
       const format::Node& node = shell.nodes[n];
       const Vector3 center = center_of(node);
       const double until = free_until(field.sample(R * center + H.translation).clearance, center, radius_of(node));
-      if (until >= needed) {
+      if (until >= way + cut) {
         least = std::min(least, until);
         n = node.skip;
       } else if (node.leaf != 0) {
         for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-          least = std::min(least, look_up(i));
+          const Vector3 p = shell.point(i);
+          const Vector3 p_field = R * p + H.translation;
+          const FieldSample sample = field.sample(p_field);
+          least = std::min(least, is_near(i, p, p_field, sample) ? way : free_until(sample.clearance, p, 0.0));
         }
         n = node.skip;
       } else {
@@ -178,9 +179,9 @@ class NearSearch {
     return least;
   }
 
-  template <DistanceField Field, class FreeUntil, class LookUp, class LeaveOut>
+  template <DistanceField Field, class FreeUntil, class IsNear, class LeaveOut>
   void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double way, double cut,
-                   const PointBudget& budget, const FreeUntil& free_until, const LookUp& look_up,
+                   const PointBudget& budget, const FreeUntil& free_until, const IsNear& is_near,
                    LeaveOut& leave_out) noexcept {
     const double needed = way + cut;
     const double per_tick = 1.0 / tick_;
@@ -192,7 +193,6 @@ class NearSearch {
     const std::uint64_t now = tick_of(needed);
     PointBatch batch;
     std::array<std::uint32_t, PointBatch::kCapacity> item;
-    std::uint32_t marked = 0;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
     std::uint32_t leaving = DueCalendar::kNone;  // nodes that may stand for their children again
     const auto file = [&](std::uint32_t i, double until) noexcept {
@@ -221,7 +221,6 @@ class NearSearch {
         } else {
           calendar_.mark(i - node_count);
           bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
-          ++marked;
         }
       }
       batch.count = 0;
@@ -250,21 +249,44 @@ class NearSearch {
         DueCalendar::for_each_child(shell, calendar_.pop(opened), add);
       }
     }
-    if (marked <= budget.points) {
-      calendar_.take_marked([&](std::uint32_t i) noexcept { file(node_count + i, look_up(i)); });
+    if (calendar_.marked() > budget.points) bound_marked(node_count, add, flush);
+    SampleBatch samples;
+    const auto sample = [&]() noexcept {
+      field.samples(H, samples);
+      for (std::uint32_t k = 0; k < samples.count; ++k) {
+        const std::uint32_t i = item[k];
+        const Vector3 p = shell.point(i);
+        const FieldSample found = stored_sample(samples, k);
+        if (is_near(i, p, stored_position(samples, k), found)) continue;
+        calendar_.unmark(i);
+        file(node_count + i, free_until(found.clearance, p, 0.0));
+      }
+      samples.count = 0;
+    };
+    const auto look_up = [&](std::uint32_t i) noexcept {
+      const std::uint32_t k = samples.count;
+      item[k] = i;
+      samples.x[k] = shell.x[i];
+      samples.y[k] = shell.y[i];
+      samples.z[k] = shell.z[i];
+      samples.count = k + 1;
+      if (samples.count == SampleBatch::kCapacity) sample();
+    };
+    if (calendar_.marked() <= budget.points) {
+      calendar_.for_each_marked(look_up);
     } else {
       NearestFirst nearest(budget, static_cast<float>(field.lipschitz() * cut));
       calendar_.for_each_marked([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
       nearest.spread();
-      calendar_.take_marked([&](std::uint32_t i) noexcept {
+      calendar_.for_each_marked([&](std::uint32_t i) noexcept {
         if (nearest.takes(bound(i))) {
-          file(node_count + i, look_up(i));
+          look_up(i);
         } else {
           leave_out(static_cast<double>(bound(i)));
-          file(node_count + i, way);
         }
       });
     }
+    if (samples.count > 0) sample();
     // a node whose children are all filed and far
     while (leaving != DueCalendar::kNone) {
       const std::uint32_t n = calendar_.pop(leaving);
@@ -283,6 +305,18 @@ class NearSearch {
       DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
       file(n, until);
     }
+  }
+
+  /// Of what was marked before, too, a budget needs bounds as they are here.
+  template <class Add, class Flush>
+  void bound_marked(std::uint32_t node_count, const Add& add, const Flush& flush) noexcept {
+    std::uint32_t again = DueCalendar::kNone;
+    calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+      calendar_.unmark(i);
+      calendar_.push(again, node_count + i);
+    });
+    while (again != DueCalendar::kNone) add(calendar_.pop(again));
+    flush();
   }
 
   /// Keeps a budget: counts bounds by their size, then takes the least ones.
