@@ -68,6 +68,16 @@ struct PointBudget {
 /// are looked up one by one, as far as a budget goes.
 class NearSearch {
  public:
+  static Vector3 center_of(const format::Node& node) noexcept {
+    return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+            static_cast<double>(node.center[2])};
+  }
+  /// Spheres come in single precision: they may be this much too small.
+  static double radius_of(const format::Node& node) noexcept {
+    constexpr double kRounding = 2e-6;
+    return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
+  }
+
   /// Words that a search of this shell remembers.
   static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
@@ -139,17 +149,7 @@ class NearSearch {
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   static constexpr double kTicks = 64.0;          ///< of the calendar in the longest cut
-  static constexpr double kRounding = 2e-6;       ///< of spheres [1]
   static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
-
-  static Vector3 center_of(const format::Node& node) noexcept {
-    return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
-            static_cast<double>(node.center[2])};
-  }
-  /// Spheres come in single precision: they may be this much too small.
-  static double radius_of(const format::Node& node) noexcept {
-    return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
-  }
 
   /// Without memory. Until when all that is not near is free.
   template <DistanceField Field, class FreeUntil, class IsNear>
@@ -214,9 +214,11 @@ class NearSearch {
       for (std::uint32_t k = 0; k < batch.count; ++k) {
         const std::uint32_t i = item[k];
         const double until = until_of(k);
-        if (until >= needed) {
+        // a point whose bound is not below `cut` is not near, though it comes due again at once
+        const bool is_point = i >= node_count;
+        if (until >= needed || (is_point && static_cast<double>(batch.clearance[k]) >= cut)) {
           file(i, until);
-        } else if (i < node_count) {
+        } else if (!is_point) {
           calendar_.push(opened, i);
         } else {
           calendar_.mark(i - node_count);
