@@ -410,16 +410,17 @@ struct ContactSearch {
       const BodyField& map = feature_contacts->map;
       const double stretch = detail::FeatureDirection{lengths, feature_contacts->body_radius}.most_stretch();
       longest_reach = std::min(longest_reach, map.assured_clearance() / stretch);
-      features.start(memory.subspan(of_samples), feature_contacts->points, stretch * longest_reach);
+      features.start(memory.subspan(of_samples), feature_contacts->points, map.lipschitz(), stretch * longest_reach);
     } else {
       features.start_without_shell();
     }
-    samples.start(memory.first(of_samples), shell, longest_reach);
+    samples.start(memory.first(of_samples), shell, field.lipschitz(), longest_reach);
   }
 
-  /// The last look knows that in a motion with |x| + R_max |r| = `way` from here nothing will be near.
-  bool is_free(double way) const noexcept {
-    return samples.is_free(odometer.way() + way) && features.is_free(odometer.way() + way);
+  /// The last look knows that in a motion with |x| + R_max |r| = `way` from here no clearance will be below `cut`, at
+  /// most the longest reach.
+  bool is_free(double way, double cut) const noexcept {
+    return samples.is_free(odometer.way() + way, cut) && features.is_free(odometer.way() + way, cut);
   }
 };
 
@@ -470,6 +471,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   double reach =
       std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
                  std::min(lengths.shortest_reach, search.longest_reach), search.longest_reach);
+  // beyond it a gap does not hold a motion back that it is free for, and is not told
+  const double free_cut = std::min(std::max(lengths.margin, lengths.shortest_reach), search.longest_reach);
   std::uint32_t free_substeps = 0;
   do {
     const Pose H0 = result.H_WS;
@@ -478,7 +481,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     const double free_way = detail::travel(free, lengths);
     if (!first) detail::end(times, &StepTimes::solve_ns);  // #1
     search.odometer.move_to(H0, lengths.radius);
-    if (search.is_free(free_way)) {
+    if (search.is_free(free_way, free_cut)) {
       result.follow(input.H_WD);
       inside = false;
       break;
@@ -520,7 +523,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     } else {
       ++result.substeps;
     }
-    if (alone && (search.is_free(free_way) || detail::allowed_share(free, around, reach, lengths, false) == 1.0)) {
+    if (alone &&
+        (search.is_free(free_way, free_cut) || detail::allowed_share(free, around, reach, lengths, false) == 1.0)) {
       result.follow(input.H_WD);
       break;
     }

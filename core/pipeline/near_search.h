@@ -57,11 +57,10 @@ struct PointBudget {
 /// **Bound.** Let C = clearance(c) and |x - c| <= r + t for a point x that was within r of c when the body had gone t
 /// less. The field says (DistanceField) that
 ///     clearance(x) >= min((C - r - t) / L, A),   L = lipschitz(), A = assured_clearance().
-/// For any bound `cut` <= A, x is not near while C - r - t >= L cut. Since L >= 1, also while
-/// (C - r) / L - t >= cut, and while C - r - (L - 1) longest - t >= cut for all cuts up to `longest`. So the larger of
-///     way + (C - r) / L   and   way + C - r - (L - 1) longest
-/// is when it comes due, and neither node nor point is looked at again before way + cut exceeds it. Where x may move by
-/// f >= 1 times what the odometer says, both are divided by f.
+/// So for any bound `cut` <= A, x is not near while way + L cut, way the odometer's reading, has not exceeded
+///     way + C - r   as it was there,
+/// and neither node nor point is looked at again before. Where x may move by f >= 1 times what the odometer says,
+/// C - r is divided by f, since L cut >= L cut / f.
 ///
 /// What is due is looked at in batches (DistanceField::clearances, which knows C as the bound needs it); a node that
 /// may be near gives way to its children, and takes their place again once they are far. Only points that may be near
@@ -82,9 +81,9 @@ class NearSearch {
   static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
   /// Begins anew. `memory`: memory(shell) words that outlive the search, or none; then all nodes are looked at in every
-  /// cycle. `longest`: largest `cut`, at most the field's assured clearance [m].
-  void start(std::span<std::uint32_t> memory, const Pointshell& shell, double longest) noexcept {
-    longest_ = longest;
+  /// cycle. `slope`: the field's lipschitz(); `longest`: largest `cut`, at most the field's assured clearance [m].
+  void start(std::span<std::uint32_t> memory, const Pointshell& shell, double slope, double longest) noexcept {
+    slope_ = slope;
     tick_ = longest / kTicks;
     memory_ = memory;
     certain_ = 0.0;
@@ -100,10 +99,9 @@ class NearSearch {
     certain_ = kNever;
   }
 
-  /// The last `find` knows that up to this reading of the odometer nothing comes nearer than `longest`.
-  bool is_free(double way) const noexcept { return is_free(way, longest_); }
-  /// ... than `cut` <= `longest`.
-  bool is_free(double way, double cut) const noexcept { return way + cut < certain_; }
+  /// The last `find` knows that up to this reading of the odometer nothing comes nearer than `cut`, at most the
+  /// longest.
+  bool is_free(double way, double cut) const noexcept { return way + slope_ * cut < certain_; }
 
   /// Calls visit(i, p, p_field, sample) for all points with a clearance below `cut` <= `longest`, ascending. The shell
   /// is at H in the field's frame; `way` is the odometer's reading there. Cost: a share of a batch for each node and
@@ -119,13 +117,11 @@ class NearSearch {
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double way,
             double cut, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
     const Matrix3 R = H.rotation.toRotationMatrix();
-    const double slope = field.lipschitz();
-    const double per_slope = 1.0 / slope;
+    const double needed = way + slope_ * cut;
     const double rounding = kFieldRounding * field.voxel_size();
     // until when a ball of this radius about a point of the shell is not near
     const auto free_until = [&](double clearance, const Vector3& center, double radius) noexcept {
-      const double free = clearance - radius - rounding;
-      const double room = std::max(free * per_slope, free - (slope - 1.0) * longest_);
+      const double room = clearance - radius - rounding;
       if constexpr (Direction::kStretches) {
         return way + room / direction.stretch((R * center + H.translation).norm() + radius + std::max(0.0, room));
       } else {
@@ -139,9 +135,9 @@ class NearSearch {
       return near;
     };
     if (memory_.empty()) {
-      certain_ = look_everywhere(field, shell, R, H, way, cut, free_until, is_near);
+      certain_ = look_everywhere(field, shell, R, H, way, needed, free_until, is_near);
     } else {
-      look_at_due(field, shell, H, way, cut, budget, free_until, is_near, leave_out);
+      look_at_due(field, shell, H, needed, cut, budget, free_until, is_near, leave_out);
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
   }
@@ -154,14 +150,15 @@ class NearSearch {
   /// Without memory. Until when all that is not near is free.
   template <DistanceField Field, class FreeUntil, class IsNear>
   static double look_everywhere(const Field& field, const Pointshell& shell, const Matrix3& R, const Pose& H,
-                                double way, double cut, const FreeUntil& free_until, const IsNear& is_near) noexcept {
+                                double way, double needed, const FreeUntil& free_until,
+                                const IsNear& is_near) noexcept {
     double least = kNever;
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
     for (std::uint32_t n = 0; n < node_count;) {
       const format::Node& node = shell.nodes[n];
       const Vector3 center = center_of(node);
       const double until = free_until(field.sample(R * center + H.translation).clearance, center, radius_of(node));
-      if (until >= way + cut) {
+      if (until >= needed) {
         least = std::min(least, until);
         n = node.skip;
       } else if (node.leaf != 0) {
@@ -180,10 +177,9 @@ class NearSearch {
   }
 
   template <DistanceField Field, class FreeUntil, class IsNear, class LeaveOut>
-  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double way, double cut,
+  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double needed, double cut,
                    const PointBudget& budget, const FreeUntil& free_until, const IsNear& is_near,
                    LeaveOut& leave_out) noexcept {
-    const double needed = way + cut;
     const double per_tick = 1.0 / tick_;
     // rounded down: due a little early; by way of a signed number, which the processor converts to
     const auto tick_of = [&](double until) noexcept {
@@ -277,7 +273,7 @@ class NearSearch {
     if (calendar_.marked() <= budget.points) {
       calendar_.for_each_marked(look_up);
     } else {
-      NearestFirst nearest(budget, static_cast<float>(field.lipschitz() * cut));
+      NearestFirst nearest(budget, static_cast<float>(slope_ * cut));
       calendar_.for_each_marked([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
       nearest.spread();
       calendar_.for_each_marked([&](std::uint32_t i) noexcept {
@@ -370,9 +366,9 @@ class NearSearch {
   std::span<std::uint32_t> memory_;
   DueCalendar calendar_;
   std::span<std::uint32_t> bounds_;  ///< of a marked point's clearance, a float a point [m]
-  double longest_ = 0.0;
-  double tick_ = 1.0;        ///< of the calendar [m]
-  double certain_ = kNever;  ///< until when nothing comes nearer than the longest cut [m]
+  double slope_ = 1.0;               ///< the field's lipschitz()
+  double tick_ = 1.0;                ///< of the calendar [m]
+  double certain_ = kNever;          ///< until when nothing comes nearer than the longest cut [m]
 };
 
 }  // namespace godobject
