@@ -199,23 +199,22 @@ class NearSearch {
         calendar_.push(leaving, parent);
       }
     };
-    const auto until_of = [&](std::uint32_t k) noexcept {
-      const Vector3 center(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
-                           static_cast<double>(batch.z[k]));
-      const double radius = item[k] < node_count ? radius_of(shell.nodes[item[k]]) : 0.0;
-      return free_until(static_cast<double>(batch.clearance[k]), center, radius);
-    };
+    const auto clearance_of = [&](std::uint32_t k) noexcept { return static_cast<double>(batch.clearance[k]); };
     const auto flush = [&]() noexcept {
       field.clearances(H, batch);
       for (std::uint32_t k = 0; k < batch.count; ++k) {
         const std::uint32_t i = item[k];
-        const double until = until_of(k);
-        // a point whose bound is not below `cut` is not near, though it comes due again at once
-        const bool is_point = i >= node_count;
-        if (until >= needed || (is_point && static_cast<double>(batch.clearance[k]) >= cut)) {
-          file(i, until);
-        } else if (!is_point) {
-          calendar_.push(opened, i);
+        if (i < node_count) {
+          const format::Node& node = shell.nodes[i];
+          const double radius = radius_of(node);
+          const double until = free_until(clearance_of(k), center_of(node), radius);
+          if (until >= needed + kOpen * radius) {
+            file(i, until);
+          } else {
+            calendar_.push(opened, i);
+          }
+        } else if (clearance_of(k) >= cut) {
+          file(i, free_until(clearance_of(k), shell.point(i - node_count), 0.0));
         } else {
           calendar_.mark(i - node_count);
           bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
@@ -298,7 +297,7 @@ class NearSearch {
       batch.z[0] = node.center[2];
       batch.count = 1;
       field.clearances(H, batch);
-      const double until = until_of(0);
+      const double until = free_until(clearance_of(0), center_of(node), radius_of(node));
       if (until - needed <= static_cast<double>(node.radius)) continue;
       DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
       file(n, until);
@@ -360,7 +359,8 @@ class NearSearch {
 
   float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(bounds_[point]); }
 
-  static constexpr double kLeave = 2.0;  ///< children this many radii away may be stood for by their parent
+  static constexpr double kOpen = 0.125;  ///< a node less than this many radii away is opened
+  static constexpr double kLeave = 3.0;   ///< children this many of its radii away may be stood for by their parent
   static constexpr double kMostTicks = 1e18;
 
   std::span<std::uint32_t> memory_;
