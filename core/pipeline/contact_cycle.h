@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "core/pipeline/contact_rows.h"
 #include "core/pipeline/cycle.h"
@@ -232,6 +233,20 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
   return false;
 }
 
+/// No point of the shell goes farther from pose H0 to H1, R0 and R1 their rotations: of those within r of the root's
+/// centre c, |p1 - p0| <= |c1 - c0| + |R1 - R0| r, and of the difference of two rotations the Frobenius norm is sqrt(2)
+/// times the spectral one.
+inline double farthest_way(const Pointshell& shell, const Matrix3& R0, const Pose& H0, const Matrix3& R1,
+                           const Pose& H1) noexcept {
+  if (shell.nodes.empty()) return std::numeric_limits<double>::infinity();
+  constexpr double kRoundedUp = 1.0 + 1e-6;
+  const Vector3 center = NearSearch::center_of(shell.nodes[0]);
+  const double radius = NearSearch::radius_of(shell.nodes[0]);
+  const Matrix3 turn = R1 - R0;
+  return kRoundedUp * ((turn * center + (H1.translation - H0.translation)).norm() +
+                       turn.norm() * std::numbers::sqrt2 / 2.0 * radius);
+}
+
 /// The certificate, one direction: no near point's chord from pose H0 to H1 meets the surface, and no gap shrinks below
 /// the least margin. Points that started inside are let out. The point of `obstacle` is looked at first.
 template <DistanceField Field>
@@ -242,9 +257,10 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
   if (near.count == 0) return true;
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
+  const double farthest = farthest_way(shell, R0, H0, R1, H1);
   const auto fails = [&](std::uint32_t k) noexcept {
     const ContactWorkspace::NearPoint& start = near.point[k];
-    if (start.distance <= 0.0) return false;
+    if (start.distance <= 0.0 || farthest + kept <= start.clearance) return false;
     const Vector3 p = shell.point(start.index);
     const Vector3 p0 = R0 * p + H0.translation;
     const Vector3 p1 = R1 * p + H1.translation;
@@ -419,16 +435,17 @@ struct ContactSearch {
       const BodyField& map = feature_contacts->map;
       const double stretch = detail::FeatureDirection{lengths, feature_contacts->body_radius}.most_stretch();
       longest_reach = std::min(longest_reach, map.assured_clearance() / stretch);
-      features.start(memory.subspan(of_samples), feature_contacts->points, stretch * longest_reach);
+      features.start(memory.subspan(of_samples), feature_contacts->points, map.lipschitz(), stretch * longest_reach);
     } else {
       features.start_without_shell();
     }
-    samples.start(memory.first(of_samples), shell, longest_reach);
+    samples.start(memory.first(of_samples), shell, field.lipschitz(), longest_reach);
   }
 
-  /// The last look knows that in a motion with |x| + R_max |r| = `way` from here nothing will be near.
-  bool is_free(double way) const noexcept {
-    return samples.is_free(odometer.way() + way) && features.is_free(odometer.way() + way);
+  /// The last look knows that in a motion with |x| + R_max |r| = `way` from here no clearance will be below `cut`, at
+  /// most the longest reach.
+  bool is_free(double way, double cut) const noexcept {
+    return samples.is_free(odometer.way() + way, cut) && features.is_free(odometer.way() + way, cut);
   }
 };
 
@@ -479,6 +496,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   double reach =
       std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
                  std::min(lengths.shortest_reach, search.longest_reach), search.longest_reach);
+  // beyond it a gap does not hold a motion back that it is free for, and is not told
+  const double free_cut = std::min(std::max(lengths.margin, lengths.shortest_reach), search.longest_reach);
   std::uint32_t free_substeps = 0;
   do {
     const Pose H0 = result.H_WS;
@@ -487,7 +506,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     const double free_way = detail::travel(free, lengths);
     if (!first) detail::end(times, &StepTimes::solve_ns);  // #1
     search.odometer.move_to(H0, lengths.radius);
-    if (search.is_free(free_way)) {
+    if (search.is_free(free_way, free_cut)) {
       result.follow(input.H_WD);
       inside = false;
       break;
@@ -529,7 +548,8 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     } else {
       ++result.substeps;
     }
-    if (alone && (search.is_free(free_way) || detail::allowed_share(free, around, reach, lengths, false) == 1.0)) {
+    if (alone &&
+        (search.is_free(free_way, free_cut) || detail::allowed_share(free, around, reach, lengths, false) == 1.0)) {
       result.follow(input.H_WD);
       break;
     }

@@ -13,9 +13,10 @@
 namespace godobject {
 
 /// Which nodes and points of a shell have to be looked at next. Items are nodes, then points. Those that are filed are
-/// the *front*: every point is filed itself, or one node above it is. Each stands in a list of those that come due
-/// within one tick of the odometer, so that filing and taking cost the same however many there are (a hashed timing
-/// wheel: Varghese and Lauck, SOSP 1987). Real-time safe but for `start`.
+/// the *front*: every point is filed itself or marked, or one node above it is filed. Each stands in a list of those
+/// that come due within one tick of the odometer, so that filing and taking cost the same however many there are (a
+/// hashed timing wheel: Varghese and Lauck, SOSP 1987). Points may be marked instead of filed. Real-time safe but for
+/// `start`.
 class DueCalendar {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -37,6 +38,7 @@ class DueCalendar {
     head_.fill(kNone);
     filled_.fill(0);
     hand_ = 0;
+    marked_ = 0;
     for (std::uint32_t i = 0; i < items; ++i) prev(i) = kNone;
     if (nodes > 0) parent(0) = kNone;
     for (std::uint32_t n = 0; n < nodes; ++n) {
@@ -62,36 +64,34 @@ class DueCalendar {
 
   /// An item that is not filed: due once the tick `due` is reached.
   void file(std::uint32_t item, std::uint64_t due) noexcept {
-    const std::uint64_t latest = hand_ + kMostAhead;
-    const std::uint64_t tick = due < latest ? due : latest;
-    words_[kWords * item + kTick] = static_cast<std::uint32_t>(tick);
-    if (tick <= hand_) {
-      link(item, kCurrent);
-    } else {
-      link(item, (tick - hand_ < kSlots ? tick : hand_ + kSlots - 1) % kSlots);
-    }
+    const std::uint64_t tick = std::min(due, hand_ + kMostAhead);
+    words_of(item)[kTick] = static_cast<std::uint32_t>(tick);
+    link(item, tick > hand_ ? std::min(tick, hand_ + kSlots - 1) % kSlots : kCurrent);
   }
 
   /// An item that is filed.
   void take(std::uint32_t item) noexcept { unlink(item); }
 
-  /// Takes out all items due at `now` or before and calls visit(item) for each; what is filed meanwhile stays.
+  /// Takes out all items due at `now` or before, which may lie before the last, and calls visit(item) for each; what is
+  /// filed meanwhile stays.
   template <class Visit>
   void take_due(std::uint64_t now, Visit&& visit) noexcept {
-    visit_chain(detach(kCurrent), now, visit);
-    if (now <= hand_) return;
-    const std::uint64_t first = hand_ + 1;
-    const std::uint64_t slots = std::min<std::uint64_t>(now - hand_, kSlots);
+    const std::uint64_t last = hand_;
     hand_ = now;
-    for (std::uint64_t k = 0; k < slots; ++k) {
-      const std::uint64_t slot = (first + k) % kSlots;
-      if ((filled_[slot / 64] >> slot % 64 & 1) != 0) visit_chain(detach(slot), now, visit);
+    // after so long a way 32 bits do not tell what is due
+    const std::int32_t most = now > last + kMostAhead ? std::numeric_limits<std::int32_t>::max() : 0;
+    visit_chain(detach(kCurrent), now, most, visit);
+    if (now <= last) return;  // what is due later went from the current list into its own
+    const std::uint64_t slots = std::min<std::uint64_t>(now - last, kSlots);
+    for (std::uint64_t k = 1; k <= slots; ++k) {
+      const std::uint64_t slot = (last + k) % kSlots;
+      if ((filled_[slot / 64] >> slot % 64 & 1) != 0) visit_chain(detach(slot), now, most, visit);
     }
   }
 
   /// No item is due before this tick.
   std::uint64_t certain() const noexcept {
-    if (head_[kCurrent] != kNone) return 0;
+    if (marked_ > 0 || head_[kCurrent] != kNone) return 0;
     for (std::uint64_t ahead = 1; ahead < kSlots;) {
       const std::uint64_t slot = (hand_ + ahead) % kSlots;
       const std::uint64_t rest = filled_[slot / 64] >> slot % 64;
@@ -115,12 +115,23 @@ class DueCalendar {
     return item;
   }
 
+  /// A mark instead of a list is for points that are near in cycle after cycle: due at any tick, until it is taken off.
   void mark(std::uint32_t point) noexcept {
-    marks_[point / 32] |= 1u << point % 32;
+    const std::uint32_t bit = 1u << point % 32;
+    if ((marks_[point / 32] & bit) != 0) return;
+    marks_[point / 32] |= bit;
     marked_words_[point / 1024] |= 1u << point / 32 % 32;
+    ++marked_;
   }
+  /// A point that is marked.
+  void unmark(std::uint32_t point) noexcept {
+    marks_[point / 32] &= ~(1u << point % 32);
+    if (marks_[point / 32] == 0) marked_words_[point / 1024] &= ~(1u << point / 32 % 32);
+    --marked_;
+  }
+  std::uint32_t marked() const noexcept { return marked_; }
 
-  /// Calls visit(point) for all that are marked, ascending.
+  /// Calls visit(point) for all that are marked, ascending; it may unmark the point.
   template <class Visit>
   void for_each_marked(Visit&& visit) const noexcept {
     for (std::uint32_t w = 0; w < marked_words_.size(); ++w) {
@@ -129,21 +140,6 @@ class DueCalendar {
         for (std::uint32_t bits = marks_[word]; bits != 0; bits &= bits - 1) {
           visit(32 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
         }
-      }
-    }
-  }
-
-  /// Calls visit(point) for all that are marked, ascending, and unmarks them.
-  template <class Visit>
-  void take_marked(Visit&& visit) noexcept {
-    for (std::uint32_t w = 0; w < marked_words_.size(); ++w) {
-      while (marked_words_[w] != 0) {
-        const std::uint32_t word = 32 * w + static_cast<std::uint32_t>(std::countr_zero(marked_words_[w]));
-        marked_words_[w] &= marked_words_[w] - 1;
-        for (std::uint32_t bits = marks_[word]; bits != 0; bits &= bits - 1) {
-          visit(32 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
-        }
-        marks_[word] = 0;
       }
     }
   }
@@ -158,9 +154,10 @@ class DueCalendar {
 
   static constexpr std::size_t mark_words(std::size_t bits) noexcept { return (bits + 31) / 32; }
 
-  std::uint32_t& next(std::uint32_t item) noexcept { return words_[kWords * item + kNext]; }
-  std::uint32_t& prev(std::uint32_t item) noexcept { return words_[kWords * item + kPrev]; }
-  std::uint32_t& parent(std::uint32_t item) noexcept { return words_[kWords * item + kParent]; }
+  std::uint32_t* words_of(std::uint32_t item) noexcept { return words_.data() + kWords * item; }
+  std::uint32_t& next(std::uint32_t item) noexcept { return words_of(item)[kNext]; }
+  std::uint32_t& prev(std::uint32_t item) noexcept { return words_of(item)[kPrev]; }
+  std::uint32_t& parent(std::uint32_t item) noexcept { return words_of(item)[kParent]; }
 
   void link(std::uint32_t item, std::uint64_t slot) noexcept {
     const std::uint32_t first = head_[slot];
@@ -192,12 +189,13 @@ class DueCalendar {
     return first;
   }
 
+  /// Items more than `most` ticks ahead of `now` are filed again.
   template <class Visit>
-  void visit_chain(std::uint32_t chain, std::uint64_t now, Visit& visit) noexcept {
+  void visit_chain(std::uint32_t chain, std::uint64_t now, std::int32_t most, Visit& visit) noexcept {
     while (chain != kNone) {
       const std::uint32_t item = pop(chain);
-      const auto ahead = static_cast<std::int32_t>(words_[kWords * item + kTick] - static_cast<std::uint32_t>(now));
-      if (ahead <= 0) {
+      const auto ahead = static_cast<std::int32_t>(words_of(item)[kTick] - static_cast<std::uint32_t>(now));
+      if (ahead <= most) {
         visit(item);
       } else {
         file(item, now + static_cast<std::uint64_t>(ahead));
@@ -208,6 +206,7 @@ class DueCalendar {
   std::span<std::uint32_t> words_;
   std::span<std::uint32_t> marks_;         ///< a bit a point
   std::span<std::uint32_t> marked_words_;  ///< a bit a word of them
+  std::uint32_t marked_ = 0;
   std::array<std::uint32_t, kSlots + 1> head_{};
   std::array<std::uint64_t, kSlots / 64 + 1> filled_{};  ///< lists that are not empty
   std::uint64_t hand_ = 0;                               ///< the last tick up to which lists were taken

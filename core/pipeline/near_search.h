@@ -57,24 +57,33 @@ struct PointBudget {
 /// **Bound.** Let C = clearance(c) and |x - c| <= r + t for a point x that was within r of c when the body had gone t
 /// less. The field says (DistanceField) that
 ///     clearance(x) >= min((C - r - t) / L, A),   L = lipschitz(), A = assured_clearance().
-/// For any bound `cut` <= A, x is not near while C - r - t >= L cut. Since L >= 1, also while
-/// (C - r) / L - t >= cut, and while C - r - (L - 1) longest - t >= cut for all cuts up to `longest`. So the larger of
-///     way + (C - r) / L   and   way + C - r - (L - 1) longest
-/// is when it comes due, and neither node nor point is looked at again before way + cut exceeds it. Where x may move by
-/// f >= 1 times what the odometer says, both are divided by f.
+/// So for any bound `cut` <= A, x is not near while way + L cut, way the odometer's reading, has not exceeded
+///     way + C - r   as it was there,
+/// and neither node nor point is looked at again before. Where x may move by f >= 1 times what the odometer says,
+/// C - r is divided by f, since L cut >= L cut / f.
 ///
 /// What is due is looked at in batches (DistanceField::clearances, which knows C as the bound needs it); a node that
 /// may be near gives way to its children, and takes their place again once they are far. Only points that may be near
 /// are looked up one by one, as far as a budget goes.
 class NearSearch {
  public:
+  static Vector3 center_of(const format::Node& node) noexcept {
+    return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+            static_cast<double>(node.center[2])};
+  }
+  /// Spheres come in single precision: they may be this much too small.
+  static double radius_of(const format::Node& node) noexcept {
+    constexpr double kRounding = 2e-6;
+    return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
+  }
+
   /// Words that a search of this shell remembers.
   static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
   /// Begins anew. `memory`: memory(shell) words that outlive the search, or none; then all nodes are looked at in every
-  /// cycle. `longest`: largest `cut`, at most the field's assured clearance [m].
-  void start(std::span<std::uint32_t> memory, const Pointshell& shell, double longest) noexcept {
-    longest_ = longest;
+  /// cycle. `slope`: the field's lipschitz(); `longest`: largest `cut`, at most the field's assured clearance [m].
+  void start(std::span<std::uint32_t> memory, const Pointshell& shell, double slope, double longest) noexcept {
+    slope_ = slope;
     tick_ = longest / kTicks;
     memory_ = memory;
     certain_ = 0.0;
@@ -90,10 +99,9 @@ class NearSearch {
     certain_ = kNever;
   }
 
-  /// The last `find` knows that up to this reading of the odometer nothing comes nearer than `longest`.
-  bool is_free(double way) const noexcept { return is_free(way, longest_); }
-  /// ... than `cut` <= `longest`.
-  bool is_free(double way, double cut) const noexcept { return way + cut < certain_; }
+  /// The last `find` knows that up to this reading of the odometer nothing comes nearer than `cut`, at most the
+  /// longest.
+  bool is_free(double way, double cut) const noexcept { return way + slope_ * cut < certain_; }
 
   /// Calls visit(i, p, p_field, sample) for all points with a clearance below `cut` <= `longest`, ascending. The shell
   /// is at H in the field's frame; `way` is the odometer's reading there. Cost: a share of a batch for each node and
@@ -109,31 +117,27 @@ class NearSearch {
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double way,
             double cut, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
     const Matrix3 R = H.rotation.toRotationMatrix();
-    const double slope = field.lipschitz();
-    const double per_slope = 1.0 / slope;
+    const double needed = way + slope_ * cut;
     const double rounding = kFieldRounding * field.voxel_size();
     // until when a ball of this radius about a point of the shell is not near
     const auto free_until = [&](double clearance, const Vector3& center, double radius) noexcept {
-      const double free = clearance - radius - rounding;
-      const double room = std::max(free * per_slope, free - (slope - 1.0) * longest_);
+      const double room = clearance - radius - rounding;
       if constexpr (Direction::kStretches) {
         return way + room / direction.stretch((R * center + H.translation).norm() + radius + std::max(0.0, room));
       } else {
         return way + room;
       }
     };
-    const auto look_up = [&](std::uint32_t i) noexcept {
-      const Vector3 p = shell.point(i);
-      const Vector3 p_field = R * p + H.translation;
-      const FieldSample sample = field.sample(p_field);
+    const auto is_near = [&](std::uint32_t i, const Vector3& p, const Vector3& p_field,
+                             const FieldSample& sample) noexcept {
       const bool near = sample.clearance < cut;
       if (near) visit(i, p, p_field, sample);
-      return near ? way : free_until(sample.clearance, p, 0.0);
+      return near;
     };
     if (memory_.empty()) {
-      certain_ = look_everywhere(field, shell, R, H, way + cut, free_until, look_up);
+      certain_ = look_everywhere(field, shell, R, H, way, needed, free_until, is_near);
     } else {
-      look_at_due(field, shell, H, way, cut, budget, free_until, look_up, leave_out);
+      look_at_due(field, shell, H, needed, cut, budget, free_until, is_near, leave_out);
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
   }
@@ -141,22 +145,13 @@ class NearSearch {
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   static constexpr double kTicks = 64.0;          ///< of the calendar in the longest cut
-  static constexpr double kRounding = 2e-6;       ///< of spheres [1]
   static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
 
-  static Vector3 center_of(const format::Node& node) noexcept {
-    return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
-            static_cast<double>(node.center[2])};
-  }
-  /// Spheres come in single precision: they may be this much too small.
-  static double radius_of(const format::Node& node) noexcept {
-    return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
-  }
-
   /// Without memory. Until when all that is not near is free.
-  template <DistanceField Field, class FreeUntil, class LookUp>
+  template <DistanceField Field, class FreeUntil, class IsNear>
   static double look_everywhere(const Field& field, const Pointshell& shell, const Matrix3& R, const Pose& H,
-                                double needed, const FreeUntil& free_until, const LookUp& look_up) noexcept {
+                                double way, double needed, const FreeUntil& free_until,
+                                const IsNear& is_near) noexcept {
     double least = kNever;
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
     for (std::uint32_t n = 0; n < node_count;) {
@@ -168,7 +163,10 @@ class NearSearch {
         n = node.skip;
       } else if (node.leaf != 0) {
         for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-          least = std::min(least, look_up(i));
+          const Vector3 p = shell.point(i);
+          const Vector3 p_field = R * p + H.translation;
+          const FieldSample sample = field.sample(p_field);
+          least = std::min(least, is_near(i, p, p_field, sample) ? way : free_until(sample.clearance, p, 0.0));
         }
         n = node.skip;
       } else {
@@ -178,11 +176,10 @@ class NearSearch {
     return least;
   }
 
-  template <DistanceField Field, class FreeUntil, class LookUp, class LeaveOut>
-  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double way, double cut,
-                   const PointBudget& budget, const FreeUntil& free_until, const LookUp& look_up,
+  template <DistanceField Field, class FreeUntil, class IsNear, class LeaveOut>
+  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double needed, double cut,
+                   const PointBudget& budget, const FreeUntil& free_until, const IsNear& is_near,
                    LeaveOut& leave_out) noexcept {
-    const double needed = way + cut;
     const double per_tick = 1.0 / tick_;
     // rounded down: due a little early; by way of a signed number, which the processor converts to
     const auto tick_of = [&](double until) noexcept {
@@ -192,7 +189,6 @@ class NearSearch {
     const std::uint64_t now = tick_of(needed);
     PointBatch batch;
     std::array<std::uint32_t, PointBatch::kCapacity> item;
-    std::uint32_t marked = 0;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
     std::uint32_t leaving = DueCalendar::kNone;  // nodes that may stand for their children again
     const auto file = [&](std::uint32_t i, double until) noexcept {
@@ -203,25 +199,25 @@ class NearSearch {
         calendar_.push(leaving, parent);
       }
     };
-    const auto until_of = [&](std::uint32_t k) noexcept {
-      const Vector3 center(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
-                           static_cast<double>(batch.z[k]));
-      const double radius = item[k] < node_count ? radius_of(shell.nodes[item[k]]) : 0.0;
-      return free_until(static_cast<double>(batch.clearance[k]), center, radius);
-    };
+    const auto clearance_of = [&](std::uint32_t k) noexcept { return static_cast<double>(batch.clearance[k]); };
     const auto flush = [&]() noexcept {
       field.clearances(H, batch);
       for (std::uint32_t k = 0; k < batch.count; ++k) {
         const std::uint32_t i = item[k];
-        const double until = until_of(k);
-        if (until >= needed) {
-          file(i, until);
-        } else if (i < node_count) {
-          calendar_.push(opened, i);
+        if (i < node_count) {
+          const format::Node& node = shell.nodes[i];
+          const double radius = radius_of(node);
+          const double until = free_until(clearance_of(k), center_of(node), radius);
+          if (until >= needed + kOpen * radius) {
+            file(i, until);
+          } else {
+            calendar_.push(opened, i);
+          }
+        } else if (clearance_of(k) >= cut) {
+          file(i, free_until(clearance_of(k), shell.point(i - node_count), 0.0));
         } else {
           calendar_.mark(i - node_count);
           bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
-          ++marked;
         }
       }
       batch.count = 0;
@@ -250,21 +246,44 @@ class NearSearch {
         DueCalendar::for_each_child(shell, calendar_.pop(opened), add);
       }
     }
-    if (marked <= budget.points) {
-      calendar_.take_marked([&](std::uint32_t i) noexcept { file(node_count + i, look_up(i)); });
+    if (calendar_.marked() > budget.points) bound_marked(node_count, add, flush);
+    SampleBatch samples;
+    const auto sample = [&]() noexcept {
+      field.samples(H, samples);
+      for (std::uint32_t k = 0; k < samples.count; ++k) {
+        const std::uint32_t i = item[k];
+        const Vector3 p = shell.point(i);
+        const FieldSample found = stored_sample(samples, k);
+        if (is_near(i, p, stored_position(samples, k), found)) continue;
+        calendar_.unmark(i);
+        file(node_count + i, free_until(found.clearance, p, 0.0));
+      }
+      samples.count = 0;
+    };
+    const auto look_up = [&](std::uint32_t i) noexcept {
+      const std::uint32_t k = samples.count;
+      item[k] = i;
+      samples.x[k] = shell.x[i];
+      samples.y[k] = shell.y[i];
+      samples.z[k] = shell.z[i];
+      samples.count = k + 1;
+      if (samples.count == SampleBatch::kCapacity) sample();
+    };
+    if (calendar_.marked() <= budget.points) {
+      calendar_.for_each_marked(look_up);
     } else {
-      NearestFirst nearest(budget, static_cast<float>(field.lipschitz() * cut));
+      NearestFirst nearest(budget, static_cast<float>(slope_ * cut));
       calendar_.for_each_marked([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
       nearest.spread();
-      calendar_.take_marked([&](std::uint32_t i) noexcept {
+      calendar_.for_each_marked([&](std::uint32_t i) noexcept {
         if (nearest.takes(bound(i))) {
-          file(node_count + i, look_up(i));
+          look_up(i);
         } else {
           leave_out(static_cast<double>(bound(i)));
-          file(node_count + i, way);
         }
       });
     }
+    if (samples.count > 0) sample();
     // a node whose children are all filed and far
     while (leaving != DueCalendar::kNone) {
       const std::uint32_t n = calendar_.pop(leaving);
@@ -278,11 +297,23 @@ class NearSearch {
       batch.z[0] = node.center[2];
       batch.count = 1;
       field.clearances(H, batch);
-      const double until = until_of(0);
+      const double until = free_until(clearance_of(0), center_of(node), radius_of(node));
       if (until - needed <= static_cast<double>(node.radius)) continue;
       DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
       file(n, until);
     }
+  }
+
+  /// Of what was marked before, too, a budget needs bounds as they are here.
+  template <class Add, class Flush>
+  void bound_marked(std::uint32_t node_count, const Add& add, const Flush& flush) noexcept {
+    std::uint32_t again = DueCalendar::kNone;
+    calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+      calendar_.unmark(i);
+      calendar_.push(again, node_count + i);
+    });
+    while (again != DueCalendar::kNone) add(calendar_.pop(again));
+    flush();
   }
 
   /// Keeps a budget: counts bounds by their size, then takes the least ones.
@@ -328,15 +359,16 @@ class NearSearch {
 
   float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(bounds_[point]); }
 
-  static constexpr double kLeave = 2.0;  ///< children this many radii away may be stood for by their parent
+  static constexpr double kOpen = 0.125;  ///< a node less than this many radii away is opened
+  static constexpr double kLeave = 3.0;   ///< children this many of its radii away may be stood for by their parent
   static constexpr double kMostTicks = 1e18;
 
   std::span<std::uint32_t> memory_;
   DueCalendar calendar_;
   std::span<std::uint32_t> bounds_;  ///< of a marked point's clearance, a float a point [m]
-  double longest_ = 0.0;
-  double tick_ = 1.0;        ///< of the calendar [m]
-  double certain_ = kNever;  ///< until when nothing comes nearer than the longest cut [m]
+  double slope_ = 1.0;               ///< the field's lipschitz()
+  double tick_ = 1.0;                ///< of the calendar [m]
+  double certain_ = kNever;          ///< until when nothing comes nearer than the longest cut [m]
 };
 
 }  // namespace godobject

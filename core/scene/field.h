@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "core/scene/sample_batch.h"
 #include "core/spatial/pose.h"
 #include "core/spatial/vector.h"
 
@@ -44,24 +45,63 @@ void sample_clearances(const Field& field, const Pose& H, PointBatch& batch) noe
   }
 }
 
+/// Keeps the sample of point `i` of a batch, at p_field.
+inline void store_sample(const Vector3& p_field, const FieldSample& sample, SampleBatch& batch,
+                         std::uint32_t i) noexcept {
+  batch.field_x[i] = p_field.x();
+  batch.field_y[i] = p_field.y();
+  batch.field_z[i] = p_field.z();
+  batch.distance[i] = sample.distance;
+  batch.clearance[i] = sample.clearance;
+  batch.gradient_x[i] = sample.gradient.x();
+  batch.gradient_y[i] = sample.gradient.y();
+  batch.gradient_z[i] = sample.gradient.z();
+  batch.known = (batch.known & ~(std::uint64_t{1} << i)) | std::uint64_t{sample.known} << i;
+}
+
+/// Point `i` of a batch that was looked up, in the field's frame, and what was found there.
+inline Vector3 stored_position(const SampleBatch& batch, std::uint32_t i) noexcept {
+  return {batch.field_x[i], batch.field_y[i], batch.field_z[i]};
+}
+inline FieldSample stored_sample(const SampleBatch& batch, std::uint32_t i) noexcept {
+  return {batch.distance[i],
+          {batch.gradient_x[i], batch.gradient_y[i], batch.gradient_z[i]},
+          (batch.known >> i & 1) != 0,
+          batch.clearance[i]};
+}
+
+/// DistanceField::samples of a field that has nothing quicker than `sample`.
+template <class Field>
+void sample_each(const Field& field, const Pose& H, SampleBatch& batch) noexcept {
+  const Matrix3 R = H.rotation.toRotationMatrix();
+  for (std::uint32_t i = 0; i < batch.count; ++i) {
+    const Vector3 p(static_cast<double>(batch.x[i]), static_cast<double>(batch.y[i]), static_cast<double>(batch.z[i]));
+    const Vector3 p_field = R * p + H.translation;
+    store_sample(p_field, field.sample(p_field), batch, i);
+  }
+}
+
 /// A still body as steps #1-#7 see it: the compiled `Voxelmap`, or an analytic world in tests.
 ///
 /// `sample(p)`          distance, gradient and clearance at p_W.
 /// `layer(p)`           the paper's integer layer at p_W.
 /// `clearances(H, b)`   not more than sample(H p).clearance for each point p of the batch, which may cost much less.
+/// `samples(H, b)`      H p for each point p of the batch, to rounding, and sample() there; may cost less.
 /// `lower_bound(c, r)`  no point x with |x - c| <= r is nearer to the surface: sample(x).distance is not below it, or
-/// is
-///                      the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
+///                      is the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
 ///                      least 0 is known.
 /// `lipschitz()`        L >= 1, and
 /// `assured_clearance()`  C [m]: for any points p and x, sample(x).clearance is at least
 ///                      min((sample(p).clearance - |x - p|) / L, C).
 /// `voxel_size()`       s [m];  `band()`  distances beyond it are not known [m].
 template <class F>
-concept DistanceField = requires(const F& field, const Vector3& p, double r, const Pose& H, PointBatch& batch) {
+concept DistanceField = requires(const F& field, const Vector3& p, double r, const Pose& H, PointBatch& batch,
+                                 SampleBatch& samples) {
   { field.sample(p) }
   noexcept->std::same_as<FieldSample>;
   { field.clearances(H, batch) }
+  noexcept->std::same_as<void>;
+  { field.samples(H, samples) }
   noexcept->std::same_as<void>;
   { field.layer(p) }
   noexcept->std::same_as<LayerSample>;

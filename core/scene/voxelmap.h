@@ -7,6 +7,7 @@
 #include "core/scene/clearance_kernel.h"
 #include "core/scene/field.h"
 #include "core/scene/format.h"
+#include "core/scene/sample_kernel.h"
 
 namespace godobject {
 
@@ -37,6 +38,12 @@ class Voxelmap {
   /// See DistanceField. In single precision, of each position's own nodes, with allowance for both; eight points at a
   /// time where the processor gathers (some 10 ns a point in cache).
   void clearances(const Pose& H, PointBatch& batch) const noexcept;
+
+  /// See DistanceField: to the last bit what `sample` gives there, several points at a time where the processor has
+  /// vectors; what lies in bricks with an edge, or where nothing is stored, one by one.
+  void samples(const Pose& H, SampleBatch& batch) const noexcept;
+  /// By one of sample_kernels(), or by none.
+  void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
   /// What the kernels of `clearances` read, for points of a frame at H; not where in_batches() is false.
   detail::FieldOfCells in_cells(const Pose& H) const noexcept;

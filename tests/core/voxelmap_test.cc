@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <vector>
 
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
@@ -438,6 +439,49 @@ TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
     }
   }
   EXPECT_GT(useful, 100);
+}
+
+/// What a batch gives is what `sample` gives there, to the last bit, with any vectors.
+TEST_P(VoxelmapOfRandomShapes, LooksUpInBatchesWhatItLooksUpSingly) {
+  std::vector<const detail::SampleKernel*> kernels{nullptr};
+  for (const detail::SampleKernel& kernel : detail::sample_kernels()) kernels.push_back(&kernel);
+  int known = 0;
+  for (int i = 0; i < 1200; ++i) {
+    Pose H;
+    H.rotation = exp_rotation(random_point(3.0));
+    H.translation = random_point(0.02);
+    SampleBatch batch;
+    batch.count = 1 + static_cast<std::uint32_t>(i) % SampleBatch::kCapacity;
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      Vector3 p = random_point(k % 10 == 0 ? 0.2 : 0.05);
+      if (k % 3 == 0) p = 0.001 * (p / 0.001).array().round().matrix();  // on nodes, faces of cells and of bricks
+      if (k % 6 != 0) p = H.inverse() * p;
+      if (k % 23 == 7) p[static_cast<int>(k) % 3] = std::array{kNaN, kInfinity, -kInfinity, 1e30}[k % 4];
+      batch.x[k] = static_cast<float>(p.x());
+      batch.y[k] = static_cast<float>(p.y());
+      batch.z[k] = static_cast<float>(p.z());
+    }
+    if (i % 2 == 0) H = Pose{};  // exactly on them
+    const detail::SampleKernel* const kernel = kernels[static_cast<std::size_t>(i) % kernels.size()];
+    SCOPED_TRACE(kernel != nullptr ? kernel->name : "one by one");
+    map_.samples_by(kernel, H, batch);
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      const Vector3 p(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
+                      static_cast<double>(batch.z[k]));
+      const Vector3 p_field = stored_position(batch, k);
+      if (p.allFinite()) {
+        ASSERT_LE((p_field - H * p).norm(), 1e-15 * (1.0 + p.norm()));
+      }
+      const FieldSample single = map_.sample(p_field);
+      const FieldSample found = stored_sample(batch, k);
+      ASSERT_EQ(found.known, single.known) << p_field.transpose();
+      ASSERT_EQ(found.distance, single.distance) << p_field.transpose();
+      ASSERT_EQ(found.clearance, single.clearance) << p_field.transpose();
+      ASSERT_EQ(found.gradient, single.gradient) << p_field.transpose();
+      known += single.known;
+    }
+  }
+  EXPECT_GT(known, 1000);
 }
 
 TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {

@@ -34,7 +34,7 @@ TEST(DueCalendar, TakesWhatIsDueAndNothingElse) {
     if (kind < 0.9)
       now = farthest + static_cast<std::uint64_t>(30.0 * unit(random));
     else if (kind < 0.97)
-      now = farthest - std::min<std::uint64_t>(farthest, 50);
+      now = farthest - std::min(farthest, static_cast<std::uint64_t>(std::pow(10.0, 4.0 * unit(random))));
     else if (kind < 0.999)
       now = farthest + static_cast<std::uint64_t>(5000.0 * unit(random));
     else
@@ -87,6 +87,25 @@ TEST(DueCalendar, FilesTheFarthestWhereItIsSeenInTime) {
   EXPECT_LE(taken, 8) << "early, as 32 bits tell no more, but not often";
 }
 
+/// However far it goes at once; a search looks at one item too many at worst.
+TEST(DueCalendar, LosesNothingInAnyJump) {
+  const SampledBody body = ball_body();
+  for (int power = 0; power < 60; ++power) {
+    std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+    DueCalendar calendar;
+    calendar.start(memory, body.pointshell());
+    calendar.take_due(10, [](std::uint32_t) {});
+    calendar.file(0, 5);
+    calendar.file(1, 15);
+    calendar.file(2, 5000);
+    calendar.file(3, 1ull << 29);
+    const std::uint64_t now = 10 + (1ull << power);
+    int taken = 0;
+    calendar.take_due(now, [&](std::uint32_t) { ++taken; });
+    EXPECT_EQ(taken, 1 + (now >= 15 ? 1 : 0) + (now >= 5000 ? 1 : 0) + (now >= 1ull << 29 ? 1 : 0)) << power;
+  }
+}
+
 TEST(DueCalendar, KnowsTheChildrenAndTheirParent) {
   const SampledBody body = ball_body();
   const Pointshell& shell = body.pointshell();
@@ -110,12 +129,47 @@ TEST(DueCalendar, GivesMarkedPointsOnceAndInOrder) {
   std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
   DueCalendar calendar;
   calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.file(0, 100);
+  EXPECT_EQ(calendar.certain(), 100u);
   const auto points = static_cast<std::uint32_t>(body.pointshell().size);
   for (const std::uint32_t point : {points - 1, 31u, 0u, 32u, 31u, 63u}) calendar.mark(point);
-  std::vector<std::uint32_t> taken;
-  calendar.take_marked([&](std::uint32_t point) { taken.push_back(point); });
-  EXPECT_EQ(taken, (std::vector<std::uint32_t>{0, 31, 32, 63, points - 1}));
-  calendar.take_marked([](std::uint32_t) { FAIL() << "they were taken"; });
+  EXPECT_EQ(calendar.marked(), 5u);
+  EXPECT_EQ(calendar.certain(), 0u) << "what is marked is due";
+  std::vector<std::uint32_t> given;
+  const auto unmark_some = [&](std::uint32_t point) {
+    given.push_back(point);
+    if (point != 32) calendar.unmark(point);
+  };
+  calendar.for_each_marked(unmark_some);
+  EXPECT_EQ(given, (std::vector<std::uint32_t>{0, 31, 32, 63, points - 1}));
+  EXPECT_EQ(calendar.marked(), 1u);
+  given.clear();
+  calendar.for_each_marked([&](std::uint32_t point) {
+    given.push_back(point);
+    calendar.unmark(point);
+  });
+  EXPECT_EQ(given, (std::vector<std::uint32_t>{32}));
+  EXPECT_EQ(calendar.certain(), 100u);
+  calendar.for_each_marked([](std::uint32_t) { FAIL() << "none is left"; });
+}
+
+/// Looking farther ahead and less far again, as a search does that doubles its reach, costs nothing later.
+TEST(DueCalendar, GoesBackAndVisitsNothingTwice) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.take_due(64, [](std::uint32_t) { FAIL() << "nothing is filed"; });
+  calendar.file(0, 50);
+  EXPECT_EQ(calendar.certain(), 0u) << "due already";
+  calendar.take_due(10, [](std::uint32_t) { FAIL() << "not due there"; });
+  EXPECT_EQ(calendar.certain(), 50u);
+  calendar.take_due(49, [](std::uint32_t) { FAIL() << "not due there"; });
+  int taken = 0;
+  calendar.take_due(50, [&](std::uint32_t) { ++taken; });
+  EXPECT_EQ(taken, 1);
 }
 
 }  // namespace

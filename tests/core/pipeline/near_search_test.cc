@@ -31,6 +31,10 @@ struct Counted {
     looks += static_cast<int>(batch.count);
     field.clearances(H, batch);
   }
+  void samples(const Pose& H, SampleBatch& batch) const noexcept {
+    looks += static_cast<int>(batch.count);
+    field.samples(H, batch);
+  }
   LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
   double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
   double lipschitz() const noexcept { return field.lipschitz(); }
@@ -100,8 +104,8 @@ void expect_the_points_of_brute_force(const Scene& scene, unsigned seed) {
   const detail::SampleDirection direction;
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch remembers, forgets;
-  remembers.start(memory, scene.pointshell, longest);
-  forgets.start({}, scene.pointshell, longest);
+  remembers.start(memory, scene.pointshell, scene.voxelmap.lipschitz(), longest);
+  forgets.start({}, scene.pointshell, scene.voxelmap.lipschitz(), longest);
   Odometer odometer;
   Walk walk(seed, radius);
   std::size_t near = 0;
@@ -139,7 +143,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   const double longest = scene.voxelmap.assured_clearance();
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
-  search.start(memory, scene.pointshell, longest);
+  search.start(memory, scene.pointshell, scene.voxelmap.lipschitz(), longest);
   Odometer odometer;
   Walk walk(5, 0.1);
   std::size_t near = 0;
@@ -165,7 +169,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
   const double longest = field.assured_clearance();
   std::vector<std::uint32_t> memory(NearSearch::memory(shell));
   NearSearch search;
-  search.start(memory, shell, longest);
+  search.start(memory, shell, field.lipschitz(), longest);
   Odometer odometer;
   const PointBudget budget{7, 2e-4};
   std::mt19937 random(3);
@@ -211,7 +215,7 @@ TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
   const double longest = field.assured_clearance();
-  search.start(memory, scene.pointshell, longest);
+  search.start(memory, scene.pointshell, scene.voxelmap.lipschitz(), longest);
   Pose H;
   H.translation.z() = 0.01 + 0.02 + 1.5 * field.lipschitz() * longest;  // just out of reach
   const detail::SampleDirection direction;
@@ -230,13 +234,13 @@ TEST(NearSearch, KnowsForHowLongNothingComesNear) {
   constexpr double kLongest = 0.003;
   std::vector<std::uint32_t> memory(NearSearch::memory(body.pointshell()));
   NearSearch search;
-  search.start(memory, body.pointshell(), kLongest);
+  search.start(memory, body.pointshell(), field.lipschitz(), kLongest);
   Pose H;
   H.translation.z() = 0.02 + 0.05;
-  EXPECT_FALSE(search.is_free(0.0)) << "nobody has looked";
+  EXPECT_FALSE(search.is_free(0.0, kLongest)) << "nobody has looked";
   EXPECT_TRUE(found(search, detail::SampleDirection{}, field, body.pointshell(), H, 0.0, kLongest).empty());
-  EXPECT_TRUE(search.is_free(0.046));
-  EXPECT_FALSE(search.is_free(0.048)) << "50 mm, less the longest cut";
+  EXPECT_TRUE(search.is_free(0.046, kLongest));
+  EXPECT_FALSE(search.is_free(0.048, kLongest)) << "50 mm, less the longest cut";
 }
 
 TEST(Odometer, IsNeverBehindAnyPoint) {

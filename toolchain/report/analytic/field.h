@@ -27,6 +27,7 @@ class AnalyticField {
     return {distance, shape_.gradient(p), true, std::max(0.0, distance)};
   }
   void clearances(const Pose& H, PointBatch& batch) const noexcept { sample_clearances(*this, H, batch); }
+  void samples(const Pose& H, SampleBatch& batch) const noexcept { sample_each(*this, H, batch); }
   LayerSample layer(const Vector3& p) const noexcept {
     const Vector3 center = voxel_size_ * (p / voxel_size_).array().round().matrix();
     return {static_cast<int>(std::floor(0.5 - shape_.distance(center) / voxel_size_)), center - p};

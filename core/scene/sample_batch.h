@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+namespace godobject {
+
+/// Points whose distances and gradients are looked up together.
+struct SampleBatch {
+  static constexpr std::uint32_t kCapacity = 64;
+
+  alignas(64) float x[kCapacity];  ///< in the points' own frame [m]
+  alignas(64) float y[kCapacity];
+  alignas(64) float z[kCapacity];
+  std::uint32_t count = 0;
+
+  // what is found, as in FieldSample; where `known` is 0 without a gradient
+  alignas(64) double field_x[kCapacity];  ///< in the field's frame [m]
+  alignas(64) double field_y[kCapacity];
+  alignas(64) double field_z[kCapacity];
+  alignas(64) double distance[kCapacity];   ///< [m]
+  alignas(64) double clearance[kCapacity];  ///< [m]
+  alignas(64) double gradient_x[kCapacity];
+  alignas(64) double gradient_y[kCapacity];
+  alignas(64) double gradient_z[kCapacity];
+  std::uint64_t known;  ///< a bit a point
+};
+static_assert(SampleBatch::kCapacity == 64, "a bit a point");
+
+}  // namespace godobject

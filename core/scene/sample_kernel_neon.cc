@@ -1,0 +1,14 @@
+#if defined(__aarch64__)
+
+#include "core/scene/lanes_neon.h"
+#include "core/scene/sample_kernel_lanes.h"
+
+namespace godobject::detail {
+
+std::uint32_t look_up_samples_neon(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept {
+  return sample_lanes<Neon>(field, batch, first);
+}
+
+}  // namespace godobject::detail
+
+#endif
