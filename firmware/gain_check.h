@@ -30,7 +30,7 @@ struct GainReport {
   double coupling_gyration = 0.0;  ///< rho = sqrt(k_VC,r / k_VC,x) [m]
 };
 
-/// Exact stability (STABILITY A4) and passivity by the linear rule (A13) of the coupling, a spring between
+/// Exact stability and passivity by the linear rule (A4, A13 of toolchain/report) of the coupling, a spring between
 /// centres of mass, over postures about `posture`: kPostures of a low-discrepancy sequence within kSpread of it and the
 /// limits, and itself. The margin is exact at the worst of them. Cost: at start-up, about 0.3 s.
 GainReport check_gains(const Scene& scene, const ArmModel& arm, const JointVector& posture, double scale,

@@ -91,11 +91,11 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   if (!measurements.empty()) {
     write_file(folder / "contact_quality.csv", measurements_csv(measurements));
     write_file(folder / "contact_summary.csv", summary_csv(measurements));
-    section.text = text_table(measurements);
+    section.text = text_table(measurements) + notes(measurements);
     section.html = fmt::format(
         "<p>All solvers side by side, as <a href=\"contact_summary.csv\">CSV</a>; each scene, as <a "
-        "href=\"contact_quality.csv\">CSV</a>.</p>\n<div class=\"wide\"><pre>{}</pre></div>\n",
-        command::html_text(section.text));
+        "href=\"contact_quality.csv\">CSV</a>.</p>\n<div class=\"wide\"><pre>{}</pre></div>\n<p>{}</p>\n",
+        command::html_text(text_table(measurements)), command::html_text(notes(measurements)));
   }
   section.findings = not_run(outcomes);
   for (const QuantitySpec& quantity : quantities()) {

@@ -108,8 +108,10 @@ std::string text_table(const std::vector<Measurement>& measurements) {
     row.push_back(verdicts[kContact] && !quantity.median ? verdicts[kContact]->worst_scene : std::string());
     rows.push_back(std::move(row));
   }
-  return aligned(rows, 2) + reasons(measurements) + legend(measurements);
+  return aligned(rows, 2);
 }
+
+std::string notes(const std::vector<Measurement>& measurements) { return reasons(measurements) + legend(measurements); }
 
 std::string summary_csv(const std::vector<Measurement>& measurements) {
   std::string text = "quantity,unit,target";

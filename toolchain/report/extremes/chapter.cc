@@ -22,6 +22,7 @@ namespace {
 
 const char* const kViolations = "extremes_violations";
 const char* const kCycles = "extremes_cycles";
+constexpr std::size_t kSlenderRow = 1;         ///< of kRows: stands for a million cycles
 constexpr std::uint32_t kMostStretches = 200;  ///< that the fuzzer is cut into, each with a seed
 
 /// What a stretch of runs has come to: findings for its row, and a case file for each run that violates something.
@@ -137,6 +138,7 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   const std::int64_t row_cycles = request.quick ? 2'000 : 100'000;
   const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, kMostStretches);
   const bool quick = request.quick;
+  const std::int64_t long_cycles = quick ? 100'000 : std::max<std::int64_t>(10'000'000, cycles);
   Chapter chapter{
       .name = "extremes",
       .title = "Numerical extremes",
@@ -155,22 +157,25 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   };
   const std::string inputs = fmt::format("quick {}", quick);
   add(
-      "bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); }, 10.0);
+      "bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); }, quick ? 10.0 : 30.0);
   add(
       "gap", inputs, [quick](const auto& work) { return gap_near_the_voxel(quick, work); }, quick ? 10.0 : 20.0);
   add(
       "scale", inputs, [quick](const auto&) { return same_at_every_scale(quick); }, quick ? 2.0 : 15.0);
   add(
-      "long-run", inputs, [quick](const auto&) { return long_run(quick); }, quick ? 2.0 : 20.0);
+      "long-run", fmt::format("{} cycles {}", inputs, long_cycles),
+      [long_cycles](const auto&) { return long_run(long_cycles); }, 1e-5 * static_cast<double>(long_cycles));
   add(
       "closed-path", inputs, [quick](const auto&) { return closed_path(quick); }, quick ? 1.0 : 5.0);
   for (std::size_t i = 0; i < kRowCount; ++i) {
     add(
         fmt::format("row-{}", i + 1), inputs,
-        [i, row_cycles](const auto& work) {
-          return run_row(kRows[i], row_cycles, static_cast<std::uint32_t>(1000 + i), true, work);
+        [i, of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
+          return run_row(kRows[i], of_row, static_cast<std::uint32_t>(1000 + i), true, work);
         },
-        quick ? 1.0 : 15.0);
+        quick              ? 1.0
+        : i == kSlenderRow ? 100.0
+                           : 15.0);
   }
   const std::filesystem::path device = request.devices / "lwr.toml";
   command::require_regular_input(device, "name the folder of the device files with --devices");

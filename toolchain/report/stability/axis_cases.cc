@@ -89,7 +89,7 @@ CaseResult passivity(bool quick) {
   return result;
 }
 
-/// STABILITY's table: exact K_crit [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms; 0: unstable.
+/// K_crit as it was computed elsewhere [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms; 0: unstable.
 struct TableRow {
   double delay;
   std::array<double, 10> stiffness;

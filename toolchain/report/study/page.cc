@@ -21,7 +21,7 @@ const char* const kHead = R"(<!DOCTYPE html>
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 1000px; margin: 1.5em auto; padding: 0 1em }
 table { border-collapse: collapse; font-size: 13px; margin: 1em 0 }
 th, td { padding: 3px 8px; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top }
-td.number { text-align: right; white-space: nowrap }
+.number { text-align: right } td.number { white-space: nowrap }
 .wide { overflow-x: auto } .wide td:nth-child(2) { min-width: 14em }
 .held { color: #1b6e2c } .missed { color: #b00020; font-weight: bold } .not { color: #777 }
 img { max-width: 100%; height: auto }
@@ -43,7 +43,8 @@ std::string value_text(double value, const std::string& unit) {
 
 std::string verdict_rows(const std::vector<Finding>& findings) {
   std::string text =
-      "<div class=\"wide\"><table><tr><th>row</th><th>quantity</th><th>verdict</th><th>measured</th><th>at most</th>"
+      "<div class=\"wide\"><table><tr><th>row</th><th>quantity</th><th>verdict</th><th class=\"number\">measured</th>"
+      "<th class=\"number\">at most</th>"
       "<th>where</th></tr>\n";
   for (const Finding& finding : findings) {
     text += fmt::format(

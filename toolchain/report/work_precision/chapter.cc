@@ -115,17 +115,20 @@ Picture picture(const Field& field, const std::string& quantity, double scale, c
 }
 
 std::string front_table(const Field& field) {
-  std::string html =
-      "<div class=\"wide\"><table><tr><th></th><th>p50</th><th>p99</th><th>max [us]</th><th>instructions</th>"
-      "<th>wrench error [%]</th><th>[N]</th><th>direction [mrad]</th><th>deepest penetration [mm]</th>"
-      "<th>rms</th><th>friction ratio</th><th>chatter [N]</th><th>image [MB]</th><th>setting</th></tr>\n";
+  std::string html = "<div class=\"wide\"><table><tr><th></th><th>setting</th>";
+  for (const char* const head : {"p50 [us]", "p99 [us]", "max [us]", "instructions", "wrench error [%]",
+                                 "wrench error [N]", "force direction [deg]", "deepest penetration [mm]",
+                                 "penetration, rms [mm]", "friction ratio", "chatter [N]", "image [MB]"}) {
+    html += fmt::format("<th class=\"number\">{}</th>", head);
+  }
+  html += "</tr>\n";
   for (std::size_t k = 0; k < field.front.size(); ++k) {
     const Measured& row = field.rows[field.front[k]];
     const auto number_of = [&](const char* column, double scale) {
       const double measured = scale * value(row, column);
       return std::isnan(measured) ? std::string("-") : fmt::format("{:.3g}", measured);
     };
-    html += fmt::format("<tr><td>{}</td>", letter(k));
+    html += fmt::format("<tr><td>{}</td><td>{}</td>", letter(k), command::html_text(words(row)));
     for (const auto& [column, scale] :
          std::initializer_list<std::pair<const char*, double>>{{"p50_us", 1.0},
                                                                {"p99_us", 1.0},
@@ -133,7 +136,7 @@ std::string front_table(const Field& field) {
                                                                {"instructions_a_cycle", 1.0},
                                                                {"wrench_error", 100.0},
                                                                {"wrench_error_N", 1.0},
-                                                               {"force_direction_rad", 1e3},
+                                                               {"force_direction_rad", 180.0 / M_PI},
                                                                {"penetration_deepest_mm", 1.0},
                                                                {"penetration_rms_mm", 1.0},
                                                                {"friction_ratio", 1.0},
@@ -141,7 +144,7 @@ std::string front_table(const Field& field) {
                                                                {"image_bytes", 1e-6}}) {
       html += fmt::format("<td class=\"number\">{}</td>", number_of(column, scale));
     }
-    html += fmt::format("<td>{}</td></tr>\n", command::html_text(words(row)));
+    html += "</tr>\n";
   }
   return html + "</table></div>\n";
 }
