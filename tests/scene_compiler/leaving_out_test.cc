@@ -13,6 +13,8 @@
 #include "firmware/command/failure.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/tree_levels.h"
+#include "toolchain/scene_compiler/try_out.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -121,6 +123,14 @@ int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uin
   return touching;
 }
 
+/// Item of the report.
+const LeftOut* item(const CompileReport& report, const char* words) {
+  for (const LeftOut& left_out : report.left_out) {
+    if (left_out.what.find(words) != std::string::npos) return &left_out;
+  }
+  return nullptr;
+}
+
 /// The scene with everything, limited to the workspace.
 Scene limited(const Scene& scene, const format::Workspace& workspace) {
   Scene all = scene;
@@ -167,12 +177,14 @@ TEST_F(LeavesOut, PointsThatTouchNothing) {
   const Limited scene = limited_scenes()[2];
   const CompileReport all = compile(scene.bodies.text(), "all.scene");
   const CompileReport less = compile(scene.bodies.text() + table(scene.workspace), "less.scene");
-  ASSERT_EQ(less.left_out.size(), 3u);
+  const LeftOut* const points = item(less, "points of the moving body");
+  const LeftOut* const features = item(less, "feature points");
+  ASSERT_TRUE(points != nullptr && features != nullptr && item(less, "brick positions") != nullptr);
   EXPECT_LT(less.body.body.point_count, 0.9 * all.body.body.point_count);
-  EXPECT_EQ(less.left_out[0].count, all.body.body.point_count - less.body.body.point_count);
+  EXPECT_EQ(points->count, all.body.body.point_count - less.body.body.point_count);
   EXPECT_LT(less.second.features.point_count, 0.9 * all.second.features.point_count);
   EXPECT_GT(less.second.features.point_count, 0u);
-  EXPECT_EQ(less.left_out[1].count, all.second.features.point_count - less.second.features.point_count);
+  EXPECT_EQ(features->count, all.second.features.point_count - less.second.features.point_count);
   EXPECT_NE(report_text(less).find(" of these left out"), std::string::npos);
 }
 
@@ -197,19 +209,21 @@ TEST_F(LeavesOut, PointsInACavity) {
         moving);
   };
   const CompileReport moving = compile(text(cube_file, hollow_file), "moving.scene");
-  ASSERT_EQ(moving.left_out.size(), 1u);
-  EXPECT_GT(moving.left_out.front().count, 30u);
+  const LeftOut* const of_moving = item(moving, "own walls");
+  ASSERT_NE(of_moving, nullptr);
+  EXPECT_GT(of_moving->count, 30u);
   const command::SceneImage image_of_moving = image("moving.scene");
   const Pointshell& shell = image_of_moving.scene.pointshell;
-  EXPECT_EQ(shell.size + moving.left_out.front().count, 1000u + moving.second.added_points);
+  EXPECT_EQ(shell.size + of_moving->count, 1000u + moving.second.added_points);
   for (std::size_t i = 0; i < shell.size; ++i)
     ASSERT_NEAR((image_of_moving.scene.H_MB * shell.point(i)).cwiseAbs().maxCoeff(), 0.05, 1e-6);
 
   const TriangleMesh rattle = joined(hollow, box(Vector3d::Constant(-0.008), Vector3d::Constant(0.008)));
   const std::string rattle_file = folder_.write("rattle.obj", obj(rattle)).string();
   const CompileReport still = compile(text(rattle_file, cube_file), "still.scene");
-  ASSERT_EQ(still.left_out.size(), 1u);
-  EXPECT_EQ(still.second.features.point_count + still.left_out.front().count, still.second.found());
+  const LeftOut* const of_still = item(still, "still body's walls");
+  ASSERT_NE(of_still, nullptr);
+  EXPECT_EQ(still.second.features.point_count + of_still->count, still.second.found());
   const command::SceneImage image_of_still = image("still.scene");
   const Pointshell& features = image_of_still.scene.features;
   for (std::size_t i = 0; i < features.size; ++i)
@@ -275,8 +289,66 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
 
 TEST_F(LeavesOut, NothingWithoutAWorkspaceThatIsReachableEverywhere) {
   const CompileReport report = compile(kBracket.text() + table({{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}), "less.scene");
-  EXPECT_TRUE(report.left_out.empty());
+  EXPECT_EQ(item(report, "workspace"), nullptr);
   EXPECT_TRUE(image("less.scene").scene.workspace.limited);
+}
+
+/// Any level of either tree, and all.
+TEST_F(LeavesOut, LevelsThatChangeNoResult) {
+  compile(kBracket.text(), "all.scene");
+  const command::SceneImage whole = image("all.scene");
+  const Scene& all = whole.scene;
+  const Scene limited_all = limited(all, {{-0.06, -0.06, -0.06}, {0.16, 0.12, 0.14}});
+  const std::uint32_t deepest = deepest_level(all.pointshell.nodes);
+  ASSERT_GE(deepest, 2u);
+  std::vector<format::Node> fewer(all.pointshell.nodes.begin(), all.pointshell.nodes.end());
+  for (std::uint32_t level = deepest; level > 0; --level) {
+    fewer = without_level(fewer, level);
+    const auto features = without_level(all.features.nodes, 1 + level % deepest_level(all.features.nodes));
+    Scene scene = limited_all;
+    scene.pointshell.nodes = fewer;
+    scene.features.nodes = features;
+    EXPECT_GT(expect_same_bits(limited_all, scene, 2, level), 100);
+    if (HasFailure()) return;
+  }
+  EXPECT_EQ(fewer.size(), 1u);
+}
+
+TEST_F(LeavesOut, LevelsOnlyWhereNoMoreIsLookedUp) {
+  for (const char* solver : {"contact", "corrected"}) {
+    Bodies bodies = kBracket;
+    const std::string more = fmt::format("[contact]\nsolver = \"{}\"\n", solver);
+    bodies.more = more.c_str();
+    compile(bodies.text(), "all.scene");
+    const command::SceneImage whole = image("all.scene");
+    const std::vector<Pose> poses = poses_along(whole.scene, try_out_motion(whole.scene));
+    ASSERT_GT(poses.size(), 1000u);
+    for (const Tree tree : {Tree::kSamples, Tree::kFeatures}) {
+      // the compiler left out what it found; a tree of one level more, with a node over each leaf, asks for more
+      Scene scene = whole.scene;
+      std::span<const format::Node>& nodes = tree == Tree::kSamples ? scene.pointshell.nodes : scene.features.nodes;
+      EXPECT_EQ(lean_tree(scene, tree, poses).levels_left_out, 0u);
+      std::vector<format::Node> more_nodes;
+      std::vector<std::uint32_t> number;  // of the old nodes
+      for (const format::Node& node : nodes) {
+        number.push_back(static_cast<std::uint32_t>(more_nodes.size()));
+        more_nodes.push_back(node);
+        if (node.leaf == 0) continue;
+        more_nodes.back().leaf = 0;
+        more_nodes.push_back(node);
+        ++more_nodes.back().level;
+      }
+      number.push_back(static_cast<std::uint32_t>(more_nodes.size()));
+      for (format::Node& node : more_nodes) node.skip = number[node.skip];
+      const SearchWork before = search_work(scene, tree, poses);
+      nodes = more_nodes;
+      EXPECT_GT(search_work(scene, tree, poses).mean, before.mean);
+      const LeanTree lean = lean_tree(scene, tree, poses);
+      EXPECT_GE(lean.levels_left_out, 1u);
+      nodes = lean.nodes;
+      EXPECT_LE(search_work(scene, tree, poses).mean, before.mean);
+    }
+  }
 }
 
 TEST_F(LeavesOut, NamesTheCureWhereTheBodiesNeverMeet) {

@@ -39,6 +39,7 @@ class Session {
     return report.contacts > 0 && report.penetration > -0.1 * god_object_->parameters().voxel_size;
   }
   void reset() { god_object_->reset(); }
+  const Pose& H_WB() const { return god_object_->state().H_WS; }
 
  private:
   std::vector<std::uint32_t> memory_;
@@ -86,13 +87,13 @@ class Draw {
   std::uniform_real_distribution<double> share_{0.0, 1.0};
 };
 
-/// From where it touches: deeper, to and fro, and back. Places in voxels, along `into` and across it.
+/// To where it touches and deeper, to and fro, and back. Places in voxels, along `into` and across it.
 void press(const Pose& H_WB, const Vector3& into, const Vector3& along, double s, std::vector<Pose>& poses) {
-  constexpr int kCycles = 100;
+  constexpr int kCycles = 100;  // a leg
   struct Place {
     double deep, across;
   };
-  constexpr std::array kPlaces = {Place{0, 0}, Place{3, 0}, Place{3, 10}, Place{3, -10}, Place{3, 0}, Place{-5, 0}};
+  constexpr std::array kPlaces = {Place{-25, 0}, Place{3, 0}, Place{3, 10}, Place{3, -10}, Place{3, 0}, Place{-25, 0}};
   for (std::size_t leg = 0; leg + 1 < kPlaces.size(); ++leg) {
     const Place& from = kPlaces[leg];
     const Place& to = kPlaces[leg + 1];
@@ -144,6 +145,16 @@ std::vector<Pose> try_out_motion(const Scene& scene) {
   if (motion.empty()) motion = std::move(flight);
   for (Pose& pose : motion) pose = pose * scene.H_MB.inverse();
   return motion;
+}
+
+std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion) {
+  Session session(scene);
+  std::vector<Pose> poses;
+  for (const Pose& H_WM : motion) {
+    session.update(H_WM);
+    poses.push_back(session.H_WB());
+  }
+  return poses;
 }
 
 CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion, const Progress& progress) {

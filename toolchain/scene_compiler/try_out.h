@@ -15,6 +15,9 @@ namespace godobject::scene_compiler {
 /// one. Where nothing is met in that way, it flies by; empty where it has no free place to begin.
 std::vector<Pose> try_out_motion(const Scene& scene);
 
+/// The god object's poses of frame B along the motion, by the scene's own solver.
+std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion);
+
 /// What a cycle of one scene takes less than that of another, in processor time [ns].
 struct Saving {
   double ns = 0.0;           ///< median over the runs; about zero it may be of either sign

@@ -7,6 +7,8 @@
 #include "toolchain/scene_compiler/pruned_tree.h"
 #include "toolchain/scene_compiler/reachable_bricks.h"
 #include "toolchain/scene_compiler/touchable_points.h"
+#include "toolchain/scene_compiler/tree_levels.h"
+#include "toolchain/scene_compiler/try_out.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -50,6 +52,25 @@ class Unneeded {
   std::uint64_t sealed_features() {
     if (!knows_depth() || parts_.features.points.empty()) return 0;
     return leave_out_features(not_sealed_off(still_, features(), deepest(), least_piece(moving_.mesh())));
+  }
+
+  /// By a short motion.
+  std::uint64_t levels() {
+    if (report_.ball) return 0;
+    const command::SceneImage image(make_image(lay_out(report_, parts_)), "what is left out");
+    const Scene& scene = image.scene;
+    const std::vector<Pose> poses = poses_along(scene, try_out_motion(scene));
+    const auto leave_out = [&](Tree tree, std::vector<format::Node>& nodes, auto& header) {
+      const LeanTree lean = lean_tree(scene, tree, poses);
+      nodes = lean.nodes;
+      header.node_count = static_cast<std::uint32_t>(nodes.size());
+      header.level_count = deepest_level(nodes) + 1;
+      return lean.levels_left_out;
+    };
+    std::uint64_t count = leave_out(Tree::kSamples, report_.body.nodes, report_.body.body);
+    if (scene.has_features()) count += leave_out(Tree::kFeatures, parts_.features.nodes, parts_.features.header);
+    report_.second.features = parts_.features.header;
+    return count;
   }
 
   std::uint64_t bricks() {
@@ -123,6 +144,7 @@ void leave_out_unneeded(const SolidSurface& still, const SolidSurface& moving, C
   leaving_out.step("feature points that nothing touches from the workspace",
                    [&] { return unneeded.out_of_reach_features(); });
   leaving_out.step("feature points sealed off by the still body's walls", [&] { return unneeded.sealed_features(); });
+  leaving_out.step("levels of the points' trees that save no look-up", [&] { return unneeded.levels(); });
   leaving_out.step("brick positions that no look-up reaches from the workspace", [&] { return unneeded.bricks(); });
 }
 

@@ -7,7 +7,8 @@
 
 namespace godobject::scene_compiler {
 
-/// Leaves out what no cycle of the scene looks at: points that touch nothing, bricks that nothing reaches. `report` and
+/// Leaves out what no cycle of the scene looks at: points that touch nothing, levels of their trees that
+/// save nothing, bricks that nothing reaches. `report` and
 /// `parts` are complete otherwise. Throws Failure (kBadConfig) naming the cure where from the workspace nothing is
 /// touched at all.
 void leave_out_unneeded(const SolidSurface& still, const SolidSurface& moving, CompileReport& report, SceneParts& parts,
