@@ -186,7 +186,8 @@ class NearSearch {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(until * per_tick, 0.0, kMostTicks)));
     };
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
-    const std::uint64_t now = tick_of(needed);
+    // with nothing near what comes due soon is looked at early: then most cycles of free flight look at nothing
+    const std::uint64_t now = tick_of(needed + (calendar_.marked() == 0 ? kAhead * tick_ : 0.0));
     PointBatch batch;
     std::array<std::uint32_t, PointBatch::kCapacity> item;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
@@ -359,6 +360,7 @@ class NearSearch {
 
   float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(bounds_[point]); }
 
+  static constexpr double kAhead = 0.25 * kTicks;
   static constexpr double kOpen = 0.125;  ///< a node less than this many radii away is opened
   static constexpr double kLeave = 3.0;   ///< children this many of its radii away may be stood for by their parent
   static constexpr double kMostTicks = 1e18;
