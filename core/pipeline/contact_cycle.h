@@ -176,17 +176,32 @@ void push_selected(const Field& field, const Pointshell& shell, const Pose& H, d
                    const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
                    ContactRows& rows) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
+  SampleBatch batch;
+  std::array<std::uint32_t, SampleBatch::kCapacity> index;
+  const auto flush = [&]() noexcept {
+    field.samples(H, batch);
+    for (std::uint32_t k = 0; k < batch.count && !rows.full(); ++k) {
+      const FieldSample sample = stored_sample(batch, k);
+      if (!sample.known) continue;
+      const ContactPoint contact =
+          Direction::contact(shell.point(index[k]), stored_position(batch, k), sample.gradient, R);
+      push_row(Direction::kId | index[k], contact, sample.distance, lengths, rows);
+    }
+    batch.count = 0;
+  };
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
     const bool chosen = near.point[k].distance <= deepest || others++ % stride == 0;
     if (!chosen) continue;
-    const Vector3 p = shell.point(near.point[k].index);
-    const Vector3 p_field = R * p + H.translation;
-    const FieldSample sample = field.sample(p_field);
-    if (!sample.known) continue;
-    push_row(Direction::kId | near.point[k].index, Direction::contact(p, p_field, sample.gradient, R), sample.distance,
-             lengths, rows);
+    const std::uint32_t at = batch.count;
+    index[at] = near.point[k].index;
+    batch.x[at] = shell.x[index[at]];
+    batch.y[at] = shell.y[index[at]];
+    batch.z[at] = shell.z[index[at]];
+    batch.count = at + 1;
+    if (batch.count == SampleBatch::kCapacity) flush();
   }
+  if (batch.count > 0) flush();
 }
 
 /// Distance up to which near points are deepest (half of the rows' capacity), and the stride that spreads the rest over

@@ -115,7 +115,7 @@ class DueCalendar {
     return item;
   }
 
-  /// A mark instead of a list is for points that are near in cycle after cycle: due at any tick, until it is taken off.
+  /// A mark instead of a list is for points that are due in cycle after cycle: at any tick, until it is taken off.
   void mark(std::uint32_t point) noexcept {
     const std::uint32_t bit = 1u << point % 32;
     if ((marks_[point / 32] & bit) != 0) return;

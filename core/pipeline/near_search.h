@@ -43,7 +43,7 @@ class Odometer {
   bool started_ = false;
 };
 
-/// How many points a search may look up one by one. Of more that may be near it takes those with the least bound of
+/// How many points a search may look up exactly. Of more that may be near it takes those with the least bound of
 /// their clearance, and where bounds are equal some spread over the shell.
 struct PointBudget {
   std::uint32_t points = std::numeric_limits<std::uint32_t>::max();
@@ -63,8 +63,9 @@ struct PointBudget {
 /// C - r is divided by f, since L cut >= L cut / f.
 ///
 /// What is due is looked at in batches (DistanceField::clearances, which knows C as the bound needs it); a node that
-/// may be near gives way to its children, and takes their place again once they are far. Only points that may be near
-/// are looked up one by one, as far as a budget goes.
+/// may be near gives way to its children, and takes their place again once they are far. Points that may be near are
+/// looked up (DistanceField::samples), as far as a budget goes, and again in every cycle as long as they would come due
+/// at once.
 class NearSearch {
  public:
   static Vector3 center_of(const format::Node& node) noexcept {
@@ -186,7 +187,8 @@ class NearSearch {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(until * per_tick, 0.0, kMostTicks)));
     };
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
-    const std::uint64_t now = tick_of(needed);
+    // with nothing near what comes due soon is looked at early: then most cycles of free flight look at nothing
+    const std::uint64_t now = tick_of(needed + (calendar_.marked() == 0 ? kAhead * tick_ : 0.0));
     PointBatch batch;
     std::array<std::uint32_t, PointBatch::kCapacity> item;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
@@ -213,11 +215,14 @@ class NearSearch {
           } else {
             calendar_.push(opened, i);
           }
-        } else if (clearance_of(k) >= cut) {
-          file(i, free_until(clearance_of(k), shell.point(i - node_count), 0.0));
         } else {
-          calendar_.mark(i - node_count);
-          bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
+          const double until = free_until(clearance_of(k), shell.point(i - node_count), 0.0);
+          if (until >= needed) {
+            file(i, until);
+          } else {
+            calendar_.mark(i - node_count);
+            bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
+          }
         }
       }
       batch.count = 0;
@@ -255,8 +260,10 @@ class NearSearch {
         const Vector3 p = shell.point(i);
         const FieldSample found = stored_sample(samples, k);
         if (is_near(i, p, stored_position(samples, k), found)) continue;
+        const double until = free_until(found.clearance, p, 0.0);
+        if (until < needed) continue;  // not near, but it would be due again at once
         calendar_.unmark(i);
-        file(node_count + i, free_until(found.clearance, p, 0.0));
+        file(node_count + i, until);
       }
       samples.count = 0;
     };
@@ -272,10 +279,15 @@ class NearSearch {
     if (calendar_.marked() <= budget.points) {
       calendar_.for_each_marked(look_up);
     } else {
-      NearestFirst nearest(budget, static_cast<float>(slope_ * cut));
-      calendar_.for_each_marked([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
+      NearestFirst nearest(budget, static_cast<float>(cut));
+      const auto for_each_candidate = [&](const auto& visit) noexcept {
+        calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+          if (static_cast<double>(bound(i)) < cut) visit(i);
+        });
+      };
+      for_each_candidate([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
       nearest.spread();
-      calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+      for_each_candidate([&](std::uint32_t i) noexcept {
         if (nearest.takes(bound(i))) {
           look_up(i);
         } else {
@@ -359,6 +371,7 @@ class NearSearch {
 
   float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(bounds_[point]); }
 
+  static constexpr double kAhead = 0.25 * kTicks;
   static constexpr double kOpen = 0.125;  ///< a node less than this many radii away is opened
   static constexpr double kLeave = 3.0;   ///< children this many of its radii away may be stood for by their parent
   static constexpr double kMostTicks = 1e18;
