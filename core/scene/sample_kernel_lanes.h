@@ -54,9 +54,13 @@ struct HalvedAxis {
   HalvedAxis(Ints cell, Floats at) noexcept
       : low(Vectors::low(cell) + Vectors::low(at)), high(Vectors::high(cell) + Vectors::high(at)) {}
 
-  /// Which halves hold the points (-1: the upper); those of `refined` go there.
-  Ints halve(Ints refined) noexcept {
-    return Vectors::mask(halve(low, Vectors::low_mask(refined)), halve(high, Vectors::high_mask(refined)));
+  /// Which halves hold the points; -1: the upper.
+  Ints upper() const noexcept { return Vectors::mask(low >= kMiddle, high >= kMiddle); }
+
+  /// Those of `refined` go there.
+  void halve(Ints refined) noexcept {
+    halve(low, Vectors::low_mask(refined));
+    halve(high, Vectors::high_mask(refined));
   }
 
   /// Cell and position in it of the points that were `refined`.
@@ -70,12 +74,9 @@ struct HalvedAxis {
   }
 
  private:
-  static Longs halve(Doubles& x, Longs refined) noexcept {
-    constexpr double kMiddle = format::kBrickCells / 2;
-    const Longs upper = x >= kMiddle;
-    x = refined ? 2.0 * (upper ? x - kMiddle : x) : x;
-    return upper;
-  }
+  static constexpr double kMiddle = format::kBrickCells / 2;
+
+  static void halve(Doubles& x, Longs refined) noexcept { x = refined ? 2.0 * (x >= kMiddle ? x - kMiddle : x) : x; }
 };
 
 /// Half of what was found, as Voxelmap::sample has it.
@@ -111,7 +112,9 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
   constexpr int kBrickWords = sizeof(format::Brick) / sizeof(float);
   constexpr int kLipschitz = offsetof(format::Brick, lipschitz) / sizeof(float);
   constexpr int kRefinedWords = sizeof(format::Refined) / sizeof(std::uint32_t);
+  constexpr int kOwn = offsetof(format::Refined, brick) / sizeof(std::uint32_t);
   constexpr int kChild = offsetof(format::Refined, child) / sizeof(std::uint32_t);
+  static_assert(entry_of::kCoarse == 1u << 31);
 
   const Floats px = *reinterpret_cast<const Floats*>(batch.x + first);
   const Floats py = *reinterpret_cast<const Floats*>(batch.y + first);
@@ -135,11 +138,19 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
     HalvedAxis<Vectors> halved_y(y.cell, y.at);
     HalvedAxis<Vectors> halved_z(z.cell, z.at);
     for (int level = 0; level < format::kMaxRefinement && Vectors::bits(descends) != 0; ++level) {
-      const Ints octant =
-          (halved_x.halve(descends) & 1) | (halved_y.halve(descends) & 2) | (halved_z.halve(descends) & 4);
-      const Ints number = entry & static_cast<int>(entry_of::kNumber);
-      const Ints child = Vectors::gather(f.refined, (kRefinedWords * number + kChild + octant) & descends);
+      const Ints octant = (halved_x.upper() & 1) | (halved_y.upper() & 2) | (halved_z.upper() & 4);
+      const Ints refinement = kRefinedWords * (entry & static_cast<int>(entry_of::kNumber));
+      const Ints child = Vectors::gather(f.refined, (refinement + kChild + octant) & descends);
+      const Ints coarse = descends & (child < 0);
+      if (Vectors::bits(coarse) != 0) {
+        const Ints own = Vectors::gather(f.refined, (refinement + kOwn) & coarse);
+        entry = coarse ? own | (child & static_cast<int>(entry_of::kEdged)) : entry;
+      }
+      descends &= ~coarse;
       entry = descends ? child : entry;
+      halved_x.halve(descends);
+      halved_y.halve(descends);
+      halved_z.halve(descends);
       low_per_cell = Vectors::low_mask(descends) ? 2.0 * low_per_cell : low_per_cell;
       high_per_cell = Vectors::high_mask(descends) ? 2.0 * high_per_cell : high_per_cell;
       descends = refined();

@@ -225,14 +225,13 @@ std::uint32_t& BrickTree::entry_of(std::uint32_t brick) {
 }
 
 void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array<format::Brick, 8>& octants) {
-  std::uint32_t& entry = entry_of(brick);
   if (places_[brick].halved == 0) {
-    entry = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
+    entry_of(brick) = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
     format::Refined& whole = refined_.emplace_back();
     whole.brick = brick;
     std::fill(std::begin(whole.child), std::end(whole.child), format::index_entry::kCoarse);
   }
-  format::Refined& refined = refined_[entry & format::index_entry::kNumber];
+  format::Refined& refined = refined_[entry_of(brick) & format::index_entry::kNumber];
   for (std::size_t octant = 0; octant < 8; ++octant) {
     if ((wanted >> octant & 1) == 0 || !is_coarse(refined.child[octant])) continue;
     const Place& parent = places_[brick];
