@@ -35,9 +35,14 @@ class Selection {
       return;
     }
     const format::Refined& refined = field_.refined[number];
-    keeps_[refined.brick] = false;
+    if (refined.brick != format::kNoBrick) keeps_[refined.brick] = false;
     ++left_out.refined;
-    for (const std::uint32_t child : refined.child) drop(child, left_out, halvings + 1);
+    bool looked_up = false;  // in its own nodes, too
+    for (const std::uint32_t child : refined.child) {
+      looked_up |= (child & index_entry::kCoarse) != 0;
+      drop(child, left_out, halvings + 1);
+    }
+    if (looked_up) ++left_out.bricks[halvings];
   }
 
   /// `field.index` names what stays and nothing else.
@@ -89,7 +94,7 @@ class Selection {
     const format::Refined& from = field_.refined[old];
     const auto number = static_cast<std::uint32_t>(refined.size());
     refined.push_back(from);
-    refined[number].brick = number_[from.brick];
+    if (from.brick != format::kNoBrick) refined[number].brick = number_[from.brick];
     for (std::size_t octant = 0; octant < std::size(from.child); ++octant) {
       const std::uint32_t child = renumbered(from.child[octant], refined);
       refined[number].child[octant] = child;

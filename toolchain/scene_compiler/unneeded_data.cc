@@ -79,6 +79,7 @@ class Unneeded {
     const LeftOutBricks left_out = leave_out_unreachable(parts_.field, *workspace_, radius);
     report_.grid = parts_.field.grid;
     report_.refinement.refined -= left_out.refined;
+    report_.refinement.finer -= left_out.all_bricks - left_out.positions;
     report_.refinement.edges -= left_out.edges;
     for (std::size_t i = 0; i < left_out.bricks.size(); ++i) report_.refinement.bricks[i] -= left_out.bricks[i];
     return left_out.positions;
