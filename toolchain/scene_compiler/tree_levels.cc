@@ -65,6 +65,10 @@ class CountingField {
     if (!map_.in_batches()) return map_.clearances(H, batch);
     detail::look_up_clearances(map_.in_cells(H), batch.x, batch.y, batch.z, batch.clearance, batch.count);
   }
+  void samples(const Pose& H, SampleBatch& batch) const noexcept {
+    cost_ += SearchWork::kBatch + batch.count;
+    sample_each(map_, H, batch);
+  }
   double lipschitz() const noexcept { return map_.lipschitz(); }
   double assured_clearance() const noexcept { return map_.assured_clearance(); }
   double voxel_size() const noexcept { return map_.voxel_size(); }
@@ -89,19 +93,21 @@ class NearWork {
         lengths_(ContactLengths::make(Parameters::make(scene))),
         longest_(std::min(lengths_.longest_reach, field.assured_clearance() / direction.most_stretch())),
         memory_(NearSearch::memory(shell)) {
-    search_.start(memory_, shell, direction.most_stretch() * longest_);
+    search_.start(memory_, shell, field.lipschitz(), direction.most_stretch() * longest_);
   }
 
   void visit(const Pose& H_WB) {
     const double before = odometer_.way();
     odometer_.move_to(H_WB, lengths_.radius);
     const double moved = odometer_.way() - before;
-    if (search_.is_free(odometer_.way() + moved)) return;
-    const double reach =
-        std::clamp(2.0 * moved + 3.0 * lengths_.margin, std::min(lengths_.shortest_reach, longest_), longest_);
+    const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_reach), longest_);
+    if (search_.is_free(odometer_.way() + moved, free_cut)) return;
+    const double reach = direction_.most_stretch() * std::clamp(2.0 * moved + 3.0 * lengths_.margin,
+                                                                std::min(lengths_.shortest_reach, longest_), longest_);
+    if (search_.is_free(odometer_.way(), reach)) return;
     search_.find(
-        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.way(),
-        direction_.most_stretch() * reach, PointBudget{}, [](auto&&...) noexcept {}, [](double) noexcept {});
+        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.way(), reach,
+        PointBudget{}, [](auto&&...) noexcept {}, [](double) noexcept {});
   }
 
  private:

@@ -79,6 +79,17 @@ struct Field {
 
 char letter(std::size_t i) { return static_cast<char>('A' + i % 26); }
 
+/// So near in a picture of `all` with logarithmic axes that letters at both would lie on one another.
+bool are_near(const precision::Trade& one, const precision::Trade& other, const std::vector<precision::Trade>& all) {
+  constexpr double kShare = 0.05;  // of an axis
+  const auto share = [&](double precision::Trade::*axis) {
+    const auto [least, most] =
+        std::minmax_element(all.begin(), all.end(), [&](const auto& a, const auto& b) { return a.*axis < b.*axis; });
+    return std::abs(std::log(one.*axis / other.*axis)) / std::log((*most).*axis / (*least).*axis);
+  };
+  return !(share(&precision::Trade::cost) > kShare) && !(share(&precision::Trade::error) > kShare);
+}
+
 /// `quantity` against p99, with its own front; letters are those of the wrench's front, as in the table.
 Picture picture(const Field& field, const std::string& quantity, double scale, const std::string& y,
                 const std::string& caption) {
@@ -104,10 +115,12 @@ Picture picture(const Field& field, const std::string& quantity, double scale, c
   for (const std::size_t i : precision::pareto_front(trades))
     front.points.emplace_back(trades[i].cost, trades[i].error);
   plot.curves.push_back(std::move(front));
-  for (std::size_t k = 0; k < field.front.size(); ++k) {
+  for (std::size_t k = 0; k < field.front.size();) {
     const precision::Trade& at = trades[field.front[k]];
-    plot.settings += fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6 noenhanced\n",
-                                 figures::quoted(std::string(1, letter(k))), at.cost, at.error);
+    std::string letters(1, letter(k));
+    while (++k < field.front.size() && are_near(at, trades[field.front[k]], trades)) letters += letter(k);
+    plot.settings += fmt::format("set label {} at {:.9g},{:.9g} offset 0.6,0.6 noenhanced\n", figures::quoted(letters),
+                                 at.cost, at.error);
   }
   plot.settings += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dt 3 {1}\n", kBudget_us, color(6));
   return {"work_precision_" + field.scene + "_" + quantity, caption,
