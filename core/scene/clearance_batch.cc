@@ -57,10 +57,11 @@ detail::FieldOfCells Voxelmap::in_cells(const Pose& H) const noexcept {
   }
   f.offset = static_cast<float>(t.cwiseAbs().sum());
   f.cell_edge = static_cast<float>(voxel_size_);
+  f.quantum = static_cast<float>(quantum_);
   f.near_band = static_cast<float>(near_band_);
   f.assured = static_cast<float>(assured_clearance_);
   f.outside_share = static_cast<float>(outside_share_);
-  f.outside_off = static_cast<float>(kInterpolationError);
+  f.outside_off = static_cast<float>(kFieldError);
   return f;
 }
 

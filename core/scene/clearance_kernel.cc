@@ -32,19 +32,24 @@ float clearance_within(const FieldOfCells& f, const float (&g)[3]) noexcept {
   constexpr int kCell = format::kBrickCells - 1;
   constexpr int kY = kBrickNodes;
   constexpr int kZ = kBrickNodes * kBrickNodes;
-  const float* const brick = f.bricks + static_cast<std::size_t>(number) * kBrickFloats;
-  const float* const v = brick + (i[0] & kCell) + kY * (i[1] & kCell) + kZ * (i[2] & kCell);
-  const float fx = g[0] - static_cast<float>(i[0]);
+  const std::int16_t* const brick = f.bricks + static_cast<std::size_t>(number) * kBrickWords;
+  const std::int16_t* const v = brick + (i[0] & kCell) + kY * (i[1] & kCell) + kZ * (i[2] & kCell);
+  const auto between_x = [&](int node) {
+    const auto at = static_cast<float>(v[node]);
+    return at + (g[0] - static_cast<float>(i[0])) * (static_cast<float>(v[node + 1]) - at);
+  };
   const float fy = g[1] - static_cast<float>(i[1]);
   const float fz = g[2] - static_cast<float>(i[2]);
-  const float x00 = v[0] + fx * (v[1] - v[0]);
-  const float x10 = v[kY] + fx * (v[kY + 1] - v[kY]);
-  const float x01 = v[kZ] + fx * (v[kZ + 1] - v[kZ]);
-  const float x11 = v[kZ + kY] + fx * (v[kZ + kY + 1] - v[kZ + kY]);
+  const float x00 = between_x(0);
+  const float x10 = between_x(kY);
+  const float x01 = between_x(kZ);
+  const float x11 = between_x(kZ + kY);
   const float y0 = x00 + fy * (x10 - x00);
   const float y1 = x01 + fy * (x11 - x01);
-  const float distance = y0 + fz * (y1 - y0) - brick[kDeviationAt];
-  return std::clamp(distance, 0.0f, f.near_band) / brick[kLipschitzAt];
+  const auto lipschitz = static_cast<std::uint16_t>(brick[kLipschitzAt]);
+  const auto deviation = static_cast<std::uint16_t>(brick[kLipschitzAt + 1]);
+  const float distance = f.quantum * (y0 + fz * (y1 - y0) - static_cast<float>(deviation));
+  return std::clamp(distance, 0.0f, f.near_band) / format::decode_lipschitz(lipschitz);
 }
 
 }  // namespace

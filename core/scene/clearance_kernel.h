@@ -11,9 +11,9 @@
 /// that what is compiled for wider ones cannot be linked into the rest.
 namespace godobject::detail {
 
-inline constexpr int kBrickFloats = sizeof(format::Brick) / sizeof(float);
-inline constexpr int kLipschitzAt = offsetof(format::Brick, lipschitz) / sizeof(float);
-inline constexpr int kDeviationAt = offsetof(format::Brick, deviation) / sizeof(float);
+inline constexpr int kBrickWords = sizeof(format::Brick) / sizeof(std::int16_t);
+inline constexpr int kLipschitzAt = offsetof(format::Brick, lipschitz) / sizeof(std::int16_t);
+static_assert(offsetof(format::Brick, deviation) == offsetof(format::Brick, lipschitz) + sizeof(std::int16_t));
 inline constexpr int kRefinedWords = sizeof(format::Refined) / sizeof(std::uint32_t);
 static_assert(offsetof(format::Refined, brick) == 0);
 inline constexpr int kBrickShift = std::countr_zero(static_cast<unsigned>(format::kBrickCells));
@@ -22,13 +22,14 @@ static_assert(1 << kBrickShift == format::kBrickCells);
 /// A voxelmap as the kernel reads it. Cells are those of its grid, from its origin.
 struct FieldOfCells {
   const std::uint32_t* index;
-  const float* bricks;
+  const std::int16_t* bricks;
   const std::uint32_t* refined;          ///< at least one word
   std::int32_t stride_y, stride_z;       ///< of the index
   float to_cells[3][4];                  ///< from the points' frame; the last column is the translation
   float cells[3];                        ///< of the grid
   float surface_min[3], surface_max[3];  ///< [cells]
   float cell_edge;                       ///< [m]
+  float quantum;                         ///< of the nodes [m]
   float near_band, assured;              ///< [m]
   float outside_share;                   ///< of the distance to the surface's box, as clearance
   float outside_off;                     ///< [cells]

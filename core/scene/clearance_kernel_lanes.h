@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/scene/brick_lanes.h"
 #include "core/scene/clearance_kernel.h"
 
 /// Included once by a source for each kind of vectors, which is compiled for them: what is here must be that source's
@@ -42,9 +43,9 @@ struct Axis {
 };
 
 /// `Vectors` are `Floats` and `Ints` of `kLanes` elements of 32 bits, for which the compiler knows arithmetic,
-/// comparisons (-1 or 0) and selections, and what it has no operator for: gather, truncated,
-/// root, larger, smaller. `count`: a multiple
-/// of kLanes; the arrays are aligned to the vectors.
+/// comparisons (-1 or 0) and selections, and what it has no operator for: gather, gather_pair (a 16-bit word and, in
+/// the upper half, the next), truncated, root, larger, smaller. `count`: a multiple of kLanes; the arrays are aligned
+/// to the vectors.
 template <class Vectors>
 void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, const float* zs, float* clearance,
                    std::uint32_t count) noexcept {
@@ -66,19 +67,22 @@ void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, cons
     const Ints halved = ((entry & static_cast<int>(index_entry::kRefined)) != 0) & ~far;
     const Ints number = entry & static_cast<int>(index_entry::kNumber) & ~far;
     const Ints own = Vectors::gather(f.refined, kRefinedWords * number & halved);
-    const Ints brick = kBrickFloats * (halved ? own : number);
+    const Ints brick = kBrickWords * (halved ? own : number);
     constexpr int kCell = format::kBrickCells - 1;
     constexpr int kY = kBrickNodes;
     constexpr int kZ = kBrickNodes * kBrickNodes;
     const Ints v = brick + (x.cell & kCell) + kY * (y.cell & kCell) + kZ * (z.cell & kCell);
     const auto edge = [&](int node) noexcept {
-      return between(Vectors::gather(f.bricks + node, v), Vectors::gather(f.bricks + node + 1, v), x.at);
+      const Ints pair = Vectors::gather_pair(f.bricks + node, v);
+      return between(__builtin_convertvector(first_of(pair), Floats), __builtin_convertvector(second_of(pair), Floats),
+                     x.at);
     };
     const Floats near_face = between(edge(0), edge(kY), y.at);
     const Floats far_face = between(edge(kZ), edge(kZ + kY), y.at);
-    const Floats distance = between(near_face, far_face, z.at) - Vectors::gather(f.bricks + kDeviationAt, brick);
-    const Floats stored = Vectors::smaller(Vectors::larger(distance, zero), zero + f.near_band) /
-                          Vectors::gather(f.bricks + kLipschitzAt, brick);
+    const Ints bounds = Vectors::gather_pair(f.bricks + kLipschitzAt, brick);
+    const Floats distance = f.quantum * (between(near_face, far_face, z.at) - second_unsigned<Vectors>(bounds));
+    const Floats stored =
+        Vectors::smaller(Vectors::larger(distance, zero), zero + f.near_band) / decode_lipschitz<Vectors>(bounds);
     const Floats free =
         Vectors::larger(reinterpret_cast<Floats>((entry & static_cast<int>(index_entry::kLow)) << 1), zero + f.assured);
     const Ints inside = (entry & static_cast<int>(index_entry::kInside)) != 0;

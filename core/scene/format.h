@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 5;
+inline constexpr std::uint32_t kVersion = 6;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -120,29 +120,56 @@ struct Grid {
   double lipschitz;           ///< bound of the field's gradient norm, seams (see Brick) left out [1]
   double lipschitz_seam;      ///< the same with seams [1]; equal where there is none
   double clearance_slope;     ///< >= 1: of Brick::lipschitz and of far clearances, see there [1]
+  double quantum;             ///< of Brick::value where nothing is refined [m]
   std::int32_t bricks[3];     ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks, those of refinements included
 };
-static_assert(sizeof(Grid) == 128);
+static_assert(sizeof(Grid) == 136);
 
 inline constexpr int kBrickCells = 4;                ///< cells along an edge of a brick
 inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: neighbours share a face of nodes
 inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 
-/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], each exact to float rounding but where a
-/// refinement meets what is coarser (see Refined), not clamped to the band. A brick position is stored when a node is
-/// nearer than the band or its nodes differ in sign, so whatever lies within the band lies in a stored brick, and every
-/// change of sign does. Where an open mesh's sign jumps without a surface (winding number 1/2 across a hole)
-/// neighbouring nodes differ by more than the lattice edge: a *seam*.
+/// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], in units of Grid::quantum, halved as often
+/// as the brick is: each the exact one, rounded, but where a refinement meets what is coarser (see Refined); not
+/// clamped to the band. A brick position is stored when a node is nearer than the band or its nodes differ in sign, so
+/// whatever lies within the band lies in a stored brick, and every change of sign does. Where an open mesh's sign jumps
+/// without a surface (winding number 1/2 across a hole) neighbouring nodes differ by more than the lattice edge: a
+/// *seam*.
+///
+/// Nodes are rounded to the unit, but where a brick k levels finer meets them to a multiple of 2^k units, and more
+/// where finer ones meet that: so what is interpolated between them is a whole number of the finer units, and the field
+/// continuous in spite of rounding.
 struct alignas(64) Brick {
-  float value[kBrickValues];
-  float lipschitz;     ///< bound of the field's gradient norm in this brick's position and the 26 about it [1], >= 1;
-                       ///< from a position to its neighbour it changes by a factor of clearance_slope at most
-  std::uint32_t edge;  ///< 0: none; else 1 + the number of an Edge
-  float deviation;     ///< of a position's own nodes: the field, refined or with an edge, is nowhere in the position
-                       ///< farther than this from the trilinear interpolation of them [m]; 0 of octants
+  std::int16_t value[kBrickValues];
+  std::uint16_t lipschitz;  ///< bound of the gradient's norm in this brick's position and the 26 about it, >= 1, as
+                            ///< encode_lipschitz has it; from a position to its neighbour it changes by a factor of
+                            ///< clearance_slope at most
+  std::uint16_t
+      deviation;       ///< of a position's own nodes: the field, refined or with an edge, is nowhere in the position
+                       ///< farther than this from the trilinear interpolation of them [quanta]; 0 of octants
+  std::uint16_t edge;  ///< 0: none; else 1 + the number of an Edge
 };
-static_assert(sizeof(Brick) == 512);
+static_assert(sizeof(Brick) == 256);
+
+inline constexpr int kLargestValue = 32767;      ///< of |Brick::value|
+inline constexpr double kLargestQuantum = 1e-2;  ///< [voxels]
+inline constexpr double kMostRoundedOff = 8.0;   ///< a node, in quanta: half of 2^kMaxRefinement
+inline constexpr int kLargestUnsigned = 65535;   ///< of Brick::deviation and Brick::edge
+inline constexpr int kLipschitzShift = 11;       ///< see decode_lipschitz
+inline constexpr std::uint32_t kLipschitzOne = std::bit_cast<std::uint32_t>(1.0f);
+
+/// 1 .. 65528: a float's upper bits, counted from those of 1.
+constexpr float decode_lipschitz(std::uint16_t code) noexcept {
+  return std::bit_cast<float>((static_cast<std::uint32_t>(code) << kLipschitzShift) + kLipschitzOne);
+}
+inline constexpr float kLargestLipschitz = decode_lipschitz(0xffff);
+
+/// Rounds up, by one part in 4096 at most. 1 <= lipschitz <= kLargestLipschitz.
+constexpr std::uint16_t encode_lipschitz(float lipschitz) noexcept {
+  const std::uint32_t above = std::bit_cast<std::uint32_t>(lipschitz) - kLipschitzOne;
+  return static_cast<std::uint16_t>((above + (1u << kLipschitzShift) - 1) >> kLipschitzShift);
+}
 
 /// A straight edge of the body, along which trilinear interpolation would ripple. In bricks that name it the field is
 ///

@@ -15,12 +15,13 @@ struct Avx2 {
   using Doubles __attribute__((vector_size(4 * kLanes))) = double;
   using Longs __attribute__((vector_size(4 * kLanes))) = std::int64_t;
 
-  static Floats gather(const float* from, Ints at) noexcept {
-    return _mm256_i32gather_ps(from, reinterpret_cast<__m256i>(at), sizeof(float));
-  }
   static Ints gather(const std::uint32_t* from, Ints at) noexcept {
     return reinterpret_cast<Ints>(
         _mm256_i32gather_epi32(reinterpret_cast<const int*>(from), reinterpret_cast<__m256i>(at), sizeof(int)));
+  }
+  static Ints gather_pair(const std::int16_t* from, Ints at) noexcept {
+    return reinterpret_cast<Ints>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(from),
+                                                         reinterpret_cast<__m256i>(at), sizeof(std::int16_t)));
   }
   static Ints truncated(Floats x) noexcept { return reinterpret_cast<Ints>(_mm256_cvttps_epi32(x)); }
   static Floats root(Floats x) noexcept { return _mm256_sqrt_ps(x); }

@@ -19,12 +19,13 @@ struct Avx512 {
   static constexpr __mmask16 kAll = 0xffff;
   static constexpr __mmask8 kHalf = 0xff;
 
-  static Floats gather(const float* from, Ints at) noexcept {
-    return _mm512_mask_i32gather_ps(Floats{}, kAll, reinterpret_cast<__m512i>(at), from, sizeof(float));
-  }
   static Ints gather(const std::uint32_t* from, Ints at) noexcept {
     return reinterpret_cast<Ints>(
         _mm512_mask_i32gather_epi32(__m512i{}, kAll, reinterpret_cast<__m512i>(at), from, sizeof(int)));
+  }
+  static Ints gather_pair(const std::int16_t* from, Ints at) noexcept {
+    return reinterpret_cast<Ints>(
+        _mm512_mask_i32gather_epi32(__m512i{}, kAll, reinterpret_cast<__m512i>(at), from, sizeof(std::int16_t)));
   }
   static Ints truncated(Floats x) noexcept { return reinterpret_cast<Ints>(_mm512_maskz_cvttps_epi32(kAll, x)); }
   static Floats root(Floats x) noexcept { return _mm512_maskz_sqrt_ps(kAll, x); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <arm_neon.h>
 
@@ -16,11 +17,16 @@ struct Neon {
   using Longs __attribute__((vector_size(4 * kLanes))) = std::int64_t;
 
   /// There are no gathers: one load a lane.
-  static Floats gather(const float* from, Ints at) noexcept {
-    return Floats{from[at[0]], from[at[1]], from[at[2]], from[at[3]]};
-  }
   static Ints gather(const std::uint32_t* from, Ints at) noexcept {
     const auto load = [&](int lane) noexcept { return static_cast<std::int32_t>(from[at[lane]]); };
+    return Ints{load(0), load(1), load(2), load(3)};
+  }
+  static Ints gather_pair(const std::int16_t* from, Ints at) noexcept {
+    const auto load = [&](int lane) noexcept {
+      std::int32_t pair = 0;
+      std::memcpy(&pair, from + at[lane], sizeof(pair));
+      return pair;
+    };
     return Ints{load(0), load(1), load(2), load(3)};
   }
   static Ints truncated(Floats x) noexcept { return vcvtq_s32_f32(x); }

@@ -45,6 +45,8 @@ void Voxelmap::samples_by(const detail::SampleKernel* kernel, const Pose& H, Sam
     f.cells[axis] = cells_[axis];
   }
   f.per_voxel = per_voxel_;
+  f.quantum = quantum_;
+  f.quantum_per_voxel = quantum_per_voxel_;
   f.band = band_;
   f.near_band = near_band_;
   const std::uint32_t lanes = (batch.count + kernel->lanes - 1) / kernel->lanes * kernel->lanes;

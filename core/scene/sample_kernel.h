@@ -12,13 +12,15 @@ namespace godobject::detail {
 /// A voxelmap as the kernel reads it.
 struct FieldOfNodes {
   const std::uint32_t* index;
-  const float* bricks;
+  const std::int16_t* bricks;
   const std::uint32_t* refined;     ///< at least one word
   std::int32_t stride_y, stride_z;  ///< of the index
   double to_field[3][4];            ///< from the points' frame; the last column is the translation [m]
   double origin[3];                 ///< of the grid [m]
   double cells[3];                  ///< of the grid
   double per_voxel;                 ///< [1/m]
+  double quantum;                   ///< of the nodes [m]
+  double quantum_per_voxel;         ///< [1]
   double band, near_band;           ///< [m]
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/scene/brick_lanes.h"
 #include "core/scene/format.h"
 #include "core/scene/sample_kernel.h"
 
@@ -82,9 +83,8 @@ struct HalvedAxis {
 /// Half of what was found, as Voxelmap::sample has it.
 template <class Vectors>
 typename Vectors::Longs store_samples(const FieldOfNodes& f, typename Vectors::Doubles distance,
-                                      typename Vectors::Doubles lipschitz, typename Vectors::Doubles per_cell,
-                                      const typename Vectors::Doubles (&slope)[3], SampleBatch& batch,
-                                      std::uint32_t first) noexcept {
+                                      typename Vectors::Doubles lipschitz, const typename Vectors::Doubles (&slope)[3],
+                                      SampleBatch& batch, std::uint32_t first) noexcept {
   using Doubles = typename Vectors::Doubles;
   using Longs = typename Vectors::Longs;
   const Doubles zero = {};
@@ -93,9 +93,9 @@ typename Vectors::Longs store_samples(const FieldOfNodes& f, typename Vectors::D
   *reinterpret_cast<Doubles*>(batch.clearance + first) = distance > 0.0 ? nearest / lipschitz : zero;
   *reinterpret_cast<Doubles*>(batch.distance + first) =
       known ? distance : (distance < 0.0 ? zero - f.band : zero + f.band);
-  *reinterpret_cast<Doubles*>(batch.gradient_x + first) = known ? per_cell * slope[0] : zero;
-  *reinterpret_cast<Doubles*>(batch.gradient_y + first) = known ? per_cell * slope[1] : zero;
-  *reinterpret_cast<Doubles*>(batch.gradient_z + first) = known ? per_cell * slope[2] : zero;
+  *reinterpret_cast<Doubles*>(batch.gradient_x + first) = known ? f.quantum_per_voxel * slope[0] : zero;
+  *reinterpret_cast<Doubles*>(batch.gradient_y + first) = known ? f.quantum_per_voxel * slope[1] : zero;
+  *reinterpret_cast<Doubles*>(batch.gradient_z + first) = known ? f.quantum_per_voxel * slope[2] : zero;
   return known;
 }
 
@@ -109,8 +109,8 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
   constexpr int kCell = format::kBrickCells - 1;
   constexpr int kY = format::kBrickNodes;
   constexpr int kZ = format::kBrickNodes * format::kBrickNodes;
-  constexpr int kBrickWords = sizeof(format::Brick) / sizeof(float);
-  constexpr int kLipschitz = offsetof(format::Brick, lipschitz) / sizeof(float);
+  constexpr int kBrickWords = sizeof(format::Brick) / sizeof(std::int16_t);
+  constexpr int kLipschitz = offsetof(format::Brick, lipschitz) / sizeof(std::int16_t);
   constexpr int kRefinedWords = sizeof(format::Refined) / sizeof(std::uint32_t);
   constexpr int kOwn = offsetof(format::Refined, brick) / sizeof(std::uint32_t);
   constexpr int kChild = offsetof(format::Refined, child) / sizeof(std::uint32_t);
@@ -128,8 +128,8 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
   x.cell &= kCell;
   y.cell &= kCell;
   z.cell &= kCell;
-  Doubles low_per_cell = Doubles{} + f.per_voxel;
-  Doubles high_per_cell = low_per_cell;
+  Doubles low_unit = Doubles{} + f.quantum;
+  Doubles high_unit = low_unit;
   const auto refined = [&] { return within & (entry >= 0) & ((entry & static_cast<int>(entry_of::kRefined)) != 0); };
   const Ints halved = refined();
   if (Vectors::bits(halved) != 0) {
@@ -151,8 +151,8 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
       halved_x.halve(descends);
       halved_y.halve(descends);
       halved_z.halve(descends);
-      low_per_cell = Vectors::low_mask(descends) ? 2.0 * low_per_cell : low_per_cell;
-      high_per_cell = Vectors::high_mask(descends) ? 2.0 * high_per_cell : high_per_cell;
+      low_unit = Vectors::low_mask(descends) ? 0.5 * low_unit : low_unit;
+      high_unit = Vectors::high_mask(descends) ? 0.5 * high_unit : high_unit;
       descends = refined();
     }
     halved_x.locate(halved, x.cell, x.at);
@@ -162,12 +162,13 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
   const Ints stored = within & (entry >= 0) & ((entry & static_cast<int>(entry_of::kEdged)) == 0);
   const Ints brick = kBrickWords * (entry & static_cast<int>(entry_of::kNumber) & stored);
   const Ints v = brick + x.cell + kY * y.cell + kZ * z.cell;
-  const auto node = [&](int at) noexcept { return Vectors::gather(f.bricks + at, v); };
-  const Floats v000 = node(0), v010 = node(kY), v001 = node(kZ), v011 = node(kZ + kY);
-  const Floats d00 = node(1) - v000;
-  const Floats d10 = node(kY + 1) - v010;
-  const Floats d01 = node(kZ + 1) - v001;
-  const Floats d11 = node(kZ + kY + 1) - v011;
+  // a node and the next along x
+  const auto pair = [&](int at) noexcept { return Vectors::gather_pair(f.bricks + at, v); };
+  const auto node = [](Ints two) noexcept { return __builtin_convertvector(first_of(two), Floats); };
+  const auto step = [](Ints two) noexcept { return __builtin_convertvector(second_of(two) - first_of(two), Floats); };
+  const Ints v00 = pair(0), v10 = pair(kY), v01 = pair(kZ), v11 = pair(kZ + kY);
+  const Floats v000 = node(v00), v010 = node(v10), v001 = node(v01), v011 = node(v11);
+  const Floats d00 = step(v00), d10 = step(v10), d01 = step(v01), d11 = step(v11);
   const Floats x00 = v000 + x.at * d00;
   const Floats x10 = v010 + x.at * d10;
   const Floats x01 = v001 + x.at * d01;
@@ -180,14 +181,14 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
   const Floats gx = d0 + z.at * (d1 - d0);
   const Floats gy = (x10 - x00) + z.at * ((x11 - x01) - (x10 - x00));
   const Floats gz = y1 - y0;
-  const Floats lipschitz = Vectors::gather(f.bricks + kLipschitz, brick);
+  const Floats lipschitz = decode_lipschitz<Vectors>(Vectors::gather_pair(f.bricks + kLipschitz, brick));
 
   constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
   const Doubles low_slope[3] = {Vectors::low(gx), Vectors::low(gy), Vectors::low(gz)};
   const Doubles high_slope[3] = {Vectors::high(gx), Vectors::high(gy), Vectors::high(gz)};
   const Ints known = Vectors::mask(
-      store_samples<Vectors>(f, Vectors::low(distance), Vectors::low(lipschitz), low_per_cell, low_slope, batch, first),
-      store_samples<Vectors>(f, Vectors::high(distance), Vectors::high(lipschitz), high_per_cell, high_slope, batch,
+      store_samples<Vectors>(f, low_unit * Vectors::low(distance), Vectors::low(lipschitz), low_slope, batch, first),
+      store_samples<Vectors>(f, high_unit * Vectors::high(distance), Vectors::high(lipschitz), high_slope, batch,
                              first + kHalf));
   constexpr std::uint64_t kLanes = (std::uint64_t{1} << Vectors::kLanes) - 1;
   batch.known = (batch.known & ~(kLanes << first)) | static_cast<std::uint64_t>(Vectors::bits(known & stored)) << first;

@@ -34,13 +34,15 @@ Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> inde
       voxel_size_(grid.voxel_size),
       per_voxel_(1.0 / grid.voxel_size),
       band_(grid.band),
+      quantum_(grid.quantum),
+      quantum_per_voxel_(grid.quantum / grid.voxel_size),
       near_band_(std::min(grid.band, kBrickCells * grid.voxel_size)),
       lipschitz_(std::max(1.0, grid.lipschitz_seam)),
       clearance_slope_(grid.clearance_slope),
       assured_clearance_(near_band_ / lipschitz_),
       outside_share_(std::min(1.0, clearance_slope_ / lipschitz_)),
       in_batches_(!bricks.empty() && index.size() < kMost &&
-                  bricks.size() < kMost / (sizeof(format::Brick) / sizeof(float)) &&
+                  bricks.size() < kMost / (sizeof(format::Brick) / sizeof(std::int16_t)) &&
                   refined.size() < kMost / (sizeof(format::Refined) / sizeof(std::uint32_t))),
       cells_(kBrickCells * Vector3(grid.bricks[0], grid.bricks[1], grid.bricks[2])),
       stride_y_(grid.bricks[0]),
@@ -69,12 +71,12 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
 }
 
 /// From a refined position to the cell that holds the point: of the octant, of the octant's octant, ... down to what is
-/// not refined. Gives the inverse of that cell's edge [1/m].
+/// not refined. Gives that cell's edge [voxels].
 double Voxelmap::descend(Cell& cell) const noexcept {
   constexpr int kHalf = kBrickCells / 2;
   std::array<double, 3> at = {cell.x + static_cast<double>(cell.fx), cell.y + static_cast<double>(cell.fy),
                               cell.z + static_cast<double>(cell.fz)};  // cells of the brick; halving is exact
-  double per_cell = per_voxel_;
+  double cell_edge = 1.0;
   for (int level = 0; level < format::kMaxRefinement && (cell.entry & format::index_entry::kRefined) != 0; ++level) {
     const format::Refined& refined = refined_[cell.entry & format::index_entry::kNumber];
     unsigned octant = 0;
@@ -86,7 +88,7 @@ double Voxelmap::descend(Cell& cell) const noexcept {
     }
     for (unsigned axis = 0; axis < 3; ++axis) at[axis] = 2.0 * (at[axis] - ((octant >> axis & 1u) != 0 ? kHalf : 0));
     cell.entry = child;
-    per_cell *= 2.0;
+    cell_edge *= 0.5;
   }
   // rounding to float may have moved the point onto the brick's upper face
   cell.x = std::min(static_cast<int>(at[0]), kBrickCells - 1);
@@ -95,7 +97,7 @@ double Voxelmap::descend(Cell& cell) const noexcept {
   cell.fx = static_cast<float>(at[0] - cell.x);
   cell.fy = static_cast<float>(at[1] - cell.y);
   cell.fz = static_cast<float>(at[2] - cell.z);
-  return per_cell;
+  return cell_edge;
 }
 
 /// The own nodes of a position that is not far.
@@ -108,10 +110,10 @@ double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
   return (surface_min_ - p_W).cwiseMax(p_W - surface_max_).cwiseMax(0.0).norm();
 }
 
-/// Of a point outside the grid, as a far entry has it: from the exact distance to the interpolated one it is
-/// kInterpolationError voxels at most, and any brick may be as steep as the steepest.
+/// Of a point outside the grid, as a far entry has it: from the exact distance to the stored one it is kFieldError
+/// voxels at most, and any brick may be as steep as the steepest.
 double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept {
-  const double bound = distance_to_box(p_W) - kInterpolationError * voxel_size_;
+  const double bound = distance_to_box(p_W) - kFieldError * voxel_size_;
   return bound * outside_share_;
 }
 
@@ -133,17 +135,23 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     }
     return sample;
   }
-  double per_cell = per_voxel_;
-  if (cell.entry & format::index_entry::kRefined) per_cell = descend(cell);
+  double unit = quantum_;
+  if (cell.entry & format::index_entry::kRefined) unit *= descend(cell);
   const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
-  const float* v = brick.value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
-  const float x00 = v[0] + cell.fx * (v[1] - v[0]);
-  const float x10 = v[kStrideY] + cell.fx * (v[kStrideY + 1] - v[kStrideY]);
-  const float x01 = v[kStrideZ] + cell.fx * (v[kStrideZ + 1] - v[kStrideZ]);
-  const float x11 = v[kStrideZ + kStrideY] + cell.fx * (v[kStrideZ + kStrideY + 1] - v[kStrideZ + kStrideY]);
+  const std::int16_t* v = brick.value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
+  const auto value = [v](int node) { return static_cast<float>(v[node]); };
+  const auto step = [v](int node) { return static_cast<float>(v[node + 1] - v[node]); };
+  const float d00 = step(0);
+  const float d10 = step(kStrideY);
+  const float d01 = step(kStrideZ);
+  const float d11 = step(kStrideZ + kStrideY);
+  const float x00 = value(0) + cell.fx * d00;
+  const float x10 = value(kStrideY) + cell.fx * d10;
+  const float x01 = value(kStrideZ) + cell.fx * d01;
+  const float x11 = value(kStrideZ + kStrideY) + cell.fx * d11;
   const float y0 = x00 + cell.fy * (x10 - x00);
   const float y1 = x01 + cell.fy * (x11 - x01);
-  double distance = static_cast<double>(y0 + cell.fz * (y1 - y0));
+  double distance = unit * static_cast<double>(y0 + cell.fz * (y1 - y0));
   const bool edged = (cell.entry & format::index_entry::kEdged) != 0;
   const double interpolated = distance;
   ValueAndGradient weight;
@@ -156,22 +164,21 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   }
   // A straight way of a brick's edge stays in the positions about this one, or leaves the stored bricks and enters them
   // again at a value of at least the band.
-  if (distance > 0.0) sample.clearance = std::min(distance, near_band_) / static_cast<double>(brick.lipschitz);
+  if (distance > 0.0) {
+    sample.clearance = std::min(distance, near_band_) / static_cast<double>(format::decode_lipschitz(brick.lipschitz));
+  }
   if (!(std::fabs(distance) < band_)) {
     if (distance < 0.0) sample.distance = -band_;
     return sample;
   }
-  const float d00 = v[1] - v[0];
-  const float d10 = v[kStrideY + 1] - v[kStrideY];
-  const float d01 = v[kStrideZ + 1] - v[kStrideZ];
-  const float d11 = v[kStrideZ + kStrideY + 1] - v[kStrideZ + kStrideY];
   const float d0 = d00 + cell.fy * (d10 - d00);
   const float d1 = d01 + cell.fy * (d11 - d01);
   const float gx = d0 + cell.fz * (d1 - d0);
   const float gy = (x10 - x00) + cell.fz * ((x11 - x01) - (x10 - x00));
   const float gz = y1 - y0;
   sample.distance = distance;
-  sample.gradient = per_cell * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
+  sample.gradient =
+      quantum_per_voxel_ * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
   if (edged) {
     sample.gradient +=
         weight.value * (wedge.gradient - sample.gradient) + (wedge.value - interpolated) * weight.gradient;
@@ -198,7 +205,7 @@ LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {
     return sample;
   }
   const int node = cell.x + ox + kStrideY * (cell.y + oy) + kStrideZ * (cell.z + oz);
-  const double layers = -static_cast<double>(unrefined(cell.entry).value[node]) * per_voxel_;
+  const double layers = -static_cast<double>(unrefined(cell.entry).value[node]) * quantum_per_voxel_;
   sample.layer = static_cast<int>(
       std::clamp(std::floor(layers + 0.5), -static_cast<double>(deepest), static_cast<double>(deepest)));
   return sample;
@@ -213,7 +220,7 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
   double bound = kNoBound;
   Cell cell;
   if (!locate(center_W, cell)) {
-    bound = distance_to_box(center_W) - kInterpolationError * voxel_size_ - radius;
+    bound = distance_to_box(center_W) - kFieldError * voxel_size_ - radius;
   } else if (cell.entry & format::index_entry::kFar) {
     if (cell.entry & format::index_entry::kInside) return kNoBound;
     bound = static_cast<double>(format::index_entry::far_clearance(cell.entry)) - radius;
@@ -222,7 +229,8 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
     // metre while the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at
     // least the band. The brick's own constant holds for a brick's edge.
     const bool about = radius <= kBrickCells * voxel_size_;
-    const double lipschitz = about ? static_cast<double>(unrefined(cell.entry).lipschitz) : lipschitz_;
+    const double lipschitz =
+        about ? static_cast<double>(format::decode_lipschitz(unrefined(cell.entry).lipschitz)) : lipschitz_;
     bound = sample(center_W).distance - lipschitz * radius;
   }
   // A ball that may reach the surface may also reach through a seam into the solid: no bound is known there.

@@ -13,7 +13,7 @@ namespace godobject {
 
 /// A compiled body, still or moving: trilinear value and gradient of signed distances stored in sparse bricks. A view;
 /// owns nothing. Real-time safe; every call looks at one brick (one index entry, where the position is refined at most
-/// format::kMaxRefinement more entries, at most 8 floats of the brick, and the edge of one that has one).
+/// format::kMaxRefinement more entries, 8 nodes of the brick, and the edge of one that has one).
 class Voxelmap {
  public:
   Voxelmap() = default;
@@ -64,6 +64,8 @@ class Voxelmap {
   /// error is at most the root of sum w_m |m - x|^2, which the halved edges leave below 3/4 (faces add 1/2, 1/8, ...,
   /// the cell itself 3/4 of its squared edge).
   static constexpr double kInterpolationError = 0.8660254037844387;
+  /// With what rounding adds.
+  static constexpr double kFieldError = kInterpolationError + format::kMostRoundedOff * format::kLargestQuantum;
 
   struct Cell {
     std::uint32_t entry;  ///< of the brick index; of a refinement after `descend`
@@ -87,6 +89,8 @@ class Voxelmap {
   double voxel_size_ = 1.0;
   double per_voxel_ = 1.0;
   double band_ = 0.0;
+  double quantum_ = 0.0;  ///< of the stored distances; less where they are refined [m]
+  double quantum_per_voxel_ = 0.0;
   double near_band_ = 0.0;  ///< what a clearance may take of a distance: the band, no more than a brick's edge [m]
   double lipschitz_ = 1.0;  ///< of the whole field
   double clearance_slope_ = 1.0;

@@ -34,7 +34,19 @@ test::SceneDescription still_body(std::function<double(const Vector3&)> distance
   return description;
 }
 
-/// One brick of 4 x 4 x 4 cells with edge 1/4 m, its first node at the origin. Numbers that floats hold exactly.
+double quantum_of(const test::SceneImage& image) { return test::open_scene(image).grid.quantum; }
+
+constexpr double kQuantum = 0x1p-10;  // [m]
+
+std::int16_t quanta(double value, int level = 0) {
+  return static_cast<std::int16_t>(std::lround(std::ldexp(value / kQuantum, level)));
+}
+
+void fill(format::Brick& brick, double value, int level = 0) {
+  std::fill(std::begin(brick.value), std::end(brick.value), quanta(value, level));
+}
+
+/// One brick of 4 x 4 x 4 cells with edge 1/4 m, its first node at the origin. Numbers that a brick holds exactly.
 struct OneBrick {
   format::Grid grid{};
   format::Brick brick{};
@@ -46,22 +58,22 @@ struct OneBrick {
     grid.lipschitz = 1.0;
     grid.lipschitz_seam = 1.0;
     grid.clearance_slope = 1.0;
+    grid.quantum = kQuantum;
     std::fill(std::begin(grid.surface_max), std::end(grid.surface_max), 1.0);
     std::fill(std::begin(grid.bricks), std::end(grid.bricks), 1);
     grid.brick_count = 1;
-    brick.lipschitz = 1.0f;
   }
-  float& node(int x, int y, int z) { return brick.value[x + 5 * (y + 5 * z)]; }
+  void set(int x, int y, int z, double value) { brick.value[x + 5 * (y + 5 * z)] = quanta(value); }
   Voxelmap map() const { return {grid, std::span(&index, 1), std::span(&brick, 1), {}}; }
 };
 
 TEST(Voxelmap, InterpolatesACellByHand) {
   OneBrick one;
   // the cell from node (1, 2, 3) to (2, 3, 4): corners 1 .. 8, x fastest
-  float corner = 1.0f;
+  double corner = 1.0;
   for (const int z : {3, 4}) {
     for (const int y : {2, 3}) {
-      for (const int x : {1, 2}) one.node(x, y, z) = 0.125f * corner++;
+      for (const int x : {1, 2}) one.set(x, y, z, 0.125 * corner++);
     }
   }
   // a quarter along x, a half along y, three quarters along z: 1 + 1/4 + 2/2 + 4 * 3/4 = 5.25 eighths
@@ -73,7 +85,7 @@ TEST(Voxelmap, InterpolatesACellByHand) {
 
 TEST(Voxelmap, InterpolatesTheProductTermsByHand) {
   OneBrick one;
-  one.node(1, 1, 1) = 1.0f;  // xyz of the cell at the origin, all other corners 0
+  one.set(1, 1, 1, 1.0);  // xyz of the cell at the origin, all other corners 0
   const FieldSample sample = one.map().sample(0.25 * Vector3(0.5, 0.25, 0.75));
   EXPECT_EQ(sample.distance, 0.5 * 0.25 * 0.75);
   EXPECT_EQ(sample.gradient, 4.0 * Vector3(0.25 * 0.75, 0.5 * 0.75, 0.5 * 0.25));
@@ -84,7 +96,7 @@ TEST(Voxelmap, TellsKnownFromBandInsideAndOutside) {
   one.grid.band = 0.5;
   for (int z = 0; z < 5; ++z) {
     for (int y = 0; y < 5; ++y) {
-      for (int x = 0; x < 5; ++x) one.node(x, y, z) = 0.5f * static_cast<float>(x) - 1.0f;  // -1 .. 1
+      for (int x = 0; x < 5; ++x) one.set(x, y, z, 0.5 * x - 1.0);  // -1 .. 1
     }
   }
   const Voxelmap map = one.map();
@@ -125,8 +137,8 @@ TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
 
 TEST(Voxelmap, DividesByTheBricksSlopeAboutItAndByTheWholeFieldsBeyond) {
   OneBrick one;
-  std::fill(std::begin(one.brick.value), std::end(one.brick.value), 3.0f);
-  one.brick.lipschitz = 2.0f;
+  fill(one.brick, 3.0);
+  one.brick.lipschitz = format::encode_lipschitz(2.0f);
   one.grid.lipschitz_seam = 2.5;
   const Vector3 center = Vector3::Constant(0.5);
   EXPECT_NEAR(one.map().lower_bound(center, 0.9), 1.2, 2.0 * kAllowance);
@@ -156,7 +168,7 @@ TEST(Voxelmap, TakesWhatIsNotFiniteForOutside) {
   }
 }
 
-TEST(Voxelmap, ReproducesALinearFieldToFloatRounding) {
+TEST(Voxelmap, ReproducesALinearFieldToItsQuantum) {
   const Vector3 slope = Vector3(1.0, -2.0, 0.5).normalized();
   const auto description =
       still_body([&](const Vector3& p) { return slope.dot(p) - 0.003; }, Vector3::Constant(0.02), 0.0017, 0.017);
@@ -168,9 +180,11 @@ TEST(Voxelmap, ReproducesALinearFieldToFloatRounding) {
     const Vector3 p(anywhere(random), anywhere(random), anywhere(random));
     const FieldSample sample = map.sample(p);
     ASSERT_TRUE(sample.known);
-    // floats below 0.06, and their differences over a voxel
-    ASSERT_NEAR(sample.distance, slope.dot(p) - 0.003, 0.06 * FLT_EPSILON) << p.transpose();
-    ASSERT_LT((sample.gradient - slope).norm(), 0.06 * FLT_EPSILON / 0.0017) << p.transpose();
+    // half a quantum a node, two nodes a voxel apart along each axis
+    const double quantum = quantum_of(image);
+    ASSERT_NEAR(sample.distance, slope.dot(p) - 0.003, 0.5 * quantum + 1e-9) << p.transpose();
+    ASSERT_LT((sample.gradient - slope).norm(), 1.7321 * quantum / 0.0017) << p.transpose();
+    ASSERT_LT(quantum, 1e-3 * map.voxel_size());
   }
 }
 
@@ -192,9 +206,15 @@ struct HalvedTwice {
     refined[1].brick = coarse ? 1 : format::kNoBrick;
     if (coarse) refined[0].child[7] = refined[1].child[7] = format::index_entry::kCoarse;
     for (std::size_t i = 0; i < bricks.size(); ++i) {
-      std::fill(std::begin(bricks[i].value), std::end(bricks[i].value), 0.0625f * static_cast<float>(i));
-      bricks[i].lipschitz = 1.0f;
+      fill(bricks[i], 0.0625 * static_cast<double>(i), level(i));
     }
+  }
+  static int level(std::size_t brick) { return brick == 0 ? 0 : brick < 9 ? 1 : 2; }
+  void fill_all(double value) {
+    for (std::size_t i = 0; i < bricks.size(); ++i) fill(bricks[i], value, level(i));
+  }
+  void set(std::size_t brick, int x, int y, int z, double value) {
+    bricks[brick].value[x + 5 * (y + 5 * z)] = quanta(value, level(brick));
   }
   Voxelmap map() const { return {one.grid, std::span(&one.index, 1), bricks, refined}; }
 };
@@ -216,14 +236,11 @@ TEST(Voxelmap, DescendsToTheOctantThatHoldsThePoint) {
 
 TEST(Voxelmap, LooksCoarseOctantsUpInTheOwnNodes) {
   HalvedTwice halved(true);
-  for (format::Brick& brick : halved.bricks) std::fill(std::begin(brick.value), std::end(brick.value), 1.0f);
-  const auto set = [&halved](std::size_t brick, int x, int y, int z, float value) {
-    halved.bricks[brick].value[x + 5 * (y + 5 * z)] = value;
-  };
-  set(0, 2, 2, 2, 0.25f);  // the middle of the position, in cells of 1/4 m
-  set(0, 3, 2, 2, 0.75f);
-  set(1, 2, 2, 2, -0.25f);  // the middle of its lowest octant, in cells of 1/8 m
-  set(1, 3, 2, 2, 0.5f);
+  halved.fill_all(1.0);
+  halved.set(0, 2, 2, 2, 0.25);  // the middle of the position, in cells of 1/4 m
+  halved.set(0, 3, 2, 2, 0.75);
+  halved.set(1, 2, 2, 2, -0.25);  // the middle of its lowest octant, in cells of 1/8 m
+  halved.set(1, 3, 2, 2, 0.5);
   const Voxelmap map = halved.map();
   EXPECT_EQ(map.sample(Vector3::Constant(0.5)).distance, 0.25);
   EXPECT_EQ(map.sample(Vector3(0.625, 0.5, 0.5)).distance, 0.5);
@@ -237,9 +254,8 @@ TEST(Voxelmap, LooksCoarseOctantsUpInTheOwnNodes) {
 
 TEST(Voxelmap, InterpolatesInTheHalvedCellByHand) {
   HalvedTwice halved;
-  format::Brick& brick = halved.bricks[9 + 7];  // from (1/4, 1/4, 1/4), cells of 1/16 m
-  std::fill(std::begin(brick.value), std::end(brick.value), 0.0f);
-  brick.value[1 + 5 * (1 + 5 * 1)] = 1.0f;  // xyz in the first cell
+  halved.fill_all(0.0);
+  halved.set(9 + 7, 1, 1, 1, 1.0);  // from (1/4, 1/4, 1/4), cells of 1/16 m: xyz in the first cell
   const FieldSample sample = halved.map().sample(Vector3::Constant(0.25) + 0.0625 * Vector3(0.5, 0.25, 0.75));
   EXPECT_EQ(sample.distance, 0.5 * 0.25 * 0.75);
   EXPECT_EQ(sample.gradient, 16.0 * Vector3(0.25 * 0.75, 0.5 * 0.75, 0.5 * 0.25));
@@ -247,17 +263,15 @@ TEST(Voxelmap, InterpolatesInTheHalvedCellByHand) {
 
 TEST(Voxelmap, TakesLayersFromTheUnrefinedNodes) {
   HalvedTwice halved;
-  std::fill(std::begin(halved.bricks[0].value), std::end(halved.bricks[0].value), -0.5f);
+  fill(halved.bricks[0], -0.5);
   EXPECT_EQ(halved.map().layer(Vector3(0.3, 0.1, 0.6)).layer, 2);
   EXPECT_NEAR((halved.map().layer(Vector3(0.3, 0.1, 0.6)).to_center - Vector3(-0.05, -0.1, -0.1)).norm(), 0.0, 1e-7);
 }
 
 TEST(Voxelmap, BoundsAHalvedPositionByItsSlope) {
   HalvedTwice halved;
-  for (format::Brick& brick : halved.bricks) {
-    std::fill(std::begin(brick.value), std::end(brick.value), 3.0f);
-    brick.lipschitz = 4.0f;
-  }
+  halved.fill_all(3.0);
+  for (format::Brick& brick : halved.bricks) brick.lipschitz = format::encode_lipschitz(4.0f);
   halved.one.grid.lipschitz_seam = 100.0;
   EXPECT_NEAR(halved.map().lower_bound(Vector3::Constant(0.3), 0.25), 2.0, 4.0 * kAllowance);
   EXPECT_EQ(halved.map().lower_bound(Vector3::Constant(0.3), 1.01), -kInfinity);
@@ -322,6 +336,8 @@ class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
     return description;
   }
 
+  double steepest() const { return test::open_scene(image_).grid.lipschitz_seam * (1.0 + 1e-6); }
+
   Vector3 random_point(double reach) {
     return reach * Vector3(shapes_.uniform(), shapes_.uniform(), shapes_.uniform());
   }
@@ -348,7 +364,7 @@ TEST_P(VoxelmapOfRandomShapes, GivesTheGradientOfItsOwnDistance) {
     const Vector3 p = random_point(0.05);
     const FieldSample sample = map_.sample(p);
     if (!sample.known) continue;
-    ASSERT_LE(sample.gradient.norm(), map_.lipschitz()) << p.transpose();
+    ASSERT_LE(sample.gradient.norm(), steepest()) << p.transpose();
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3 step = kStep * Vector3::Unit(axis);
       const FieldSample ahead = map_.sample(p + step);
@@ -367,7 +383,7 @@ TEST_P(VoxelmapOfRandomShapes, IsContinuous) {
   for (int i = 0; i < 20000; ++i) {
     const Vector3 p = random_point(0.06);
     const Vector3 q = p + random_point(1e-5);
-    ASSERT_LE(std::fabs(map_.sample(p).distance - map_.sample(q).distance), map_.lipschitz() * (q - p).norm() + 1e-8)
+    ASSERT_LE(std::fabs(map_.sample(p).distance - map_.sample(q).distance), steepest() * (q - p).norm() + 1e-8)
         << p.transpose() << " and " << q.transpose();
   }
 }
@@ -503,7 +519,7 @@ TEST(Voxelmap, NumbersTheLayersByHand) {
   one.grid.band = 0.5;
   for (int z = 0; z < 5; ++z) {
     for (int y = 0; y < 5; ++y) {
-      for (int x = 0; x < 5; ++x) one.node(x, y, z) = 0.25f * static_cast<float>(x) - 0.5f;
+      for (int x = 0; x < 5; ++x) one.set(x, y, z, 0.25 * x - 0.5);
     }
   }
   const Voxelmap map = one.map();
@@ -524,9 +540,9 @@ TEST(Voxelmap, NumbersTheLayersByHand) {
 
 TEST(Voxelmap, RoundsALayerHalfWayInwards) {
   OneBrick one;
-  std::fill(std::begin(one.brick.value), std::end(one.brick.value), -0.375f);  // 1.5 voxels deep
+  fill(one.brick, -0.375);  // 1.5 voxels deep
   EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, 2);
-  std::fill(std::begin(one.brick.value), std::end(one.brick.value), 0.375f);
+  fill(one.brick, 0.375);
   EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, -1);
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/brick_packing.h"
 #include "toolchain/scene_compiler/refinement.h"
 
 namespace godobject::scene_compiler {
@@ -18,12 +19,16 @@ using Eigen::Vector3d;
 
 DistanceGrid field_of(const SolidSurface& surface, double s, bool refined) {
   DistanceGrid field = make_distance_grid(surface, s, default_band(s, 1.5 * s), {});
-  if (refined) refine(field, surface, 0.05 * s, {});
+  if (refined) {
+    refine(field, surface, 0.05 * s, {});
+  } else {
+    round_distances(field);
+  }
   return field;
 }
 
-Voxelmap map_of(const DistanceGrid& field) {
-  return {field.grid, field.index, field.bricks, field.refined, field.edges};
+Voxelmap map_of(const DistanceGrid& field, const std::vector<format::Brick>& bricks) {
+  return {field.grid, field.index, bricks, field.refined, field.edges};
 }
 
 struct Body {
@@ -45,7 +50,8 @@ class ClearancesOf : public ::testing::TestWithParam<Body> {};
 TEST_P(ClearancesOf, HoldAroundEveryPoint) {
   const SolidSurface surface = surface_of(GetParam(), 0.004);
   const DistanceGrid field = field_of(surface, 0.004, GetParam().refined);
-  const Voxelmap map = map_of(field);
+  const std::vector<format::Brick> bricks = packed_bricks(field);
+  const Voxelmap map = map_of(field, bricks);
   const format::Grid& g = field.grid;
   const double slope = map.lipschitz();
   std::mt19937_64 random(5);
@@ -89,7 +95,8 @@ TEST(ClearanceBounds, LeaveASeamToThoseAboutIt) {
   const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
                              SurfaceKind::kSolid, 0.004);
   const DistanceGrid field = field_of(surface, 0.002, false);
-  const Voxelmap map = map_of(field);
+  const std::vector<format::Brick> bricks = packed_bricks(field);
+  const Voxelmap map = map_of(field, bricks);
   EXPECT_GT(field.grid.lipschitz_seam, 3.0);
   EXPECT_GT(map.sample({0.05, 0.05, -0.003}).clearance, 0.003 / 1.5) << "under the closed side";
   const double beside_seam = map.sample({0.05, 0.05, 0.103}).clearance;

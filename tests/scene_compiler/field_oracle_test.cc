@@ -7,7 +7,9 @@
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/brute_force.h"
 #include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/brick_packing.h"
 #include "toolchain/scene_compiler/distance_grid.h"
+#include "toolchain/scene_compiler/refinement.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -27,8 +29,10 @@ class FieldOracle : public testing::TestWithParam<Case> {};
 TEST_P(FieldOracle, StoresExactDistances) {
   const auto [name, scale, s] = GetParam();
   const SolidSurface surface(load(name, scale), SurfaceKind::kAuto, 2.0 * s);
-  const DistanceGrid grid = make_distance_grid(surface, s, default_band(s, 1.5 * s), {});
-  const Voxelmap field(grid.grid, grid.index, grid.bricks, {});
+  DistanceGrid grid = make_distance_grid(surface, s, default_band(s, 1.5 * s), {});
+  round_distances(grid);
+  const std::vector<format::Brick> bricks = packed_bricks(grid);
+  const Voxelmap field(grid.grid, grid.index, bricks, {});
   const TriangleMesh& mesh = surface.mesh();
   const BruteForce truth(mesh);
   const double band = grid.grid.band;

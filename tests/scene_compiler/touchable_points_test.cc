@@ -1,4 +1,5 @@
 #include "toolchain/scene_compiler/touchable_points.h"
+#include "toolchain/scene_compiler/brick_packing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/pruned_tree.h"
+#include "toolchain/scene_compiler/refinement.h"
 #include "toolchain/scene_compiler/sphere_tree.h"
 
 namespace godobject::scene_compiler {
@@ -52,14 +54,17 @@ TEST(LeastPiece, IsTheLongestEdgeOfTheShortestPiece) {
 /// The field of a cube about the origin.
 DistanceGrid cube_field(double half, double voxel_size) {
   const SolidSurface cube(box(Vector3d::Constant(-half), Vector3d::Constant(half)), SurfaceKind::kSolid, 0.0);
-  return make_distance_grid(cube, voxel_size, default_band(voxel_size, 1.5 * voxel_size), {});
+  DistanceGrid field = make_distance_grid(cube, voxel_size, default_band(voxel_size, 1.5 * voxel_size), {});
+  round_distances(field);
+  return field;
 }
 
 /// By brute force over poses: whoever came below the band stays, and who stays is not far from that.
 TEST(WithinReach, KeepsWhatComesNearAndLittleMore) {
   constexpr double kVoxel = 0.004;
   const DistanceGrid field = cube_field(0.03, kVoxel);
-  const Voxelmap map(field.grid, field.index, field.bricks, field.refined, field.edges);
+  const std::vector<format::Brick> bricks = packed_bricks(field);
+  const Voxelmap map(field.grid, field.index, bricks, field.refined, field.edges);
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);

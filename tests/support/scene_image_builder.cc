@@ -18,16 +18,24 @@ using format::kBrickNodes;
 using format::SectionId;
 
 constexpr double kHalfDiagonal = 0.8660254037844387;  // of a unit cube
+constexpr double kRoundedOff = 0.01;                  // a quantum is less [voxels]
 
 std::size_t padded(std::size_t bytes) {
   return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
 }
 
+/// Before it is rounded.
+struct Brick {
+  double value[format::kBrickValues];  ///< [m]
+  int level;                           ///< how often it is halved
+  std::uint16_t edge;
+};
+
 /// The still body: grid, brick index, bricks.
 struct StoredField {
   format::Grid grid{};
   std::vector<std::uint32_t> index;
-  std::vector<format::Brick> bricks;
+  std::vector<Brick> bricks;
   std::vector<format::Refined> refined;
 };
 
@@ -47,15 +55,23 @@ format::Grid frame_grid(const SceneDescription& description) {
   return grid;
 }
 
-format::Brick sample_brick(const SceneDescription& description, const format::Grid& grid,
-                           const std::array<int, 3>& at) {
-  format::Brick brick{};
+/// Of a node of a level's lattice: a whole number of quanta, in a field that is refined of 16 / 4^level. Whatever a
+/// finer node carries of such is one of its own level's; then what refinements share stays the same in spite of
+/// rounding. As it is while no quantum is known.
+double node_rounded(double distance, const SceneDescription& description, const format::Grid& grid, int level) {
+  if (grid.quantum == 0.0) return distance;
+  const double unit = std::ldexp(grid.quantum, description.refined ? format::kMaxRefinement - 2 * level : 0);
+  return unit * std::round(distance / unit);
+}
+
+Brick sample_brick(const SceneDescription& description, const format::Grid& grid, const std::array<int, 3>& at) {
+  Brick brick{};
   for (int z = 0, node = 0; z < kBrickNodes; ++z) {
     for (int y = 0; y < kBrickNodes; ++y) {
       for (int x = 0; x < kBrickNodes; ++x, ++node) {
         const Vector3 lattice(at[0] * kBrickCells + x, at[1] * kBrickCells + y, at[2] * kBrickCells + z);
         const Vector3 p_W = Vector3(grid.origin[0], grid.origin[1], grid.origin[2]) + grid.voxel_size * lattice;
-        brick.value[node] = static_cast<float>(description.distance(p_W));
+        brick.value[node] = node_rounded(description.distance(p_W), description, grid, 0);
       }
     }
   }
@@ -64,7 +80,7 @@ format::Brick sample_brick(const SceneDescription& description, const format::Gr
 
 /// Largest gradient norm in the brick, times the voxel size. The gradient is affine along each axis, so its norm is
 /// largest in the corners of a cell, where it is made of the three edges that meet there.
-double steepest(const format::Brick& brick) {
+double steepest(const Brick& brick) {
   constexpr int kStride[3] = {1, kBrickNodes, kBrickNodes * kBrickNodes};
   double steepest_squared = 0.0;
   for (int node = 0; node < format::kBrickValues; ++node) {
@@ -78,7 +94,7 @@ double steepest(const format::Brick& brick) {
           break;
         }
         const int other = up ? node + kStride[axis] : node - kStride[axis];
-        const double edge = static_cast<double>(brick.value[other]) - static_cast<double>(brick.value[node]);
+        const double edge = brick.value[other] - brick.value[node];
         norm_squared += edge * edge;
       }
       steepest_squared = std::max(steepest_squared, norm_squared);
@@ -144,11 +160,12 @@ class Octants {
     return format::index_entry::kRefined | static_cast<std::uint32_t>(number);
   }
 
-  format::Brick brick(const Vector3& low, int level) const {
-    format::Brick brick{};
+  Brick brick(const Vector3& low, int level) const {
+    Brick brick{};
+    brick.level = level;
     for (int i = 0; i < format::kBrickValues; ++i) {
       const Vector3 node(i % kBrickNodes, i / kBrickNodes % kBrickNodes, i / kBrickNodes / kBrickNodes);
-      brick.value[i] = static_cast<float>(node_value(low + cell_edge(level) * node, level));
+      brick.value[i] = node_value(low + cell_edge(level) * node, level);
     }
     return brick;
   }
@@ -185,7 +202,7 @@ class Octants {
       coarsest = found;
       beside = near;
     }
-    if (coarsest == level) return description_.distance(node);
+    if (coarsest == level) return node_rounded(description_.distance(node), description_, field_.grid, level);
     const double edge = cell_edge(coarsest);
     const Vector3 cell = ((beside - origin()) / edge).array().floor();
     const Vector3 at = ((node - origin()) / edge - cell).cwiseMax(0.0).cwiseMin(1.0);
@@ -220,44 +237,77 @@ void name_edge(StoredField& field) {
   }
 }
 
-StoredField store_field(const SceneDescription& description) {
+/// The least of 1, 2, 5, 10, 20, ... pm, um, ... in which all nodes fit: round distances stay exact.
+double round_quantum(const StoredField& field) {
+  constexpr int kRoundedUp = 136;  // node_rounded: half of 16 coarse quanta, 16 of the finest each, and its own
+  double largest = 0.0;
+  for (const Brick& brick : field.bricks) {
+    for (const double value : brick.value) largest = std::max(largest, std::ldexp(std::fabs(value), brick.level));
+  }
+  for (double per_metre = 1e12;; per_metre /= 10.0) {
+    for (const double step : {1.0, 2.0, 5.0}) {
+      if (largest <= (format::kLargestValue - kRoundedUp) * (step / per_metre)) return step / per_metre;
+    }
+  }
+}
+
+std::vector<format::Brick> rounded_bricks(const SceneDescription& description, const StoredField& field) {
+  std::vector<format::Brick> bricks;
+  for (const Brick& brick : field.bricks) {
+    format::Brick& rounded = bricks.emplace_back();
+    const double quantum = std::ldexp(field.grid.quantum, -brick.level);
+    for (int i = 0; i < format::kBrickValues; ++i) {
+      rounded.value[i] = static_cast<std::int16_t>(std::lround(brick.value[i] / quantum));
+    }
+    rounded.lipschitz = format::encode_lipschitz(static_cast<float>(field.grid.clearance_slope));
+    if (description.refined || description.edge) {
+      // two interpolations of one distance, each within half a voxel's diagonal of it
+      rounded.deviation = static_cast<std::uint16_t>(std::ceil(1.76 * field.grid.voxel_size / field.grid.quantum));
+    }
+    rounded.edge = brick.edge;
+  }
+  return bricks;
+}
+
+/// `quantum` 0: none is known yet, and nothing rounded.
+StoredField store_field(const SceneDescription& description, double quantum) {
   StoredField field;
   field.grid = frame_grid(description);
   format::Grid& grid = field.grid;
+  grid.quantum = quantum;
   for (int z = 0; z < grid.bricks[2]; ++z) {
     for (int y = 0; y < grid.bricks[1]; ++y) {
       for (int x = 0; x < grid.bricks[0]; ++x) {
-        const format::Brick brick = sample_brick(description, grid, {x, y, z});
+        const Brick brick = sample_brick(description, grid, {x, y, z});
         const auto [low, high] = std::minmax_element(std::begin(brick.value), std::end(brick.value));
-        const double lowest = static_cast<double>(*low);
-        const double highest = static_cast<double>(*high);
-        if (lowest < grid.band && highest > -grid.band) {
+        if (*low<grid.band&& * high> - grid.band) {
           field.index.push_back(static_cast<std::uint32_t>(field.bricks.size()));
           field.bricks.push_back(brick);
           continue;
         }
         // from the nearest node to any point of the brick, then from the exact distance to the interpolated one
-        const double clearance = lowest - 2.0 * kHalfDiagonal * grid.voxel_size;
+        const double clearance = *low - (2.0 * kHalfDiagonal + kRoundedOff) * grid.voxel_size;
         field.index.push_back(
-            format::index_entry::encode_far(highest < 0.0, static_cast<float>(std::max(0.0, clearance))));
+            format::index_entry::encode_far(*high < 0.0, static_cast<float>(std::max(0.0, clearance))));
       }
     }
   }
   double slope = 0.0;
-  for (const format::Brick& brick : field.bricks) slope = std::max(slope, steepest(brick) / grid.voxel_size);
+  for (const Brick& brick : field.bricks) slope = std::max(slope, steepest(brick) / grid.voxel_size);
   if (description.refined) slope = std::max(slope, Octants(description, field).store());
   if (description.edge) name_edge(field);
   // single precision differences are taken again later; bricks say the same
   grid.lipschitz = static_cast<double>(static_cast<float>(slope * (1.0 + 1e-6)));
-  grid.lipschitz_seam = grid.lipschitz;
-  grid.clearance_slope = std::max(1.0, grid.lipschitz);
-  for (format::Brick& brick : field.bricks) {
-    brick.lipschitz = static_cast<float>(grid.clearance_slope);
-    // two interpolations of one distance, each within half a voxel's diagonal of it
-    if (description.refined || description.edge) brick.deviation = static_cast<float>(1.75 * grid.voxel_size);
-  }
+  const auto largest = std::max(1.0f, static_cast<float>(grid.lipschitz));
+  grid.clearance_slope = static_cast<double>(format::decode_lipschitz(format::encode_lipschitz(largest)));
+  grid.lipschitz_seam = grid.clearance_slope;
+  if (grid.quantum > kRoundedOff * grid.voxel_size) throw std::invalid_argument("band");
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   return field;
+}
+
+StoredField store_field(const SceneDescription& description) {
+  return store_field(description, round_quantum(store_field(description, 0.0)));
 }
 
 /// The moving body: points in tree order, and the tree.
@@ -413,7 +463,8 @@ SceneImage build_scene_image(const SceneDescription& description) {
   if (description.workspace) parts.push_back(part(SectionId::kWorkspace, std::span(&*description.workspace, 1)));
   parts.push_back(part(SectionId::kGrid, std::span(&field.grid, 1)));
   parts.push_back(part(SectionId::kBrickIndex, std::span(field.index)));
-  parts.push_back(part(SectionId::kBricks, std::span(field.bricks)));
+  const std::vector<format::Brick> bricks = rounded_bricks(description, field);
+  parts.push_back(part(SectionId::kBricks, std::span(bricks)));
   if (!field.refined.empty()) parts.push_back(part(SectionId::kRefined, std::span(field.refined)));
   if (description.edge) parts.push_back(part(SectionId::kEdges, std::span(&*description.edge, 1)));
   parts.push_back(part(SectionId::kBody, std::span(&stored.body, 1)));

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "core/scene/edge.h"
 #include "toolchain/scene_compiler/clearance_bounds.h"
+#include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/straight_edges.h"
 
 namespace godobject::scene_compiler {
@@ -110,12 +112,13 @@ Vector3d BrickTree::low(std::uint32_t brick) const {
   return origin_ + voxel_size_ / kUnits * Vector3d(low[0], low[1], low[2]);
 }
 
-const format::Brick& BrickTree::exact(std::uint32_t brick) const {
+const Brick& BrickTree::exact(std::uint32_t brick) const {
   return brick < field_.bricks.size() ? field_.bricks[brick] : fine_[brick - field_.bricks.size()].exact;
 }
 
-const format::Brick& BrickTree::stored(std::uint32_t brick) const {
-  return brick < field_.bricks.size() ? field_.bricks[brick] : fine_[brick - field_.bricks.size()].stored;
+const Brick& BrickTree::stored(std::uint32_t brick) const {
+  if (brick >= field_.bricks.size()) return fine_[brick - field_.bricks.size()].stored;
+  return own_.empty() ? field_.bricks[brick] : own_[brick];
 }
 
 BrickTree::Units BrickTree::unit_cell(const Vector3d& p) const {
@@ -140,8 +143,7 @@ BrickTree::Leaf BrickTree::find(const Units& unit_cell) const {
   return {entry & format::index_entry::kNumber, level, octant_at(unit_cell, level)};
 }
 
-double BrickTree::interpolate(const Place& place, const format::Brick& brick,
-                              const std::array<double, 3>& units) const {
+double BrickTree::interpolate(const Place& place, const Brick& brick, const std::array<double, 3>& units) const {
   const float* corner = brick.value;
   std::array<double, 3> at{};
   constexpr std::array<int, 3> kStride = {1, kBrickNodes, kBrickNodes * kBrickNodes};
@@ -224,7 +226,7 @@ std::uint32_t& BrickTree::entry_of(std::uint32_t brick) {
   return *entry;
 }
 
-void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array<format::Brick, 8>& octants) {
+void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array<Brick, 8>& octants) {
   if (places_[brick].halved == 0) {
     entry_of(brick) = format::index_entry::kRefined | static_cast<std::uint32_t>(refined_.size());
     format::Refined& whole = refined_.emplace_back();
@@ -261,10 +263,18 @@ BrickTree::Leaf BrickTree::coarsest_about(const Units& node, std::uint32_t root)
   return coarsest;
 }
 
-void BrickTree::join_brick(std::uint32_t brick) {
+BrickTree::Units BrickTree::node_at(const Place& place, int node) const {
+  const std::array<int, 3> steps = {node % kBrickNodes, node / kBrickNodes % kBrickNodes,
+                                    node / (kBrickNodes * kBrickNodes)};
+  Units at{};
+  for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = place.low[axis] + cell_units(place.level) * steps[axis];
+  return at;
+}
+
+/// Calls visit(node, at, leaf) for nodes of a brick that touch something coarser, with the coarsest.
+template <class Visit>
+void BrickTree::visit_outer_nodes_on_coarser(std::uint32_t brick, const Visit& visit) const {
   const Place& place = places_[brick];
-  Fine& fine = fine_[brick - field_.bricks.size()];
-  fine.stored = fine.exact;
   const std::array<Leaf, 26> about = leaves_about(brick);
   const auto coarser = [&place](const Leaf& leaf) { return leaf.brick == kNone || leaf.level < place.level; };
   if (std::none_of(about.begin(), about.end(), coarser)) return;
@@ -272,14 +282,21 @@ void BrickTree::join_brick(std::uint32_t brick) {
     const std::array<int, 3> node = {i % kBrickNodes, i / kBrickNodes % kBrickNodes, i / (kBrickNodes * kBrickNodes)};
     const bool outer = std::any_of(node.begin(), node.end(), [](int n) { return n % kBrickCells == 0; });
     if (!outer) continue;
-    Units at{};
-    for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = place.low[axis] + cell_units(place.level) * node[axis];
+    const Units at = node_at(place, i);
     const Leaf leaf = coarsest_about(at, place.root);
-    if (leaf.level >= place.level) continue;
+    if (leaf.level < place.level) visit(i, at, leaf);
+  }
+}
+
+void BrickTree::join_brick(std::uint32_t brick) {
+  Fine& fine = fine_[brick - field_.bricks.size()];
+  fine.stored = fine.exact;
+  if (quantum_ > 0.0) round_nodes(places_[brick], fine.stored);
+  visit_outer_nodes_on_coarser(brick, [&](int i, const Units& at, const Leaf& leaf) {
     fine.stored.value[i] = static_cast<float>(
         interpolate(places_[leaf.brick], stored(leaf.brick),
                     {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])}));
-  }
+  });
 }
 
 void BrickTree::join() {
@@ -290,6 +307,75 @@ void BrickTree::join() {
     }
     parallel_for(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
   }
+}
+
+std::uint64_t BrickTree::key(const Node& node) {
+  constexpr int kBits = 20;
+  static_assert(kPositionUnits * format::kMaxBricksPerAxis < 1 << kBits);
+  std::uint64_t key = static_cast<std::uint64_t>(node.level);
+  for (const int unit : node.at) key = key << kBits | static_cast<std::uint64_t>(unit);
+  return key;
+}
+
+int BrickTree::factor(const Node& node) const {
+  const auto found = factor_.find(key(node));
+  return found == factor_.end() ? 0 : found->second;
+}
+
+/// A node k levels finer than what it meets carries sum w c / 4^k of its corners c, w whole: in its own units, 2^k to
+/// one of theirs, sum w c / 2^k. Fine to coarse, as coarser ones may meet something coarser yet.
+void BrickTree::find_factors() {
+  for (int level = format::kMaxRefinement; level > 0; --level) {
+    for (std::uint32_t b = 0; b < brick_count(); ++b) {
+      if (places_[b].level != level || whole(b) == 0) continue;
+      visit_outer_nodes_on_coarser(b, [&](int, const Units& at, const Leaf& leaf) {
+        const int power = level - leaf.level + factor({at, level});
+        const int edge = cell_units(leaf.level);
+        const Units& low = places_[leaf.brick].low;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+          Node node = {at, leaf.level};
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int beyond = (at[axis] - low[axis]) % edge;
+            node.at[axis] += (corner >> axis & 1) != 0 && beyond != 0 ? edge - beyond : -beyond;
+          }
+          int& most = factor_[key(node)];
+          most = std::max(most, power);
+        }
+      });
+    }
+  }
+}
+
+void BrickTree::round_nodes(const Place& place, Brick& brick) const {
+  for (int i = 0; i < kBrickValues; ++i) {
+    const double unit = std::ldexp(quantum_, factor({node_at(place, i), place.level}) - place.level);
+    brick.value[i] = static_cast<float>(unit * std::round(static_cast<double>(brick.value[i]) / unit));
+  }
+}
+
+void BrickTree::round(double slack) {
+  // a node is rounded off by half a factor; what is interpolated between such by as much, in finer units
+  constexpr int kFactor = 1 << format::kMaxRefinement;
+  constexpr int kMostOff = kFactor / 2 * (kFactor + 1);
+  double largest = voxel_size_;
+  for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    for (const float value : stored(b).value) {
+      largest = std::max(largest, std::ldexp(std::abs(static_cast<double>(value) + slack), level(b)));
+    }
+  }
+  quantum_ = largest / (format::kLargestValue - kMostOff);
+  find_factors();
+  const auto add = [slack](Brick& brick) {
+    for (float& value : brick.value) value = static_cast<float>(static_cast<double>(value) + slack);
+  };
+  std::vector<Brick> own = field_.bricks;
+  parallel_for(own.size(), [&](std::size_t b) {
+    add(own[b]);
+    round_nodes(places_[b], own[b]);
+  });
+  own_ = std::move(own);
+  for (Fine& fine : fine_) add(fine.exact);
+  join();
 }
 
 /// A position's own nodes always are.
@@ -323,6 +409,8 @@ void BrickTree::write(DistanceGrid& field) const {
     if ((index_[i] & format::index_entry::kFar) == 0) field.index[i] = write_entry(index_[i], number, field.refined);
   }
   const std::size_t whole_positions = field.bricks.size();
+  field.bricks = own_;
+  field.grid.quantum = quantum_;
   field.bricks.reserve(count);
   for (std::size_t i = 0; i < fine_.size(); ++i) {
     if (number[whole_positions + i] != format::kNoBrick) field.bricks.push_back(fine_[i].stored);
@@ -337,7 +425,7 @@ void BrickTree::write_edges(const std::vector<std::uint32_t>& brick_number, Dist
   field.edges.clear();
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
     if (brick_number[b] == format::kNoBrick) continue;
-    format::Brick& brick = field.bricks[brick_number[b]];
+    Brick& brick = field.bricks[brick_number[b]];
     brick.edge = 0;
     if (whole(b) == 0 || edges_of_[b].empty()) continue;
     const std::uint32_t edge = edges_of_[b].front();

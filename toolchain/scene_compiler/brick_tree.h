@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "toolchain/scene_compiler/brick_lattice.h"
@@ -60,8 +61,8 @@ class BrickTree {
   double cell_edge(int level) const { return voxel_size_ / (1 << level); }
 
   /// Its nodes as they are, and as `join` made them.
-  const format::Brick& exact(std::uint32_t brick) const;
-  const format::Brick& stored(std::uint32_t brick) const;
+  const Brick& exact(std::uint32_t brick) const;
+  const Brick& stored(std::uint32_t brick) const;
 
   Units unit_cell(const Eigen::Vector3d& p) const;
   Leaf find(const Units& unit_cell) const;
@@ -88,12 +89,17 @@ class BrickTree {
   void add_slope(std::uint32_t brick, FieldSlope& slope) const;
 
   /// Makes bricks of those of `wanted` that are not halved yet, with the nodes of `octants`.
-  void halve(std::uint32_t brick, std::uint8_t wanted, const std::array<format::Brick, 8>& octants);
+  void halve(std::uint32_t brick, std::uint8_t wanted, const std::array<Brick, 8>& octants);
 
   /// Makes the field continuous: nodes that touch something coarser take its value. Coarse to fine.
   void join();
 
-  /// Into the field that the tree was made of; refinements numbered as the format wants them, clearances anew.
+  /// Adds `slack` [m] to all distances and rounds them as format::Brick says, to the smallest quantum in which they
+  /// fit. To be called once, at the end: what `join` made stays continuous.
+  void round(double slack);
+
+  /// Into the field that the tree was made of, once it is rounded; refinements numbered as the format wants them,
+  /// clearances anew.
   void write(DistanceGrid& field) const;
 
  private:
@@ -104,13 +110,25 @@ class BrickTree {
     std::uint8_t halved;  ///< octants
   };
   struct Fine {
-    format::Brick exact, stored;
+    Brick exact, stored;
+  };
+  /// A node of one level's lattice.
+  struct Node {
+    Units at;
+    int level;
   };
 
   Leaf coarsest_about(const Units& node, std::uint32_t root) const;
   void find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among);
   void join_brick(std::uint32_t brick);
-  double interpolate(const Place& place, const format::Brick& brick, const std::array<double, 3>& units) const;
+  template <class Visit>
+  void visit_outer_nodes_on_coarser(std::uint32_t brick, const Visit& visit) const;
+  Units node_at(const Place& place, int node) const;
+  static std::uint64_t key(const Node& node);
+  int factor(const Node& node) const;
+  void find_factors();
+  void round_nodes(const Place& place, Brick& brick) const;
+  double interpolate(const Place& place, const Brick& brick, const std::array<double, 3>& units) const;
   double with_edges(std::uint32_t brick, const Eigen::Vector3d& p, double interpolated) const;
   void write_edges(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const;
   std::uint32_t& entry_of(std::uint32_t brick);
@@ -125,7 +143,10 @@ class BrickTree {
   std::vector<std::uint32_t> index_;
   std::vector<format::Refined> refined_;  ///< with the numbers of bricks and refinements here
   std::vector<Place> places_;
-  std::vector<Fine> fine_;  ///< of the octants
+  std::vector<Fine> fine_;                         ///< of the octants
+  std::vector<Brick> own_;                         ///< of the positions, once they are rounded
+  double quantum_ = 0.0;                           ///< 0: not rounded yet [m]
+  std::unordered_map<std::uint64_t, int> factor_;  ///< by key(): powers of two that divide a node, where it is not 0
   const std::vector<format::Edge>& edges_;
   std::vector<std::vector<std::uint32_t>> edges_of_;  ///< by brick
 };

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/scene/format.h"
+#include "toolchain/scene_compiler/brick.h"
 
 namespace godobject::scene_compiler {
 
@@ -16,7 +17,7 @@ struct CellEdges {
       along{};                 ///< along[axis][a + 2 b]: a, b the corner in the next two axes (cyclic)
   double largest_value = 0.0;  ///< largest |distance| at the corners
 
-  CellEdges(const format::Brick& brick, int x, int y, int z) {
+  CellEdges(const Brick& brick, int x, int y, int z) {
     constexpr std::array<int, 3> kStride = {1, format::kBrickNodes, format::kBrickNodes * format::kBrickNodes};
     const float* corner = brick.value + x + kStride[1] * y + kStride[2] * z;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,7 +68,7 @@ constexpr unsigned octant_of_cell(int x, int y, int z) {
 
 /// Calls visit(edges, x, y, z) for every cell of those octants of a brick, a bit each.
 template <class Visit>
-void for_each_cell(const format::Brick& brick, std::uint8_t octants, Visit&& visit) {
+void for_each_cell(const Brick& brick, std::uint8_t octants, Visit&& visit) {
   for (int z = 0; z < format::kBrickCells; ++z) {
     for (int y = 0; y < format::kBrickCells; ++y) {
       for (int x = 0; x < format::kBrickCells; ++x) {

@@ -27,12 +27,12 @@ struct PositionFacts {
 
 /// A position: its own nodes, the lowest of them [m].
 struct Position {
-  const format::Brick& own;
+  const Brick& own;
   Vector3d low;
 };
 
 /// At `at` [cells of the position].
-double interpolated(const format::Brick& brick, const Vector3d& at) {
+double interpolated(const Brick& brick, const Vector3d& at) {
   const Vector3d cell = at.array().floor().max(0.0).min(kBrickCells - 1.0);
   double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -59,7 +59,7 @@ class ClearanceBounds {
     steepest_ = largest_about();
     spread();
     for (std::size_t i = 0; i < lattice_.count(); ++i) {
-      if (is_stored(i)) set_lipschitz(field_.index[i], rounded_up(steepest_[i]));
+      if (is_stored(i)) set_lipschitz(field_.index[i], as_stored(steepest_[i]));
     }
     field_.grid.clearance_slope = kClearanceSlope;
     write_far();
@@ -69,7 +69,7 @@ class ClearanceBounds {
   bool is_stored(std::size_t i) const { return (field_.index[i] & index_entry::kFar) == 0; }
 
   void measure() {
-    for (format::Brick& brick : field_.bricks) brick.deviation = 0.0f;
+    for (Brick& brick : field_.bricks) brick.deviation = 0.0f;
     std::vector<PositionFacts> facts(lattice_.count());
     parallel_for(facts.size(), [&](std::size_t i) {
       if (!is_stored(i)) return;
@@ -87,7 +87,7 @@ class ClearanceBounds {
       if (is_stored(i)) field_.bricks[own(i)].deviation = rounded_up(facts[i].deviation);
     }
     field_.grid.lipschitz = static_cast<double>(rounded_up(smooth));
-    field_.grid.lipschitz_seam = static_cast<double>(rounded_up(seamed));  // no brick says more
+    field_.grid.lipschitz_seam = static_cast<double>(as_stored(std::max(1.0, seamed)));  // no brick says more
   }
 
   /// The brick of a stored position's own nodes.
@@ -99,6 +99,13 @@ class ClearanceBounds {
   static float rounded_up(double value) {
     return value == 0.0 ? 0.0f
                         : std::nextafter(static_cast<float>(value * (1.0 + 1e-6)), std::numeric_limits<float>::max());
+  }
+
+  /// Of Brick::lipschitz: rounded up to what the image can hold.
+  static float as_stored(double lipschitz) {
+    const float rounded = rounded_up(lipschitz);
+    if (rounded > format::kLargestLipschitz) return rounded;  // packed_bricks refuses it
+    return format::decode_lipschitz(format::encode_lipschitz(rounded));
   }
 
   void add_leaves(std::uint32_t entry, const Position& position, const Vector3d& low, double cell_edge,
@@ -120,7 +127,7 @@ class ClearanceBounds {
       number = refined.brick;
     }
     FieldSlope of_leaf(cell_edge);
-    const format::Brick& brick = field_.bricks[number];
+    const Brick& brick = field_.bricks[number];
     if (brick.edge == 0) {
       of_leaf.add(brick, octants);
     } else {
@@ -171,7 +178,7 @@ class ClearanceBounds {
 
   /// There and back: exact for steps to any of the 26 neighbours.
   void spread() {
-    constexpr double kStep = kClearanceSlope * (1.0 - 1e-5);  // floats are written
+    constexpr double kStep = kClearanceSlope * (1.0 - 1e-3);  // they are written rounded up
     const auto take = [&](std::size_t i, bool forward) {
       visit_about(lattice_.position(i), [&](std::size_t j) {
         if (forward ? j < i : j > i) steepest_[i] = std::max(steepest_[i], steepest_[j] / kStep);
@@ -216,14 +223,16 @@ class ClearanceBounds {
   /// for l from k up in steps.
   void write_far() {
     constexpr double kStep = 1.5;
-    std::vector<double> clearance = field_.far_clearance;
+    std::vector<double> known = field_.far_clearance;
+    for (double& free : known) free = std::max(0.0, free - format::kMostRoundedOff * field_.grid.quantum);
+    std::vector<double> clearance = known;
     for (double above = kClearanceSlope;; above *= kStep) {
       std::vector<bool> steep(lattice_.count());
       for (std::size_t i = 0; i < steep.size(); ++i) steep[i] = is_stored(i) && steepest_[i] > above;
       if (std::none_of(steep.begin(), steep.end(), [](bool b) { return b; })) break;
       const std::vector<double> gap = gaps(steep);
       for (std::size_t i = 0; i < steep.size(); ++i) {
-        const double free = field_.far_clearance[i];
+        const double free = known[i];
         clearance[i] =
             std::min(clearance[i], free - (1.0 - kClearanceSlope / (kStep * above)) * std::max(0.0, free - gap[i]));
       }

@@ -140,6 +140,7 @@ Json grid_json(const format::Grid& g) {
           {"voxels",
            {g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells}},
           {"bricks_stored", g.brick_count},
+          {"quantum", g.quantum},
           {"surface_low", array_json(g.surface_min)},
           {"surface_high", array_json(g.surface_max)},
           {"lipschitz", g.lipschitz},

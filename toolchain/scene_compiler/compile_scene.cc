@@ -13,7 +13,6 @@
 #include "firmware/command/failure.h"
 #include "toolchain/command/atomic_file.h"
 #include "toolchain/scene_compiler/build_traits.h"
-#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/leaving_out.h"
 #include "toolchain/scene_compiler/outer_surface.h"
@@ -59,7 +58,7 @@ class Phases {
 };
 
 bool has_inside(const DistanceGrid& field) {
-  return std::any_of(field.bricks.begin(), field.bricks.end(), [](const format::Brick& brick) {
+  return std::any_of(field.bricks.begin(), field.bricks.end(), [](const Brick& brick) {
     return *std::min_element(std::begin(brick.value), std::end(brick.value)) < 0.0f;
   });
 }
@@ -149,15 +148,6 @@ StillFeatures find_features(const SolidSurface& still, const OuterSurface& movin
   return features;
 }
 
-/// The field of the body made smaller by `slack` [m].
-void shrink(DistanceGrid& field, double slack) {
-  for (format::Brick& brick : field.bricks) {
-    for (float& value : brick.value) value += static_cast<float>(slack);
-  }
-  for (format::Edge& edge : field.edges) edge.offset += slack;
-  bound_clearances(field);
-}
-
 /// The moving body by its points, and into `parts` what the second direction reads.
 void sample_bodies(const SolidSurface& still, const SolidSurface& moving, Phases& phases, CompileReport& report,
                    SceneParts& parts) {
@@ -176,8 +166,7 @@ void sample_bodies(const SolidSurface& still, const SolidSurface& moving, Phases
     const double body_band = default_band(config.body_voxel_size, config.settings.safety_distance);
     const SolidSurface body = in_body_frame(moving, report.body.body, config);
     DistanceGrid field = make_distance_grid(body, config.body_voxel_size, body_band, part_of(p, 0.0, 0.5));
-    refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(p, 0.5, 1.0));
-    shrink(field, report.second.slack);
+    refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(p, 0.5, 1.0), report.second.slack);
     return field;
   });
   report.second.grid = parts.body_field.grid;
@@ -245,7 +234,7 @@ CompileReport compile_scene(const CompileRequest& request) {
     report.look_up = time_look_ups(parts.field, image.scene.voxelmap);
     return check_field(met, parts.field, image.scene.voxelmap, kCheckedPoints, p);
   });
-  require_exact_nodes(report.field_error, config.voxel_size);
+  require_exact_nodes(report.field_error, report.grid);
   if (request.times_left_out) {
     report.cycle_ns = phases.run("times", [&](const Progress& p) { return leaving_out.time(p); });
   }

@@ -133,10 +133,11 @@ std::string field_text(const CompileReport& report) {
   std::string text = fmt::format(
       "field    {} x {} x {} voxels of {}, distances kept up to {} from the surface (the band): {} of {} positions "
       "stored, "
-      "a brick of {} x {} x {} voxels each; {} finer bricks beside\n",
+      "a brick of {} x {} x {} voxels each; {} finer bricks beside\n"
+      "         rounded to multiples of {}, half that where bricks are halved once, a quarter twice, ...\n",
       g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells,
       millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.brick_positions,
-      format::kBrickCells, format::kBrickCells, format::kBrickCells, finer);
+      format::kBrickCells, format::kBrickCells, format::kBrickCells, finer, millimetres(g.quantum));
   if (report.seams.cells > 0) {
     text += fmt::format(
         "         seams, where holes of the mesh leave the side open, in {} cells: the distance jumps by up to {}, at "

@@ -48,7 +48,7 @@ class GridBuilder {
   float value(const BrickPosition& brick, int x, int y, int z) const;
   bool face_disagrees(const BrickPosition& brick, const BrickPosition& step, bool inside) const;
   bool is_stored(const BrickPosition& brick) const;
-  format::Brick brick(const BrickPosition& position) const;
+  Brick brick(const BrickPosition& position) const;
 
   const SolidSurface& surface_;
   double voxel_size_;
@@ -250,8 +250,8 @@ bool GridBuilder::is_stored(const BrickPosition& position) const {
   return false;
 }
 
-format::Brick GridBuilder::brick(const BrickPosition& position) const {
-  format::Brick brick{};
+Brick GridBuilder::brick(const BrickPosition& position) const {
+  Brick brick{};
   std::size_t i = 0;
   for (int z = 0; z < kBrickNodes; ++z) {
     for (int y = 0; y < kBrickNodes; ++y) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/scene/format.h"
+#include "toolchain/scene_compiler/brick.h"
 #include "toolchain/scene_compiler/parallel.h"
 #include "toolchain/scene_compiler/solid_surface.h"
 
@@ -21,7 +22,7 @@ struct SeamReport {
 struct DistanceGrid {
   format::Grid grid{};
   std::vector<std::uint32_t> index;
-  std::vector<format::Brick> bricks;
+  std::vector<Brick> bricks;
   std::vector<format::Refined> refined;
   std::vector<format::Edge> edges;
   std::vector<double> far_clearance;  ///< of far positions outside: bound of the field in them and about them [m]
@@ -29,7 +30,7 @@ struct DistanceGrid {
   SeamReport seams;
 };
 
-/// Largest grid: brick positions (4 bytes each) and stored bricks (512 bytes each).
+/// Largest grid: brick positions (4 bytes each) and stored bricks (256 bytes each).
 inline constexpr std::uint64_t kMaxBrickPositions = 1u << 27;
 inline constexpr std::uint64_t kMaxBricks = 1u << 23;
 

@@ -127,7 +127,7 @@ PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const 
   PointError error{};
   error.exact = probe.signed_distance(place.point);
   error.stored = field.sample(place.point).distance;
-  const format::Brick& own = grid.bricks[own_brick(grid, place.entry)];
+  const Brick& own = grid.bricks[own_brick(grid, place.entry)];
   const double s = grid.grid.voxel_size;
   for (int step = 0; step < 8; ++step) {
     const int corner = step ^ (step >> 1);  // Gray code: one edge at a time
@@ -233,8 +233,9 @@ LookUpTime time_look_ups(const DistanceGrid& grid, const Voxelmap& field) {
   return {best[0], best[1]};
 }
 
-void require_exact_nodes(const FieldError& error, double voxel_size) {
-  const double allowed = std::min(kNodeError, kNodeErrorInVoxels * voxel_size);
+void require_exact_nodes(const FieldError& error, const format::Grid& grid) {
+  const double allowed =
+      std::min(kNodeError, kNodeErrorInVoxels * grid.voxel_size) + format::kMostRoundedOff * grid.quantum;
   if (error.largest_node_excess <= allowed) return;
   throw command::Failure(command::ExitCode::kInternal,
                          fmt::format("a stored distance is {:.3g} m further off the exact one than its rounding, more "

@@ -44,8 +44,9 @@ struct LookUpTime {
 };
 LookUpTime time_look_ups(const DistanceGrid& grid, const Voxelmap& field);
 
-/// Throws Failure (kInternal) if a node is off by more than the rounding of its value to float and the smaller of 1e-5
-/// m and a thousandth of a voxel. Nodes on the faces of octants, which may carry a coarser brick's value, do not count.
-void require_exact_nodes(const FieldError& error, double voxel_size);
+/// Throws Failure (kInternal) if a node is off by more than what it is rounded by (format::kMostRoundedOff) and the
+/// smaller of 1e-5 m and a thousandth of a voxel. Nodes on the faces of octants, which may carry a coarser brick's
+/// value, do not count.
+void require_exact_nodes(const FieldError& error, const format::Grid& grid);
 
 }  // namespace godobject::scene_compiler

@@ -59,7 +59,7 @@ double largest_difference(const format::Edge& edge, const Vector3d& low, double 
 }
 
 /// Of a cell, x fastest.
-std::array<double, 8> nodes_of(const format::Brick& brick, int x, int y, int z) {
+std::array<double, 8> nodes_of(const Brick& brick, int x, int y, int z) {
   std::array<double, 8> nodes{};
   for (unsigned c = 0; c < 8; ++c) {
     const int node = x + static_cast<int>(c & 1) +
@@ -71,7 +71,7 @@ std::array<double, 8> nodes_of(const format::Brick& brick, int x, int y, int z) 
 
 }  // namespace
 
-double edge_deviation(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge, const Vector3d& low,
+double edge_deviation(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Vector3d& low,
                       double cell_edge) {
   double largest = 0.0;
   for_each_cell(brick, octants, [&](const CellEdges&, int x, int y, int z) {
@@ -82,7 +82,7 @@ double edge_deviation(const format::Brick& brick, std::uint8_t octants, const fo
   return largest;
 }
 
-void FieldSlope::add(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge, const Vector3d& low) {
+void FieldSlope::add(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Vector3d& low) {
   const double half_diagonal = 0.5 * std::sqrt(3.0) * voxel_size_;
   for_each_cell(brick, octants, [&](const CellEdges& edges, int x, int y, int z) {
     const double plain = edges.largest_gradient(voxel_size_);

@@ -15,7 +15,7 @@ class FieldSlope {
   explicit FieldSlope(double voxel_size) : voxel_size_(voxel_size) {}
 
   /// `octants`: those of the brick that count, x fastest, a bit each.
-  void add(const format::Brick& brick, std::uint8_t octants) {
+  void add(const Brick& brick, std::uint8_t octants) {
     for_each_cell(brick, octants, [this](const CellEdges& edges, int, int, int) {
       const double gradient = edges.largest_gradient(voxel_size_) * kRounding;
       seamed_ = std::max(seamed_, gradient);
@@ -26,7 +26,7 @@ class FieldSlope {
   /// A brick that names an edge, its first node at `low`: a bound of the gradient of format::Edge's field,
   ///
   ///   |grad phi| <= (1 - w) |grad I[phi]| + w + |g - I[g]| |grad w|.
-  void add(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low);
+  void add(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }
@@ -40,7 +40,7 @@ class FieldSlope {
 };
 
 /// Bound of |phi - I[phi]| in octants of a brick that names an edge (format::Edge), its first node at `low` [m].
-double edge_deviation(const format::Brick& brick, std::uint8_t octants, const format::Edge& edge,
-                      const Eigen::Vector3d& low, double cell_edge);
+double edge_deviation(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low,
+                      double cell_edge);
 
 }  // namespace godobject::scene_compiler

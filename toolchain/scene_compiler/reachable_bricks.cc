@@ -58,7 +58,7 @@ class Selection {
  private:
   void number_bricks(LeftOutBricks& left_out) {
     number_.resize(keeps_.size());
-    std::vector<format::Brick> bricks;
+    std::vector<Brick> bricks;
     std::vector<bool> beside_seam;
     for (std::size_t i = 0; i < keeps_.size(); ++i) {
       if (!keeps_[i]) continue;
@@ -74,7 +74,7 @@ class Selection {
   void number_edges(LeftOutBricks& left_out) {
     std::vector<std::uint32_t> number(field_.edges.size() + 1);  // from 1, as bricks name them
     std::vector<format::Edge> edges;
-    for (format::Brick& brick : field_.bricks) {
+    for (Brick& brick : field_.bricks) {
       if (brick.edge == 0) continue;
       if (number[brick.edge] == 0) {
         edges.push_back(field_.edges[brick.edge - 1]);

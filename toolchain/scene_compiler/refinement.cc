@@ -17,6 +17,7 @@
 #include "firmware/command/failure.h"
 #include "toolchain/scene_compiler/brick_lattice.h"
 #include "toolchain/scene_compiler/brick_tree.h"
+#include "toolchain/scene_compiler/clearance_bounds.h"
 #include "toolchain/scene_compiler/distance_probe.h"
 #include "toolchain/scene_compiler/field_slope.h"
 #include "toolchain/scene_compiler/straight_edges.h"
@@ -155,7 +156,7 @@ class SurfaceCheck {
     const std::uint8_t whole = tree_.whole(brick);
     if (whole == 0) return;
     const double edge = tree_.cell_edge(tree_.level(brick));
-    const format::Brick& nodes = tree_.exact(brick);
+    const Brick& nodes = tree_.exact(brick);
     const auto [low, high] = std::minmax_element(std::begin(nodes.value), std::end(nodes.value));
     if (static_cast<double>(*low) > kCellDiagonal * edge || static_cast<double>(*high) < -kCellDiagonal * edge) return;
     DistanceProbe probe(surface_);
@@ -234,7 +235,7 @@ class SurfaceCheck {
   std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants, by brick
 };
 
-bool holds_seam(const format::Brick& brick, double cell_edge) {
+bool holds_seam(const Brick& brick, double cell_edge) {
   bool holds = false;
   for_each_cell(brick, kAllOctants,
                 [&](const CellEdges& edges, int, int, int) { holds = holds || edges.on_seam(cell_edge); });
@@ -243,7 +244,7 @@ bool holds_seam(const format::Brick& brick, double cell_edge) {
 
 /// The eight octants of a brick, nodes exact.
 struct Octants {
-  std::array<format::Brick, 8> bricks{};
+  std::array<Brick, 8> bricks{};
   bool seamed = false;
 };
 
@@ -252,7 +253,7 @@ struct Octants {
 /// needed.
 class FineNodes {
  public:
-  FineNodes(const SolidSurface& surface, const format::Brick& parent, const Vector3d& low, double edge)
+  FineNodes(const SolidSurface& surface, const Brick& parent, const Vector3d& low, double edge)
       : surface_(surface), low_(low), edge_(edge) {
     const bool values_tell = surface.shell_triangles().empty() && surface.dilation() == 0.0;
     for (int i = 0; i < kCount; ++i) measure(i, parent, values_tell);
@@ -287,7 +288,7 @@ class FineNodes {
   }
 
   /// `values_tell`: a given value is the distance to the solids.
-  void measure(int i, const format::Brick& parent, bool values_tell) {
+  void measure(int i, const Brick& parent, bool values_tell) {
     const auto [x, y, z] = place(i);
     trusted_[at(i)] = -1.0;
     given_[at(i)] = x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
@@ -343,12 +344,12 @@ class FineNodes {
 };
 
 Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32_t brick) {
-  const format::Brick& parent = tree.exact(brick);
+  const Brick& parent = tree.exact(brick);
   const double edge = 0.5 * tree.cell_edge(tree.level(brick));
   const FineNodes nodes(surface, parent, tree.low(brick), edge);
   Octants octants;
   for (int octant = 0; octant < 8; ++octant) {
-    format::Brick& child = octants.bricks[static_cast<std::size_t>(octant)];
+    Brick& child = octants.bricks[static_cast<std::size_t>(octant)];
     for (int node = 0; node < kBrickValues; ++node) {
       child.value[node] = nodes.value(node % kBrickNodes + kBrickCells * (octant & 1),
                                       node / kBrickNodes % kBrickNodes + kBrickCells * (octant >> 1 & 1),
@@ -361,8 +362,8 @@ Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32
 
 class Refinement {
  public:
-  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress)
-      : field_(field), surface_(surface), tolerance_(tolerance), barred_(field.bricks.size()) {
+  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, double slack, const Progress& progress)
+      : field_(field), surface_(surface), tolerance_(tolerance), slack_(slack), barred_(field.bricks.size()) {
     for (std::size_t i = 0; i < field.bricks.size(); ++i) {
       barred_[i] = field.beside_seam[i] && holds_seam(field.bricks[i], field.grid.voxel_size);
     }
@@ -393,7 +394,10 @@ class Refinement {
       tree.join();
       triangles = std::move(misses.triangles);
     }
+    tree.round(slack_);
     tree.write(field_);
+    for (format::Edge& edge : field_.edges) edge.offset += slack_;
+    if (slack_ != 0.0) bound_clearances(field_);  // of the edges too
     report_.refined = field_.refined.size();
     report_.edges = field_.edges.size();
     report_.finer = field_.bricks.size() - barred_.size();
@@ -536,6 +540,7 @@ class Refinement {
   DistanceGrid& field_;
   const SolidSurface& surface_;
   double tolerance_;
+  double slack_;
   std::vector<std::uint32_t> triangles_;         // all
   std::vector<format::Edge> edges_;              // in use
   std::vector<bool> barred_;                     // positions, by brick number
@@ -545,11 +550,19 @@ class Refinement {
 
 }  // namespace
 
-RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress) {
-  Refinement refinement(field, surface, tolerance, progress);
+RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress,
+                        double slack) {
+  Refinement refinement(field, surface, tolerance, slack, progress);
   while (!refinement.run(progress)) {
   }
   return refinement.report();
+}
+
+void round_distances(DistanceGrid& field) {
+  const std::vector<format::Edge> no_edges;
+  BrickTree tree(field, no_edges);
+  tree.round(0.0);
+  tree.write(field);
 }
 
 }  // namespace godobject::scene_compiler

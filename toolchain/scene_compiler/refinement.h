@@ -34,8 +34,14 @@ inline constexpr double kHeldOff = 5.0;
 /// where its values on the common face spoil the finer brick's or are too steep for it. Left as they are: bricks that
 /// hold a seam, and those in which one would appear.
 ///
+/// At last all distances are made larger by `slack` [m], the body smaller, and rounded to what the image can hold.
+///
 /// Deterministic. Updates the constants of `field.grid` with it. Throws Failure (kBadData) naming the cure where the
 /// bricks would be more than kMaxBricks.
-RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress);
+RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress,
+                        double slack = 0.0);
+
+/// The same of a field that is left as coarse as it is.
+void round_distances(DistanceGrid& field);
 
 }  // namespace godobject::scene_compiler

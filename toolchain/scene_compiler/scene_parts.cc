@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "toolchain/scene_compiler/brick_packing.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
@@ -33,7 +35,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   if (report.config.workspace) sections.push_back({SectionId::kWorkspace, bytes_of_one(*report.config.workspace)});
   sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
   sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
-  sections.push_back({SectionId::kBricks, bytes_of(field.bricks)});
+  sections.push_back({SectionId::kBricks, bytes_of(packed_bricks(field))});
   if (!field.refined.empty()) sections.push_back({SectionId::kRefined, bytes_of(field.refined)});
   if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
@@ -44,7 +46,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   if (parts.features.points.empty()) return sections;
   sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});
   sections.push_back({SectionId::kBodyBrickIndex, bytes_of(parts.body_field.index)});
-  sections.push_back({SectionId::kBodyBricks, bytes_of(parts.body_field.bricks)});
+  sections.push_back({SectionId::kBodyBricks, bytes_of(packed_bricks(parts.body_field))});
   if (!parts.body_field.refined.empty())
     sections.push_back({SectionId::kBodyRefined, bytes_of(parts.body_field.refined)});
   if (!parts.body_field.edges.empty()) sections.push_back({SectionId::kBodyEdges, bytes_of(parts.body_field.edges)});

@@ -28,7 +28,7 @@ SeamMap::SeamMap(const BrickLattice& bricks, const Vector3d& origin, double voxe
       low_(Vector3d::Constant(kInfinity)),
       high_(Vector3d::Constant(-kInfinity)) {}
 
-void SeamMap::add(const BrickPosition& position, const format::Brick& brick) {
+void SeamMap::add(const BrickPosition& position, const Brick& brick) {
   for_each_cell(brick, kAllOctants, [&](const CellEdges& edges, int x, int y, int z) {
     if (!edges.on_seam(voxel_size_)) return;
     const BrickPosition cell = {kBrickCells * position[0] + x, kBrickCells * position[1] + y,

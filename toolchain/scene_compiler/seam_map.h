@@ -14,7 +14,7 @@ class SeamMap {
  public:
   SeamMap(const BrickLattice& bricks, const Eigen::Vector3d& origin, double voxel_size);
 
-  void add(const BrickPosition& position, const format::Brick& brick);
+  void add(const BrickPosition& position, const Brick& brick);
   void close();
 
   const SeamReport& report() const { return report_; }

@@ -51,8 +51,7 @@ struct Range {
 template <class Visit>
 void visit_felt_cells(const DistanceGrid& field, std::uint32_t entry, const Vector3d& low, const Visit& visit) {
   const std::uint32_t number = entry & index_entry::kNumber;
-  const format::Brick& brick =
-      field.bricks[(entry & index_entry::kRefined) != 0 ? field.refined[number].brick : number];
+  const Brick& brick = field.bricks[(entry & index_entry::kRefined) != 0 ? field.refined[number].brick : number];
   const double edge = field.grid.voxel_size;
   for (int cell = 0; cell < kBrickCells * kBrickCells * kBrickCells; ++cell) {
     const std::array<int, 3> at = {cell % kBrickCells, cell / kBrickCells % kBrickCells,
