@@ -118,7 +118,7 @@ struct Grid {
   double surface_min[3];  ///< bounding box of the surface (of shells: thickened)
   double surface_max[3];
   double lipschitz;           ///< bound of the field's gradient norm, seams (see Brick) left out [1]
-  double lipschitz_seam;      ///< the same with seams [1]; equal where there is none
+  double lipschitz_seam;      ///< the same with seams, as encode_lipschitz has it [1]
   double clearance_slope;     ///< >= 1: of Brick::lipschitz and of far clearances, see there [1]
   double quantum;             ///< of Brick::value where nothing is refined [m]
   std::int32_t bricks[3];     ///< brick positions along x, y, z
@@ -131,11 +131,11 @@ inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: n
 inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 
 /// Distances at the nodes of one brick, x fastest: value[x + 5 (y + 5 z)], in units of Grid::quantum, halved as often
-/// as the brick is: each the exact one, rounded, but where a refinement meets what is coarser (see Refined); not
-/// clamped to the band. A brick position is stored when a node is nearer than the band or its nodes differ in sign, so
-/// whatever lies within the band lies in a stored brick, and every change of sign does. Where an open mesh's sign jumps
-/// without a surface (winding number 1/2 across a hole) neighbouring nodes differ by more than the lattice edge: a
-/// *seam*.
+/// as the brick is: each the exact one, rounded, but where a refinement meets what is coarser (see Refined); clamped at
+/// kKeptBeyondBand voxels beyond the band, which no cell that reaches into the band notices but on a seam. A brick
+/// position is stored when a node is nearer than the band or its nodes differ in sign, so whatever lies within the band
+/// lies in a stored brick, and every change of sign does. Where an open mesh's sign jumps without a surface (winding
+/// number 1/2 across a hole) neighbouring nodes differ by more than the lattice edge: a *seam*.
 ///
 /// Nodes are rounded to the unit, but where a brick k levels finer meets them to a multiple of 2^k units, and more
 /// where finer ones meet that: so what is interpolated between them is a whole number of the finer units, and the field
@@ -155,6 +155,7 @@ static_assert(sizeof(Brick) == 256);
 inline constexpr int kLargestValue = 32767;      ///< of |Brick::value|
 inline constexpr double kLargestQuantum = 1e-2;  ///< [voxels]
 inline constexpr double kMostRoundedOff = 8.0;   ///< a node, in quanta: half of 2^kMaxRefinement
+inline constexpr double kKeptBeyondBand = 4.0;   ///< no node is farther beyond the band [voxels]
 inline constexpr int kLargestUnsigned = 65535;   ///< of Brick::deviation and Brick::edge
 inline constexpr int kLipschitzShift = 11;       ///< see decode_lipschitz
 inline constexpr std::uint32_t kLipschitzOne = std::bit_cast<std::uint32_t>(1.0f);
@@ -227,6 +228,7 @@ constexpr float far_clearance(std::uint32_t entry) noexcept { return std::bit_ca
 
 /// Finest refinement: kMaxRefinement times halved.
 inline constexpr int kMaxRefinement = 4;
+static_assert(2.0 * kMostRoundedOff == 1 << kMaxRefinement);
 
 /// A brick where trilinear interpolation between its own nodes is not good enough everywhere. An octant of it (x
 /// fastest: ox + 2 oy + 4 oz) is either a brick of kBrickCells^3 cells of half the edge, which may be refined again, or

@@ -101,8 +101,10 @@ bool valid_grid(const format::Grid& g) noexcept {
   constexpr double kLarge = 1e7;
   if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, 1e6 * g.voxel_size)) return false;
   // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
-  // bricks are refined up to 2, then rounded
-  if (!in_range(g.lipschitz, 0.0, 2.05) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
+  // bricks are refined up to 2, then rounded: a finest cell's nodes apart by as much as coarse ones are off
+  constexpr double kRoundingSlope =
+      2.0 * format::kMostRoundedOff * format::kLargestQuantum * (1 << format::kMaxRefinement);
+  if (!in_range(g.lipschitz, 0.0, 2.0 + kRoundingSlope) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
   if (!in_range(g.clearance_slope, 1.0, 1e6)) return false;
   if (!in_range(g.quantum, 1e-15, format::kLargestQuantum * g.voxel_size)) return false;
   for (int axis = 0; axis < 3; ++axis) {

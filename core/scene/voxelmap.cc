@@ -36,7 +36,7 @@ Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> inde
       band_(grid.band),
       quantum_(grid.quantum),
       quantum_per_voxel_(grid.quantum / grid.voxel_size),
-      near_band_(std::min(grid.band, kBrickCells * grid.voxel_size)),
+      near_band_(std::min(grid.band - format::kMostRoundedOff * grid.quantum, kBrickCells * grid.voxel_size)),
       lipschitz_(std::max(1.0, grid.lipschitz_seam)),
       clearance_slope_(grid.clearance_slope),
       assured_clearance_(near_band_ / lipschitz_),
@@ -163,7 +163,7 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     distance += weight.value * (wedge.value - distance);
   }
   // A straight way of a brick's edge stays in the positions about this one, or leaves the stored bricks and enters them
-  // again at a value of at least the band.
+  // again at a value of at least the band, rounded.
   if (distance > 0.0) {
     sample.clearance = std::min(distance, near_band_) / static_cast<double>(format::decode_lipschitz(brick.lipschitz));
   }

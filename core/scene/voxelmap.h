@@ -91,7 +91,8 @@ class Voxelmap {
   double band_ = 0.0;
   double quantum_ = 0.0;  ///< of the stored distances; less where they are refined [m]
   double quantum_per_voxel_ = 0.0;
-  double near_band_ = 0.0;  ///< what a clearance may take of a distance: the band, no more than a brick's edge [m]
+  double near_band_ = 0.0;  ///< what a clearance may take of a distance: the band less what its nodes may be rounded
+                            ///< down by, no more than a brick's edge [m]
   double lipschitz_ = 1.0;  ///< of the whole field
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;

@@ -146,8 +146,9 @@ TEST(Voxelmap, DividesByTheBricksSlopeAboutItAndByTheWholeFieldsBeyond) {
   EXPECT_EQ(one.map().lower_bound(center, 1.3), -kInfinity);
   EXPECT_EQ(one.map().sample(center).clearance, 0.5) << "no more than a brick's edge counts";
   one.grid.band = 0.75;
-  EXPECT_EQ(one.map().sample(center).clearance, 0.375);
-  EXPECT_EQ(one.map().assured_clearance(), 0.3);
+  constexpr double kRoundedBand = 0.75 - format::kMostRoundedOff * kQuantum;
+  EXPECT_EQ(one.map().sample(center).clearance, kRoundedBand / 2.0);
+  EXPECT_EQ(one.map().assured_clearance(), kRoundedBand / 2.5);
 }
 
 TEST(Voxelmap, TakesWhatIsNotFiniteForOutside) {

@@ -18,7 +18,6 @@ using format::kBrickNodes;
 using format::SectionId;
 
 constexpr double kHalfDiagonal = 0.8660254037844387;  // of a unit cube
-constexpr double kRoundedOff = 0.01;                  // a quantum is less [voxels]
 
 std::size_t padded(std::size_t bytes) {
   return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
@@ -275,18 +274,20 @@ StoredField store_field(const SceneDescription& description, double quantum) {
   field.grid = frame_grid(description);
   format::Grid& grid = field.grid;
   grid.quantum = quantum;
+  const double most_off = (description.refined ? format::kMostRoundedOff : 0.5) * quantum;
   for (int z = 0; z < grid.bricks[2]; ++z) {
     for (int y = 0; y < grid.bricks[1]; ++y) {
       for (int x = 0; x < grid.bricks[0]; ++x) {
         const Brick brick = sample_brick(description, grid, {x, y, z});
         const auto [low, high] = std::minmax_element(std::begin(brick.value), std::end(brick.value));
-        if (*low<grid.band&& * high> - grid.band) {
+        const bool near = *low < grid.band;
+        if (near && *high > -grid.band) {
           field.index.push_back(static_cast<std::uint32_t>(field.bricks.size()));
           field.bricks.push_back(brick);
           continue;
         }
         // from the nearest node to any point of the brick, then from the exact distance to the interpolated one
-        const double clearance = *low - (2.0 * kHalfDiagonal + kRoundedOff) * grid.voxel_size;
+        const double clearance = *low - 2.0 * (kHalfDiagonal * grid.voxel_size + most_off);
         field.index.push_back(
             format::index_entry::encode_far(*high < 0.0, static_cast<float>(std::max(0.0, clearance))));
       }
@@ -301,7 +302,6 @@ StoredField store_field(const SceneDescription& description, double quantum) {
   const auto largest = std::max(1.0f, static_cast<float>(grid.lipschitz));
   grid.clearance_slope = static_cast<double>(format::decode_lipschitz(format::encode_lipschitz(largest)));
   grid.lipschitz_seam = grid.clearance_slope;
-  if (grid.quantum > kRoundedOff * grid.voxel_size) throw std::invalid_argument("band");
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   return field;
 }

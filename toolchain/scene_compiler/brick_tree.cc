@@ -357,24 +357,24 @@ void BrickTree::round(double slack) {
   // a node is rounded off by half a factor; what is interpolated between such by as much, in finer units
   constexpr int kFactor = 1 << format::kMaxRefinement;
   constexpr int kMostOff = kFactor / 2 * (kFactor + 1);
+  const double most = field_.grid.band + format::kKeptBeyondBand * voxel_size_;
+  const auto kept = [&](float value) { return std::clamp(static_cast<double>(value) + slack, -most, most); };
   double largest = voxel_size_;
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
-    for (const float value : stored(b).value) {
-      largest = std::max(largest, std::ldexp(std::abs(static_cast<double>(value) + slack), level(b)));
-    }
+    for (const float value : stored(b).value) largest = std::max(largest, std::ldexp(std::abs(kept(value)), level(b)));
   }
   quantum_ = largest / (format::kLargestValue - kMostOff);
   find_factors();
-  const auto add = [slack](Brick& brick) {
-    for (float& value : brick.value) value = static_cast<float>(static_cast<double>(value) + slack);
+  const auto keep = [&](Brick& brick) {
+    for (float& value : brick.value) value = static_cast<float>(kept(value));
   };
   std::vector<Brick> own = field_.bricks;
   parallel_for(own.size(), [&](std::size_t b) {
-    add(own[b]);
+    keep(own[b]);
     round_nodes(places_[b], own[b]);
   });
   own_ = std::move(own);
-  for (Fine& fine : fine_) add(fine.exact);
+  for (Fine& fine : fine_) keep(fine.exact);
   join();
 }
 

@@ -94,8 +94,8 @@ class BrickTree {
   /// Makes the field continuous: nodes that touch something coarser take its value. Coarse to fine.
   void join();
 
-  /// Adds `slack` [m] to all distances and rounds them as format::Brick says, to the smallest quantum in which they
-  /// fit. To be called once, at the end: what `join` made stays continuous.
+  /// Adds `slack` [m] to all distances, clamps and rounds them as format::Brick says, to the smallest quantum in which
+  /// they fit. To be called once, at the end: what `join` made stays continuous.
   void round(double slack);
 
   /// Into the field that the tree was made of, once it is rounded; refinements numbered as the format wants them,

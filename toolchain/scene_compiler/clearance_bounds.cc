@@ -58,8 +58,9 @@ class ClearanceBounds {
     // in the positions about each one; then it may change by a factor of the slope from one to the next
     steepest_ = largest_about();
     spread();
+    for (double& steepest : steepest_) steepest = static_cast<double>(as_stored(steepest));
     for (std::size_t i = 0; i < lattice_.count(); ++i) {
-      if (is_stored(i)) set_lipschitz(field_.index[i], as_stored(steepest_[i]));
+      if (is_stored(i)) set_lipschitz(field_.index[i], static_cast<float>(steepest_[i]));
     }
     field_.grid.clearance_slope = kClearanceSlope;
     write_far();
@@ -126,7 +127,7 @@ class ClearanceBounds {
       if (octants == 0) return;
       number = refined.brick;
     }
-    FieldSlope of_leaf(cell_edge);
+    FieldSlope of_leaf(cell_edge, 2.0 * format::kMostRoundedOff * field_.grid.quantum);
     const Brick& brick = field_.bricks[number];
     if (brick.edge == 0) {
       of_leaf.add(brick, octants);

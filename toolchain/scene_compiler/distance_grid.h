@@ -18,7 +18,7 @@ struct SeamReport {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< of the largest jump
 };
 
-/// The still body's field as it goes into the image.
+/// A body's field: `bricks` as packed_bricks packs them once it is rounded, the rest as it goes into the image.
 struct DistanceGrid {
   format::Grid grid{};
   std::vector<std::uint32_t> index;

@@ -74,8 +74,11 @@ class Places {
 struct PointError {
   double exact, stored, floor, node, node_excess;
 
-  void add_node(const SolidSurface& surface, const Vector3d& at, double exact_value, float stored_value) {
+  void add_node(const SolidSurface& surface, const format::Grid& grid, const Vector3d& at, double unclamped,
+                float stored_value) {
     const auto value = static_cast<double>(stored_value);
+    const double most = grid.band + format::kKeptBeyondBand * grid.voxel_size;
+    const double exact_value = std::clamp(unclamped, -most, most);
     const bool undecided = value * exact_value < 0.0 && std::abs(surface.winding_number(at) - 0.5) < kOnSeam;
     const double off = undecided ? std::abs(std::abs(value) - std::abs(exact_value)) : std::abs(value - exact_value);
     node = std::max(node, off);
@@ -117,7 +120,7 @@ void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, con
     if (node.minCoeff() < 0.5 || node.maxCoeff() > kBrickCells - 0.5) continue;
     const auto index = static_cast<std::size_t>(node.x() + kBrickNodes * (node.y() + kBrickNodes * node.z()));
     const Vector3d at = low + edge * node;
-    error.add_node(surface, at, probe.signed_distance(at),
+    error.add_node(surface, grid.grid, at, probe.signed_distance(at),
                    grid.bricks[entry & format::index_entry::kNumber].value[index]);
   }
 }
@@ -139,7 +142,7 @@ PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const 
     error.floor += weight * exact;
     const int index = place.cell[0] + offset[0] +
                       kBrickNodes * (place.cell[1] + offset[1] + kBrickNodes * (place.cell[2] + offset[2]));
-    error.add_node(surface, node, exact, own.value[index]);
+    error.add_node(surface, grid.grid, node, exact, own.value[index]);
   }
   if (is_refined(place.entry)) add_octant_nodes(surface, grid, place, probe, error);
   return error;
@@ -237,10 +240,11 @@ void require_exact_nodes(const FieldError& error, const format::Grid& grid) {
   const double allowed =
       std::min(kNodeError, kNodeErrorInVoxels * grid.voxel_size) + format::kMostRoundedOff * grid.quantum;
   if (error.largest_node_excess <= allowed) return;
-  throw command::Failure(command::ExitCode::kInternal,
-                         fmt::format("a stored distance is {:.3g} m further off the exact one than its rounding, more "
-                                     "than {:.3g} m; please report this scene",
-                                     error.largest_node_excess, allowed));
+  throw command::Failure(
+      command::ExitCode::kInternal,
+      fmt::format("a stored distance is {:.3g} m off the exact one, more than {:.3g} m that rounding "
+                  "allows; please report this scene",
+                  error.largest_node_excess, allowed));
 }
 
 }  // namespace godobject::scene_compiler

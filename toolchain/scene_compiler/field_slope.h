@@ -12,14 +12,16 @@ namespace godobject::scene_compiler {
 /// Lipschitz constant of the stored field: its largest gradient, on seams and off them.
 class FieldSlope {
  public:
-  explicit FieldSlope(double voxel_size) : voxel_size_(voxel_size) {}
+  /// `rounded_apart`: what rounding may add to the step from a node to the next [m].
+  explicit FieldSlope(double voxel_size, double rounded_apart = 0.0)
+      : voxel_size_(voxel_size), rounded_apart_(rounded_apart) {}
 
   /// `octants`: those of the brick that count, x fastest, a bit each.
   void add(const Brick& brick, std::uint8_t octants) {
     for_each_cell(brick, octants, [this](const CellEdges& edges, int, int, int) {
       const double gradient = edges.largest_gradient(voxel_size_) * kRounding;
       seamed_ = std::max(seamed_, gradient);
-      if (!edges.on_seam(voxel_size_)) smooth_ = std::max(smooth_, gradient);
+      if (!edges.on_seam(voxel_size_ + rounded_apart_)) smooth_ = std::max(smooth_, gradient);
     });
   }
 
@@ -35,6 +37,7 @@ class FieldSlope {
   static constexpr double kRounding = 1.0 + 1e-5;  // who reads the field interpolates in single precision
 
   double voxel_size_;
+  double rounded_apart_;
   double smooth_ = 0.0;
   double seamed_ = 0.0;
 };

@@ -35,8 +35,9 @@ constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is bl
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
-constexpr double kSteepest = 1.95;    // of the refined field; Scene::open takes gradients up to 2
-constexpr double kWidestTube = 2.4;   // about a straight edge, in voxels
+constexpr double kSteepest =
+    1.95;  // of the refined field before it is rounded; Scene::open takes gradients up to 2 and what rounding adds
+constexpr double kWidestTube = 2.4;                   // about a straight edge, in voxels
 constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
 constexpr int kFineNodes = 2 * kBrickCells + 1;
 
