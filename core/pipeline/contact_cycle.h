@@ -255,8 +255,8 @@ inline double farthest_way(const Pointshell& shell, const Matrix3& R0, const Pos
                            const Pose& H1) noexcept {
   if (shell.nodes.empty()) return std::numeric_limits<double>::infinity();
   constexpr double kRoundedUp = 1.0 + 1e-6;
-  const Vector3 center = NearSearch::center_of(shell.nodes[0]);
-  const double radius = NearSearch::radius_of(shell.nodes[0]);
+  const Vector3 center = center_of(shell.nodes[0]);
+  const double radius = radius_of(shell.nodes[0]);
   const Matrix3 turn = R1 - R0;
   return kRoundedUp * ((turn * center + (H1.translation - H0.translation)).norm() +
                        turn.norm() * std::numbers::sqrt2 / 2.0 * radius);

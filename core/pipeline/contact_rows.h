@@ -14,19 +14,21 @@ namespace godobject {
 /// much may be lost. Single precision, one array a component: a scan over all rows is what the solver does most.
 struct ContactRows {
   static constexpr std::uint32_t kCapacity = 2048;
+  /// A cache line longer: at a power of two apart, the arrays' first rows would all fall into one set of the cache.
+  static constexpr std::uint32_t kLength = kCapacity + 16;
 
   std::uint32_t count = 0;
-  alignas(64) float normal_x[kCapacity];
-  alignas(64) float normal_y[kCapacity];
-  alignas(64) float normal_z[kCapacity];
-  alignas(64) float torque_x[kCapacity];  ///< P x n
-  alignas(64) float torque_y[kCapacity];
-  alignas(64) float torque_z[kCapacity];
-  alignas(64) float need[kCapacity];
-  float point_x[kCapacity];
-  float point_y[kCapacity];
-  float point_z[kCapacity];
-  std::uint32_t id[kCapacity];  ///< of the contact point, the same from cycle to cycle
+  alignas(64) float normal_x[kLength];
+  alignas(64) float normal_y[kLength];
+  alignas(64) float normal_z[kLength];
+  alignas(64) float torque_x[kLength];  ///< P x n
+  alignas(64) float torque_y[kLength];
+  alignas(64) float torque_z[kLength];
+  alignas(64) float need[kLength];
+  float point_x[kLength];
+  float point_y[kLength];
+  float point_z[kLength];
+  std::uint32_t id[kLength];  ///< of the contact point, the same from cycle to cycle
 
   bool full() const noexcept { return count == kCapacity; }
 

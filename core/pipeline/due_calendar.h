@@ -23,16 +23,20 @@ class DueCalendar {
 
   /// Words that `start` needs.
   static std::size_t memory(const Pointshell& shell) noexcept {
-    return kWords * (shell.nodes.size() + shell.size) + mark_words(shell.size) + mark_words(mark_words(shell.size));
+    if (shell.size == 0) return 0;
+    return kWords - 1 + kWords * (shell.nodes.size() + shell.size) + mark_words(shell.size) +
+           mark_words(mark_words(shell.size));
   }
 
   /// Files the root, due at once. `memory`: memory(shell) words that outlive the calendar. Cost: all items.
   void start(std::span<std::uint32_t> memory, const Pointshell& shell) noexcept {
     const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
     const std::size_t items = nodes + shell.size;
-    words_ = memory.first(kWords * items);
-    marks_ = memory.subspan(kWords * items, mark_words(shell.size));
-    marked_words_ = memory.subspan(kWords * items + marks_.size(), mark_words(marks_.size()));
+    // no item lies in two lines of the cache
+    const std::size_t before = -(reinterpret_cast<std::uintptr_t>(memory.data()) / sizeof(std::uint32_t)) % kWords;
+    words_ = memory.subspan(before, kWords * items);
+    marks_ = memory.subspan(before + kWords * items, mark_words(shell.size));
+    marked_words_ = memory.subspan(before + kWords * items + marks_.size(), mark_words(marks_.size()));
     std::fill(marks_.begin(), marks_.end(), 0u);
     std::fill(marked_words_.begin(), marked_words_.end(), 0u);
     head_.fill(kNone);
@@ -43,7 +47,11 @@ class DueCalendar {
     if (nodes > 0) parent(0) = kNone;
     for (std::uint32_t n = 0; n < nodes; ++n) {
       for_each_child(shell, n, [&](std::uint32_t child) { parent(child) = n; });
+      const format::Node& node = shell.nodes[n];
+      constexpr double kRoundedUp = 1.0 + 1e-6;
+      set_sphere(n, {node.center[0], node.center[1], node.center[2], static_cast<float>(kRoundedUp * radius_of(node))});
     }
+    for (std::uint32_t i = 0; i < shell.size; ++i) set_sphere(nodes + i, {shell.x[i], shell.y[i], shell.z[i], 0.0f});
     if (nodes > 0) file(0, 0);
   }
 
@@ -61,6 +69,16 @@ class DueCalendar {
 
   bool is_filed(std::uint32_t item) const noexcept { return words_[kWords * item + kPrev] < kChained; }
   std::uint32_t parent_of(std::uint32_t item) const noexcept { return words_[kWords * item + kParent]; }
+
+  /// Around all points of an item, in the shell's frame [m]. It lies beside what the calendar reads of the item.
+  struct Sphere {
+    float x, y, z, radius;
+  };
+  Sphere sphere_of(std::uint32_t item) const noexcept {
+    const std::uint32_t* const words = words_.data() + kWords * item;
+    return {std::bit_cast<float>(words[kX]), std::bit_cast<float>(words[kY]), std::bit_cast<float>(words[kZ]),
+            std::bit_cast<float>(words[kRadius])};
+  }
 
   /// An item that is not filed: due once the tick `due` is reached.
   void file(std::uint32_t item, std::uint64_t due) noexcept {
@@ -150,7 +168,8 @@ class DueCalendar {
   static constexpr std::uint64_t kMostAhead = 1u << 30;  ///< ticks that an item is filed ahead: 32 bits tell them apart
   static constexpr std::uint32_t kHead = 1u << 31;       ///< in the link back: a list's head
   static constexpr std::uint32_t kChained = 0xfffffffe;  ///< in the link back: in a chain, not filed
-  enum Word : std::size_t { kTick, kNext, kPrev, kParent, kWords };  ///< of an item; the tick's low 32 bits
+  /// Of an item; the tick's low 32 bits.
+  enum Word : std::size_t { kTick, kNext, kPrev, kParent, kX, kY, kZ, kRadius, kWords };
 
   static constexpr std::size_t mark_words(std::size_t bits) noexcept { return (bits + 31) / 32; }
 
@@ -158,6 +177,14 @@ class DueCalendar {
   std::uint32_t& next(std::uint32_t item) noexcept { return words_of(item)[kNext]; }
   std::uint32_t& prev(std::uint32_t item) noexcept { return words_of(item)[kPrev]; }
   std::uint32_t& parent(std::uint32_t item) noexcept { return words_of(item)[kParent]; }
+
+  void set_sphere(std::uint32_t item, const Sphere& sphere) noexcept {
+    std::uint32_t* const words = words_of(item);
+    words[kX] = std::bit_cast<std::uint32_t>(sphere.x);
+    words[kY] = std::bit_cast<std::uint32_t>(sphere.y);
+    words[kZ] = std::bit_cast<std::uint32_t>(sphere.z);
+    words[kRadius] = std::bit_cast<std::uint32_t>(sphere.radius);
+  }
 
   void link(std::uint32_t item, std::uint64_t slot) noexcept {
     const std::uint32_t first = head_[slot];

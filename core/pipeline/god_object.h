@@ -38,8 +38,8 @@ class GodObject {
     Motion velocity_W;  ///< of the body's centre of mass [m/s], angular [rad/s]
   };
 
-  /// Words that `contact` remembers about the scene from cycle to cycle: some four a sample or feature point and a node
-  /// of their trees, until when they cannot be near.
+  /// Words that `contact` remembers about the scene from cycle to cycle: some nine a sample or feature point and a node
+  /// of their trees, until when they cannot be near and where they are.
   static std::size_t memory(const Scene& scene) noexcept {
     return kHasSearch ? ContactSearch::memory(scene.pointshell, scene.features) : 0;
   }

@@ -68,16 +68,6 @@ struct PointBudget {
 /// at once.
 class NearSearch {
  public:
-  static Vector3 center_of(const format::Node& node) noexcept {
-    return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
-            static_cast<double>(node.center[2])};
-  }
-  /// Spheres come in single precision: they may be this much too small.
-  static double radius_of(const format::Node& node) noexcept {
-    constexpr double kRounding = 2e-6;
-    return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
-  }
-
   /// Words that a search of this shell remembers.
   static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
@@ -191,55 +181,46 @@ class NearSearch {
     const std::uint64_t now = tick_of(needed + (calendar_.marked() == 0 ? kAhead * tick_ : 0.0));
     PointBatch batch;
     std::array<std::uint32_t, PointBatch::kCapacity> item;
+    std::array<float, PointBatch::kCapacity> radius;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
     std::uint32_t leaving = DueCalendar::kNone;  // nodes that may stand for their children again
     const auto file = [&](std::uint32_t i, double until) noexcept {
       calendar_.file(i, tick_of(until));
       const std::uint32_t parent = calendar_.parent_of(i);
       if (parent == DueCalendar::kNone) return;
-      if (until - needed > kLeave * static_cast<double>(shell.nodes[parent].radius) && leaving != parent) {
+      if (until - needed > kLeave * static_cast<double>(calendar_.sphere_of(parent).radius) && leaving != parent) {
         calendar_.push(leaving, parent);
       }
     };
-    const auto clearance_of = [&](std::uint32_t k) noexcept { return static_cast<double>(batch.clearance[k]); };
+    const auto until_of = [&](std::uint32_t k) noexcept {
+      const Vector3 center(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]),
+                           static_cast<double>(batch.z[k]));
+      return free_until(static_cast<double>(batch.clearance[k]), center, static_cast<double>(radius[k]));
+    };
     const auto flush = [&]() noexcept {
       field.clearances(H, batch);
       for (std::uint32_t k = 0; k < batch.count; ++k) {
         const std::uint32_t i = item[k];
-        if (i < node_count) {
-          const format::Node& node = shell.nodes[i];
-          const double radius = radius_of(node);
-          const double until = free_until(clearance_of(k), center_of(node), radius);
-          if (until >= needed + kOpen * radius) {
-            file(i, until);
-          } else {
-            calendar_.push(opened, i);
-          }
+        const double until = until_of(k);
+        if (until >= needed + kOpen * static_cast<double>(radius[k])) {
+          file(i, until);
+        } else if (i < node_count) {
+          calendar_.push(opened, i);
         } else {
-          const double until = free_until(clearance_of(k), shell.point(i - node_count), 0.0);
-          if (until >= needed) {
-            file(i, until);
-          } else {
-            calendar_.mark(i - node_count);
-            bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
-          }
+          calendar_.mark(i - node_count);
+          bounds_[i - node_count] = std::bit_cast<std::uint32_t>(batch.clearance[k]);
         }
       }
       batch.count = 0;
     };
     const auto add = [&](std::uint32_t i) noexcept {
       const std::uint32_t k = batch.count;
+      const DueCalendar::Sphere sphere = calendar_.sphere_of(i);
       item[k] = i;
-      if (i < node_count) {
-        const format::Node& node = shell.nodes[i];
-        batch.x[k] = node.center[0];
-        batch.y[k] = node.center[1];
-        batch.z[k] = node.center[2];
-      } else {
-        batch.x[k] = shell.x[i - node_count];
-        batch.y[k] = shell.y[i - node_count];
-        batch.z[k] = shell.z[i - node_count];
-      }
+      batch.x[k] = sphere.x;
+      batch.y[k] = sphere.y;
+      batch.z[k] = sphere.z;
+      radius[k] = sphere.radius;
       batch.count = k + 1;
       if (batch.count == PointBatch::kCapacity) flush();
     };
@@ -257,7 +238,8 @@ class NearSearch {
       field.samples(H, samples);
       for (std::uint32_t k = 0; k < samples.count; ++k) {
         const std::uint32_t i = item[k];
-        const Vector3 p = shell.point(i);
+        const Vector3 p(static_cast<double>(samples.x[k]), static_cast<double>(samples.y[k]),
+                        static_cast<double>(samples.z[k]));
         const FieldSample found = stored_sample(samples, k);
         if (is_near(i, p, stored_position(samples, k), found)) continue;
         const double until = free_until(found.clearance, p, 0.0);
@@ -270,9 +252,10 @@ class NearSearch {
     const auto look_up = [&](std::uint32_t i) noexcept {
       const std::uint32_t k = samples.count;
       item[k] = i;
-      samples.x[k] = shell.x[i];
-      samples.y[k] = shell.y[i];
-      samples.z[k] = shell.z[i];
+      const DueCalendar::Sphere point = calendar_.sphere_of(node_count + i);
+      samples.x[k] = point.x;
+      samples.y[k] = point.y;
+      samples.z[k] = point.z;
       samples.count = k + 1;
       if (samples.count == SampleBatch::kCapacity) sample();
     };
@@ -302,15 +285,11 @@ class NearSearch {
       bool all = !calendar_.is_filed(n);
       DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { all &= calendar_.is_filed(child); });
       if (!all) continue;
-      item[0] = n;
-      const format::Node& node = shell.nodes[n];
-      batch.x[0] = node.center[0];
-      batch.y[0] = node.center[1];
-      batch.z[0] = node.center[2];
-      batch.count = 1;
+      add(n);
       field.clearances(H, batch);
-      const double until = free_until(clearance_of(0), center_of(node), radius_of(node));
-      if (until - needed <= static_cast<double>(node.radius)) continue;
+      batch.count = 0;
+      const double until = until_of(0);
+      if (until - needed <= static_cast<double>(radius[0])) continue;
       DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
       file(n, until);
     }

@@ -6,6 +6,7 @@
 namespace godobject::detail {
 namespace {
 
+using format::kBrickCells;
 using format::kBrickNodes;
 namespace index_entry = format::index_entry;
 
@@ -25,11 +26,17 @@ float clearance_within(const FieldOfCells& f, const float (&g)[3]) noexcept {
   const std::uint32_t entry =
       f.index[(i[0] >> kBrickShift) + f.stride_y * (i[1] >> kBrickShift) + f.stride_z * (i[2] >> kBrickShift)];
   if ((entry & index_entry::kFar) != 0) {
-    return (entry & index_entry::kInside) != 0 ? 0.0f : std::max(f.assured, index_entry::far_clearance(entry));
+    if ((entry & index_entry::kInside) != 0) return 0.0f;
+    float squared = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float from_center = g[axis] - (static_cast<float>(i[axis] & ~(kBrickCells - 1)) + kBrickCenter);
+      squared += from_center * from_center;
+    }
+    return std::max(f.assured, index_entry::far_clearance(entry) - kWayRoundedUp * f.cell_edge * std::sqrt(squared));
   }
   std::uint32_t number = entry & index_entry::kNumber;
   if ((entry & index_entry::kRefined) != 0) number = f.refined[kRefinedWords * number];
-  constexpr int kCell = format::kBrickCells - 1;
+  constexpr int kCell = kBrickCells - 1;
   constexpr int kY = kBrickNodes;
   constexpr int kZ = kBrickNodes * kBrickNodes;
   const std::int16_t* const brick = f.bricks + static_cast<std::size_t>(number) * kBrickWords;

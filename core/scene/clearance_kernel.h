@@ -36,6 +36,9 @@ struct FieldOfCells {
   float offset;                          ///< sum of |translation| [cells]
 };
 
+inline constexpr float kBrickCenter = 0.5f * format::kBrickCells;  ///< [cells]
+/// Of a distance in single precision.
+inline constexpr float kWayRoundedUp = 1.0f + 1e-6f;
 /// A transformed point is a sum of four rounded products of rounded factors: this much of them all, with room to spare.
 inline constexpr float kPointRounding = 1e-6f;
 

@@ -39,6 +39,11 @@ struct Axis {
         Vectors::larger(Vectors::larger(f.surface_min[axis] - cells, cells - f.surface_max[axis]), Floats{});
     return away * away;
   }
+  Floats squared_from_center() const noexcept {
+    const Floats from_center =
+        cells - (__builtin_convertvector(cell & ~(format::kBrickCells - 1), Floats) + kBrickCenter);
+    return from_center * from_center;
+  }
   Floats absolute() const noexcept { return reinterpret_cast<Floats>(reinterpret_cast<Ints>(cells) & 0x7fffffff); }
 };
 
@@ -83,10 +88,12 @@ void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, cons
     const Floats distance = f.quantum * (between(near_face, far_face, z.at) - second_unsigned<Vectors>(bounds));
     const Floats stored =
         Vectors::smaller(Vectors::larger(distance, zero), zero + f.near_band) / decode_lipschitz<Vectors>(bounds);
-    const Floats free =
-        Vectors::larger(reinterpret_cast<Floats>((entry & static_cast<int>(index_entry::kLow)) << 1), zero + f.assured);
+    const Floats from_center = x.squared_from_center() + y.squared_from_center() + z.squared_from_center();
+    const Floats squared_away = x.squared_away(f, 0) + y.squared_away(f, 1) + z.squared_away(f, 2);
+    const Floats away = Vectors::root(within ? from_center : squared_away);
+    const Floats of_center = reinterpret_cast<Floats>((entry & far & static_cast<int>(index_entry::kLow)) << 1);
+    const Floats free = Vectors::larger(of_center - kWayRoundedUp * f.cell_edge * away, zero + f.assured);
     const Ints inside = (entry & static_cast<int>(index_entry::kInside)) != 0;
-    const Floats away = Vectors::root(x.squared_away(f, 0) + y.squared_away(f, 1) + z.squared_away(f, 2));
     const Floats outside = Vectors::larger(f.outside_share * f.cell_edge * (away - f.outside_off), zero + f.assured);
     const Floats bound = within ? (far ? (inside ? zero : free) : stored) : outside;
     const Floats shift = x.absolute() + y.absolute() + z.absolute() + f.offset;

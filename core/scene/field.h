@@ -85,7 +85,8 @@ void sample_each(const Field& field, const Pose& H, SampleBatch& batch) noexcept
 ///
 /// `sample(p)`          distance, gradient and clearance at p_W.
 /// `layer(p)`           the paper's integer layer at p_W.
-/// `clearances(H, b)`   not more than sample(H p).clearance for each point p of the batch, which may cost much less.
+/// `clearances(H, b)`   for each point p of the batch what lipschitz() says of sample(H p).clearance, about H p; it may
+///                      cost much less, and be less.
 /// `samples(H, b)`      H p for each point p of the batch, to rounding, and sample() there; may cost less.
 /// `lower_bound(c, r)`  no point x with |x - c| <= r is nearer to the surface: sample(x).distance is not below it, or
 ///                      is the band. May exceed the band, and may be loose; negative infinity wherever no bound of at

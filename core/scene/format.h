@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 6;
+inline constexpr std::uint32_t kVersion = 7;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -205,7 +205,7 @@ static_assert(sizeof(Edge) == 256);
 ///               bit 29 = 1: refined, bits 0-27 are the number of a Refined.
 ///   bit 31 = 1: not stored; bit 30: 1 inside, 0 outside; bits 0-29: `clearance`, the float's bits shifted right by
 ///   one:
-///               for every point of this brick position and every x within `r` of it (outside), whatever brick x lies
+///               for every x within r <= `clearance` of this brick position's centre (outside), whatever brick x lies
 ///               in, the stored field at x is at least clearance - r, and min(field, band) at least
 ///               lipschitz (clearance - r) / clearance_slope, lipschitz that of x. Inside it is not read.
 namespace index_entry {

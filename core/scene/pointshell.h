@@ -27,4 +27,15 @@ struct Pointshell {
   }
 };
 
+/// A sphere around all points of a node's subtree: its centre in B, and a radius that is never too small although the
+/// image holds it in single precision.
+inline Vector3 center_of(const format::Node& node) noexcept {
+  return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
+          static_cast<double>(node.center[2])};
+}
+inline double radius_of(const format::Node& node) noexcept {
+  constexpr double kRounding = 2e-6;
+  return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
+}
+
 }  // namespace godobject

@@ -106,6 +106,15 @@ const format::Brick& Voxelmap::unrefined(std::uint32_t entry) const noexcept {
   return bricks_[(entry & format::index_entry::kRefined) != 0 ? refined_[number].brick : number];
 }
 
+/// Of a point in a far position, from what is known of its centre.
+double Voxelmap::far_clearance(const Cell& cell) const noexcept {
+  constexpr double kCenter = 0.5 * kBrickCells;
+  const Vector3 from_center(cell.x + static_cast<double>(cell.fx) - kCenter,
+                            cell.y + static_cast<double>(cell.fy) - kCenter,
+                            cell.z + static_cast<double>(cell.fz) - kCenter);
+  return static_cast<double>(format::index_entry::far_clearance(cell.entry)) - voxel_size_ * from_center.norm();
+}
+
 double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
   return (surface_min_ - p_W).cwiseMax(p_W - surface_max_).cwiseMax(0.0).norm();
 }
@@ -130,8 +139,7 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     if (cell.entry & format::index_entry::kInside) {
       sample.distance = -band_;
     } else {
-      sample.clearance =
-          std::max(assured_clearance_, static_cast<double>(format::index_entry::far_clearance(cell.entry)));
+      sample.clearance = std::max(assured_clearance_, far_clearance(cell));
     }
     return sample;
   }
@@ -223,7 +231,7 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
     bound = distance_to_box(center_W) - kFieldError * voxel_size_ - radius;
   } else if (cell.entry & format::index_entry::kFar) {
     if (cell.entry & format::index_entry::kInside) return kNoBound;
-    bound = static_cast<double>(format::index_entry::far_clearance(cell.entry)) - radius;
+    bound = far_clearance(cell) - radius;
   } else {
     // Along the segment from the centre to any x of the ball the stored field falls by at most the Lipschitz constant a
     // metre while the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at

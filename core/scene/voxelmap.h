@@ -77,6 +77,7 @@ class Voxelmap {
   double descend(Cell& cell) const noexcept;
   const format::Brick& unrefined(std::uint32_t entry) const noexcept;
   double outside_clearance(const Vector3& p_W) const noexcept;
+  double far_clearance(const Cell& cell) const noexcept;
   double distance_to_box(const Vector3& p_W) const noexcept;
 
   const std::uint32_t* index_ = nullptr;

@@ -127,6 +127,10 @@ TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
   EXPECT_NEAR(one.map().lower_bound(Vector3::Constant(0.5), 1.5), 0.5, kAllowance);
   EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 2.5), -kInfinity);
   EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, -2);
+  // what is known of the centre, less the way to it
+  EXPECT_EQ(one.map().sample(Vector3::Constant(0.5)).clearance, 2.0);
+  EXPECT_NEAR(one.map().sample(Vector3(0.5, 0.8, 0.9)).clearance, 1.5, kAllowance);
+  EXPECT_NEAR(one.map().lower_bound(Vector3(0.5, 0.8, 0.9), 1.25), 0.25, kAllowance);
 
   one.index = format::index_entry::encode_far(true, 2.0f);
   EXPECT_EQ(one.map().sample(Vector3::Constant(0.5)).distance, -0.5);

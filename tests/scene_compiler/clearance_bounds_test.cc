@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/clearance_kernel.h"
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/brick_packing.h"
@@ -89,6 +90,50 @@ INSTANTIATE_TEST_SUITE_P(Bodies, ClearancesOf,
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });
+
+/// In far positions every kernel says what single look-ups say, to rounding.
+TEST_P(ClearancesOf, AreToldByEveryKernel) {
+  const SolidSurface surface = surface_of(GetParam(), 0.004);
+  const DistanceGrid field = field_of(surface, 0.004, GetParam().refined);
+  const std::vector<format::Brick> bricks = packed_bricks(field);
+  const Voxelmap map = map_of(field, bricks);
+  ASSERT_TRUE(map.in_batches());
+  const format::Grid& g = field.grid;
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (const detail::ClearanceKernel& kernel : detail::clearance_kernels()) {
+    SCOPED_TRACE(kernel.name);
+    int far = 0;
+    for (int i = 0; i < 1000; ++i) {
+      PointBatch batch;
+      while (batch.count < PointBatch::kCapacity) {
+        const std::size_t position = random() % field.index.size();
+        if ((field.index[position] & format::index_entry::kFar) == 0) continue;
+        const auto across = static_cast<std::size_t>(g.bricks[0]);
+        const std::size_t rows = across * static_cast<std::size_t>(g.bricks[1]);
+        const auto place = [&](int axis, std::size_t brick) {
+          // not so near a brick's face that rounding may take it for the neighbour's
+          const double bricks_in = static_cast<double>(brick) + 0.001 + 0.998 * unit(random);
+          return static_cast<float>(g.origin[axis] + bricks_in * format::kBrickCells * g.voxel_size);
+        };
+        batch.x[batch.count] = place(0, position % across);
+        batch.y[batch.count] = place(1, position % rows / across);
+        batch.z[batch.count++] = place(2, position / rows);
+      }
+      kernel.look_up(map.in_cells(Pose{}), batch.x, batch.y, batch.z, batch.clearance, batch.count);
+      for (std::uint32_t k = 0; k < batch.count; ++k) {
+        const Vector3d p = Eigen::Vector3f(batch.x[k], batch.y[k], batch.z[k]).cast<double>();
+        const FieldSample single = map.sample(p);
+        if (single.distance < 0.0) continue;
+        if (single.clearance > map.assured_clearance()) ++far;
+        const auto told = static_cast<double>(batch.clearance[k]);
+        ASSERT_LE(told, single.clearance) << p.transpose();
+        ASSERT_GE(told, single.clearance - 2e-3 * g.voxel_size) << p.transpose();
+      }
+    }
+    EXPECT_GT(far, 10000);
+  }
+}
 
 /// A seam jumps by many voxels; what is far from it must not pay for it.
 TEST(ClearanceBounds, LeaveASeamToThoseAboutIt) {

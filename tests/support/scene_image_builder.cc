@@ -286,8 +286,9 @@ StoredField store_field(const SceneDescription& description, double quantum) {
           field.bricks.push_back(brick);
           continue;
         }
-        // from the nearest node to any point of the brick, then from the exact distance to the interpolated one
-        const double clearance = *low - 2.0 * (kHalfDiagonal * grid.voxel_size + most_off);
+        // of the centre, which is a node; from the exact distance to the interpolated one
+        const double of_center = brick.value[format::kBrickValues / 2];
+        const double clearance = of_center - kHalfDiagonal * grid.voxel_size - 2.0 * most_off;
         field.index.push_back(
             format::index_entry::encode_far(*high < 0.0, static_cast<float>(std::max(0.0, clearance))));
       }

@@ -202,7 +202,7 @@ class ClearanceBounds {
     }
   }
 
-  /// Least distance of each position from the set, brick to brick [m]; `set` must not be empty.
+  /// Least distance of each position's centre from the set's bricks [m]; `set` must not be empty.
   std::vector<double> gaps(const std::vector<bool>& set) const {
     std::vector<bool> touching(set.size());
     for (std::size_t i = 0; i < set.size(); ++i) {
@@ -211,13 +211,15 @@ class ClearanceBounds {
     const std::vector<float> squared = squared_distance_transform(lattice_, touching);
     std::vector<double> gap(set.size());
     for (std::size_t i = 0; i < gap.size(); ++i) {
-      gap[i] = kBrickCells * field_.grid.voxel_size * std::sqrt(static_cast<double>(squared[i])) * (1.0 - 1e-6);
+      const double brick_to_brick = kBrickCells * std::sqrt(static_cast<double>(squared[i])) * (1.0 - 1e-6);
+      // one that is not of the set is half an edge farther with its centre
+      gap[i] = field_.grid.voxel_size * (brick_to_brick + (set[i] ? 0.0 : 0.5 * kBrickCells));
     }
     return gap;
   }
 
-  /// An entry E must hold for x at any t = |x - p| (format::index_entry): with C the bound of the field, l the
-  /// lipschitz of x and k the slope,
+  /// An entry E must hold for x at any t from the position's centre (format::index_entry): with C the bound of the
+  /// field, l the lipschitz of x and k the slope,
   ///     (C - t) / l >= (E - t) / k.
   /// Where l <= k, E = C does. Else E <= C k / l + t (1 - k / l), least where t is: at the distance g of such bricks,
   ///     E = C - (1 - k / l) (C - g)   if g < C,

@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 using format::kBrickNodes;
 
+constexpr double kHalfBrickEdge = 0.5 * kBrickCells;                           // voxels
 constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // voxels
 
 /// The nodes that a brick position owns: those not on its upper faces.
@@ -292,9 +293,10 @@ DistanceGrid GridBuilder::assemble() {
     if ((entry & format::index_entry::kFar) == 0) {
       field.beside_seam[entry] = seams.touches(p);
     } else if ((entry & format::index_entry::kInside) == 0) {
-      const double to_surface =
-          std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6) - kHalfBrickDiagonal * voxel_size_;
-      const double clearance = std::min(to_surface, seams.clearance_of_bricks(p)) - kInterpolationError * voxel_size_;
+      const double to_surface = std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6);
+      // what is apart from the position's box is half an edge farther from its centre
+      const double to_seam = seams.clearance_of_bricks(p) + kHalfBrickEdge * voxel_size_;
+      const double clearance = std::min(to_surface, to_seam) - kInterpolationError * voxel_size_;
       field.far_clearance[i] = std::max(0.0, clearance);
     }
   }

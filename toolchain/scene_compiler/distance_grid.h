@@ -25,7 +25,7 @@ struct DistanceGrid {
   std::vector<Brick> bricks;
   std::vector<format::Refined> refined;
   std::vector<format::Edge> edges;
-  std::vector<double> far_clearance;  ///< of far positions outside: bound of the field in them and about them [m]
+  std::vector<double> far_clearance;  ///< of far positions outside: bound of the field about their centres [m]
   std::vector<bool> beside_seam;      ///< of bricks that are a position's own: a seam is in it or touches it
   SeamReport seams;
 };

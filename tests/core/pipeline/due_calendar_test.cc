@@ -124,6 +124,32 @@ TEST(DueCalendar, KnowsTheChildrenAndTheirParent) {
   for (std::size_t i = 1; i < seen.size(); ++i) ASSERT_EQ(seen[i], 1) << i;
 }
 
+TEST(DueCalendar, KnowsSpheresThatHoldTheirPoints) {
+  const SampledBody body = ball_body();
+  const Pointshell& shell = body.pointshell();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+  DueCalendar calendar;
+  calendar.start(memory, shell);
+  const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
+  const auto center = [](const DueCalendar::Sphere& s) {
+    return Vector3(static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z));
+  };
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    const DueCalendar::Sphere sphere = calendar.sphere_of(n);
+    const format::Node& node = shell.nodes[n];
+    ASSERT_GE(static_cast<double>(sphere.radius), radius_of(node));
+    ASSERT_LE(static_cast<double>(sphere.radius), 1.0001 * radius_of(node));
+    for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
+      ASSERT_LE((shell.point(i) - center(sphere)).norm(), static_cast<double>(sphere.radius)) << n << ' ' << i;
+    }
+  }
+  for (std::uint32_t i = 0; i < shell.size; ++i) {
+    const DueCalendar::Sphere sphere = calendar.sphere_of(nodes + i);
+    ASSERT_EQ(center(sphere), shell.point(i));
+    ASSERT_EQ(sphere.radius, 0.0f);
+  }
+}
+
 TEST(DueCalendar, GivesMarkedPointsOnceAndInOrder) {
   const SampledBody body = ball_body();
   std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
