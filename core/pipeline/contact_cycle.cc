@@ -15,11 +15,16 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.opening = 0.01 * q.voxel_size;
   lengths.largest_gain = 0.25 * q.voxel_size;
   lengths.radius = q.mass.radius;
+  lengths.sphere = q.mass.sphere;
   lengths.point_budget = q.point_budget;
   lengths.metric.gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
   lengths.metric.tolerance = std::max(1e-3 * q.margin, 1e-6 * q.voxel_size);
   lengths.metric.still = 1e-6 * q.voxel_size;
   return lengths;
+}
+
+double ContactLengths::reach_for(double way, double longest) const noexcept {
+  return std::clamp(way + 3.0 * margin, std::min(shortest_reach, longest), longest);
 }
 
 namespace detail {
@@ -41,11 +46,20 @@ Selection select_rows(ContactWorkspace& workspace) noexcept {
   return {deepest, (count + room - 1) / room};
 }
 
+double first_reach(const State& state, const CycleInput& input, const ContactLengths& lengths,
+                   double longest) noexcept {
+  constexpr double kMore = 1.25;
+  constexpr double kMost = 2.0;
+  const double last = travel(lengths.sphere, state.contact.motion);
+  const double device = state.started ? farthest_way(lengths.sphere, state.H_WD, input.H_WD) : 0.0;
+  return lengths.reach_for(std::min(kMore * std::max(last, device), kMost * last), longest);
+}
+
 double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
                      bool constrained) noexcept {
   constexpr double kLargestTurn = 0.1;  // rad
   const double turn = motion.rotation.norm();
-  const double way = travel(motion, lengths);
+  const double way = travel(lengths.sphere, motion);
   const double room = std::max(around.left_out - lengths.margin, 0.5 * around.left_out);
   double share = way > room ? room / way : 1.0;
   if (constrained) {
@@ -133,6 +147,7 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
   if (result.step.infeasible) report.outcome = Outcome::kInfeasible;
   if (inside) report.outcome = Outcome::kStartInside;
   state.H_WS = result.H_WS;
+  state.H_WD = input.H_WD;
   state.contact = result.step;
   state.inside = inside;
   state.started = true;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include "core/pipeline/contact_rows.h"
 #include "core/pipeline/cycle.h"
@@ -13,6 +12,7 @@
 #include "core/pipeline/near_search.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
+#include "core/spatial/bounding_sphere.h"
 
 namespace godobject {
 
@@ -22,7 +22,7 @@ struct FeatureContacts {
   const BodyField& map;      ///< in S
   const Pointshell& points;  ///< in W, relative to `origin`
   Vector3 origin_W = Vector3::Zero();
-  double body_radius = 0.0;  ///< no point of the moving body's surface is farther from its origin [m]
+  double body_radius = 0.0;  ///< no point of the moving body's surface is farther from the sphere's centre [m]
 };
 
 /// Memory of one cycle of `contact`; nothing in it survives the cycle. About 540 KiB, touched as far as used.
@@ -57,17 +57,21 @@ struct ContactLengths {
   double opening;              ///< a gap this much wider than the margin is no contact
   double largest_gain;         ///< that a point which started inside moves out in a sub-step
   double radius;               ///< R_max
+  BoundingSphere sphere;       ///< around all sample points
   std::uint32_t point_budget;  ///< as Parameters
   CouplingMetric metric;
 
   static ContactLengths make(const Parameters& q) noexcept;
+
+  /// Of a sub-step that is expected to go as far as `way`, where fields tell near from far up to `longest` [m].
+  double reach_for(double way, double longest) const noexcept;
 };
 
 namespace detail {
 
 /// What one sub-step knows about the surroundings at its start.
 struct Surroundings {
-  double left_out;  ///< |x| + R_max |r| up to which all points are free that are not near, or had no room [m]
+  double left_out;  ///< `travel` up to which all points are free that are not near, or had no room [m]
   double smallest = std::numeric_limits<double>::infinity();  ///< stored distance of the near points
   bool swallowed = false;     ///< a point lies inside where the field does not say which way is out
   std::uint32_t dropped = 0;  ///< near points that found no room as rows
@@ -109,16 +113,17 @@ struct FeatureDirection {
   }
 
   FeatureDirection(const ContactLengths& lengths, double body_radius) noexcept
-      : radius(lengths.radius), near_radius(body_radius + lengths.longest_reach) {}
+      : sphere(lengths.sphere), near_radius(body_radius + lengths.longest_reach) {}
 
   static constexpr bool kStretches = true;
 
-  double radius;       ///< R_max [m]
-  double near_radius;  ///< within it lie the moving body's surface and, around it, the longest reach [m]
+  BoundingSphere sphere;  ///< in S, where all that has no radius larger than its own moves as the odometer says
+  double near_radius;     ///< about its centre: in it lie the moving body's surface and, around that, the longest reach [m]
 
-  double stretch(double lever) const noexcept { return std::max(1.0, lever / radius); }
+  double lever(const Vector3& q) const noexcept { return (q - sphere.center).norm(); }
+  double stretch(double lever) const noexcept { return std::max(1.0, lever / sphere.radius); }
   /// Of the points that a motion within the longest reach can bring to the body: what is farther than near_radius from
-  /// its origin comes nearer by the translation alone.
+  /// the sphere's centre comes nearer by the way of that alone.
   double most_stretch() const noexcept { return stretch(near_radius); }
 };
 
@@ -248,20 +253,6 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
   return false;
 }
 
-/// No point of the shell goes farther from pose H0 to H1, R0 and R1 their rotations: of those within r of the root's
-/// centre c, |p1 - p0| <= |c1 - c0| + |R1 - R0| r, and of the difference of two rotations the Frobenius norm is sqrt(2)
-/// times the spectral one.
-inline double farthest_way(const Pointshell& shell, const Matrix3& R0, const Pose& H0, const Matrix3& R1,
-                           const Pose& H1) noexcept {
-  if (shell.nodes.empty()) return std::numeric_limits<double>::infinity();
-  constexpr double kRoundedUp = 1.0 + 1e-6;
-  const Vector3 center = center_of(shell.nodes[0]);
-  const double radius = radius_of(shell.nodes[0]);
-  const Matrix3 turn = R1 - R0;
-  return kRoundedUp * ((turn * center + (H1.translation - H0.translation)).norm() +
-                       turn.norm() * std::numbers::sqrt2 / 2.0 * radius);
-}
-
 /// The certificate, one direction: no near point's chord from pose H0 to H1 meets the surface, and no gap shrinks below
 /// the least margin. Points that started inside are let out. The point of `obstacle` is looked at first.
 template <DistanceField Field>
@@ -272,7 +263,8 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
   if (near.count == 0) return true;
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
-  const double farthest = farthest_way(shell, R0, H0, R1, H1);
+  const double farthest = shell.nodes.empty() ? std::numeric_limits<double>::infinity()
+                                              : farthest_way(sphere_of(shell.nodes[0]), H0, H1);
   const auto fails = [&](std::uint32_t k) noexcept {
     const ContactWorkspace::NearPoint& start = near.point[k];
     if (start.distance <= 0.0 || farthest + kept <= start.clearance) return false;
@@ -316,14 +308,14 @@ bool push_obstacle(const Pointshell& shell, const Pose& H0, const Pose& H1, cons
   return true;
 }
 
+/// Reach of a cycle's first sub-step: the god object goes on as it did, or as the device did since the last cycle where
+/// that is more, but no more than twice what it did. If it wants to go farther a second sub-step follows.
+double first_reach(const State& state, const CycleInput& input, const ContactLengths& lengths,
+                   double longest) noexcept;
+
 /// Largest share of the motion that points left out and the linearisation allow.
 double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
                      bool constrained) noexcept;
-
-/// |x| + R_max |r|: no sample point goes further.
-inline double travel(const Motion& motion, const ContactLengths& lengths) noexcept {
-  return motion.translation.norm() + lengths.radius * motion.rotation.norm();
-}
 
 /// How the surface looks at the points that hold the god object back where the motion from H0 to H1 has brought them.
 struct Arrival {
@@ -432,7 +424,7 @@ struct ContactSearch {
   Odometer odometer;
   NearSearch samples;
   NearSearch features;
-  double longest_reach = 0.0;  ///< |x| + R_max |r| of a sub-step beyond which no field tells near from far [m]
+  double longest_reach = 0.0;  ///< `travel` of a sub-step beyond which no field tells near from far [m]
 
   /// Words that it remembers.
   static std::size_t memory(const Pointshell& shell, const Pointshell& features) noexcept {
@@ -457,8 +449,8 @@ struct ContactSearch {
     samples.start(memory.first(of_samples), shell, field.lipschitz(), longest_reach);
   }
 
-  /// The last look knows that in a motion with |x| + R_max |r| = `way` from here no clearance will be below `cut`, at
-  /// most the longest reach.
+  /// The last look knows that in a motion with a `travel` of `way` from here no clearance will be below `cut`, at most
+  /// the longest reach.
   bool is_free(double way, double cut) const noexcept {
     return samples.is_free(odometer.way() + way, cut) && features.is_free(odometer.way() + way, cut);
   }
@@ -508,9 +500,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   bool opened = false;
   Motion whole;
   detail::Budget budget;
-  double reach =
-      std::clamp(2.0 * (last.translation.norm() + lengths.radius * last.rotation.norm()) + 3.0 * lengths.margin,
-                 std::min(lengths.shortest_reach, search.longest_reach), search.longest_reach);
+  double reach = 0.0;
   // beyond it a gap does not hold a motion back that it is free for, and is not told
   const double free_cut = std::min(std::max(lengths.margin, lengths.shortest_reach), search.longest_reach);
   std::uint32_t free_substeps = 0;
@@ -518,14 +508,15 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     const Pose H0 = result.H_WS;
     const bool first = result.substeps + free_substeps == 0;
     const Motion free = first ? wanted : unconstrained_motion(H0, input.H_WD);  // #3 (32), (33)
-    const double free_way = detail::travel(free, lengths);
+    const double free_way = travel(lengths.sphere, free);
     if (!first) detail::end(times, &StepTimes::solve_ns);  // #1
-    search.odometer.move_to(H0, lengths.radius);
+    search.odometer.move_to(H0, lengths.sphere);
     if (search.is_free(free_way, free_cut)) {
       result.follow(input.H_WD);
       inside = false;
       break;
     }
+    if (first) reach = detail::first_reach(state, input, lengths, search.longest_reach);
     detail::Surroundings around{.left_out = reach};
     workspace.rows.count = 0;
     const double gone = search.odometer.way();
@@ -609,7 +600,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
       const bool is_free = samples_free && features_free;
       detail::Arrival arrival;
-      if (is_free && share == 1.0 && detail::travel(motion, lengths) > lengths.metric.tolerance) {
+      if (is_free && share == 1.0 && travel(lengths.sphere, motion) > lengths.metric.tolerance) {
         arrival = detail::arrive(field, shell, features, H0, H1, lengths, result.step);
       }
       detail::end(times, &StepTimes::step1_ns);
@@ -647,6 +638,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
         share *= attempt < kSecondLooks ? 0.5 : 0.25;
       }
     }
+    const double rest = (1.0 - share) * travel(lengths.sphere, result.step.motion);
     result.step.motion = motion;
     last = motion;
     whole.translation += motion.translation;
@@ -654,7 +646,9 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.H_WS = H1;
     result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
-    reach = std::min(2.0 * reach, search.longest_reach);
+    const double doubled = std::min(2.0 * reach, search.longest_reach);
+    // what is left of a motion that was cut may change its direction, but is seldom twice as long
+    reach = result.cut ? std::min(doubled, lengths.reach_for(2.0 * rest, search.longest_reach)) : doubled;
   } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps &&
            free_substeps < kFreeSubsteps);
   if (result.substeps == 0 && result.step.follows) {

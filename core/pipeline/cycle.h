@@ -44,6 +44,7 @@ struct State {
   bool inside = false;         ///< it started in penetration and has not come out
   ProjectionState projection;  ///< of `corrected`
   ConstrainedStep contact;     ///< of `contact`: its last motion and what held it
+  Pose H_WD;                   ///< of `contact`: the device
 };
 
 /// What a cycle leaves for others to look at.

@@ -61,10 +61,10 @@ struct GodObject::Contact {
 
   /// Calls `work` with the second direction, or null where there is none.
   template <class Work>
-  static auto with_features(const Scene& scene, Work&& work) noexcept {
+  static auto with_features(const Scene& scene, const Parameters& q, Work&& work) noexcept {
     using Features = FeatureContacts<BodyField>;
     if constexpr (kSceneTraits.features) {
-      const Features features{scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius()};
+      const Features features{scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius(q.mass.sphere.center)};
       return work(scene.has_features() ? &features : nullptr);
     } else {
       return work(static_cast<const Features*>(nullptr));
@@ -74,7 +74,7 @@ struct GodObject::Contact {
   template <bool kFriction>
   static Status cycle(const Scene& scene, const Parameters& q, const CycleInput& input, ContactMemory& memory,
                       State& state, CycleReport& report, StepTimes* times) noexcept {
-    return with_features(scene, [&](const auto* features) noexcept {
+    return with_features(scene, q, [&](const auto* features) noexcept {
       return contact_cycle<kFriction>(scene.voxelmap, scene.pointshell, features, q, input, memory.search, state,
                                       memory.workspace, report, times);
     });
@@ -84,7 +84,7 @@ struct GodObject::Contact {
 
   static void start(const Scene& scene, const Parameters& q, std::span<std::uint32_t> words,
                     ContactMemory& memory) noexcept {
-    with_features(scene, [&](const auto* features) noexcept {
+    with_features(scene, q, [&](const auto* features) noexcept {
       memory.search.start(scene.voxelmap, scene.pointshell, features, ContactLengths::make(q), words);
     });
   }

@@ -12,25 +12,20 @@
 #include "core/pipeline/due_calendar.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
+#include "core/spatial/bounding_sphere.h"
 #include "core/spatial/pose.h"
 
 namespace godobject {
 
-/// A bound on how far any point of the moving body has gone in a session: the sum of |x| + R_max |r| over its poses.
+/// A bound on how far any point of the moving body has gone in a session.
 class Odometer {
  public:
   void reset() noexcept { *this = Odometer{}; }
 
-  /// The body, all of whose points lie within `radius` of its origin, is at H_WS now. Whatever way it took, only the
-  /// poses that are looked at count: between two of them a point p moves by (R_1 - R_0) p + x_1 - x_0, of which the
-  /// first part is at most 2 |sin(angle / 2)| |p|.
-  void move_to(const Pose& H_WS, double radius) noexcept {
-    constexpr double kRounding = 1e-9;
-    if (started_) {
-      const double turn = 2.0 * (H_WS.rotation * H_.rotation.conjugate()).vec().norm();
-      const double way = (H_WS.translation - H_.translation).norm() + radius * turn;
-      way_ += way + kRounding * (way + radius);
-    }
+  /// The body, all of whose points lie in `sphere`, always the same, is at H_WS now. Whatever way it took, only the
+  /// poses that are looked at count.
+  void move_to(const Pose& H_WS, const BoundingSphere& sphere) noexcept {
+    if (started_) way_ += farthest_way(sphere, H_, H_WS);
     H_ = H_WS;
     started_ = true;
   }
@@ -101,9 +96,9 @@ class NearSearch {
   /// With memory the budget is kept, and leave_out(clearance) is called for each point that may be near but was not
   /// looked up, with a bound of its clearance, more than `budget.always`.
   ///
-  /// `Direction::stretch(lever)`: a point of the shell that stays within `lever` [m] of the moving body's origin moves
-  /// in the field's frame by at most this times the odometer's difference; 1 or more. Always 1 and not asked for
-  /// without `Direction::kStretches`.
+  /// `Direction::stretch(lever)`: a point of the shell that stays within `lever` [m] of the centre of the moving body's
+  /// sphere moves in the field's frame by at most this times the odometer's difference; 1 or more. `lever(q)`: of a
+  /// point in the field's frame. Always 1 and not asked for without `Direction::kStretches`.
   template <class Direction, DistanceField Field, class Visit, class LeaveOut>
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double way,
             double cut, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
@@ -114,7 +109,7 @@ class NearSearch {
     const auto free_until = [&](double clearance, const Vector3& center, double radius) noexcept {
       const double room = clearance - radius - rounding;
       if constexpr (Direction::kStretches) {
-        return way + room / direction.stretch((R * center + H.translation).norm() + radius + std::max(0.0, room));
+        return way + room / direction.stretch(direction.lever(R * center + H.translation) + radius + std::max(0.0, room));
       } else {
         return way + room;
       }

@@ -15,6 +15,7 @@ MassModel MassModel::make(const Vector3& principal_inertia, double radius, doubl
 
   MassModel mass;
   mass.radius = radius;
+  mass.sphere = {Vector3::Zero(), radius};
   mass.inertia = principal_inertia.cwiseMax(smallest);
   mass.inverse_inertia = mass.inertia.cwiseInverse();
   mass.sigma = std::cbrt(mass.inertia.prod());                                                    // (4)
@@ -40,6 +41,7 @@ Parameters Parameters::make(const Scene& scene) noexcept {
                       s.paper_viscous};
   p.mass = MassModel::make(Vector3(scene.body.inertia[0], scene.body.inertia[1], scene.body.inertia[2]),
                            scene.body.radius, std::max(scene.body.radius, scene.grid.voxel_size));
+  p.mass.sphere = sphere_of(scene.body);
   p.workspace = scene.workspace;
   return p;
 }

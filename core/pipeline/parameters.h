@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/scene/scene.h"
+#include "core/spatial/bounding_sphere.h"
 #include "core/spatial/vector.h"
 
 namespace godobject {
@@ -17,6 +18,7 @@ struct MassModel {
   double sigma = 1.0;                         ///< eq (4): cube root of det(J_B / m) [m^2]
   Vector3 ellipsoid = Vector3::Ones();        ///< eq (11): squared semi-axes a_i^2 [m^2], clamped: a flat body has none
   double radius = 1.0;                        ///< R_max: farthest sample point from the centre of mass [m]
+  BoundingSphere sphere;                      ///< around all sample points; `make` knows none better than R_max's
 
   /// From principal moments [m^2], ascending or not. `length` [m] stands in where the body has no extent at all.
   static MassModel make(const Vector3& principal_inertia, double radius, double length) noexcept;

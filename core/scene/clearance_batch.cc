@@ -32,6 +32,7 @@ std::size_t too_wide() noexcept {
 const detail::ClearanceKernel kKernel = kKernels[too_wide()];
 
 constexpr std::uint32_t kNoRefinement = 0;
+constexpr float kRoundedUp = 1.0f + 1e-6f;
 
 }  // namespace
 
@@ -60,8 +61,7 @@ detail::FieldOfCells Voxelmap::in_cells(const Pose& H) const noexcept {
   f.quantum = static_cast<float>(quantum_);
   f.near_band = static_cast<float>(near_band_);
   f.assured = static_cast<float>(assured_clearance_);
-  f.outside_share = static_cast<float>(outside_share_);
-  f.outside_off = static_cast<float>(kFieldError);
+  f.outside_off = kRoundedUp * static_cast<float>(per_voxel_ * outside_off_);
   return f;
 }
 

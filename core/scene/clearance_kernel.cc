@@ -17,7 +17,7 @@ float clearance_outside(const FieldOfCells& f, const float (&g)[3]) noexcept {
     const float away = std::max({f.surface_min[axis] - g[axis], g[axis] - f.surface_max[axis], 0.0f});
     squared += away * away;
   }
-  return std::max(f.assured, f.outside_share * f.cell_edge * (std::sqrt(squared) - f.outside_off));
+  return std::max(f.assured, f.cell_edge * (std::sqrt(squared) - f.outside_off));
 }
 
 float clearance_within(const FieldOfCells& f, const float (&g)[3]) noexcept {

@@ -31,8 +31,7 @@ struct FieldOfCells {
   float cell_edge;                       ///< [m]
   float quantum;                         ///< of the nodes [m]
   float near_band, assured;              ///< [m]
-  float outside_share;                   ///< of the distance to the surface's box, as clearance
-  float outside_off;                     ///< [cells]
+  float outside_off;                     ///< of the distance to the surface's box, as clearance [cells]
   float offset;                          ///< sum of |translation| [cells]
 };
 

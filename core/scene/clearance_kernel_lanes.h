@@ -94,7 +94,7 @@ void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, cons
     const Floats of_center = reinterpret_cast<Floats>((entry & far & static_cast<int>(index_entry::kLow)) << 1);
     const Floats free = Vectors::larger(of_center - kWayRoundedUp * f.cell_edge * away, zero + f.assured);
     const Ints inside = (entry & static_cast<int>(index_entry::kInside)) != 0;
-    const Floats outside = Vectors::larger(f.outside_share * f.cell_edge * (away - f.outside_off), zero + f.assured);
+    const Floats outside = Vectors::larger(f.cell_edge * (away - f.outside_off), zero + f.assured);
     const Floats bound = within ? (far ? (inside ? zero : free) : stored) : outside;
     const Floats shift = x.absolute() + y.absolute() + z.absolute() + f.offset;
     *reinterpret_cast<Floats*>(clearance + i) = bound - kPointRounding * f.cell_edge * shift;

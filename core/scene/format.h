@@ -15,7 +15,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 7;
+inline constexpr std::uint32_t kVersion = 8;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 24;
 
@@ -121,10 +121,13 @@ struct Grid {
   double lipschitz_seam;      ///< the same with seams, as encode_lipschitz has it [1]
   double clearance_slope;     ///< >= 1: of Brick::lipschitz and of far clearances, see there [1]
   double quantum;             ///< of Brick::value where nothing is refined [m]
+  double outside_loss;        ///< of a point outside the grid, at D from the surface's box, E = D - outside_loss is what
+                              ///< a far clearance E about it would be (see index_entry), but for what the stored field
+                              ///< is off the exact one [m]
   std::int32_t bricks[3];     ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks, those of refinements included
 };
-static_assert(sizeof(Grid) == 136);
+static_assert(sizeof(Grid) == 144);
 
 inline constexpr int kBrickCells = 4;                ///< cells along an edge of a brick
 inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: neighbours share a face of nodes
@@ -264,13 +267,15 @@ struct Body {
   double translation_MB[3];           ///< centre of mass in M [m]
   double inertia[3];                  ///< principal moments of J_B / m [m^2], ascending, >= 0 (not floored)
   double radius;                      ///< R_max: largest distance of a sample point from the centre of mass [m], > 0
+  double sphere_center[3];            ///< of a sphere about all sample points, those that are left out too, in B [m]
+  double sphere_radius;               ///< [m], > 0
   double volume;                      ///< [m^3]; 0 where the mesh encloses none
   std::uint32_t inertia_from_points;  ///< 1: mass spread over the surface points, 0: over the closed volume
   std::uint32_t point_count;
   std::uint32_t node_count;
   std::uint32_t level_count;
 };
-static_assert(sizeof(Body) == 112);
+static_assert(sizeof(Body) == 144);
 
 /// Sphere tree over the sample points, in pre-order: the children of node i start at i + 1; `skip` is the next node
 /// once the subtree of i is left out. Node 0 (level 0) holds all points, which are in tree order: a subtree's are

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/scene/format.h"
+#include "core/spatial/bounding_sphere.h"
 #include "core/spatial/vector.h"
 
 namespace godobject {
@@ -37,5 +38,9 @@ inline double radius_of(const format::Node& node) noexcept {
   constexpr double kRounding = 2e-6;
   return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();
 }
+inline BoundingSphere sphere_of(const format::Body& body) noexcept {
+  return {Vector3(body.sphere_center[0], body.sphere_center[1], body.sphere_center[2]), body.sphere_radius};
+}
+inline BoundingSphere sphere_of(const format::Node& node) noexcept { return {center_of(node), radius_of(node)}; }
 
 }  // namespace godobject

@@ -105,7 +105,7 @@ bool valid_grid(const format::Grid& g) noexcept {
   constexpr double kRoundingSlope =
       2.0 * format::kMostRoundedOff * format::kLargestQuantum * (1 << format::kMaxRefinement);
   if (!in_range(g.lipschitz, 0.0, 2.0 + kRoundingSlope) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
-  if (!in_range(g.clearance_slope, 1.0, 1e6)) return false;
+  if (!in_range(g.clearance_slope, 1.0, 1e6) || !in_range(g.outside_loss, 0.0, kLarge)) return false;
   if (!in_range(g.quantum, 1e-15, format::kLargestQuantum * g.voxel_size)) return false;
   for (int axis = 0; axis < 3; ++axis) {
     if (g.bricks[axis] < 1 || g.bricks[axis] > format::kMaxBricksPerAxis) return false;
@@ -234,7 +234,18 @@ bool valid_body(const format::Body& b) noexcept {
       !in_range(b.inertia[2], b.inertia[1], 1e12)) {
     return false;
   }
-  return in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1;
+  for (const double c : b.sphere_center) {
+    if (!in_range(c, -1e6, 1e6)) return false;
+  }
+  return in_range(b.sphere_radius, 1e-12, 1e6) && in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1;
+}
+
+/// How far a body moves is bounded by it.
+bool contains(const BoundingSphere& sphere, const Pointshell& shell) noexcept {
+  for (std::size_t i = 0; i < shell.size; ++i) {
+    if (!((shell.point(i) - sphere.center).norm() <= sphere.radius)) return false;
+  }
+  return true;
 }
 
 /// How many points, nodes and levels a tree has, and how far its points reach.
@@ -431,6 +442,7 @@ Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
   status = open_shell(sections[SectionId::kPoints], normals, sections[SectionId::kNodes],
                       {body.point_count, body.node_count, body.level_count, body.radius}, opened.pointshell);
   if (status != Status::kOk) return status;
+  if (!contains(sphere_of(body), opened.pointshell)) return Status::kImageValue;
   status = open_features(sections, opened);
   if (status != Status::kOk) return status;
 

@@ -40,7 +40,7 @@ Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> inde
       lipschitz_(std::max(1.0, grid.lipschitz_seam)),
       clearance_slope_(grid.clearance_slope),
       assured_clearance_(near_band_ / lipschitz_),
-      outside_share_(std::min(1.0, clearance_slope_ / lipschitz_)),
+      outside_off_(kFieldError * voxel_size_ + grid.outside_loss),
       in_batches_(!bricks.empty() && index.size() < kMost &&
                   bricks.size() < kMost / (sizeof(format::Brick) / sizeof(std::int16_t)) &&
                   refined.size() < kMost / (sizeof(format::Refined) / sizeof(std::uint32_t))),
@@ -120,11 +120,8 @@ double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
 }
 
 /// Of a point outside the grid, as a far entry has it: from the exact distance to the stored one it is kFieldError
-/// voxels at most, and any brick may be as steep as the steepest.
-double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept {
-  const double bound = distance_to_box(p_W) - kFieldError * voxel_size_;
-  return bound * outside_share_;
-}
+/// voxels at most.
+double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept { return distance_to_box(p_W) - outside_off_; }
 
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   FieldSample sample;

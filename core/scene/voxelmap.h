@@ -27,8 +27,10 @@ class Voxelmap {
   double lipschitz() const noexcept { return clearance_slope_; }
   double assured_clearance() const noexcept { return assured_clearance_; }
 
-  /// No point of the surface is farther from the frame's origin [m].
-  double surface_radius() const noexcept { return surface_min_.cwiseAbs().cwiseMax(surface_max_.cwiseAbs()).norm(); }
+  /// No point of the surface is farther from `center` [m].
+  double surface_radius(const Vector3& center) const noexcept {
+    return (center - surface_min_).cwiseMax(surface_max_ - center).norm();
+  }
 
   /// The stored field at p_W, trilinear but for bricks with an edge (format::Edge), and its exact gradient. Outside the
   /// grid is free space (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts
@@ -97,7 +99,7 @@ class Voxelmap {
   double lipschitz_ = 1.0;  ///< of the whole field
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;
-  double outside_share_ = 1.0;       ///< of the distance to the surface's box, as clearance
+  double outside_off_ = 0.0;         ///< of the distance to the surface's box, as clearance [m]
   bool in_batches_ = false;          ///< the index and the nodes are few enough for 32 bits
   Vector3 cells_ = Vector3::Zero();  ///< of the grid along x, y, z
   std::ptrdiff_t stride_y_ = 0;      ///< brick positions from one to its neighbour in y, in z

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "core/spatial/bounding_sphere.h"
 #include "core/spatial/pose.h"
 
 namespace godobject {
@@ -173,6 +174,58 @@ TEST(Pose, KnowsWhatIsNotFinite) {
       Pose pose;
       pose.rotation.coeffs()[i] = value;
       EXPECT_FALSE(pose.is_finite());
+    }
+  }
+}
+
+/// No point of the sphere goes farther, and one goes nearly as far.
+TEST(BoundingSphere, BoundsTheWayFromPoseToPose) {
+  Random random(11);
+  for (int k = 0; k < 300; ++k) {
+    const BoundingSphere sphere{random.vector(), 0.3 + 0.2 * random.uniform()};
+    const Pose H0 = random.pose();
+    const double size = std::pow(10.0, -4.0 + 4.0 * std::abs(random.uniform()));
+    Pose H1 = H0;
+    H1.translation += size * random.vector();
+    H1.rotation = (exp_rotation(size * random.vector()) * H0.rotation).normalized();
+    const double bound = farthest_way(sphere, H0, H1);
+    double farthest = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3 p = sphere.center + sphere.radius * random.direction();
+      farthest = std::max(farthest, (H1 * p - H0 * p).norm());
+    }
+    ASSERT_LE(farthest, bound);
+    ASSERT_GE(farthest, 0.95 * bound) << "for it is reached at the equator";
+  }
+}
+
+TEST(BoundingSphere, GoesAsFarAsItsCentreWhereNothingTurns) {
+  const BoundingSphere sphere{{0.1, 0.2, 0.3}, 0.5};
+  Pose H0;
+  Pose H1;
+  H1.translation = Vector3(3e-3, 0.0, 4e-3);
+  EXPECT_NEAR(farthest_way(sphere, H0, H1), 5e-3, 1e-8);
+  EXPECT_NEAR(travel(sphere, {H1.translation, Vector3::Zero()}), 5e-3, 1e-15);
+  // along the axis of the turn and across it they add up as the sides of a triangle
+  const double turn = 2e-3;
+  H1.rotation = exp_rotation({0.0, 0.0, turn});
+  H1.translation = Vector3(0.0, 0.0, 1e-3) - H1.rotation * sphere.center + sphere.center;
+  EXPECT_NEAR(farthest_way(sphere, H0, H1), std::hypot(1e-3, 2.0 * std::sin(0.5 * turn) * 0.5), 2e-9);
+}
+
+TEST(BoundingSphere, BoundsEveryShareOfAMotion) {
+  Random random(12);
+  for (int k = 0; k < 300; ++k) {
+    const BoundingSphere sphere{random.vector(), 0.3 + 0.2 * random.uniform()};
+    const Pose H0 = random.pose();
+    const double size = std::pow(10.0, -4.0 + 4.0 * std::abs(random.uniform()));
+    const Motion motion{size * random.vector(), size * random.vector()};
+    const double bound = travel(sphere, motion);
+    for (int i = 0; i < 300; ++i) {
+      const double share = std::abs(random.uniform());
+      const Pose H1 = H0 * set_matrix({share * motion.translation, share * motion.rotation});
+      const Vector3 p = sphere.center + sphere.radius * random.direction();
+      ASSERT_LE((H1 * p - H0 * p).norm(), share * bound * (1.0 + 1e-12));
     }
   }
 }

@@ -80,6 +80,51 @@ TEST_P(ClearancesOf, HoldAroundEveryPoint) {
   EXPECT_GT(free, 10000);
 }
 
+/// The same from places outside the grid, to places within.
+TEST_P(ClearancesOf, HoldOutsideTheGrid) {
+  const SolidSurface surface = surface_of(GetParam(), 0.004);
+  const DistanceGrid field = field_of(surface, 0.004, GetParam().refined);
+  const std::vector<format::Brick> bricks = packed_bricks(field);
+  const Voxelmap map = map_of(field, bricks);
+  const format::Grid& g = field.grid;
+  const Vector3d low(g.origin[0], g.origin[1], g.origin[2]);
+  const Vector3d size = format::kBrickCells * g.voxel_size * Vector3d(g.bricks[0], g.bricks[1], g.bricks[2]);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  const auto place = [&](double margin) {
+    const Vector3d share(unit(random), unit(random), unit(random));
+    return (low + ((1.0 + 2.0 * margin) * share - Vector3d::Constant(margin)).cwiseProduct(size)).eval();
+  };
+  int outside = 0;
+  int close = 0;
+  for (int i = 0; i < 400000; ++i) {
+    const Vector3d x = place(0.0);
+    const double at = map.sample(x).clearance;
+    const Vector3d direction = Vector3d(normal(random), normal(random), normal(random)).normalized();
+    const Vector3d p = i % 2 == 0 ? place(0.5) : Vector3d(x + unit(random) * size.maxCoeff() * direction);
+    if (((p - low).array() >= 0.0).all() && ((low + size - p).array() > 0.0).all()) continue;
+    ++outside;
+    const double told = (map.sample(p).clearance - (p - x).norm()) / map.lipschitz();
+    if (told > 0.5 * at) ++close;
+    ASSERT_LE(std::min(told, map.assured_clearance()), at + 1e-9) << p.transpose() << " to " << x.transpose();
+  }
+  EXPECT_GT(outside, 50000);
+  EXPECT_GT(close, 500) << "nothing that a wrong bound could break";
+}
+
+/// A box without a lid: at its rim bricks with the seam stick out of it.
+TEST(ClearanceBounds, PayOutsideTheGridForSteepBricksThatStickOut) {
+  const SolidSurface open(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
+                          SurfaceKind::kSolid, 0.004);
+  const DistanceGrid steep = field_of(open, 0.004, false);
+  EXPECT_GT(steep.grid.outside_loss, 0.0);
+  EXPECT_LT(steep.grid.outside_loss, 2.0 * std::sqrt(3.0) * format::kBrickCells * 0.004)
+      << "bricks within the band's reach of the box";
+  const SolidSurface closed(box(Vector3d::Zero(), Vector3d::Constant(0.1)), SurfaceKind::kSolid, 0.004);
+  EXPECT_LT(field_of(closed, 0.004, false).grid.outside_loss, steep.grid.outside_loss) << "steep at its edges only";
+}
+
 INSTANTIATE_TEST_SUITE_P(Bodies, ClearancesOf,
                          ::testing::Values(Body{"open box", SurfaceKind::kSolid, false},
                                            Body{"open box", SurfaceKind::kSolid, true},
@@ -108,6 +153,12 @@ TEST_P(ClearancesOf, AreToldByEveryKernel) {
       PointBatch batch;
       while (batch.count < PointBatch::kCapacity) {
         const std::size_t position = random() % field.index.size();
+        if (batch.count % 4 == 0) {  // outside the grid
+          batch.x[batch.count] = static_cast<float>(g.origin[0] - 0.1 * unit(random) - 1e-4);
+          batch.y[batch.count] = static_cast<float>(g.origin[1] + 0.3 * unit(random) - 0.1);
+          batch.z[batch.count++] = static_cast<float>(g.origin[2] + 0.3 * unit(random) - 0.1);
+          continue;
+        }
         if ((field.index[position] & format::index_entry::kFar) == 0) continue;
         const auto across = static_cast<std::size_t>(g.bricks[0]);
         const std::size_t rows = across * static_cast<std::size_t>(g.bricks[1]);

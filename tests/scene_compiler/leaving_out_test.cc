@@ -1,10 +1,12 @@
 #include "toolchain/scene_compiler/leaving_out.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <random>
+#include <span>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -230,6 +232,102 @@ TEST_F(LeavesOut, PointsInACavity) {
     ASSERT_NEAR((image_of_still.scene.features_origin + features.point(i)).cwiseAbs().maxCoeff(), 0.05, 1e-6);
 }
 
+/// The scene of an image with more points in a sphere about `center` (in M), as a leaf behind all others.
+class WithMorePoints {
+ public:
+  WithMorePoints(const Scene& scene, std::span<const Vector3> more_M, const Vector3& center_M) : scene_(scene) {
+    const Pointshell& shell = scene.pointshell;
+    const std::array<const float*, 6> from = {shell.x,        shell.y,        shell.z,
+                                              shell.normal_x, shell.normal_y, shell.normal_z};
+    for (std::size_t axis = 0; axis < 6; ++axis) axes_[axis].assign(from[axis], from[axis] + shell.size);
+    const Pose H_BM = scene.H_MB.inverse();
+    const Vector3 center = H_BM * center_M;
+    format::Node leaf{};
+    for (const Vector3& p_M : more_M) {
+      const Vector3 p = H_BM * p_M;
+      const Vector3 into = H_BM.rotation * (p_M - center_M).normalized();
+      for (int axis = 0; axis < 3; ++axis) {
+        axes_[static_cast<std::size_t>(axis)].push_back(static_cast<float>(p[axis]));
+        axes_[static_cast<std::size_t>(axis + 3)].push_back(static_cast<float>(into[axis]));
+        leaf.center[axis] = static_cast<float>(center[axis]);
+      }
+      leaf.radius = std::max(leaf.radius, static_cast<float>((p - center).norm() * 1.001));
+    }
+    nodes_.assign(shell.nodes.begin(), shell.nodes.end());
+    leaf.first_point = static_cast<std::uint32_t>(shell.size);
+    leaf.point_count = static_cast<std::uint32_t>(more_M.size());
+    leaf.level = 1;
+    leaf.leaf = 1;
+    nodes_.push_back(leaf);
+    nodes_.back().skip = nodes_.front().skip = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.front().point_count += leaf.point_count;
+    scene_.pointshell = {axes_[0].size(), axes_[0].data(), axes_[1].data(), axes_[2].data(),
+                         axes_[3].data(), axes_[4].data(), axes_[5].data(), nodes_};
+  }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  std::array<std::vector<float>, 6> axes_;
+  std::vector<format::Node> nodes_;
+};
+
+/// A hollow cube that is pressed on a cube as large, from all sides and with its own hollow where the other one is: it
+/// moves as if nothing had been left out.
+TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
+  using Eigen::Vector3d;
+  constexpr double kHollow = 0.015;
+  const TriangleMesh hollow = joined(box(Vector3d::Constant(-0.05), Vector3d::Constant(0.05)),
+                                     turned_inside_out(box(Vector3d::Constant(-kHollow), Vector3d::Constant(kHollow))));
+  const std::string hollow_file = folder_.write("hollow.obj", obj(hollow)).string();
+  const CompileReport report = compile(
+      fmt::format("[still]\nmesh = \"{}\"\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\npoints = 1000\n"
+                  "levels = 4\n[friction]\nstatic = 0.3\n",
+                  mesh_file("cube_100mm").string(), hollow_file),
+      "less.scene");
+  ASSERT_NE(item(report, "own walls"), nullptr);
+  const command::SceneImage less = image("less.scene");
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
+  std::vector<Vector3> of_hollow;
+  for (int i = 0; i < 200; ++i) {
+    Vector3 p = kHollow * vector();
+    p[i % 3] = i % 2 == 0 ? kHollow : -kHollow;
+    of_hollow.push_back(p);
+  }
+  const WithMorePoints all(less.scene, of_hollow, Vector3::Zero());
+  int touching = 0;
+  int through = 0;  // the device's hollow is in the other cube
+  for (int session = 0; session < 8; ++session) {
+    const bool friction = session % 2 == 1;
+    Session a(all.scene(), Solver::kContact, friction);
+    Session b(less.scene, Solver::kContact, friction);
+    Pose device;
+    device.translation = 0.2 * vector().normalized();
+    Motion velocity;
+    for (int cycle = 0; cycle < 600; ++cycle) {
+      if (cycle % 60 == 0) {
+        velocity.translation = (0.06 * vector() - device.translation) / 60.0;
+        velocity.rotation = 0.01 * vector();
+      }
+      device.translation += velocity.translation;
+      device.rotation = exp_rotation(velocity.rotation) * device.rotation;
+      const CycleReport x = a.update(device);
+      const CycleReport y = b.update(device);
+      ASSERT_TRUE(x.H_WS == y.H_WS) << "session " << session << ", cycle " << cycle;
+      ASSERT_EQ(x.force.total_W.force, y.force.total_W.force);
+      ASSERT_EQ(x.force.total_W.torque, y.force.total_W.torque);
+      ASSERT_EQ(x.contacts, y.contacts);
+      if (x.contacts > 0) ++touching;
+      const Vector3 at = (device * less.scene.H_MB.inverse()).translation;
+      if ((at.cwiseAbs().maxCoeff() < 0.05)) ++through;
+    }
+  }
+  EXPECT_GT(touching, 2000);
+  EXPECT_GT(through, 500);
+}
+
 /// Far above the middle of a face no edge of the cube is met: no second direction.
 TEST_F(LeavesOut, TheSecondDirectionWhereNoFeatureIsMet) {
   const Bodies bodies{"cube_100mm", 3.0, "cube_100mm", 0.3, ""};
@@ -252,7 +350,9 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
   const CompileReport report = compile(scene.bodies.text() + table(scene.workspace), "less.scene");
   const command::SceneImage all = image("all.scene");
   const command::SceneImage less = image("less.scene");
-  EXPECT_GT(report.left_out.back().count, 10u) << report.left_out.back().what;
+  const LeftOut* const bricks = item(report, "positions that no look-up");
+  ASSERT_NE(bricks, nullptr);
+  EXPECT_GT(bricks->count, 10u);
   EXPECT_LT(less.scene.grid.brick_count, all.scene.grid.brick_count);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -285,6 +385,39 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
   }
   EXPECT_GT(known, 10000);
   EXPECT_GT(lost, 100);
+}
+
+/// A large cube whose centre stays well above a small one's edges: its core meets none of them.
+TEST_F(LeavesOut, NoBrickOfTheMovingBodyThatAFeatureMeets) {
+  const Bodies bodies{"cube_100mm", 0.3, "cube_100mm", 1.0, ""};
+  const format::Workspace workspace{{-0.02, -0.02, 0.09}, {0.02, 0.02, 0.1}};
+  compile(bodies.text(), "all.scene");
+  const CompileReport report = compile(bodies.text() + table(workspace), "less.scene");
+  const LeftOut* const bricks = item(report, "moving body's field");
+  ASSERT_NE(bricks, nullptr);
+  EXPECT_GT(bricks->count, 10u);
+  EXPECT_GT(bricks->bytes, 10u * sizeof(format::Brick));
+  const command::SceneImage all = image("all.scene");
+  const command::SceneImage less = image("less.scene");
+  const Pointshell& features = all.scene.features;
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const WorkspaceBox& box = less.scene.workspace;
+  int known = 0;
+  for (int k = 0; k < 200000; ++k) {
+    const Vector3 at = box.low + Vector3(share(random), share(random), share(random)).cwiseProduct(box.high - box.low);
+    const Vector3 feature = all.scene.features_origin + features.point(random() % features.size);
+    const Vector3 p = (feature - at).norm() * Vector3(normal(random), normal(random), normal(random)).normalized();
+    const FieldSample x = all.scene.body_map.sample(p);
+    const FieldSample y = less.scene.body_map.sample(p);
+    ASSERT_EQ(x.distance, y.distance) << p.transpose();
+    ASSERT_EQ(x.clearance, y.clearance);
+    ASSERT_EQ(x.gradient, y.gradient);
+    if (x.known) ++known;
+  }
+  EXPECT_GT(known, 10000);
+  EXPECT_GT(expect_same_bits(limited(all.scene, workspace), less.scene, 6, 17), 100);
 }
 
 TEST_F(LeavesOut, NothingWithoutAWorkspaceThatIsReachableEverywhere) {

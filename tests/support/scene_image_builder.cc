@@ -303,6 +303,7 @@ StoredField store_field(const SceneDescription& description, double quantum) {
   const auto largest = std::max(1.0f, static_cast<float>(grid.lipschitz));
   grid.clearance_slope = static_cast<double>(format::decode_lipschitz(format::encode_lipschitz(largest)));
   grid.lipschitz_seam = grid.clearance_slope;
+  grid.outside_loss = 0.0;
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
   return field;
 }
@@ -373,6 +374,9 @@ StoredBody store_body(const SceneDescription& description) {
   body.node_count = static_cast<std::uint32_t>(stored.nodes.size());
 
   for (const Vector3& p : description.points) body.radius = std::max(body.radius, rounded(p).norm());
+  const BoundingSphere sphere = sphere_of(stored.nodes[0]);
+  std::copy_n(sphere.center.data(), 3, body.sphere_center);
+  body.sphere_radius = std::max(1e-9, sphere.radius);
   const Quaternion& q = description.H_MB.rotation;
   const double rotation[4] = {q.w(), q.x(), q.y(), q.z()};
   std::copy(std::begin(rotation), std::end(rotation), std::begin(body.rotation_MB));

@@ -98,7 +98,9 @@ ExactScene::ExactScene(const scene_compiler::SceneConfig& config, std::uint32_t 
       points_(shell_of(body_.points, body_.nodes)),
       feature_points_(shell_of(features_.points, features_.nodes)),
       parameters_(make_parameters(config, body_.body)) {
-  for (const Vector3& vertex : body_surface_.mesh().vertices) body_radius_ = std::max(body_radius_, vertex.norm());
+  for (const Vector3& vertex : body_surface_.mesh().vertices) {
+    body_radius_ = std::max(body_radius_, (vertex - parameters_.mass.sphere.center).norm());
+  }
 }
 
 FeatureContacts<MeshField> ExactScene::feature_contacts() const {

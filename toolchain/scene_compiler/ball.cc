@@ -109,6 +109,7 @@ MovingBody make_ball_body(const Ball& ball) {
   std::copy_n(ball.center.data(), 3, body.translation_MB);
   std::fill_n(body.inertia, 3, 0.4 * square);
   body.radius = kLeastPointRadius;
+  body.sphere_radius = kLeastPointRadius;
   body.volume = 4.0 / 3.0 * std::numbers::pi * square * ball.radius;
   body.point_count = 1;
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());

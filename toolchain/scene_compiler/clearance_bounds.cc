@@ -63,6 +63,7 @@ class ClearanceBounds {
       if (is_stored(i)) set_lipschitz(field_.index[i], static_cast<float>(steepest_[i]));
     }
     field_.grid.clearance_slope = kClearanceSlope;
+    field_.grid.outside_loss = outside_loss();
     write_far();
   }
 
@@ -244,6 +245,28 @@ class ClearanceBounds {
       if (is_stored(i) || (field_.index[i] & index_entry::kInside) != 0) continue;
       field_.index[i] = index_entry::encode_far(false, static_cast<float>(clearance[i] * (1.0 - 1e-6)));
     }
+  }
+
+  /// Outside the grid, at D from the surface's box and at least D - b from a brick that reaches b out of that box, what
+  /// write_far has of E is at least
+  ///     C - (1 - k / l) b,
+  /// so the loss is the most that any brick steeper than the slope takes.
+  double outside_loss() const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < lattice_.count(); ++i) {
+      if (!is_stored(i) || !(steepest_[i] > kClearanceSlope)) continue;
+      const BrickPosition p = lattice_.position(i);
+      double squared = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double edge = kBrickCells * field_.grid.voxel_size;
+        const double low = origin_[axis] + edge * p[static_cast<std::size_t>(axis)];
+        const double out =
+            std::max({field_.grid.surface_min[axis] - low, low + edge - field_.grid.surface_max[axis], 0.0});
+        squared += out * out;
+      }
+      most = std::max(most, (1.0 - kClearanceSlope / steepest_[i]) * std::sqrt(squared));
+    }
+    return most * (1.0 + 1e-6);
   }
 
   DistanceGrid& field_;

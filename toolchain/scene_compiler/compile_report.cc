@@ -156,6 +156,7 @@ Json body_json(const format::Body& b) {
           {"inertia_per_mass", array_json(b.inertia)},
           {"inertia_from_points", b.inertia_from_points != 0},
           {"radius", b.radius},
+          {"sphere", {{"center", array_json(b.sphere_center)}, {"radius", b.sphere_radius}}},
           {"volume", b.volume}};
 }
 

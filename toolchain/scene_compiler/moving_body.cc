@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "firmware/command/failure.h"
+#include "toolchain/scene_compiler/bounding_sphere.h"
 #include "toolchain/scene_compiler/mass_properties.h"
 #include "toolchain/scene_compiler/outer_surface.h"
 #include "toolchain/scene_compiler/parallel.h"
@@ -168,7 +169,13 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   moving.points = by_axis(points_B, tree.order);
   moving.normals = by_axis(normals_B, tree.order);
   moving.nodes = std::move(tree.nodes);
-  body.radius = radius * (1.0 + 1e-12);
+  constexpr double kRoundedUp = 1.0 + 1e-12;
+  body.radius = radius * kRoundedUp;
+  std::vector<Vector3d> stored_B;
+  for (const Eigen::Vector3f& p : points_B) stored_B.push_back(p.cast<double>());
+  const Sphere sphere = bounding_sphere(stored_B);
+  std::copy_n(sphere.center.data(), 3, body.sphere_center);
+  body.sphere_radius = std::max(kLeastRadius, sphere.radius * kRoundedUp);
   body.point_count = moving.level_sizes.back();
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());
   body.level_count = sampling.levels;

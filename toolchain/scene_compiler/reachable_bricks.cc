@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -117,37 +118,88 @@ double look_up_radius(const format::Body& body, const std::vector<format::Node>&
   return radius;
 }
 
-LeftOutBricks leave_out_unreachable(DistanceGrid& field, const format::Workspace& workspace, double radius) {
+namespace {
+
+/// Leaves out all positions for whose box, from `low` to `high`, is_met(low, high) does not hold. False, and nothing is
+/// changed, where none would stay.
+template <class IsMet>
+bool leave_out_unmet(DistanceGrid& field, const IsMet& is_met, LeftOutBricks& left_out) {
   const format::Grid& grid = field.grid;
   const BrickLattice lattice{{grid.bricks[0], grid.bricks[1], grid.bricks[2]}};
-  const Eigen::Map<const Vector3d> low(workspace.low);
-  const Eigen::Map<const Vector3d> high(workspace.high);
   const double edge = kBrickCells * grid.voxel_size;
-  const double reach = radius + kSlack * grid.voxel_size;
-  LeftOutBricks left_out;
-  Selection selection(field);
+  std::vector<std::size_t> unmet;
   bool any_stays = false;
   for (std::size_t i = 0; i < field.index.size(); ++i) {
-    std::uint32_t& entry = field.index[i];
-    if ((entry & index_entry::kFar) != 0) continue;
+    if ((field.index[i] & index_entry::kFar) != 0) continue;
     const BrickPosition p = lattice.position(i);
-    const Vector3d from = Eigen::Map<const Vector3d>(grid.origin) + edge * Vector3d(p[0], p[1], p[2]);
-    const Vector3d gap = (low - (from.array() + edge).matrix()).cwiseMax(from - high).cwiseMax(0.0);
-    if (gap.norm() <= reach) {
+    const Vector3d low = Eigen::Map<const Vector3d>(grid.origin) + edge * Vector3d(p[0], p[1], p[2]);
+    if (is_met(low, (low.array() + edge).matrix().eval())) {
       any_stays = true;
-      continue;
+    } else {
+      unmet.push_back(i);
     }
-    selection.drop(entry, left_out);
-    entry = index_entry::encode_far(true, 0.0f);
+  }
+  if (!any_stays) return false;
+  Selection selection(field);
+  for (const std::size_t i : unmet) {
+    selection.drop(field.index[i], left_out);
+    field.index[i] = index_entry::encode_far(true, 0.0f);
     ++left_out.positions;
   }
+  selection.apply(left_out);
+  return true;
+}
+
+double distance_to(const format::Workspace& workspace, const Vector3d& p) {
+  const Eigen::Map<const Vector3d> low(workspace.low);
+  const Eigen::Map<const Vector3d> high(workspace.high);
+  return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm();
+}
+
+}  // namespace
+
+double least_look_up(const StillFeatures& features, const format::Workspace& workspace, double longest_way) {
+  const Vector3d origin = Eigen::Map<const Vector3d>(features.header.origin);
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Eigen::Vector3f& p) {
+    least = std::min(least, distance_to(workspace, origin + p.cast<double>()));
+  };
+  const std::size_t n = features.points.size() / 3;
+  for (std::size_t i = 0; i < n; ++i)
+    look({features.points[i], features.points[n + i], features.points[2 * n + i]});
+  for (const format::Node& node : features.nodes) look(Eigen::Map<const Eigen::Vector3f>(node.center));
+  return least - 0.5 * longest_way;
+}
+
+LeftOutBricks leave_out_unreachable_core(DistanceGrid& body_field, double least) {
+  const double kept_from = least - kSlack * body_field.grid.voxel_size;
+  LeftOutBricks left_out;
+  leave_out_unmet(
+      body_field,
+      [&](const Vector3d& low, const Vector3d& high) {
+        return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() >= kept_from;
+      },
+      left_out);
+  return left_out;
+}
+
+LeftOutBricks leave_out_unreachable(DistanceGrid& field, const format::Workspace& workspace, double radius) {
+  const Eigen::Map<const Vector3d> low(workspace.low);
+  const Eigen::Map<const Vector3d> high(workspace.high);
+  const double reach = radius + kSlack * field.grid.voxel_size;
+  LeftOutBricks left_out;
+  const bool any_stays = leave_out_unmet(
+      field,
+      [&](const Vector3d& from, const Vector3d& to) {
+        return (low - to).cwiseMax(from - high).cwiseMax(0.0).norm() <= reach;
+      },
+      left_out);
   if (!any_stays) {
     throw command::Failure(
         command::ExitCode::kBadConfig,
         "[workspace]: from nowhere in it the moving body reaches the still one; set low and high, in "
         "metres in the still mesh's frame, to where its centre of mass is to move");
   }
-  selection.apply(left_out);
   return left_out;
 }
 

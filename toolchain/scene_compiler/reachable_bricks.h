@@ -5,6 +5,7 @@
 
 #include "core/scene/format.h"
 #include "toolchain/scene_compiler/distance_grid.h"
+#include "toolchain/scene_compiler/still_features.h"
 
 namespace godobject::scene_compiler {
 
@@ -30,5 +31,14 @@ double look_up_radius(const format::Body& body, const std::vector<format::Node>&
 /// be held, not let through. Everything else keeps its bits, so results are the same: slopes and clearances are those
 /// of the whole field. Throws Failure (kBadConfig) naming the cure where nothing would be left.
 LeftOutBricks leave_out_unreachable(DistanceGrid& field, const format::Workspace& workspace, double radius);
+
+/// Least distance from the origin of B at which a cycle looks anything up in the moving body's field while that origin
+/// is in the workspace: feature points, centres of their spheres, and places on the straight way between two places of
+/// a point, no longer than `longest_way` [m].
+double least_look_up(const StillFeatures& features, const format::Workspace& workspace, double longest_way);
+
+/// The same for the moving body's finished field: positions all of which lie nearer than `least` [m] to the origin.
+/// Nothing goes where all of it is to go.
+LeftOutBricks leave_out_unreachable_core(DistanceGrid& body_field, double least);
 
 }  // namespace godobject::scene_compiler

@@ -98,7 +98,7 @@ class NearWork {
 
   void visit(const Pose& H_WB) {
     const double before = odometer_.way();
-    odometer_.move_to(H_WB, lengths_.radius);
+    odometer_.move_to(H_WB, lengths_.sphere);
     const double moved = odometer_.way() - before;
     const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_reach), longest_);
     if (search_.is_free(odometer_.way() + moved, free_cut)) return;
@@ -152,7 +152,7 @@ SearchWork search_work(const Scene& scene, Tree tree, std::span<const Pose> pose
   const CountingField field(tree == Tree::kSamples ? scene.voxelmap : scene.body_map, cost);
   const Parameters q = Parameters::make(scene);
   if (tree == Tree::kFeatures) {
-    const detail::FeatureDirection direction(ContactLengths::make(q), scene.body_map.surface_radius());
+    const detail::FeatureDirection direction(ContactLengths::make(q), scene.body_map.surface_radius(q.mass.sphere.center));
     NearWork search(scene, direction, scene.features, field);
     return work_of(poses_WB, cost, [&](const Pose& H_WB) { search.visit(H_WB); });
   }

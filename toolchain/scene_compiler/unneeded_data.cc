@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/pipeline/contact_cycle.h"
 #include "toolchain/scene_compiler/pruned_tree.h"
 #include "toolchain/scene_compiler/reachable_bricks.h"
 #include "toolchain/scene_compiler/touchable_points.h"
@@ -85,6 +86,20 @@ class Unneeded {
     return left_out.positions;
   }
 
+  std::uint64_t core_bricks() {
+    if (!workspace_ || parts_.features.points.empty()) return 0;
+    const command::SceneImage image(make_image(lay_out(report_, parts_)), "what is left out");
+    const Parameters q = Parameters::make(image.scene);
+    const ContactLengths lengths = ContactLengths::make(q);
+    const double body_radius = image.scene.body_map.surface_radius(q.mass.sphere.center);
+    const double longest_way =
+        godobject::detail::FeatureDirection(lengths, body_radius).most_stretch() * lengths.longest_reach;
+    const double least = least_look_up(parts_.features, *workspace_, longest_way);
+    const LeftOutBricks left_out = leave_out_unreachable_core(parts_.body_field, least);
+    report_.second.grid = parts_.body_field.grid;
+    return left_out.positions;
+  }
+
  private:
   /// Whether it is known how deep the bodies meet between points; only then are walls known to hold.
   bool knows_depth() const { return report_.second.sought && std::isfinite(report_.second.between.bound); }
@@ -147,6 +162,8 @@ void leave_out_unneeded(const SolidSurface& still, const SolidSurface& moving, C
   leaving_out.step("feature points sealed off by the still body's walls", [&] { return unneeded.sealed_features(); });
   leaving_out.step("levels of the points' trees that save no look-up", [&] { return unneeded.levels(); });
   leaving_out.step("brick positions that no look-up reaches from the workspace", [&] { return unneeded.bricks(); });
+  leaving_out.step("brick positions of the moving body's field that no feature point reaches from the workspace",
+                   [&] { return unneeded.core_bricks(); });
 }
 
 }  // namespace godobject::scene_compiler

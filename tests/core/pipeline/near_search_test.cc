@@ -99,7 +99,7 @@ class Walk {
 
 void expect_the_points_of_brute_force(const Scene& scene, unsigned seed) {
   constexpr int kSteps = 3000;
-  const double radius = Parameters::make(scene).mass.radius;
+  const MassModel mass = Parameters::make(scene).mass;
   const double longest = scene.voxelmap.assured_clearance();
   const detail::SampleDirection direction;
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
@@ -107,11 +107,11 @@ void expect_the_points_of_brute_force(const Scene& scene, unsigned seed) {
   remembers.start(memory, scene.pointshell, scene.voxelmap.lipschitz(), longest);
   forgets.start({}, scene.pointshell, scene.voxelmap.lipschitz(), longest);
   Odometer odometer;
-  Walk walk(seed, radius);
+  Walk walk(seed, mass.radius);
   std::size_t near = 0;
   for (int step = 0; step < kSteps; ++step) {
     const Pose& H = walk.next();
-    odometer.move_to(H, radius);
+    odometer.move_to(H, mass.sphere);
     const double cut = longest * (step % 7 == 0 ? 1.0 : walk.share());
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
     ASSERT_EQ(found(remembers, direction, scene.voxelmap, scene.pointshell, H, odometer.way(), cut), expected) << step;
@@ -137,9 +137,9 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   const Scene scene = open_scene(image);
   Parameters q;
   q.voxel_size = scene.voxelmap.voxel_size();
-  q.mass.radius = 0.02;  // a moving body much smaller than where the points are
+  q.mass.sphere = {Vector3(0.004, -0.003, 0.002), 0.02};  // a body much smaller than where the points are
   const ContactLengths lengths = ContactLengths::make(q);
-  const detail::FeatureDirection direction(lengths, scene.voxelmap.surface_radius());
+  const detail::FeatureDirection direction(lengths, scene.voxelmap.surface_radius(lengths.sphere.center));
   const double longest = scene.voxelmap.assured_clearance();
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
@@ -149,7 +149,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   std::size_t near = 0;
   for (int step = 0; step < 6000; ++step) {
     const Pose& H_WS = walk.next();
-    odometer.move_to(H_WS, lengths.radius);
+    odometer.move_to(H_WS, lengths.sphere);
     const Pose H = detail::FeatureDirection::pose(H_WS, {0.05, 0.0, 0.0});
     const double cut = longest * walk.share();
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
@@ -181,7 +181,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
     H.translation += 2e-4 * Vector3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
     H.translation.z() = std::clamp(H.translation.z(), 0.01 + 0.02 - 0.001, 0.01 + 0.02 + 0.004);
     H.rotation = (H.rotation * exp_rotation(0.02 * Vector3(uniform(random), 0.0, -uniform(random)))).normalized();
-    odometer.move_to(H, scene.body.radius);
+    odometer.move_to(H, {Vector3::Zero(), scene.body.radius});
     const double cut = longest * (0.3 + 0.7 * uniform(random));
     const Matrix3 R = H.rotation.toRotationMatrix();
     const auto clearance = [&](std::uint32_t i) {
@@ -244,20 +244,22 @@ TEST(NearSearch, KnowsForHowLongNothingComesNear) {
 }
 
 TEST(Odometer, IsNeverBehindAnyPoint) {
-  constexpr double kRadius = 0.1;
+  const BoundingSphere sphere{Vector3(0.03, -0.05, 0.02), 0.1};
   Odometer odometer;
   Walk walk(9, 0.1);
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   std::vector<Vector3> points(50);
-  for (Vector3& p : points) p = kRadius * Vector3(normal(random), normal(random), normal(random)).normalized();
+  for (Vector3& p : points) {
+    p = sphere.center + sphere.radius * Vector3(normal(random), normal(random), normal(random)).normalized();
+  }
   Pose last = walk.next();
-  odometer.move_to(last, kRadius);
+  odometer.move_to(last, sphere);
   EXPECT_EQ(odometer.way(), 0.0);
   for (int step = 0; step < 2000; ++step) {
     const double before = odometer.way();
     const Pose H = walk.next();
-    odometer.move_to(H, kRadius);
+    odometer.move_to(H, sphere);
     double farthest = 0.0;
     for (const Vector3& p : points) farthest = std::max(farthest, (H * p - last * p).norm());
     ASSERT_GE(odometer.way() - before, farthest) << step;
