@@ -10,7 +10,7 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.wanted_margin = 0.8 * q.margin;
   lengths.least_margin = 0.25 * q.margin;
   lengths.rounding = std::min(1e-6 * q.voxel_size, 0.1 * lengths.least_margin);
-  lengths.shortest_reach = 0.125 * q.voxel_size;
+  lengths.shortest_reach = shortest_reach_of(q);
   lengths.longest_reach = 1.5 * q.voxel_size;
   lengths.opening = 0.01 * q.voxel_size;
   lengths.largest_gain = 0.25 * q.voxel_size;
@@ -48,11 +48,10 @@ Selection select_rows(ContactWorkspace& workspace) noexcept {
 
 double first_reach(const State& state, const CycleInput& input, const ContactLengths& lengths,
                    double longest) noexcept {
-  constexpr double kMore = 1.25;
   constexpr double kMost = 2.0;
   const double last = travel(lengths.sphere, state.contact.motion);
   const double device = state.started ? farthest_way(lengths.sphere, state.H_WD, input.H_WD) : 0.0;
-  return lengths.reach_for(std::min(kMore * std::max(last, device), kMost * last), longest);
+  return lengths.reach_for(std::min(ContactLengths::kReachOverWay * std::max(last, device), kMost * last), longest);
 }
 
 double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
@@ -123,7 +122,8 @@ Wrench damping(const ConstrainedStep& step, const Pose& H_WS, const Motion& velo
 Status finish(const CycleInput& input, const ContactResult& result, bool inside, const Parameters& q, State& state,
               CycleReport& report) noexcept {
   DeviceForce force;
-  if (!(result.H_WS == input.H_WD)) {
+  const bool coupled = !(result.H_WS == input.H_WD);
+  if (coupled) {
     const Motion stretch = coupling_stretch(input.H_WD, result.H_WS);                                // #6 (44), (45)
     const Wrench coupling = constraint_force(stretch, q.coupling_translation, q.coupling_rotation);  // (46)
     force.spring_W.force = q.stiffness * input.H_WD.rotation._transformVector(coupling.force);       // #7
@@ -137,8 +137,11 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
     force.total_W.force += damped.force;
     force.total_W.torque += damped.torque;
   }
-  const bool finite = result.H_WS.is_finite() && force.total_W.force.allFinite() && force.total_W.torque.allFinite() &&
-                      force.spring_W.force.allFinite() && force.spring_W.torque.allFinite();
+  bool finite = result.H_WS.is_finite();
+  if (coupled || result.step.force_count > 0) {  // else there is no force
+    finite &= force.total_W.force.allFinite() && force.total_W.torque.allFinite() && force.spring_W.force.allFinite() &&
+              force.spring_W.torque.allFinite();
+  }
   if (!finite) return Status::kNotFinite;
 
   report.outcome = result.step.force_count > 0 ? Outcome::kContact : Outcome::kFree;
@@ -153,7 +156,7 @@ Status finish(const CycleInput& input, const ContactResult& result, bool inside,
   state.started = true;
   report.H_WS = result.H_WS;
   report.force = force;
-  report.penetration = -std::min(result.smallest, ContactLengths::make(q).shortest_reach);
+  report.penetration = -std::min(result.smallest, ContactLengths::shortest_reach_of(q));
   report.contacts = result.step.contact_count;
   report.dropped = result.dropped;
   report.substeps = std::max(1u, result.substeps);

@@ -41,6 +41,7 @@ struct ContactWorkspace {
   };
 
   ContactRows rows;
+  ConstrainedStep step;
   NearPoints samples;
   NearPoints features;
   std::array<float, 2 * NearPoints::kCapacity> distances;  ///< to select rows by
@@ -61,7 +62,11 @@ struct ContactLengths {
   std::uint32_t point_budget;  ///< as Parameters
   CouplingMetric metric;
 
+  /// In steady motion the reach is this much longer than the way.
+  static constexpr double kReachOverWay = 1.25;
+
   static ContactLengths make(const Parameters& q) noexcept;
+  static double shortest_reach_of(const Parameters& q) noexcept { return 0.125 * q.voxel_size; }
 
   /// Of a sub-step that is expected to go as far as `way`, where fields tell near from far up to `longest` [m].
   double reach_for(double way, double longest) const noexcept;
@@ -118,7 +123,8 @@ struct FeatureDirection {
   static constexpr bool kStretches = true;
 
   BoundingSphere sphere;  ///< in S, where all that has no radius larger than its own moves as the odometer says
-  double near_radius;     ///< about its centre: in it lie the moving body's surface and, around that, the longest reach [m]
+  double
+      near_radius;  ///< about its centre: in it lie the moving body's surface and, around that, the longest reach [m]
 
   double lever(const Vector3& q) const noexcept { return (q - sphere.center).norm(); }
   double stretch(double lever) const noexcept { return std::max(1.0, lever / sphere.radius); }
@@ -219,10 +225,11 @@ Selection select_rows(ContactWorkspace& workspace) noexcept;
 
 /// Where a motion was found not to be free.
 struct Obstacle {
-  std::uint32_t near = 0;  ///< number of the near point
-  double way = 1.0;        ///< share of its chord
-  bool exhausted = false;  ///< nothing in the way so far: free up to `way`, and no more balls
-  FieldSample sample;      ///< there
+  static constexpr std::uint32_t kNone = ~0u;
+  std::uint32_t near = kNone;  ///< number of the near point
+  double way = 1.0;            ///< share of its chord
+  bool exhausted = false;      ///< nothing in the way so far: free up to `way`, and no more balls
+  FieldSample sample;          ///< there
 };
 
 /// Look-ups of the certificate that a cycle has left: what they do not cover is not gone. A flat face of a thousand
@@ -263,16 +270,17 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
   if (near.count == 0) return true;
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
-  const double farthest = shell.nodes.empty() ? std::numeric_limits<double>::infinity()
-                                              : farthest_way(sphere_of(shell.nodes[0]), H0, H1);
-  const auto fails = [&](std::uint32_t k) noexcept {
-    const ContactWorkspace::NearPoint& start = near.point[k];
+  const double farthest =
+      shell.nodes.empty() ? std::numeric_limits<double>::infinity() : farthest_way(sphere_of(shell.nodes[0]), H0, H1);
+  // its ball does not hold its whole way
+  const auto must_be_looked_at = [&](const ContactWorkspace::NearPoint& start) noexcept {
     if (start.distance <= 0.0 || farthest + kept <= start.clearance) return false;
     const Vector3 p = shell.point(start.index);
-    const Vector3 p0 = R0 * p + H0.translation;
-    const Vector3 p1 = R1 * p + H1.translation;
-    if ((p1 - p0).norm() + kept <= start.clearance) return false;
-    const FieldSample end = field.sample(p1);
+    return !((R1 * p - R0 * p + (H1.translation - H0.translation)).norm() + kept <= start.clearance);
+  };
+  const auto fails = [&](std::uint32_t k, const Vector3& p1, const FieldSample& end) noexcept {
+    const ContactWorkspace::NearPoint& start = near.point[k];
+    const Vector3 p0 = R0 * shell.point(start.index) + H0.translation;
     obstacle.near = k;
     if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, budget, obstacle)) return true;
     obstacle.way = 1.0;
@@ -280,11 +288,32 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     return !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, kept));
   };
   const std::uint32_t suspect = obstacle.near;
-  if (suspect < near.count && fails(suspect)) return false;
-  for (std::uint32_t k = 0; k < near.count; ++k) {
-    if (fails(k)) return false;
+  if (suspect < near.count && must_be_looked_at(near.point[suspect])) {
+    const Vector3 p1 = R1 * shell.point(near.point[suspect].index) + H1.translation;
+    if (fails(suspect, p1, field.sample(p1))) return false;
   }
-  return true;
+  SampleBatch ends;
+  std::array<std::uint32_t, SampleBatch::kCapacity> number;
+  const auto any_fails = [&]() noexcept {
+    field.samples(H1, ends);
+    for (std::uint32_t k = 0; k < ends.count; ++k) {
+      if (fails(number[k], stored_position(ends, k), stored_sample(ends, k))) return true;
+    }
+    ends.count = 0;
+    return false;
+  };
+  for (std::uint32_t k = 0; k < near.count; ++k) {
+    const ContactWorkspace::NearPoint& start = near.point[k];
+    if (k == suspect || !must_be_looked_at(start)) continue;
+    const std::uint32_t at = ends.count;
+    number[at] = k;
+    ends.x[at] = shell.x[start.index];
+    ends.y[at] = shell.y[start.index];
+    ends.z[at] = shell.z[start.index];
+    ends.count = at + 1;
+    if (ends.count == SampleBatch::kCapacity && any_fails()) return false;
+  }
+  return ends.count == 0 || !any_fails();
 }
 
 /// The surface as it looks from the obstacle, as one more row of the same point: where two faces of the field meet in a
@@ -310,8 +339,7 @@ bool push_obstacle(const Pointshell& shell, const Pose& H0, const Pose& H1, cons
 
 /// Reach of a cycle's first sub-step: the god object goes on as it did, or as the device did since the last cycle where
 /// that is more, but no more than twice what it did. If it wants to go farther a second sub-step follows.
-double first_reach(const State& state, const CycleInput& input, const ContactLengths& lengths,
-                   double longest) noexcept;
+double first_reach(const State& state, const CycleInput& input, const ContactLengths& lengths, double longest) noexcept;
 
 /// Largest share of the motion that points left out and the linearisation allow.
 double allowed_share(const Motion& motion, const Surroundings& around, double reach, const ContactLengths& lengths,
@@ -395,13 +423,16 @@ inline void cut_off(const WorkspaceBox& box, const Pose& H0, Pose& H1, Motion& m
 /// What the sub-steps came to.
 struct ContactResult {
   Pose H_WS;
-  ConstrainedStep step;
+  ConstrainedStep& step;
   double smallest = 0.0;       ///< stored distance at the last sub-step's start, of what was near
   std::uint32_t substeps = 0;  ///< with something near
   std::uint32_t dropped = 0;   ///< Surroundings' dropped and unseen
   bool cut = false;
 
-  explicit ContactResult(const State& state) noexcept : H_WS(state.H_WS), step(state.contact) {}
+  /// `storage`: of the step, which is the last one's at first.
+  ContactResult(const State& state, ConstrainedStep& storage) noexcept : H_WS(state.H_WS), step(storage) {
+    step = state.contact;
+  }
 
   /// Nothing is in the way of the device.
   void follow(const Pose& H_WD) noexcept {
@@ -493,7 +524,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   const SampleDirection sample_direction;
   const FeatureDirection feature_direction(lengths, features != nullptr ? features->body_radius : 0.0);
 
-  detail::ContactResult result(state);
+  detail::ContactResult result(state, workspace.step);
   const Motion wanted = unconstrained_motion(state.H_WS, input.H_WD);
   Motion last = state.contact.motion;
   bool inside = state.inside;

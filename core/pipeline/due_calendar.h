@@ -102,8 +102,10 @@ class DueCalendar {
     if (now <= last) return;  // what is due later went from the current list into its own
     const std::uint64_t slots = std::min<std::uint64_t>(now - last, kSlots);
     for (std::uint64_t k = 1; k <= slots; ++k) {
-      const std::uint64_t slot = (last + k) % kSlots;
-      if ((filled_[slot / 64] >> slot % 64 & 1) != 0) visit_chain(detach(slot), now, most, visit);
+      const std::uint64_t from = (last + k) % kSlots;
+      const std::uint64_t rest = filled_[from / 64] >> from % 64;
+      k += rest != 0 ? static_cast<std::uint64_t>(std::countr_zero(rest)) : 63 - from % 64;
+      if (rest != 0 && k <= slots) visit_chain(detach((last + k) % kSlots), now, most, visit);
     }
   }
 
@@ -190,9 +192,12 @@ class DueCalendar {
     const std::uint32_t first = head_[slot];
     next(item) = first;
     prev(item) = kHead | static_cast<std::uint32_t>(slot);
-    if (first != kNone) prev(first) = item;
+    if (first != kNone) {
+      prev(first) = item;
+    } else {
+      filled_[slot / 64] |= std::uint64_t{1} << slot % 64;
+    }
     head_[slot] = item;
-    filled_[slot / 64] |= std::uint64_t{1} << slot % 64;
   }
 
   void unlink(std::uint32_t item) noexcept {

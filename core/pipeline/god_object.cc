@@ -64,7 +64,8 @@ struct GodObject::Contact {
   static auto with_features(const Scene& scene, const Parameters& q, Work&& work) noexcept {
     using Features = FeatureContacts<BodyField>;
     if constexpr (kSceneTraits.features) {
-      const Features features{scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius(q.mass.sphere.center)};
+      const Features features{scene.body_map, scene.features, scene.features_origin,
+                              scene.body_map.surface_radius(q.mass.sphere.center)};
       return work(scene.has_features() ? &features : nullptr);
     } else {
       return work(static_cast<const Features*>(nullptr));

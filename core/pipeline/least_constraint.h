@@ -39,6 +39,22 @@ struct ConstrainedStep {
   bool infeasible = false;          ///< not all needs could be met; gaps were only kept from shrinking
   bool unconverged = false;         ///< friction after the last round is not Coulomb's to the tolerance
 
+  ConstrainedStep() noexcept = default;
+  ConstrainedStep(const ConstrainedStep&) noexcept = default;
+  ~ConstrainedStep() = default;
+  /// Of the forces only those that are there: mostly none.
+  ConstrainedStep& operator=(const ConstrainedStep& other) noexcept {
+    motion = other.motion;
+    for (std::uint32_t i = 0; i < other.force_count; ++i) forces[i] = other.forces[i];
+    force_count = other.force_count;
+    contact_count = other.contact_count;
+    iterations = other.iterations;
+    follows = other.follows;
+    infeasible = other.infeasible;
+    unconverged = other.unconverged;
+    return *this;
+  }
+
   /// Nothing holds it.
   void release() noexcept {
     force_count = contact_count = iterations = 0;

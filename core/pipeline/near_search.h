@@ -25,8 +25,10 @@ class Odometer {
   /// The body, all of whose points lie in `sphere`, always the same, is at H_WS now. Whatever way it took, only the
   /// poses that are looked at count.
   void move_to(const Pose& H_WS, const BoundingSphere& sphere) noexcept {
-    if (started_) way_ += farthest_way(sphere, H_, H_WS);
+    const Vector3 center = H_WS * sphere.center;
+    if (started_) way_ += farthest_way(sphere, H_, center_, H_WS, center);
     H_ = H_WS;
+    center_ = center;
     started_ = true;
   }
 
@@ -34,7 +36,8 @@ class Odometer {
 
  private:
   Pose H_;
-  double way_ = 0.0;  ///< [m]
+  Vector3 center_ = Vector3::Zero();  ///< of the sphere [m]
+  double way_ = 0.0;                  ///< [m]
   bool started_ = false;
 };
 
@@ -109,7 +112,8 @@ class NearSearch {
     const auto free_until = [&](double clearance, const Vector3& center, double radius) noexcept {
       const double room = clearance - radius - rounding;
       if constexpr (Direction::kStretches) {
-        return way + room / direction.stretch(direction.lever(R * center + H.translation) + radius + std::max(0.0, room));
+        return way +
+               room / direction.stretch(direction.lever(R * center + H.translation) + radius + std::max(0.0, room));
       } else {
         return way + room;
       }

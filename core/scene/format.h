@@ -117,14 +117,14 @@ struct Grid {
   double band;            ///< |distance| < band is stored [m]
   double surface_min[3];  ///< bounding box of the surface (of shells: thickened)
   double surface_max[3];
-  double lipschitz;           ///< bound of the field's gradient norm, seams (see Brick) left out [1]
-  double lipschitz_seam;      ///< the same with seams, as encode_lipschitz has it [1]
-  double clearance_slope;     ///< >= 1: of Brick::lipschitz and of far clearances, see there [1]
-  double quantum;             ///< of Brick::value where nothing is refined [m]
-  double outside_loss;        ///< of a point outside the grid, at D from the surface's box, E = D - outside_loss is what
-                              ///< a far clearance E about it would be (see index_entry), but for what the stored field
-                              ///< is off the exact one [m]
-  std::int32_t bricks[3];     ///< brick positions along x, y, z
+  double lipschitz;        ///< bound of the field's gradient norm, seams (see Brick) left out [1]
+  double lipschitz_seam;   ///< the same with seams, as encode_lipschitz has it [1]
+  double clearance_slope;  ///< >= 1: of Brick::lipschitz and of far clearances, see there [1]
+  double quantum;          ///< of Brick::value where nothing is refined [m]
+  double outside_loss;     ///< of a point outside the grid, at D from the surface's box, E = D - outside_loss is what
+                           ///< a far clearance E about it would be (see index_entry), but for what the stored field
+                           ///< is off the exact one [m]
+  std::int32_t bricks[3];  ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks, those of refinements included
 };
 static_assert(sizeof(Grid) == 144);

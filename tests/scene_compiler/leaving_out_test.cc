@@ -280,11 +280,11 @@ TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
   const TriangleMesh hollow = joined(box(Vector3d::Constant(-0.05), Vector3d::Constant(0.05)),
                                      turned_inside_out(box(Vector3d::Constant(-kHollow), Vector3d::Constant(kHollow))));
   const std::string hollow_file = folder_.write("hollow.obj", obj(hollow)).string();
-  const CompileReport report = compile(
-      fmt::format("[still]\nmesh = \"{}\"\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\npoints = 1000\n"
-                  "levels = 4\n[friction]\nstatic = 0.3\n",
-                  mesh_file("cube_100mm").string(), hollow_file),
-      "less.scene");
+  const CompileReport report =
+      compile(fmt::format("[still]\nmesh = \"{}\"\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\npoints = 1000\n"
+                          "levels = 4\n[friction]\nstatic = 0.3\n",
+                          mesh_file("cube_100mm").string(), hollow_file),
+              "less.scene");
   ASSERT_NE(item(report, "own walls"), nullptr);
   const command::SceneImage less = image("less.scene");
   std::mt19937 random(8);

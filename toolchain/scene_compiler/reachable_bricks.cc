@@ -165,8 +165,7 @@ double least_look_up(const StillFeatures& features, const format::Workspace& wor
     least = std::min(least, distance_to(workspace, origin + p.cast<double>()));
   };
   const std::size_t n = features.points.size() / 3;
-  for (std::size_t i = 0; i < n; ++i)
-    look({features.points[i], features.points[n + i], features.points[2 * n + i]});
+  for (std::size_t i = 0; i < n; ++i) look({features.points[i], features.points[n + i], features.points[2 * n + i]});
   for (const format::Node& node : features.nodes) look(Eigen::Map<const Eigen::Vector3f>(node.center));
   return least - 0.5 * longest_way;
 }

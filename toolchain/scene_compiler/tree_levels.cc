@@ -102,8 +102,8 @@ class NearWork {
     const double moved = odometer_.way() - before;
     const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_reach), longest_);
     if (search_.is_free(odometer_.way() + moved, free_cut)) return;
-    const double reach = direction_.most_stretch() * std::clamp(2.0 * moved + 3.0 * lengths_.margin,
-                                                                std::min(lengths_.shortest_reach, longest_), longest_);
+    const double reach =
+        direction_.most_stretch() * lengths_.reach_for(ContactLengths::kReachOverWay * moved, longest_);
     if (search_.is_free(odometer_.way(), reach)) return;
     search_.find(
         direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.way(), reach,
@@ -152,7 +152,8 @@ SearchWork search_work(const Scene& scene, Tree tree, std::span<const Pose> pose
   const CountingField field(tree == Tree::kSamples ? scene.voxelmap : scene.body_map, cost);
   const Parameters q = Parameters::make(scene);
   if (tree == Tree::kFeatures) {
-    const detail::FeatureDirection direction(ContactLengths::make(q), scene.body_map.surface_radius(q.mass.sphere.center));
+    const detail::FeatureDirection direction(ContactLengths::make(q),
+                                             scene.body_map.surface_radius(q.mass.sphere.center));
     NearWork search(scene, direction, scene.features, field);
     return work_of(poses_WB, cost, [&](const Pose& H_WB) { search.visit(H_WB); });
   }

@@ -418,7 +418,8 @@ TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
   const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
   int damped = 0;
   for (int i = 0; i < 20000; ++i) {
-    detail::ContactResult result{State{}};
+    ConstrainedStep step;
+    detail::ContactResult result(State{}, step);
     const Vector3 point = single(0.05 * vector());
     const double load = std::pow(10.0, 16.0 * unit(random) - 3.0);
     Vector3 sum = Vector3::Zero();
