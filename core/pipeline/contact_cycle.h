@@ -122,9 +122,8 @@ struct FeatureDirection {
 
   static constexpr bool kStretches = true;
 
-  BoundingSphere sphere;  ///< in S, where all that has no radius larger than its own moves as the odometer says
-  double
-      near_radius;  ///< about its centre: in it lie the moving body's surface and, around that, the longest reach [m]
+  BoundingSphere sphere;  ///< in S; what is in it moves no farther than the odometer says
+  double near_radius;     ///< about its centre: of the moving body's surface and, around it, the longest reach [m]
 
   double lever(const Vector3& q) const noexcept { return (q - sphere.center).norm(); }
   double stretch(double lever) const noexcept { return std::max(1.0, lever / sphere.radius); }
@@ -226,7 +225,7 @@ Selection select_rows(ContactWorkspace& workspace) noexcept;
 /// Where a motion was found not to be free.
 struct Obstacle {
   static constexpr std::uint32_t kNone = ~0u;
-  std::uint32_t near = kNone;  ///< number of the near point
+  std::uint32_t near = kNone;  ///< number of the near point for which none was last
   double way = 1.0;            ///< share of its chord
   bool exhausted = false;      ///< nothing in the way so far: free up to `way`, and no more balls
   FieldSample sample;          ///< there
@@ -281,11 +280,14 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
   const auto fails = [&](std::uint32_t k, const Vector3& p1, const FieldSample& end) noexcept {
     const ContactWorkspace::NearPoint& start = near.point[k];
     const Vector3 p0 = R0 * shell.point(start.index) + H0.translation;
-    obstacle.near = k;
-    if (!chord_is_free(field, p0, start.clearance, p1, end.clearance, budget, obstacle)) return true;
-    obstacle.way = 1.0;
-    obstacle.sample = end;
-    return !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, kept));
+    bool failed = !chord_is_free(field, p0, start.clearance, p1, end.clearance, budget, obstacle);
+    if (!failed) {
+      obstacle.way = 1.0;
+      obstacle.sample = end;
+      failed = !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, kept));
+    }
+    if (failed) obstacle.near = k;
+    return failed;
   };
   const std::uint32_t suspect = obstacle.near;
   if (suspect < near.count && must_be_looked_at(near.point[suspect])) {
@@ -413,11 +415,13 @@ inline void least_constraint_within(const WorkspaceBox& box, const Pose& H0, Con
   step.infeasible = infeasible;
 }
 
-/// Moves the origin of H1 to the nearest point of the workspace, and has the motion from H0 end there.
-inline void cut_off(const WorkspaceBox& box, const Pose& H0, Pose& H1, Motion& motion) noexcept {
-  if (!box.limited || box.contains(H1.translation)) return;
+/// Moves the origin of H1 to the nearest point of the workspace, and has the motion from H0 end there. Whether it had
+/// to: then points may go farther than they did, though the origin does not (a turn about another point).
+inline bool cut_off(const WorkspaceBox& box, const Pose& H0, Pose& H1, Motion& motion) noexcept {
+  if (!box.limited || box.contains(H1.translation)) return false;
   H1.translation = box.nearest(H1.translation);
   motion.translation = H0.rotation.conjugate()._transformVector(H1.translation - H0.translation);
+  return true;
 }
 
 /// What the sub-steps came to.
@@ -532,6 +536,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   Motion whole;
   detail::Budget budget;
   double reach = 0.0;
+  double most_reach = 0.0;
   // beyond it a gap does not hold a motion back that it is free for, and is not told
   const double free_cut = std::min(std::max(lengths.margin, lengths.shortest_reach), search.longest_reach);
   std::uint32_t free_substeps = 0;
@@ -617,7 +622,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
       motion = {share * result.step.motion.translation, share * result.step.motion.rotation};
       H1 = result.step.follows && share == 1.0 ? input.H_WD : H0 * set_matrix(motion);
-      detail::cut_off(q.workspace, H0, H1, motion);
+      if (detail::cut_off(q.workspace, H0, H1, motion) && travel(lengths.sphere, motion) > around.left_out) {
+        share *= 0.5;
+        shortened = false;
+        continue;
+      }
       detail::end(times, &StepTimes::solve_ns);  // the certificate
       Pose H1_features;
       const double kept = looks > 0 ? lengths.wanted_margin : lengths.least_margin;
@@ -677,9 +686,9 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.H_WS = H1;
     result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
-    const double doubled = std::min(2.0 * reach, search.longest_reach);
+    most_reach = std::min(std::max(most_reach, 2.0 * reach), search.longest_reach);
     // what is left of a motion that was cut may change its direction, but is seldom twice as long
-    reach = result.cut ? std::min(doubled, lengths.reach_for(2.0 * rest, search.longest_reach)) : doubled;
+    reach = result.cut ? std::min(most_reach, lengths.reach_for(2.0 * rest, search.longest_reach)) : most_reach;
   } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps &&
            free_substeps < kFreeSubsteps);
   if (result.substeps == 0 && result.step.follows) {

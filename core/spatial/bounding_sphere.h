@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/spatial/pose.h"
 #include "core/spatial/vector.h"
 
@@ -25,12 +27,13 @@ inline double farthest_way(const BoundingSphere& sphere, const Pose& H0, const P
 }
 
 /// How far any point of the sphere goes at most in the motion (x, r); in (s x, s r) at most s times that, s <= 1 [m].
-/// The centre goes x + r x c, but for what (exp r) c - c - r x c adds: no more than |r|^2 |c| / 2, |c| no more than the
-/// sum of its components.
+/// The centre goes no farther than |x| + |r| |c|, and than x + r x c and what (exp r) c - c - r x c adds: no more than
+/// |r|^2 |c| / 2. Of |c| the sum of the components stands in.
 inline double travel(const BoundingSphere& sphere, const Motion& motion) noexcept {
   const double turn = motion.rotation.norm();
-  return (motion.translation + motion.rotation.cross(sphere.center)).norm() +
-         turn * (sphere.radius + 0.5 * turn * sphere.center.cwiseAbs().sum());
+  const double lever = turn * sphere.center.cwiseAbs().sum();
+  const double short_way = (motion.translation + motion.rotation.cross(sphere.center)).norm() + 0.5 * turn * lever;
+  return std::min(short_way, motion.translation.norm() + lever) + turn * sphere.radius;
 }
 
 }  // namespace godobject

@@ -213,6 +213,15 @@ TEST(BoundingSphere, GoesAsFarAsItsCentreWhereNothingTurns) {
   EXPECT_NEAR(farthest_way(sphere, H0, H1), 2.0 * std::sin(0.5 * turn) * 0.5, 2e-9);
 }
 
+TEST(BoundingSphere, TurnsAboutItsCentreByItsRadiusAlone) {
+  const BoundingSphere sphere{{0.1, -0.2, 0.3}, 0.5};
+  const Vector3 turn(2e-3, 1e-3, -2e-3);  // 3 mrad
+  EXPECT_NEAR(travel(sphere, {-turn.cross(sphere.center), turn}), 3e-3 * 0.5 + 0.5 * 9e-6 * 0.6, 1e-12);
+  // far round, the way there and back counts
+  const Vector3 far(0.0, 3.0, 0.0);
+  EXPECT_NEAR(travel(sphere, {Vector3(0.0, 0.1, 0.0), far}), 0.1 + 3.0 * (0.6 + 0.5), 1e-12);
+}
+
 TEST(BoundingSphere, BoundsEveryShareOfAMotion) {
   Random random(12);
   for (int k = 0; k < 300; ++k) {

@@ -59,7 +59,7 @@ struct AnalyticRun {
   AnalyticRun(const Field& f, const SampledBody& b, const Pose& start) : field(f), body(b) {
     parameters.mass = b.mass;
     parameters.voxel_size = f.voxel_size();
-    state.H_WS = start;
+    state.H_WS = state.H_WD = start;
     state.started = true;
   }
 

@@ -69,10 +69,11 @@ std::vector<format::Brick> packed_bricks(const DistanceGrid& field) {
     if (fits(brick, quantum)) continue;
     throw command::Failure(
         command::ExitCode::kBadData,
-        fmt::format("a brick of the field does not fit the image: edge {} of {}, slope {:.3g} of {:.3g}, {:.3g} of "
-                    "{:.3g} m off its own nodes; close the mesh, or take a smaller voxel_size or a larger field_tolerance",
-                    brick.edge, format::kLargestUnsigned, brick.lipschitz, format::kLargestLipschitz, brick.deviation,
-                    quantum * format::kLargestUnsigned));
+        fmt::format(
+            "a brick of the field does not fit the image: edge {} of {}, slope {:.3g} of {:.3g}, {:.3g} of "
+            "{:.3g} m off its own nodes; close the mesh, or take a smaller voxel_size or a larger field_tolerance",
+            brick.edge, format::kLargestUnsigned, brick.lipschitz, format::kLargestLipschitz, brick.deviation,
+            quantum * format::kLargestUnsigned));
   }
   const std::vector<int> levels = levels_of(field);
   std::vector<format::Brick> bricks(field.bricks.size());

@@ -144,7 +144,8 @@ Json grid_json(const format::Grid& g) {
           {"surface_low", array_json(g.surface_min)},
           {"surface_high", array_json(g.surface_max)},
           {"lipschitz", g.lipschitz},
-          {"lipschitz_with_seams", g.lipschitz_seam}};
+          {"lipschitz_with_seams", g.lipschitz_seam},
+          {"outside_loss", g.outside_loss}};
 }
 
 Json body_json(const format::Body& b) {

@@ -170,12 +170,14 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   moving.normals = by_axis(normals_B, tree.order);
   moving.nodes = std::move(tree.nodes);
   constexpr double kRoundedUp = 1.0 + 1e-12;
+  constexpr double kLeastSphere = 0.25;  // of R_max
   body.radius = radius * kRoundedUp;
   std::vector<Vector3d> stored_B;
   for (const Eigen::Vector3f& p : points_B) stored_B.push_back(p.cast<double>());
   const Sphere sphere = bounding_sphere(stored_B);
   std::copy_n(sphere.center.data(), 3, body.sphere_center);
-  body.sphere_radius = std::max(kLeastRadius, sphere.radius * kRoundedUp);
+  // not so small that points of the still body seem to swing far about a few clustered samples
+  body.sphere_radius = std::max(sphere.radius * kRoundedUp, kLeastSphere * body.radius);
   body.point_count = moving.level_sizes.back();
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());
   body.level_count = sampling.levels;

@@ -92,8 +92,10 @@ class Unneeded {
     const Parameters q = Parameters::make(image.scene);
     const ContactLengths lengths = ContactLengths::make(q);
     const double body_radius = image.scene.body_map.surface_radius(q.mass.sphere.center);
-    const double longest_way =
-        godobject::detail::FeatureDirection(lengths, body_radius).most_stretch() * lengths.longest_reach;
+    const godobject::detail::FeatureDirection direction(lengths, body_radius);
+    // a near point's lever, and with that how far it goes
+    const double lever = body_radius + direction.most_stretch() * lengths.longest_reach;
+    const double longest_way = direction.stretch(lever) * lengths.longest_reach;
     const double least = least_look_up(parts_.features, *workspace_, longest_way);
     const LeftOutBricks left_out = leave_out_unreachable_core(parts_.body_field, least);
     report_.second.grid = parts_.body_field.grid;

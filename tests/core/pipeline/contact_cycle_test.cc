@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -93,12 +94,14 @@ TEST(ContactCycle, LaysABoxFlatAtTheMargin) {
 
 /// Whatever is between the ends of a motion, no chord of a sample point may meet it.
 template <class Shape>
-void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, unsigned seed) {
+void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, unsigned seed,
+                        const WorkspaceBox& workspace = {}) {
   const AnalyticField<Shape> field(shape, kVoxel);
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
-  ContactRun<Shape> run(field, body, at({0.0, 0.0, 0.06}));
+  ContactRun<Shape> run(field, body, at(workspace.nearest({0.0, 0.0, 0.06})));
+  run.parameters.workspace = workspace;
   const Pointshell shell = body.pointshell();
   Vector3 velocity = vector(), spin = vector();
   Pose device = run.state.H_WS;
@@ -112,9 +115,11 @@ void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, 
     device.translation += 1e-3 * velocity;
     device.translation.head<2>() *= 0.99;
     device.rotation = (exp_rotation(1e-3 * spin) * device.rotation).normalized();
+    device.translation = workspace.nearest(device.translation);
     const Pose before = run.state.H_WS;
     ASSERT_EQ(run.step(device), Status::kOk);
     ASSERT_LT(run.depth(), 0.0) << "cycle " << cycle;
+    ASSERT_TRUE(workspace.contains(run.state.H_WS.translation)) << "cycle " << cycle;
     for (std::size_t i = 0; i < shell.size; ++i) {
       const double z0 = (before * shell.point(i)).z();
       const double z1 = (run.state.H_WS * shell.point(i)).z();
@@ -132,6 +137,22 @@ TEST(ContactCycle, LetsNoPointCrossATwoVoxelPlate) {
                             {{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}, {-1.0, 0.0, 0.0}}},
                            {1e-6, 1.9e-3, 1.9e-3});
   expect_no_crossing(needle, plate, 7.0, 4);
+}
+
+/// A hammer's head, which is small and far from the centre of mass; with that held in a plane, on a line and at a
+/// point.
+TEST(ContactCycle, LetsNoPointOfAHammerCross) {
+  const Vector3 head(0.09, 0.01, 0.0);
+  auto samples = sample_box({0.01, 0.02, 0.01}, 5);
+  for (Vector3& p : samples.points) p += head;
+  SampledBody hammer(samples, {1e-4, 2e-3, 2e-3});
+  hammer.mass.sphere = {head, 0.0251};
+  const Plate plate{2.0 * kVoxel};
+  expect_no_crossing(hammer, plate, 7.0, 5);
+  const double inf = std::numeric_limits<double>::infinity();
+  expect_no_crossing(hammer, plate, 7.0, 6, {true, {-inf, -inf, 0.03}, {inf, inf, 0.03}});
+  expect_no_crossing(hammer, plate, 7.0, 7, {true, {0.0, -inf, 0.05}, {0.0, inf, 0.05}});
+  expect_no_crossing(hammer, plate, 7.0, 8, {true, {0.0, 0.0, 0.04}, {0.0, 0.0, 0.04}});
 }
 
 TEST(ContactCycle, StaysOnItsSideOfAPlateThatTheDeviceTeleportsThrough) {
@@ -342,7 +363,7 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   State state;
-  state.H_WS = at(tip_W + Vector3(0.0, 0.0, 0.03));
+  state.H_WS = state.H_WD = at(tip_W + Vector3(0.0, 0.0, 0.03));
   state.started = true;
   CycleReport report;
   Pose device = state.H_WS;
