@@ -277,6 +277,9 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     const Vector3 p = shell.point(start.index);
     return !((R1 * p - R0 * p + (H1.translation - H0.translation)).norm() + kept <= start.clearance);
   };
+  const auto ends_well = [&](const ContactWorkspace::NearPoint& start, double distance) noexcept {
+    return distance > 0.0 && distance + lengths.rounding >= std::min(start.distance, kept);
+  };
   const auto fails = [&](std::uint32_t k, const Vector3& p1, const FieldSample& end) noexcept {
     const ContactWorkspace::NearPoint& start = near.point[k];
     const Vector3 p0 = R0 * shell.point(start.index) + H0.translation;
@@ -284,7 +287,7 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     if (!failed) {
       obstacle.way = 1.0;
       obstacle.sample = end;
-      failed = !(end.distance > 0.0 && end.distance + lengths.rounding >= std::min(start.distance, kept));
+      failed = !ends_well(start, end.distance);
     }
     if (failed) obstacle.near = k;
     return failed;
@@ -298,8 +301,10 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
   std::array<std::uint32_t, SampleBatch::kCapacity> number;
   const auto any_fails = [&]() noexcept {
     field.samples(H1, ends);
+    const std::uint64_t free = field.free_chords(H0, H1, ends);
     for (std::uint32_t k = 0; k < ends.count; ++k) {
-      if (fails(number[k], stored_position(ends, k), stored_sample(ends, k))) return true;
+      const bool is_free = (free >> k & 1) != 0 && ends_well(near.point[number[k]], ends.distance[k]);
+      if (!is_free && fails(number[k], stored_position(ends, k), stored_sample(ends, k))) return true;
     }
     ends.count = 0;
     return false;
@@ -309,6 +314,7 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
     if (k == suspect || !must_be_looked_at(start)) continue;
     const std::uint32_t at = ends.count;
     number[at] = k;
+    ends.from_clearance[at] = start.clearance;
     ends.x[at] = shell.x[start.index];
     ends.y[at] = shell.y[start.index];
     ends.z[at] = shell.z[start.index];

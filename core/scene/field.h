@@ -88,6 +88,9 @@ void sample_each(const Field& field, const Pose& H, SampleBatch& batch) noexcept
 /// `clearances(H, b)`   for each point p of the batch what lipschitz() says of sample(H p).clearance, about H p; it may
 ///                      cost much less, and be less.
 /// `samples(H, b)`      H p for each point p of the batch, to rounding, and sample() there; may cost less.
+/// `free_chords(H0, H1, b)`  for the points p of a batch that was looked up at H1 and knows sample(H0 p).clearance, a
+///                      bit each: the chord from H0 p to H1 p is known to meet no distance <= 0. It may be known of
+///                      none. Bits beyond the batch's count mean nothing.
 /// `lower_bound(c, r)`  no point x with |x - c| <= r is nearer to the surface: sample(x).distance is not below it, or
 ///                      is the band. May exceed the band, and may be loose; negative infinity wherever no bound of at
 ///                      least 0 is known.
@@ -104,6 +107,8 @@ concept DistanceField = requires(const F& field, const Vector3& p, double r, con
   noexcept->std::same_as<void>;
   { field.samples(H, samples) }
   noexcept->std::same_as<void>;
+  { field.free_chords(H, H, samples) }
+  noexcept->std::same_as<std::uint64_t>;
   { field.layer(p) }
   noexcept->std::same_as<LayerSample>;
   { field.lower_bound(p, r) }

@@ -1,4 +1,5 @@
 #include <bit>
+#include <limits>
 
 #include "core/scene/sample_kernel.h"
 #include "core/scene/voxelmap.h"
@@ -9,16 +10,19 @@ namespace {
 /// The widest first.
 constexpr detail::SampleKernel kSampleKernels[] = {
 #if defined(__x86_64__)
-    {"AVX-512", 16, &detail::look_up_samples_avx512},
-    {"AVX2", 8, &detail::look_up_samples_avx2},
+    {"AVX-512", 16, &detail::look_up_samples_avx512, &detail::free_chords_avx512},
+    {"AVX2", 8, &detail::look_up_samples_avx2, &detail::free_chords_avx2},
 #elif defined(__aarch64__)
-    {"NEON", 4, &detail::look_up_samples_neon},
+    {"NEON", 4, &detail::look_up_samples_neon, &detail::free_chords_neon},
 #endif
 };
 
 /// Chosen when the program is loaded; null: none.
 const detail::SampleKernel* const kSampleKernel =
     detail::sample_kernels().empty() ? nullptr : &detail::sample_kernels().front();
+
+constexpr std::uint32_t kNoRefinement = 0;
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -28,9 +32,7 @@ std::span<const detail::SampleKernel> detail::sample_kernels() noexcept {
   return std::span(kSampleKernels).last(usable);
 }
 
-void Voxelmap::samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept {
-  if (kernel == nullptr || !in_batches_) return sample_each(*this, H, batch);
-  constexpr std::uint32_t kNoRefinement = 0;
+detail::FieldOfNodes Voxelmap::in_nodes(const Pose& H) const noexcept {
   detail::FieldOfNodes f{};
   f.index = index_;
   f.bricks = bricks_[0].value;
@@ -49,6 +51,12 @@ void Voxelmap::samples_by(const detail::SampleKernel* kernel, const Pose& H, Sam
   f.quantum_per_voxel = quantum_per_voxel_;
   f.band = band_;
   f.near_band = near_band_;
+  return f;
+}
+
+void Voxelmap::samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept {
+  if (kernel == nullptr || !in_batches_) return sample_each(*this, H, batch);
+  const detail::FieldOfNodes f = in_nodes(H);
   const std::uint32_t lanes = (batch.count + kernel->lanes - 1) / kernel->lanes * kernel->lanes;
   for (std::uint32_t i = batch.count; i < lanes; ++i) batch.x[i] = batch.y[i] = batch.z[i] = 0.0f;
   for (std::uint32_t first = 0; first < batch.count; first += kernel->lanes) {
@@ -62,5 +70,29 @@ void Voxelmap::samples_by(const detail::SampleKernel* kernel, const Pose& H, Sam
 }
 
 void Voxelmap::samples(const Pose& H, SampleBatch& batch) const noexcept { samples_by(kSampleKernel, H, batch); }
+
+std::uint64_t Voxelmap::free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,
+                                       SampleBatch& batch) const noexcept {
+  if (kernel == nullptr || !in_batches_) return 0;
+  const detail::FieldOfNodes f = in_nodes(H0);
+  detail::ChordEnds ends;
+  const Matrix3 change = H1.rotation.toRotationMatrix() - H0.rotation.toRotationMatrix();
+  const Vector3 way = H1.translation - H0.translation;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int column = 0; column < 3; ++column) ends.change[axis][column] = change(axis, column);
+    ends.change[axis][3] = way[axis];
+  }
+  const std::uint32_t lanes = (batch.count + kernel->lanes - 1) / kernel->lanes * kernel->lanes;
+  for (std::uint32_t i = batch.count; i < lanes; ++i) batch.from_clearance[i] = kEverywhere;
+  std::uint64_t free = 0;
+  for (std::uint32_t first = 0; first < batch.count; first += kernel->lanes) {
+    free |= std::uint64_t{kernel->free_chords(f, ends, batch, first)} << first;
+  }
+  return free;
+}
+
+std::uint64_t Voxelmap::free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept {
+  return free_chords_by(kSampleKernel, H0, H1, batch);
+}
 
 }  // namespace godobject

@@ -13,6 +13,8 @@ struct SampleBatch {
   alignas(64) float z[kCapacity];
   std::uint32_t count = 0;
 
+  alignas(64) double from_clearance[kCapacity];  ///< for chords: where they begin [m]
+
   // what is found, as in FieldSample; where `known` is 0 without a gradient
   alignas(64) double field_x[kCapacity];  ///< in the field's frame [m]
   alignas(64) double field_y[kCapacity];

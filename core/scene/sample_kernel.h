@@ -5,8 +5,8 @@
 
 #include "core/scene/sample_batch.h"
 
-/// The inner loop of Voxelmap::samples, once for each kind of vectors; with nothing that other sources share, as
-/// clearance_kernel.h.
+/// The inner loops of Voxelmap::samples and Voxelmap::free_chords, once for each kind of vectors; with nothing that other
+/// sources share, as clearance_kernel.h.
 namespace godobject::detail {
 
 /// A voxelmap as the kernel reads it.
@@ -29,10 +29,21 @@ struct FieldOfNodes {
 /// the position in the field's frame is found.
 using LookUpSamples = std::uint32_t(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept;
 
+/// From where points are (FieldOfNodes::to_field) to where their chords end.
+struct ChordEnds {
+  double change[3][4];  ///< what is added to to_field; the last column [m]
+};
+
+/// Of points `first` to `first + lanes` of a batch that was looked up where their chords end, a bit a lane: those whose
+/// chord is free, see DistanceField::free_chords. Chords are gone through cell by cell.
+using FindFreeChords = std::uint32_t(const FieldOfNodes& field, const ChordEnds& ends, const SampleBatch& batch,
+                                     std::uint32_t first) noexcept;
+
 struct SampleKernel {
   const char* name;
   std::uint32_t lanes;  ///< a divisor of SampleBatch::kCapacity
   LookUpSamples* look_up;
+  FindFreeChords* free_chords;
 };
 
 /// Those that this processor can run, the widest first; none where no vectors are known.
@@ -41,11 +52,14 @@ std::span<const SampleKernel> sample_kernels() noexcept;
 #if defined(__x86_64__)
 /// Eight lanes; needs AVX2.
 std::uint32_t look_up_samples_avx2(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept;
+FindFreeChords free_chords_avx2;
 /// Sixteen lanes; needs AVX-512 F and DQ.
 std::uint32_t look_up_samples_avx512(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept;
+FindFreeChords free_chords_avx512;
 #elif defined(__aarch64__)
 /// Four lanes.
 std::uint32_t look_up_samples_neon(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept;
+FindFreeChords free_chords_neon;
 #endif
 
 }  // namespace godobject::detail

@@ -1,5 +1,6 @@
 #if defined(__x86_64__)
 
+#include "core/scene/chord_kernel_lanes.h"
 #include "core/scene/lanes_avx2.h"
 #include "core/scene/sample_kernel_lanes.h"
 
@@ -7,6 +8,11 @@ namespace godobject::detail {
 
 std::uint32_t look_up_samples_avx2(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept {
   return sample_lanes<Avx2>(field, batch, first);
+}
+
+std::uint32_t free_chords_avx2(const FieldOfNodes& field, const ChordEnds& ends, const SampleBatch& batch,
+                               std::uint32_t first) noexcept {
+  return chord_lanes<Avx2>(field, ends, batch, first);
 }
 
 }  // namespace godobject::detail

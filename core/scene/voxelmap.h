@@ -47,6 +47,13 @@ class Voxelmap {
   /// By one of sample_kernels(), or by none.
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
+  /// See DistanceField. Knows it of a chord through at most four cells without an edge, one after the other, in each of
+  /// which the cubic that the field is there has positive Bernstein coefficients; 0 where the processor has no vectors.
+  std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;
+  /// By one of sample_kernels(), or by none.
+  std::uint64_t free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,
+                               SampleBatch& batch) const noexcept;
+
   /// What the kernels of `clearances` read, for points of a frame at H; not where in_batches() is false.
   detail::FieldOfCells in_cells(const Pose& H) const noexcept;
   bool in_batches() const noexcept { return in_batches_; }
@@ -75,6 +82,7 @@ class Voxelmap {
     float fx, fy, fz;     ///< position within the cell, 0 .. 1
   };
 
+  detail::FieldOfNodes in_nodes(const Pose& H) const noexcept;
   bool locate(const Vector3& p_W, Cell& cell) const noexcept;
   double descend(Cell& cell) const noexcept;
   const format::Brick& unrefined(std::uint32_t entry) const noexcept;

@@ -17,6 +17,7 @@ class MeshField {
   FieldSample sample(const Vector3& p) const noexcept;
   void clearances(const Pose& H, PointBatch& batch) const noexcept { sample_clearances(*this, H, batch); }
   void samples(const Pose& H, SampleBatch& batch) const noexcept { sample_each(*this, H, batch); }
+  std::uint64_t free_chords(const Pose&, const Pose&, SampleBatch&) const noexcept { return 0; }
   LayerSample layer(const Vector3& p) const noexcept;
   double lower_bound(const Vector3& center, double radius) const noexcept;
   double lipschitz() const noexcept { return 1.0; }

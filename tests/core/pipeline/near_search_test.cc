@@ -35,6 +35,9 @@ struct Counted {
     looks += static_cast<int>(batch.count);
     field.samples(H, batch);
   }
+  std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept {
+    return field.free_chords(H0, H1, batch);
+  }
   LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
   double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
   double lipschitz() const noexcept { return field.lipschitz(); }

@@ -28,6 +28,7 @@ class AnalyticField {
   }
   void clearances(const Pose& H, PointBatch& batch) const noexcept { sample_clearances(*this, H, batch); }
   void samples(const Pose& H, SampleBatch& batch) const noexcept { sample_each(*this, H, batch); }
+  std::uint64_t free_chords(const Pose&, const Pose&, SampleBatch&) const noexcept { return 0; }
   LayerSample layer(const Vector3& p) const noexcept {
     const Vector3 center = voxel_size_ * (p / voxel_size_).array().round().matrix();
     return {static_cast<int>(std::floor(0.5 - shape_.distance(center) / voxel_size_)), center - p};

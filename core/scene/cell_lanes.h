@@ -1,0 +1,176 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/scene/brick_lanes.h"
+#include "core/scene/format.h"
+#include "core/scene/sample_kernel.h"
+
+/// The cells of the grid in which a vector's points lie. Included once by a source for each kind of vectors, as
+/// clearance_kernel_lanes.h. `Vectors` have `kLanes` elements of 32 bits (`Floats`, `Ints`); of 64 bits (`Doubles`,
+/// `Longs`) two vectors make as many, the low and the high half.
+namespace godobject::detail {
+namespace {
+
+/// One component of the points' positions, in single precision as far as they lie within a cell.
+template <class Vectors>
+struct CellAxis {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+  using Doubles = typename Vectors::Doubles;
+
+  Ints within;  ///< -1 or 0, 0 for NaN
+  Ints cell;    ///< of the grid, 0 where it is not within
+  Floats at;    ///< in the cell
+
+  /// From the component in voxels of a grid of so many `cells`.
+  CellAxis(Doubles low, Doubles high, double cells) noexcept
+      : within(Vectors::mask((low >= 0.0) & (low < cells), (high >= 0.0) & (high < cells))),
+        cell(Vectors::truncated(low, high) & within),
+        at(Vectors::narrowed(low - Vectors::low(cell), high - Vectors::high(cell))) {}
+};
+
+/// One component in cells of a brick that is halved again and again: Voxelmap::descend.
+template <class Vectors>
+struct HalvedAxis {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+  using Doubles = typename Vectors::Doubles;
+  using Longs = typename Vectors::Longs;
+
+  Doubles low, high;
+
+  HalvedAxis(Ints cell, Floats at) noexcept
+      : low(Vectors::low(cell) + Vectors::low(at)), high(Vectors::high(cell) + Vectors::high(at)) {}
+
+  /// Which halves hold the points; -1: the upper.
+  Ints upper() const noexcept { return Vectors::mask(low >= kMiddle, high >= kMiddle); }
+
+  /// Those of `refined` go there.
+  void halve(Ints refined) noexcept {
+    halve(low, Vectors::low_mask(refined));
+    halve(high, Vectors::high_mask(refined));
+  }
+
+  /// Cell and position in it of the points that were `refined`.
+  void locate(Ints refined, Ints& cell, Floats& at) const noexcept {
+    constexpr int kLast = format::kBrickCells - 1;
+    const Ints truncated = Vectors::truncated(low, high);
+    const Ints own = truncated > kLast ? kLast + Ints{} : truncated;
+    const Floats own_at = Vectors::narrowed(low - Vectors::low(own), high - Vectors::high(own));
+    cell = refined ? own : cell;
+    at = refined ? own_at : at;
+  }
+
+ private:
+  static constexpr double kMiddle = format::kBrickCells / 2;
+
+  static void halve(Doubles& x, Longs refined) noexcept { x = refined ? 2.0 * (x >= kMiddle ? x - kMiddle : x) : x; }
+};
+
+/// The cells' nodes: where the points' positions lead through the brick index and its refinements, as
+/// Voxelmap::sample.
+template <class Vectors>
+struct CellLanes {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+
+  static constexpr int kY = format::kBrickNodes;
+  static constexpr int kZ = format::kBrickNodes * format::kBrickNodes;
+
+  Ints stored;       ///< nodes hold all that there is: -1; 0: outside the grid, far, or in a brick with an edge
+  Ints brick;        ///< its first word
+  Ints node;         ///< the cell's first
+  Floats at[3];      ///< in the cell
+  Floats cell_edge;  ///< [voxels]
+
+  CellLanes(const FieldOfNodes& f, const CellAxis<Vectors>& x, const CellAxis<Vectors>& y,
+            const CellAxis<Vectors>& z) noexcept
+      : at{x.at, y.at, z.at}, cell_edge(1.0f + Floats{}) {
+    namespace entry_of = format::index_entry;
+    constexpr int kShift = std::countr_zero(static_cast<unsigned>(format::kBrickCells));
+    constexpr int kCell = format::kBrickCells - 1;
+    constexpr int kBrickWords = sizeof(format::Brick) / sizeof(std::int16_t);
+    static_assert(entry_of::kCoarse == 1u << 31);
+
+    const Ints within = x.within & y.within & z.within;
+    const Ints position = (x.cell >> kShift) + f.stride_y * (y.cell >> kShift) + f.stride_z * (z.cell >> kShift);
+    Ints entry = Vectors::gather(f.index, position & within);
+    Ints cell[3] = {x.cell & kCell, y.cell & kCell, z.cell & kCell};
+    const Ints refined = within & is_refined(entry);
+    if (Vectors::bits(refined) != 0) descend(f, refined, entry, cell);
+    stored = within & (entry >= 0) & ((entry & static_cast<int>(entry_of::kEdged)) == 0);
+    brick = kBrickWords * (entry & static_cast<int>(entry_of::kNumber) & stored);
+    node = brick + cell[0] + kY * cell[1] + kZ * cell[2];
+  }
+
+  /// The brick's bound of the gradient.
+  Floats lipschitz(const FieldOfNodes& f) const noexcept {
+    constexpr int kLipschitz = offsetof(format::Brick, lipschitz) / sizeof(std::int16_t);
+    return decode_lipschitz<Vectors>(Vectors::gather_pair(f.bricks + kLipschitz, brick));
+  }
+
+ private:
+  static Ints is_refined(Ints entry) noexcept {
+    return (entry >= 0) & ((entry & static_cast<int>(format::index_entry::kRefined)) != 0);
+  }
+
+  /// Voxelmap::descend.
+  void descend(const FieldOfNodes& f, Ints refined, Ints& entry, Ints (&cell)[3]) noexcept {
+    namespace entry_of = format::index_entry;
+    constexpr int kRefinedWords = sizeof(format::Refined) / sizeof(std::uint32_t);
+    constexpr int kOwn = offsetof(format::Refined, brick) / sizeof(std::uint32_t);
+    constexpr int kChild = offsetof(format::Refined, child) / sizeof(std::uint32_t);
+    Ints descends = refined;
+    HalvedAxis<Vectors> x(cell[0], at[0]);
+    HalvedAxis<Vectors> y(cell[1], at[1]);
+    HalvedAxis<Vectors> z(cell[2], at[2]);
+    for (int level = 0; level < format::kMaxRefinement && Vectors::bits(descends) != 0; ++level) {
+      const Ints octant = (x.upper() & 1) | (y.upper() & 2) | (z.upper() & 4);
+      const Ints refinement = kRefinedWords * (entry & static_cast<int>(entry_of::kNumber));
+      const Ints child = Vectors::gather(f.refined, (refinement + kChild + octant) & descends);
+      const Ints coarse = descends & (child < 0);
+      if (Vectors::bits(coarse) != 0) {
+        const Ints own = Vectors::gather(f.refined, (refinement + kOwn) & coarse);
+        entry = coarse ? own | (child & static_cast<int>(entry_of::kEdged)) : entry;
+      }
+      descends &= ~coarse;
+      entry = descends ? child : entry;
+      x.halve(descends);
+      y.halve(descends);
+      z.halve(descends);
+      cell_edge = descends ? 0.5f * cell_edge : cell_edge;
+      descends &= is_refined(entry);
+    }
+    x.locate(refined, cell[0], at[0]);
+    y.locate(refined, cell[1], at[1]);
+    z.locate(refined, cell[2], at[2]);
+  }
+};
+
+/// What the cells' eight nodes hold, in quanta.
+template <class Vectors>
+struct NodeLanes {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+
+  Floats v000, v010, v001, v011;  ///< at the lower x; in the name x, y, z
+  Floats d00, d10, d01, d11;      ///< from there to the upper; y, z
+
+  NodeLanes(const FieldOfNodes& f, const CellLanes<Vectors>& cell) noexcept {
+    constexpr int kY = CellLanes<Vectors>::kY;
+    constexpr int kZ = CellLanes<Vectors>::kZ;
+    // a node and the next along x
+    const auto pair = [&](int at) noexcept { return Vectors::gather_pair(f.bricks + at, cell.node); };
+    const auto node = [](Ints two) noexcept { return __builtin_convertvector(first_of(two), Floats); };
+    const auto step = [](Ints two) noexcept { return __builtin_convertvector(second_of(two) - first_of(two), Floats); };
+    const Ints p00 = pair(0), p10 = pair(kY), p01 = pair(kZ), p11 = pair(kZ + kY);
+    v000 = node(p00), v010 = node(p10), v001 = node(p01), v011 = node(p11);
+    d00 = step(p00), d10 = step(p10), d01 = step(p01), d11 = step(p11);
+  }
+};
+
+}  // namespace
+}  // namespace godobject::detail
