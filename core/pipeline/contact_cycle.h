@@ -9,6 +9,7 @@
 #include "core/pipeline/contact_rows.h"
 #include "core/pipeline/cycle.h"
 #include "core/pipeline/least_constraint.h"
+#include "core/pipeline/near_points.h"
 #include "core/pipeline/near_search.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
@@ -25,21 +26,8 @@ struct FeatureContacts {
   double body_radius = 0.0;  ///< no point of the moving body's surface is farther from the sphere's centre [m]
 };
 
-/// Memory of one cycle of `contact`; nothing in it survives the cycle. About 540 KiB, touched as far as used.
+/// Memory of one cycle of `contact`; nothing in it survives the cycle. About 720 KiB, touched as far as used.
 struct ContactWorkspace {
-  /// A point that the motion of one sub-step may bring to a surface.
-  struct NearPoint {
-    std::uint32_t index;  ///< in its shell
-    double distance;      ///< stored, at the sub-step's start [m]
-    double clearance;     ///< FieldSample::clearance there [m]
-  };
-  /// Points of one direction.
-  struct NearPoints {
-    static constexpr std::uint32_t kCapacity = 8192;
-    std::array<NearPoint, kCapacity> point;
-    std::uint32_t count = 0;
-  };
-
   ContactRows rows;
   ConstrainedStep step;
   NearPoints samples;
@@ -100,6 +88,10 @@ struct SampleDirection {
                               const Matrix3& R_field_shell) noexcept {
     return {shell, R_field_shell.transpose() * gradient};
   }
+  static Matrix3 from_S(const Matrix3& R_field_shell) noexcept { return R_field_shell; }
+  static Vector3 point_S(const SampleBatch& batch, std::uint32_t k) noexcept {
+    return {static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]), static_cast<double>(batch.z[k])};
+  }
 
   static constexpr bool kStretches = false;
   double most_stretch() const noexcept { return 1.0; }
@@ -116,6 +108,8 @@ struct FeatureDirection {
   static ContactPoint contact(const Vector3&, const Vector3& field, const Vector3& gradient, const Matrix3&) noexcept {
     return {field, -gradient};
   }
+  static Matrix3 from_S(const Matrix3&) noexcept { return -Matrix3::Identity(); }
+  static Vector3 point_S(const SampleBatch& batch, std::uint32_t k) noexcept { return stored_position(batch, k); }
 
   FeatureDirection(const ContactLengths& lengths, double body_radius) noexcept
       : sphere(lengths.sphere), near_radius(body_radius + lengths.longest_reach) {}
@@ -135,80 +129,86 @@ struct FeatureDirection {
 inline constexpr double kFlat = 1e-3;     ///< a gradient this short has no direction
 inline constexpr double kRecovery = 0.3;  ///< share of a lost margin that is regained at once
 
-/// A row for a point at `distance` with the field's gradient; none where the gradient has no direction.
-inline void push_row(std::uint32_t id, const ContactPoint& contact, double distance, const ContactLengths& lengths,
-                     ContactRows& rows) noexcept {
-  const double steepness = contact.gradient_S.norm();
-  if (!(steepness > kFlat)) return;
-  double need = (lengths.margin - distance) / steepness;
-  if (std::fabs(need) <= lengths.metric.tolerance) need = 0.0;  // it touches: what rests stays where it is
-  if (need > 0.0) need = std::min(kRecovery * need, lengths.largest_gain);
-  rows.push(id, contact.gradient_S / steepness, contact.point_S, need);
+inline ContactRows::Gap gap_of(const ContactLengths& lengths) noexcept {
+  return {lengths.margin, lengths.metric.tolerance, kRecovery, lengths.largest_gain};
+}
+
+/// Those of the chosen points of a batch that have a gradient with a direction, as rows while there is room; gives how
+/// many found none.
+template <class Direction>
+std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, std::uint64_t chosen, const Matrix3& R,
+                        const ContactLengths& lengths, ContactRows& rows) noexcept {
+  ContactRows::Batch contacts;
+  for_each_bit(chosen & batch.known & steeper(batch, kFlat), [&](std::uint32_t k) noexcept {
+    const std::uint32_t i = contacts.count++;
+    const Vector3 point = Direction::point_S(batch, k);
+    contacts.id[i] = Direction::kId | index[k];
+    contacts.point_x[i] = point.x();
+    contacts.point_y[i] = point.y();
+    contacts.point_z[i] = point.z();
+    contacts.gradient_x[i] = batch.gradient_x[k];
+    contacts.gradient_y[i] = batch.gradient_y[k];
+    contacts.gradient_z[i] = batch.gradient_z[k];
+    contacts.distance[i] = batch.distance[k];
+  });
+  return rows.push(contacts, Direction::from_S(R), gap_of(lengths));
 }
 
 /// Step #1 of `contact`, one direction: all points with a clearance below `cut`, those of them with a gradient as rows
 /// while there is room. `near` is empty before.
 template <class Direction, DistanceField Field>
 void find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
-               const Pose& H, double way, double cut, const ContactLengths& lengths, ContactWorkspace::NearPoints& near,
+               const Pose& H, double way, double cut, const ContactLengths& lengths, NearPoints& near,
                ContactRows& rows, Surroundings& around) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
+  const auto leave_out = [&](double clearance) noexcept {
+    around.left_out = std::min(around.left_out, clearance / direction.most_stretch());
+  };
   search.find(
       direction, field, shell, H, way, cut, PointBudget{lengths.point_budget, lengths.margin},
-      [&](std::uint32_t i, const Vector3& p, const Vector3& p_field, const FieldSample& sample) noexcept {
-        around.smallest = std::min(around.smallest, sample.distance);
-        around.swallowed |= !sample.known && sample.distance < 0.0;
-        if (near.count == ContactWorkspace::NearPoints::kCapacity) {
-          around.left_out = std::min(around.left_out, sample.clearance / direction.most_stretch());
-          around.swallowed |= sample.distance <= 0.0;  // nothing will bring it out
+      [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
+        std::uint64_t held = found;
+        for_each_bit(found, [&](std::uint32_t k) noexcept {
+          around.smallest = std::min(around.smallest, batch.distance[k]);
+          if (!near.full()) return near.push(index[k], batch, k);
+          held &= ~(std::uint64_t{1} << k);
+          leave_out(batch.clearance[k]);
+          around.swallowed |= batch.distance[k] <= 0.0;  // nothing will bring it out
           ++around.dropped;
-          return;
-        }
-        near.point[near.count++] = {i, sample.distance, sample.clearance};
-        if (!sample.known) return;
-        if (rows.full()) {
-          ++around.dropped;
-        } else {
-          push_row(Direction::kId | i, Direction::contact(p, p_field, sample.gradient, R), sample.distance, lengths,
-                   rows);
-        }
+        });
+        for_each_bit(found & ~batch.known,
+                     [&](std::uint32_t k) noexcept { around.swallowed |= batch.distance[k] < 0.0; });
+        around.dropped += push_rows<Direction>(batch, index.data(), held, R, lengths, rows);
       },
       [&](double clearance) noexcept {
-        around.left_out = std::min(around.left_out, clearance / direction.most_stretch());
+        leave_out(clearance);
         ++around.unseen;
       });
+  near.pad();
 }
 
 /// Rows of the chosen near points of one direction: those not farther than `deepest`, and every `stride`-th of the
 /// others, which in the tree's order are spread over the surface.
 template <class Direction, DistanceField Field>
-void push_selected(const Field& field, const Pointshell& shell, const Pose& H, double deepest, std::uint32_t stride,
-                   const ContactLengths& lengths, const ContactWorkspace::NearPoints& near,
-                   ContactRows& rows) noexcept {
+void push_selected(const Field& field, const Pose& H, double deepest, std::uint32_t stride,
+                   const ContactLengths& lengths, const NearPoints& near, ContactRows& rows) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
   SampleBatch batch;
   std::array<std::uint32_t, SampleBatch::kCapacity> index;
   const auto flush = [&]() noexcept {
     field.samples(H, batch);
-    for (std::uint32_t k = 0; k < batch.count && !rows.full(); ++k) {
-      const FieldSample sample = stored_sample(batch, k);
-      if (!sample.known) continue;
-      const ContactPoint contact =
-          Direction::contact(shell.point(index[k]), stored_position(batch, k), sample.gradient, R);
-      push_row(Direction::kId | index[k], contact, sample.distance, lengths, rows);
-    }
+    push_rows<Direction>(batch, index.data(), first_bits(batch.count), R, lengths, rows);
     batch.count = 0;
   };
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
-    const bool chosen = near.point[k].distance <= deepest || others++ % stride == 0;
+    const bool chosen = near.distance[k] <= deepest || others++ % stride == 0;
     if (!chosen) continue;
-    const std::uint32_t at = batch.count;
-    index[at] = near.point[k].index;
-    batch.x[at] = shell.x[index[at]];
-    batch.y[at] = shell.y[index[at]];
-    batch.z[at] = shell.z[index[at]];
-    batch.count = at + 1;
+    const std::uint32_t at = batch.count++;
+    index[at] = near.index[k];
+    batch.x[at] = near.x[k];
+    batch.y[at] = near.y[k];
+    batch.z[at] = near.z[k];
     if (batch.count == SampleBatch::kCapacity) flush();
   }
   if (batch.count > 0) flush();
@@ -262,64 +262,59 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
 /// The certificate, one direction: no near point's chord from pose H0 to H1 meets the surface, and no gap shrinks below
 /// the least margin. Points that started inside are let out. The point of `obstacle` is looked at first.
 template <DistanceField Field>
-bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0, const Pose& H1, double kept,
-                    const ContactLengths& lengths, const ContactWorkspace::NearPoints& near, Budget& budget,
-                    Obstacle& obstacle) noexcept {
+bool motion_is_free(const Field& field, const Pose& H0, const Pose& H1, double kept, const ContactLengths& lengths,
+                    const NearPoints& near, Budget& budget, Obstacle& obstacle) noexcept {
   obstacle.exhausted = false;
   if (near.count == 0) return true;
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Matrix3 R1 = H1.rotation.toRotationMatrix();
-  const double farthest =
-      shell.nodes.empty() ? std::numeric_limits<double>::infinity() : farthest_way(sphere_of(shell.nodes[0]), H0, H1);
-  // its ball does not hold its whole way
-  const auto must_be_looked_at = [&](const ContactWorkspace::NearPoint& start) noexcept {
-    if (start.distance <= 0.0 || farthest + kept <= start.clearance) return false;
-    const Vector3 p = shell.point(start.index);
-    return !((R1 * p - R0 * p + (H1.translation - H0.translation)).norm() + kept <= start.clearance);
-  };
-  const auto ends_well = [&](const ContactWorkspace::NearPoint& start, double distance) noexcept {
-    return distance > 0.0 && distance + lengths.rounding >= std::min(start.distance, kept);
-  };
-  const auto fails = [&](std::uint32_t k, const Vector3& p1, const FieldSample& end) noexcept {
-    const ContactWorkspace::NearPoint& start = near.point[k];
-    const Vector3 p0 = R0 * shell.point(start.index) + H0.translation;
-    bool failed = !chord_is_free(field, p0, start.clearance, p1, end.clearance, budget, obstacle);
-    if (!failed) {
-      obstacle.way = 1.0;
-      obstacle.sample = end;
-      failed = !ends_well(start, end.distance);
-    }
-    if (failed) obstacle.near = k;
-    return failed;
-  };
-  const std::uint32_t suspect = obstacle.near;
-  if (suspect < near.count && must_be_looked_at(near.point[suspect])) {
-    const Vector3 p1 = R1 * shell.point(near.point[suspect].index) + H1.translation;
-    if (fails(suspect, p1, field.sample(p1))) return false;
-  }
   SampleBatch ends;
   std::array<std::uint32_t, SampleBatch::kCapacity> number;
+  const auto add = [&](std::uint32_t k) noexcept {
+    const std::uint32_t at = ends.count++;
+    number[at] = k;
+    ends.x[at] = near.x[k];
+    ends.y[at] = near.y[k];
+    ends.z[at] = near.z[k];
+    ends.from_clearance[at] = near.clearance[k];
+    ends.from_distance[at] = near.distance[k];
+  };
   const auto any_fails = [&]() noexcept {
+    for (std::uint32_t i = ends.count; i % SampleBatch::kAtOnce != 0; ++i) ends.from_distance[i] = 0.0;
     field.samples(H1, ends);
-    const std::uint64_t free = field.free_chords(H0, H1, ends);
-    for (std::uint32_t k = 0; k < ends.count; ++k) {
-      const bool is_free = (free >> k & 1) != 0 && ends_well(near.point[number[k]], ends.distance[k]);
-      if (!is_free && fails(number[k], stored_position(ends, k), stored_sample(ends, k))) return true;
-    }
+    const std::uint64_t well = keeps_distance(ends, kept, lengths.rounding);
+    std::uint64_t open = first_bits(ends.count) & ~(well & field.free_chords(H0, H1, ends));
     ends.count = 0;
+    for (; open != 0; open &= open - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(open));
+      const std::uint32_t k = number[i];
+      const Vector3 p0 = R0 * near.point(k) + H0.translation;
+      const bool is_free =
+          chord_is_free(field, p0, near.clearance[k], stored_position(ends, i), ends.clearance[i], budget, obstacle);
+      if (is_free && (well >> i & 1) != 0) continue;
+      if (is_free) {
+        obstacle.way = 1.0;
+        obstacle.sample = stored_sample(ends, i);
+      }
+      obstacle.near = k;
+      return true;
+    }
     return false;
   };
-  for (std::uint32_t k = 0; k < near.count; ++k) {
-    const ContactWorkspace::NearPoint& start = near.point[k];
-    if (k == suspect || !must_be_looked_at(start)) continue;
-    const std::uint32_t at = ends.count;
-    number[at] = k;
-    ends.from_clearance[at] = start.clearance;
-    ends.x[at] = shell.x[start.index];
-    ends.y[at] = shell.y[start.index];
-    ends.z[at] = shell.z[start.index];
-    ends.count = at + 1;
-    if (ends.count == SampleBatch::kCapacity && any_fails()) return false;
+  const Matrix3 turn = R1 - R0;
+  const Vector3 shift = H1.translation - H0.translation;
+  const std::uint32_t suspect = obstacle.near;
+  if (suspect < near.count &&
+      (near.leave_their_ball(suspect - suspect % 64, turn, shift, kept) >> suspect % 64 & 1) != 0) {
+    add(suspect);
+    if (any_fails()) return false;
+  }
+  for (std::uint32_t first = 0; first < near.count; first += 64) {
+    std::uint64_t leaving = near.leave_their_ball(first, turn, shift, kept);
+    for (; leaving != 0; leaving &= leaving - 1) {
+      add(first + static_cast<std::uint32_t>(std::countr_zero(leaving)));
+      if (ends.count == SampleBatch::kCapacity && any_fails()) return false;
+    }
   }
   return ends.count == 0 || !any_fails();
 }
@@ -328,20 +323,19 @@ bool motion_is_free(const Field& field, const Pointshell& shell, const Pose& H0,
 /// valley, the gradient at the start knows only one of them. It asks for no more than the row at the start, so that
 /// resting stays possible. False if there is no room or no gradient.
 template <class Direction>
-bool push_obstacle(const Pointshell& shell, const Pose& H0, const Pose& H1, const ContactLengths& lengths,
-                   const ContactWorkspace::NearPoints& near, const Obstacle& obstacle, ContactRows& rows) noexcept {
+bool push_obstacle(const Pose& H0, const Pose& H1, const ContactLengths& lengths,
+                   const NearPoints& near, const Obstacle& obstacle, ContactRows& rows) noexcept {
   if (rows.full() || !obstacle.sample.known || !(obstacle.sample.gradient.norm() > kFlat)) return false;
-  const ContactWorkspace::NearPoint& start = near.point[obstacle.near];
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
-  const Vector3 p = shell.point(start.index);
+  const Vector3 p = near.point(obstacle.near);
   const Vector3 p0 = R0 * p + H0.translation;
   const Vector3 way = obstacle.way * (H1 * p - p0);
   const ContactPoint contact = Direction::contact(p, p0, obstacle.sample.gradient, R0);
   const double steepness = contact.gradient_S.norm();
   // from the obstacle back to the start the distance changes by the gradient there
   const double need = (lengths.margin - obstacle.sample.distance + obstacle.sample.gradient.dot(way)) / steepness;
-  rows.push(Direction::kId | start.index, contact.gradient_S / steepness, contact.point_S,
-            std::min(need, std::max(0.0, kRecovery * (lengths.margin - start.distance))));
+  rows.push(Direction::kId | near.index[obstacle.near], contact.gradient_S / steepness, contact.point_S,
+            std::min(need, std::max(0.0, kRecovery * (lengths.margin - near.distance[obstacle.near]))));
   return true;
 }
 
@@ -578,10 +572,10 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     if (around.dropped > 0) {
       const detail::Selection selection = detail::select_rows(workspace);
       workspace.rows.count = 0;
-      detail::push_selected<SampleDirection>(field, shell, H0, selection.deepest, selection.stride, lengths,
+      detail::push_selected<SampleDirection>(field, H0, selection.deepest, selection.stride, lengths,
                                              workspace.samples, workspace.rows);
       if (features != nullptr && workspace.features.count > 0) {
-        detail::push_selected<FeatureDirection>(features->map, features->points, H0_features, selection.deepest,
+        detail::push_selected<FeatureDirection>(features->map, H0_features, selection.deepest,
                                                 selection.stride, lengths, workspace.features, workspace.rows);
       }
     }
@@ -637,11 +631,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       Pose H1_features;
       const double kept = looks > 0 ? lengths.wanted_margin : lengths.least_margin;
       const bool samples_free =
-          detail::motion_is_free(field, shell, H0, H1, kept, lengths, workspace.samples, budget, at_sample);
+          detail::motion_is_free(field, H0, H1, kept, lengths, workspace.samples, budget, at_sample);
       bool features_free = true;
       if (features != nullptr && workspace.features.count > 0) {
         H1_features = FeatureDirection::pose(H1, origin_W);
-        features_free = detail::motion_is_free(features->map, features->points, H0_features, H1_features, kept, lengths,
+        features_free = detail::motion_is_free(features->map, H0_features, H1_features, kept, lengths,
                                                workspace.features, budget, at_feature);
       }
       const bool is_free = samples_free && features_free;
@@ -666,11 +660,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
       bool seen = false;
       if (looks > 0 && !samples_free) {
-        seen = detail::push_obstacle<SampleDirection>(shell, H0, H1, lengths, workspace.samples, at_sample,
+        seen = detail::push_obstacle<SampleDirection>(H0, H1, lengths, workspace.samples, at_sample,
                                                       workspace.rows);
       }
       if (features != nullptr && looks > 0 && !features_free) {
-        seen = detail::push_obstacle<FeatureDirection>(features->points, H0_features, H1_features, lengths,
+        seen = detail::push_obstacle<FeatureDirection>(H0_features, H1_features, lengths,
                                                        workspace.features, at_feature, workspace.rows) ||
                seen;
       }

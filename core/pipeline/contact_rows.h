@@ -17,6 +17,29 @@ struct ContactRows {
   /// A cache line longer: at a power of two apart, the arrays' first rows would all fall into one set of the cache.
   static constexpr std::uint32_t kLength = kCapacity + 16;
 
+  /// Contacts that become rows together.
+  struct Batch {
+    static constexpr std::uint32_t kCapacity = 64;
+
+    std::uint32_t count = 0;
+    std::uint32_t id[kCapacity];
+    alignas(64) double point_x[kCapacity];  ///< P, in S [m]
+    alignas(64) double point_y[kCapacity];
+    alignas(64) double point_z[kCapacity];
+    alignas(64) double gradient_x[kCapacity];  ///< of the distance, in the field's frame
+    alignas(64) double gradient_y[kCapacity];
+    alignas(64) double gradient_z[kCapacity];
+    alignas(64) double distance[kCapacity];  ///< [m]
+  };
+
+  /// What is asked for of a contact whose gap is not the margin.
+  struct Gap {
+    double margin;        ///< [m]
+    double tolerance;     ///< a gap this near to the margin is the margin: what rests stays where it is [m]
+    double recovery;      ///< share of a lost margin that is regained at once
+    double largest_gain;  ///< at most [m]
+  };
+
   std::uint32_t count = 0;
   alignas(64) float normal_x[kLength];
   alignas(64) float normal_y[kLength];
@@ -49,7 +72,14 @@ struct ContactRows {
     id[i] = point_id;
   }
 
+  /// Appends the contacts, as far as there is room; gives how many found none. No gradient is zero; as P moves by dP
+  /// in S the distance grows by gradient^T R_S dP, with R_S = `S_to_gradient`.
+  std::uint32_t push(Batch& batch, const Matrix3& S_to_gradient, const Gap& gap) noexcept;
+
   static constexpr std::uint32_t kNone = ~0u;
+
+  /// The first row from `begin` on of the contact point; `count` if there is none.
+  std::uint32_t find(std::uint32_t point_id, std::uint32_t begin) const noexcept;
 
   struct Violated {
     std::uint32_t row = kNone;  ///< kNone: none by more than the tolerance

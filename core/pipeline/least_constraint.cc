@@ -19,11 +19,9 @@ static_assert(detail::kMostRowAdditions == kMostAdditions);
 /// The row of the force's point; of several, which a second look at an obstacle gives it, the one whose normal fits
 /// best.
 std::uint32_t row_of(const ContactForce& force, const ContactRows& rows) noexcept {
-  const std::uint32_t* const end = rows.id + rows.count;
   std::uint32_t best = ContactRows::kNone;
   double best_fit = 0.0;
-  for (const std::uint32_t* id = std::find(rows.id, end, force.id); id != end; id = std::find(id + 1, end, force.id)) {
-    const auto row = static_cast<std::uint32_t>(id - rows.id);
+  for (std::uint32_t row = rows.find(force.id, 0); row < rows.count; row = rows.find(force.id, row + 1)) {
     const double fit = rows.normal(row).dot(force.normal);
     if (best != ContactRows::kNone && !(fit > best_fit)) continue;
     best = row;

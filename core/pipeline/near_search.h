@@ -12,6 +12,7 @@
 #include "core/pipeline/due_calendar.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
+#include "core/scene/sample_bits.h"
 #include "core/spatial/bounding_sphere.h"
 #include "core/spatial/pose.h"
 
@@ -92,8 +93,9 @@ class NearSearch {
   /// longest.
   bool is_free(double way, double cut) const noexcept { return way + slope_ * cut < certain_; }
 
-  /// Calls visit(i, p, p_field, sample) for all points with a clearance below `cut` <= `longest`, ascending. The shell
-  /// is at H in the field's frame; `way` is the odometer's reading there. Cost: a share of a batch for each node and
+  /// Calls visit(batch, index, near) for batches of points that were looked up: their numbers in the shell, and those
+  /// with a clearance below `cut` <= `longest`, a bit each. All that are so near are visited, ascending. The shell is
+  /// at H in the field's frame; `way` is the odometer's reading there. Cost: a share of a batch for each node and
   /// point that is due, a look-up for each that may be near; at most all nodes and points.
   ///
   /// With memory the budget is kept, and leave_out(clearance) is called for each point that may be near but was not
@@ -118,16 +120,16 @@ class NearSearch {
         return way + room;
       }
     };
-    const auto is_near = [&](std::uint32_t i, const Vector3& p, const Vector3& p_field,
-                             const FieldSample& sample) noexcept {
-      const bool near = sample.clearance < cut;
-      if (near) visit(i, p, p_field, sample);
+    const auto near_of = [&](const SampleBatch& batch, const Indices& index) noexcept {
+      const std::uint64_t near = clearance_below(batch, cut) & first_bits(batch.count);
+      if (near != 0) visit(batch, index, near);
       return near;
     };
     if (memory_.empty()) {
-      certain_ = look_everywhere(field, shell, R, H, way, needed, free_until, is_near);
+      certain_ = look_everywhere(field, shell, R, H, way, needed, free_until, near_of);
     } else {
-      look_at_due(field, shell, H, needed, cut, budget, free_until, is_near, leave_out);
+      const double room_needed = needed - way + rounding;  // of a point whose chords do not stretch
+      look_at_due(field, shell, H, needed, room_needed, cut, budget, free_until, near_of, leave_out);
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
   }
@@ -137,12 +139,25 @@ class NearSearch {
   static constexpr double kTicks = 64.0;          ///< of the calendar in the longest cut
   static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
 
+  using Indices = std::array<std::uint32_t, SampleBatch::kCapacity>;  ///< of a batch's points
+
   /// Without memory. Until when all that is not near is free.
-  template <DistanceField Field, class FreeUntil, class IsNear>
+  template <DistanceField Field, class FreeUntil, class NearOf>
   static double look_everywhere(const Field& field, const Pointshell& shell, const Matrix3& R, const Pose& H,
                                 double way, double needed, const FreeUntil& free_until,
-                                const IsNear& is_near) noexcept {
+                                const NearOf& near_of) noexcept {
     double least = kNever;
+    SampleBatch samples;
+    Indices index;
+    const auto look_up = [&]() noexcept {
+      field.samples(H, samples);
+      const std::uint64_t near = near_of(samples, index);
+      if (near != 0) least = std::min(least, way);
+      for_each_bit(first_bits(samples.count) & ~near, [&](std::uint32_t k) noexcept {
+        least = std::min(least, free_until(samples.clearance[k], shell.point(index[k]), 0.0));
+      });
+      samples.count = 0;
+    };
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
     for (std::uint32_t n = 0; n < node_count;) {
       const format::Node& node = shell.nodes[n];
@@ -153,22 +168,25 @@ class NearSearch {
         n = node.skip;
       } else if (node.leaf != 0) {
         for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-          const Vector3 p = shell.point(i);
-          const Vector3 p_field = R * p + H.translation;
-          const FieldSample sample = field.sample(p_field);
-          least = std::min(least, is_near(i, p, p_field, sample) ? way : free_until(sample.clearance, p, 0.0));
+          const std::uint32_t k = samples.count++;
+          index[k] = i;
+          samples.x[k] = shell.x[i];
+          samples.y[k] = shell.y[i];
+          samples.z[k] = shell.z[i];
+          if (samples.count == SampleBatch::kCapacity) look_up();
         }
         n = node.skip;
       } else {
         ++n;
       }
     }
+    if (samples.count > 0) look_up();
     return least;
   }
 
-  template <DistanceField Field, class FreeUntil, class IsNear, class LeaveOut>
-  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double needed, double cut,
-                   const PointBudget& budget, const FreeUntil& free_until, const IsNear& is_near,
+  template <DistanceField Field, class FreeUntil, class NearOf, class LeaveOut>
+  void look_at_due(const Field& field, const Pointshell& shell, const Pose& H, double needed, double room_needed,
+                   double cut, const PointBudget& budget, const FreeUntil& free_until, const NearOf& near_of,
                    LeaveOut& leave_out) noexcept {
     const double per_tick = 1.0 / tick_;
     // rounded down: due a little early; by way of a signed number, which the processor converts to
@@ -179,7 +197,7 @@ class NearSearch {
     // with nothing near what comes due soon is looked at early: then most cycles of free flight look at nothing
     const std::uint64_t now = tick_of(needed + (calendar_.marked() == 0 ? kAhead * tick_ : 0.0));
     PointBatch batch;
-    std::array<std::uint32_t, PointBatch::kCapacity> item;
+    Indices item;
     std::array<float, PointBatch::kCapacity> radius;
     std::uint32_t opened = DueCalendar::kNone;   // nodes whose children are to be looked at
     std::uint32_t leaving = DueCalendar::kNone;  // nodes that may stand for their children again
@@ -235,17 +253,16 @@ class NearSearch {
     SampleBatch samples;
     const auto sample = [&]() noexcept {
       field.samples(H, samples);
-      for (std::uint32_t k = 0; k < samples.count; ++k) {
-        const std::uint32_t i = item[k];
+      // what is not near, but would be due again at once, stays marked
+      const std::uint64_t stays = near_of(samples, item) | clearance_below(samples, room_needed);
+      for_each_bit(first_bits(samples.count) & ~stays, [&](std::uint32_t k) noexcept {
         const Vector3 p(static_cast<double>(samples.x[k]), static_cast<double>(samples.y[k]),
                         static_cast<double>(samples.z[k]));
-        const FieldSample found = stored_sample(samples, k);
-        if (is_near(i, p, stored_position(samples, k), found)) continue;
-        const double until = free_until(found.clearance, p, 0.0);
-        if (until < needed) continue;  // not near, but it would be due again at once
-        calendar_.unmark(i);
-        file(node_count + i, until);
-      }
+        const double until = free_until(samples.clearance[k], p, 0.0);
+        if (until < needed) return;
+        calendar_.unmark(item[k]);
+        file(node_count + item[k], until);
+      });
       samples.count = 0;
     };
     const auto look_up = [&](std::uint32_t i) noexcept {

@@ -81,7 +81,7 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   const auto quantum = static_cast<float>(f.quantum_per_voxel);
   const auto near_band = static_cast<float>(f.near_band * f.per_voxel);
   for (int cells = 0; cells < kCells && Vectors::bits(searched) != 0; ++cells) {
-    const Floats share = covered * per_length;
+    const Floats share = Vectors::smaller(covered * per_length, zero + 1.0f);  // of those that arrived, too
     const auto axis_at = [&](int axis) noexcept {
       const Floats gone = share * way[axis];
       return CellAxis<Vectors>(low[axis] + Vectors::low(gone), high[axis] + Vectors::high(gone), f.cells[axis]);

@@ -79,6 +79,7 @@ void sample_each(const Field& field, const Pose& H, SampleBatch& batch) noexcept
     const Vector3 p_field = R * p + H.translation;
     store_sample(p_field, field.sample(p_field), batch, i);
   }
+  for (std::uint32_t i = batch.count; i % SampleBatch::kAtOnce != 0; ++i) store_sample({0.0, 0.0, 0.0}, {}, batch, i);
 }
 
 /// A still body as steps #1-#7 see it: the compiled `Voxelmap`, or an analytic world in tests.

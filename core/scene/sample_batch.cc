@@ -1,5 +1,4 @@
 #include <bit>
-#include <limits>
 
 #include "core/scene/sample_kernel.h"
 #include "core/scene/voxelmap.h"
@@ -22,7 +21,7 @@ const detail::SampleKernel* const kSampleKernel =
     detail::sample_kernels().empty() ? nullptr : &detail::sample_kernels().front();
 
 constexpr std::uint32_t kNoRefinement = 0;
-constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+constexpr double kEverywhere = 1e9;  // [m]
 
 }  // namespace
 

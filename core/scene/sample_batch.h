@@ -7,13 +7,16 @@ namespace godobject {
 /// Points whose distances and gradients are looked up together.
 struct SampleBatch {
   static constexpr std::uint32_t kCapacity = 64;
+  static constexpr std::uint32_t kAtOnce = 4;  ///< what was found is finite up to a multiple of it
 
   alignas(64) float x[kCapacity];  ///< in the points' own frame [m]
   alignas(64) float y[kCapacity];
   alignas(64) float z[kCapacity];
   std::uint32_t count = 0;
 
-  alignas(64) double from_clearance[kCapacity];  ///< for chords: where they begin [m]
+  // of chords that end where the batch is looked up: where they begin
+  alignas(64) double from_clearance[kCapacity];  ///< [m]
+  alignas(64) double from_distance[kCapacity];   ///< [m]
 
   // what is found, as in FieldSample; where `known` is 0 without a gradient
   alignas(64) double field_x[kCapacity];  ///< in the field's frame [m]

@@ -52,7 +52,9 @@ std::vector<std::uint32_t> found(NearSearch& search, const Direction& direction,
   std::vector<std::uint32_t> near;
   search.find(
       direction, field, shell, H, way, cut, {},
-      [&near](std::uint32_t i, const Vector3&, const Vector3&, const FieldSample&) { near.push_back(i); },
+      [&near](const SampleBatch&, const auto& index, std::uint64_t found) {
+        for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
+      },
       [](double) { FAIL() << "no budget, so nothing is left out"; });
   return near;
 }
@@ -194,7 +196,9 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
     double least_left_out = std::numeric_limits<double>::infinity();
     search.find(
         detail::SampleDirection{}, field, shell, H, odometer.way(), cut, budget,
-        [&](std::uint32_t i, const Vector3&, const Vector3&, const FieldSample&) { near.push_back(i); },
+        [&](const SampleBatch&, const auto& index, std::uint64_t found) {
+          for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
+        },
         [&](double bound) {
           ++short_of_it;
           EXPECT_GT(bound, budget.always);
