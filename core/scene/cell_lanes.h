@@ -26,7 +26,7 @@ struct CellAxis {
   Floats at;    ///< in the cell
 
   /// From the component in voxels of a grid of so many `cells`.
-  CellAxis(Doubles low, Doubles high, double cells) noexcept
+  [[gnu::always_inline]] CellAxis(Doubles low, Doubles high, double cells) noexcept
       : within(Vectors::mask((low >= 0.0) & (low < cells), (high >= 0.0) & (high < cells))),
         cell(Vectors::truncated(low, high) & within),
         at(Vectors::narrowed(low - Vectors::low(cell), high - Vectors::high(cell))) {}
@@ -42,7 +42,7 @@ struct HalvedAxis {
 
   Doubles low, high;
 
-  HalvedAxis(Ints cell, Floats at) noexcept
+  [[gnu::always_inline]] HalvedAxis(Ints cell, Floats at) noexcept
       : low(Vectors::low(cell) + Vectors::low(at)), high(Vectors::high(cell) + Vectors::high(at)) {}
 
   /// Which halves hold the points; -1: the upper.
@@ -86,7 +86,7 @@ struct CellLanes {
   Floats at[3];      ///< in the cell
   Floats cell_edge;  ///< [voxels]
 
-  CellLanes(const FieldOfNodes& f, const CellAxis<Vectors>& x, const CellAxis<Vectors>& y,
+  [[gnu::always_inline]] CellLanes(const FieldOfNodes& f, const CellAxis<Vectors>& x, const CellAxis<Vectors>& y,
             const CellAxis<Vectors>& z) noexcept
       : at{x.at, y.at, z.at}, cell_edge(1.0f + Floats{}) {
     namespace entry_of = format::index_entry;
@@ -159,7 +159,7 @@ struct NodeLanes {
   Floats v000, v010, v001, v011;  ///< at the lower x; in the name x, y, z
   Floats d00, d10, d01, d11;      ///< from there to the upper; y, z
 
-  NodeLanes(const FieldOfNodes& f, const CellLanes<Vectors>& cell) noexcept {
+  [[gnu::always_inline]] NodeLanes(const FieldOfNodes& f, const CellLanes<Vectors>& cell) noexcept {
     constexpr int kY = CellLanes<Vectors>::kY;
     constexpr int kZ = CellLanes<Vectors>::kZ;
     // a node and the next along x
