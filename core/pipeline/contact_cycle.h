@@ -323,8 +323,8 @@ bool motion_is_free(const Field& field, const Pose& H0, const Pose& H1, double k
 /// valley, the gradient at the start knows only one of them. It asks for no more than the row at the start, so that
 /// resting stays possible. False if there is no room or no gradient.
 template <class Direction>
-bool push_obstacle(const Pose& H0, const Pose& H1, const ContactLengths& lengths,
-                   const NearPoints& near, const Obstacle& obstacle, ContactRows& rows) noexcept {
+bool push_obstacle(const Pose& H0, const Pose& H1, const ContactLengths& lengths, const NearPoints& near,
+                   const Obstacle& obstacle, ContactRows& rows) noexcept {
   if (rows.full() || !obstacle.sample.known || !(obstacle.sample.gradient.norm() > kFlat)) return false;
   const Matrix3 R0 = H0.rotation.toRotationMatrix();
   const Vector3 p = near.point(obstacle.near);
@@ -572,11 +572,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     if (around.dropped > 0) {
       const detail::Selection selection = detail::select_rows(workspace);
       workspace.rows.count = 0;
-      detail::push_selected<SampleDirection>(field, H0, selection.deepest, selection.stride, lengths,
-                                             workspace.samples, workspace.rows);
+      detail::push_selected<SampleDirection>(field, H0, selection.deepest, selection.stride, lengths, workspace.samples,
+                                             workspace.rows);
       if (features != nullptr && workspace.features.count > 0) {
-        detail::push_selected<FeatureDirection>(features->map, H0_features, selection.deepest,
-                                                selection.stride, lengths, workspace.features, workspace.rows);
+        detail::push_selected<FeatureDirection>(features->map, H0_features, selection.deepest, selection.stride,
+                                                lengths, workspace.features, workspace.rows);
       }
     }
     detail::end(times, &StepTimes::step1_ns);
@@ -660,12 +660,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
       }
       bool seen = false;
       if (looks > 0 && !samples_free) {
-        seen = detail::push_obstacle<SampleDirection>(H0, H1, lengths, workspace.samples, at_sample,
-                                                      workspace.rows);
+        seen = detail::push_obstacle<SampleDirection>(H0, H1, lengths, workspace.samples, at_sample, workspace.rows);
       }
       if (features != nullptr && looks > 0 && !features_free) {
-        seen = detail::push_obstacle<FeatureDirection>(H0_features, H1_features, lengths,
-                                                       workspace.features, at_feature, workspace.rows) ||
+        seen = detail::push_obstacle<FeatureDirection>(H0_features, H1_features, lengths, workspace.features,
+                                                       at_feature, workspace.rows) ||
                seen;
       }
       looks = seen ? looks - 1 : 0;

@@ -52,17 +52,17 @@ constexpr std::uint32_t kContacts = 4;  // at a time
 using Doubles __attribute__((vector_size(kContacts * sizeof(double)))) = double;
 using Narrow __attribute__((vector_size(kContacts * sizeof(float)))) = float;
 
-/// The batch's contacts as rows from `at` on, and up to kContacts - 1 that mean nothing. `m`: from the batch's gradients
-/// to S, row by row.
+/// The batch's contacts as rows from `at` on, and up to kContacts - 1 that mean nothing. `m`: from the batch's
+/// gradients to S, row by row.
 GODOBJECT_VECTOR_WIDTHS
 void append(const ContactRows::Batch& batch, std::uint32_t count, const double (&m)[9], const ContactRows::Gap& gap,
             ContactRows& rows, std::uint32_t at) noexcept {
   for (std::uint32_t i = 0; i < count; i += kContacts) {
 #define GODOBJECT_OF(component) (*reinterpret_cast<const Doubles*>(batch.component + i))
-#define GODOBJECT_SET(component, value)                                   \
-  {                                                                       \
-    const Narrow narrow = __builtin_convertvector(value, Narrow);         \
-    __builtin_memcpy(rows.component + at + i, &narrow, sizeof(narrow));   \
+#define GODOBJECT_SET(component, value)                                 \
+  {                                                                     \
+    const Narrow narrow = __builtin_convertvector(value, Narrow);       \
+    __builtin_memcpy(rows.component + at + i, &narrow, sizeof(narrow)); \
   }
     const Doubles fx = GODOBJECT_OF(gradient_x), fy = GODOBJECT_OF(gradient_y), fz = GODOBJECT_OF(gradient_z);
     const Doubles gx = m[0] * fx + m[1] * fy + m[2] * fz;

@@ -49,8 +49,8 @@ struct NearPoints {
   }
 
   /// Of the 64 points from `first` on those whose chord a look-up must follow, a bit each: they are outside, and the
-  /// ball of their clearance does not hold the chord and `kept` [m] beyond it. A point p goes by `turn` p + `shift` [m].
-  /// Real-time safe; some 5 instructions a point.
+  /// ball of their clearance does not hold the chord and `kept` [m] beyond it. A point p goes by `turn` p + `shift`
+  /// [m]. Real-time safe; some 5 instructions a point.
   std::uint64_t leave_their_ball(std::uint32_t first, const Matrix3& turn, const Vector3& shift,
                                  double kept) const noexcept;
 };

@@ -87,7 +87,7 @@ struct CellLanes {
   Floats cell_edge;  ///< [voxels]
 
   [[gnu::always_inline]] CellLanes(const FieldOfNodes& f, const CellAxis<Vectors>& x, const CellAxis<Vectors>& y,
-            const CellAxis<Vectors>& z) noexcept
+                                   const CellAxis<Vectors>& z) noexcept
       : at{x.at, y.at, z.at}, cell_edge(1.0f + Floats{}) {
     namespace entry_of = format::index_entry;
     constexpr int kShift = std::countr_zero(static_cast<unsigned>(format::kBrickCells));

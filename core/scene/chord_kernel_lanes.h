@@ -13,9 +13,11 @@ namespace {
 /// it the trilinear field is a cubic, which does not leave the range of its Bernstein coefficients; those are averages
 /// of the field at the corners of the box whose diagonal the way is (the cubic's blossom).
 template <class Vectors>
-[[gnu::always_inline]] inline typename Vectors::Ints stays_above(const NodeLanes<Vectors>& n, const typename Vectors::Floats (&from)[3],
-                                   const typename Vectors::Floats (&to)[3], typename Vectors::Floats least,
-                                   typename Vectors::Floats& end) noexcept {
+[[gnu::always_inline]] inline typename Vectors::Ints stays_above(const NodeLanes<Vectors>& n,
+                                                                 const typename Vectors::Floats (&from)[3],
+                                                                 const typename Vectors::Floats (&to)[3],
+                                                                 typename Vectors::Floats least,
+                                                                 typename Vectors::Floats& end) noexcept {
   using Floats = typename Vectors::Floats;
   constexpr float kThird = 1.0f / 3.0f;
   // the corners' x, y, z: of `from` (0) or of `to` (1)

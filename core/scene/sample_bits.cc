@@ -14,27 +14,24 @@ constexpr Longs kFirst = {1, 2, 4, 8};
 
 // in one expression: no vector is passed to or from a function, whose way of passing it may differ
 #define GODOBJECT_AT(component) (*reinterpret_cast<const Doubles*>(batch.component + i))
-#define GODOBJECT_BITS_OF(holds)                                               \
-  Longs bits = {};                                                             \
-  Longs here = kFirst;                                                         \
-  for (std::uint32_t i = 0; i < batch.count; i += kLanes, here <<= kLanes) {   \
-    bits |= (holds) & here;                                                    \
-  }                                                                            \
+#define GODOBJECT_BITS_OF(holds)                                             \
+  Longs bits = {};                                                           \
+  Longs here = kFirst;                                                       \
+  for (std::uint32_t i = 0; i < batch.count; i += kLanes, here <<= kLanes) { \
+    bits |= (holds)&here;                                                    \
+  }                                                                          \
   return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
 
 GODOBJECT_VECTOR_WIDTHS
-std::uint64_t clearance_below(const SampleBatch& batch, double bound) noexcept {
-  GODOBJECT_BITS_OF(GODOBJECT_AT(clearance) < bound)
-}
+std::uint64_t clearance_below(const SampleBatch& batch,
+                              double bound) noexcept {GODOBJECT_BITS_OF(GODOBJECT_AT(clearance) < bound)}
 
-GODOBJECT_VECTOR_WIDTHS
-std::uint64_t keeps_distance(const SampleBatch& batch, double kept, double rounding) noexcept {
-  GODOBJECT_BITS_OF((GODOBJECT_AT(distance) > 0.0) & ((GODOBJECT_AT(distance) + rounding >= kept) |
-                                                      (GODOBJECT_AT(distance) + rounding >= GODOBJECT_AT(from_distance))))
-}
+GODOBJECT_VECTOR_WIDTHS std::uint64_t keeps_distance(const SampleBatch& batch, double kept, double rounding) noexcept {
+    GODOBJECT_BITS_OF((GODOBJECT_AT(distance) > 0.0) &
+                      ((GODOBJECT_AT(distance) + rounding >= kept) |
+                       (GODOBJECT_AT(distance) + rounding >= GODOBJECT_AT(from_distance))))}
 
-GODOBJECT_VECTOR_WIDTHS
-std::uint64_t steeper(const SampleBatch& batch, double gradient) noexcept {
+GODOBJECT_VECTOR_WIDTHS std::uint64_t steeper(const SampleBatch& batch, double gradient) noexcept {
   const double squared = gradient * gradient;
   GODOBJECT_BITS_OF(GODOBJECT_AT(gradient_x) * GODOBJECT_AT(gradient_x) +
                         GODOBJECT_AT(gradient_y) * GODOBJECT_AT(gradient_y) +

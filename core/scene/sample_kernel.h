@@ -5,8 +5,8 @@
 
 #include "core/scene/sample_batch.h"
 
-/// The inner loops of Voxelmap::samples and Voxelmap::free_chords, once for each kind of vectors; with nothing that other
-/// sources share, as clearance_kernel.h.
+/// The inner loops of Voxelmap::samples and Voxelmap::free_chords, once for each kind of vectors; with nothing that
+/// other sources share, as clearance_kernel.h.
 namespace godobject::detail {
 
 /// A voxelmap as the kernel reads it.

@@ -11,7 +11,7 @@ std::uint32_t look_up_samples_avx512(const FieldOfNodes& field, SampleBatch& bat
 }
 
 std::uint32_t free_chords_avx512(const FieldOfNodes& field, const ChordEnds& ends, const SampleBatch& batch,
-                               std::uint32_t first) noexcept {
+                                 std::uint32_t first) noexcept {
   return chord_lanes<Avx512>(field, ends, batch, first);
 }
 

@@ -11,8 +11,9 @@ namespace {
 
 /// Stores one component of the positions in the field's frame at `position` and gives it in voxels.
 template <class Vectors>
-[[gnu::always_inline]] inline CellAxis<Vectors> store_position(const FieldOfNodes& f, int axis, typename Vectors::Floats x,
-                                 typename Vectors::Floats y, typename Vectors::Floats z, double* position) noexcept {
+[[gnu::always_inline]] inline CellAxis<Vectors> store_position(const FieldOfNodes& f, int axis,
+                                                               typename Vectors::Floats x, typename Vectors::Floats y,
+                                                               typename Vectors::Floats z, double* position) noexcept {
   using Doubles = typename Vectors::Doubles;
   constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
   const double(&m)[4] = f.to_field[axis];
@@ -25,9 +26,11 @@ template <class Vectors>
 
 /// Half of what was found, as Voxelmap::sample has it.
 template <class Vectors>
-[[gnu::always_inline]] inline typename Vectors::Longs store_samples(const FieldOfNodes& f, typename Vectors::Doubles distance,
-                                      typename Vectors::Doubles lipschitz, const typename Vectors::Doubles (&slope)[3],
-                                      SampleBatch& batch, std::uint32_t first) noexcept {
+[[gnu::always_inline]] inline typename Vectors::Longs store_samples(const FieldOfNodes& f,
+                                                                    typename Vectors::Doubles distance,
+                                                                    typename Vectors::Doubles lipschitz,
+                                                                    const typename Vectors::Doubles (&slope)[3],
+                                                                    SampleBatch& batch, std::uint32_t first) noexcept {
   using Doubles = typename Vectors::Doubles;
   using Longs = typename Vectors::Longs;
   const Doubles zero = {};

@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "core/scene/sample_bits.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
 
@@ -503,6 +504,75 @@ TEST_P(VoxelmapOfRandomShapes, LooksUpInBatchesWhatItLooksUpSingly) {
     }
   }
   EXPECT_GT(known, 1000);
+}
+
+/// Chords that a kernel calls free are free all along; it knows most of those that are; and all vectors say the same.
+TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
+  constexpr int kLooks = 400;  // along a chord
+  const auto kernels = detail::sample_kernels();
+  if (kernels.empty()) GTEST_SKIP() << "not run: this processor has no vectors that the core knows";
+  int free = 0, known_free = 0, blocked = 0, through_cells = 0;
+  for (int i = 0; i < 1500; ++i) {
+    Pose H0;
+    H0.rotation = exp_rotation(random_point(3.0));
+    H0.translation = random_point(0.02);
+    Pose H1 = H0;
+    const double stride = i % 3 == 0 ? 2e-4 : (i % 3 == 1 ? 1e-3 : 4e-3);  // to two voxels
+    H1.translation += random_point(stride);
+    H1.rotation = (H1.rotation * exp_rotation(random_point(20.0 * stride))).normalized();
+    SampleBatch batch;
+    batch.count = 1 + static_cast<std::uint32_t>(i) % SampleBatch::kCapacity;
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      Vector3 p = random_point(0.05);
+      for (int newton = 0; newton < 3 && k % 8 != 0; ++newton) {  // near the surface
+        const FieldSample sample = map_.sample(p);
+        if (sample.known) p -= (sample.distance - 1e-5) * sample.gradient / (sample.gradient.squaredNorm() + 1e-9);
+      }
+      p = H0.inverse() * p;
+      if (k % 23 == 7) p[static_cast<int>(k) % 3] = std::array{kNaN, kInfinity, -kInfinity, 1e30}[k % 4];
+      batch.x[k] = static_cast<float>(p.x());
+      batch.y[k] = static_cast<float>(p.y());
+      batch.z[k] = static_cast<float>(p.z());
+    }
+    const auto point = [&](std::uint32_t k) {
+      return Vector3(static_cast<double>(batch.x[k]), static_cast<double>(batch.y[k]), static_cast<double>(batch.z[k]));
+    };
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      batch.from_clearance[k] = map_.sample(H0 * point(k)).clearance;
+    }
+    map_.samples(H1, batch);
+    const std::uint64_t found = map_.free_chords_by(&kernels.front(), H0, H1, batch) & first_bits(batch.count);
+    for (const detail::SampleKernel& kernel : kernels) {
+      SCOPED_TRACE(kernel.name);
+      ASSERT_EQ(map_.free_chords_by(&kernel, H0, H1, batch) & first_bits(batch.count), found);
+    }
+    ASSERT_EQ(map_.free_chords_by(nullptr, H0, H1, batch), 0u);
+    for (std::uint32_t k = 0; k < batch.count; ++k) {
+      const Vector3 p0 = H0 * point(k);
+      const Vector3 way = H1 * point(k) - p0;
+      const bool known = (found >> k & 1) != 0;
+      if (!way.allFinite()) {
+        ASSERT_FALSE(known && p0.hasNaN());
+        continue;
+      }
+      double least = std::numeric_limits<double>::infinity();
+      for (int look = 0; look <= kLooks; ++look) {
+        least = std::min(least, map_.sample(p0 + static_cast<double>(look) / kLooks * way).distance);
+      }
+      if (known) {
+        ASSERT_GT(least, 0.0) << p0.transpose();
+      }
+      if (batch.from_clearance[k] + batch.clearance[k] >= way.norm()) continue;
+      ++through_cells;
+      blocked += least <= 0.0;
+      if (least <= 1e-7) continue;  // where rounding decides
+      ++free;
+      known_free += known;
+    }
+  }
+  EXPECT_GT(through_cells, 1000);
+  EXPECT_GT(blocked, 100);
+  EXPECT_GT(known_free, 0.85 * free) << "of " << free;
 }
 
 TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
