@@ -499,8 +499,8 @@ struct ContactSearch {
 /// bottom of a valley of the field ends there.
 ///
 /// Guarantee: a point whose stored distance is positive keeps it so, whatever the device does: points left out are free
-/// for the motion they are bounded for, the others' chords lie in free balls. (Not before the first pose's penetration
-/// is left, see below.)
+/// for the motion they are bounded for, the others' chords are looked at all along. (Not before the first pose's
+/// penetration is left, see below.)
 ///
 /// A point that may be near but is not looked up, because the budget is spent, is left out and free for as far as its
 /// bound says: then the god object may lag, which is counted, but it crosses nothing.
