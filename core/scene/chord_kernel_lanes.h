@@ -91,7 +91,7 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
     const CellLanes<Vectors> cell(f, axis_at(0), axis_at(1), axis_at(2));
     searched &= cell.stored;
     // as far as the cell goes
-    Floats step = needed - covered;
+    Floats step = Vectors::larger(needed - covered, zero);  // of those that arrived, too
     Floats direction[3];
     for (int axis = 0; axis < 3; ++axis) {
       direction[axis] = way[axis] * per_length / cell.cell_edge;

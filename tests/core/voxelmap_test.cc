@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfenv>
 #include <cfloat>
 #include <cmath>
 #include <limits>
@@ -529,7 +530,7 @@ TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
         if (sample.known) p -= (sample.distance - 1e-5) * sample.gradient / (sample.gradient.squaredNorm() + 1e-9);
       }
       p = H0.inverse() * p;
-      if (k % 23 == 7) p[static_cast<int>(k) % 3] = std::array{kNaN, kInfinity, -kInfinity, 1e30}[k % 4];
+      if (k % 23 == 7 && i % 4 != 0) p[static_cast<int>(k) % 3] = std::array{kNaN, kInfinity, -kInfinity, 1e30}[k % 4];
       batch.x[k] = static_cast<float>(p.x());
       batch.y[k] = static_cast<float>(p.y());
       batch.z[k] = static_cast<float>(p.z());
@@ -544,7 +545,11 @@ TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
     const std::uint64_t found = map_.free_chords_by(&kernels.front(), H0, H1, batch) & first_bits(batch.count);
     for (const detail::SampleKernel& kernel : kernels) {
       SCOPED_TRACE(kernel.name);
+      std::feclearexcept(FE_ALL_EXCEPT);
       ASSERT_EQ(map_.free_chords_by(&kernel, H0, H1, batch) & first_bits(batch.count), found);
+      if (i % 4 == 0) {
+        ASSERT_EQ(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW), 0);
+      }
     }
     ASSERT_EQ(map_.free_chords_by(nullptr, H0, H1, batch), 0u);
     for (std::uint32_t k = 0; k < batch.count; ++k) {
