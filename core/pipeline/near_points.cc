@@ -31,7 +31,8 @@ std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t
     const Doubles squared = way_x * way_x + way_y * way_y + way_z * way_z;
     const Doubles room = *reinterpret_cast<const Doubles*>(near.clearance + i) - kept;
     const Longs held = (room >= 0.0) & (squared <= room * room);
-    bits |= (*reinterpret_cast<const Doubles*>(near.distance + i) > 0.0) & ~held & here;
+    const Longs inside = *reinterpret_cast<const Doubles*>(near.distance + i) <= 0.0;
+    bits |= ~inside & ~held & here;
   }
   return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
 }

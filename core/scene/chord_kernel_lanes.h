@@ -48,7 +48,7 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   using Doubles = typename Vectors::Doubles;
   constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
   constexpr int kCells = 4;            // gone through, at most
-  constexpr float kRounding = 2e-5f;   // of distances and positions [voxels]
+  constexpr float kRounding = 2e-5f;   // of distances and positions, where slope and length are about 1 [voxels]
   constexpr float kShortest = 1e-12f;  // divided by [voxels]
   const Floats zero = {};
 
@@ -60,12 +60,6 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   const auto mapped = [](const double(&m)[4], const Doubles(&p)[3]) noexcept {
     return m[0] * p[0] + (m[1] * p[1] + m[2] * p[2]) + m[3];
   };
-  // [voxels]
-  const auto clearance = [&](const double* of) noexcept {
-    const Floats found = Vectors::narrowed(*reinterpret_cast<const Doubles*>(of + first) * f.per_voxel,
-                                           *reinterpret_cast<const Doubles*>(of + first + kHalf) * f.per_voxel);
-    return found > kRounding ? found - kRounding : zero;
-  };
   Doubles low[3], high[3];  // the chord's beginning
   Floats way[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -76,9 +70,16 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   }
   const Floats length = Vectors::root(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
   const Floats per_length = 1.0f / (length > kShortest ? length : zero + kShortest);
+  const Floats rounding = kRounding * (1.0f + length);
+  // [voxels]
+  const auto clearance = [&](const double* of) noexcept {
+    const Floats found = Vectors::narrowed(*reinterpret_cast<const Doubles*>(of + first) * f.per_voxel,
+                                           *reinterpret_cast<const Doubles*>(of + first + kHalf) * f.per_voxel);
+    return Vectors::larger(found - rounding, zero);
+  };
   const Floats needed = length - clearance(batch.clearance);
   Floats covered = clearance(batch.from_clearance);
-  Ints free = covered >= needed;
+  Ints free = covered > needed;
   Ints searched = ~free;
   const auto quantum = static_cast<float>(f.quantum_per_voxel);
   const auto near_band = static_cast<float>(f.near_band * f.per_voxel);
@@ -97,16 +98,19 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
       direction[axis] = way[axis] * per_length / cell.cell_edge;
       const Floats room = direction[axis] > 0.0f ? 1.0f - cell.at[axis] : cell.at[axis];
       const Floats speed = Vectors::larger(direction[axis], -direction[axis]);
-      step = Vectors::smaller(step, room / (speed > kShortest ? speed : zero + kShortest));
+      const Ints moves = speed > kShortest;
+      const Floats to_face = room / (moves ? speed : zero + 1.0f);
+      step = moves ? Vectors::smaller(step, to_face) : step;
     }
     const Floats to[3] = {cell.at[0] + step * direction[0], cell.at[1] + step * direction[1],
                           cell.at[2] + step * direction[2]};
     const Floats unit = quantum * cell.cell_edge;  // [voxels]
+    const Floats lipschitz = cell.lipschitz(f);
     Floats end;
-    searched &= stays_above<Vectors>(NodeLanes<Vectors>(f, cell), cell.at, to, kRounding / unit, end);
+    searched &= stays_above<Vectors>(NodeLanes<Vectors>(f, cell), cell.at, to, rounding * lipschitz / unit, end);
     // and about where it ends
     const Floats distance = unit * end;
-    const Floats ball = (distance < near_band ? distance : zero + near_band) / cell.lipschitz(f) - kRounding;
+    const Floats ball = (distance < near_band ? distance : zero + near_band) / lipschitz - rounding;
     covered += step + (ball > 0.0f ? ball : zero);
     const Ints arrived = searched & (covered >= needed);
     free |= arrived;

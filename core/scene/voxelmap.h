@@ -48,9 +48,10 @@ class Voxelmap {
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
   /// See DistanceField. Knows it of a chord through at most four cells without an edge, one after the other, in each of
-  /// which the cubic that the field is there has positive Bernstein coefficients; 0 where the processor has no vectors.
+  /// which the cubic that the field is there has positive Bernstein coefficients; 0 where the processor has no vectors:
+  /// there balls decide alone, so what a cycle with long chords comes to may differ in value.
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;
-  /// By one of sample_kernels(), or by none.
+  /// By one of sample_kernels(), or by none; the batch was looked up by one at least as wide.
   std::uint64_t free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,
                                SampleBatch& batch) const noexcept;
 

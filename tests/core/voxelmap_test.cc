@@ -580,6 +580,35 @@ TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
   EXPECT_GT(known_free, 0.85 * free) << "of " << free;
 }
 
+/// A point that does not move is free where it is outside, and not where it is inside.
+TEST_P(VoxelmapOfRandomShapes, KnowsChordsOfNoLength) {
+  int outside = 0, inside = 0;
+  for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
+    SCOPED_TRACE(kernel.name);
+    for (int i = 0; i < 3000; ++i) {
+      SampleBatch batch;
+      const Vector3 p = random_point(0.05);
+      batch.count = 1;
+      batch.x[0] = static_cast<float>(p.x());
+      batch.y[0] = static_cast<float>(p.y());
+      batch.z[0] = static_cast<float>(p.z());
+      map_.samples_by(&kernel, Pose{}, batch);
+      batch.from_clearance[0] = batch.clearance[0];
+      const bool known = (map_.free_chords_by(&kernel, Pose{}, Pose{}, batch) & 1) != 0;
+      if (batch.distance[0] <= 0.0) {
+        ASSERT_FALSE(known);
+        ++inside;
+      } else if (batch.clearance[0] > 1e-6) {
+        ASSERT_TRUE(known);
+        ++outside;
+      }
+    }
+  }
+  if (detail::sample_kernels().empty()) GTEST_SKIP() << "not run: this processor has no vectors that the core knows";
+  EXPECT_GT(inside, 20);
+  EXPECT_GT(outside, 20);
+}
+
 TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
   for (int i = 0; i < 20000; ++i) {
     const Vector3 center = random_point(0.1);
@@ -593,6 +622,37 @@ TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, kCoarseFrom + 2u));
+
+/// Over a flat floor, low, along planes and lines of nodes as well as between them.
+TEST(Voxelmap, KnowsChordsAlongTheLattice) {
+  OneBrick one;
+  one.grid.band = 0.5;
+  for (int z = 0; z < 5; ++z) {
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 0; x < 5; ++x) one.set(x, y, z, 0.25 * z - 0.5);
+    }
+  }
+  const Voxelmap map = one.map();
+  for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
+    for (const double y : {0.25, 0.3, 0.5}) {
+      for (const double from : {0.1, 0.25, 0.375}) {
+        SampleBatch batch;
+        batch.count = 1;
+        batch.x[0] = static_cast<float>(from);
+        batch.y[0] = static_cast<float>(y);
+        batch.z[0] = 0.5f + 0.001f;
+        Pose H1;
+        H1.translation.x() = 0.375;
+        batch.from_clearance[0] = map.sample(Vector3(from, y, 0.501)).clearance;
+        map.samples_by(&kernel, H1, batch);
+        EXPECT_EQ(map.free_chords_by(&kernel, Pose{}, H1, batch) & 1, 1u) << kernel.name << " at " << from << ", " << y;
+        H1.translation.z() = -0.0011;
+        map.samples_by(&kernel, H1, batch);
+        EXPECT_EQ(map.free_chords_by(&kernel, Pose{}, H1, batch) & 1, 0u) << kernel.name << " at " << from << ", " << y;
+      }
+    }
+  }
+}
 
 TEST(Voxelmap, NumbersTheLayersByHand) {
   OneBrick one;  // voxels of 1/4 m around the nodes; the surface stands at x = 1/2

@@ -69,9 +69,7 @@ class CountingField {
     cost_ += SearchWork::kBatch + batch.count;
     sample_each(map_, H, batch);
   }
-  std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept {
-    return map_.free_chords(H0, H1, batch);
-  }
+  std::uint64_t free_chords(const Pose&, const Pose&, SampleBatch&) const noexcept { return 0; }
   double lipschitz() const noexcept { return map_.lipschitz(); }
   double assured_clearance() const noexcept { return map_.assured_clearance(); }
   double voxel_size() const noexcept { return map_.voxel_size(); }
