@@ -8,19 +8,19 @@
 namespace godobject {
 namespace {
 
-constexpr std::uint32_t kLanes = NearPoints::kAtOnce;
-using Floats __attribute__((vector_size(4 * kLanes))) = float;
-using Doubles __attribute__((vector_size(8 * kLanes))) = double;
-using Longs __attribute__((vector_size(8 * kLanes))) = std::int64_t;
-constexpr Longs kFirst = {1, 2, 4, 8};
+constexpr std::uint32_t kPointsAtOnce = NearPoints::kAtOnce;
+using Floats __attribute__((vector_size(4 * kPointsAtOnce))) = float;
+using Doubles __attribute__((vector_size(8 * kPointsAtOnce))) = double;
+using Longs __attribute__((vector_size(8 * kPointsAtOnce))) = std::int64_t;
+constexpr Longs kFirstPoints = {1, 2, 4, 8};
 
 /// `change`: the turn, row by row, the last column the shift [m].
 GODOBJECT_VECTOR_WIDTHS
 std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t end, const double (&change)[3][4],
                       double kept) noexcept {
   Longs bits = {};
-  Longs here = kFirst;
-  for (std::uint32_t i = begin; i < end; i += kLanes, here <<= kLanes) {
+  Longs here = kFirstPoints;
+  for (std::uint32_t i = begin; i < end; i += kPointsAtOnce, here <<= kPointsAtOnce) {
     // no vector is passed to or from a function, whose way of passing it may differ
     const Doubles x = __builtin_convertvector(*reinterpret_cast<const Floats*>(near.x + i), Doubles);
     const Doubles y = __builtin_convertvector(*reinterpret_cast<const Floats*>(near.y + i), Doubles);

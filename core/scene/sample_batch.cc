@@ -20,7 +20,6 @@ constexpr detail::SampleKernel kSampleKernels[] = {
 const detail::SampleKernel* const kSampleKernel =
     detail::sample_kernels().empty() ? nullptr : &detail::sample_kernels().front();
 
-constexpr std::uint32_t kNoRefinement = 0;
 constexpr double kEverywhere = 1e9;  // [m]
 
 }  // namespace
@@ -32,6 +31,7 @@ std::span<const detail::SampleKernel> detail::sample_kernels() noexcept {
 }
 
 detail::FieldOfNodes Voxelmap::in_nodes(const Pose& H) const noexcept {
+  static constexpr std::uint32_t kNoRefinement = 0;
   detail::FieldOfNodes f{};
   f.index = index_;
   f.bricks = bricks_[0].value;

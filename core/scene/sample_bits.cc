@@ -5,21 +5,21 @@
 namespace godobject {
 namespace {
 
-constexpr std::uint32_t kLanes = SampleBatch::kAtOnce;
-using Doubles __attribute__((vector_size(8 * kLanes))) = double;
-using Longs __attribute__((vector_size(8 * kLanes))) = std::int64_t;
-constexpr Longs kFirst = {1, 2, 4, 8};
+constexpr std::uint32_t kSamplesAtOnce = SampleBatch::kAtOnce;
+using Doubles __attribute__((vector_size(8 * kSamplesAtOnce))) = double;
+using Longs __attribute__((vector_size(8 * kSamplesAtOnce))) = std::int64_t;
+constexpr Longs kFirstSamples = {1, 2, 4, 8};
 
 }  // namespace
 
 // in one expression: no vector is passed to or from a function, whose way of passing it may differ
 #define GODOBJECT_AT(component) (*reinterpret_cast<const Doubles*>(batch.component + i))
-#define GODOBJECT_BITS_OF(holds)                                             \
-  Longs bits = {};                                                           \
-  Longs here = kFirst;                                                       \
-  for (std::uint32_t i = 0; i < batch.count; i += kLanes, here <<= kLanes) { \
-    bits |= (holds)&here;                                                    \
-  }                                                                          \
+#define GODOBJECT_BITS_OF(holds)                                                             \
+  Longs bits = {};                                                                           \
+  Longs here = kFirstSamples;                                                                \
+  for (std::uint32_t i = 0; i < batch.count; i += kSamplesAtOnce, here <<= kSamplesAtOnce) { \
+    bits |= (holds)&here;                                                                    \
+  }                                                                                          \
   return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
 
 GODOBJECT_VECTOR_WIDTHS
