@@ -139,8 +139,9 @@ template <class Direction>
 std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, std::uint64_t chosen, const Matrix3& R,
                         const ContactLengths& lengths, ContactRows& rows) noexcept {
   ContactRows::Batch contacts;
+  std::uint32_t count = 0;
   for_each_bit(chosen & batch.known & steeper(batch, kFlat), [&](std::uint32_t k) noexcept {
-    const std::uint32_t i = contacts.count++;
+    const std::uint32_t i = count++;
     const Vector3 point = Direction::point_S(batch, k);
     contacts.id[i] = Direction::kId | index[k];
     contacts.point_x[i] = point.x();
@@ -151,6 +152,7 @@ std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, st
     contacts.gradient_z[i] = batch.gradient_z[k];
     contacts.distance[i] = batch.distance[k];
   });
+  contacts.count = count;
   return rows.push(contacts, Direction::from_S(R), gap_of(lengths));
 }
 
@@ -167,11 +169,11 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
   search.find(
       direction, field, shell, H, way, cut, PointBudget{lengths.point_budget, lengths.margin},
       [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
-        std::uint64_t held = found;
-        for_each_bit(found, [&](std::uint32_t k) noexcept {
-          around.smallest = std::min(around.smallest, batch.distance[k]);
-          if (!near.full()) return near.push(index[k], batch, k);
-          held &= ~(std::uint64_t{1} << k);
+        double smallest = around.smallest;
+        for_each_bit(found, [&](std::uint32_t k) noexcept { smallest = std::min(smallest, batch.distance[k]); });
+        around.smallest = smallest;
+        const std::uint64_t held = near.push(index.data(), batch, found);
+        for_each_bit(found & ~held, [&](std::uint32_t k) noexcept {
           leave_out(batch.clearance[k]);
           around.swallowed |= batch.distance[k] <= 0.0;  // nothing will bring it out
           ++around.dropped;
@@ -539,6 +541,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   detail::Budget budget;
   double reach = 0.0;
   double most_reach = 0.0;
+  double farthest = 0.0;  // of the sub-steps
   // beyond it a gap does not hold a motion back that it is free for, and is not told
   const double free_cut = std::min(std::max(lengths.margin, lengths.shortest_reach), search.longest_reach);
   std::uint32_t free_substeps = 0;
@@ -688,8 +691,11 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
     most_reach = std::min(std::max(most_reach, 2.0 * reach), search.longest_reach);
-    // what is left of a motion that was cut may change its direction, but is seldom twice as long
-    reach = result.cut ? std::min(most_reach, lengths.reach_for(2.0 * rest, search.longest_reach)) : most_reach;
+    farthest = std::max(farthest, travel(lengths.sphere, motion));
+    // what is left of a motion that was cut may change its direction, but is seldom twice as long; what follows one
+    // that went round an edge is seldom longer than all before
+    const double expected = result.cut ? 2.0 * rest : farthest;
+    reach = std::min(most_reach, lengths.reach_for(expected, search.longest_reach));
   } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps &&
            free_substeps < kFreeSubsteps);
   if (result.substeps == 0 && result.step.follows) {

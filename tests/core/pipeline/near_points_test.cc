@@ -1,7 +1,10 @@
 #include "core/pipeline/near_points.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -30,15 +33,16 @@ TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
       batch.z[0] = static_cast<float>(p.z());
       batch.distance[0] = random.between(-1e-4, 1e-3);
       batch.clearance[0] = random.between(0.0, 2.0) * (turn * p + shift).norm();
-      near->push(7 * i, batch, 0);
+      const std::uint32_t number = 7 * i;
+      ASSERT_EQ(near->push(&number, batch, 1), 1u);
     }
     near->pad();
     ASSERT_EQ(near->count, count);
     for (std::uint32_t first = 0; first < count; first += 64) {
       const std::uint64_t found = near->leave_their_ball(first, turn, shift, kept);
       for (std::uint32_t i = first; i < first + 64; ++i) {
-        const bool leaves = i < count && near->distance[i] > 0.0 &&
-                            (turn * near->point(i) + shift).norm() + kept > near->clearance[i];
+        const bool leaves =
+            i < count && near->distance[i] > 0.0 && (turn * near->point(i) + shift).norm() + kept > near->clearance[i];
         ASSERT_EQ((found >> (i - first) & 1) != 0, leaves) << i << " of " << count;
         (leaves ? leaving : held) += 1;
       }
@@ -46,6 +50,45 @@ TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
   }
   EXPECT_GT(leaving, 1000);
   EXPECT_GT(held, 1000);
+}
+
+TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
+  test::Random random(4);
+  const auto near = std::make_unique<NearPoints>();
+  std::vector<std::uint32_t> pushed;
+  std::uint32_t number = 0;
+  int refused = 0;
+  while (refused < 3) {
+    SampleBatch batch;
+    std::array<std::uint32_t, SampleBatch::kCapacity> numbers;
+    std::uint64_t chosen = 0;
+    for (std::uint32_t k = 0; k < SampleBatch::kCapacity; ++k, ++number) {
+      numbers[k] = number;
+      batch.x[k] = static_cast<float>(number);
+      batch.y[k] = static_cast<float>(number + 1);
+      batch.z[k] = static_cast<float>(number + 2);
+      batch.distance[k] = number + 3;
+      batch.clearance[k] = number + 4;
+      if (random.between(0.0, 1.0) < 0.6) chosen |= std::uint64_t{1} << k;
+    }
+    const std::uint64_t held = near->push(numbers.data(), batch, chosen);
+    ASSERT_EQ(held & ~chosen, 0u);
+    std::uint64_t expected = 0;
+    for_each_bit(chosen, [&](std::uint32_t k) {
+      if (pushed.size() == NearPoints::kCapacity) return;
+      expected |= std::uint64_t{1} << k;
+      pushed.push_back(numbers[k]);
+    });
+    ASSERT_EQ(held, expected) << "the first of them";
+    refused += held != chosen;
+  }
+  ASSERT_EQ(near->count, NearPoints::kCapacity);
+  for (std::uint32_t i = 0; i < near->count; ++i) {
+    ASSERT_EQ(near->index[i], pushed[i]);
+    ASSERT_EQ(near->point(i), Vector3(pushed[i], pushed[i] + 1, pushed[i] + 2));
+    ASSERT_EQ(near->distance[i], pushed[i] + 3);
+    ASSERT_EQ(near->clearance[i], pushed[i] + 4);
+  }
 }
 
 TEST(SampleBits, SayWhatHoldsOfEachPoint) {

@@ -164,6 +164,39 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   EXPECT_GT(near, 1000u) << "the walk must come near";
 }
 
+/// Whatever a budget left unlooked at is found once there is none.
+TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
+  const SceneImage image = ball_over_plate();
+  const Scene scene = open_scene(image);
+  const MassModel mass = Parameters::make(scene).mass;
+  const double longest = scene.voxelmap.assured_clearance();
+  std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
+  NearSearch search;
+  search.start(memory, scene.pointshell, scene.voxelmap.lipschitz(), longest);
+  Odometer odometer;
+  Walk walk(11, mass.radius);
+  std::size_t near = 0;
+  int short_of_it = 0;
+  for (int step = 0; step < 6000; ++step) {
+    const Pose& H = walk.next();
+    odometer.move_to(H, mass.sphere);
+    const double cut = longest * walk.share();
+    if (walk.share() < 0.5) {
+      search.find(
+          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.way(), cut, PointBudget{3, 1e-4},
+          [](const SampleBatch&, const auto&, std::uint64_t) {}, [&](double) { ++short_of_it; });
+      continue;
+    }
+    const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
+    ASSERT_EQ(found(search, detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.way(), cut),
+              expected)
+        << step;
+    near += expected.size();
+  }
+  EXPECT_GT(near, 3000u) << "the walk must come near";
+  EXPECT_GT(short_of_it, 1000) << "the budget must be put to the test";
+}
+
 /// What is left out is as far as it was said to be, what is nearer than that was found, and the budget is kept but for
 /// points that touch.
 TEST(NearSearch, KeepsItsBudgetNearestFirst) {
