@@ -169,12 +169,10 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
   search.find(
       direction, field, shell, H, way, cut, PointBudget{lengths.point_budget, lengths.margin},
       [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
-        double smallest = around.smallest;
-        for_each_bit(found, [&](std::uint32_t k) noexcept { smallest = std::min(smallest, batch.distance[k]); });
-        around.smallest = smallest;
         const std::uint64_t held = near.push(index.data(), batch, found);
         for_each_bit(found & ~held, [&](std::uint32_t k) noexcept {
           leave_out(batch.clearance[k]);
+          around.smallest = std::min(around.smallest, batch.distance[k]);
           around.swallowed |= batch.distance[k] <= 0.0;  // nothing will bring it out
           ++around.dropped;
         });
@@ -186,6 +184,7 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
         leave_out(clearance);
         ++around.unseen;
       });
+  around.smallest = std::min(around.smallest, near.least_distance());
   near.pad();
 }
 

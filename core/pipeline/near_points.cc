@@ -1,6 +1,7 @@
 #include "core/pipeline/near_points.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/scene/sample_bits.h"
 #include "core/vector_widths.h"
@@ -37,7 +38,26 @@ std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t
   return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
 }
 
+/// Over the first `count` points, a multiple of kPointsAtOnce.
+GODOBJECT_VECTOR_WIDTHS
+double least(const double* distance, std::uint32_t count) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Doubles least = {kInfinity, kInfinity, kInfinity, kInfinity};
+  for (std::uint32_t i = 0; i < count; i += kPointsAtOnce) {
+    const Doubles here = *reinterpret_cast<const Doubles*>(distance + i);
+    least = here < least ? here : least;
+  }
+  return std::min({least[0], least[1], least[2], least[3]});
+}
+
 }  // namespace
+
+double NearPoints::least_distance() const noexcept {
+  const std::uint32_t even = count - count % kPointsAtOnce;
+  double found = least(distance, even);
+  for (std::uint32_t i = even; i < count; ++i) found = std::min(found, distance[i]);
+  return found;
+}
 
 std::uint64_t NearPoints::leave_their_ball(std::uint32_t first, const Matrix3& turn, const Vector3& shift,
                                            double kept) const noexcept {

@@ -50,6 +50,9 @@ struct NearPoints {
     }
   }
 
+  /// Infinity if there are none. About an instruction a point.
+  double least_distance() const noexcept;
+
   Vector3 point(std::uint32_t i) const noexcept {
     return {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,8 @@ TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
       const std::uint32_t number = 7 * i;
       ASSERT_EQ(near->push(&number, batch, 1), 1u);
     }
+    ASSERT_EQ(near->least_distance(), count == 0 ? std::numeric_limits<double>::infinity()
+                                                 : *std::min_element(near->distance, near->distance + count));
     near->pad();
     ASSERT_EQ(near->count, count);
     for (std::uint32_t first = 0; first < count; first += 64) {
