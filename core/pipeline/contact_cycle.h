@@ -540,7 +540,7 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
   detail::Budget budget;
   double reach = 0.0;
   double most_reach = 0.0;
-  double farthest = 0.0;  // of the sub-steps
+  double longest_way = 0.0;  // of the sub-steps, by travel [m]
   // beyond it a gap does not hold a motion back that it is free for, and is not told
   const double free_cut = std::min(std::max(lengths.margin, lengths.shortest_reach), search.longest_reach);
   std::uint32_t free_substeps = 0;
@@ -690,10 +690,10 @@ Status contact_cycle(const Field& field, const Pointshell& shell, const FeatureC
     result.cut = share < 1.0 && !shortened;
     if (share == 0.0) break;
     most_reach = std::min(std::max(most_reach, 2.0 * reach), search.longest_reach);
-    farthest = std::max(farthest, travel(lengths.sphere, motion));
+    longest_way = std::max(longest_way, travel(lengths.sphere, motion));
     // what is left of a motion that was cut may change its direction, but is seldom twice as long; what follows one
     // that went round an edge is seldom longer than all before
-    const double expected = result.cut ? 2.0 * rest : farthest;
+    const double expected = result.cut ? 2.0 * rest : longest_way;
     reach = std::min(most_reach, lengths.reach_for(expected, search.longest_reach));
   } while ((result.cut || opened) && !inside && budget.balls > 0 && result.substeps < kMaxSubsteps &&
            free_substeps < kFreeSubsteps);

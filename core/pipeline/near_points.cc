@@ -40,11 +40,11 @@ std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t
 
 /// Over the first `count` points, a multiple of kPointsAtOnce.
 GODOBJECT_VECTOR_WIDTHS
-double least(const double* distance, std::uint32_t count) noexcept {
+double least_distance_of(const NearPoints& near, std::uint32_t count) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Doubles least = {kInfinity, kInfinity, kInfinity, kInfinity};
   for (std::uint32_t i = 0; i < count; i += kPointsAtOnce) {
-    const Doubles here = *reinterpret_cast<const Doubles*>(distance + i);
+    const Doubles here = *reinterpret_cast<const Doubles*>(near.distance + i);
     least = here < least ? here : least;
   }
   return std::min({least[0], least[1], least[2], least[3]});
@@ -54,7 +54,7 @@ double least(const double* distance, std::uint32_t count) noexcept {
 
 double NearPoints::least_distance() const noexcept {
   const std::uint32_t even = count - count % kPointsAtOnce;
-  double found = least(distance, even);
+  double found = least_distance_of(*this, even);
   for (std::uint32_t i = even; i < count; ++i) found = std::min(found, distance[i]);
   return found;
 }

@@ -50,7 +50,7 @@ struct NearPoints {
     }
   }
 
-  /// Infinity if there are none. About an instruction a point.
+  /// Infinity if there are none; NaN does not count. About an instruction a point.
   double least_distance() const noexcept;
 
   Vector3 point(std::uint32_t i) const noexcept {

@@ -63,8 +63,8 @@ struct PointBudget {
 ///
 /// What is due is looked at in batches (DistanceField::clearances, which knows C as the bound needs it); a node that
 /// may be near gives way to its children, and takes their place again once they are far. Points that may be near are
-/// looked up (DistanceField::samples), as far as a budget goes and where a bound just found does not say that they are
-/// not near, and again in every cycle as long as they would come due at once.
+/// looked up (DistanceField::samples), as far as a budget goes, and again in every cycle as long as they would come due
+/// at once.
 class NearSearch {
  public:
   /// Words that a search of this shell remembers.
@@ -276,9 +276,7 @@ class NearSearch {
       if (samples.count == SampleBatch::kCapacity) sample();
     };
     if (calendar_.marked() <= budget.points) {
-      calendar_.for_each_marked([&](std::uint32_t i) noexcept {
-        if (static_cast<double>(take_bound(i)) < cut) look_up(i);
-      });
+      calendar_.for_each_marked(look_up);
     } else {
       NearestFirst nearest(budget, static_cast<float>(cut));
       const auto for_each_candidate = [&](const auto& visit) noexcept {
@@ -295,7 +293,6 @@ class NearSearch {
           leave_out(static_cast<double>(bound(i)));
         }
       });
-      calendar_.for_each_marked([&](std::uint32_t i) noexcept { take_bound(i); });
     }
     if (samples.count > 0) sample();
     // a node whose children are all filed and far
@@ -369,13 +366,6 @@ class NearSearch {
 
   float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(bounds_[point]); }
 
-  /// It holds where the body is now, no longer where it is looked for next.
-  float take_bound(std::uint32_t point) noexcept {
-    const float taken = bound(point);
-    bounds_[point] = 0;
-    return taken;
-  }
-
   static constexpr double kAhead = 0.25 * kTicks;
   static constexpr double kOpen = 0.125;  ///< a node less than this many radii away is opened
   static constexpr double kLeave = 3.0;   ///< children this many of its radii away may be stood for by their parent
@@ -383,7 +373,7 @@ class NearSearch {
 
   std::span<std::uint32_t> memory_;
   DueCalendar calendar_;
-  std::span<std::uint32_t> bounds_;  ///< of a marked point's clearance, a float a point, 0 between calls [m]
+  std::span<std::uint32_t> bounds_;  ///< of a marked point's clearance, a float a point [m]
   double slope_ = 1.0;               ///< the field's lipschitz()
   double tick_ = 1.0;                ///< of the calendar [m]
   double certain_ = kNever;          ///< until when nothing comes nearer than the longest cut [m]
