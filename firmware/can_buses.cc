@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "firmware/can_interfaces.h"
-#include "firmware/command/failure.h"
 #include "hal/cia402/bus_identifiers.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

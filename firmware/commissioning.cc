@@ -8,11 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "firmware/bus_messages.h"
-#include "firmware/command/failure.h"
 #include "hal/canopen/emergency.h"
 #include "hal/canopen/network.h"
 #include "hal/canopen/sdo.h"
 #include "hal/cia402/read_object.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "core/device/dynamics.h"
 #include "core/device/kinematics.h"
-#include "core/pipeline/parameters.h"
-#include "firmware/command/failure.h"
+#include "core/pipeline/cycle/parameters.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

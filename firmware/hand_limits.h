@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject::firmware {
 

@@ -23,9 +23,6 @@
 #include "firmware/bus_plan_table.h"
 #include "firmware/can_buses.h"
 #include "firmware/can_interfaces.h"
-#include "firmware/command/failure.h"
-#include "firmware/command/in_build.h"
-#include "firmware/command/run.h"
 #include "firmware/commissioning.h"
 #include "firmware/configuration/controller_file.h"
 #include "firmware/control_cycle.h"
@@ -44,6 +41,9 @@
 #include "hal/linux/monotonic_clock.h"
 #include "sim/can_device.h"
 #include "sim/virtual_clock.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/in_build.h"
+#include "toolchain/command_line/run.h"
 
 namespace {
 

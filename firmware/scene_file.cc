@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/format.h"
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

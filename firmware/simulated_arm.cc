@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/device/kinematics.h"
-#include "firmware/command/failure.h"
-#include "firmware/command/pose_path.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/pose_path.h"
 
 namespace godobject::firmware {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/status.h"
 #include "firmware/overrun_watch.h"
 #include "firmware/rate_watch.h"
 #include "firmware/sign_test.h"
+#include "godobject/status.h"
 #include "hal/joint_drives.h"
 
 namespace godobject::firmware {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject::sim {
 

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "core/device/joint_vector.h"
-#include "core/spatial/pose.h"
-#include "core/status.h"
+#include "godobject/pose.h"
+#include "godobject/status.h"
 
 namespace godobject {
 

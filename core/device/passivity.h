@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/device/joint_vector.h"
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 

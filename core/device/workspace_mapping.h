@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/spatial/pose.h"
-#include "core/status.h"
+#include "godobject/pose.h"
+#include "godobject/status.h"
 
 namespace godobject {
 

@@ -2,8 +2,8 @@
 
 #include <cassert>
 
-#include "core/pipeline/ball_cycle.h"
-#include "core/pipeline/workspace_limit.h"
+#include "core/pipeline/contact/ball_cycle.h"
+#include "core/pipeline/cycle/workspace_limit.h"
 
 namespace godobject {
 namespace {

@@ -5,9 +5,10 @@
 #include <span>
 #include <type_traits>
 
-#include "core/pipeline/contact_cycle.h"
-#include "core/pipeline/cycle.h"
-#include "core/pipeline/scene_traits.h"
+#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/corrected/corrected_cycle.h"
+#include "core/pipeline/paper/paper_cycle.h"
+#include "core/pipeline/cycle/scene_traits.h"
 #include "core/scene/scene.h"
 
 namespace godobject {

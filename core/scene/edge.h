@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/scene/format.h"
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 

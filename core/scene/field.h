@@ -4,8 +4,7 @@
 #include <cstdint>
 
 #include "core/scene/sample_batch.h"
-#include "core/spatial/pose.h"
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 

@@ -5,7 +5,7 @@
 
 #include "core/scene/format.h"
 #include "core/spatial/bounding_sphere.h"
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 

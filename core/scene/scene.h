@@ -7,8 +7,8 @@
 #include "core/scene/pointshell.h"
 #include "core/scene/voxelmap.h"
 #include "core/scene/workspace_box.h"
-#include "core/spatial/pose.h"
-#include "core/status.h"
+#include "godobject/pose.h"
+#include "godobject/status.h"
 
 namespace godobject {
 

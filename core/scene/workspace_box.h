@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 

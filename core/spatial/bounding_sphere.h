@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "core/spatial/pose.h"
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 

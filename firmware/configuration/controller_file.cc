@@ -7,10 +7,10 @@
 
 #include "core/device/kinematics.h"
 #include "core/device/velocity_estimator.h"
-#include "firmware/command/solver_names.h"
-#include "firmware/command/toml_file.h"
-#include "firmware/command/toml_table.h"
 #include "firmware/configuration/pose_key.h"
+#include "toolchain/command_line/solver_names.h"
+#include "toolchain/files/toml_file.h"
+#include "toolchain/files/toml_table.h"
 
 namespace godobject::firmware {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/device/workspace_mapping.h"
 #include "core/pipeline/god_object.h"
-#include "core/spatial/pose.h"
 #include "firmware/configuration/device_file.h"
+#include "godobject/pose.h"
 
 namespace godobject::firmware {
 

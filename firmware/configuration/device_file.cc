@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/toml_file.h"
-#include "firmware/command/toml_table.h"
 #include "firmware/configuration/pose_key.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/toml_file.h"
+#include "toolchain/files/toml_table.h"
 
 namespace godobject::firmware {
 namespace {

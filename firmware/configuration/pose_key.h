@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "core/spatial/pose.h"
-#include "firmware/command/toml_table.h"
+#include "godobject/pose.h"
+#include "toolchain/files/toml_table.h"
 
 namespace godobject::firmware {
 

@@ -13,14 +13,14 @@
 #include <CLI/CLI.hpp>
 
 #include "firmware/can_buses.h"
-#include "firmware/command/failure.h"
-#include "firmware/command/run.h"
 #include "firmware/configuration/controller_file.h"
 #include "firmware/scene_file.h"
 #include "firmware/simulated_arm.h"
 #include "hal/cia402/bus_plan.h"
 #include "hal/linux/monotonic_clock.h"
 #include "sim/can_bridge.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/run.h"
 
 namespace {
 

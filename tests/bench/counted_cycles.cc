@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/pipeline/god_object.h"
-#include "firmware/command/pose_path.h"
-#include "toolchain/command/scene_image.h"
+#include "toolchain/files/pose_path.h"
+#include "toolchain/files/scene_image.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/external_program.h"
+#include "toolchain/command_line/external_program.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::bench {
 namespace {

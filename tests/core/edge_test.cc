@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 #include "tests/support/random.h"
 
 namespace godobject {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/spatial/bounding_sphere.h"
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject {
 namespace {

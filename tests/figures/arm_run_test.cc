@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
 #include "tests/figures/replay_rows.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/figures/arm_figure.h"
 
 namespace godobject::figures {

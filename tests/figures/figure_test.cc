@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/figures/replay_rows.h"
-#include "toolchain/command/external_program.h"
+#include "toolchain/command_line/external_program.h"
 
 namespace godobject::figures {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
 #include "tests/figures/replay_rows.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/figures/page.h"
 
 namespace godobject::figures {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/replay/replay.h"
 
 namespace godobject::figures {

@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "firmware/bus_log_writer.h"
-#include "firmware/command/failure.h"
 #include "hal/can_log_ring.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/fault_record.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

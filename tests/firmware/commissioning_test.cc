@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "firmware/command/failure.h"
 #include "hal/cia402/bus_plan.h"
 #include "sim/can_device.h"
 #include "tests/sim/small_master.h"
 #include "tests/support/arms.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/device/kinematics.h"
-#include "firmware/command/failure.h"
 #include "tests/support/fault_record.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "core/device/dynamics.h"
-#include "firmware/command/failure.h"
 #include "tests/support/arms.h"
 #include "tests/support/fault_record.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

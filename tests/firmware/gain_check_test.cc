@@ -6,9 +6,9 @@
 
 #include "core/device/dynamics.h"
 #include "core/device/kinematics.h"
-#include "firmware/command/failure.h"
 #include "tests/support/arms.h"
 #include "tests/support/small_scenes.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "firmware/command/failure.h"
 #include "tests/support/fault_record.h"
 #include "tests/support/ordinary_user.h"
 #include "tests/support/small_scenes.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/command/failure.h"
 #include "firmware/controller_run.h"
 #include "firmware/telemetry_ring.h"
 #include "firmware/telemetry_writer.h"
@@ -27,6 +26,7 @@
 #include "tests/support/fault_record.h"
 #include "tests/support/scene_image_builder.h"
 #include "tests/support/small_scenes.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
 namespace {

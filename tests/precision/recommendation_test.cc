@@ -1,7 +1,7 @@
 // What is taken for a budget, with costs and errors that are made up.
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/precision/recommendation.h"
 
 namespace godobject::precision {

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/report/fault_table/results.h"
 
 namespace godobject::report {

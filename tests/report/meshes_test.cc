@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "toolchain/report/contact_quality/scenes.h"
-#include "toolchain/scene_compiler/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 namespace godobject::report {
 namespace {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/report/study/made_once.h"
 #include "toolchain/report/study/page.h"
 #include "toolchain/report/study/plot.h"

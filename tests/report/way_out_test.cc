@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pipeline/least_constraint.h"
+#include "core/pipeline/contact/qp/least_constraint.h"
 #include "tests/support/random.h"
 #include "toolchain/report/analytic/solid.h"
 #include "toolchain/report/contact_quality/reference.h"

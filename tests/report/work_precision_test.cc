@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/report/contact_quality/meshes.h"
 #include "toolchain/report/study/study.h"
 #include "toolchain/report/work_precision/chapter.h"

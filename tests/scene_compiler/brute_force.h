@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 namespace godobject::scene_compiler {
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene_compiler/test_meshes.h"
-#include "toolchain/scene_compiler/thin_places.h"
+#include "toolchain/scene_compiler/mesh/thin_places.h"
 
 namespace godobject::scene_compiler {
 namespace {

@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
 #include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/query/query_points.h"
 #include "toolchain/scene_compiler/compile_report.h"
-#include "toolchain/scene_compiler/query_points.h"
 
 namespace godobject::scene_compiler {
 namespace {

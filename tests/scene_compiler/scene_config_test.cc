@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
 #include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::scene_compiler {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 /// Meshes whose properties can be worked out by hand. Counter-clockwise seen from outside; metres.
 namespace godobject::test {

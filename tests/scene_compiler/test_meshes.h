@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "toolchain/scene_compiler/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 namespace godobject::scene_compiler {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 #include "toolchain/report/analytic/field.h"
 
 namespace godobject::test {

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "core/pipeline/cycle.h"
+#include "core/pipeline/corrected/corrected_cycle.h"
+#include "core/pipeline/paper/paper_cycle.h"
 #include "tests/support/analytic_shapes.h"
 #include "toolchain/report/analytic/field.h"
 #include "toolchain/report/analytic/sampled_body.h"

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 
 namespace godobject::test {
 

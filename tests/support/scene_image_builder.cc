@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/status.h"
+#include "godobject/status.h"
 
 namespace godobject::test {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/scene/format.h"
 #include "core/scene/scene.h"
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject::test {
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "core/pipeline/contact_rows.h"
-#include "core/pipeline/least_constraint.h"
+#include "core/pipeline/contact/qp/contact_rows.h"
+#include "core/pipeline/contact/qp/least_constraint.h"
 
 namespace godobject::test {
 

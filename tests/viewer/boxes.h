@@ -1,6 +1,6 @@
 #pragma once
 
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 namespace godobject::viewer {
 

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/viewer/boxes.h"
-#include "toolchain/scene_compiler/mesh_import.h"
-#include "toolchain/scene_compiler/triangle_tree.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/triangle_tree.h"
 
 namespace godobject::viewer {
 namespace {

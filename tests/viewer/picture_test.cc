@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/command/failure.h"
 #include "tests/viewer/boxes.h"
-#include "toolchain/command/external_program.h"
+#include "toolchain/command_line/external_program.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/viewer/pov_text.h"
 #include "toolchain/viewer/render.h"
 #include "toolchain/viewer/scene_bodies.h"

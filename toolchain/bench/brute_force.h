@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/scene/scene.h"
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 #include "toolchain/bench/point_scan.h"
 
 namespace godobject::bench {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/stopwatch.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/stopwatch.h"
 
 namespace godobject::bench {
 namespace {

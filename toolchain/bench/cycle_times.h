@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene/scene.h"
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 #include "toolchain/bench/distribution.h"
 #include "toolchain/bench/workload.h"
 

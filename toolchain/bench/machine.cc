@@ -10,7 +10,7 @@
 
 #include "toolchain/bench/build_facts.h"
 #include "toolchain/bench/cycle_times.h"
-#include "toolchain/command/source_commit.h"
+#include "toolchain/command_line/source_commit.h"
 
 namespace godobject::bench {
 namespace {

@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/run.h"
 #include "toolchain/bench/chapters.h"
 #include "toolchain/bench/machine.h"
 #include "toolchain/bench/micro.h"
 #include "toolchain/bench/page.h"
 #include "toolchain/bench/scene_cache.h"
 #include "toolchain/bench/target.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/progress.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/progress.h"
+#include "toolchain/command_line/run.h"
+#include "toolchain/files/output_target.h"
 
 namespace {
 

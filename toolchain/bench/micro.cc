@@ -4,18 +4,18 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/pipeline/constrained_motion.h"
-#include "core/pipeline/correction.h"
-#include "core/pipeline/least_constraint.h"
-#include "core/pipeline/parameters.h"
-#include "core/pipeline/penalty_contacts.h"
-#include "core/pipeline/projection.h"
-#include "core/pipeline/proxy_filter.h"
-#include "firmware/command/failure.h"
+#include "core/pipeline/contact/qp/least_constraint.h"
+#include "core/pipeline/corrected/projection.h"
+#include "core/pipeline/cycle/parameters.h"
+#include "core/pipeline/paper/constrained_motion.h"
+#include "core/pipeline/paper/correction.h"
+#include "core/pipeline/paper/proxy_filter.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/bench/brute_force.h"
 #include "toolchain/bench/cycle_times.h"
 #include "toolchain/bench/peers.h"
 #include "toolchain/bench/workload.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::bench {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/html_text.h"
 #include "toolchain/figures/gnuplot.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/html_text.h"
 
 namespace godobject::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <set>
 
-#include "core/pipeline/penalty_contacts.h"
-#include "toolchain/command/stopwatch.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
+#include "toolchain/command_line/stopwatch.h"
 
 namespace godobject::bench {
 

@@ -8,7 +8,7 @@
 #include "toolchain/bench/mesh_peers.h"
 #include "toolchain/bench/peers.h"
 #include "toolchain/bench/workload.h"
-#include "toolchain/scene_compiler/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace godobject::bench {

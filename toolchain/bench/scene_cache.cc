@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "toolchain/bench/build_facts.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/output_target.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/output_target.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/scene_config.h"
 

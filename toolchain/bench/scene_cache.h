@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "toolchain/command/scene_image.h"
+#include "toolchain/files/scene_image.h"
 
 namespace godobject::bench {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/html_text.h"
 #include "toolchain/figures/table.h"
+#include "toolchain/files/html_text.h"
 
 namespace godobject::bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/pipeline/god_object.h"
 #include "core/scene/scene.h"
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject::bench {
 

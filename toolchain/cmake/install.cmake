@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(GODOBJECT_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/godobject")
 
-install(TARGETS core arm_stability EXPORT godobject ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT core)
+install(TARGETS godobject_core EXPORT godobject ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT core)
 install(DIRECTORY core DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/godobject" COMPONENT core
   FILES_MATCHING PATTERN "*.h")
 install(EXPORT godobject NAMESPACE godobject:: FILE godobjectTargets.cmake DESTINATION "${GODOBJECT_CMAKE_DIR}"

@@ -4,7 +4,7 @@
 #   GODOBJECT_SCENE_FRICTION  ON where the scene has friction
 #   GODOBJECT_SCENE_FEATURES  ON where the image holds the second direction
 #   GODOBJECT_SCENE_POINTS    OFF where contact needs none but the centre of a ball without friction
-# From them comes GODOBJECT_LEFT_OUT, the compile definitions of core/pipeline/scene_traits.h; empty: all is built.
+# From them comes GODOBJECT_LEFT_OUT, the compile definitions of core/pipeline/cycle/scene_traits.h; empty: all is built.
 set(GODOBJECT_SCENE "" CACHE FILEPATH "Build for one scene: its traits, from godobject-scenec --traits")
 
 set(GODOBJECT_LEFT_OUT "")

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/toml_file.h"
-#include "firmware/command/toml_table.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/figures/table.h"
+#include "toolchain/files/toml_file.h"
+#include "toolchain/files/toml_table.h"
 
 namespace godobject::figures {
 namespace {

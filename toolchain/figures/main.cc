@@ -7,12 +7,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/command/input_file.h"
-#include "firmware/command/run.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/progress.h"
-#include "toolchain/command/scene_image.h"
+#include "toolchain/command_line/progress.h"
+#include "toolchain/command_line/run.h"
 #include "toolchain/figures/arm_figure.h"
 #include "toolchain/figures/arm_run.h"
 #include "toolchain/figures/claims.h"
@@ -22,6 +18,10 @@
 #include "toolchain/figures/scene_facts.h"
 #include "toolchain/figures/statistics.h"
 #include "toolchain/figures/table.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/input_file.h"
+#include "toolchain/files/output_target.h"
+#include "toolchain/files/scene_image.h"
 
 namespace {
 

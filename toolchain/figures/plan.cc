@@ -13,8 +13,8 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/input_file.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/input_file.h"
 
 namespace godobject::figures {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/input_file.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/figures/telemetry_log.h"
+#include "toolchain/files/input_file.h"
 #include "toolchain/replay/replay.h"
 
 namespace godobject::figures {

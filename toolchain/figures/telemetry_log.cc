@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/csv_lines.h"
-#include "firmware/command/csv_table.h"
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/csv_lines.h"
+#include "toolchain/files/csv_table.h"
 
 namespace godobject::figures {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject::path {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/command/run.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/output_target.h"
+#include "toolchain/command_line/run.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/output_target.h"
 #include "toolchain/path/keyframes.h"
 #include "toolchain/path/trajectory.h"
 

@@ -1,6 +1,6 @@
 #include "toolchain/path/pose_file.h"
 
-#include "firmware/command/pose_path.h"
+#include "toolchain/files/pose_path.h"
 #include "toolchain/path/keyframes.h"
 #include "toolchain/path/trajectory.h"
 

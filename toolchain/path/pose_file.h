@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject::path {
 
-/// The poses of a motion, recorded (.csv, see firmware/command/pose_path.h) or of key frames (TOML): of the moving
+/// The poses of a motion, recorded (.csv, see toolchain/files/pose_path.h) or of key frames (TOML): of the moving
 /// mesh's frame in W, one a millisecond. Throws Failure.
 std::vector<Pose> read_poses(const std::filesystem::path& file);
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 #include "toolchain/precision/exact_scene.h"
 #include "toolchain/precision/trace.h"
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "core/pipeline/penalty_contacts.h"
-#include "toolchain/scene_compiler/mesh_import.h"
-#include "toolchain/scene_compiler/sample_elimination.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/scene_compiler/points/sample_elimination.h"
 
 namespace godobject::precision {
 namespace {

@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "core/pipeline/contact_cycle.h"
-#include "core/pipeline/parameters.h"
+#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/cycle/parameters.h"
 #include "toolchain/precision/mesh_field.h"
 #include "toolchain/precision/trace.h"
-#include "toolchain/scene_compiler/moving_body.h"
-#include "toolchain/scene_compiler/still_features.h"
+#include "toolchain/scene_compiler/points/moving_body.h"
+#include "toolchain/scene_compiler/points/still_features.h"
 
 namespace godobject::precision {
 

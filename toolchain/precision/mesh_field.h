@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/field.h"
-#include "toolchain/scene_compiler/solid_surface.h"
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 namespace godobject::precision {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/precision/press_path.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "toolchain/command/scene_image.h"
+#include "toolchain/files/scene_image.h"
 #include "toolchain/precision/errors.h"
 #include "toolchain/precision/exact_scene.h"
 #include "toolchain/precision/pareto.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/sample_elimination.h"
+#include "toolchain/scene_compiler/points/sample_elimination.h"
 
 namespace godobject::precision {
 namespace {

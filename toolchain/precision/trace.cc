@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/stopwatch.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/stopwatch.h"
 #include "toolchain/precision/instruction_counter.h"
 
 namespace godobject::precision {

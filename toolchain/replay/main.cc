@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/in_build.h"
-#include "firmware/command/run.h"
-#include "firmware/command/solver_names.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/progress.h"
-#include "toolchain/command/scene_image.h"
-#include "toolchain/command/stiffness.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/in_build.h"
+#include "toolchain/command_line/progress.h"
+#include "toolchain/command_line/run.h"
+#include "toolchain/command_line/solver_names.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/output_target.h"
+#include "toolchain/files/scene_image.h"
+#include "toolchain/files/stiffness.h"
 #include "toolchain/replay/replay.h"
 
 namespace {

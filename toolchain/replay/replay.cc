@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/pipeline/penalty_contacts.h"
-#include "firmware/command/failure.h"
-#include "toolchain/command/stopwatch.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/stopwatch.h"
 
 namespace godobject::replay {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/pipeline/god_object.h"
 #include "core/scene/scene.h"
-#include "firmware/command/pose_path.h"
+#include "toolchain/files/pose_path.h"
 
 namespace godobject::replay {
 

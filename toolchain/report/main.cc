@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/command/run.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/progress.h"
+#include "toolchain/command_line/progress.h"
+#include "toolchain/command_line/run.h"
+#include "toolchain/files/output_target.h"
 #include "toolchain/report/contact_quality/chapter.h"
 #include "toolchain/report/extremes/chapter.h"
 #include "toolchain/report/fault_table/chapter.h"

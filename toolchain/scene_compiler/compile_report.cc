@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/build_traits.h"
-#include "toolchain/scene_compiler/code_bytes.h"
+#include "godobject/version.h"
+#include "toolchain/scene_compiler/image/build_traits.h"
+#include "toolchain/scene_compiler/image/code_bytes.h"
 
 namespace godobject::scene_compiler {
 namespace {

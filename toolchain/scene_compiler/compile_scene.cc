@@ -10,16 +10,16 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/scene_compiler/build_traits.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/atomic_file.h"
 #include "toolchain/scene_compiler/compile_report.h"
-#include "toolchain/scene_compiler/leaving_out.h"
-#include "toolchain/scene_compiler/outer_surface.h"
-#include "toolchain/scene_compiler/scene_parts.h"
-#include "toolchain/scene_compiler/second_direction.h"
-#include "toolchain/scene_compiler/still_features.h"
-#include "toolchain/scene_compiler/unneeded_data.h"
+#include "toolchain/scene_compiler/image/build_traits.h"
+#include "toolchain/scene_compiler/image/scene_parts.h"
+#include "toolchain/scene_compiler/mesh/outer_surface.h"
+#include "toolchain/scene_compiler/points/second_direction.h"
+#include "toolchain/scene_compiler/points/still_features.h"
+#include "toolchain/scene_compiler/trimming/leaving_out.h"
+#include "toolchain/scene_compiler/trimming/unneeded_data.h"
 
 namespace godobject::scene_compiler {
 namespace {

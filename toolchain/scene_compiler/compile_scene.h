@@ -9,18 +9,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/pipeline/scene_traits.h"
-#include "toolchain/scene_compiler/ball.h"
-#include "toolchain/scene_compiler/between_points.h"
-#include "toolchain/scene_compiler/distance_grid.h"
-#include "toolchain/scene_compiler/field_check.h"
-#include "toolchain/scene_compiler/leaving_out.h"
-#include "toolchain/scene_compiler/mesh_import.h"
-#include "toolchain/scene_compiler/moving_body.h"
-#include "toolchain/scene_compiler/refinement.h"
+#include "core/pipeline/cycle/scene_traits.h"
+#include "toolchain/scene_compiler/field/distance_grid.h"
+#include "toolchain/scene_compiler/field/field_check.h"
+#include "toolchain/scene_compiler/field/refinement.h"
+#include "toolchain/scene_compiler/image/scene_image.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/thin_places.h"
+#include "toolchain/scene_compiler/points/ball.h"
+#include "toolchain/scene_compiler/points/between_points.h"
+#include "toolchain/scene_compiler/points/moving_body.h"
 #include "toolchain/scene_compiler/scene_config.h"
-#include "toolchain/scene_compiler/scene_image.h"
-#include "toolchain/scene_compiler/thin_places.h"
+#include "toolchain/scene_compiler/trimming/leaving_out.h"
 
 namespace godobject::scene_compiler {
 

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/solver_names.h"
-#include "firmware/command/toml_file.h"
-#include "firmware/command/toml_table.h"
-#include "toolchain/command/stiffness.h"
+#include "toolchain/command_line/solver_names.h"
+#include "toolchain/files/stiffness.h"
+#include "toolchain/files/toml_file.h"
+#include "toolchain/files/toml_table.h"
 
 namespace godobject::scene_compiler {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/scene/format.h"
-#include "toolchain/scene_compiler/solid_surface.h"
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 namespace godobject::scene_compiler {
 

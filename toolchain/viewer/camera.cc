@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "toolchain/scene_compiler/triangle_tree.h"
+#include "toolchain/scene_compiler/mesh/triangle_tree.h"
 
 namespace godobject::viewer {
 namespace {

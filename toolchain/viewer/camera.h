@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/spatial/pose.h"
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "godobject/pose.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 namespace godobject::viewer {
 

@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/run.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/progress.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/progress.h"
+#include "toolchain/command_line/run.h"
 #include "toolchain/figures/replay_log.h"
+#include "toolchain/files/output_target.h"
 #include "toolchain/viewer/camera.h"
 #include "toolchain/viewer/pov_text.h"
 #include "toolchain/viewer/render.h"

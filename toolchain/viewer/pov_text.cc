@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/mesh_normals.h"
+#include "toolchain/scene_compiler/mesh/mesh_normals.h"
 
 namespace godobject::viewer {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "core/spatial/pose.h"
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "godobject/pose.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 #include "toolchain/viewer/camera.h"
 
 namespace godobject::viewer {

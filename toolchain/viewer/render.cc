@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/external_program.h"
-#include "toolchain/command/work_folder.h"
+#include "toolchain/command_line/external_program.h"
+#include "toolchain/files/work_folder.h"
 
 namespace godobject::viewer {
 

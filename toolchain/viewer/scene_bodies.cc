@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "toolchain/scene_compiler/mesh_import.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace godobject::viewer {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 namespace godobject::viewer {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/pipeline/parameters.h"
+#include "core/pipeline/cycle/parameters.h"
 #include "core/scene/pointshell.h"
 
 namespace godobject::analytic {

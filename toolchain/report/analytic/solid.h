@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 #include "toolchain/report/analytic/field.h"
 
 namespace godobject::analytic {

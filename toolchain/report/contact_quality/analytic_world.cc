@@ -1,8 +1,9 @@
 #include <algorithm>
 
-#include "core/pipeline/contact_cycle.h"
-#include "core/pipeline/cycle.h"
-#include "core/pipeline/penalty_contacts.h"
+#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/corrected/corrected_cycle.h"
+#include "core/pipeline/paper/paper_cycle.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/report/contact_quality/world.h"
 
 namespace godobject::report {

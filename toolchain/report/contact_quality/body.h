@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "toolchain/command/scene_image.h"
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/files/scene_image.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 namespace godobject::report {
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/input_file.h"
-#include "toolchain/command/html_text.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/html_text.h"
+#include "toolchain/files/input_file.h"
 #include "toolchain/report/contact_quality/measure.h"
 #include "toolchain/report/contact_quality/scenes.h"
 #include "toolchain/report/contact_quality/table.h"

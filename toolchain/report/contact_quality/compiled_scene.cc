@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/atomic_file.h"
+#include "toolchain/files/atomic_file.h"
 #include "toolchain/report/contact_quality/body.h"
 #include "toolchain/report/contact_quality/meshes.h"
 

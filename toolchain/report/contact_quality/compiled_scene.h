@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/scene/format.h"
-#include "toolchain/command/scene_image.h"
+#include "toolchain/files/scene_image.h"
 #include "toolchain/scene_compiler/compile_scene.h"
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 namespace godobject::report {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/pipeline/penalty_contacts.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/report/contact_quality/world.h"
-#include "toolchain/scene_compiler/mesh_import.h"
-#include "toolchain/scene_compiler/solid_surface.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 namespace godobject::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 namespace godobject::report {
 

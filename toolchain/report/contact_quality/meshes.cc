@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/atomic_file.h"
+#include "toolchain/files/atomic_file.h"
 
 namespace godobject::report {
 namespace {

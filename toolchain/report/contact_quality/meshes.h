@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/spatial/pose.h"
-#include "toolchain/scene_compiler/triangle_mesh.h"
+#include "godobject/pose.h"
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 /// Generated meshes: closed, counter-clockwise seen from outside, metres.
 namespace godobject::report {

@@ -1,6 +1,6 @@
 #include "toolchain/report/contact_quality/recording.h"
 
-#include "toolchain/command/stopwatch.h"
+#include "toolchain/command_line/stopwatch.h"
 
 namespace godobject::report {
 std::vector<RecordedCycle> record(const World& world, Cycle cycle, const std::vector<Pose>& H_WD,

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 #include "toolchain/report/analytic/solid.h"
 
 namespace godobject::report {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "toolchain/report/contact_quality/meshes.h"
-#include "toolchain/scene_compiler/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 namespace godobject::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/spatial/pose.h"
+#include "godobject/pose.h"
 
 /// Figures of signals sampled once a millisecond.
 namespace godobject::report {

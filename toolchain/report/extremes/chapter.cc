@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/input_file.h"
-#include "toolchain/command/output_target.h"
-#include "toolchain/command/work_folder.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/input_file.h"
+#include "toolchain/files/output_target.h"
+#include "toolchain/files/work_folder.h"
 #include "toolchain/report/extremes/rows.h"
 #include "toolchain/report/extremes/run.h"
 #include "toolchain/report/extremes/setup.h"

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::report {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 #include "toolchain/report/analytic/field.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/meshes.h"

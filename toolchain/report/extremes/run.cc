@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/pipeline/contact_cycle.h"
-#include "core/pipeline/penalty_contacts.h"
+#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/report/analytic/sampled_body.h"
 #include "toolchain/report/analytic/solid.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/pipeline/god_object.h"
-#include "core/spatial/pose.h"
 #include "firmware/configuration/device_file.h"
 #include "firmware/torque_limiter.h"
-#include "toolchain/command/scene_image.h"
+#include "godobject/pose.h"
+#include "toolchain/files/scene_image.h"
 #include "toolchain/report/study/case.h"
 
 namespace godobject::report {

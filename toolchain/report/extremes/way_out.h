@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/pipeline/parameters.h"
-#include "core/spatial/vector.h"
+#include "core/pipeline/cycle/parameters.h"
+#include "godobject/pose.h"
 #include "toolchain/report/contact_quality/least_distance.h"
 
 namespace godobject::report {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "firmware/command/input_file.h"
-#include "toolchain/command/external_program.h"
+#include "toolchain/command_line/external_program.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/input_file.h"
 #include "toolchain/report/fault_table/results.h"
 #include "toolchain/report/study/result_file.h"
 

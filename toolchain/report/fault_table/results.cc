@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/html_text.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/html_text.h"
 #include "toolchain/report/study/case.h"
 
 namespace godobject::report {

@@ -11,12 +11,12 @@
 
 #include "core/device/dynamics.h"
 #include "core/device/stability.h"
-#include "firmware/command/input_file.h"
 #include "firmware/configuration/device_file.h"
 #include "hal/cia402/bus_plan.h"
 #include "hal/cia402/can_drives.h"
 #include "sim/can_device.h"
 #include "sim/direct_drives.h"
+#include "toolchain/files/input_file.h"
 #include "toolchain/report/stability/axis_loop.h"
 #include "toolchain/report/stability/cases.h"
 #include "toolchain/report/study/result_file.h"

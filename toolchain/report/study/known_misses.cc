@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/toml_file.h"
-#include "firmware/command/toml_table.h"
+#include "toolchain/files/toml_file.h"
+#include "toolchain/files/toml_table.h"
 
 namespace godobject::report {
 namespace {

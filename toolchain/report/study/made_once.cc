@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::report {
 namespace {

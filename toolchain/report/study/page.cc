@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/command/html_text.h"
+#include "toolchain/files/html_text.h"
 
 namespace godobject::report {
 namespace {

@@ -8,8 +8,8 @@
 #include <sys/utsname.h>
 #include <nlohmann/json.hpp>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/atomic_file.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/atomic_file.h"
 
 namespace godobject::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <thread>
 
-#include "toolchain/command/work_folder.h"
+#include "toolchain/files/work_folder.h"
 
 namespace godobject::report {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/source_commit.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/source_commit.h"
 #include "toolchain/figures/gnuplot.h"
 #include "toolchain/report/study/page.h"
 #include "toolchain/report/study/result_file.h"

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/input_file.h"
-#include "toolchain/command/html_text.h"
 #include "toolchain/figures/gnuplot.h"
+#include "toolchain/files/html_text.h"
+#include "toolchain/files/input_file.h"
 #include "toolchain/precision/pareto.h"
 #include "toolchain/report/study/plot.h"
 #include "toolchain/report/study/result_file.h"

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/command/failure.h"
-#include "toolchain/command/atomic_file.h"
-#include "toolchain/command/output_target.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/output_target.h"
 #include "toolchain/report/study/made_once.h"
 #include "toolchain/report/study/result_file.h"
 #include "toolchain/scene_compiler/compile_scene.h"

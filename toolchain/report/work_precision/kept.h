@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "toolchain/command/scene_image.h"
+#include "toolchain/files/scene_image.h"
 #include "toolchain/precision/trace.h"
 #include "toolchain/scene_compiler/scene_config.h"
 

@@ -11,7 +11,7 @@
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/contact_quality/signals.h"
 #include "toolchain/report/work_precision/kept.h"
-#include "toolchain/scene_compiler/sample_elimination.h"
+#include "toolchain/scene_compiler/points/sample_elimination.h"
 
 namespace godobject::report {
 namespace {

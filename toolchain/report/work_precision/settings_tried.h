@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/spatial/vector.h"
+#include "godobject/pose.h"
 #include "toolchain/precision/recommendation.h"
 #include "toolchain/report/study/case.h"
 

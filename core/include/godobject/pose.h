@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace godobject {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// A rigid motion as the paper writes it: translation, then rotation vector, both in one frame. [m, rad]
+/// The set is (x, r) of the paper's `setMatrix` and `getTranslation`/`getRotation`: NOT the SE(3) logarithm.
+struct Motion {
+  Vector3 translation = Vector3::Zero();
+  Vector3 rotation = Vector3::Zero();
+};
+
+/// Force, then torque, both in one frame and about one point. [N, Nm] unless a name says otherwise.
+struct Wrench {
+  Vector3 force = Vector3::Zero();
+  Vector3 torque = Vector3::Zero();
+};
+
+using Quaternion = Eigen::Quaterniond;
+
+/// Rotation vector -> unit quaternion; exact to rounding for every angle, 0 included.
+inline Quaternion exp_rotation(const Vector3& r) noexcept {
+  const double angle_squared = r.squaredNorm();
+  // sin(a/2)/a; below 1e-4 rad its series is exact to 1e-18
+  const double angle = std::sqrt(angle_squared);
+  const double half_sinc = angle_squared < 1e-8 ? 0.5 - angle_squared / 48.0 : std::sin(0.5 * angle) / angle;
+  const double w = angle_squared < 1e-8 ? 1.0 - angle_squared / 8.0 : std::cos(0.5 * angle);
+  return Quaternion(w, half_sinc * r.x(), half_sinc * r.y(), half_sinc * r.z());
+}
+
+/// Unit quaternion (either sign) -> rotation vector of length in [0, pi].
+inline Vector3 log_rotation(const Quaternion& q) noexcept {
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const double w = sign * q.w();
+  const double sine = q.vec().norm();
+  // a/sin(a/2); the series near 0 avoids 0/0
+  const double scale = sine < 1e-5 ? 2.0 + sine * sine / 3.0 : 2.0 * std::atan2(sine, w) / sine;
+  return sign * scale * q.vec();
+}
+
+/// Pose of a frame B in a frame A, named `H_AB`: p_A = H_AB * p_B. Neighbouring letters of a product cancel.
+/// The rotation is kept at unit length by every product, so a long session does not drift.
+struct Pose {
+  Quaternion rotation = Quaternion::Identity();  ///< R_AB
+  Vector3 translation = Vector3::Zero();         ///< origin of B in A [m]
+
+  /// p_A = H_AB * p_B
+  Vector3 operator*(const Vector3& p) const noexcept { return rotation._transformVector(p) + translation; }
+
+  /// H_AC = H_AB * H_BC
+  Pose operator*(const Pose& other) const noexcept {
+    Pose product;
+    product.rotation = rotation * other.rotation;
+    product.rotation.coeffs() /= product.rotation.norm();
+    product.translation = rotation._transformVector(other.translation) + translation;
+    return product;
+  }
+
+  /// H_BA
+  Pose inverse() const noexcept {
+    Pose inverted;
+    inverted.rotation = rotation.conjugate();
+    inverted.translation = -inverted.rotation._transformVector(translation);
+    return inverted;
+  }
+
+  /// The same numbers.
+  bool operator==(const Pose& other) const noexcept {
+    return rotation.coeffs() == other.rotation.coeffs() && translation == other.translation;
+  }
+
+  bool is_finite() const noexcept { return rotation.coeffs().allFinite() && translation.allFinite(); }
+};
+
+/// The paper's `setMatrix(x, r)`: rotate by r, translate by x, both in the frame that moves. H <- H * set_matrix(xi).
+inline Pose set_matrix(const Motion& xi) noexcept {
+  Pose pose;
+  pose.rotation = exp_rotation(xi.rotation);
+  pose.translation = xi.translation;
+  return pose;
+}
+
+/// The inverse of `set_matrix`: the paper's getTranslation and getRotation.
+inline Motion get_motion(const Pose& pose) noexcept { return {pose.translation, log_rotation(pose.rotation)}; }
+
+}  // namespace godobject

@@ -1,0 +1,34 @@
+#include "core/pipeline/contact/qp/contact_forces.h"
+
+namespace godobject::detail {
+
+ContactForce force_of(const ContactSet& set, int half_space) noexcept {
+  const ContactTag& tag = set.active()[half_space].tag;
+  ContactForce force;
+  force.id = set.rows().id[tag.row];
+  force.point = set.rows().point(tag.row);
+  force.normal = set.rows().normal(tag.row);
+  force.slip = tag.slip;
+  force.ratio = set.contact_count() == 0 ? 0.0 : set.contact_of(half_space).ratio;
+  force.multiplier = set.active()[half_space].multiplier;
+  return force;
+}
+
+void count_contacts(ConstrainedStep& step) noexcept {
+  step.contact_count = 0;
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    bool counted = false;
+    for (std::uint32_t i = 0; i < j; ++i) {
+      counted |= step.forces[i].id == step.forces[j].id && step.forces[i].normal == step.forces[j].normal;
+    }
+    step.contact_count += counted ? 0 : 1;
+  }
+}
+
+void take_forces(const ContactSet& set, ConstrainedStep& step) noexcept {
+  step.force_count = static_cast<std::uint32_t>(set.active().size());
+  for (std::uint32_t j = 0; j < step.force_count; ++j) step.forces[j] = force_of(set, static_cast<int>(j));
+  count_contacts(step);
+}
+
+}  // namespace godobject::detail

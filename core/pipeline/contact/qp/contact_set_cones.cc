@@ -1,0 +1,94 @@
+#include <cfloat>
+
+#include "core/pipeline/contact/qp/contact_set.h"
+
+// What only friction asks of the set: contacts, and half spaces of their cones.
+namespace godobject::detail {
+
+double ContactSet::ratio_of(const Contact& contact) const noexcept {
+  return slip_of(contact, last_).speed > metric_.still ? friction_->kinetic_ratio : friction_->static_ratio;
+}
+
+ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vector3& slip) const noexcept {
+  const Contact& c = contact(contact_index);
+  ActiveSet::Inequality half_space;
+  half_space.gradient = space_.gradient(c.normal - c.ratio * slip, c.point);
+  half_space.rhs = c.need - c.ratio * c.shift;
+  half_space.tag = {c.row, contact_index, slip};
+  return half_space;
+}
+
+int ContactSet::open(std::uint32_t row) noexcept {
+  Contact& c = contact(contact_count_);
+  c = {.row = row,
+       .normal = rows_.normal(row).normalized(),  // single precision would let a slip of nanometres lean
+       .point = rows_.point(row),
+       .need = static_cast<double>(rows_.need[row])};
+  c.ratio = ratio_of(c);
+  rows_.need[row] = -FLT_MAX;
+  return contact_count_++;
+}
+
+void ContactSet::close_idle() noexcept {
+  int kept = 0;
+  for (int k = 0; k < contact_count_; ++k) {
+    const Contact c = contact(k);
+    bool used = false;
+    for (int j = 0; j < active_.size(); ++j) {
+      if (active_[j].tag.contact != k) continue;
+      used = true;
+      active_.at(j).tag.contact = kept;
+    }
+    if (used) {
+      contact(kept++) = c;
+    } else {
+      rows_.need[c.row] = static_cast<float>(c.need);
+    }
+  }
+  contact_count_ = kept;
+}
+
+void ContactSet::close_all() noexcept {
+  for (int k = 0; k < contact_count_; ++k) rows_.need[contact(k).row] = static_cast<float>(contact(k).need);
+  contact_count_ = 0;
+}
+
+bool ContactSet::enter(std::uint32_t row, const Motion& m) noexcept {
+  if (active_.size() == ActiveSet::kCapacity) return false;
+  const int k = open(row);
+  ++additions_;
+  return active_.guess(cone_half_space(k, slip_of(contact(k), m).direction));
+}
+
+void ContactSet::resolve() noexcept {
+  for (int j = 0; j < active_.size(); ++j) {
+    active_.at(j) = cone_half_space(active_[j].tag.contact, Vector3(active_[j].tag.slip));
+  }
+  active_.resolve(target());
+  close_idle();
+}
+
+void ContactSet::restart() noexcept {
+  close_all();
+  space_.reset();
+  active_.start(target());
+}
+
+void ContactSet::restart_from_motion() noexcept {
+  close_all();
+  const Vector6 reached = plain_motion();
+  space_.reset();
+  active_.start(reached);
+}
+
+ContactSet::Saved ContactSet::save() const noexcept { return {active_, contacts_, contact_count_}; }
+
+void ContactSet::restore(const Saved& saved) noexcept {
+  close_all();
+  active_ = saved.active;
+  contacts_ = saved.contacts;
+  contact_count_ = saved.contact_count;
+  for (int k = 0; k < contact_count_; ++k) rows_.need[contact(k).row] = -FLT_MAX;
+}
+
+}  // namespace godobject::detail

@@ -1,0 +1,198 @@
+#include "core/pipeline/contact/qp/coulomb_newton.h"
+
+#include <cmath>
+
+#include "core/pipeline/contact/qp/coulomb_pivots.h"
+#include "core/pipeline/contact/qp/small_system.h"
+
+namespace godobject::detail {
+namespace {
+
+constexpr int kPatience = 2;  // steps for the directions of slip to fit, before a pull is taken for one
+
+enum class Newton : std::uint8_t {
+  kConverged,
+  kSettled,  // the motion is found, the directions of slip are not
+  kOn,
+  kFailed,
+};
+
+/// The equations of one step. Unknowns: the multipliers of the half spaces, then for each slipping contact the force
+/// tau across its slip, with tau = -(mu lambda / |slip|) (slip across).
+struct NewtonSystem {
+  static constexpr std::size_t kMost = 2 * ActiveSet::kCapacity;
+  SmallSystem<kMost> equations;
+  std::array<Vector6, kMost> force;  // of unit size, one an unknown
+
+  int size() const noexcept { return equations.size; }
+  const Vector6& force_of(int unknown) const noexcept { return force[static_cast<std::size_t>(unknown)]; }
+};
+
+void assemble(const ContactSet& set, const Vector6& target, NewtonSystem& system) noexcept {
+  const ActiveSet& active = set.active();
+  SmallSystem<NewtonSystem::kMost>& equations = system.equations;
+  std::array<Vector6, ActiveSet::kCapacity> row;
+  std::array<int, ActiveSet::kCapacity> across{};  // unknown that is tau, or -1
+  std::array<double, ActiveSet::kCapacity> compliance{};
+  const int n = active.size();
+  equations.size = n;
+  for (int j = 0; j < n; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    const Contact& c = set.contact_of(j);
+    const Vector3& slip = active[j].tag.slip;
+    system.force[at] = set.space().gradient(c.normal - c.ratio * slip, c.point);
+    row[at] = c.slips ? set.space().gradient(c.normal, c.point) : system.force[at];
+    across[at] = -1;
+    const double stiffness = c.ratio * active[j].multiplier;
+    if (c.slips && stiffness > 0.0) {
+      across[at] = equations.size++;
+      compliance[at] = c.speed / stiffness;
+      system.force[static_cast<std::size_t>(across[at])] = set.space().gradient(c.normal.cross(slip), c.point);
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    for (int k = 0; k < system.size(); ++k) equations.matrix[j][k] = row[at].dot(system.force_of(k));
+    equations.rhs[j] = set.contact_of(j).need - row[at].dot(target);
+    if (across[at] < 0) continue;
+    const int i = across[at];
+    const Vector6& e = system.force_of(i);
+    for (int k = 0; k < system.size(); ++k) equations.matrix[i][k] = e.dot(system.force_of(k));
+    equations.matrix[i][i] += compliance[at];
+    equations.rhs[i] = -e.dot(target);
+  }
+}
+
+/// Viscous friction as part of the metric: H = I + mu_v sum of w_i T_i' T_i, w_i the contact's share of the load, T_i
+/// the slip of the contact.
+void follow_viscous(ContactSet& set) noexcept {
+  const ActiveSet& active = set.active();
+  double load = 0.0;
+  for (int j = 0; j < active.size(); ++j) load += active[j].multiplier;
+  Matrix6 H = Matrix6::Identity();
+  for (int k = 0; k < set.contact_count() && load > 0.0; ++k) {
+    const Contact& c = set.contact(k);
+    double share = 0.0;
+    for (int j = 0; j < active.size(); ++j) {
+      if (active[j].tag.contact == k) share += active[j].multiplier / load;
+    }
+    Matrix3 cross;  // v = x + r x P = x - P x r
+    cross << 0.0, -c.point.z(), c.point.y(), c.point.z(), 0.0, -c.point.x(), -c.point.y(), c.point.x(), 0.0;
+    Eigen::Matrix<double, 3, 6> velocity;
+    velocity << Matrix3::Identity(), -cross / set.space().gyration();
+    const Eigen::Matrix<double, 3, 6> tangential = velocity - c.normal * (c.normal.transpose() * velocity);
+    H += set.friction()->viscous_step * share * tangential.transpose() * tangential;
+  }
+  set.space().set_metric(H);
+}
+
+/// Turns the half space `j` of a slipping contact against the slip that the motion `m` has. True if it turned by more
+/// than the tolerance, or stands otherwise than the slip.
+bool follow_slip(const Motion& m, int j, ContactSet& set) noexcept {
+  ActiveSet::Inequality& half_space = set.active().at(j);
+  Contact& c = set.contact_of(j);
+  const Slip slip = set.slip_of(c, m);
+  // where the force of this step pointed: near rest it is known far better than the slip
+  const Vector3 old = half_space.tag.slip;
+  const double along = slip.speed * slip.direction.dot(old);
+  Vector3 pull = c.speed * old + (slip.speed * slip.direction - along * old);
+  pull -= c.normal.dot(pull) * c.normal;  // rounding grows where the slip is much larger than the speed it had
+  const Vector3 direction = pull.normalized();
+  const double friction = c.ratio * half_space.multiplier;
+  const double tolerance = set.metric().tolerance;
+  const bool turned =
+      friction * (direction - slip.direction).norm() > tolerance || friction * (direction - old).norm() > tolerance;
+  half_space.tag.slip = direction;
+  const double speed = slip.speed * slip.direction.dot(direction);
+  c.speed = speed > 0.25 * c.speed ? speed : 0.25 * c.speed;
+  c.reversals = speed < 0.0 ? c.reversals + 1 : 0;
+  return turned;
+}
+
+double squared_distance(const Motion& a, const Motion& b, double gyration) noexcept {
+  return (a.translation - b.translation).squaredNorm() + (gyration * (a.rotation - b.rotation)).squaredNorm();
+}
+
+/// From the motion `m` to the next. `fits`: a pull means that a contact is not there; not so while the directions of
+/// slip do not fit yet.
+Newton newton_step(bool fits, Motion& m, ContactSet& set) noexcept {
+  ActiveSet& active = set.active();
+  const CouplingMetric& metric = set.metric();
+  const bool viscous = set.friction()->viscous_step > 0.0;
+  if (viscous) follow_viscous(set);
+  const Vector6 target = set.target();
+  NewtonSystem system;
+  assemble(set, target, system);
+  if (!system.equations.solve()) return Newton::kFailed;
+  Vector6 z = target;
+  for (int k = 0; k < system.size(); ++k) z += system.equations.rhs[k] * system.force_of(k);
+  z = set.space().plain(z);
+  const double* const multiplier = system.equations.rhs;
+  if (!z.allFinite()) return Newton::kFailed;
+  if (fits && drop_first_to_vanish(multiplier, set)) return Newton::kOn;
+  // a motion that stands still is found, whatever direction a slip of nanometres may have
+  const bool settled =
+      (z.head<3>() - m.translation).squaredNorm() + (z.tail<3>() - metric.gyration * m.rotation).squaredNorm() <=
+      metric.tolerance * metric.tolerance;
+  m = set.space().motion(z);
+  // the shares of viscous friction are those of the step before
+  Newton result = settled || !viscous ? Newton::kConverged : Newton::kOn;
+  for (int j = 0; j < active.size(); ++j) {
+    const double changed = std::fabs(multiplier[j] - active[j].multiplier);
+    if (viscous && changed > metric.tolerance) result = Newton::kOn;
+    active.at(j).multiplier = multiplier[j];
+    const double speed = set.slip_of(set.contact_of(j), m).speed;
+    if (!set.contact_of(j).slips) {
+      if (speed > metric.still && !settled) result = Newton::kOn;
+    } else if (follow_slip(m, j, set) && !(settled && speed <= metric.tolerance)) {
+      result = settled ? Newton::kSettled : Newton::kOn;
+    }
+  }
+  if (hold_or_release(set)) return Newton::kOn;
+  if (result != Newton::kOn && drop_first_to_vanish(multiplier, set)) return Newton::kOn;
+  return result;
+}
+
+/// Whether the half spaces with the shifts that belong to `m` give the motion `m` again.
+bool confirm(const Motion& m, ContactSet& set) noexcept {
+  const int size = set.active().size();
+  for (int k = 0; k < set.contact_count(); ++k) {
+    Contact& c = set.contact(k);
+    c.shift = c.slips ? set.slip_of(c, m).speed : 0.0;
+  }
+  set.resolve();
+  const double tolerance = set.metric().tolerance;
+  return set.active().size() == size &&
+         squared_distance(set.motion(), m, set.metric().gyration) <= tolerance * tolerance;
+}
+
+/// From the set's motion; the set is meant for `restore` where it fails.
+bool iterate(ContactSet& set) noexcept {
+  Motion m = set.motion();
+  bool fits = false;
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
+    begin_to_slip(m, set);
+    const Newton result = newton_step(fits || step >= kPatience, m, set);
+    if (result == Newton::kFailed) return false;
+    fits = result != Newton::kOn;
+    if (result == Newton::kOn) continue;
+    const ContactRows::Violated worst = set.most_violated(m);
+    if (worst.row != ContactRows::kNone) {
+      if (!set.enter(worst.row, m)) return false;
+    } else if (result == Newton::kConverged) {
+      return confirm(m, set);
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool solve_coulomb(ContactSet& set) noexcept {
+  const ContactSet::Saved found = set.save();
+  if (iterate(set)) return true;
+  set.restore(found);
+  return false;
+}
+
+}  // namespace godobject::detail

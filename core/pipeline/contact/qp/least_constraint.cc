@@ -1,0 +1,98 @@
+#include "core/pipeline/contact/qp/least_constraint.h"
+
+#include <algorithm>
+
+#include "core/pipeline/contact/qp/contact_forces.h"
+#include "core/pipeline/contact/qp/contact_set.h"
+#include "core/pipeline/contact/qp/friction_solver.h"
+#include "core/pipeline/contact/qp/meet_rows.h"
+#include "core/pipeline/cycle/scene_traits.h"
+
+namespace godobject {
+namespace {
+
+using detail::Additions;
+using detail::ContactSet;
+
+static_assert(detail::kMostRowAdditions == kMostAdditions);
+
+/// The row of the force's point; of several, which a second look at an obstacle gives it, the one whose normal fits
+/// best.
+std::uint32_t row_of(const ContactForce& force, const ContactRows& rows) noexcept {
+  std::uint32_t best = ContactRows::kNone;
+  double best_fit = 0.0;
+  for (std::uint32_t row = rows.find(force.id, 0); row < rows.count; row = rows.find(force.id, row + 1)) {
+    const double fit = rows.normal(row).dot(force.normal);
+    if (best != ContactRows::kNone && !(fit > best_fit)) continue;
+    best = row;
+    best_fit = fit;
+  }
+  return best;
+}
+
+/// The forces of the last step as a guess, as far as their points still have rows.
+void warm_start(const ConstrainedStep& step, ContactSet& set) noexcept {
+  for (std::uint32_t i = 0; i < step.force_count; ++i) {
+    const ContactForce& force = step.forces[i];
+    const std::uint32_t row = row_of(force, set.rows());
+    if (row == ContactRows::kNone) continue;
+    if constexpr (kSceneTraits.friction) {
+      if (set.friction() != nullptr) {
+        detail::guess_cone(row, force, set);
+        continue;
+      }
+    }
+    set.active().guess(set.row_half_space(row));
+  }
+  set.active().resolve();
+  if constexpr (kSceneTraits.friction) {
+    if (set.friction() != nullptr) set.close_idle();
+  }
+}
+
+/// False: infeasible.
+bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
+  const bool feasible = detail::meet_rows(set) != Additions::kContradictory;
+  detail::take_forces(set, step);
+  step.motion = set.motion();
+  step.follows = step.force_count == 0;
+  return feasible;
+}
+
+/// False: infeasible.
+bool solve(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric, const ContactFriction* friction,
+           const Motion& last, ConstrainedStep& step) noexcept {
+  ContactSet set(rows, wanted, metric, friction, last);
+  warm_start(step, set);
+  const auto solved = [&]() noexcept {
+    if constexpr (kSceneTraits.friction) {
+      if (friction != nullptr) return detail::solve_with_friction(set, step);
+    }
+    return solve_frictionless(set, step);
+  };
+  const bool feasible = solved();
+  step.iterations = set.additions();
+  return feasible;
+}
+
+}  // namespace
+
+void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
+                      const ContactFriction* friction, const Motion& last, ConstrainedStep& step) noexcept {
+  step.infeasible = false;
+  step.unconverged = false;
+  if (rows.count == 0) {
+    step = ConstrainedStep{};
+    step.motion = wanted;
+    step.follows = true;
+    return;
+  }
+  if (solve(rows, wanted, metric, friction, last, step)) return;
+  // what nobody can meet together need not be gained; the motion zero is then one that meets all rows
+  for (std::uint32_t i = 0; i < rows.count; ++i) rows.need[i] = std::min(rows.need[i], 0.0f);
+  step.force_count = 0;
+  solve(rows, wanted, metric, friction, last, step);
+  step.infeasible = true;
+}
+
+}  // namespace godobject

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "core/pipeline/cycle/parameters.h"
+#include "core/pipeline/cycle/state.h"
+#include "core/pipeline/cycle/step_times.h"
+#include "core/pipeline/cycle/unconstrained_motion.h"
+#include "core/pipeline/cycle/workspace_limit.h"
+#include "core/pipeline/paper/constrained_motion.h"
+#include "core/pipeline/paper/correction.h"
+#include "core/pipeline/paper/proxy_filter.h"
+#include "core/pipeline/penalty/closed_form_finish.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
+#include "godobject/report.h"
+#include "godobject/status.h"
+
+namespace godobject {
+
+// clang-format off: equation numbers stand in a column of their own
+
+/// One cycle of `paper`: equations (1)-(48) as printed but for the few mended ones (core/README.md). #8 is the
+/// caller's. kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
+template <bool kFriction, DistanceField Field>
+Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                   State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
+  detail::begin(times);
+  const auto contacts =
+      penalty_contacts<LayerPenetration>(field, shell, state.H_WS, q.safety_distance, 0.0);  // #1 (1), (2)
+  detail::end(times, &StepTimes::step1_ns);
+
+  Pose H_WS = input.H_WD;  // region C
+  if (contacts.depth > 0.0) {
+    const Correction c = correction(contacts, q.safety_distance, q.mass);  // #2 (3)-(27)
+    const bool region_A = c.penetration >= 0.0;
+    const double eta = region_A ? q.correction_gain : 0.0;
+    const Pose H_pen = set_matrix({eta * c.delta.translation, eta * c.delta.rotation});  //    (28)
+    const Pose H_WSc = state.H_WS * H_pen;                                               //    (29)
+    const Vector3 u_x = H_pen.rotation.conjugate()._transformVector(c.u_x);              //    (30)
+    const Vector3 u_r = H_pen.rotation.conjugate()._transformVector(c.u_r);
+    const Motion free = unconstrained_motion(H_WSc, input.H_WD);                                       // #3 (32), (33)
+    Motion step{constrained_motion(free.translation, u_x, c.delta.translation.norm(), c.penetration),  // #4 (36)-(39)
+                constrained_motion(free.rotation, u_r, c.delta.rotation.norm(), c.penetration)};
+    if constexpr (kFriction) {
+      const SplitMotion x = split(free.translation, u_x);
+      const SplitMotion r = split(free.rotation, u_r);
+      const PaperFriction& mu = q.paper_friction;
+      const Vector3 x_restricted = x.parallel - split(step.translation, u_x).parallel;  //    (40)
+      const Vector3 r_restricted = r.parallel - split(step.rotation, u_r).parallel;
+      step.translation +=
+          paper_friction(x_restricted, x.perpendicular, mu.translation_static, mu.translation_kinetic, mu.viscous);
+      step.rotation +=
+          paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
+    }                                                       //    (47), (48)
+    const Pose H_WS_unfiltered = H_WSc * set_matrix(step);  //    (41), (42)
+    H_WS = kept_within(q.workspace, state.H_WS,
+                       filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period));  // #5 (43)
+  }
+  const Status status = detail::finish(input, H_WS, contacts, Projection{}, 1, q, state, report);  // #6, #7 (44)-(46)
+  detail::end(times, &StepTimes::solve_ns);
+  return status;
+}
+
+// clang-format on
+
+}  // namespace godobject

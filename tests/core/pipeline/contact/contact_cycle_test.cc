@@ -1,0 +1,496 @@
+// The contact solver's cycle in analytic worlds: nothing crosses, nothing penetrates, friction is Coulomb's.
+
+#include "core/pipeline/contact/contact_cycle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "tests/support/analytic_worlds.h"
+
+namespace godobject::test {
+namespace {
+
+constexpr double kVoxel = 0.002;
+constexpr double kMargin = 2e-5;
+constexpr double kBallRadius = 0.02;
+
+/// Two planes that meet in the line x = z = 0 and rise by `angle` on both sides.
+struct Groove {
+  double angle = 0.25 * M_PI;
+  Vector3 side(double x) const noexcept { return {x > 0.0 ? -std::sin(angle) : std::sin(angle), 0.0, std::cos(angle)}; }
+  double distance(const Vector3& p) const noexcept { return p.dot(side(p.x())); }
+  Vector3 gradient(const Vector3& p) const noexcept { return side(p.x()); }
+};
+
+/// A floor with ripples along x, as an interpolated field has beside an oblique edge. The distance is a lower bound.
+struct Ripples {
+  static constexpr double kHeight = 2e-5;                 // amplitude [m]
+  static constexpr double kNumber = 2.0 * M_PI / 2.5e-4;  // [1/m]
+  static constexpr double kSlope = kHeight * kNumber;     // largest
+  double scale = 1.0 / std::sqrt(1.0 + kSlope * kSlope);
+  double distance(const Vector3& p) const noexcept { return scale * (p.z() - kHeight * std::cos(kNumber * p.x())); }
+  Vector3 gradient(const Vector3& p) const noexcept { return {scale * kSlope * std::sin(kNumber * p.x()), 0.0, scale}; }
+};
+
+template <bool kFriction, DistanceField Field>
+Status run_alone(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                 State& state, CycleReport& report, StepTimes* times) {
+  static const auto workspace = std::make_unique<ContactWorkspace>();
+  ContactSearch search;
+  const FeatureContacts<Field>* const none = nullptr;
+  search.start(field, shell, none, ContactLengths::make(q), {});
+  return contact_cycle<kFriction, Field, Field>(field, shell, none, q, input, search, state, *workspace, report, times);
+}
+
+template <class Shape, bool kFriction = false>
+struct ContactRun : AnalyticRun<AnalyticField<Shape>, &run_alone<kFriction, AnalyticField<Shape>>> {
+  using Base = AnalyticRun<AnalyticField<Shape>, &run_alone<kFriction, AnalyticField<Shape>>>;
+  ContactRun(const AnalyticField<Shape>& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
+    this->parameters.margin = kMargin;
+    this->parameters.friction = {0.2, 0.18, 0.0};
+  }
+};
+
+Pose at(const Vector3& position, const Vector3& turn = Vector3::Zero()) {
+  Pose pose;
+  pose.translation = position;
+  pose.rotation = exp_rotation(turn);
+  return pose;
+}
+
+TEST(ContactCycle, FollowsTheDeviceExactlyWhereNothingIsNear) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = ball_body();
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.5}));
+  const Pose device = at({0.31, -0.2, 0.4}, {0.1, 0.2, -0.3});
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_EQ(run.state.H_WS.translation, device.translation);
+  EXPECT_EQ(run.state.H_WS.rotation.coeffs(), device.rotation.coeffs());
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
+  EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
+}
+
+TEST(ContactCycle, LaysABoxFlatAtTheMargin) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body();
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.06}, {0.3, 0.2, 0.5}));
+  const Pose device = at({0.01, 0.0, 0.010}, {0.0, 0.0, 0.4});
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+  }
+  const Vector3 up = run.state.H_WS.rotation._transformVector(Vector3::UnitZ());
+  EXPECT_NEAR(up.z(), 1.0, 1e-6);
+  EXPECT_NEAR(run.state.H_WS.translation.z(), 0.015 + kMargin, 1e-6);
+  EXPECT_NEAR(run.state.H_WS.translation.x(), 0.01, 1e-5);
+  EXPECT_EQ(run.report.outcome, Outcome::kContact);
+  EXPECT_GE(run.report.contacts, 1u);
+  EXPECT_EQ(run.report.substeps, 1u);
+}
+
+/// Whatever is between the ends of a motion, no chord of a sample point may meet it.
+template <class Shape>
+void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, unsigned seed,
+                        const WorkspaceBox& workspace = {}) {
+  const AnalyticField<Shape> field(shape, kVoxel);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  ContactRun<Shape> run(field, body, at(workspace.nearest({0.0, 0.0, 0.06})));
+  run.parameters.workspace = workspace;
+  const Pointshell shell = body.pointshell();
+  Vector3 velocity = vector(), spin = vector();
+  Pose device = run.state.H_WS;
+  for (int cycle = 0; cycle < 1500; ++cycle) {
+    if (cycle % 40 == 0) {
+      velocity = top_speed * vector().normalized();
+      spin = 90.0 * vector().normalized();
+    }
+    // back towards the plate, so that it is met again and again
+    if (std::fabs(device.translation.z()) > 0.08) velocity.z() = -std::copysign(velocity.z(), device.translation.z());
+    device.translation += 1e-3 * velocity;
+    device.translation.head<2>() *= 0.99;
+    device.rotation = (exp_rotation(1e-3 * spin) * device.rotation).normalized();
+    device.translation = workspace.nearest(device.translation);
+    const Pose before = run.state.H_WS;
+    ASSERT_EQ(run.step(device), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0) << "cycle " << cycle;
+    ASSERT_TRUE(workspace.contains(run.state.H_WS.translation)) << "cycle " << cycle;
+    for (std::size_t i = 0; i < shell.size; ++i) {
+      const double z0 = (before * shell.point(i)).z();
+      const double z1 = (run.state.H_WS * shell.point(i)).z();
+      ASSERT_GT(z0 * z1, 0.0) << "cycle " << cycle << " point " << i;  // a plate about z = 0
+    }
+  }
+}
+
+TEST(ContactCycle, LetsNoPointCrossATwoVoxelPlate) {
+  const Plate plate{2.0 * kVoxel};
+  expect_no_crossing(ball_body(kBallRadius, 400), plate, 7.0, 1);
+  expect_no_crossing(box_body(7), plate, 7.0, 2);
+  expect_no_crossing(box_body(7), Plate{1e-4}, 7.0, 3);
+  const SampledBody needle({{{-0.075, 0.0, 0.0}, {0.0, 5e-4, 0.0}, {0.0, 0.0, 5e-4}, {0.075, 0.0, 0.0}},
+                            {{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}, {-1.0, 0.0, 0.0}}},
+                           {1e-6, 1.9e-3, 1.9e-3});
+  expect_no_crossing(needle, plate, 7.0, 4);
+}
+
+/// A hammer's head, which is small and far from the centre of mass; with that held in a plane, on a line and at a
+/// point.
+TEST(ContactCycle, LetsNoPointOfAHammerCross) {
+  const Vector3 head(0.09, 0.01, 0.0);
+  auto samples = sample_box({0.01, 0.02, 0.01}, 5);
+  for (Vector3& p : samples.points) p += head;
+  SampledBody hammer(samples, {1e-4, 2e-3, 2e-3});
+  hammer.mass.sphere = {head, 0.0251};
+  const Plate plate{2.0 * kVoxel};
+  expect_no_crossing(hammer, plate, 7.0, 5);
+  const double inf = std::numeric_limits<double>::infinity();
+  expect_no_crossing(hammer, plate, 7.0, 6, {true, {-inf, -inf, 0.03}, {inf, inf, 0.03}});
+  expect_no_crossing(hammer, plate, 7.0, 7, {true, {0.0, -inf, 0.05}, {0.0, inf, 0.05}});
+  expect_no_crossing(hammer, plate, 7.0, 8, {true, {0.0, 0.0, 0.04}, {0.0, 0.0, 0.04}});
+}
+
+TEST(ContactCycle, StaysOnItsSideOfAPlateThatTheDeviceTeleportsThrough) {
+  const AnalyticField<Plate> field(Plate{0.004}, kVoxel);
+  const SampledBody body = ball_body();
+  ContactRun<Plate> run(field, body, at({0.0, 0.0, 0.05}));
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_EQ(run.step(at({0.0, 0.0, -0.3}, {3.0, 0.0, 0.0})), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+    ASSERT_GT(run.state.H_WS.translation.z(), 0.02);
+  }
+  EXPECT_NEAR(run.state.H_WS.translation.z(), 0.002 + kBallRadius, 2e-4);
+}
+
+TEST(ContactCycle, ComesToRestInAValleyThatIsMuchNarrowerThanTheCouplingIsStretched) {
+  const AnalyticField<Ripples> field({}, kVoxel);
+  const SampledBody body({{Vector3(0.0, 0.0, -0.01)}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  ContactRun<Ripples> run(field, body, at({0.0, 0.0, 0.02}));
+  const Pose device = at({4e-5, 0.0, 0.005});  // 5 mm deep, beside a ripple's top: the radius there is 0.08 mm
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+  }
+  const Vector3 rest = run.state.H_WS.translation;
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_LT((run.state.H_WS.translation - rest).norm(), 5.0 * 2e-8);  // the tolerance of contacts
+  }
+  // in the valley: the surface's normal there points to the device, to what the coupling of rotation gives way
+  const Vector3 p = run.state.H_WS * Vector3(0.0, 0.0, -0.01);
+  EXPECT_GT(std::cos(Ripples::kNumber * p.x()), -1.0);
+  EXPECT_LT(std::cos(Ripples::kNumber * p.x()), -0.9);
+}
+
+TEST(ContactCycle, HoldsABallBetweenTwoWalls) {
+  const AnalyticField<Slot> field(Slot{0.0202}, kVoxel);
+  const SampledBody body = ball_body();
+  ContactRun<Slot> run(field, body, Pose{});
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(run.step(at({0.01 * std::sin(0.1 * i), 0.0, 1e-4 * i}, {0.0, 0.02 * i, 0.0})), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+    // nothing holds it along the slot
+    ASSERT_NEAR(run.state.H_WS.translation.z(), 1e-4 * i, 2e-5);
+  }
+}
+
+TEST(ContactCycle, DoesNotDragAndDoesNotPullWithoutFriction) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body();
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.02}));
+  double z = 0.015;
+  double x = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    z = i < 200 ? std::max(0.008, z - 1e-4) : z + 1e-4;
+    x += 1e-4;
+    ASSERT_EQ(run.step(at({x, 0.0, z}), {{0.1, 0.0, i < 200 ? 0.0 : 0.1}, Vector3::Zero()}), Status::kOk);
+    const Vector3 force = run.report.force.spring_W.force;
+    if (i > 100) {
+      EXPECT_LT(force.head<2>().norm(), 0.02) << i;
+    }
+    ASSERT_GE(force.z(), -1e-9) << i;
+    ASSERT_GE(run.report.force.total_W.force.z(), -1e-9) << i;
+  }
+}
+
+TEST(ContactCycle, KeepsUpWithAFlatFaceThatSlidesAtAMetreASecond) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body(33);  // a thousand points below
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.015 + kMargin}));
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_EQ(run.step(at({1e-3 * i, 0.0, 0.008})), Status::kOk);
+    ASSERT_LT(run.depth(), 0.0);
+    EXPECT_NEAR(run.state.H_WS.translation.x(), 1e-3 * i, 1e-6);
+  }
+}
+
+TEST(ContactCycle, SlidesWithTheKineticRatioOpposedToTheSlip) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body();
+  for (const double speed : {0.01, 0.1, 0.5}) {
+    ContactRun<HalfSpace, true> run(field, body, at({0.0, 0.0, 0.016}));
+    Vector3 position(0.0, 0.0, 0.010);
+    const Vector3 way = Vector3(std::cos(0.7), std::sin(0.7), 0.0);
+    double sum = 0.0, across = 0.0;
+    int count = 0;
+    for (int i = 0; i < 800; ++i) {
+      position += 1e-3 * speed * way;
+      ASSERT_EQ(run.step(at(position)), Status::kOk);
+      ASSERT_LT(run.depth(), 0.0);
+      if (i * speed * 1e-3 < 0.004) continue;
+      const Vector3 force = run.report.force.spring_W.force;
+      sum += -force.dot(way) / force.z();
+      across = std::max(across, Vector3(force.x(), force.y(), 0.0).normalized().cross(way).norm());
+      ++count;
+    }
+    ASSERT_GT(count, 100);
+    EXPECT_NEAR(sum / count, 0.18, 0.0009) << speed;
+    EXPECT_LT(across, std::sin(0.5 * M_PI / 180.0)) << speed;
+  }
+}
+
+TEST(ContactCycle, FeelsAGrooveByItsHalfAngle) {
+  for (const double opening : {60.0, 90.0, 120.0}) {
+    const double half = 0.5 * opening * M_PI / 180.0;
+    const AnalyticField<Groove> field(Groove{0.5 * M_PI - half}, kVoxel);
+    const SampledBody body = ball_body(kBallRadius, 4000);
+    const double bottom = kBallRadius / std::sin(half);
+    ContactRun<Groove, true> run(field, body, at({0.0, 0.0, bottom + 0.001}));
+    double sum = 0.0;
+    int count = 0;
+    for (int i = 0; i < 600; ++i) {
+      ASSERT_EQ(run.step(at({0.0, 1e-4 * i, bottom - 0.004})), Status::kOk);
+      ASSERT_LT(run.depth(), 0.0);
+      if (i < 300) continue;
+      const Vector3 force = run.report.force.spring_W.force;
+      sum += -force.y() / force.z();
+      ++count;
+    }
+    EXPECT_NEAR(sum / count / (0.18 / std::sin(half)), 1.0, 0.01) << opening;
+  }
+}
+
+TEST(ContactCycle, DoesNotCreepUnderATremblingHand) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body();
+  ContactRun<HalfSpace, true> run(field, body, at({0.0, 0.0, 0.016}));
+  const auto quantised = [](double x) { return 5e-6 * std::round(x / 5e-6); };
+  Vector3 resting = Vector3::Zero();
+  for (int i = 0; i < 10000; ++i) {
+    const double t = 1e-3 * i;
+    const double amplitude = std::min(1.0, t) * 2e-4;
+    const Vector3 hand(quantised(amplitude * std::sin(2.0 * M_PI * 8.0 * t) + 2e-4),
+                       quantised(amplitude * std::sin(2.0 * M_PI * 12.0 * t)),
+                       quantised(0.010 + amplitude * std::sin(2.0 * M_PI * 10.0 * t)));
+    ASSERT_EQ(run.step(at(hand)), Status::kOk);
+    if (i == 1000) resting = run.state.H_WS.translation;
+  }
+  EXPECT_LT((run.state.H_WS.translation - resting).norm(), 1e-6);
+}
+
+TEST(ContactCycle, ComesOutWhenItStartsInside) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = ball_body();
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, kBallRadius - 0.003}));
+  run.state.started = false;
+  run.state.inside = true;
+  const Pose device = run.state.H_WS;
+  double height = device.translation.z();
+  int cycles = 0;
+  do {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+    EXPECT_GT(run.state.H_WS.translation.z(), height);
+    EXPECT_LT(run.state.H_WS.translation.z() - height, 0.25 * kVoxel + 1e-6);
+    height = run.state.H_WS.translation.z();
+    ASSERT_LT(++cycles, 100);
+  } while (run.depth() > 0.0);
+  for (int i = 0; i < 50; ++i) ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_EQ(run.report.outcome, Outcome::kContact);
+  EXPECT_NEAR(run.depth(), -kMargin, 1e-7);
+}
+
+TEST(ContactCycle, GoesWithTheDeviceWhereItStartsInsideWithoutAWayOut) {
+  // in a slot narrower than the ball both walls push
+  const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
+  const SampledBody body = ball_body();
+  ContactRun<Slot> run(field, body, Pose{});
+  run.state.started = false;
+  run.state.inside = true;
+  for (int i = 0; i < 30; ++i) {
+    const Pose device = at({0.0, 0.0, 1e-3 * i});
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+    EXPECT_EQ(run.state.H_WS.translation, device.translation);
+    EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
+  }
+}
+
+/// The tip of a spike under the middle of a box's face, where the box has no sample point.
+TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
+  struct BoxField {
+    Vector3 half_edges{0.03, 0.02, 0.015};
+    double distance(const Vector3& p) const noexcept { return analytic::box_distance(p, half_edges); }
+    Vector3 gradient(const Vector3& p) const noexcept {
+      Vector3 g;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3 step = 1e-7 * Vector3::Unit(axis);
+        g[axis] = (distance(p + step) - distance(p - step)) / 2e-7;
+      }
+      return g;
+    }
+  };
+  const AnalyticField<HalfSpace> nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kVoxel);
+  const AnalyticField<BoxField> box({}, kVoxel);
+  const SampledBody body = box_body(3);
+  const SampledBody spike({{{0.0, 0.0, 0.0}}, {{0.0, 0.0, -1.0}}}, Vector3::Ones());
+  const Pointshell tip = spike.pointshell();
+  const Vector3 tip_W(0.304, 0.007, 0.05);
+  const FeatureContacts<AnalyticField<BoxField>> features{box, tip, tip_W, 0.05};
+
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kVoxel;
+  q.margin = kMargin;
+  const auto workspace = std::make_unique<ContactWorkspace>();
+  ContactSearch search;
+  search.start(nothing, body.pointshell(), &features, ContactLengths::make(q), {});
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  State state;
+  state.H_WS = state.H_WD = at(tip_W + Vector3(0.0, 0.0, 0.03));
+  state.started = true;
+  CycleReport report;
+  Pose device = state.H_WS;
+  for (int i = 0; i < 2000; ++i) {
+    // wanders about the tip, mostly pressing upon it
+    device.translation = tip_W + Vector3(0.01 * std::sin(0.013 * i), 0.01 * std::sin(0.017 * i), 0.008);
+    device.rotation = exp_rotation(Vector3(0.3 * std::sin(0.011 * i), 0.3 * std::sin(0.019 * i), 0.002 * i));
+    ASSERT_EQ((contact_cycle<false>(nothing, body.pointshell(), &features, q, {device, {}}, search, state, *workspace,
+                                    report)),
+              Status::kOk);
+    ASSERT_GT(BoxField{}.distance(state.H_WS.inverse() * tip_W), 0.0) << i;
+  }
+  EXPECT_EQ(report.contacts, 1u);
+  EXPECT_NEAR(BoxField{}.distance(state.H_WS.inverse() * tip_W), kMargin, 1e-5);
+  // without the second direction the box does not know of it
+  State blind = state;
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_EQ((contact_cycle<false, AnalyticField<HalfSpace>, AnalyticField<BoxField>>(
+                  nothing, body.pointshell(), nullptr, q, {device, {}}, search, blind, *workspace, report)),
+              Status::kOk);
+  }
+  EXPECT_LT(BoxField{}.distance(blind.H_WS.inverse() * tip_W), -0.001);
+}
+
+TEST(ContactCycle, CountsWhatDoesNotFitAndStillLetsNothingThrough) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body(61);  // 3721 points on the lower face
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.0151}));
+  bool overflow = false;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(run.step(at({1e-4 * i, 0.0, 0.012}, {1e-3 * i, 0.0, 0.0})), Status::kOk);
+    overflow |= run.report.outcome == Outcome::kOverflow;
+    ASSERT_LT(run.depth(), 0.0);
+    ASSERT_NEAR(run.state.H_WS.translation.x(), 1e-4 * i, 1e-4);
+  }
+  EXPECT_TRUE(overflow);
+}
+
+/// Neighbouring points of one flat would turn a slow rotation into large opposite forces, were each damped by itself.
+TEST(ContactCycle, DampsByNoMoreThanTheVelocityAsksFor) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const SampledBody body = box_body(31);  // points 1 to 2 mm apart
+  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.016}));
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const double gyration = std::sqrt(run.parameters.coupling_rotation);
+  for (int i = 0; i < 500; ++i) {
+    const Motion velocity{0.1 * vector(), vector()};
+    ASSERT_EQ(
+        run.step(at({1e-4 * i, 0.0, 0.012}, {2e-4 * std::sin(0.1 * i), 2e-4 * std::cos(0.13 * i), 0.0}), velocity),
+        Status::kOk);
+    const DeviceForce& force = run.report.force;
+    const Vector3 change = force.total_W.force - force.spring_W.force;
+    const Vector3 turn = (force.total_W.torque - force.spring_W.torque) / gyration;
+    const double speed = std::hypot(velocity.translation.norm(), gyration * velocity.rotation.norm());
+    ASSERT_LE(std::hypot(change.norm(), turn.norm()), run.parameters.damping * speed * 1.000001) << i;
+    ASSERT_GE(force.total_W.force.z(), -1e-9) << i;
+  }
+}
+
+/// Rows that contradict each other but for their rounding may carry any load: what is left of their sum is rounding.
+TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const auto single = [](const Vector3& v) { return Vector3(v.cast<float>().cast<double>()); };
+  Parameters q;
+  q.stiffness = 2000.0;
+  q.damping = 20.0;
+  q.coupling_rotation = 0.01;
+  const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
+  int damped = 0;
+  for (int i = 0; i < 20000; ++i) {
+    ConstrainedStep step;
+    detail::ContactResult result(State{}, step);
+    const Vector3 point = single(0.05 * vector());
+    const double load = std::pow(10.0, 16.0 * unit(random) - 3.0);
+    Vector3 sum = Vector3::Zero();
+    const std::uint32_t count = 2 + static_cast<std::uint32_t>(4.0 * unit(random));
+    for (std::uint32_t j = 0; j < count; ++j) {
+      ContactForce& force = result.step.forces[result.step.force_count++];
+      force.point = point;
+      const bool closes = j + 1 == count;
+      force.normal = single(closes ? Vector3(-sum.normalized()) : Vector3(vector().normalized()));
+      force.multiplier = load * (closes ? sum.norm() : unit(random));
+      if (!closes) sum += force.multiplier / load * force.normal;
+    }
+    CycleInput input;
+    input.velocity_W = {0.1 * vector(), vector()};
+    State state;
+    CycleReport report;
+    ASSERT_EQ(detail::finish(input, result, false, q, state, report), Status::kOk);
+    const Wrench& total = report.force.total_W;  // without a stretch there is no spring
+    const double speed = std::hypot(input.velocity_W.translation.norm(), gyration * input.velocity_W.rotation.norm());
+    ASSERT_LE(std::hypot(total.force.norm(), total.torque.norm() / gyration), q.damping * speed * 1.000001)
+        << "problem " << i << ", load " << load;
+    if (!total.force.isZero(0.0)) ++damped;
+  }
+  EXPECT_GT(damped, 5000);
+}
+
+/// Turned and shifted by ten metres the world is the same.
+TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
+  const SampledBody body = box_body(7);
+  const Pose moved = at({10.0, -3.0, 6.0}, {0.4, -0.7, 1.1});
+  const AnalyticField<HalfSpace> here({}, kVoxel);
+  const Vector3 n = moved.rotation._transformVector(Vector3::UnitZ());
+  const AnalyticField<HalfSpace> there(HalfSpace{n, n.dot(moved.translation)}, kVoxel);
+  const Pose start = at({0.0, 0.0, 0.05});
+  ContactRun<HalfSpace, true> one(here, body, start);
+  ContactRun<HalfSpace, true> other(there, body, moved * start);
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 1e-3 * i;
+    const Pose device = at({0.05 * std::sin(2.0 * t), 0.02 * t, 0.03 - 0.03 * std::sin(1.5 * t)},
+                           {0.4 * std::sin(2.3 * t), 0.3 * std::sin(3.1 * t), 0.5 * t});
+    ASSERT_EQ(one.step(device), Status::kOk);
+    ASSERT_EQ(other.step(moved * device), Status::kOk);
+    const Pose expected = moved * one.state.H_WS;
+    ASSERT_LT((other.state.H_WS.translation - expected.translation).norm(), 1e-6) << i;
+    ASSERT_LT(
+        (other.report.force.spring_W.force - moved.rotation._transformVector(one.report.force.spring_W.force)).norm(),
+        5e-3)
+        << i;
+  }
+}
+
+}  // namespace
+}  // namespace godobject::test

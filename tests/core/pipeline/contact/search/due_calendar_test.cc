@@ -1,0 +1,202 @@
+// The calendar of step #1 against a plain table of who is due when.
+
+#include "core/pipeline/contact/search/due_calendar.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "tests/support/analytic_worlds.h"
+
+namespace godobject::test {
+namespace {
+
+TEST(DueCalendar, TakesWhatIsDueAndNothingElse) {
+  const SampledBody body = ball_body();
+  const Pointshell& shell = body.pointshell();
+  const auto items = static_cast<std::uint32_t>(shell.nodes.size() + shell.size);
+  std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+  DueCalendar calendar;
+  calendar.start(memory, shell);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::map<std::uint32_t, std::uint64_t> due;  // of what is filed
+  due[0] = 0;
+  std::uint64_t now = 0;
+  std::uint64_t farthest = 0;
+  for (int step = 0; step < 20000; ++step) {
+    // mostly a little on, at times back, far beyond the ticks that have a list, or beyond 32 bits
+    const double kind = unit(random);
+    if (kind < 0.9)
+      now = farthest + static_cast<std::uint64_t>(30.0 * unit(random));
+    else if (kind < 0.97)
+      now = farthest - std::min(farthest, static_cast<std::uint64_t>(std::pow(10.0, 4.0 * unit(random))));
+    else if (kind < 0.999)
+      now = farthest + static_cast<std::uint64_t>(5000.0 * unit(random));
+    else
+      now = farthest + (1ull << 29);
+    farthest = std::max(farthest, now);
+    std::vector<std::uint32_t> taken;
+    calendar.take_due(now, [&](std::uint32_t item) { taken.push_back(item); });
+    for (const std::uint32_t item : taken) {
+      ASSERT_EQ(due.count(item), 1u) << step;
+      ASSERT_LE(due[item], now) << step;
+      due.erase(item);
+      ASSERT_FALSE(calendar.is_filed(item));
+    }
+    std::uint64_t least = ~0ull;
+    for (const auto& [item, tick] : due) {
+      ASSERT_GT(tick, now) << step << ": left behind";
+      ASSERT_TRUE(calendar.is_filed(item));
+      least = std::min(least, tick);
+    }
+    ASSERT_LE(calendar.certain(), least) << step;
+    while (due.size() < 40) {
+      const auto item = static_cast<std::uint32_t>(random() % items);
+      if (calendar.is_filed(item)) continue;
+      const auto ahead = static_cast<std::uint64_t>(std::pow(10.0, 5.0 * unit(random)));
+      calendar.file(item, now + ahead);
+      due[item] = now + ahead;
+    }
+    if (unit(random) < 0.3) {
+      const std::uint32_t item = due.begin()->first;
+      calendar.take(item);
+      due.erase(item);
+    }
+  }
+}
+
+TEST(DueCalendar, FilesTheFarthestWhereItIsSeenInTime) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.file(0, ~0ull);
+  int taken = 0;
+  for (std::uint64_t now = 0; now < (1ull << 33); now += 1ull << 27) {
+    calendar.take_due(now, [&](std::uint32_t item) {
+      ++taken;
+      calendar.file(item, ~0ull);
+    });
+  }
+  EXPECT_LE(taken, 8) << "early, as 32 bits tell no more, but not often";
+}
+
+/// However far it goes at once; a search looks at one item too many at worst.
+TEST(DueCalendar, LosesNothingInAnyJump) {
+  const SampledBody body = ball_body();
+  for (int power = 0; power < 60; ++power) {
+    std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+    DueCalendar calendar;
+    calendar.start(memory, body.pointshell());
+    calendar.take_due(10, [](std::uint32_t) {});
+    calendar.file(0, 5);
+    calendar.file(1, 15);
+    calendar.file(2, 5000);
+    calendar.file(3, 1ull << 29);
+    const std::uint64_t now = 10 + (1ull << power);
+    int taken = 0;
+    calendar.take_due(now, [&](std::uint32_t) { ++taken; });
+    EXPECT_EQ(taken, 1 + (now >= 15 ? 1 : 0) + (now >= 5000 ? 1 : 0) + (now >= 1ull << 29 ? 1 : 0)) << power;
+  }
+}
+
+TEST(DueCalendar, KnowsTheChildrenAndTheirParent) {
+  const SampledBody body = ball_body();
+  const Pointshell& shell = body.pointshell();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+  DueCalendar calendar;
+  calendar.start(memory, shell);
+  const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
+  std::vector<int> seen(nodes + shell.size);
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    DueCalendar::for_each_child(shell, n, [&](std::uint32_t child) {
+      ++seen[child];
+      EXPECT_EQ(calendar.parent_of(child), n);
+    });
+  }
+  EXPECT_EQ(seen[0], 0);
+  for (std::size_t i = 1; i < seen.size(); ++i) ASSERT_EQ(seen[i], 1) << i;
+}
+
+TEST(DueCalendar, KnowsSpheresThatHoldTheirPoints) {
+  const SampledBody body = ball_body();
+  const Pointshell& shell = body.pointshell();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+  DueCalendar calendar;
+  calendar.start(memory, shell);
+  const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
+  const auto center = [](const DueCalendar::Sphere& s) {
+    return Vector3(static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z));
+  };
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    const DueCalendar::Sphere sphere = calendar.sphere_of(n);
+    const format::Node& node = shell.nodes[n];
+    ASSERT_GE(static_cast<double>(sphere.radius), radius_of(node));
+    ASSERT_LE(static_cast<double>(sphere.radius), 1.0001 * radius_of(node));
+    for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
+      ASSERT_LE((shell.point(i) - center(sphere)).norm(), static_cast<double>(sphere.radius)) << n << ' ' << i;
+    }
+  }
+  for (std::uint32_t i = 0; i < shell.size; ++i) {
+    const DueCalendar::Sphere sphere = calendar.sphere_of(nodes + i);
+    ASSERT_EQ(center(sphere), shell.point(i));
+    ASSERT_EQ(sphere.radius, 0.0f);
+  }
+}
+
+TEST(DueCalendar, GivesMarkedPointsOnceAndInOrder) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.file(0, 100);
+  EXPECT_EQ(calendar.certain(), 100u);
+  const auto points = static_cast<std::uint32_t>(body.pointshell().size);
+  for (const std::uint32_t point : {points - 1, 31u, 0u, 32u, 31u, 63u}) calendar.mark(point);
+  EXPECT_EQ(calendar.marked(), 5u);
+  EXPECT_EQ(calendar.certain(), 0u) << "what is marked is due";
+  std::vector<std::uint32_t> given;
+  const auto unmark_some = [&](std::uint32_t point) {
+    given.push_back(point);
+    if (point != 32) calendar.unmark(point);
+  };
+  calendar.for_each_marked(unmark_some);
+  EXPECT_EQ(given, (std::vector<std::uint32_t>{0, 31, 32, 63, points - 1}));
+  EXPECT_EQ(calendar.marked(), 1u);
+  given.clear();
+  calendar.for_each_marked([&](std::uint32_t point) {
+    given.push_back(point);
+    calendar.unmark(point);
+  });
+  EXPECT_EQ(given, (std::vector<std::uint32_t>{32}));
+  EXPECT_EQ(calendar.certain(), 100u);
+  calendar.for_each_marked([](std::uint32_t) { FAIL() << "none is left"; });
+}
+
+/// Looking farther ahead and less far again, as a search does that doubles its reach, costs nothing later.
+TEST(DueCalendar, GoesBackAndVisitsNothingTwice) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.take_due(64, [](std::uint32_t) { FAIL() << "nothing is filed"; });
+  calendar.file(0, 50);
+  EXPECT_EQ(calendar.certain(), 0u) << "due already";
+  calendar.take_due(10, [](std::uint32_t) { FAIL() << "not due there"; });
+  EXPECT_EQ(calendar.certain(), 50u);
+  calendar.take_due(49, [](std::uint32_t) { FAIL() << "not due there"; });
+  int taken = 0;
+  calendar.take_due(50, [&](std::uint32_t) { ++taken; });
+  EXPECT_EQ(taken, 1);
+}
+
+}  // namespace
+}  // namespace godobject::test

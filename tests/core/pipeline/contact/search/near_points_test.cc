@@ -1,0 +1,127 @@
+#include "core/pipeline/contact/search/near_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/scene/field.h"
+#include "core/scene/sample_bits.h"
+#include "godobject/pose.h"
+#include "tests/support/random.h"
+
+namespace godobject {
+namespace {
+
+/// Points of which some clearances are as long as their way, some longer, some shorter.
+TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
+  test::Random random(3);
+  int leaving = 0, held = 0;
+  for (std::uint32_t count = 0; count < 200; ++count) {
+    const Matrix3 turn = exp_rotation(0.05 * random.in_cube(1.0)).toRotationMatrix() - Matrix3::Identity();
+    const Vector3 shift = 1e-3 * random.in_cube(1.0);
+    const double kept = 1e-5;
+    const auto near = std::make_unique<NearPoints>();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      SampleBatch batch;
+      const Vector3 p = random.in_cube(0.1);
+      batch.x[0] = static_cast<float>(p.x());
+      batch.y[0] = static_cast<float>(p.y());
+      batch.z[0] = static_cast<float>(p.z());
+      batch.distance[0] = random.between(-1e-4, 1e-3);
+      batch.clearance[0] = random.between(0.0, 2.0) * (turn * p + shift).norm();
+      const std::uint32_t number = 7 * i;
+      ASSERT_EQ(near->push(&number, batch, 1), 1u);
+    }
+    ASSERT_EQ(near->least_distance(), count == 0 ? std::numeric_limits<double>::infinity()
+                                                 : *std::min_element(near->distance, near->distance + count));
+    near->pad();
+    ASSERT_EQ(near->count, count);
+    for (std::uint32_t first = 0; first < count; first += 64) {
+      const std::uint64_t found = near->leave_their_ball(first, turn, shift, kept);
+      for (std::uint32_t i = first; i < first + 64; ++i) {
+        const bool leaves =
+            i < count && near->distance[i] > 0.0 && (turn * near->point(i) + shift).norm() + kept > near->clearance[i];
+        ASSERT_EQ((found >> (i - first) & 1) != 0, leaves) << i << " of " << count;
+        (leaves ? leaving : held) += 1;
+      }
+    }
+  }
+  EXPECT_GT(leaving, 1000);
+  EXPECT_GT(held, 1000);
+}
+
+TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
+  test::Random random(4);
+  const auto near = std::make_unique<NearPoints>();
+  std::vector<std::uint32_t> pushed;
+  std::uint32_t number = 0;
+  int refused = 0;
+  while (refused < 3) {
+    SampleBatch batch;
+    std::array<std::uint32_t, SampleBatch::kCapacity> numbers;
+    std::uint64_t chosen = 0;
+    for (std::uint32_t k = 0; k < SampleBatch::kCapacity; ++k, ++number) {
+      numbers[k] = number;
+      batch.x[k] = static_cast<float>(number);
+      batch.y[k] = static_cast<float>(number + 1);
+      batch.z[k] = static_cast<float>(number + 2);
+      batch.distance[k] = number + 3;
+      batch.clearance[k] = number + 4;
+      if (random.between(0.0, 1.0) < 0.6) chosen |= std::uint64_t{1} << k;
+    }
+    const std::uint64_t held = near->push(numbers.data(), batch, chosen);
+    ASSERT_EQ(held & ~chosen, 0u);
+    std::uint64_t expected = 0;
+    for_each_bit(chosen, [&](std::uint32_t k) {
+      if (pushed.size() == NearPoints::kCapacity) return;
+      expected |= std::uint64_t{1} << k;
+      pushed.push_back(numbers[k]);
+    });
+    ASSERT_EQ(held, expected) << "the first of them";
+    refused += held != chosen;
+  }
+  ASSERT_EQ(near->count, NearPoints::kCapacity);
+  for (std::uint32_t i = 0; i < near->count; ++i) {
+    ASSERT_EQ(near->index[i], pushed[i]);
+    ASSERT_EQ(near->point(i), Vector3(pushed[i], pushed[i] + 1, pushed[i] + 2));
+    ASSERT_EQ(near->distance[i], pushed[i] + 3);
+    ASSERT_EQ(near->clearance[i], pushed[i] + 4);
+  }
+}
+
+TEST(SampleBits, SayWhatHoldsOfEachPoint) {
+  test::Random random(5);
+  for (std::uint32_t count = 0; count <= SampleBatch::kCapacity; ++count) {
+    SampleBatch batch;
+    for (std::uint32_t i = 0; i < SampleBatch::kCapacity; ++i) {
+      FieldSample sample;
+      sample.distance = random.between(-1e-3, 1e-3);
+      sample.clearance = i % 9 == 0 ? 5e-4 : random.between(0.0, 1e-3);
+      sample.gradient = random.in_cube(2e-3);
+      store_sample(Vector3::Zero(), sample, batch, i);
+      batch.from_distance[i] = i % 7 == 0 ? sample.distance + 1e-9 : random.between(-1e-3, 1e-3);
+    }
+    batch.count = count;
+    const std::uint64_t below = clearance_below(batch, 5e-4);
+    const std::uint64_t keeps = keeps_distance(batch, 3e-4, 1e-9);
+    const std::uint64_t steep = steeper(batch, 1e-3);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const FieldSample sample = stored_sample(batch, i);
+      EXPECT_EQ((below >> i & 1) != 0, sample.clearance < 5e-4);
+      EXPECT_EQ((keeps >> i & 1) != 0,
+                sample.distance > 0.0 && sample.distance + 1e-9 >= std::min(batch.from_distance[i], 3e-4));
+      EXPECT_EQ((steep >> i & 1) != 0, sample.gradient.squaredNorm() > 1e-6);
+    }
+  }
+  EXPECT_EQ(first_bits(0), 0u);
+  EXPECT_EQ(first_bits(3), 7u);
+  EXPECT_EQ(first_bits(64), ~std::uint64_t{0});
+}
+
+}  // namespace
+}  // namespace godobject

@@ -1,0 +1,81 @@
+#include "toolchain/files/csv_table.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "toolchain/command_line/failure.h"
+
+namespace godobject::command {
+namespace {
+
+class CommandFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& text) const {
+    std::ofstream(folder_ / "table.csv", std::ios::binary) << text;
+    return folder_ / "table.csv";
+  }
+
+  /// The message with which `text` is refused; empty if it is not.
+  std::string refusal(const std::string& text, ExitCode expected) const {
+    try {
+      read_csv(file(text), kColumns);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), expected);
+      return failure.what();
+    }
+    return {};
+  }
+
+  static constexpr std::array<std::string_view, 3> kColumns = {"a", "b", "c"};
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandFiles, CsvIsReadWithItsLineNumbers) {
+  const CsvTable table = read_csv(file("# made by hand\r\na, b ,c\r\n1,2e-3,-3\r\n\r\nnan,inf,-inf\r\n"), kColumns);
+  ASSERT_EQ(table.rows(), 2u);
+  EXPECT_EQ(table.lines[0], 3u);
+  EXPECT_EQ(table.lines[1], 5u);
+  EXPECT_DOUBLE_EQ(table.row(0)[1], 2e-3);
+  EXPECT_TRUE(std::isnan(table.row(1)[0]));
+  EXPECT_TRUE(std::isinf(table.row(1)[2]));
+}
+
+TEST_F(CommandFiles, CsvMayBeginWithAByteOrderMarkAndNumbersWithAPlus) {
+  const CsvTable table = read_csv(file("\xef\xbb\xbf"
+                                       "a,b,c\n+1,+2.5e1,-3\n"),
+                                  kColumns);
+  ASSERT_EQ(table.rows(), 1u);
+  EXPECT_EQ(table.row(0)[0], 1.0);
+  EXPECT_EQ(table.row(0)[1], 25.0);
+  for (const char* const bad : {"+-1", "++1", "+", "-+1"}) {
+    EXPECT_NE(refusal("a,b,c\n1,2," + std::string(bad) + "\n", ExitCode::kBadData).find("is not a number"),
+              std::string::npos)
+        << bad;
+  }
+}
+
+TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
+  EXPECT_NE(
+      refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number; mend the row"),
+      std::string::npos);
+  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3 (a,b,c); mend the row"),
+            std::string::npos);
+  EXPECT_NE(refusal("a,b,c\n1,2,3,\n", ExitCode::kBadData).find(":2: \"\" is not a number"), std::string::npos);
+  EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);
+  EXPECT_NE(refusal("", ExitCode::kBadData).find("is empty"), std::string::npos);
+  EXPECT_THROW(read_csv(folder_ / "absent.csv", kColumns), Failure);
+}
+
+}  // namespace
+}  // namespace godobject::command

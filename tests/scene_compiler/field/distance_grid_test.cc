@@ -1,0 +1,191 @@
+#include "toolchain/scene_compiler/field/brick_packing.h"
+#include "toolchain/scene_compiler/field/distance_grid.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/scene/voxelmap.h"
+#include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/field/distance_transform.h"
+#include "toolchain/scene_compiler/field/refinement.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+DistanceGrid rounded(DistanceGrid field) {
+  round_distances(field);
+  return field;
+}
+
+struct Field {
+  DistanceGrid grid;
+  std::vector<format::Brick> bricks;
+  Voxelmap map;
+
+  Field(const SolidSurface& surface, double voxel_size)
+      : grid(rounded(make_distance_grid(surface, voxel_size, default_band(voxel_size, 1.5 * voxel_size), {}))),
+        bricks(packed_bricks(grid)),
+        map(grid.grid, grid.index, bricks, {}) {}
+};
+
+Field field_of(TriangleMesh mesh, double voxel_size, SurfaceKind kind = SurfaceKind::kAuto) {
+  return Field(SolidSurface(std::move(mesh), kind, 2.0 * voxel_size), voxel_size);
+}
+
+/// No point of the ball may lie below what lower_bound says, the field clipped at the band as `sample` does.
+void expect_lower_bound_holds(const Field& field, int balls) {
+  const format::Grid& g = field.grid.grid;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  int bounded = 0;
+  for (int i = 0; i < balls; ++i) {
+    Vector3d center;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double length = g.bricks[axis] * format::kBrickCells * g.voxel_size;
+      center[axis] = g.origin[axis] + (1.2 * unit(random) - 0.1) * length;
+    }
+    const double radius = std::pow(unit(random), 2.0) * 12.0 * g.voxel_size;
+    const double bound = field.map.lower_bound(center, radius);
+    if (bound < 0.0) continue;
+    ++bounded;
+    for (int k = 0; k < 60; ++k) {
+      const Vector3d direction = Vector3d(normal(random), normal(random), normal(random)).normalized();
+      const Vector3d x = center + radius * std::cbrt(unit(random)) * direction;
+      ASSERT_GE(field.map.sample(x).distance, std::min(bound, g.band) - 1e-6 * g.voxel_size)
+          << "ball " << i << " at " << center.transpose() << " radius " << radius;
+    }
+  }
+  EXPECT_GT(bounded, balls / 20) << "the bound is of no use";
+}
+
+TEST(DistanceGrid, HoldsAHandComputedBox) {
+  const Field field = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1)), 0.002);
+  const double off = 0.5 * field.grid.grid.quantum + 1e-8;
+  EXPECT_NEAR(field.map.sample({0.05, 0.05, 0.1031}).distance, 0.0031, off);
+  EXPECT_NEAR(field.map.sample({0.05, 0.05, 0.0979}).distance, -0.0021, off);
+  const FieldSample side = field.map.sample({0.1012, 0.04, 0.06});
+  EXPECT_TRUE(side.known);
+  EXPECT_NEAR(side.gradient.x(), 1.0, field.grid.grid.quantum / 0.002);
+  EXPECT_FALSE(field.map.sample({0.05, 0.05, 0.05}).known);
+  EXPECT_LT(field.map.sample({0.05, 0.05, 0.05}).distance, 0.0);
+  EXPECT_GT(field.map.sample({0.2, 0.05, 0.05}).distance, 0.0);
+  EXPECT_EQ(field.grid.seams.cells, 0u);
+  EXPECT_NEAR(field.grid.grid.lipschitz, field.grid.grid.lipschitz_seam, 1e-3);
+}
+
+TEST(DistanceGrid, ThickensASheet) {
+  const Field field = field_of(box({0, 0, -1}, {0.1, 0.1, 0}, {false, false, false, false, false, true}), 0.002);
+  const double off = 0.5 * field.grid.grid.quantum + 1e-8;
+  EXPECT_NEAR(field.map.sample({0.05, 0.05, 0.004}).distance, 0.002, off);
+  EXPECT_NEAR(field.map.sample({0.05, 0.05, -0.004}).distance, 0.002, off);
+  EXPECT_LT(field.map.sample({0.05, 0.05, 0.0}).distance, -0.0009);
+}
+
+TEST(DistanceGrid, BandCoversSafetyDistanceAndASubStep) {
+  EXPECT_GE(default_band(0.002, 0.003), 0.006);
+  EXPECT_GE(default_band(0.002, 0.010), 0.013);
+}
+
+TEST(DistanceGrid, LeavesFreeSpaceAllAround) {
+  const Field field = field_of(load("bunny_npm", 0.0161497), 0.004);
+  const format::Grid& g = field.grid.grid;
+  for (int z = 0; z < g.bricks[2]; ++z) {
+    for (int y = 0; y < g.bricks[1]; ++y) {
+      for (int x = 0; x < g.bricks[0]; ++x) {
+        if (x > 0 && y > 0 && z > 0 && x < g.bricks[0] - 1 && y < g.bricks[1] - 1 && z < g.bricks[2] - 1) continue;
+        const std::uint32_t entry = field.grid.index[static_cast<std::size_t>(x + g.bricks[0] * (y + g.bricks[1] * z))];
+        ASSERT_TRUE((entry & format::index_entry::kFar) != 0 && (entry & format::index_entry::kInside) == 0);
+      }
+    }
+  }
+}
+
+TEST(DistanceGrid, StoresWhatIsNearAndEveryChangeOfSign) {
+  const Field field = field_of(load("bunny_npm", 0.0161497), 0.002);
+  for (const Brick& brick : field.grid.bricks) {
+    float nearest = std::abs(brick.value[0]);
+    bool changes = false;
+    for (const float v : brick.value) {
+      nearest = std::min(nearest, std::abs(v));
+      changes = changes || (v < 0.0f) != (brick.value[0] < 0.0f);
+    }
+    ASSERT_TRUE(static_cast<double>(nearest) < field.grid.grid.band || changes);
+  }
+}
+
+TEST(DistanceGrid, LipschitzConstantBoundsEveryGradient) {
+  for (const char* name : {"bunny_npm", "hole_square"}) {
+    const double scale = std::string(name) == "bunny_npm" ? 0.0161497 : 1.0;
+    const Field field = field_of(load(name, scale), 0.004);
+    const format::Grid& g = field.grid.grid;
+    EXPECT_LE(g.lipschitz, 1.7322 + 1.7321 * g.quantum / g.voxel_size);
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    double largest = 0.0;
+    for (int i = 0; i < 300000; ++i) {
+      Vector3d p;
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = g.origin[axis] + unit(random) * g.bricks[axis] * format::kBrickCells * g.voxel_size;
+      largest = std::max(largest, field.map.sample(p).gradient.norm());
+    }
+    EXPECT_LE(largest, g.lipschitz) << name;
+    EXPECT_GT(largest, 0.8 * g.lipschitz) << name << ": far too careful";
+  }
+}
+
+TEST(DistanceGrid, LowerBoundHoldsForSealedSolids) {
+  expect_lower_bound_holds(field_of(load("bunny_npm", 0.0161497), 0.004), 20000);
+  expect_lower_bound_holds(field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1)), 0.004), 20000);
+}
+
+TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
+  // a box without its lid, told to be solid: across the opening the sign jumps
+  const Field open = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
+                              0.004, SurfaceKind::kSolid);
+  EXPECT_GT(open.grid.seams.cells, 0u);
+  EXPECT_GT(open.grid.seams.largest_jump, 0.02);
+  EXPECT_GT(open.grid.grid.lipschitz_seam, open.grid.grid.lipschitz);
+  expect_lower_bound_holds(open, 40000);
+  expect_lower_bound_holds(field_of(load("teapot", 0.037), 0.003), 40000);
+  expect_lower_bound_holds(field_of(load("sheet_open_2tri", 0.3), 0.004), 20000);
+}
+
+TEST(DistanceGrid, RefusesAGridBeyondItsLimitAndNamesTheVoxel) {
+  try {
+    field_of(box(Vector3d::Zero(), Vector3d::Constant(100.0)), 1e-4);
+    FAIL() << "took it";
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
+    EXPECT_NE(std::string(failure.what()).find("voxel_size"), std::string::npos);
+  }
+}
+
+TEST(DistanceTransform, IsExact) {
+  const BrickLattice lattice{{7, 9, 11}};
+  std::vector<bool> set(lattice.count());
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 6; ++i) set[random() % set.size()] = true;
+  const std::vector<float> squared = squared_distance_transform(lattice, set);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    int best = 1 << 30;
+    for (std::size_t j = 0; j < set.size(); ++j) {
+      if (!set[j]) continue;
+      int sum = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int d = lattice.position(i)[axis] - lattice.position(j)[axis];
+        sum += d * d;
+      }
+      best = std::min(best, sum);
+    }
+    ASSERT_EQ(squared[i], static_cast<float>(best));
+  }
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler

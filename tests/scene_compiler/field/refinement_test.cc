@@ -1,0 +1,345 @@
+#include "toolchain/scene_compiler/field/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/scene/edge.h"
+#include "core/scene/voxelmap.h"
+#include "tests/scene_compiler/brute_force.h"
+#include "tests/scene_compiler/simple_meshes.h"
+#include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/field/brick_packing.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTolerance = 0.05;             // voxels: into the body
+constexpr double kOff = kHeldOff * kTolerance;  // and off it
+constexpr double kSteepest = 2.0 * 1.025;       // and rounded
+
+DistanceGrid& rounded(DistanceGrid& field) {
+  round_distances(field);
+  return field;
+}
+
+struct Field {
+  DistanceGrid coarse, grid;
+  RefinementReport report;
+  std::vector<format::Brick> coarse_bricks, bricks;
+  Voxelmap coarse_map, map;
+
+  Field(const SolidSurface& surface, double s, double tolerance = kTolerance)
+      : coarse(make_distance_grid(surface, s, default_band(s, 1.5 * s), {})),
+        grid(coarse),
+        report(refine(grid, surface, tolerance * s, {})),
+        coarse_bricks(packed_bricks(rounded(coarse))),
+        bricks(packed_bricks(grid)),
+        coarse_map(coarse.grid, coarse.index, coarse_bricks, {}),
+        map(grid.grid, grid.index, bricks, grid.refined, grid.edges) {}
+};
+
+/// Any rotation, anywhere within a voxel.
+Eigen::Isometry3d any_motion(std::mt19937_64& random, double s) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.rotate(
+      Eigen::AngleAxisd(3.14 * unit(random), Vector3d(unit(random), unit(random), unit(random)).normalized()));
+  motion.pretranslate(s * Vector3d(unit(random), unit(random), unit(random)));
+  return motion;
+}
+
+/// A prism along y with its sharp edge on the y axis, opening by `angle` [rad] towards +x.
+TriangleMesh wedge(double angle, double length, double width) {
+  const double half = length * std::tan(0.5 * angle);
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0},     {length, 0, -half},     {length, 0, half},
+                   {0, width, 0}, {length, width, -half}, {length, width, half}};
+  mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {1, 5, 4}, {1, 2, 5}, {0, 4, 3}, {0, 1, 4}, {0, 5, 2}, {0, 3, 5}};
+  return mesh;
+}
+
+/// The largest miss to either side [m].
+struct Worst {
+  double into = 0.0;
+  double off = 0.0;
+
+  /// `depth` > 0: the stored surface is inside of the body there.
+  void add(double depth) { (depth > 0.0 ? into : off) = std::max(depth > 0.0 ? into : off, std::abs(depth)); }
+};
+
+/// Faces, edges and corners of a mesh whose every triangle bounds the body.
+Worst worst_at_surface(const Voxelmap& field, const TriangleMesh& mesh, int per_triangle) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Worst worst;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]];
+    const Vector3d b = mesh.vertices[t[1]];
+    const Vector3d c = mesh.vertices[t[2]];
+    for (int i = 0; i < per_triangle; ++i) {
+      double u = unit(random);
+      double v = i % 2 == 0 ? 0.0 : unit(random);  // half of them on an edge
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      worst.add(field.sample(a + u * (b - a) + v * (c - a)).distance);
+    }
+    for (const Vector3d& corner : {a, b, c}) worst.add(field.sample(corner).distance);
+  }
+  return worst;
+}
+
+/// How far points of the stored zero level are from the mesh, by looking at every triangle.
+Worst worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int points) {
+  const BruteForce truth(mesh);
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double s = field.voxel_size();
+  Worst worst;
+  int found = 0;
+  for (int i = 0; i < points; ++i) {
+    const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+    const double u = std::abs(unit(random));
+    const Vector3d on_edge = mesh.vertices[t[0]] + u * (mesh.vertices[t[1]] - mesh.vertices[t[0]]);
+    Vector3d from = on_edge + 1.5 * s * Vector3d(unit(random), unit(random), unit(random));
+    Vector3d to = on_edge + 1.5 * s * Vector3d(unit(random), unit(random), unit(random));
+    const double sign = field.sample(from).distance < 0.0 ? -1.0 : 1.0;
+    if (sign * field.sample(to).distance >= 0.0) continue;
+    for (int k = 0; k < 40; ++k) {
+      const Vector3d middle = 0.5 * (from + to);
+      (sign * field.sample(middle).distance >= 0.0 ? from : to) = middle;
+    }
+    ++found;
+    const bool inside = std::abs(truth.winding_number(from)) > 0.5;  // whichever way the mesh winds
+    worst.add(inside ? truth.distance(from) : -truth.distance(from));
+  }
+  EXPECT_GT(found, points / 20);
+  return worst;
+}
+
+/// Nowhere in the stored bricks may the field jump: pairs of points a millionth of a voxel apart, most of them astride
+/// the faces, edges and corners of cells of all sizes.
+double largest_jump(const Field& field, int pairs) {
+  const format::Grid& g = field.grid.grid;
+  const double s = g.voxel_size;
+  const Vector3d origin(g.origin[0], g.origin[1], g.origin[2]);
+  std::vector<std::size_t> refined;
+  for (std::size_t i = 0; i < field.grid.index.size(); ++i) {
+    const std::uint32_t entry = field.grid.index[i];
+    const std::uint32_t finer = format::index_entry::kRefined | format::index_entry::kEdged;
+    if ((entry & format::index_entry::kFar) == 0 && (entry & finer) != 0) refined.push_back(i);
+  }
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  double largest = 0.0;
+  for (int i = 0; i < pairs && !refined.empty(); ++i) {
+    const std::size_t at = refined[random() % refined.size()];
+    const auto nx = static_cast<std::size_t>(g.bricks[0]);
+    const auto ny = static_cast<std::size_t>(g.bricks[1]);
+    const Vector3d brick(static_cast<double>(at % nx), static_cast<double>(at / nx % ny),
+                         static_cast<double>(at / nx / ny));
+    Vector3d units = 64.0 * brick + Vector3d(unit(random), unit(random), unit(random)) * 64.0;  // cells of s / 16
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell = 4 << (random() % 5);  // bricks of every level
+      if (random() % 2 == 0) units[axis] = std::round(units[axis] / cell) * cell;
+    }
+    const Vector3d p = origin + s / 16.0 * units;
+    const Vector3d apart = 1e-6 * s * Vector3d(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+    const FieldSample ahead = field.map.sample(p + apart);
+    const FieldSample behind = field.map.sample(p - apart);
+    if (!ahead.known || !behind.known) continue;
+    largest = std::max(largest, std::abs(ahead.distance - behind.distance) - g.lipschitz_seam * 2.0 * apart.norm());
+  }
+  return largest;
+}
+
+/// Floats of a few voxels, and where in a cell a point is.
+constexpr double kFloatRounding = 3e-6;  // voxels
+
+void expect_true_surface(const TriangleMesh& mesh, double s, const char* what, int per_triangle = 400) {
+  const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
+  const Field field(surface, s);
+  const Worst before = worst_at_surface(field.coarse_map, mesh, per_triangle);
+  const Worst at_surface = worst_at_surface(field.map, mesh, per_triangle);
+  const Worst zero_level = worst_of_zero_level(field.map, mesh, 4000);
+  EXPECT_LE(at_surface.into, kTolerance * s) << what;
+  EXPECT_LE(at_surface.off, kOff * s) << what;
+  EXPECT_LE(zero_level.into, kTolerance * s) << what;
+  EXPECT_LE(zero_level.off, 1.5 * kOff * s) << what;  // in a re-entrant edge the distance grows slower than the way
+  EXPECT_LE(largest_jump(field, 40000), kFloatRounding * s) << what;
+  EXPECT_LE(field.grid.grid.lipschitz, kSteepest) << what;
+  std::printf(
+      "%-12s into and off the body at the surface, unrefined: %.3f, %.3f s; refined: %.3f, %.3f s, its zero level "
+      "%.3f, %.3f s; bricks %zu -> %zu, lipschitz %.3f -> %.3f\n",
+      what, before.into / s, before.off / s, at_surface.into / s, at_surface.off / s, zero_level.into / s,
+      zero_level.off / s, field.coarse.bricks.size(), field.grid.bricks.size(), field.coarse.grid.lipschitz,
+      field.grid.grid.lipschitz);
+}
+
+TEST(Refinement, MakesATurnedBoxTrue) {
+  std::mt19937_64 random(14);
+  for (int i = 0; i < 2; ++i) {
+    expect_true_surface(test::moved(test::box_mesh({0.04, 0.03, 0.05}), any_motion(random, 0.004)), 0.004, "box");
+  }
+}
+
+TEST(Refinement, MakesABoxAlongTheLatticeTrue) {
+  expect_true_surface(test::box_mesh({0.04, 0.03, 0.05}), 0.004, "aligned box");
+}
+
+TEST(Refinement, MakesSharpWedgesTrue) {
+  std::mt19937_64 random(15);
+  for (const int degrees : {60, 30}) {
+    const TriangleMesh mesh = wedge(degrees * std::numbers::pi / 180.0, 0.03, 0.02);
+    expect_true_surface(test::moved(mesh, any_motion(random, 0.002)), 0.002, degrees == 60 ? "wedge 60" : "wedge 30");
+  }
+}
+
+TEST(Refinement, MakesAnEngineeredPartTrue) { expect_true_surface(load("bracket", 1.0), 0.006, "bracket", 60); }
+
+/// The teapot is open at its spout, where seams keep bricks as they are, and its parts run into one another.
+TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
+  const double s = 0.006;
+  const SolidSurface surface(load("teapot", 0.037), SurfaceKind::kAuto, 2.0 * s);
+  const Field field(surface, s);
+  EXPECT_GT(field.grid.refined.size(), 100u);
+  EXPECT_LE(largest_jump(field, 60000), kFloatRounding * s);
+  EXPECT_LE(field.grid.grid.lipschitz, kSteepest);
+  EXPECT_LE(field.grid.grid.lipschitz_seam, std::max(kSteepest, field.coarse.grid.lipschitz_seam));
+}
+
+/// Where an edge counts in full the field is the surface's own distance, to double precision.
+TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
+  std::mt19937_64 random(18);
+  const double s = 0.002;
+  const SolidSurface surface(test::moved(test::box_mesh({0.06, 0.05, 0.07}), any_motion(random, s)),
+                             SurfaceKind::kSolid, 2.0 * s);
+  const Field field(surface, s);
+  ASSERT_EQ(field.grid.edges.size(), 12u);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0;
+  for (const format::Edge& edge : field.grid.edges) {
+    for (int i = 0; i < 2000; ++i) {
+      const double t = edge.begin + unit(random) * (edge.end - edge.begin);
+      const Vector3d around(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+      const Vector3d p = Eigen::Map<const Vector3d>(edge.point) + t * Eigen::Map<const Vector3d>(edge.along) +
+                         2.0 * edge.radius * unit(random) * around;
+      if (edge_weight(edge, p).value < 1.0) continue;
+      ++looked_at;
+      const FieldSample sample = field.map.sample(p);
+      ASSERT_NEAR(sample.distance, surface.signed_distance(p), 1e-15 + 1e-12 * s);
+      if (sample.distance != 0.0) {
+        ASSERT_NEAR(sample.gradient.norm(), 1.0, 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(looked_at, 8000);
+}
+
+/// Of whatever shape its bricks and edges are: no two points are further apart in distance than the constant says.
+TEST(Refinement, KeepsTheFieldAsSteepAsItSays) {
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const char* name : {"box", "bracket"}) {
+    const double s = 0.004;
+    const SolidSurface surface(std::string(name) == "box"
+                                   ? test::moved(test::box_mesh({0.06, 0.05, 0.07}), any_motion(random, s))
+                                   : load(name, 1.0),
+                               SurfaceKind::kSolid, 2.0 * s);
+    const Field field(surface, s);
+    double steepest = 0.0;
+    for (int i = 0; i < 300000; ++i) {
+      const format::Edge& edge = field.grid.edges[random() % field.grid.edges.size()];
+      const double t = 0.5 * ((edge.begin + edge.end) + unit(random) * (edge.end - edge.begin + 2.0 * s));
+      const Vector3d p = Eigen::Map<const Vector3d>(edge.point) + t * Eigen::Map<const Vector3d>(edge.along) +
+                         3.0 * s * Vector3d(unit(random), unit(random), unit(random));
+      const FieldSample here = field.map.sample(p);
+      if (!here.known) continue;
+      steepest = std::max(steepest, here.gradient.norm());
+    }
+    EXPECT_LE(steepest, field.grid.grid.lipschitz) << name;
+    EXPECT_GT(steepest, 1.2) << name;  // looked at where it matters
+  }
+}
+
+TEST(Refinement, LeavesEveryPositionsOwnNodes) {
+  std::mt19937_64 random(16);
+  const SolidSurface surface(test::moved(test::box_mesh({0.04, 0.03, 0.05}), any_motion(random, 0.004)),
+                             SurfaceKind::kSolid, 0.008);
+  const Field field(surface, 0.004);
+  int refined = 0;
+  for (std::size_t i = 0; i < field.grid.index.size(); ++i) {
+    const std::uint32_t entry = field.grid.index[i];
+    if ((entry & format::index_entry::kFar) != 0) continue;
+    std::uint32_t own = entry & format::index_entry::kNumber;
+    if ((entry & format::index_entry::kRefined) != 0) ++refined, own = field.grid.refined[own].brick;
+    const Brick& before = field.coarse.bricks[field.coarse.index[i] & format::index_entry::kNumber];
+    for (int node = 0; node < format::kBrickValues; ++node) {
+      ASSERT_NEAR(field.grid.bricks[own].value[node], before.value[node],
+                  (format::kMostRoundedOff + 0.5) * field.grid.grid.quantum);
+    }
+  }
+  EXPECT_GT(refined, 20);
+}
+
+TEST(Refinement, KeepsLowerBoundsAndClearancesTrue) {
+  std::mt19937_64 random(17);
+  const SolidSurface surface(test::moved(wedge(1.0, 0.03, 0.02), any_motion(random, 0.002)), SurfaceKind::kSolid,
+                             0.004);
+  const Field field(surface, 0.002);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int bounded = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3d center = 0.04 * Vector3d(unit(random), unit(random), unit(random));
+    const double radius = 0.01 * std::pow(unit(random), 2);
+    const double bound = field.map.lower_bound(center, radius);
+    const double clearance = field.map.sample(center).clearance;
+    if (bound >= 0.0) ++bounded;
+    for (int k = 0; k < 30; ++k) {
+      const Vector3d direction = Vector3d(unit(random), unit(random), unit(random)).normalized();
+      if (bound >= 0.0) {
+        ASSERT_GE(field.map.sample(center + radius * std::cbrt(std::abs(unit(random))) * direction).distance,
+                  std::min(bound, field.map.band()) - 1e-8);
+      }
+      if (clearance <= 0.0) continue;
+      ASSERT_GT(field.map.sample(center + 0.999 * clearance * std::abs(unit(random)) * direction).distance + 1e-9, 0.0);
+    }
+  }
+  EXPECT_GT(bounded, 1000);
+}
+
+TEST(Refinement, LeavesWhatIsGoodEnough) {
+  const SolidSurface surface(test::box_mesh({0.04, 0.03, 0.05}), SurfaceKind::kSolid, 0.008);
+  const Field field(surface, 0.004, 1000.0);
+  EXPECT_TRUE(field.grid.refined.empty());
+  EXPECT_EQ(field.grid.bricks.size(), field.coarse.bricks.size());
+  EXPECT_EQ(field.grid.index, field.coarse.index);
+  EXPECT_EQ(field.grid.grid.lipschitz, field.coarse.grid.lipschitz);
+  EXPECT_EQ(field.report.bricks[0], field.coarse.bricks.size());
+}
+
+TEST(Refinement, GivesTheSameEveryTime) {
+  const SolidSurface surface(load("bracket", 1.0), SurfaceKind::kAuto, 0.016);
+  const Field one(surface, 0.008);
+  const Field other(surface, 0.008);
+  ASSERT_EQ(one.grid.bricks.size(), other.grid.bricks.size());
+  EXPECT_EQ(one.grid.index, other.grid.index);
+  EXPECT_EQ(std::memcmp(one.grid.bricks.data(), other.grid.bricks.data(), one.grid.bricks.size() * sizeof(Brick)), 0);
+  ASSERT_EQ(one.grid.edges.size(), other.grid.edges.size());
+  EXPECT_EQ(std::memcmp(one.grid.edges.data(), other.grid.edges.data(), one.grid.edges.size() * sizeof(format::Edge)),
+            0);
+  EXPECT_EQ(std::memcmp(one.grid.refined.data(), other.grid.refined.data(),
+                        one.grid.refined.size() * sizeof(format::Refined)),
+            0);
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,146 @@
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/scene_compiler/brute_force.h"
+#include "tests/scene_compiler/test_meshes.h"
+#include "toolchain/scene_compiler/field/distance_probe.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+TriangleMesh unit_box() { return box(Vector3d::Zero(), Vector3d::Ones()); }
+
+TEST(SolidSurface, GivesHandComputedDistancesOfABox) {
+  const SolidSurface surface(unit_box(), SurfaceKind::kAuto, 0.1);
+  EXPECT_DOUBLE_EQ(surface.signed_distance({0.5, 0.5, 0.5}), -0.5);
+  EXPECT_DOUBLE_EQ(surface.signed_distance({0.5, 0.5, 0.9}), 0.5 - 0.5 - (1.0 - 0.9));
+  EXPECT_DOUBLE_EQ(surface.signed_distance({0.5, 0.5, 3.0}), 2.0);
+  EXPECT_DOUBLE_EQ(surface.signed_distance({2.0, 2.0, 0.5}), std::sqrt(2.0));  // to an edge
+  EXPECT_DOUBLE_EQ(surface.signed_distance({2.0, 2.0, 2.0}), std::sqrt(3.0));  // to a corner
+  EXPECT_NEAR(surface.winding_number({0.2, 0.3, 0.4}), 1.0, 1e-9);
+  EXPECT_NEAR(surface.winding_number({1.2, 0.3, 0.4}), 0.0, 1e-9);
+  EXPECT_NEAR(surface.components()[0].winding, 0.5, 1e-3);
+}
+
+TEST(SolidSurface, TakesAnOpenSheetForAShell) {
+  const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Ones(), {false, false, false, false, false, true}),
+                             SurfaceKind::kAuto, 0.1);
+  ASSERT_TRUE(surface.components()[0].shell);
+  EXPECT_NEAR(surface.components()[0].winding, 0.0, 1e-9);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 1.0}), -0.05, 1e-12);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 1.3}), 0.25, 1e-12);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.7}), 0.25, 1e-12);
+}
+
+TEST(SolidSurface, ObeysTheSceneFileOverItsOwnJudgement) {
+  const SolidSurface shell(unit_box(), SurfaceKind::kShell, 0.1);
+  EXPECT_NEAR(shell.signed_distance({0.5, 0.5, 0.5}), 0.45, 1e-12);
+  EXPECT_NEAR(shell.signed_distance({0.5, 0.5, 1.0}), -0.05, 1e-12);
+  const SolidSurface solid(box(Vector3d::Zero(), Vector3d::Ones(), {true, true, true, true, true, false}),
+                           SurfaceKind::kSolid, 0.1);
+  EXPECT_LT(solid.signed_distance({0.5, 0.5, 0.5}), 0.0);
+}
+
+TEST(SolidSurface, TurnsASolidThatIsInsideOut) {
+  const SolidSurface surface(turned_inside_out(unit_box()), SurfaceKind::kAuto, 0.1);
+  EXPECT_TRUE(surface.components()[0].inside_out);
+  EXPECT_FALSE(surface.components()[0].shell);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.5}), -0.5, 1e-12);
+  EXPECT_GT(surface.signed_distance({1.5, 0.5, 0.5}), 0.0);
+}
+
+TEST(SolidSurface, LeavesACavityHollow) {
+  const TriangleMesh cavity = turned_inside_out(box(Vector3d::Constant(0.3), Vector3d::Constant(0.7)));
+  const SolidSurface surface(joined(unit_box(), cavity), SurfaceKind::kAuto, 0.1);
+  ASSERT_EQ(surface.components().size(), 2u);
+  EXPECT_FALSE(surface.components()[1].inside_out);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.5}), 0.2, 1e-12);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.15}), -0.15, 1e-12);
+}
+
+TEST(SolidSurface, TakesSheetsAboveEachOtherForShells) {
+  const std::array<bool, 6> kTop = {false, false, false, false, false, true};
+  const SolidSurface surface(joined(box({0, 0, -1}, {1, 1, 0}, kTop), box({0, 0, -1}, {1, 1, 0.05}, kTop)),
+                             SurfaceKind::kAuto, 0.01);
+  EXPECT_TRUE(surface.components()[0].shell);
+  EXPECT_TRUE(surface.components()[1].shell);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.05}), -0.005, 1e-12);
+}
+
+TEST(SolidSurface, TakesTwoFacesOfAPlateForASolid) {
+  const SolidSurface surface(joined(box({0, 0, 0}, {1, 1, 0.05}, {false, false, false, false, false, true}),
+                                    box({0, 0, 0}, {1, 1, 0.05}, {false, false, false, false, true, false})),
+                             SurfaceKind::kAuto, 0.01);
+  EXPECT_FALSE(surface.components()[0].shell);
+  EXPECT_FALSE(surface.components()[1].shell);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.02}), -0.02, 1e-12);
+}
+
+TEST(SolidSurface, MixesSolidAndShell) {
+  const TriangleMesh sheet = box({2, 0, 0}, {3, 1, 1}, {false, false, false, false, false, true});
+  const SolidSurface surface(joined(unit_box(), sheet), SurfaceKind::kAuto, 0.1);
+  EXPECT_FALSE(surface.components()[0].shell);
+  EXPECT_TRUE(surface.components()[1].shell);
+  EXPECT_NEAR(surface.signed_distance({0.5, 0.5, 0.5}), -0.5, 1e-12);
+  EXPECT_NEAR(surface.signed_distance({2.5, 0.5, 1.0}), -0.05, 1e-12);
+  EXPECT_NEAR(surface.closest({2.5, 0.5, 1.2}).distance, 0.2, 1e-12);
+  EXPECT_EQ(surface.component_of_triangle()[surface.closest({2.5, 0.5, 1.2}).triangle], 1u);
+}
+
+TEST(SolidSurface, CallsTheTeapotAndTheBunnySolid) {
+  for (const char* name : {"teapot", "bunny_npm", "dragon_clean", "plate_2mm"}) {
+    const SolidSurface surface(load(name, 1.0), SurfaceKind::kAuto, 0.01);
+    for (const auto& component : surface.components()) {
+      EXPECT_FALSE(component.shell) << name;
+      EXPECT_FALSE(component.inside_out) << name;
+      EXPECT_GT(component.winding, 0.25) << name;
+    }
+  }
+}
+
+TEST(SolidSurface, FindsWhatBruteForceFinds) {
+  for (const auto& [name, scale] :
+       {std::pair{"teapot", 0.037}, std::pair{"hole_round", 1.0}, std::pair{"bunny_npm", 0.0161497}}) {
+    const SolidSurface surface(load(name, scale), SurfaceKind::kAuto, 0.01);
+    const BruteForce truth(surface.mesh());
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> unit(-0.15, 0.15);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d p(unit(random), unit(random), unit(random));
+      const double distance = truth.distance(p);
+      const double winding = truth.winding_number(p);
+      EXPECT_NEAR(surface.closest(p).distance, distance, 1e-12) << name;
+      EXPECT_NEAR(surface.closest(p, 1.01 * distance).distance, distance, 1e-12) << name;
+      EXPECT_NEAR(surface.closest(p, 0.5 * distance).distance, distance, 1e-12) << name << ": a wrong hint";
+      EXPECT_NEAR(surface.winding_number(p), winding, 0.08) << name;
+      if (std::abs(winding - 0.5) > 1e-6) {
+        EXPECT_EQ(surface.winding_number(p) > 0.5, winding > 0.5) << name << " " << winding;
+      }
+    }
+  }
+}
+
+TEST(DistanceProbe, GivesTheSameOnAWalkAsAlone) {
+  for (const char* name : {"teapot", "bunny_npm", "cube_100mm"}) {
+    const double scale = std::string(name) == "teapot" ? 0.037 : std::string(name) == "bunny_npm" ? 0.0161497 : 1.0;
+    const SolidSurface surface(load(name, scale), SurfaceKind::kAuto, 0.01);
+    DistanceProbe probe(surface);
+    std::mt19937_64 random(2);
+    std::normal_distribution<double> step(0.0, 0.003);
+    Vector3d p = surface.mesh().vertices[0];
+    for (int i = 0; i < 3000; ++i) {
+      p += Vector3d(step(random), step(random), step(random));
+      if (p.norm() > 0.2) p = surface.mesh().vertices[static_cast<std::size_t>(i) % surface.mesh().vertices.size()];
+      ASSERT_EQ(probe.signed_distance(p), surface.signed_distance(p))
+          << name << " step " << i << " " << surface.winding_number(p);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,56 @@
+#include "toolchain/command_line/stopwatch.h"
+
+#include <ctime>
+#include <fstream>
+#include <string>
+
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
+namespace godobject::command {
+namespace {
+
+std::int64_t monotonic_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{1000000000} * now.tv_sec + now.tv_nsec;
+}
+
+#if defined(__x86_64__)
+double ns_per_tick = 0.0;
+std::uint64_t first_tick = 0;
+
+std::int64_t counter_ns() noexcept {
+  return static_cast<std::int64_t>(ns_per_tick * static_cast<double>(__rdtsc() - first_tick));
+}
+
+/// Linux times by the counter only where it has found it to be even.
+bool is_even() {
+  std::string name;
+  std::ifstream("/sys/devices/system/clocksource/clocksource0/current_clocksource") >> name;
+  return name == "tsc";
+}
+
+Stopwatch choose() {
+  constexpr std::int64_t kCompared_ns = 20'000'000;
+  if (!is_even()) return &monotonic_ns;
+  const std::int64_t begin_ns = monotonic_ns();
+  first_tick = __rdtsc();
+  std::int64_t way_ns = 0;
+  while (way_ns < kCompared_ns) way_ns = monotonic_ns() - begin_ns;
+  ns_per_tick = static_cast<double>(way_ns) / static_cast<double>(__rdtsc() - first_tick);
+  return &counter_ns;
+}
+#else
+Stopwatch choose() { return &monotonic_ns; }
+#endif
+
+}  // namespace
+
+Stopwatch stopwatch() {
+  static const Stopwatch chosen = choose();
+  return chosen;
+}
+
+}  // namespace godobject::command

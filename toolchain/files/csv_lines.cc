@@ -1,0 +1,50 @@
+#include "toolchain/files/csv_lines.h"
+
+#include <charconv>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/input_file.h"
+
+namespace godobject::command {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+bool read_number(std::string_view word, double& value) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
+CsvLines::CsvLines(const std::filesystem::path& file) : file_(file) {
+  require_input(file);
+  stream_.open(file);
+}
+
+bool CsvLines::next(std::string_view& content) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  while (std::getline(stream_, line_)) {
+    bytes_ += line_.size() + 1;
+    content = line_;
+    if (++number_ == 1 && content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
+    content = trimmed(content);
+    if (!content.empty() && content.front() != '#') return true;
+  }
+  if (stream_.bad()) {
+    throw Failure(ExitCode::kIo, fmt::format("{}: could not be read to its end; check the disk", file_.string()));
+  }
+  return false;
+}
+
+void CsvLines::refuse(std::string_view what) const {
+  throw Failure(ExitCode::kBadData, fmt::format("{}:{}: {}", file_.string(), number_, what));
+}
+
+}  // namespace godobject::command

@@ -1,0 +1,40 @@
+#include "toolchain/files/pose_path.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "toolchain/command_line/failure.h"
+#include "toolchain/files/csv_table.h"
+
+namespace godobject::command {
+
+PosePath read_pose_path(const std::filesystem::path& file) {
+  constexpr double kPeriod = 1e-3;
+  constexpr double kTolerance = 0.1 * kPeriod + 1e-9;  // and the rounding of t itself
+  constexpr std::array<std::string_view, 8> kPathColumns = {"t", "px", "py", "pz", "qw", "qx", "qy", "qz"};
+  const CsvTable table = read_csv(file, kPathColumns);
+  if (table.rows() == 0)
+    throw Failure(ExitCode::kBadData, fmt::format("{}: holds no pose; write one row a millisecond", file.string()));
+  PosePath path;
+  path.lines = table.lines;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto row = table.row(i);
+    if (!std::isfinite(row[0]) || (i > 0 && !(std::fabs(row[0] - path.t.back() - kPeriod) <= kTolerance))) {
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{}:{}: t = {} does not follow its predecessor by 1 ms within 10 %; resample the path "
+                                "to 1 kHz",
+                                file.string(), table.lines[i], row[0]));
+    }
+    Pose pose;
+    pose.translation = Vector3(row[1], row[2], row[3]);
+    pose.rotation = Quaternion(row[4], row[5], row[6], row[7]);
+    path.t.push_back(row[0]);
+    path.poses.push_back(pose);
+  }
+  return path;
+}
+
+}  // namespace godobject::command

@@ -1,0 +1,336 @@
+#include "toolchain/scene_compiler/field/distance_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/field/brick_lattice.h"
+#include "toolchain/scene_compiler/field/clearance_bounds.h"
+#include "toolchain/scene_compiler/field/distance_probe.h"
+#include "toolchain/scene_compiler/field/seam_map.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+using format::kBrickCells;
+using format::kBrickNodes;
+
+constexpr double kHalfBrickEdge = 0.5 * kBrickCells;                           // voxels
+constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // voxels
+
+/// The nodes that a brick position owns: those not on its upper faces.
+using Block = std::array<float, kBrickCells * kBrickCells * kBrickCells>;
+
+class GridBuilder {
+ public:
+  GridBuilder(const SolidSurface& surface, double voxel_size, double band);
+
+  void classify(const Progress& progress);
+  void evaluate(const Progress& progress);
+  DistanceGrid assemble();
+
+ private:
+  static constexpr std::uint32_t kNone = ~0u;
+
+  Vector3d node(const BrickPosition& brick, double x, double y, double z) const {
+    return origin_ +
+           voxel_size_ * Vector3d(kBrickCells * brick[0] + x, kBrickCells * brick[1] + y, kBrickCells * brick[2] + z);
+  }
+  bool is_boundary(const BrickPosition& p) const;
+  void require_free_boundary(bool inside, const BrickPosition& p) const;
+  std::vector<std::size_t> first_bricks() const;
+  void add_blocks(const std::vector<std::size_t>& bricks, const Progress& progress);
+  void fill(Block& block, const BrickPosition& position) const;
+  float value(const BrickPosition& brick, int x, int y, int z) const;
+  bool face_disagrees(const BrickPosition& brick, const BrickPosition& step, bool inside) const;
+  bool is_stored(const BrickPosition& brick) const;
+  Brick brick(const BrickPosition& position) const;
+
+  const SolidSurface& surface_;
+  double voxel_size_;
+  double band_;
+  Vector3d low_ = Vector3d::Constant(std::numeric_limits<double>::infinity());  // bounding box of the surface
+  Vector3d high_ = -low_;
+  Vector3d origin_ = Vector3d::Zero();
+  BrickLattice bricks_;
+  std::vector<float> center_;    // signed distance at each brick's centre
+  std::vector<bool> evaluated_;  // all nodes are known
+  BrickLattice block_lattice_;   // one more than bricks_ a side: the outer nodes
+  std::vector<std::uint32_t> block_of_;
+  std::vector<Block> blocks_;
+};
+
+GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double band)
+    : surface_(surface), voxel_size_(voxel_size), band_(band) {
+  const TriangleMesh& mesh = surface.mesh();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const bool shell = surface.components()[surface.component_of_triangle()[i]].shell;
+    const Vector3d thickened = Vector3d::Constant(surface.dilation() + (shell ? 0.5 * surface.thickness() : 0.0));
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      low_ = low_.cwiseMin(mesh.vertices[v] - thickened);
+      high_ = high_.cwiseMax(mesh.vertices[v] + thickened);
+    }
+  }
+  const double edge = kBrickCells * voxel_size;
+  // the odd part keeps the nodes of a mesh that is aligned with the lattice off the band's edge, where rounding would
+  // decide
+  const double margin = band + edge + 0.15 * voxel_size;
+  origin_ = low_.array() - margin;
+  std::uint64_t positions = 1;
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double needed = std::ceil((high_[axis] + margin - origin_[axis]) / edge - 1e-6);
+    largest = std::max(largest, needed);
+    if (needed > format::kMaxBricksPerAxis) break;
+    bricks_.size[static_cast<std::size_t>(axis)] = static_cast<int>(needed);
+    positions *= static_cast<std::uint64_t>(needed);
+  }
+  if (largest > format::kMaxBricksPerAxis || positions > kMaxBrickPositions) {
+    const double coarser = largest > format::kMaxBricksPerAxis
+                               ? largest / format::kMaxBricksPerAxis
+                               : std::cbrt(static_cast<double>(positions) / static_cast<double>(kMaxBrickPositions));
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("the still mesh of {:.4g} m is too large for a voxel_size of {:g} m; "
+                                       "take at least {:.2g} m, or check `scale`",
+                                       (high_ - low_).maxCoeff(), voxel_size, 1.1 * coarser * voxel_size));
+  }
+  block_lattice_.size = moved(bricks_.size, {1, 1, 1});
+}
+
+void GridBuilder::classify(const Progress& progress) {
+  center_.resize(bricks_.count());
+  const auto rows = static_cast<std::size_t>(bricks_.size[1]) * static_cast<std::size_t>(bricks_.size[2]);
+  const auto row_length = static_cast<std::size_t>(bricks_.size[0]);
+  parallel_for(
+      rows,
+      [&](std::size_t row) {
+        DistanceProbe probe(surface_);
+        for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
+          constexpr double kMiddle = 0.5 * kBrickCells;
+          center_[i] = static_cast<float>(probe.signed_distance(node(bricks_.position(i), kMiddle, kMiddle, kMiddle)));
+        }
+      },
+      progress);
+}
+
+bool GridBuilder::is_boundary(const BrickPosition& p) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p[axis] == 0 || p[axis] == bricks_.size[axis] - 1) return true;
+  }
+  return false;
+}
+
+/// Outside of the grid is free space.
+void GridBuilder::require_free_boundary(bool inside, const BrickPosition& p) const {
+  if (inside && is_boundary(p)) {
+    throw command::Failure(command::ExitCode::kBadData,
+                           "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
+                           "mend its orientation or holes, or set surface = \"shell\"");
+  }
+}
+
+/// Bricks that may hold a node within the band, and far ones beside a far one of the other sign: there the sign jumps.
+std::vector<std::size_t> GridBuilder::first_bricks() const {
+  const double reach = (kHalfBrickDiagonal * voxel_size_ + band_) * (1.0 + 1e-6);
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < center_.size(); ++i) {
+    const BrickPosition p = bricks_.position(i);
+    bool wanted = std::abs(static_cast<double>(center_[i])) <= reach;
+    if (!wanted) require_free_boundary(center_[i] < 0.0f, p);
+    for (const BrickPosition& step : kFaceSteps) {
+      const BrickPosition q = moved(p, step);
+      wanted = wanted || (bricks_.contains(q) && (center_[bricks_.number(q)] < 0.0f) != (center_[i] < 0.0f));
+    }
+    if (wanted) first.push_back(i);
+  }
+  return first;
+}
+
+void GridBuilder::evaluate(const Progress& progress) {
+  evaluated_.assign(bricks_.count(), false);
+  block_of_.assign(block_lattice_.count(), kNone);
+  std::vector<std::size_t> front = first_bricks();
+  if (front.size() > kMaxBricks) {
+    const double coarser = std::sqrt(static_cast<double>(front.size()) / static_cast<double>(kMaxBricks));
+    throw command::Failure(
+        command::ExitCode::kBadData,
+        fmt::format("a voxel_size of {:g} m needs {} bricks, more than the limit of {}; take at least {:.2g} m",
+                    voxel_size_, front.size(), kMaxBricks, 1.1 * coarser * voxel_size_));
+  }
+  for (const std::size_t i : front) evaluated_[i] = true;
+  while (!front.empty()) {
+    add_blocks(front, progress);
+    std::vector<std::size_t> next;
+    for (const std::size_t i : front) {
+      const BrickPosition p = bricks_.position(i);
+      for (const BrickPosition& step : kFaceSteps) {
+        const BrickPosition q = moved(p, step);
+        if (!bricks_.contains(q)) continue;
+        const std::size_t neighbour = bricks_.number(q);
+        if (evaluated_[neighbour] || !face_disagrees(p, step, center_[neighbour] < 0.0f)) continue;
+        evaluated_[neighbour] = true;
+        next.push_back(neighbour);
+      }
+    }
+    front = std::move(next);
+  }
+}
+
+void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progress& progress) {
+  std::vector<std::size_t> added;
+  for (const std::size_t i : bricks) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::size_t block =
+          block_lattice_.number(moved(bricks_.position(i), {corner & 1, corner >> 1 & 1, corner >> 2}));
+      if (block_of_[block] != kNone) continue;
+      block_of_[block] = static_cast<std::uint32_t>(blocks_.size() + added.size());
+      added.push_back(block);
+    }
+  }
+  const std::size_t before = blocks_.size();
+  blocks_.resize(before + added.size());
+  parallel_for(
+      added.size(), [&](std::size_t i) { fill(blocks_[before + i], block_lattice_.position(added[i])); }, progress);
+}
+
+void GridBuilder::fill(Block& block, const BrickPosition& position) const {
+  DistanceProbe probe(surface_);
+  for (int z = 0; z < kBrickCells; ++z) {
+    for (int row = 0; row < kBrickCells; ++row) {
+      const int y = z % 2 == 0 ? row : kBrickCells - 1 - row;  // back and forth, so that each step is one voxel
+      for (int column = 0; column < kBrickCells; ++column) {
+        const int x = row % 2 == 0 ? column : kBrickCells - 1 - column;
+        block[static_cast<std::size_t>(x + kBrickCells * (y + kBrickCells * z))] =
+            static_cast<float>(probe.signed_distance(node(position, x, y, z)));
+      }
+    }
+  }
+}
+
+float GridBuilder::value(const BrickPosition& brick, int x, int y, int z) const {
+  const BrickPosition owner = moved(brick, {x / kBrickCells, y / kBrickCells, z / kBrickCells});
+  const int local = x % kBrickCells + kBrickCells * (y % kBrickCells + kBrickCells * (z % kBrickCells));
+  return blocks_[block_of_[block_lattice_.number(owner)]][static_cast<std::size_t>(local)];
+}
+
+/// Whether a node on the face that `brick` shares with its neighbour at `step` has another sign than the neighbour.
+bool GridBuilder::face_disagrees(const BrickPosition& brick, const BrickPosition& step, bool inside) const {
+  const auto range = [&](std::size_t axis) {
+    const int low = step[axis] > 0 ? kBrickCells : 0;
+    const int high = step[axis] < 0 ? 0 : kBrickCells;
+    return std::array<int, 2>{low, high};
+  };
+  const auto [x0, x1] = range(0);
+  const auto [y0, y1] = range(1);
+  const auto [z0, z1] = range(2);
+  for (int z = z0; z <= z1; ++z) {
+    for (int y = y0; y <= y1; ++y) {
+      for (int x = x0; x <= x1; ++x) {
+        if ((value(brick, x, y, z) < 0.0f) != inside) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool GridBuilder::is_stored(const BrickPosition& position) const {
+  const float first = value(position, 0, 0, 0);
+  for (int z = 0; z < kBrickNodes; ++z) {
+    for (int y = 0; y < kBrickNodes; ++y) {
+      for (int x = 0; x < kBrickNodes; ++x) {
+        const float v = value(position, x, y, z);
+        if (std::abs(static_cast<double>(v)) < band_ || (v < 0.0f) != (first < 0.0f)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+Brick GridBuilder::brick(const BrickPosition& position) const {
+  Brick brick{};
+  std::size_t i = 0;
+  for (int z = 0; z < kBrickNodes; ++z) {
+    for (int y = 0; y < kBrickNodes; ++y) {
+      for (int x = 0; x < kBrickNodes; ++x) brick.value[i++] = value(position, x, y, z);
+    }
+  }
+  return brick;
+}
+
+DistanceGrid GridBuilder::assemble() {
+  DistanceGrid field;
+  format::Grid& grid = field.grid;
+  grid.voxel_size = voxel_size_;
+  grid.band = band_;
+  field.index.resize(bricks_.count());
+  SeamMap seams(bricks_, origin_, voxel_size_);
+  for (std::size_t i = 0; i < field.index.size(); ++i) {
+    const BrickPosition p = bricks_.position(i);
+    const bool stored = evaluated_[i] && is_stored(p);
+    field.index[i] = stored ? static_cast<std::uint32_t>(field.bricks.size()) : format::index_entry::kFar;
+    if (!stored) {
+      // evaluated or not: all nodes have one sign, that of the centre unless the sign jumps within
+      const bool inside = evaluated_[i] ? value(p, 0, 0, 0) < 0.0f : center_[i] < 0.0f;
+      require_free_boundary(inside, p);
+      if (inside) field.index[i] |= format::index_entry::kInside;
+      continue;
+    }
+    field.bricks.push_back(brick(p));
+    require_free_boundary(*std::min_element(field.bricks.back().value, std::end(field.bricks.back().value)) < 0.0f, p);
+    seams.add(p, field.bricks.back());
+  }
+  seams.close();
+  field.far_clearance.resize(field.index.size());
+  field.beside_seam.resize(field.bricks.size());
+  for (std::size_t i = 0; i < field.index.size(); ++i) {
+    const std::uint32_t entry = field.index[i];
+    const BrickPosition p = bricks_.position(i);
+    if ((entry & format::index_entry::kFar) == 0) {
+      field.beside_seam[entry] = seams.touches(p);
+    } else if ((entry & format::index_entry::kInside) == 0) {
+      const double to_surface = std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6);
+      // what is apart from the position's box is half an edge farther from its centre
+      const double to_seam = seams.clearance_of_bricks(p) + kHalfBrickEdge * voxel_size_;
+      const double clearance = std::min(to_surface, to_seam) - kInterpolationError * voxel_size_;
+      field.far_clearance[i] = std::max(0.0, clearance);
+    }
+  }
+  const Vector3d low = low_.cwiseMin(seams.low());
+  const Vector3d high = high_.cwiseMax(seams.high());
+  for (int axis = 0; axis < 3; ++axis) {
+    grid.origin[axis] = origin_[axis];
+    grid.bricks[axis] = bricks_.size[static_cast<std::size_t>(axis)];
+    grid.surface_min[axis] =
+        low[axis];  // seams too: behind one the distance may be negative outside of the mesh's own box
+    grid.surface_max[axis] = high[axis];
+  }
+  grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
+  field.seams = seams.report();
+  bound_clearances(field);
+  return field;
+}
+
+}  // namespace
+
+double default_band(double voxel_size, double safety_distance) {
+  return std::max(3.0 * voxel_size, safety_distance + 1.5 * voxel_size) + 0.25 * voxel_size;
+}
+
+DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band, const Progress& progress) {
+  constexpr double kClassifyShare = 0.25;  // of the time, roughly
+  GridBuilder builder(surface, voxel_size, band);
+  builder.classify([&](double done) {
+    if (progress) progress(kClassifyShare * done);
+  });
+  builder.evaluate([&](double done) {
+    if (progress) progress(kClassifyShare + (1.0 - kClassifyShare) * done);
+  });
+  return builder.assemble();
+}
+
+}  // namespace godobject::scene_compiler

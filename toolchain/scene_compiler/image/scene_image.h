@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/scene/format.h"
+#include "toolchain/files/scene_image.h"
+
+namespace godobject::scene_compiler {
+
+struct SectionBytes {
+  format::SectionId id;
+  std::vector<std::byte> bytes;
+};
+
+/// Lays sections out as one image, with checksums.
+command::AlignedBytes make_image(const std::vector<SectionBytes>& sections);
+
+}  // namespace godobject::scene_compiler

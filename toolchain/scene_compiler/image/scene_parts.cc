@@ -1,0 +1,59 @@
+#include "toolchain/scene_compiler/image/scene_parts.h"
+
+#include <span>
+
+#include "toolchain/scene_compiler/field/brick_packing.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+template <class T>
+std::vector<std::byte> bytes_of(const std::vector<T>& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class T>
+std::vector<std::byte> bytes_of_one(const T& value) {
+  const auto bytes = std::as_bytes(std::span(&value, 1));
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts& parts) {
+  using format::SectionId;
+  const DistanceGrid& field = parts.field;
+  const MovingBody& body = report.body;
+  format::Settings settings = report.config.settings;
+  if (report.only_solver) {
+    settings.solvers = 1u << static_cast<std::uint32_t>(*report.only_solver);
+    settings.default_solver = static_cast<std::uint32_t>(*report.only_solver);
+  }
+  std::vector<SectionBytes> sections;
+  sections.push_back({SectionId::kSettings, bytes_of_one(settings)});
+  if (report.config.workspace) sections.push_back({SectionId::kWorkspace, bytes_of_one(*report.config.workspace)});
+  sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
+  sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
+  sections.push_back({SectionId::kBricks, bytes_of(packed_bricks(field))});
+  if (!field.refined.empty()) sections.push_back({SectionId::kRefined, bytes_of(field.refined)});
+  if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
+  sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
+  sections.push_back({SectionId::kPoints, bytes_of(body.points)});
+  if (!body.normals.empty() && report.only_solver.value_or(format::Solver::kPaper) == format::Solver::kPaper)
+    sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
+  sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
+  if (parts.features.points.empty()) return sections;
+  sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});
+  sections.push_back({SectionId::kBodyBrickIndex, bytes_of(parts.body_field.index)});
+  sections.push_back({SectionId::kBodyBricks, bytes_of(packed_bricks(parts.body_field))});
+  if (!parts.body_field.refined.empty())
+    sections.push_back({SectionId::kBodyRefined, bytes_of(parts.body_field.refined)});
+  if (!parts.body_field.edges.empty()) sections.push_back({SectionId::kBodyEdges, bytes_of(parts.body_field.edges)});
+  sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
+  sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
+  sections.push_back({SectionId::kFeatureNodes, bytes_of(parts.features.nodes)});
+  return sections;
+}
+
+}  // namespace godobject::scene_compiler

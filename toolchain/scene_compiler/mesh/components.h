@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "toolchain/scene_compiler/mesh/triangle_mesh.h"
+
+namespace godobject::scene_compiler {
+
+/// Triangles connected by shared vertices, numbered in the order of their first triangle.
+struct Components {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> of_triangle;
+};
+
+Components connected_components(const TriangleMesh& mesh);
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,51 @@
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace godobject::scene_compiler {
+
+using Eigen::Vector3d;
+
+Vector3d nearest_point_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                                   const Vector3d& c) noexcept {
+  // The Voronoi region of p decides, by the signs of barycentric terms (Ericson, Real-Time Collision Detection, 5.1.5).
+  const Vector3d ab = b - a;
+  const Vector3d ac = c - a;
+  const Vector3d ap = p - a;
+  const double d1 = ab.dot(ap);
+  const double d2 = ac.dot(ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return a;
+  const Vector3d bp = p - b;
+  const double d3 = ab.dot(bp);
+  const double d4 = ac.dot(bp);
+  if (d3 >= 0.0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + (d1 / (d1 - d3)) * ab;
+  const Vector3d cp = p - c;
+  const double d5 = ab.dot(cp);
+  const double d6 = ac.dot(cp);
+  if (d6 >= 0.0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + (d2 / (d2 - d6)) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return b + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
+  const double scale = 1.0 / (va + vb + vc);
+  return a + (vb * scale) * ab + (vc * scale) * ac;
+}
+
+double solid_angle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) noexcept {
+  const Vector3d u = a - p;
+  const Vector3d v = b - p;
+  const Vector3d w = c - p;
+  const double lu = u.norm();
+  const double lv = v.norm();
+  const double lw = w.norm();
+  // van Oosterom and Strackee 1983; atan2 keeps the right quadrant close to the triangle
+  const double numerator = u.dot(v.cross(w));
+  const double denominator = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
+  return 2.0 * std::atan2(numerator, denominator);
+}
+
+}  // namespace godobject::scene_compiler

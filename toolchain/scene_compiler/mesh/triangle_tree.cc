@@ -1,0 +1,324 @@
+#include "toolchain/scene_compiler/mesh/triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint32_t kLeafTriangles = 4;
+constexpr std::size_t kStack = 288;  // a split leaves a sixteenth to each side: 2^26 triangles go 258 + 16 deep at most
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double squared_distance_to_box(const Vector3d& p, const Vector3d& low, const Vector3d& high) noexcept {
+  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+}
+
+double half_area(const Vector3d& low, const Vector3d& high) noexcept {
+  const Vector3d e = (high - low).cwiseMax(0.0);
+  return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
+}
+
+struct Box {
+  Vector3d low = Vector3d::Constant(kInfinity);
+  Vector3d high = Vector3d::Constant(-kInfinity);
+
+  void add(const Vector3d& p) noexcept {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const Box& other) noexcept {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  double cost() const noexcept { return low.x() > high.x() ? 0.0 : half_area(low, high); }
+};
+
+Box box_of(const TriangleTree::Triangle& t) noexcept {
+  Box box;
+  box.add(t.a);
+  box.add(t.b);
+  box.add(t.c);
+  return box;
+}
+
+/// Range of t in which the ray is inside the box; false if it misses.
+bool ray_meets_box(const Vector3d& origin, const Vector3d& inverse, const Vector3d& low, const Vector3d& high,
+                   double t_min, double t_max) noexcept {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double t0 = (low[axis] - origin[axis]) * inverse[axis];
+    const double t1 = (high[axis] - origin[axis]) * inverse[axis];
+    // fmin and fmax drop the NaN of 0 * infinity: the ray runs in the slab's plane
+    t_min = std::fmax(t_min, std::fmin(t0, t1));
+    t_max = std::fmin(t_max, std::fmax(t0, t1));
+  }
+  return t_min <= t_max * (1.0 + 1e-12);
+}
+
+bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const TriangleTree::Triangle& triangle,
+                        double& t) noexcept {
+  const Vector3d e1 = triangle.b - triangle.a;
+  const Vector3d e2 = triangle.c - triangle.a;
+  const Vector3d h = direction.cross(e2);
+  const double determinant = e1.dot(h);
+  if (determinant == 0.0) return false;
+  const Vector3d from_a = origin - triangle.a;
+  const double u = from_a.dot(h) / determinant;
+  const Vector3d q = from_a.cross(e1);
+  const double v = direction.dot(q) / determinant;
+  constexpr double kEdge = 1e-9;  // a ray through an edge meets one of the two triangles at least
+  if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge) return false;
+  t = e2.dot(q) / determinant;
+  return true;
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  if (triangles_.empty()) return;
+  std::vector<Vector3d> centroids;
+  centroids.reserve(triangles_.size());
+  for (const Triangle& t : triangles_) centroids.push_back((t.a + t.b + t.c) / 3.0);
+  nodes_.reserve(triangles_.size());
+  build(0, static_cast<std::uint32_t>(triangles_.size()), centroids);
+  set_dipoles();
+}
+
+std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::vector<Vector3d>& centroids) {
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  Box box;
+  for (std::uint32_t i = begin; i < end; ++i) box.add(box_of(triangles_[i]));
+  nodes_.push_back({box.low, box.high, begin, end - begin});
+  if (end - begin <= kLeafTriangles) return index;
+  const std::uint32_t middle = split(begin, end, centroids);
+  build(begin, middle, centroids);
+  const std::uint32_t right = build(middle, end, centroids);
+  nodes_[index].right = right;
+  nodes_[index].count = 0;
+  return index;
+}
+
+/// Binned surface-area heuristic; the median of the longest axis where bins cannot part the triangles or would part
+/// them so unevenly that the tree might grow deep.
+std::uint32_t TriangleTree::split(std::uint32_t begin, std::uint32_t end, std::vector<Vector3d>& centroids) {
+  constexpr int kBins = 16;
+  Box spread;
+  for (std::uint32_t i = begin; i < end; ++i) spread.add(centroids[i]);
+  int axis = 0;
+  const Vector3d extent = spread.high - spread.low;
+  extent.maxCoeff(&axis);
+  const double low = spread.low[axis];
+  const double scale = kBins / extent[axis] * (1.0 - 1e-12);
+  const auto bin_of = [&](std::uint32_t i) {
+    return std::clamp(static_cast<int>((centroids[i][axis] - low) * scale), 0, kBins - 1);
+  };
+  const auto swap = [&](std::uint32_t i, std::uint32_t j) {
+    std::swap(triangles_[i], triangles_[j]);
+    std::swap(centroids[i], centroids[j]);
+  };
+
+  if (extent[axis] > 0.0 && std::isfinite(scale)) {
+    std::array<Box, kBins> boxes;
+    std::array<std::uint32_t, kBins> counts{};
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const auto bin = static_cast<std::size_t>(bin_of(i));
+      boxes[bin].add(box_of(triangles_[i]));
+      ++counts[bin];
+    }
+    std::array<double, kBins> right_cost{};
+    Box right;
+    std::uint32_t right_count = 0;
+    for (std::size_t bin = kBins - 1; bin > 0; --bin) {
+      right.add(boxes[bin]);
+      right_count += counts[bin];
+      right_cost[bin] = right.cost() * right_count;
+    }
+    Box left;
+    std::uint32_t left_count = 0;
+    double best = kInfinity;
+    int best_bin = -1;
+    const std::uint32_t smallest = (end - begin) / 16;
+    for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
+      left.add(boxes[bin]);
+      left_count += counts[bin];
+      const double cost = left.cost() * left_count + right_cost[bin + 1];
+      const bool balanced = left_count > smallest && end - begin - left_count > smallest;
+      if (balanced && cost < best) {
+        best = cost;
+        best_bin = static_cast<int>(bin);
+      }
+    }
+    if (best_bin >= 0) {
+      std::uint32_t middle = begin;
+      for (std::uint32_t i = begin; i < end; ++i) {
+        if (bin_of(i) <= best_bin) swap(i, middle++);
+      }
+      return middle;
+    }
+  }
+
+  std::vector<std::uint32_t> order(end - begin);
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = begin + i;
+  const std::size_t half = order.size() / 2;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                   [&](std::uint32_t i, std::uint32_t j) {
+                     return centroids[i][axis] != centroids[j][axis] ? centroids[i][axis] < centroids[j][axis] : i < j;
+                   });
+  std::vector<Triangle> triangles;
+  std::vector<Vector3d> moved;
+  for (const std::uint32_t i : order) {
+    triangles.push_back(triangles_[i]);
+    moved.push_back(centroids[i]);
+  }
+  std::copy(triangles.begin(), triangles.end(), triangles_.begin() + begin);
+  std::copy(moved.begin(), moved.end(), centroids.begin() + begin);
+  return begin + static_cast<std::uint32_t>(half);
+}
+
+void TriangleTree::set_dipoles() {
+  dipoles_.resize(nodes_.size());
+  std::vector<double> areas(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children stand behind their parent
+    const Node& node = nodes_[n];
+    Dipole& dipole = dipoles_[n];
+    Vector3d weighted = Vector3d::Zero();
+    dipole.area.setZero();
+    if (node.count > 0) {
+      for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
+        const Triangle& t = triangles_[i];
+        const Vector3d area = 0.5 * (t.b - t.a).cross(t.c - t.a);
+        dipole.area += area;
+        areas[n] += area.norm();
+        weighted += area.norm() * ((t.a + t.b + t.c) / 3.0);
+      }
+    } else {
+      for (const std::size_t child : {n + 1, static_cast<std::size_t>(node.right)}) {
+        dipole.area += dipoles_[child].area;
+        areas[n] += areas[child];
+        weighted += areas[child] * dipoles_[child].center;
+      }
+    }
+    dipole.center = areas[n] > 0.0 ? Vector3d(weighted / areas[n]) : Vector3d(0.5 * (node.low + node.high));
+    dipole.radius = (node.high - dipole.center).cwiseMax(dipole.center - node.low).norm();
+  }
+}
+
+bool TriangleTree::nearest(const Vector3d& p, double bound_squared, Nearest& nearest) const noexcept {
+  return nearest_of(
+      p, bound_squared, [](std::uint32_t) { return true; }, nearest);
+}
+
+bool TriangleTree::nearest(const Vector3d& p, double bound_squared, const std::function<bool(std::uint32_t)>& counts,
+                           Nearest& nearest) const {
+  return nearest_of(p, bound_squared, counts, nearest);
+}
+
+template <class Counts>
+bool TriangleTree::nearest_of(const Vector3d& p, double bound_squared, const Counts& counts, Nearest& nearest) const {
+  if (nodes_.empty()) return false;
+  struct Open {
+    std::uint32_t node;
+    double squared_distance;
+  };
+  std::array<Open, kStack> stack;
+  std::size_t depth = 0;
+  double best = bound_squared;
+  bool found = false;
+  stack[depth++] = {0, squared_distance_to_box(p, nodes_[0].low, nodes_[0].high)};
+  while (depth > 0) {
+    const Open open = stack[--depth];
+    if (open.squared_distance >= best) continue;
+    const Node& node = nodes_[open.node];
+    if (node.count > 0) {
+      for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
+        const Triangle& t = triangles_[i];
+        const Vector3d q = nearest_point_on_triangle(p, t.a, t.b, t.c);
+        const double squared = (q - p).squaredNorm();
+        if (squared < best && counts(t.id)) {
+          best = squared;
+          found = true;
+          nearest = {squared, q, t.id};
+        }
+      }
+      continue;
+    }
+    Open near{open.node + 1, 0.0};
+    Open far{node.right, 0.0};
+    near.squared_distance = squared_distance_to_box(p, nodes_[near.node].low, nodes_[near.node].high);
+    far.squared_distance = squared_distance_to_box(p, nodes_[far.node].low, nodes_[far.node].high);
+    if (far.squared_distance < near.squared_distance) std::swap(near, far);
+    if (far.squared_distance < best) stack[depth++] = far;
+    if (near.squared_distance < best) stack[depth++] = near;
+  }
+  return found;
+}
+
+bool TriangleTree::first_hit(const Vector3d& origin, const Vector3d& direction, double t_min, double t_max,
+                             RayHit& hit) const noexcept {
+  if (nodes_.empty()) return false;
+  const Vector3d inverse = direction.cwiseInverse();
+  std::array<std::uint32_t, kStack> stack;
+  std::size_t depth = 0;
+  const Triangle* first = nullptr;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes_[index];
+    if (!ray_meets_box(origin, inverse, node.low, node.high, t_min, t_max)) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
+      double t = 0.0;
+      if (ray_meets_triangle(origin, direction, triangles_[i], t) && t > t_min && t < t_max) {
+        t_max = t;
+        first = &triangles_[i];
+      }
+    }
+  }
+  if (first == nullptr) return false;
+  hit.t = t_max;
+  hit.id = first->id;
+  hit.normal = (first->b - first->a).cross(first->c - first->a).normalized();
+  return true;
+}
+
+double TriangleTree::winding_number(const Vector3d& p, double opening) const noexcept {
+  if (nodes_.empty()) return 0.0;
+  std::array<std::uint32_t, kStack> stack;
+  std::size_t depth = 0;
+  double sum = 0.0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Dipole& dipole = dipoles_[index];
+    const Vector3d to_center = dipole.center - p;
+    const double squared = to_center.squaredNorm();
+    const double reach = opening * dipole.radius;
+    if (squared > reach * reach) {
+      sum += dipole.area.dot(to_center) / (squared * std::sqrt(squared));
+      continue;
+    }
+    const Node& node = nodes_[index];
+    if (node.count == 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
+      sum += solid_angle(p, triangles_[i].a, triangles_[i].b, triangles_[i].c);
+    }
+  }
+  return sum / (4.0 * std::numbers::pi);
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+
+namespace godobject::scene_compiler {
+
+/// Bounding-volume hierarchy over triangles: nearest point, ray hits, generalised winding number. Double precision;
+/// const calls may run on many threads.
+class TriangleTree {
+ public:
+  struct Triangle {
+    Eigen::Vector3d a, b, c;
+    std::uint32_t id;  ///< what queries return
+  };
+
+  struct Nearest {
+    double squared_distance;
+    Eigen::Vector3d point;
+    std::uint32_t id;
+  };
+
+  struct RayHit {
+    double t;
+    std::uint32_t id;
+    Eigen::Vector3d normal;  ///< unit, of the triangle as given to the tree
+  };
+
+  TriangleTree() = default;
+  explicit TriangleTree(std::vector<Triangle> triangles);
+
+  bool empty() const noexcept { return triangles_.empty(); }
+
+  /// Nearest point of all triangles with a squared distance below `bound_squared`; false where there is none.
+  bool nearest(const Eigen::Vector3d& p, double bound_squared, Nearest& nearest) const noexcept;
+
+  /// The same among the triangles whose id `counts` accepts.
+  bool nearest(const Eigen::Vector3d& p, double bound_squared, const std::function<bool(std::uint32_t)>& counts,
+               Nearest& nearest) const;
+
+  /// First triangle met at t_min < t < t_max on origin + t direction.
+  bool first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min, double t_max,
+                 RayHit& hit) const noexcept;
+
+  /// Sum of solid angles over 4 pi. A subtree further away than `opening` times its radius counts as one dipole
+  /// (Barill et al. 2018); infinity gives the exact sum.
+  double winding_number(const Eigen::Vector3d& p, double opening) const noexcept;
+
+ private:
+  struct Node {
+    Eigen::Vector3d low, high;
+    std::uint32_t right;  ///< second child; the first is the next node. Leaf: first triangle
+    std::uint32_t count;  ///< triangles of a leaf; 0 for an inner node
+  };
+  struct Dipole {
+    Eigen::Vector3d center;  ///< centroid, weighted by area
+    Eigen::Vector3d area;    ///< sum of the triangles' area vectors [m^2]
+    double radius;           ///< around all of the subtree's vertices
+  };
+
+  template <class Counts>
+  bool nearest_of(const Eigen::Vector3d& p, double bound_squared, const Counts& counts, Nearest& nearest) const;
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
+  std::uint32_t split(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
+  void set_dipoles();
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<Dipole> dipoles_;
+};
+
+}  // namespace godobject::scene_compiler

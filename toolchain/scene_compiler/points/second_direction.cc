@@ -1,0 +1,172 @@
+#include "toolchain/scene_compiler/points/second_direction.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "toolchain/scene_compiler/points/relief.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+constexpr double kAim = 0.78;  // of what is wanted, for points that are added: places between others are a little worse
+constexpr double kStrict = 0.82;  // of what is wanted: places that hold no more than this get points, too
+constexpr int kRounds = 14;       // of adding; each looks at other places than the one before
+constexpr std::uint32_t kFirstSeed = 11;
+constexpr double kEdge = 0.6;       // h, of what is wanted
+constexpr double kSharp = 0.5;      // of the aim, between any place on an edge and a point
+constexpr double kFurthest = 1.1;   // coverages, that a point serves a place of the moving body
+constexpr double kFinePart = 0.5;   // of the aim, between places where the surface falls soon
+constexpr double kMostDense = 0.5;  // of what is wanted, between such places
+constexpr double kMovingRough =
+    0.5;  // of what is wanted: a smaller fall needs no dense places, before it is shared out
+constexpr double kStillRough = 0.25;
+constexpr std::size_t kEstimates = 4000;  // places, for the number of points
+constexpr std::array kStillParts{0.04, 0.1, 0.2, 0.3,
+                                 0.4,  0.5, 0.6, 0.7};  // of the bound, that the still surface may fall
+constexpr std::array kLarger{1.1, 1.25, 1.5, 2.0, 2.5,
+                             3.0, 4.0,  6.0, 8.0};  // bounds that may hold where the wanted does not
+
+void append(const std::vector<SurfaceSample>& more, std::vector<SurfaceSample>& samples) {
+  samples.insert(samples.end(), more.begin(), more.end());
+}
+
+std::size_t stride_of(const Relief& relief) { return relief.evenly_spread() / kEstimates + 1; }
+
+/// Both bodies' places.
+struct Reliefs {
+  Relief moving, still;
+};
+
+class Search {
+ public:
+  Search(double wanted, MovingSampling& sampling, BothDirections& both, double coverage)
+      : sampling_(sampling), both_(both), coverage_(coverage) {
+    target_.bound = wanted;
+    target_.edge = kEdge * wanted;
+    target_.moving_fall = kMovingRough * wanted;
+    target_.still_fall = kStillRough * wanted;
+  }
+
+  /// Shares the bound out so that the fewest points will do.
+  void share_out(const Reliefs& reliefs) {
+    double fewest = std::numeric_limits<double>::infinity();
+    for (const double part : kStillParts) {
+      Target target = target_;
+      target.still_fall = part * target.bound;
+      target.moving_fall = target.bound - target.still_fall;
+      const double dense = sampling_.points / reliefs.moving.area();
+      const double count = estimated_points(reliefs.moving, moving_demand(target), dense, stride_of(reliefs.moving)) +
+                           estimated_points(reliefs.still, still_demand(target), 0.0, stride_of(reliefs.still));
+      if (count >= fewest) continue;
+      fewest = count;
+      target_ = target;
+    }
+  }
+
+  /// Whether `target` holds at all places. Those where it hardly does are left open, too.
+  bool holds(const Reliefs& reliefs, const Target& target) {
+    const Target strict = target.scaled(kStrict);
+    const double limit = kFurthest * coverage_;
+    moving_ = open_moving(reliefs.moving, sampling_.samples, strict, limit);
+    const Open moving = open_moving(reliefs.moving, sampling_.samples, target, limit, moving_.is_open);
+    moving_.reach = std::max(moving_.reach, moving.reach);
+    still_ = open_still(reliefs.still, both_.features, strict, moving_.reach);
+    return moving.count == 0 &&
+           open_still(reliefs.still, both_.features, target, moving_.reach, still_.is_open).count == 0;
+  }
+
+  void add_first(const Reliefs& reliefs) {
+    const Target asked = target_.scaled(kAim);
+    moving_ = open_moving(reliefs.moving, sampling_.samples, asked, coverage_);
+    const auto places = reliefs.moving.places();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i].place != SurfaceSample::Place::kFace) moving_.is_open[i] = 1;
+    }
+    still_ = open_still(reliefs.still, {}, asked, kFurthest * coverage_);
+    add(reliefs);
+  }
+
+  /// Points for the open places. Returns whether as many as were needed.
+  bool add(const Reliefs& reliefs) {
+    const std::size_t most =
+        std::min<std::uint64_t>(std::uint64_t{kMostPointsForOne} * sampling_.points, format::kMaxPoints);
+    const auto points =
+        points_to_add(reliefs.moving, moving_.is_open, moving_demand(target_), most - sampling_.samples.size());
+    const auto features =
+        points_to_add(reliefs.still, still_.is_open, still_demand(target_), kMostFeatures - both_.features.size());
+    append(points, sampling_.samples);
+    append(features, both_.features);
+    return sampling_.samples.size() < most && both_.features.size() < kMostFeatures;
+  }
+
+  const Target& target() const { return target_; }
+
+  /// Of the places to look at.
+  Relief::Resolution resolution(Side side) const {
+    const double fall = side == Side::kMoving ? target_.moving_fall : target_.still_fall;
+    return {coverage_, fall, kFinePart * kAim * target_.bound};
+  }
+
+ private:
+  Demand moving_demand(const Target& target) const {
+    const Target asked = target.scaled(kAim);
+    return {Side::kMoving, asked, coverage_, kSharp * asked.bound};
+  }
+  Demand still_demand(const Target& target) const {
+    Target asked = target.scaled(kAim);
+    asked.edge *= kAim;
+    return {Side::kStill, asked, kFurthest * coverage_, kSharp * asked.bound};
+  }
+
+  MovingSampling& sampling_;
+  BothDirections& both_;
+  double coverage_;
+  Target target_;
+  Open moving_, still_;
+};
+
+}  // namespace
+
+BothDirections see_both_directions(const OuterSurface& still, const OuterSurface& moving, double wanted,
+                                   MovingSampling& sampling, const Progress& progress) {
+  BothDirections both;
+  const double coverage = largest_gap(moving, sampling.samples);
+  Search search(wanted, sampling, both, coverage);
+  for (int round = 0;; ++round) {
+    const std::uint32_t seed = kFirstSeed + static_cast<std::uint32_t>(round);
+    const auto share = [&](double part) { return (round + part) / (kRounds + 1); };
+    const Reliefs reliefs{
+        Relief(moving, search.resolution(Side::kMoving), seed, part_of(progress, share(0.0), share(0.4))),
+        Relief(still, search.resolution(Side::kStill), seed, part_of(progress, share(0.4), share(0.8)))};
+    const double dense_for = std::max(reliefs.moving.fine(), reliefs.still.fine()) / kMostDense;
+    both.area = reliefs.still.area();
+    if (round == 0) {
+      search.share_out(reliefs);
+      search.add_first(reliefs);
+      continue;
+    }
+    const bool holds = search.holds(reliefs, search.target());
+    if (holds && dense_for <= wanted) {
+      both.between = {wanted, search.target().moving_fall, search.target().still_fall};
+      break;
+    }
+    if (!holds && dense_for <= wanted && round < kRounds && search.add(reliefs)) continue;
+    both.between.stopped = dense_for > wanted ? Stopped::kPlaces
+                           : round < kRounds  ? Stopped::kPoints
+                                              : Stopped::kRounds;
+    for (const double larger : kLarger) {
+      const Target target = search.target().scaled(larger);
+      if (dense_for > target.bound || !search.holds(reliefs, target)) continue;
+      both.between = {target.bound, target.moving_fall, target.still_fall, both.between.stopped};
+      break;
+    }
+    break;
+  }
+  both.added_points = static_cast<std::uint32_t>(sampling.samples.size()) - sampling.points;
+  if (progress) progress(1.0);
+  return both;
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,207 @@
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/progress.h"
+#include "toolchain/command_line/run.h"
+#include "toolchain/command_line/solver_names.h"
+#include "toolchain/files/atomic_file.h"
+#include "toolchain/files/output_target.h"
+#include "toolchain/files/scene_image.h"
+#include "toolchain/files/work_folder.h"
+#include "toolchain/path/pose_file.h"
+#include "toolchain/precision/recommendation.h"
+#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/image/build_traits.h"
+
+namespace {
+
+using namespace godobject;
+using namespace godobject::command;
+using namespace godobject::scene_compiler;
+
+constexpr const char* kFooter = R"(
+Examples:
+  godobject-scenec teapot.toml -o teapot.scene --report teapot.json
+  godobject-scenec teapot.toml -o teapot.scene --only-solver contact
+  godobject-scenec teapot.toml -o teapot.scene --traits teapot.cmake
+  godobject-scenec teapot.toml -o teapot.scene --budget 20us --path over-the-spout.csv
+  godobject-scenec --inspect teapot.scene
+
+A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
+  [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s],
+              field_tolerance at the surface, in voxels [0.05; large: bricks are never refined]
+  [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s],
+              ball [false]: render the mesh, a ball, by its centre alone, against a convex still body, without points
+              and second direction: no torque arises, with friction none either
+  [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
+              both_directions [true]: also points of the still body against the moving body's field,
+              between_points [s]: how deep bodies may meet where no point sees it; points are added for it
+              point_budget [0: none]: near points of either body that a sub-step looks up, nearest first;
+              with more of them the god object may lag, it crosses nothing
+  [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
+  [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
+  [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
+  [workspace] low, high: [x, y, z] in metres in the still mesh's frame: the box that the moving body's centre of mass does
+              not leave; the device feels its faces, and what cannot be reached from it is left out of the image.
+              Without the table: everywhere
+Meshes are PLY, STL or OBJ, found relative to the scene file.
+
+Walls and gaps of the still mesh thinner than two voxels are reported. A wall of a solid is
+{} (near-parallel: within 10 degrees).
+
+--budget tries all solvers with the scene as it is written, and with voxel edge, points, refinement and directions changed one at
+a time; each is compiled and run on this machine, with the scene's friction, along --path, or along motions that it makes
+itself: the body is pressed on from four sides and slides. Of those whose 99th percentile of a cycle's time is within the
+budget it takes the one whose wrench is nearest to that of the solver `contact` on the exact meshes. It takes some ten times
+as long as to compile, wants an idle machine, and the image tells what was tried.
+
+Exit codes: 0 done, 64 usage, 65 bad mesh or image, or nothing fits the budget, 66 an input is missing or may not be read, 74 cannot write, 77 no right to
+write, 78 bad scene file.)";
+
+struct Options {
+  std::string scene_file;
+  std::string output;
+  std::string report;
+  std::string only_solver;
+  std::string traits;
+  std::string budget;
+  std::string path;
+  bool inspects = false;
+  std::string inspected;  ///< if it follows --inspect; SCENE otherwise
+};
+
+/// Puts the settings that fit the budget best in place of the scene file's.
+void choose_within_budget(const Options& options, CompileRequest& request) {
+  const double budget_ns = precision::parse_budget_ns(options.budget);
+  const SceneConfig config = read_scene_config(request.scene_file);
+  if (config.ball) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget chooses points and directions, a ball has its centre "
+                                                    "alone; leave out moving.ball or --budget",
+                                                    options.scene_file));
+  }
+  if (config.workspace) {
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget looks at motions everywhere; leave out [workspace], "
+                                                    "and put it back for the settings that were found",
+                                                    options.scene_file));
+  }
+  precision::Paths paths;
+  if (!options.path.empty()) paths.push_back(path::read_poses(options.path));
+  std::vector<precision::Variant> variants;
+  for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
+    const auto solver = static_cast<Solver>(i);
+    if (request.only_solver.value_or(solver) == solver)
+      variants.push_back({solver, config.settings.friction != 0, 1.0});
+  }
+  const WorkFolder work(request.output);
+  const auto tried = [&] {
+    godobject::command::Progress line;
+    line.show("exact meshes", 0.0);
+    precision::Trial trial(config, std::move(paths));
+    const std::vector<precision::ImageSetting> images = precision::candidate_images(config);
+    std::size_t done = 0;
+    return precision::recommend(images, budget_ns, [&](const precision::ImageSetting& image) {
+      line.show("trying " + precision::name(image), static_cast<double>(done++) / static_cast<double>(images.size()));
+      return trial({.setting = image, .file = work.path() / "tried.scene", .only_solver = request.only_solver},
+                   variants);
+    });
+  };
+  const precision::Recommendation found = tried();
+  fmt::print("{}", precision::text(found, budget_ns));
+  if (!found.chosen) {
+    throw Failure(ExitCode::kBadData, fmt::format("--budget {}: none of the {} settings that were tried is that quick; "
+                                                  "allow more, or give a coarser mesh or a larger voxel_size",
+                                                  options.budget, found.tried.size()));
+  }
+  const precision::Setting& chosen = found.tried[*found.chosen].setting;
+  request.config = precision::with(config, chosen.image);
+  request.config->settings.default_solver = static_cast<std::uint32_t>(chosen.solver);
+  request.choice = precision::json(found, budget_ns);
+}
+
+void compile(const Options& options) {
+  if (!options.path.empty() && options.budget.empty()) {
+    throw Failure(ExitCode::kUsage, "--path is for --budget: the motion that settings are tried on");
+  }
+  CompileRequest request;
+  request.times_left_out = !options.report.empty();
+  request.scene_file = options.scene_file;
+  request.output = options.output;
+  if (!options.only_solver.empty()) request.only_solver = godobject::command::solver_of(options.only_solver);
+  for (const std::string& output : {options.output, options.report, options.traits}) {
+    if (!output.empty()) output_target(output);  // refused before the work, not after it
+  }
+  if (!options.budget.empty()) choose_within_budget(options, request);
+  CompileReport report;
+  {
+    godobject::command::Progress line;
+    request.progress = [&line](const char* phase, double done) { line.show(phase, done); };
+    report = compile_scene(request);
+  }
+  if (!options.report.empty()) {
+    AtomicFile file(options.report);
+    file.write(full_report_json(report).dump(2) + "\n");
+    file.commit();
+  }
+  if (!options.traits.empty()) {
+    AtomicFile file(options.traits);
+    file.write(traits_text(report.traits, options.scene_file));
+    file.commit();
+  }
+  fmt::print("{}", report_text(report));
+}
+
+/// `--inspect X.scene`, or `X.scene --inspect`.
+void inspect(const Options& options) {
+  const std::string& image = options.inspected.empty() ? options.scene_file : options.inspected;
+  if (image.empty()) throw Failure(ExitCode::kUsage, "--inspect X.scene: the image is missing; name one");
+  const bool compiles = !options.output.empty() || !options.report.empty() || !options.only_solver.empty() ||
+                        !options.traits.empty() || !options.budget.empty() || !options.path.empty();
+  if (compiles || (!options.inspected.empty() && !options.scene_file.empty())) {
+    throw Failure(ExitCode::kUsage, "--inspect takes one image and nothing else; see godobject-scenec --help");
+  }
+  fmt::print("{}\n", inspect_json(SceneImage::read(image)).dump(2));
+}
+
+void run_scenec(const Options& options) {
+  if (options.inspects) return inspect(options);
+  if (options.scene_file.empty()) throw Failure(ExitCode::kUsage, "SCENE.toml is missing; see godobject-scenec --help");
+  if (options.output.empty()) throw Failure(ExitCode::kUsage, "-o OUT.scene is missing; see godobject-scenec --help");
+  compile(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Compiles a scene file and its meshes into one scene image for the controller.", "godobject-scenec"};
+  Options options;
+  app.add_option("SCENE.toml", options.scene_file, "scene file: meshes and settings")->type_name("");
+  app.add_option("-o,--output", options.output, "scene image to write")->type_name("OUT.scene");
+  app.add_option("--report", options.report, "also write what was found and measured, and time what was left out")
+      ->type_name("REPORT.json");
+  app.add_option("--only-solver", options.only_solver,
+                 "contact, corrected or paper: leave out what others read; default: hold all")
+      ->check(CLI::IsMember(godobject::command::solver_names()))
+      ->option_text("SOLVER");
+  app.add_option("--traits", options.traits,
+                 "also write what a build for this scene alone needs: cmake -DGODOBJECT_SCENE=TRAITS.cmake")
+      ->type_name("TRAITS.cmake");
+  app.add_option("--budget", options.budget,
+                 "choose the settings: smallest error at no more time a cycle than this: 20us")
+      ->type_name("TIME");
+  app.add_option("--path", options.path, "of --budget: a motion, poses (CSV) or key frames (TOML)")->type_name("PATH");
+  const CLI::Option* inspect =
+      app.add_option("--inspect", options.inspected, "print the facts of a compiled image as JSON, nothing else")
+          ->expected(0, 1)
+          ->type_name("X.scene");
+  app.footer(fmt::format(kFooter, kRefusalRule));
+  return godobject::command::run(app, argc, argv, [&] {
+    options.inspects = inspect->count() > 0;
+    run_scenec(options);
+  });
+}
