@@ -8,7 +8,8 @@
 #include "core/device/passivity.h"
 #include "core/device/velocity_estimator.h"
 #include "core/device/workspace_mapping.h"
-#include "core/pipeline/god_object.h"
+#include "core/scene/scene.h"
+#include "godobject/god_object.h"
 #include "firmware/hand_limits.h"
 #include "firmware/position_check.h"
 #include "firmware/supervisor.h"
@@ -70,7 +71,7 @@ struct CycleSetup {
   const Scene* scene = nullptr;
   Solver solver = Solver::kContact;
   bool friction = false;
-  std::span<std::uint32_t> search;  ///< GodObject::memory(*scene) words, or none
+  std::span<std::byte> memory;  ///< GodObject::memory_size(*scene) bytes, or at least GodObject::least_memory_size()
   const ArmModel* arm = nullptr;
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;
@@ -94,7 +95,9 @@ class ControlCycle {
 
   /// kNotInImage: the scene was compiled without that solver, or without friction; kNotInBuild: this build is without.
   /// Before the first `run_once`.
-  Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction, setup_.search); }
+  Status start() noexcept {
+    return god_object_.start(CompiledScene::of(*setup_.scene), setup_.solver, setup_.friction, setup_.memory);
+  }
 
   /// Begins a cycle: the joints are asked for their positions, which `run_once` takes `collect_ns` later.
   void request() noexcept { drives_.request(); }

@@ -44,6 +44,7 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/command_line/in_build.h"
 #include "toolchain/command_line/run.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace {
 
@@ -189,10 +190,10 @@ class PacedClock final : public hal::Clock {
 };
 
 firmware::CycleSetup cycle_setup(const ControllerConfig& config, const Scene& scene,
-                                 const firmware::Placement& placement, std::span<std::uint32_t> search) {
+                                 const firmware::Placement& placement, std::span<std::byte> memory) {
   firmware::CycleSetup setup;
   setup.scene = &scene;
-  setup.search = search;
+  setup.memory = memory;
   setup.solver = config.scene.solver.value_or(scene.default_solver());
   setup.friction = config.scene.friction.value_or(scene.settings.friction != 0);
   setup.arm = &placement.device.model;
@@ -524,8 +525,8 @@ void control(const Options& options) {
   }
   const ArmLink link = link_arm(options, config, placement);
   drives.emplace(config.device.bus, link.buses, plan.timing, config.telemetry.bus ? &bus_ring : nullptr);
-  std::vector<std::uint32_t> search(GodObject::memory(scene));
-  const firmware::CycleSetup pipeline = cycle_setup(config, scene, placement, search);
+  command::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(scene)));
+  const firmware::CycleSetup pipeline = cycle_setup(config, scene, placement, memory.span());
   cycle.emplace(pipeline, *drives);
   const Status status = cycle->start();
   if (status == Status::kNotInBuild) {

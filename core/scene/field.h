@@ -16,6 +16,9 @@ struct FieldSample {
   double clearance = 0.0;              ///< no point nearer than this has a distance <= 0; 0 where none is known [m]
 };
 
+/// A gradient that is shorter than this has no direction: the middle of a wall or of a gap.
+inline constexpr double kFlat = 1e-3;
+
 /// What the paper's step #1 reads (its Figure 3 g): the layer of the voxel around a point. Voxels are centred at the
 /// nodes.
 struct LayerSample {

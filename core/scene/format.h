@@ -11,6 +11,10 @@
 /// Every byte of the file is covered by a checksum: the header's covers header and table (itself taken as 0) up to the
 /// first section, a section's covers its bytes and the zero padding behind them up to the next section or the end.
 /// Numbers are little-endian IEEE 754 / two's complement; lengths are metres in W (the still mesh's frame).
+namespace godobject {
+enum class Solver : std::uint32_t;  // godobject/scene.h, which kernels with flags of their own must not include
+}
+
 namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
@@ -74,7 +78,7 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-enum class Solver : std::uint32_t { kPaper = 0, kCorrected = 1, kContact = 2 };
+using Solver = godobject::Solver;
 inline constexpr std::uint32_t kSolverCount = 3;
 inline constexpr const char* kSolverNames[kSolverCount] = {"paper", "corrected", "contact"};
 

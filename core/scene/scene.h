@@ -8,6 +8,7 @@
 #include "core/scene/voxelmap.h"
 #include "core/scene/workspace_box.h"
 #include "godobject/pose.h"
+#include "godobject/scene.h"
 #include "godobject/status.h"
 
 namespace godobject {

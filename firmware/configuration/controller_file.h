@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "core/device/workspace_mapping.h"
-#include "core/pipeline/god_object.h"
+#include "core/scene/scene.h"
+#include "godobject/god_object.h"
 #include "firmware/configuration/device_file.h"
 #include "godobject/pose.h"
 

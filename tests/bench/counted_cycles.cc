@@ -6,23 +6,23 @@
 #include <string_view>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
 #include "toolchain/files/pose_path.h"
 #include "toolchain/files/scene_image.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace {
 
 using namespace godobject;
 
-GodObject god_object;
+OwnedGodObject god_object;
 
-Status plain_update(const Pose& H_WM, CycleReport& report) { return god_object.update({H_WM, Motion{}}, report); }
+Status plain_update(const Pose& H_WM, CycleReport& report) { return god_object->update({H_WM, Motion{}}, report); }
 
 }  // namespace
 
 [[gnu::noinline]] Status counted_update(const Pose& H_WM, CycleReport& report);
 [[gnu::noinline]] Status counted_update(const Pose& H_WM, CycleReport& report) {
-  return god_object.update({H_WM, Motion{}}, report);
+  return god_object->update({H_WM, Motion{}}, report);
 }
 
 int main(int argc, char** argv) try {
@@ -32,8 +32,7 @@ int main(int argc, char** argv) try {
   const auto first = static_cast<std::size_t>(std::atoi(argv[3]));
   const auto end = static_cast<std::size_t>(std::atoi(argv[4]));
   const bool friction = std::string_view(argv[5]) == "on";
-  std::vector<std::uint32_t> memory(GodObject::memory(image.scene));
-  if (god_object.start(image.scene, Solver::kContact, friction, memory) != Status::kOk || end > path.poses.size()) {
+  if (god_object.start(image.scene, Solver::kContact, friction) != Status::kOk || end > path.poses.size()) {
     return 65;
   }
   std::size_t contacts = 0;

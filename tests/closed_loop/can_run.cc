@@ -80,6 +80,7 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   drives_.emplace(layout, buses, hal::plan_buses(layout).timing);
   CycleSetup setup = run_setup(scene_, placement_);
   setup.supervisor.sign_test = false;
+  setup.memory = memory_.span();
   cycle_ = std::make_unique<ControlCycle>(setup, *drives_);
   if (cycle_->start() != Status::kOk) throw std::runtime_error("the scene lacks the solver");
 }

@@ -9,6 +9,7 @@
 #include "hal/cia402/can_drives.h"
 #include "sim/can_device.h"
 #include "tests/closed_loop/simulated_run.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::firmware {
 
@@ -105,6 +106,7 @@ class CanRun {
   std::unique_ptr<sim::VirtualClock> clock_;
   std::vector<DisturbedBus> buses_;
   std::optional<hal::CanDrives> drives_;
+  command::AlignedBytes memory_{GodObject::least_memory_size()};
   std::unique_ptr<ControlCycle> cycle_;
   std::int64_t deadline_ns_ = 0;
 };

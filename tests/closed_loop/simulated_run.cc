@@ -103,6 +103,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   setup.friction = options.friction;
   setup.hand = options.hand;
   setup.supervisor.sign_test = options.sign_test;
+  setup.memory = memory_.span();
   cycle_ = std::make_unique<ControlCycle>(setup, *drives_);
   if (cycle_->start() != Status::kOk) throw std::runtime_error("the scene lacks the solver");
 }

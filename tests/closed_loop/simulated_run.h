@@ -13,6 +13,7 @@
 #include "firmware/controller_run.h"
 #include "sim/direct_drives.h"
 #include "tests/support/scene_image_builder.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::firmware {
 
@@ -106,6 +107,7 @@ class SimulatedRun {
   std::unique_ptr<sim::DirectDrives> drives_;
   std::unique_ptr<sim::VirtualClock> clock_;
   std::unique_ptr<TelemetryRing> ring_;
+  command::AlignedBytes memory_{GodObject::least_memory_size()};
   std::unique_ptr<ControlCycle> cycle_;
 };
 

@@ -24,6 +24,7 @@
 #include "tests/support/fault_record.h"
 #include "tests/support/scene_image_builder.h"
 #include "tests/support/small_scenes.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -44,6 +45,7 @@ class ControlCycleTest : public testing::Test {
   }
 
   void make() {
+    setup_.memory = memory_.span();
     cycle_ = std::make_unique<ControlCycle>(setup_, drives_);
     ASSERT_EQ(cycle_->start(), Status::kOk);
   }
@@ -99,6 +101,7 @@ class ControlCycleTest : public testing::Test {
   Scene scene_;
   FakeDrives drives_;
   CycleSetup setup_;
+  command::AlignedBytes memory_{GodObject::least_memory_size()};
   JointVector q0_ = JointVector::Zero();
   std::unique_ptr<ControlCycle> cycle_;
 };

@@ -20,6 +20,7 @@
 #include "tests/firmware/fake_drives.h"
 #include "tests/support/arms.h"
 #include "tests/support/small_scenes.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -134,6 +135,8 @@ TEST(RealTimeSetup, SaysWhatItMayNotDoAndTheLoopNeedsNoPageAfterIt) {
   setup.supervisor.sign_test = false;
   setup.mapping.H_WR.translation =
       Vector3(0.0, 0.0, 0.031) - forward_kinematics(arm.model, drives.reading.position).H_WM.translation;
+  command::AlignedBytes memory(GodObject::least_memory_size());
+  setup.memory = memory.span();
   auto cycle = std::make_unique<ControlCycle>(setup, drives);
   ASSERT_EQ(cycle->start(), Status::kOk);
 

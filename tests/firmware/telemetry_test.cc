@@ -27,6 +27,7 @@
 #include "tests/support/scene_image_builder.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -149,6 +150,8 @@ TEST_F(TelemetryTest, DoesNotHoldUpTheLoopWhenTheDiskStalls) {
   cycle_setup.arm = &arm.model;
   cycle_setup.joint_torque = &arm.parameters;
   cycle_setup.supervisor.sign_test = false;
+  command::AlignedBytes memory(GodObject::least_memory_size());
+  cycle_setup.memory = memory.span();
   const auto cycle = std::make_unique<ControlCycle>(cycle_setup, drives);
   ASSERT_EQ(cycle->start(), Status::kOk);
 

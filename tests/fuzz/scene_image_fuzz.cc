@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "core/scene/scene.h"
 
 namespace godobject {
@@ -40,9 +40,8 @@ void look_up(const Voxelmap& map, const format::Grid& grid, std::mt19937& random
 
 void run(const Scene& scene, Solver solver, bool friction, std::mt19937& random) {
   constexpr int kCycles = 100;
-  static const auto god_object = std::make_unique<GodObject>();
-  std::vector<std::uint32_t> memory(GodObject::memory(scene));
-  if (god_object->start(scene, solver, friction, memory) != Status::kOk) return;
+  static OwnedGodObject god_object;
+  if (god_object.start(scene, solver, friction) != Status::kOk) return;
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const Vector3 low(scene.grid.surface_min[0], scene.grid.surface_min[1], scene.grid.surface_min[2]);
   const Vector3 high(scene.grid.surface_max[0], scene.grid.surface_max[1], scene.grid.surface_max[2]);

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "godobject/god_object.h"
 
 namespace {
 
@@ -39,23 +39,25 @@ GodObject::Input device(int i) {
 int main(int argc, char** argv) {
   std::ifstream file(argc == 4 ? argv[1] : "", std::ios::binary | std::ios::ate);
   if (!file) return std::fprintf(stderr, "usage: replay_ball X.scene SOLVER on|off\n"), 66;
-  struct alignas(format::kAlignment) Line {
-    char byte[format::kAlignment];
+  struct alignas(CompiledScene::kImageAlignment) Line {
+    char byte[CompiledScene::kImageAlignment];
   };
   const auto bytes = static_cast<std::size_t>(file.tellg());
   std::vector<Line> image(bytes / sizeof(Line) + 1);
   file.seekg(0).read(image.data()->byte, static_cast<std::streamsize>(bytes));
 
-  Scene scene;
-  if (const Status status = Scene::open(std::as_bytes(std::span(image)).first(bytes), scene); status != Status::kOk) {
+  CompiledScene scene;
+  if (const Status status = CompiledScene::open(std::as_bytes(std::span(image)).first(bytes), scene); status != Status::kOk) {
     return std::fprintf(stderr, "%s\n", describe(status)), 65;
   }
-  const auto* const name = std::find_if(std::begin(format::kSolverNames), std::end(format::kSolverNames),
+  constexpr const char* kSolvers[] = {"paper", "corrected", "contact"};
+  const auto* const name = std::find_if(std::begin(kSolvers), std::end(kSolvers),
                                         [&](const char* solver) { return std::strcmp(solver, argv[2]) == 0; });
-  if (name == std::end(format::kSolverNames)) return 64;
-  const auto solver = static_cast<Solver>(name - std::begin(format::kSolverNames));
-  std::vector<std::uint32_t> memory(GodObject::memory(scene));
-  const Status started = god_object.start(scene, solver, std::strcmp(argv[3], "on") == 0, memory);
+  if (name == std::end(kSolvers)) return 64;
+  const auto solver = static_cast<Solver>(name - std::begin(kSolvers));
+  static std::vector<Line> memory(GodObject::memory_size(scene) / sizeof(Line) + 1);
+  const Status started = god_object.start(scene, solver, std::strcmp(argv[3], "on") == 0,
+                                          std::as_writable_bytes(std::span(memory)));
   if (started != Status::kOk) return std::fprintf(stderr, "%s\n", describe(started)), 78;
   for (int i = 0; i < 1000; ++i) {
     CycleReport report;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "godobject/scene.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
+#include "core/pipeline/contact/contact_cycle.h"
 #include "core/pipeline/corrected/corrected_cycle.h"
 #include "core/pipeline/paper/paper_cycle.h"
 #include "tests/support/analytic_shapes.h"
@@ -48,24 +50,62 @@ inline SampledBody box_body(int per_edge = 13) {
   return {sample_box(0.5 * edges, per_edge), (Vector3::Constant(squares.sum()) - squares) / 12.0};
 }
 
-/// The god object of a body in an analytic world, with one solver: what GodObject is for compiled scenes.
-template <class Field, auto kCycle>
+/// The cycles of the three solvers, each with the memory that it carries.
+template <bool kFriction>
+struct PaperCycle {
+  template <class Field>
+  Status operator()(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                    ProxyState& state, CycleReport& report) {
+    return paper_cycle<kFriction>(field, shell, q, input, state, report);
+  }
+};
+template <bool kFriction>
+struct CorrectedCycle {
+  ProjectionState memory;
+  template <class Field>
+  Status operator()(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                    ProxyState& state, CycleReport& report) {
+    return corrected_cycle<kFriction>(field, shell, q, input, memory, state, report);
+  }
+};
+/// The search looks everywhere in every cycle.
+template <bool kFriction>
+struct ContactCycle {
+  std::unique_ptr<ContactMemory> memory = std::make_unique<ContactMemory>();
+  bool is_first = true;
+  template <class Field>
+  Status operator()(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                    ProxyState& state, CycleReport& report) {
+    const ContactScene<Field, NoBodyField> scene(field, shell, {}, q);
+    memory->search.start(scene, {});
+    if (is_first) memory->H_WD_last = state.H_WS;
+    is_first = false;
+    return contact_cycle<kFriction>(scene, input, *memory, state, report);
+  }
+};
+
+/// The god object of a body in an analytic world, with one solver, placed outside: what GodObject is for compiled scenes.
+template <class Field, class Cycle>
 struct AnalyticRun {
   const Field& field;
   const SampledBody& body;
   Parameters parameters;
-  State state;
+  ProxyState state;
   CycleReport report;
+  Cycle cycle;
 
   AnalyticRun(const Field& f, const SampledBody& b, const Pose& start) : field(f), body(b) {
     parameters.mass = b.mass;
     parameters.voxel_size = f.voxel_size();
-    state.H_WS = state.H_WD = start;
+    state.H_WS = start;
     state.started = true;
   }
 
   Status step(const Pose& H_WD, const Motion& velocity_W = {}) {
-    return kCycle(field, body.pointshell(), parameters, CycleInput{H_WD, velocity_W}, state, report, nullptr);
+    CycleInput input;
+    input.H_WD = H_WD;
+    input.velocity_W = velocity_W;
+    return cycle(field, body.pointshell(), parameters, input, state, report);
   }
 
   /// Deepest sample point below the surface at the god object's pose [m], positive inside.

@@ -21,7 +21,7 @@ struct SlowContact {
   Eigen::Matrix<double, 3, 6> velocity;  ///< of the point: x + r x P
   Vector3 normal;
   SixVector gradient;  ///< of normal . velocity as the rows have it
-  double need = 0.0;
+  double required_gain = 0.0;
 };
 
 inline std::vector<SlowContact> slow_contacts(const ContactRows& rows, double gyration) {
@@ -34,7 +34,7 @@ inline std::vector<SlowContact> slow_contacts(const ContactRows& rows, double gy
     c.velocity << Matrix3::Identity(), turn / gyration;
     c.normal = Vector3(rows.normal_x[i], rows.normal_y[i], rows.normal_z[i]);
     c.gradient << c.normal, Vector3(rows.torque_x[i], rows.torque_y[i], rows.torque_z[i]) / gyration;
-    c.need = static_cast<double>(rows.need[i]);
+    c.required_gain = static_cast<double>(rows.required_gain[i]);
   }
   return contacts;
 }
@@ -57,7 +57,7 @@ inline std::optional<SixVector> nearest_by_enumeration(const SixVector& target,
     for (Eigen::Index k = 0; k < size; ++k) {
       const SlowContact& c = contacts[static_cast<std::size_t>(members[static_cast<std::size_t>(k)])];
       A.row(k) = c.gradient.transpose();
-      b[k] = c.need;
+      b[k] = c.required_gain;
     }
     SixVector z = target;
     if (size > 0) {
@@ -65,7 +65,7 @@ inline std::optional<SixVector> nearest_by_enumeration(const SixVector& target,
       z += decomposition.solve(b - A * target);
     }
     bool meets_all = true;
-    for (const SlowContact& c : contacts) meets_all &= c.gradient.dot(z) >= c.need - tolerance;
+    for (const SlowContact& c : contacts) meets_all &= c.gradient.dot(z) >= c.required_gain - tolerance;
     if (meets_all && (!best || (z - target).norm() < (*best - target).norm())) best = z;
   }
   return best;
@@ -81,7 +81,7 @@ inline std::optional<SixVector> nearest_by_ascent(const SixVector& target, const
     double largest = 0.0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const SlowContact& c = contacts[i];
-      const double change = std::max(-multiplier[i], (c.need - c.gradient.dot(z)) / c.gradient.squaredNorm());
+      const double change = std::max(-multiplier[i], (c.required_gain - c.gradient.dot(z)) / c.gradient.squaredNorm());
       multiplier[i] += change;
       z += change * c.gradient;
       largest = std::max(largest, std::fabs(change));
@@ -124,7 +124,7 @@ inline SlowFriction coulomb_by_fixed_point(const SixVector& target, const std::v
       const double approach = c.normal.dot(v);
       const double slip = (v - approach * c.normal).norm();
       const double step = 0.5 / (c.velocity * c.velocity.transpose()).trace();
-      const Vector3 moved = out.forces[i] - step * (v + (ratio * slip - c.need) * c.normal);
+      const Vector3 moved = out.forces[i] - step * (v + (ratio * slip - c.required_gain) * c.normal);
       const Vector3 change = on_cone(moved, c.normal, ratio) - out.forces[i];
       out.forces[i] += change;
       out.z += c.velocity.transpose() * change;

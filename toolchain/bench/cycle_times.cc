@@ -12,15 +12,14 @@ namespace {
 /// A god object with the memory that it remembers the scene in.
 class Runner {
  public:
-  Runner(const Scene& scene, const Pipeline& pipeline)
-      : memory_(GodObject::memory(scene)), god_object_(std::make_unique<GodObject>()) {
-    if (god_object_->start(scene, pipeline.solver, pipeline.friction, memory_) != Status::kOk) {
+  Runner(const Scene& scene, const Pipeline& pipeline) {
+    if (god_object_.start(scene, pipeline.solver, pipeline.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kBadData,
                              "the scene image was compiled without " + pipeline.name() + "; compile it anew");
     }
   }
 
-  GodObject& god_object() { return *god_object_; }
+  OwnedGodObject& god_object() { return god_object_; }
 
   CycleReport update(const Pose& H_WM, StepTimes* times = nullptr) {
     CycleReport report;
@@ -31,8 +30,7 @@ class Runner {
   }
 
  private:
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<GodObject> god_object_;
+  OwnedGodObject god_object_;
 };
 
 /// Passes while the budget lasts.
@@ -54,7 +52,7 @@ Recording record(const Scene& scene, const Pipeline& pipeline, std::span<const P
   Runner runner(scene, pipeline);
   for (const Pose& H_WM : device) {
     recording.H_WD.push_back(H_WM * scene.H_MB);
-    const State& state = runner.god_object().state();
+    const ProxyState& state = runner.god_object().state();
     recording.H_WS.push_back(state.started ? state.H_WS : recording.H_WD.back());
     runner.update(H_WM);
   }
@@ -67,7 +65,7 @@ CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<c
   CycleTimes times{PassSamples(device.size()), PassSamples(device.size()), PassSamples(device.size())};
   Runner runner(scene, pipeline);
   run_passes(budget, [&] {
-    runner.god_object().reset();
+    runner.god_object()->reset();
     for (const Pose& H_WM : device) {
       const std::int64_t begin_ns = now_ns();
       runner.update(H_WM);
@@ -75,7 +73,7 @@ CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<c
     }
   });
   run_passes(budget, [&] {
-    runner.god_object().reset();
+    runner.god_object()->reset();
     for (const Pose& H_WM : device) {
       StepTimes steps{.now_ns = now_ns};
       runner.update(H_WM, &steps);

@@ -1,5 +1,5 @@
 # What another project gets: headers under include/godobject/core, the library, and find_package(godobject) with the
-# target godobject::core, so that it writes #include "core/pipeline/god_object.h" as this one does.
+# target godobject::core, so that it writes #include "godobject/god_object.h" as this one does.
 include(CMakePackageConfigHelpers)
 
 set(GODOBJECT_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/godobject")

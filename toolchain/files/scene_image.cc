@@ -1,9 +1,7 @@
 #include "toolchain/files/scene_image.h"
 
-#include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <new>
 
 #include <fmt/format.h>
 
@@ -11,17 +9,6 @@
 #include "toolchain/files/input_file.h"
 
 namespace godobject::command {
-
-AlignedBytes::AlignedBytes(std::size_t size)
-    : bytes_(static_cast<std::byte*>(
-          ::operator new (std::max<std::size_t>(size, 1), std::align_val_t{format::kAlignment}))),
-      size_(size) {
-  std::memset(bytes_.get(), 0, size);
-}
-
-void AlignedBytes::Free::operator()(std::byte* bytes) const noexcept {
-  ::operator delete (bytes, std::align_val_t{format::kAlignment});
-}
 
 SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std::move(image)) {
   const std::span<const std::byte> whole = bytes.span();

@@ -1,30 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <memory>
-#include <span>
 #include <string>
 
 #include "core/scene/scene.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::command {
-
-/// The bytes of a scene image, aligned as the format asks.
-class AlignedBytes {
- public:
-  explicit AlignedBytes(std::size_t size);
-
-  std::span<std::byte> span() noexcept { return {bytes_.get(), size_}; }
-  std::span<const std::byte> span() const noexcept { return {bytes_.get(), size_}; }
-
- private:
-  struct Free {
-    void operator()(std::byte* bytes) const noexcept;
-  };
-  std::unique_ptr<std::byte, Free> bytes_;
-  std::size_t size_;
-};
 
 /// A scene image in memory and the core's view of it.
 struct SceneImage {

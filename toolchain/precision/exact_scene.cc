@@ -105,29 +105,28 @@ ExactScene::ExactScene(const scene_compiler::SceneConfig& config, std::uint32_t 
 
 FeatureContacts<MeshField> ExactScene::feature_contacts() const {
   const double* origin = features_.header.origin;
-  return {body_field_, feature_points_, Vector3(origin[0], origin[1], origin[2]), body_radius_};
+  return {&body_field_, feature_points_, Vector3(origin[0], origin[1], origin[2]), body_radius_};
 }
 
 std::vector<TracedCycle> ExactScene::reference(const Paths& paths, bool friction) const {
-  const FeatureContacts<MeshField> features = feature_contacts();
-  std::vector<std::uint32_t> memory(ContactSearch::memory(points_, feature_points_));
-  const auto workspace = std::make_unique<ContactWorkspace>();
+  const ContactScene<MeshField, MeshField> scene(still_field_, points_, feature_contacts(), parameters_);
+  std::vector<std::uint32_t> words(ContactSearch::memory(points_, feature_points_));
   const auto run = friction ? &contact_cycle<true, MeshField, MeshField> : &contact_cycle<false, MeshField, MeshField>;
   const Pose H_BM = H_MB_.inverse();
   std::vector<TracedCycle> cycles;
   for (const std::vector<Pose>& path : paths) {
-    ContactSearch search;
-    search.start(still_field_, points_, &features, ContactLengths::make(parameters_), memory);
-    State state;
+    const auto memory = std::make_unique<ContactMemory>();
+    memory->search.start(scene, words);
+    ProxyState state;
     for (const Pose& H_WM : path) {
-      const CycleInput input{H_WM * H_MB_, Motion{}};
+      CycleInput input;
+      input.H_WD = H_WM * H_MB_;
       if (!state.started) {
         state.H_WS = input.H_WD;
         state.inside = penetration(H_WM) > 0.0;
       }
       CycleReport report;
-      const Status status =
-          run(still_field_, points_, &features, parameters_, input, search, state, *workspace, report, nullptr);
+      const Status status = run(scene, input, *memory, state, report, nullptr);
       cycles.push_back({state.H_WS * H_BM, status == Status::kOk ? report.force.spring_W : Wrench{}});
     }
   }

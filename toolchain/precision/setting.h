@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/pipeline/god_object.h"
+#include "godobject/god_object.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace godobject::precision {

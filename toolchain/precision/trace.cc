@@ -40,10 +40,10 @@ void for_each_cycle(Session& session, const Paths& paths, Cycle&& cycle) {
 }  // namespace
 
 Session::Session(const Scene& scene, const Setting& setting)
-    : scene_(std::make_unique<Scene>(scene)), god_object_(std::make_unique<GodObject>()) {
-  scene_->settings.margin = setting.margin;
-  memory_.resize(GodObject::memory(*scene_));
-  if (god_object_->start(*scene_, setting.solver, setting.friction, memory_) != Status::kOk) {
+    : god_object_(std::make_unique<OwnedGodObject>()) {
+  Scene with_margin = scene;
+  with_margin.settings.margin = setting.margin;
+  if (god_object_->start(with_margin, setting.solver, setting.friction) != Status::kOk) {
     throw command::Failure(command::ExitCode::kBadData,
                            "the scene image was compiled without " + name(setting) + "; compile it anew");
   }
@@ -51,10 +51,10 @@ Session::Session(const Scene& scene, const Setting& setting)
 
 TracedCycle Session::update(const Pose& H_WM) {
   CycleReport report;
-  if (god_object_->update({H_WM, Motion{}}, report) != Status::kOk) {
+  if ((*god_object_)->update({H_WM, Motion{}}, report) != Status::kOk) {
     throw command::Failure(command::ExitCode::kBadData, "a pose of the path is none; see godobject-replay");
   }
-  return {god_object_->mesh_pose(), report.force.spring_W};
+  return {(*god_object_)->mesh_pose(), report.force.spring_W};
 }
 
 std::vector<TracedCycle> trace(Session& session, const Paths& paths) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "toolchain/precision/setting.h"
 
 namespace godobject::precision {
@@ -22,19 +22,17 @@ struct TracedCycle {
 /// A god object of a compiled scene, with the memory that it asks for and a margin of its own.
 class Session {
  public:
-  /// `scene` must outlive it. Throws Failure (kBadData) if the image lacks the solver or friction.
+  /// The image of `scene` must outlive it. Throws Failure (kBadData) if the image lacks the solver or friction.
   Session(const Scene& scene, const Setting& setting);
 
   /// The next update starts anew at the device pose.
-  void reset() { god_object_->reset(); }
+  void reset() { (*god_object_)->reset(); }
 
   /// One cycle. Throws Failure (kBadData) for what is no pose.
   TracedCycle update(const Pose& H_WM);
 
  private:
-  std::unique_ptr<Scene> scene_;  ///< a view, with the margin
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<GodObject> god_object_;
+  std::unique_ptr<OwnedGodObject> god_object_;
 };
 
 /// All cycles of all paths, each path from a new start.

@@ -9,6 +9,7 @@
 #include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/command_line/stopwatch.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::replay {
 namespace {
@@ -36,9 +37,8 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
-  std::vector<std::uint32_t> memory(GodObject::memory(scene));
-  GodObject god_object;
-  if (god_object.start(scene, solver, friction, memory) != Status::kOk) {
+  OwnedGodObject god_object;
+  if (god_object.start(scene, solver, friction) != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   "the scene image was compiled without this solver or without friction; compile it without "
                   "--only-solver, or with a [friction] table");
@@ -50,13 +50,13 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
     StepTimes times{.now_ns = command::stopwatch()};
     CycleReport report;
     std::feclearexcept(kWatched);
-    const Status status = god_object.update({path.poses[i], Motion{}}, report, &times);
+    const Status status = god_object->update({path.poses[i], Motion{}}, report, &times);
     summary.float_exceptions |= std::fetestexcept(kWatched);
 
     ++summary.cycles;
     ++summary.by_outcome[static_cast<std::size_t>(report.outcome)];
     if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];
-    const State& state = god_object.state();
+    const ProxyState& state = god_object.state();
     // before the first good row there is no god object to measure
     const double depth =
         state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
@@ -70,7 +70,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
     row.clear();
     fmt::format_to(std::back_inserter(row), "{}", path.t[i]);
     append(row, device);
-    append(row, god_object.mesh_pose());
+    append(row, god_object->mesh_pose());
     append(row, report.force.spring_W.force);
     append(row, report.force.spring_W.torque);
     fmt::format_to(std::back_inserter(row), ",{},{},{},{},{},{}\n", depth, report.contacts, report.substeps,

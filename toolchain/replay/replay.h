@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "core/pipeline/god_object.h"
+#include "godobject/god_object.h"
 #include "core/scene/scene.h"
 #include "toolchain/files/pose_path.h"
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "godobject/scene.h"
 #include "toolchain/command_line/solver_names.h"
 #include "toolchain/files/stiffness.h"
 #include "toolchain/files/toml_file.h"

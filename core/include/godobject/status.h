@@ -18,6 +18,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kImageValue,      ///< scene image: a number in it is out of its range
     kNotInImage,      ///< the solver or the friction asked for was left out of this image
     kNotInBuild,      ///< this build is one for another scene, without what is asked for
+    kMemory,          ///< the memory for a session is too small or not aligned
+    kNotStarted,      ///< an update before `start` succeeded
     kArmShape,        ///< arm: joint count, or a rotation that is not of unit length
     kArmMass,         ///< arm: a mass or inertia tensor that no body has
     kArmLimits,       ///< arm: position, velocity or torque limits out of order
@@ -39,6 +41,8 @@ constexpr const char* describe(Status status) noexcept {
     case Status::kImageValue: return "a value in the scene image is out of range";
     case Status::kNotInImage: return "the scene image was compiled without what is asked for";
     case Status::kNotInBuild: return "this build is for another scene and without what is asked for";
+    case Status::kMemory: return "the memory for the god object is too small or not aligned";
+    case Status::kNotStarted: return "the god object has not been started";
     case Status::kArmShape: return "the arm's joint count or one of its rotations is not possible";
     case Status::kArmMass: return "the arm has a mass or inertia that no body has";
     case Status::kArmLimits: return "the arm's position, velocity or torque limits are out of order";

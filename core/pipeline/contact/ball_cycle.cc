@@ -5,43 +5,49 @@
 #include <cmath>
 #include <limits>
 
-#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/contact/certificate.h"
+#include "core/pipeline/contact/contact_limits.h"
+#include "core/pipeline/contact/contact_result.h"
+#include "core/pipeline/contact/damping.h"
+#include "core/pipeline/contact/motion_share.h"
 #include "core/pipeline/contact/qp/dual_active_set.h"
+#include "core/pipeline/contact/second_look.h"
+#include "core/pipeline/cycle/commit.h"
+#include "core/pipeline/cycle/step_times.h"
 #include "core/pipeline/cycle/workspace_limit.h"
 
 namespace godobject {
 namespace {
 
-constexpr int kSecondLooks = 6;  // at what stood in the way
-constexpr int kAttempts = 14;
-constexpr double kOvershoot = 0.5;
+using detail::MotionShare;
+using detail::Obstacle;
 
-/// Half spaces normal . x >= need that a motion x of the centre must stay in, in W.
+/// Half spaces normal . x >= gain that a motion x of the centre must stay in, in W.
 struct HalfSpaces {
-  static constexpr int kCapacity = 1 + kSecondLooks;
+  static constexpr int kCapacity = 1 + kMostSecondLooks;
   std::array<Vector3, kCapacity> normal;  ///< unit
-  std::array<double, kCapacity> need;     ///< [m]
+  std::array<double, kCapacity> gain;     ///< required gap increase [m]
   int count = 0;
 
   void push(const Vector3& n, double b) noexcept {
     normal[static_cast<std::size_t>(count)] = n;
-    need[static_cast<std::size_t>(count++)] = b;
+    gain[static_cast<std::size_t>(count++)] = b;
   }
 };
 
-/// Those that hold back what is projected on all of them.
+/// The half spaces that hold back the target of a projection.
 struct Held {
   std::array<Vector3, 3> normal;
   std::array<double, 3> multiplier;
   int count = 0;
 };
 
-/// The point of all half spaces that is nearest to `target`; false: there is none, and `nearest` meets some of them.
+/// Projects `target` on the half spaces. False: they have no point in common, and `nearest` meets only some of them.
 bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, Vector3& nearest, Held& held) noexcept {
   held.count = 0;
   nearest = target;
   if (spaces.count == 1) {
-    const double missing = spaces.need[0] - spaces.normal[0].dot(target);
+    const double missing = spaces.gain[0] - spaces.normal[0].dot(target);
     if (!(missing > tolerance)) return true;
     nearest += missing * spaces.normal[0];
     held.normal[0] = spaces.normal[0];
@@ -60,11 +66,11 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
     double violation = tolerance;
     for (int i = 0; i < spaces.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      const double missing = spaces.need[k] - spaces.normal[k].dot(set.z().head<3>());
+      const double missing = spaces.gain[k] - spaces.normal[k].dot(set.z().head<3>());
       if (!(missing > violation)) continue;
       violation = missing;
       worst.gradient.head<3>() = spaces.normal[k];
-      worst.rhs = spaces.need[k];
+      worst.rhs = spaces.gain[k];
     }
     if (!(violation > tolerance)) break;
     feasible = set.add(worst);
@@ -78,37 +84,34 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
   return feasible;
 }
 
-/// The damping b_D along what holds, as `contact_cycle` has it: the change of the load that lets no contact pull.
+/// The damping b_D along the normals that hold, as a change of the load.
 Vector3 damped(const Held& held, const Vector3& velocity_W, double damping_over_stiffness) noexcept {
-  const Vector3 asked = damping_over_stiffness * velocity_W;
-  HalfSpaces cone;
-  Vector3 load = Vector3::Zero();
-  for (int i = 0; i < held.count; ++i) {
-    cone.push(held.normal[static_cast<std::size_t>(i)], 0.0);
-    load += held.multiplier[static_cast<std::size_t>(i)] * held.normal[static_cast<std::size_t>(i)];
+  std::array<Vector6, 3> rows;
+  Vector6 load = Vector6::Zero();
+  Vector6 asked = Vector6::Zero();
+  asked.head<3>() = damping_over_stiffness * velocity_W;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
+    rows[i] << held.normal[i], Vector3::Zero();
+    load += held.multiplier[i] * rows[i];
   }
-  Vector3 allowed;
-  Held pushing;
-  project(cone, asked - load, 1e-12 * (asked.norm() + load.norm()), allowed, pushing);
-  constexpr double kRoundedUp = 1.0 + 1e-9;
-  const Vector3 change = allowed - asked;
-  return change.norm() <= kRoundedUp * asked.norm() ? change : Vector3(Vector3::Zero());
+  return detail::damping_change(rows.data(), static_cast<std::uint32_t>(held.count), load, asked).head<3>();
 }
 
-/// One cycle's centre.
+/// The centre of the ball in one cycle.
 class Center {
  public:
-  Center(const Voxelmap& field, const Parameters& q, const Vector3& at) noexcept
-      : field_(field), box_(q.workspace), lengths_(ContactLengths::make(q)), at_(at) {
-    reach_ = std::min(lengths_.longest_reach, field.assured_clearance());
+  Center(const Voxelmap& field, const WorkspaceBox& box, const ContactLengths& lengths, const Vector3& at) noexcept
+      : field_(field), box_(box), lengths_(lengths), at_(at) {
+    search_radius_ = std::min(lengths_.longest_search_radius, field.assured_clearance());
   }
 
-  /// Where it is, and how the surface looks from there.
   const Vector3& at() const noexcept { return at_; }
+  /// The field at the centre; the other functions use it.
   const FieldSample& look() noexcept { return here_ = field_.sample(at_); }
 
   /// Nothing is in the way to `goal`.
   bool is_free(const Vector3& goal) const noexcept { return (goal - at_).norm() + lengths_.margin <= here_.clearance; }
+  bool is_near() const noexcept { return here_.clearance < search_radius_; }
 
   void go(const Vector3& goal) noexcept {
     at_ = goal;
@@ -116,43 +119,50 @@ class Center {
     cut = opened = false;
   }
 
-  /// One sub-step towards `goal`: false where it is held for good.
+  /// One sub-step towards `goal`. False: no attempt was certified, and the centre stays.
   bool step(const Vector3& goal) noexcept;
-
-  double shortest_reach() const noexcept { return lengths_.shortest_reach; }
-  bool is_near() const noexcept { return here_.clearance < reach_; }
 
   Held held;
   bool cut = false;     ///< shortened so as not to jump over the surface
-  bool opened = false;  ///< it came round an edge, where what held it holds no longer
+  bool opened = false;  ///< it came round an edge, where the half spaces that held it do so no longer
   bool infeasible = false;
 
  private:
-  void aim(const Vector3& way) noexcept;
-  bool certify(const Vector3& end, double kept) noexcept;
-  bool see_obstacle(const Vector3& end) noexcept;
+  void push_contact() noexcept;
+  void constrain(const Vector3& free) noexcept;
+  bool certify(const Vector3& end, double least_gap) noexcept;
+  bool push_obstacle(const Vector3& end) noexcept;
   double overshoot(const Vector3& motion) noexcept;
 
   const Voxelmap& field_;
   const WorkspaceBox& box_;
-  const ContactLengths lengths_;
+  const ContactLengths& lengths_;
   Vector3 at_;
-  double reach_;
+  double search_radius_;
   FieldSample here_, there_;
   Vector3 motion_ = Vector3::Zero();
   HalfSpaces spaces_;
-  detail::Obstacle obstacle_;
+  Obstacle obstacle_;
   detail::Budget budget_;
 };
 
-/// The motion nearest to `way` that all half spaces and the workspace allow; half spaces that contradict each other
-/// lose what they need to gain.
-void Center::aim(const Vector3& way) noexcept {
+/// The contact at the start of the sub-step as a half space.
+void Center::push_contact() noexcept {
+  spaces_.count = 0;
+  const double steepness = here_.gradient.norm();
+  if (!is_near() || !here_.known || !(steepness > kFlat)) return;
+  const double lost = (lengths_.margin - here_.distance) / steepness;
+  spaces_.push(here_.gradient / steepness, lengths_.gap_law().required_gain(lost));
+}
+
+/// The motion nearest to `free` that all half spaces and the workspace allow. Half spaces that contradict each other drop
+/// their required gap increase.
+void Center::constrain(const Vector3& free) noexcept {
   const auto end_of = [&](const Vector3& push) noexcept {
-    const Vector3 wanted = way - push;
+    const Vector3 wanted = free - push;
     if (!project(spaces_, wanted, lengths_.metric.tolerance, motion_, held)) {
       infeasible = true;
-      for (double& need : spaces_.need) need = std::min(need, 0.0);
+      for (double& gain : spaces_.gain) gain = std::min(gain, 0.0);
       project(spaces_, wanted, lengths_.metric.tolerance, motion_, held);
     }
     return Vector3(at_ + motion_);
@@ -164,33 +174,33 @@ void Center::aim(const Vector3& way) noexcept {
   }
 }
 
-/// The chord to `end` meets no surface, and the gap does not shrink below `kept`.
-bool Center::certify(const Vector3& end, double kept) noexcept {
+/// The chord to `end` meets no surface, and the gap does not shrink below `least_gap`.
+bool Center::certify(const Vector3& end, double least_gap) noexcept {
   obstacle_.exhausted = false;
   there_ = field_.sample(end);
-  if (here_.distance <= 0.0 || (end - at_).norm() + kept <= here_.clearance) return true;
+  if (here_.distance <= 0.0 || (end - at_).norm() + least_gap <= here_.clearance) return true;
   if (!detail::chord_is_free(field_, at_, here_.clearance, end, there_.clearance, budget_, obstacle_)) return false;
-  obstacle_.way = 1.0;
+  obstacle_.share = 1.0;
   obstacle_.sample = there_;
-  return there_.distance > 0.0 && there_.distance + lengths_.rounding >= std::min(here_.distance, kept);
+  return there_.distance > 0.0 && there_.distance + lengths_.rounding >= std::min(here_.distance, least_gap);
 }
 
-/// The surface as it looks from the obstacle as one more half space; false if there is no room or no gradient.
-bool Center::see_obstacle(const Vector3& end) noexcept {
+/// The second look. False: there is no room, or the field has no gradient at the obstacle.
+bool Center::push_obstacle(const Vector3& end) noexcept {
   const FieldSample& seen = obstacle_.sample;
   const double steepness = seen.gradient.norm();
-  if (spaces_.count == HalfSpaces::kCapacity || !seen.known || !(steepness > detail::kFlat)) return false;
-  const double need = (lengths_.margin - seen.distance + seen.gradient.dot(obstacle_.way * (end - at_))) / steepness;
+  if (spaces_.count == HalfSpaces::kCapacity || !seen.known || !(steepness > kFlat)) return false;
+  const Vector3 displacement = obstacle_.share * (end - at_);
   spaces_.push(seen.gradient / steepness,
-               std::min(need, std::max(0.0, detail::kRecovery * (lengths_.margin - here_.distance))));
+               detail::second_look_gain(lengths_, seen, displacement, here_.distance, steepness));
   return true;
 }
 
-/// As detail::arrive has it, of the one point; tells `opened`.
+/// As detail::arrive for the one point; sets `opened`.
 double Center::overshoot(const Vector3& motion) noexcept {
   const double steepness = there_.gradient.norm();
   opened = held.count > 0 && there_.distance > lengths_.margin + lengths_.opening;
-  if (!(steepness > detail::kFlat)) return 0.0;
+  if (!(steepness > kFlat)) return 0.0;
   double rise = 0.0;
   for (int i = 0; i < held.count; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -200,79 +210,75 @@ double Center::overshoot(const Vector3& motion) noexcept {
 }
 
 bool Center::step(const Vector3& goal) noexcept {
-  const Vector3 way = goal - at_;
-  spaces_.count = 0;
-  const double steepness = here_.gradient.norm();
-  if (is_near() && here_.known && steepness > detail::kFlat) {
-    double need = (lengths_.margin - here_.distance) / steepness;
-    if (std::fabs(need) <= lengths_.metric.tolerance) need = 0.0;  // it touches: what rests stays where it is
-    if (need > 0.0) need = std::min(detail::kRecovery * need, lengths_.largest_gain);
-    spaces_.push(here_.gradient / steepness, need);
-  }
+  const Vector3 free = goal - at_;
+  push_contact();
   held.count = 0;
-  motion_ = way;
-  if (spaces_.count > 0) aim(way);
-  double share = 1.0;
-  int looks = kSecondLooks;
-  bool shortened = false;
+  motion_ = free;
+  if (spaces_.count > 0) constrain(free);
   opened = false;
-  for (int attempt = 0;; ++attempt) {
-    if (attempt == kAttempts) return cut = true, false;
-    const Vector3 motion = share * motion_;
-    const bool unheld = share == 1.0 && held.count == 0;
+  MotionShare share(1.0);
+  while (share.next()) {
+    const Vector3 motion = share.value() * motion_;
+    const bool unheld = share.is_whole() && held.count == 0;
     const Vector3 end = unheld ? goal : box_.nearest(at_ + motion);
-    if (certify(end, looks > 0 ? lengths_.wanted_margin : lengths_.least_margin)) {
-      if (share == 1.0 && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
-        if (const double over = overshoot(motion); over > kOvershoot) {
-          share = 1.0 / (1.0 + over);
-          shortened = true;
+    if (certify(end, share.least_gap(lengths_))) {
+      if (share.is_whole() && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
+        if (const double over = overshoot(motion); over > kMostOvershoot) {
+          share.stop_at(1.0 / (1.0 + over));
           continue;
         }
       }
       at_ = end;
-      cut = share < 1.0 && !shortened;
+      cut = share.is_cut();
       return true;
     }
-    shortened = false;
     if (obstacle_.exhausted) {
-      share *= attempt < kSecondLooks ? obstacle_.way : std::min(obstacle_.way, 0.25);
-      continue;
-    }
-    looks = looks > 0 && see_obstacle(end) ? looks - 1 : 0;
-    if (looks > 0) {
-      aim(way);
-      share = 1.0;
+      share.shrink_to(obstacle_.share);
+    } else if (share.looks_left() > 0 && push_obstacle(end) && share.looks_left() > 1) {
+      constrain(free);
+      share.look_again(1.0);
     } else {
-      share *= attempt < kSecondLooks ? 0.5 : 0.25;
+      share.shrink_at_obstacle();
     }
   }
+  return cut = true, false;
 }
 
-}  // namespace
-
-Status ball_cycle(const Voxelmap& field, const Parameters& q, const CycleInput& input, State& state,
-                  CycleReport& report, StepTimes* times) noexcept {
-  detail::begin(times);
-  const Vector3& goal = input.H_WD.translation;
-  Center center(field, q, state.H_WS.translation);
-  bool inside = state.inside;
-  double smallest = std::numeric_limits<double>::infinity();
+/// The sub-steps of a cycle, from the god object to the device.
+struct BallResult {
+  bool inside;
+  double smallest = std::numeric_limits<double>::infinity();  ///< stored distance at the last sub-step's start [m]
   std::uint32_t substeps = 0;
+};
+
+BallResult advance(Center& center, const Vector3& goal, bool inside) noexcept {
+  BallResult result{.inside = inside};
   do {
     const FieldSample& here = center.look();
-    inside = inside && here.distance <= 0.0;
+    result.inside = result.inside && here.distance <= 0.0;
     if (center.is_free(goal)) {
       center.go(goal);
       break;
     }
-    smallest = center.is_near() ? here.distance : std::numeric_limits<double>::infinity();
-    ++substeps;
-    if (inside && !here.known) {  // nobody knows the way out: with the device
+    result.smallest = center.is_near() ? here.distance : std::numeric_limits<double>::infinity();
+    ++result.substeps;
+    if (result.inside && !here.known) {  // deep inside, where the field has no gradient: follow the device
       center.go(goal);
       break;
     }
     if (!center.step(goal)) break;
-  } while ((center.cut || center.opened) && !inside && substeps < kMaxSubsteps);
+  } while ((center.cut || center.opened) && !result.inside && result.substeps < kMaxSubsteps);
+  return result;
+}
+
+}  // namespace
+
+Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengths& lengths, const CycleInput& input,
+                  ProxyState& state, CycleReport& report, StepTimes* times) noexcept {
+  detail::begin(times);
+  const Vector3& goal = input.H_WD.translation;
+  Center center(field, q.workspace, lengths, state.H_WS.translation);
+  const BallResult result = advance(center, goal, state.inside);
   detail::end(times, &StepTimes::step1_ns);
 
   DeviceForce force;
@@ -282,21 +288,18 @@ Status ball_cycle(const Voxelmap& field, const Parameters& q, const CycleInput& 
   if (center.held.count > 0) {
     force.total_W.force += stiffness * damped(center.held, input.velocity_W.translation, q.damping / q.stiffness);
   }
-  if (!center.at().allFinite() || !force.total_W.force.allFinite()) return Status::kNotFinite;
-
-  state.H_WS = {input.H_WD.rotation, center.at()};
-  state.inside = inside;
-  state.started = true;
-  report = CycleReport{};
-  report.H_WS = state.H_WS;
-  report.force = force;
-  report.penetration = -std::min(smallest, center.shortest_reach());
+  const Status status = commit(input, {input.H_WD.rotation, center.at()}, force, result.inside, state, report);
+  if (status != Status::kOk) return status;
+  report.penetration = -std::min(result.smallest, lengths.shortest_search_radius);
   report.contacts = static_cast<std::uint32_t>(center.held.count);
-  report.substeps = std::max(1u, substeps);
-  report.outcome = center.held.count > 0 ? Outcome::kContact : Outcome::kFree;
-  if (center.cut) report.outcome = Outcome::kCut;
-  if (center.infeasible) report.outcome = Outcome::kInfeasible;
-  if (inside) report.outcome = Outcome::kStartInside;
+  report.dropped = 0;
+  report.substeps = std::max(1u, result.substeps);
+  report.unconverged = false;
+  report.outcome = detail::outcome_of({.held = center.held.count > 0,
+                                       .cut = center.cut,
+                                       .dropped = false,
+                                       .infeasible = center.infeasible,
+                                       .inside = result.inside});
   detail::end(times, &StepTimes::solve_ns);
   return Status::kOk;
 }

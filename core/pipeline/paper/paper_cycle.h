@@ -10,26 +10,25 @@
 #include "core/pipeline/paper/proxy_filter.h"
 #include "core/pipeline/penalty/closed_form_finish.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
-#include "godobject/report.h"
-#include "godobject/status.h"
 
 namespace godobject {
 
 // clang-format off: equation numbers stand in a column of their own
 
-/// One cycle of `paper`: equations (1)-(48) as printed but for the few mended ones (core/README.md). #8 is the
-/// caller's. kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
+/// One cycle of `paper`: equations (1)-(48) as printed except for the corrections that core/README.md lists. Step #8 is
+/// the caller's. kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
 template <bool kFriction, DistanceField Field>
 Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
-                   State& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
+                   ProxyState& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
   detail::begin(times);
-  const auto contacts =
+  ClosedFormResult result;
+  result.contacts =
       penalty_contacts<LayerPenetration>(field, shell, state.H_WS, q.safety_distance, 0.0);  // #1 (1), (2)
   detail::end(times, &StepTimes::step1_ns);
 
-  Pose H_WS = input.H_WD;  // region C
-  if (contacts.depth > 0.0) {
-    const Correction c = correction(contacts, q.safety_distance, q.mass);  // #2 (3)-(27)
+  result.H_WS = input.H_WD;  // region C
+  if (result.contacts.depth > 0.0) {
+    const Correction c = correction(result.contacts, q.safety_distance, q.mass);  // #2 (3)-(27)
     const bool region_A = c.penetration >= 0.0;
     const double eta = region_A ? q.correction_gain : 0.0;
     const Pose H_pen = set_matrix({eta * c.delta.translation, eta * c.delta.rotation});  //    (28)
@@ -51,10 +50,10 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
           paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
     }                                                       //    (47), (48)
     const Pose H_WS_unfiltered = H_WSc * set_matrix(step);  //    (41), (42)
-    H_WS = kept_within(q.workspace, state.H_WS,
-                       filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period));  // #5 (43)
+    result.H_WS = kept_within(q.workspace, state.H_WS,
+                              filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period));  // #5 (43)
   }
-  const Status status = detail::finish(input, H_WS, contacts, Projection{}, 1, q, state, report);  // #6, #7 (44)-(46)
+  const Status status = finish_closed_form(input, result, q, state, report);  // #6, #7 (44)-(46)
   detail::end(times, &StepTimes::solve_ns);
   return status;
 }

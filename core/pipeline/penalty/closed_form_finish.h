@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "core/pipeline/corrected/projection.h"
 #include "core/pipeline/cycle/parameters.h"
 #include "core/pipeline/cycle/state.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
@@ -11,15 +10,16 @@
 
 namespace godobject {
 
-/// The god object leaves `inside` once it is less than this deep; corrections approach the surface, they do not reach
-/// it. [voxels]
-inline constexpr double kOutside = 0.1;
+/// The result of the steps #1 to #5 of `paper` or `corrected`.
+struct ClosedFormResult {
+  Pose H_WS;                   ///< the god object's new pose
+  PenaltyContacts contacts;    ///< of the last sub-step
+  bool cut = false;            ///< the motion was shortened so as not to jump over the surface
+  std::uint32_t substeps = 1;
+};
 
-namespace detail {
+/// Steps #6 and #7 of `paper` and `corrected`, and `commit`. Statuses as those of `commit`. Real-time safe.
+Status finish_closed_form(const CycleInput& input, const ClosedFormResult& result, const Parameters& parameters,
+                          ProxyState& state, CycleReport& report) noexcept;
 
-/// Steps #6 and #7, the finite check, and the only place where `state` changes.
-Status finish(const CycleInput& input, const Pose& H_WS, const PenaltyContacts& contacts, const Projection& step,
-              std::uint32_t substeps, const Parameters& parameters, State& state, CycleReport& report) noexcept;
-
-}  // namespace detail
 }  // namespace godobject

@@ -55,7 +55,6 @@ struct DistancePenetration {
   template <DistanceField Field>
   static PointPenetration at(const Field& field, const Pointshell& /*shell*/, std::size_t /*i*/, const Vector3& p_W,
                              const Matrix3& /*R_WS*/, double safety_distance) noexcept {
-    constexpr double kFlat = 1e-3;  // a gradient this short has no direction: the middle of a wall or of a gap
     const FieldSample sample = field.sample(p_W);
     PointPenetration point;
     point.value = safety_distance - sample.distance;

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
+#include <span>
 
-#include "core/pipeline/god_object.h"
+#include "godobject/god_object.h"
 #include "core/scene/clearance_kernel.h"
 
 namespace {
@@ -34,9 +34,10 @@ std::span<const std::byte> read_aligned(const char* path) {
 
 int main(int argc, char** argv) {
   if (argc != 4) return 64;
-  Scene scene;
-  if (Scene::open(read_aligned(argv[1]), scene) != Status::kOk) return 65;
-  std::vector<std::uint32_t> memory(GodObject::memory(scene));
+  CompiledScene scene;
+  if (CompiledScene::open(read_aligned(argv[1]), scene) != Status::kOk) return 65;
+  const std::size_t bytes = (GodObject::memory_size(scene) / kAligned + 1) * kAligned;
+  const std::span memory(static_cast<std::byte*>(std::aligned_alloc(kAligned, bytes)), bytes);
   if (god_object.start(scene, Solver::kContact, true, memory) != Status::kOk) return 65;
   std::FILE* const path = std::fopen(argv[2], "r");
   if (path == nullptr) return 66;

@@ -1,7 +1,7 @@
 // The whole cycle on compiled scenes: its edges, its promises to the caller, no allocation, no floating-point
 // exception.
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 
 #include <gtest/gtest.h>
 
@@ -77,11 +77,11 @@ constexpr Pipeline kPipelines[] = {{Solver::kPaper, false},    {Solver::kPaper, 
 /// What every pipeline promises.
 class EachPipeline : public GodObjectTest, public testing::WithParamInterface<Pipeline> {
  protected:
-  void start() { ASSERT_EQ(god_object_.start(scene_, GetParam().solver, GetParam().friction), Status::kOk); }
+  void start() { ASSERT_EQ(god_object_.start(scene_, GetParam().solver, GetParam().friction, false), Status::kOk); }
   bool is_contact() const { return GetParam().solver == Solver::kContact; }
   double depth() const { return -smallest_distance(scene_.voxelmap, scene_.pointshell, god_object_.state().H_WS); }
 
-  GodObject god_object_;
+  OwnedGodObject god_object_;
   CycleReport report_;
 };
 
@@ -99,7 +99,7 @@ TEST_P(EachPipeline, MakesNoAllocationAndRaisesNoFloatingPointExceptionInAHundre
   std::feclearexcept(kWatched);
   const AllocationGuard guard;
   for (int k = 0; k < 100000; ++k) {
-    if (god_object_.update({along_path(k % 5000 / 5000.0), Motion{}}, report_) != Status::kOk) ++bad;
+    if (god_object_->update({along_path(k % 5000 / 5000.0), Motion{}}, report_) != Status::kOk) ++bad;
     contacts = std::max(contacts, report_.contacts);
   }
   EXPECT_EQ(guard.allocations(), 0);
@@ -114,16 +114,16 @@ TEST_P(EachPipeline, MakesNoAllocationAndRaisesNoFloatingPointExceptionInAHundre
 TEST_P(EachPipeline, IsTheSameToTheLastBitWhateverWasRunBefore) {
   start();
   for (int k = 0; k < 1234; ++k)
-    ASSERT_EQ(god_object_.update({along_path(k / 2000.0), Motion{}}, report_), Status::kOk);
+    ASSERT_EQ(god_object_->update({along_path(k / 2000.0), Motion{}}, report_), Status::kOk);
   start();
-  GodObject fresh;
-  ASSERT_EQ(fresh.start(scene_, GetParam().solver, GetParam().friction), Status::kOk);
+  OwnedGodObject fresh;
+  ASSERT_EQ(fresh.start(scene_, GetParam().solver, GetParam().friction, false), Status::kOk);
   CycleReport expected;
   for (int k = 0; k < 3000; ++k) {
     Motion velocity;
     velocity.translation.z() = 1e-4 * k;
-    ASSERT_EQ(god_object_.update({along_path(k / 3000.0), velocity}, report_), Status::kOk);
-    ASSERT_EQ(fresh.update({along_path(k / 3000.0), velocity}, expected), Status::kOk);
+    ASSERT_EQ(god_object_->update({along_path(k / 3000.0), velocity}, report_), Status::kOk);
+    ASSERT_EQ(fresh->update({along_path(k / 3000.0), velocity}, expected), Status::kOk);
     ASSERT_EQ(report_.H_WS.translation, expected.H_WS.translation) << "cycle " << k;
     ASSERT_EQ(report_.H_WS.rotation.coeffs(), expected.H_WS.rotation.coeffs()) << "cycle " << k;
     ASSERT_EQ(report_.force.total_W.force, expected.force.total_W.force) << "cycle " << k;
@@ -136,15 +136,15 @@ TEST_P(EachPipeline, IsTheSameToTheLastBitWhateverWasRunBefore) {
 
 TEST_F(GodObjectTest, SpeaksOfTheMeshFrameAndForcesOfTheCentreOfMass) {
   for (const Solver solver : {Solver::kCorrected, Solver::kContact}) {
-    GodObject god_object;
-    ASSERT_EQ(god_object.start(scene_, solver, false), Status::kOk);
+    OwnedGodObject god_object;
+    ASSERT_EQ(god_object.start(scene_, solver, false, false), Status::kOk);
     CycleReport report;
     for (int k = 0; k <= 500; ++k) {
       const double height = kWorldRadius + kBodyRadius + 0.005 - 2e-5 * k;
-      ASSERT_EQ(god_object.update({mesh_pose({0.0, 0.0, height}, {0.4, 0.0, 0.0}), Motion{}}, report), Status::kOk);
+      ASSERT_EQ(god_object->update({mesh_pose({0.0, 0.0, height}, {0.4, 0.0, 0.0}), Motion{}}, report), Status::kOk);
     }
     // 5 mm deep along the line of centres: the mesh frame is pushed back by as much, the force has no lever
-    const Pose god = god_object.mesh_pose();
+    const Pose god = god_object->mesh_pose();
     const Pose device = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius - 0.005}, {0.4, 0.0, 0.0});
     EXPECT_NEAR((god.translation - device.translation).z(), 0.005, 0.1 * 0.003);
     EXPECT_NEAR(report.force.spring_W.force.z(), 2000.0 * 0.005, 2000.0 * 0.1 * 0.003);
@@ -156,38 +156,38 @@ TEST_F(GodObjectTest, SpeaksOfTheMeshFrameAndForcesOfTheCentreOfMass) {
 TEST_P(EachPipeline, HoldsTheGodObjectAndSendsNoForceOnBadInput) {
   start();
   const Pose start = mesh_pose({0.0, 0.0, 0.1});
-  ASSERT_EQ(god_object_.update({start, Motion{}}, report_), Status::kOk);
-  const Pose before = god_object_.mesh_pose();
+  ASSERT_EQ(god_object_->update({start, Motion{}}, report_), Status::kOk);
+  const Pose before = god_object_->mesh_pose();
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Pose bad = start;
   bad.translation.x() = kNaN;
-  EXPECT_EQ(god_object_.update({bad, Motion{}}, report_), Status::kNotFinite);
+  EXPECT_EQ(god_object_->update({bad, Motion{}}, report_), Status::kNotFinite);
   bad = start;
   bad.translation.y() = -kInf;
-  EXPECT_EQ(god_object_.update({bad, Motion{}}, report_), Status::kNotFinite);
+  EXPECT_EQ(god_object_->update({bad, Motion{}}, report_), Status::kNotFinite);
   bad = start;
   bad.rotation.coeffs() *= 1.002;
-  EXPECT_EQ(god_object_.update({bad, Motion{}}, report_), Status::kNotUnit);
+  EXPECT_EQ(god_object_->update({bad, Motion{}}, report_), Status::kNotUnit);
   bad.rotation.coeffs().setZero();
-  EXPECT_EQ(god_object_.update({bad, Motion{}}, report_), Status::kNotUnit);
+  EXPECT_EQ(god_object_->update({bad, Motion{}}, report_), Status::kNotUnit);
   Motion velocity;
   velocity.rotation.z() = kNaN;
-  EXPECT_EQ(god_object_.update({start, velocity}, report_), Status::kNotFinite);
+  EXPECT_EQ(god_object_->update({start, velocity}, report_), Status::kNotFinite);
   EXPECT_EQ(report_.outcome, Outcome::kBadInput);
   EXPECT_TRUE(report_.force.total_W.force.isZero());
-  EXPECT_EQ(god_object_.mesh_pose().translation, before.translation);
+  EXPECT_EQ(god_object_->mesh_pose().translation, before.translation);
   // and goes on with the next pose; a rotation within 1e-3 of unit length is one, of either sign
   Pose rough = start;
   rough.rotation.coeffs() *= -1.0005;
-  EXPECT_EQ(god_object_.update({rough, Motion{}}, report_), Status::kOk);
+  EXPECT_EQ(god_object_->update({rough, Motion{}}, report_), Status::kOk);
   EXPECT_EQ(report_.outcome, Outcome::kFree);
 }
 
 TEST_P(EachPipeline, SurvivesPosesFarOutsideOfEverything) {
   start();
   for (const double far : {0.1, 1e3, 1e12, 1e100, 1e-3}) {
-    const Status status = god_object_.update({mesh_pose({far, -far, far}), Motion{}}, report_);
+    const Status status = god_object_->update({mesh_pose({far, -far, far}), Motion{}}, report_);
     EXPECT_TRUE(report_.H_WS.is_finite());
     EXPECT_TRUE(report_.force.total_W.force.allFinite());
     if (far < 1e6) {
@@ -204,7 +204,7 @@ TEST_P(EachPipeline, ComesOutWhenItStartsInsideEvenBeyondTheBand) {
     start();
     for (int k = 0; k < 5000; ++k) {
       const double height = kWorldRadius + kBodyRadius - deep + 2e-5 * k;
-      ASSERT_EQ(god_object_.update({mesh_pose({0.0, 0.0, height}), Motion{}}, report_), Status::kOk);
+      ASSERT_EQ(god_object_->update({mesh_pose({0.0, 0.0, height}), Motion{}}, report_), Status::kOk);
       ASSERT_LT(report_.force.spring_W.force.norm(), 2000.0 * 0.1);
       if (k == 0) {
         EXPECT_EQ(report_.outcome, Outcome::kStartInside);
@@ -217,7 +217,7 @@ TEST_P(EachPipeline, ComesOutWhenItStartsInsideEvenBeyondTheBand) {
 TEST_P(EachPipeline, CallsAFirstPoseThatPenetratesByItsNameHoweverLittleItDoes) {
   start();
   const double height = kWorldRadius + kBodyRadius - 0.05 * 0.003 - 0.0002;  // the points lie on chords of the ball
-  ASSERT_EQ(god_object_.update({mesh_pose({0.0, 0.0, height}), Motion{}}, report_), Status::kOk);
+  ASSERT_EQ(god_object_->update({mesh_pose({0.0, 0.0, height}), Motion{}}, report_), Status::kOk);
   EXPECT_EQ(report_.outcome, Outcome::kStartInside);
 }
 
@@ -225,37 +225,37 @@ TEST_P(EachPipeline, FollowsTheDeviceWithoutALookAndBeginsAnewAfterIt) {
   start();
   const double height = kWorldRadius + kBodyRadius;
   for (int k = 0; k < 100; ++k) {
-    ASSERT_EQ(god_object_.update({mesh_pose({0.0, 0.0, height + 0.002 - 5e-5 * k}), Motion{}}, report_), Status::kOk);
+    ASSERT_EQ(god_object_->update({mesh_pose({0.0, 0.0, height + 0.002 - 5e-5 * k}), Motion{}}, report_), Status::kOk);
   }
   ASSERT_GT(report_.force.spring_W.force.norm(), 1.0);
 
   const Pose inside = mesh_pose({0.0, 0.0, height - 0.020});
-  ASSERT_EQ(god_object_.follow(inside, report_), Status::kOk);
+  ASSERT_EQ(god_object_->follow(inside, report_), Status::kOk);
   EXPECT_EQ(report_.outcome, Outcome::kFree);
   EXPECT_EQ(report_.contacts, 0U);
   EXPECT_EQ(report_.force.total_W.force.norm(), 0.0);
-  EXPECT_LT((god_object_.mesh_pose().translation - inside.translation).norm(), 1e-15);
+  EXPECT_LT((god_object_->mesh_pose().translation - inside.translation).norm(), 1e-15);
   EXPECT_FALSE(god_object_.state().started);
 
   Pose bad = inside;
   bad.translation.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(god_object_.follow(bad, report_), Status::kNotFinite);
-  EXPECT_LT((god_object_.mesh_pose().translation - inside.translation).norm(), 1e-15);
+  EXPECT_EQ(god_object_->follow(bad, report_), Status::kNotFinite);
+  EXPECT_LT((god_object_->mesh_pose().translation - inside.translation).norm(), 1e-15);
 
-  ASSERT_EQ(god_object_.update({inside, Motion{}}, report_), Status::kOk);
+  ASSERT_EQ(god_object_->update({inside, Motion{}}, report_), Status::kOk);
   EXPECT_EQ(report_.outcome, Outcome::kStartInside);
 }
 
 TEST_F(GodObjectTest, RefusesPosesBeyondAnySceneAndStartsWithTheNextGoodOne) {
-  GodObject god_object;
-  ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, false), Status::kOk);
+  OwnedGodObject god_object;
+  ASSERT_EQ(god_object.start(scene_, Solver::kCorrected, false, false), Status::kOk);
   CycleReport report;
-  EXPECT_EQ(god_object.update({mesh_pose({1e100, 0.0, 0.0}), Motion{}}, report), Status::kOutOfRange);
+  EXPECT_EQ(god_object->update({mesh_pose({1e100, 0.0, 0.0}), Motion{}}, report), Status::kOutOfRange);
   EXPECT_FALSE(god_object.state().started);
   const Pose good = mesh_pose({0.0, 0.0, 0.2});
-  ASSERT_EQ(god_object.update({good, Motion{}}, report), Status::kOk);
+  ASSERT_EQ(god_object->update({good, Motion{}}, report), Status::kOk);
   EXPECT_EQ(report.outcome, Outcome::kFree);
-  EXPECT_NEAR((god_object.mesh_pose().translation - good.translation).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((god_object->mesh_pose().translation - good.translation).norm(), 0.0, 1e-15);
 }
 
 /// With next to no budget the god object may lag, but it crosses nothing, and it arrives where it would without.
@@ -267,20 +267,17 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
   Scene all_scene, few_scene;
   ASSERT_EQ(Scene::open(all_image.bytes(), all_scene), Status::kOk);
   ASSERT_EQ(Scene::open(few_image.bytes(), few_scene), Status::kOk);
-  std::vector<std::uint32_t> all_memory(GodObject::memory(all_scene));
-  std::vector<std::uint32_t> few_memory(GodObject::memory(few_scene));
-  const auto owner = std::make_unique<std::array<GodObject, 2>>();
-  auto& [all, few] = *owner;
-  ASSERT_EQ(all.start(all_scene, Solver::kContact, false, all_memory), Status::kOk);
-  ASSERT_EQ(few.start(few_scene, Solver::kContact, false, few_memory), Status::kOk);
+  OwnedGodObject all, few;
+  ASSERT_EQ(all.start(all_scene, Solver::kContact, false), Status::kOk);
+  ASSERT_EQ(few.start(few_scene, Solver::kContact, false), Status::kOk);
   CycleReport all_report, few_report;
   const double height = kWorldRadius + kBodyRadius;
   std::uint32_t dropped = 0;
   for (int k = 0; k < 3000; ++k) {
     const double way = 1e-5 * std::min(k, 1500);
     const GodObject::Input input{mesh_pose({way, 0.5 * way, height + 0.002 - 0.7 * way}), Motion{}};
-    ASSERT_EQ(all.update(input, all_report), Status::kOk);
-    ASSERT_EQ(few.update(input, few_report), Status::kOk);
+    ASSERT_EQ(all->update(input, all_report), Status::kOk);
+    ASSERT_EQ(few->update(input, few_report), Status::kOk);
     ASSERT_LT(few_report.penetration, 0.0) << "cycle " << k;
     dropped += few_report.dropped;
     ASSERT_EQ(all_report.dropped, 0u);
@@ -296,7 +293,7 @@ TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   const SceneImage image = build_scene_image(lean);
   Scene scene;
   ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
-  GodObject god_object;
+  OwnedGodObject god_object;
   EXPECT_EQ(god_object.start(scene, Solver::kPaper, false), Status::kNotInImage);
   EXPECT_EQ(god_object.start(scene, Solver::kCorrected, true), Status::kNotInImage);
   EXPECT_EQ(god_object.start(scene, Solver::kCorrected, false), Status::kOk);
@@ -383,7 +380,7 @@ TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
 TEST_P(EachPipeline, KeepsItsRotationAtUnitLength) {
   start();
   for (int k = 0; k < 50000; ++k)
-    ASSERT_EQ(god_object_.update({along_path(k % 3333 / 3333.0), Motion{}}, report_), Status::kOk);
+    ASSERT_EQ(god_object_->update({along_path(k % 3333 / 3333.0), Motion{}}, report_), Status::kOk);
   EXPECT_NEAR(report_.H_WS.rotation.norm(), 1.0, 1e-14);
 }
 

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
@@ -143,8 +143,8 @@ std::string as_obj(const TriangleMesh& mesh) {
 /// A god object in a compiled scene.
 struct Rendered {
   explicit Rendered(const std::filesystem::path& file, Solver solver = Solver::kContact, bool friction = false)
-      : image(command::SceneImage::read(file)), memory(GodObject::memory(image.scene)) {
-    EXPECT_EQ(god_object->start(image.scene, solver, friction, memory), Status::kOk);
+      : image(command::SceneImage::read(file)) {
+    EXPECT_EQ(god_object.start(image.scene, solver, friction), Status::kOk);
   }
 
   /// `center`: of the ball at the device.
@@ -159,8 +159,7 @@ struct Rendered {
   Vector3d center() const { return god_object->mesh_pose() * kCenter; }
 
   command::SceneImage image;
-  std::vector<std::uint32_t> memory;
-  std::unique_ptr<GodObject> god_object = std::make_unique<GodObject>();
+  OwnedGodObject god_object;
 };
 
 class BallScene : public testing::Test {
@@ -298,13 +297,12 @@ TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
   compile({});
   Rendered ball(folder_.file("out.scene"));
   const Scene& scene = ball.image.scene;
-  const Parameters& parameters = ball.god_object->parameters();
-  const auto workspace = std::make_unique<ContactWorkspace>();
-  std::vector<std::uint32_t> memory(ContactSearch::memory(scene.pointshell, {}));
-  const FeatureContacts<Voxelmap>* const no_features = nullptr;
-  ContactSearch search;
-  search.start(scene.voxelmap, scene.pointshell, no_features, ContactLengths::make(parameters), memory);
-  State state;
+  const Parameters& parameters = ball.god_object.parameters();
+  const ContactScene<Voxelmap, Voxelmap> contact(scene.voxelmap, scene.pointshell, {}, parameters);
+  const auto memory = std::make_unique<ContactMemory>();
+  std::vector<std::uint32_t> words(ContactSearch::memory(scene.pointshell, {}));
+  memory->search.start(contact, words);
+  ProxyState state;
   double apart = 0.0, force_apart = 0.0, damped_apart = 0.0;
   int cycle = 0;
   follow_cube([&](const Vector3d& on_cube, const Vector3d& normal) {
@@ -319,9 +317,7 @@ TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
     CycleReport report, expected;
     ASSERT_EQ(ball.god_object->update(device, report), Status::kOk);
     if (!state.started) state.H_WS = input.H_WD;
-    ASSERT_EQ((contact_cycle<false>(scene.voxelmap, scene.pointshell, no_features, parameters, input, search, state,
-                                    *workspace, expected)),
-              Status::kOk);
+    ASSERT_EQ(contact_cycle<false>(contact, input, *memory, state, expected), Status::kOk);
     EXPECT_EQ(report.outcome, expected.outcome) << cycle;
     apart = std::max(apart, (report.H_WS.translation - expected.H_WS.translation).norm());
     force_apart = std::max(force_apart, (report.force.spring_W.force - expected.force.spring_W.force).norm());

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/compile_report.h"
@@ -64,8 +64,8 @@ class LeavesOut : public testing::Test {
 class Session {
  public:
   Session(const Scene& scene, Solver solver, bool friction)
-      : memory_(GodObject::memory(scene)), H_BM_(scene.H_MB.inverse()) {
-    EXPECT_EQ(god_object_->start(scene, solver, friction, memory_), Status::kOk);
+      : H_BM_(scene.H_MB.inverse()) {
+    EXPECT_EQ(god_object_.start(scene, solver, friction), Status::kOk);
   }
   CycleReport update(const Pose& H_WB) {
     CycleReport report;
@@ -74,8 +74,7 @@ class Session {
   }
 
  private:
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<GodObject> god_object_ = std::make_unique<GodObject>();
+  OwnedGodObject god_object_;
   Pose H_BM_;
 };
 

@@ -1,20 +1,15 @@
-#include <algorithm>
+#include <memory>
+#include <vector>
 
-#include "core/pipeline/contact/contact_cycle.h"
-#include "core/pipeline/corrected/corrected_cycle.h"
-#include "core/pipeline/paper/paper_cycle.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
+#include "core/pipeline/session.h"
 #include "toolchain/report/contact_quality/world.h"
 
 namespace godobject::report {
 namespace {
 
 using Field = analytic::AnalyticField<analytic::Solid>;
-using ClosedForm = Status (*)(const Field&, const Pointshell&, const Parameters&, const CycleInput&, State&,
-                              CycleReport&, StepTimes*) noexcept;
-using Contact = Status (*)(const Field&, const Pointshell&, const FeatureContacts<Voxelmap>*, const Parameters&,
-                           const CycleInput&, ContactSearch&, State&, ContactWorkspace&, CycleReport&,
-                           StepTimes*) noexcept;
+using FieldSession = Session<Field, NoBodyField>;
 
 class AnalyticWorld : public World {
  public:
@@ -31,15 +26,21 @@ class AnalyticWorld : public World {
     q_.mass = Parameters::make(body.scene()).mass;
   }
 
+  /// One direction: the still body has no feature points here.
   Cycle start(Solver solver, bool friction) const override {
-    switch (solver) {
-      case Solver::kPaper: return closed_form(friction ? &paper_cycle<true, Field> : &paper_cycle<false, Field>);
-      case Solver::kCorrected:
-        return closed_form(friction ? &corrected_cycle<true, Field> : &corrected_cycle<false, Field>);
-      case Solver::kContact:
-        return contact(friction ? &contact_cycle<true, Field, Voxelmap> : &contact_cycle<false, Field, Voxelmap>);
-    }
-    return {};
+    struct Running {
+      std::vector<std::uint32_t> words;
+      FieldSession session;
+    };
+    const Pointshell& shell = body_.scene().pointshell;
+    auto running = std::make_shared<Running>();
+    running->words.resize(FieldSession::search_words(shell, {}));
+    running->session.start(field_, shell, {}, q_, solver, friction, running->words);
+    return [running](const Pose& H_WD, CycleReport& report, StepTimes& times) {
+      CycleInput input;
+      input.H_WD = H_WD;
+      return running->session.update(input, report, &times);
+    };
   }
 
   double distance(const Vector3& p_W) const override { return solid_.distance(p_W); }
@@ -50,39 +51,6 @@ class AnalyticWorld : public World {
   const std::vector<Vector3>& points_B() const override { return points_; }
 
  private:
-  void begin(State& state, const Pose& H_WD) const {
-    if (state.started) return;
-    state.H_WS = H_WD;
-    state.inside = depth(H_WD) > 0.0;
-  }
-
-  Cycle closed_form(ClosedForm cycle) const {
-    return [this, cycle, state = State{}](const Pose& H_WD, CycleReport& report, StepTimes& times) mutable {
-      begin(state, H_WD);
-      return cycle(field_, body_.scene().pointshell, q_, CycleInput{H_WD, {}}, state, report, &times);
-    };
-  }
-
-  /// One direction: the still body has no feature points here.
-  Cycle contact(Contact cycle) const {
-    struct Memory {
-      std::vector<std::uint32_t> values;
-      ContactSearch search;
-      ContactWorkspace workspace;
-    };
-    const Pointshell& shell = body_.scene().pointshell;
-    const FeatureContacts<Voxelmap>* const none = nullptr;
-    auto memory = std::make_shared<Memory>();
-    memory->values.resize(ContactSearch::memory(shell, {}));
-    memory->search.start(field_, shell, none, ContactLengths::make(q_), memory->values);
-    return [this, &shell, cycle, memory, state = State{}](const Pose& H_WD, CycleReport& report,
-                                                          StepTimes& times) mutable {
-      begin(state, H_WD);
-      return cycle(field_, shell, nullptr, q_, CycleInput{H_WD, {}}, memory->search, state, memory->workspace, report,
-                   &times);
-    };
-  }
-
   analytic::Solid solid_;
   Field field_;
   const Body& body_;

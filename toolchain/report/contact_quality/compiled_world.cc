@@ -24,15 +24,10 @@ class CompiledWorld : public World {
         points_(report::points_B(image_.scene)) {}
 
   Cycle start(Solver solver, bool friction) const override {
-    struct Session {
-      std::vector<std::uint32_t> memory;
-      GodObject god_object;
-    };
-    auto session = std::make_shared<Session>();
-    session->memory.resize(GodObject::memory(image_.scene));
-    if (session->god_object.start(image_.scene, solver, friction, session->memory) != Status::kOk) return {};
-    return [session, H_BM = H_BM_](const Pose& H_WD, CycleReport& report, StepTimes& times) {
-      return session->god_object.update({H_WD * H_BM, Motion{}}, report, &times);
+    auto god_object = std::make_shared<OwnedGodObject>();
+    if (god_object->start(image_.scene, solver, friction) != Status::kOk) return {};
+    return [god_object, H_BM = H_BM_](const Pose& H_WD, CycleReport& report, StepTimes& times) {
+      return (*god_object)->update({H_WD * H_BM, Motion{}}, report, &times);
     };
   }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene/format.h"
+#include "godobject/scene.h"
 
 namespace godobject::report {
 

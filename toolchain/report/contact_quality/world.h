@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "toolchain/report/analytic/solid.h"
 #include "toolchain/report/contact_quality/body.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"

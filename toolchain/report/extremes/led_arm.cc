@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "toolchain/command_line/failure.h"
+#include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::report {
 namespace {
@@ -66,10 +67,8 @@ class Unsupervised {
  public:
   Unsupervised(const LedArm& arm, const CycleSetup& setup)
       : setup_(setup),
-        memory_(GodObject::memory(*arm.scene)),
-        god_object_(std::make_unique<GodObject>()),
         limiter_(*setup.arm, setup.torque) {
-    if (god_object_->start(*arm.scene, arm.solver, arm.friction, memory_) != Status::kOk) {
+    if (god_object_.start(*arm.scene, arm.solver, arm.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kInternal, "the scene lacks the solver");
     }
   }
@@ -99,8 +98,7 @@ class Unsupervised {
 
  private:
   CycleSetup setup_;
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<GodObject> god_object_;
+  OwnedGodObject god_object_;
   TorqueLimiter limiter_;
   CycleReport report_;
 };
@@ -118,12 +116,12 @@ std::vector<LedCycle> lead(const LedArm& arm, std::span<const Pose> path) {
   const ControllerConfig::Workspace at_start = workspace(path.front());
   const Placement placement = place(at_start, *arm.device, arm.scene->H_MB.translation);
   const ArmModel& model = placement.device.model;
-  std::vector<std::uint32_t> memory(GodObject::memory(*arm.scene));
+  command::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(*arm.scene)));
   CycleSetup setup;
   setup.scene = arm.scene;
   setup.solver = arm.solver;
   setup.friction = arm.friction;
-  setup.search = memory;
+  setup.memory = memory.span();
   setup.arm = &model;
   setup.joint_torque = &placement.device.torque;
   setup.mapping = placement.mapping;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "firmware/configuration/controller_file.h"
 #include "firmware/control_cycle.h"
 

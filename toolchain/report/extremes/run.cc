@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
+#include "core/pipeline/session.h"
 #include "toolchain/report/analytic/sampled_body.h"
 #include "toolchain/report/analytic/solid.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"
@@ -136,7 +137,7 @@ Parameters parameters_of(const Setup& setup, const MassModel& mass) {
 }
 
 /// Reach of the longest sub-step: what is farther away is in no row.
-double reach_of(const Parameters& q) { return ContactLengths::make(q).longest_reach; }
+double reach_of(const Parameters& q) { return ContactLengths::make(q).longest_search_radius; }
 
 /// Calls visit(p, p_field, normal, gap) for the points of the shell, which is at H in the field's frame, that are near.
 template <class Field, class Visit>
@@ -167,32 +168,15 @@ class AnalyticRig final : public Rig {
         body_(body_of(setup)),
         shell_(body_.pointshell()),
         q_(parameters_of(setup, body_.mass)),
-        solver_(setup.solver),
-        friction_(setup.friction),
-        memory_(ContactSearch::memory(shell_, {})),
-        workspace_(std::make_unique<ContactWorkspace>()) {
-    search_.start(field_, shell_, kNoFeatures, ContactLengths::make(q_), memory_);
+        words_(RigSession::search_words(shell_, {})) {
+    session_->start(field_, shell_, {}, q_, setup.solver, setup.friction, words_);
   }
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {
-    if (!state_.started) {
-      state_.H_WS = H_WD;
-      state_.inside = smallest_gap(H_WD) <= 0.0;
-    }
-    const CycleInput input{H_WD, velocity_W};
-    switch (solver_) {
-      case Solver::kPaper:
-        return friction_ ? paper_cycle<true>(field_, shell_, q_, input, state_, report)
-                         : paper_cycle<false>(field_, shell_, q_, input, state_, report);
-      case Solver::kCorrected:
-        return friction_ ? corrected_cycle<true>(field_, shell_, q_, input, state_, report)
-                         : corrected_cycle<false>(field_, shell_, q_, input, state_, report);
-      case Solver::kContact:
-        return friction_
-                   ? contact_cycle<true>(field_, shell_, kNoFeatures, q_, input, search_, state_, *workspace_, report)
-                   : contact_cycle<false>(field_, shell_, kNoFeatures, q_, input, search_, state_, *workspace_, report);
-    }
-    return Status::kNotInImage;
+    CycleInput input;
+    input.H_WD = H_WD;
+    input.velocity_W = velocity_W;
+    return session_->update(input, report);
   }
 
   double smallest_gap(const Pose& H_WS) const override { return smallest_distance(field_, shell_, H_WS); }
@@ -202,18 +186,14 @@ class AnalyticRig final : public Rig {
   const Parameters& parameters() const override { return q_; }
 
  private:
-  static constexpr const FeatureContacts<Voxelmap>* kNoFeatures = nullptr;
+  using RigSession = Session<Field, NoBodyField>;
 
   Field field_;
   analytic::SampledBody body_;
   Pointshell shell_;
   Parameters q_;
-  Solver solver_;
-  bool friction_;
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<ContactWorkspace> workspace_;
-  ContactSearch search_;
-  State state_;
+  std::vector<std::uint32_t> words_;
+  std::unique_ptr<RigSession> session_ = std::make_unique<RigSession>();
 };
 
 TriangleMesh mesh_of(const Setup& setup) {
@@ -235,12 +215,11 @@ TriangleMesh mesh_of(const Setup& setup) {
 class CompiledRig final : public Rig {
  public:
   CompiledRig(const Setup& setup, const std::filesystem::path& work)
-      : image_(compile("fuzz", text_of(setup, work), work)), god_object_(std::make_unique<GodObject>()) {
+      : image_(compile("fuzz", text_of(setup, work), work)) {
     Scene& scene = image_.scene;
     scene.settings.damping = setup.damping;
-    memory_.resize(GodObject::memory(scene));
     H_BM_ = scene.H_MB.inverse();
-    started_ = god_object_->start(scene, setup.solver, setup.friction, memory_);
+    started_ = god_object_.start(scene, setup.solver, setup.friction);
   }
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {
@@ -258,7 +237,7 @@ class CompiledRig final : public Rig {
   }
   std::vector<Touch> touches(const Pose& H_WS) const override {
     const Scene& scene = image_.scene;
-    const double reach = reach_of(god_object_->parameters());
+    const double reach = reach_of(god_object_.parameters());
     std::vector<Touch> touches = sample_touches(scene.voxelmap, scene.pointshell, H_WS, reach);
     if (!scene.has_features()) return touches;
     Pose H_WF;
@@ -269,7 +248,7 @@ class CompiledRig final : public Rig {
                });
     return touches;
   }
-  const Parameters& parameters() const override { return god_object_->parameters(); }
+  const Parameters& parameters() const override { return god_object_.parameters(); }
 
  private:
   static SceneText text_of(const Setup& setup, const std::filesystem::path& work) {
@@ -290,8 +269,7 @@ class CompiledRig final : public Rig {
   }
 
   command::SceneImage image_;
-  std::unique_ptr<GodObject> god_object_;
-  std::vector<std::uint32_t> memory_;
+  OwnedGodObject god_object_;
   Pose H_BM_;
   Status started_ = Status::kOk;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "toolchain/report/extremes/setup.h"
 #include "toolchain/report/extremes/way_out.h"
 

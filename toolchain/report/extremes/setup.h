@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/scene/format.h"
+#include "godobject/scene.h"
 
 namespace godobject::report {
 

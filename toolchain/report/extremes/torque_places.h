@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "godobject/god_object.h"
 #include "firmware/configuration/device_file.h"
 #include "firmware/torque_limiter.h"
 #include "godobject/pose.h"

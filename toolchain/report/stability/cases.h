@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "godobject/god_object.h"
 #include "toolchain/report/study/case.h"
 
 namespace godobject::report {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/device/stability.h"
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/meshes.h"
 #include "toolchain/report/stability/axis_loop.h"
@@ -89,10 +89,9 @@ Swings let_go(const Press& press, const Floating& floating, double push, double 
   scene.settings.stiffness = floating.stiffness;
   scene.settings.damping = floating.height.virtual_damping;
   scene.settings.coupling_rotation = floating.coupling_rotation;
-  std::vector<std::uint32_t> memory(GodObject::memory(scene));
-  const auto god_object = std::make_unique<GodObject>();
+  OwnedGodObject god_object;
   Swings swings{HUGE_VAL, HUGE_VAL};
-  if (god_object->start(scene, floating.solver, false, memory) != Status::kOk) return swings;
+  if (god_object.start(scene, floating.solver, false) != Status::kOk) return swings;
 
   const double g2 = floating.gyration * floating.gyration;
   const double delay = floating.height.delay / kPeriod;
@@ -295,9 +294,8 @@ CaseResult pipeline_observer(bool quick, const std::filesystem::path& work) {
         phases[i] = phase(random);
         rates[i] = rate(random);
       }
-      std::vector<std::uint32_t> memory(GodObject::memory(scene));
-      const auto god_object = std::make_unique<GodObject>();
-      if (god_object->start(scene, solver, false, memory) != Status::kOk) continue;
+      OwnedGodObject god_object;
+      if (god_object.start(scene, solver, false) != Status::kOk) continue;
       CycleReport report;
       Pose before;
       double energy = 0.0;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/contact/contact_directions.h"
+#include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/search/near_search.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
 #include "core/scene/clearance_kernel.h"
@@ -92,22 +93,22 @@ class NearWork {
         shell_(shell),
         field_(field),
         lengths_(ContactLengths::make(Parameters::make(scene))),
-        longest_(std::min(lengths_.longest_reach, field.assured_clearance() / direction.most_stretch())),
+        longest_(std::min(lengths_.longest_search_radius, field.assured_clearance() / direction.most_stretch())),
         memory_(NearSearch::memory(shell)) {
     search_.start(memory_, shell, field.lipschitz(), direction.most_stretch() * longest_);
   }
 
   void visit(const Pose& H_WB) {
-    const double before = odometer_.way();
+    const double before = odometer_.travelled();
     odometer_.move_to(H_WB, lengths_.sphere);
-    const double moved = odometer_.way() - before;
-    const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_reach), longest_);
-    if (search_.is_free(odometer_.way() + moved, free_cut)) return;
+    const double moved = odometer_.travelled() - before;
+    const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_search_radius), longest_);
+    if (search_.is_free(odometer_.travelled() + moved, free_cut)) return;
     const double reach =
-        direction_.most_stretch() * lengths_.reach_for(ContactLengths::kReachOverWay * moved, longest_);
-    if (search_.is_free(odometer_.way(), reach)) return;
+        direction_.most_stretch() * lengths_.search_radius_for(ContactLengths::kSearchRadiusOverDisplacement * moved, longest_);
+    if (search_.is_free(odometer_.travelled(), reach)) return;
     search_.find(
-        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.way(), reach,
+        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.travelled(), reach,
         PointBudget{}, [](auto&&...) noexcept {}, [](double) noexcept {});
   }
 

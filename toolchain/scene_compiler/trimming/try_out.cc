@@ -11,7 +11,7 @@
 
 #include <time.h>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "toolchain/command_line/failure.h"
 
 namespace godobject::scene_compiler {
@@ -26,8 +26,8 @@ constexpr std::chrono::seconds kLongest{4};
 /// One session of the scene's own pipeline.
 class Session {
  public:
-  explicit Session(const Scene& scene) : memory_(GodObject::memory(scene)), god_object_(std::make_unique<GodObject>()) {
-    if (god_object_->start(scene, scene.default_solver(), scene.settings.friction != 0, memory_) != Status::kOk)
+  explicit Session(const Scene& scene) {
+    if (god_object_.start(scene, scene.default_solver(), scene.settings.friction != 0) != Status::kOk)
       throw command::Failure(command::ExitCode::kInternal, "the image does not run its own solver; please report this");
   }
 
@@ -36,14 +36,13 @@ class Session {
     CycleReport report;
     if (god_object_->update({H_WM, Motion{}}, report) != Status::kOk)
       throw command::Failure(command::ExitCode::kInternal, "a pose of the motion is none; please report this scene");
-    return report.contacts > 0 && report.penetration > -0.1 * god_object_->parameters().voxel_size;
+    return report.contacts > 0 && report.penetration > -0.1 * god_object_.parameters().voxel_size;
   }
   void reset() { god_object_->reset(); }
-  const Pose& H_WB() const { return god_object_->state().H_WS; }
+  const Pose& H_WB() const { return god_object_.state().H_WS; }
 
  private:
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<GodObject> god_object_;
+  OwnedGodObject god_object_;
 };
 
 /// That this thread has used.

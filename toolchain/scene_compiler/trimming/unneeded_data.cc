@@ -4,7 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/contact/contact_directions.h"
+#include "core/pipeline/contact/contact_lengths.h"
 #include "toolchain/scene_compiler/trimming/pruned_tree.h"
 #include "toolchain/scene_compiler/trimming/reachable_bricks.h"
 #include "toolchain/scene_compiler/trimming/touchable_points.h"
@@ -94,8 +95,8 @@ class Unneeded {
     const double body_radius = image.scene.body_map.surface_radius(q.mass.sphere.center);
     const godobject::detail::FeatureDirection direction(lengths, body_radius);
     // a near point's lever, and with that how far it goes
-    const double lever = body_radius + direction.most_stretch() * lengths.longest_reach;
-    const double longest_way = direction.stretch(lever) * lengths.longest_reach;
+    const double lever = body_radius + direction.most_stretch() * lengths.longest_search_radius;
+    const double longest_way = direction.stretch(lever) * lengths.longest_search_radius;
     const double least = least_look_up(parts_.features, *workspace_, longest_way);
     const LeftOutBricks left_out = leave_out_unreachable_core(parts_.body_field, least);
     report_.second.grid = parts_.body_field.grid;

@@ -21,7 +21,7 @@ struct Largest {
 };
 
 float violation(const ContactRows& rows, std::uint32_t i, const float (&m)[6]) noexcept {
-  return rows.need[i] - (m[0] * rows.normal_x[i] + m[1] * rows.normal_y[i] + m[2] * rows.normal_z[i] +
+  return rows.required_gain[i] - (m[0] * rows.normal_x[i] + m[1] * rows.normal_y[i] + m[2] * rows.normal_z[i] +
                          m[3] * rows.torque_x[i] + m[4] * rows.torque_y[i] + m[5] * rows.torque_z[i]);
 }
 
@@ -35,7 +35,7 @@ Largest largest_violation(const ContactRows& rows, std::uint32_t count, const fl
     for (std::uint32_t i = begin; i < end; i += kLanes) {
       // in one expression: no vector is passed to or from a function, whose way of passing it may differ
 #define GODOBJECT_AT(component) (*reinterpret_cast<const Lanes*>(rows.component + i))
-      const Lanes here = GODOBJECT_AT(need) - (m[0] * GODOBJECT_AT(normal_x) + m[1] * GODOBJECT_AT(normal_y) +
+      const Lanes here = GODOBJECT_AT(required_gain) - (m[0] * GODOBJECT_AT(normal_x) + m[1] * GODOBJECT_AT(normal_y) +
                                                m[2] * GODOBJECT_AT(normal_z) + m[3] * GODOBJECT_AT(torque_x) +
                                                m[4] * GODOBJECT_AT(torque_y) + m[5] * GODOBJECT_AT(torque_z));
 #undef GODOBJECT_AT
@@ -55,7 +55,7 @@ using Narrow __attribute__((vector_size(kContacts * sizeof(float)))) = float;
 /// The batch's contacts as rows from `at` on, and up to kContacts - 1 that mean nothing. `m`: from the batch's
 /// gradients to S, row by row.
 GODOBJECT_VECTOR_WIDTHS
-void append(const ContactRows::Batch& batch, std::uint32_t count, const double (&m)[9], const ContactRows::Gap& gap,
+void append(const ContactRows::Batch& batch, std::uint32_t count, const double (&m)[9], const GapLaw& gap,
             ContactRows& rows, std::uint32_t at) noexcept {
   for (std::uint32_t i = 0; i < count; i += kContacts) {
 #define GODOBJECT_OF(component) (*reinterpret_cast<const Doubles*>(batch.component + i))
@@ -87,7 +87,7 @@ void append(const ContactRows::Batch& batch, std::uint32_t count, const double (
     GODOBJECT_SET(point_x, px)
     GODOBJECT_SET(point_y, py)
     GODOBJECT_SET(point_z, pz)
-    GODOBJECT_SET(need, (lost > gap.tolerance ? regained : spare))
+    GODOBJECT_SET(required_gain, (lost > gap.tolerance ? regained : spare))
 #undef GODOBJECT_SET
 #undef GODOBJECT_OF
   }
@@ -112,7 +112,7 @@ std::uint32_t block_of(const ContactRows& rows, std::uint32_t point_id, std::uin
 
 }  // namespace
 
-std::uint32_t ContactRows::push(Batch& batch, const Matrix3& S_to_gradient, const Gap& gap) noexcept {
+std::uint32_t ContactRows::push(Batch& batch, const Matrix3& S_to_gradient, const GapLaw& gap) noexcept {
   const std::uint32_t pushed = std::min(batch.count, kCapacity - count);
   double to_S[9];
   for (int row = 0; row < 3; ++row) {

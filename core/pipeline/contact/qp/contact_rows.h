@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Geometry>
@@ -8,10 +10,30 @@
 
 namespace godobject {
 
+/// How a contact whose gap is not the margin regains it, or may lose it.
+struct GapLaw {
+  double margin;        ///< the gap that is kept [m]
+  double tolerance;     ///< a gap this near to the margin counts as the margin: a body at rest stays where it is [m]
+  double recovery;      ///< share of a lost gap that is regained in one sub-step [1]
+  double largest_gain;  ///< most that is regained in one sub-step [m]
+
+  /// Required gap increase of one sub-step, from `lost` = margin - gap; negative: the gap may shrink [m].
+  double required_gain(double lost) const noexcept {
+    if (std::fabs(lost) <= tolerance) return 0.0;
+    return lost > 0.0 ? std::min(recovery * lost, largest_gain) : lost;
+  }
+};
+
+/// Share of a lost gap that is regained in one sub-step.
+/// Chosen: 0.1 to 0.5 rest on the same poses; above 0.5 a tilted face that regains its gap at one end loses it at the
+/// other and swings, below 0.1 a body that was pushed too near takes tens of cycles to come back.
+inline constexpr double kRecovery = 0.3;
+
 /// Linear constraints of one cycle on the motion (x, r) of the god object, in the body frame S, one a contact point:
-///     n . (x + r x P) >= need
-/// n is the unit direction in which the gap grows, P the point, need how much of it must be gained [m]; negative: how
-/// much may be lost. Single precision, one array a component: a scan over all rows is what the solver does most.
+///     n . (x + r x P) >= required gain
+/// n is the unit direction in which the gap grows, P the point; the required gain is the gap increase that the motion must
+/// bring [m], and if negative the decrease that it may bring. Single precision, one array a component: the solver spends
+/// most of its time in scans over all rows.
 struct ContactRows {
   static constexpr std::uint32_t kCapacity = 2048;
   /// A cache line longer: at a power of two apart, the arrays' first rows would all fall into one set of the cache.
@@ -32,14 +54,6 @@ struct ContactRows {
     alignas(64) double distance[kCapacity];  ///< [m]
   };
 
-  /// What is asked for of a contact whose gap is not the margin.
-  struct Gap {
-    double margin;        ///< [m]
-    double tolerance;     ///< a gap this near to the margin is the margin: what rests stays where it is [m]
-    double recovery;      ///< share of a lost margin that is regained at once
-    double largest_gain;  ///< at most [m]
-  };
-
   std::uint32_t count = 0;
   alignas(64) float normal_x[kLength];
   alignas(64) float normal_y[kLength];
@@ -47,7 +61,7 @@ struct ContactRows {
   alignas(64) float torque_x[kLength];  ///< P x n
   alignas(64) float torque_y[kLength];
   alignas(64) float torque_z[kLength];
-  alignas(64) float need[kLength];
+  alignas(64) float required_gain[kLength];
   float point_x[kLength];
   float point_y[kLength];
   float point_z[kLength];
@@ -56,7 +70,7 @@ struct ContactRows {
   bool full() const noexcept { return count == kCapacity; }
 
   /// Not when full.
-  void push(std::uint32_t point_id, const Vector3& normal, const Vector3& point, double needed) noexcept {
+  void push(std::uint32_t point_id, const Vector3& normal, const Vector3& point, double gain) noexcept {
     const Vector3 torque = point.cross(normal);
     const std::uint32_t i = count++;
     normal_x[i] = static_cast<float>(normal.x());
@@ -68,13 +82,13 @@ struct ContactRows {
     point_x[i] = static_cast<float>(point.x());
     point_y[i] = static_cast<float>(point.y());
     point_z[i] = static_cast<float>(point.z());
-    need[i] = static_cast<float>(needed);
+    required_gain[i] = static_cast<float>(gain);
     id[i] = point_id;
   }
 
   /// Appends the contacts, as far as there is room; gives how many found none. No gradient is zero; as P moves by dP
   /// in S the distance grows by gradient^T R_S dP, with R_S = `S_to_gradient`.
-  std::uint32_t push(Batch& batch, const Matrix3& S_to_gradient, const Gap& gap) noexcept;
+  std::uint32_t push(Batch& batch, const Matrix3& S_to_gradient, const GapLaw& gap) noexcept;
 
   static constexpr std::uint32_t kNone = ~0u;
 
@@ -83,7 +97,7 @@ struct ContactRows {
 
   struct Violated {
     std::uint32_t row = kNone;  ///< kNone: none by more than the tolerance
-    double violation = 0.0;     ///< need - n . (x + r x P), the largest of all rows [m]
+    double violation = 0.0;     ///< required gain - n . (x + r x P), the largest of all rows [m]
   };
 
   /// The row that a motion violates most. About 0.25 ns a row with eight lanes.

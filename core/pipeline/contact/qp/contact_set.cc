@@ -12,7 +12,7 @@ ContactSet::ContactSet(ContactRows& rows, const Motion& wanted, const CouplingMe
 ActiveSet::Inequality ContactSet::row_half_space(std::uint32_t row) const noexcept {
   ActiveSet::Inequality half_space;
   half_space.gradient = space_.gradient(rows_.normal(row), rows_.point(row));
-  half_space.rhs = static_cast<double>(rows_.need[row]);
+  half_space.rhs = static_cast<double>(rows_.required_gain[row]);
   half_space.tag.row = row;
   return half_space;
 }

@@ -26,7 +26,7 @@ struct Contact {
   std::uint32_t row = ContactRows::kNone;
   Vector3 normal;        ///< n, unit, in S
   Vector3 point;         ///< in S [m]
-  double need = 0.0;     ///< [m]
+  double required_gain = 0.0;  ///< [m]
   double ratio = 0.0;    ///< mu
   double shift = 0.0;    ///< |slip| that the cone is shifted by [m]
   double speed = 0.0;    ///< Newton: |slip| at the last step [m]

@@ -13,7 +13,7 @@ ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vecto
   const Contact& c = contact(contact_index);
   ActiveSet::Inequality half_space;
   half_space.gradient = space_.gradient(c.normal - c.ratio * slip, c.point);
-  half_space.rhs = c.need - c.ratio * c.shift;
+  half_space.rhs = c.required_gain - c.ratio * c.shift;
   half_space.tag = {c.row, contact_index, slip};
   return half_space;
 }
@@ -23,9 +23,9 @@ int ContactSet::open(std::uint32_t row) noexcept {
   c = {.row = row,
        .normal = rows_.normal(row).normalized(),  // single precision would let a slip of nanometres lean
        .point = rows_.point(row),
-       .need = static_cast<double>(rows_.need[row])};
+       .required_gain = static_cast<double>(rows_.required_gain[row])};
   c.ratio = ratio_of(c);
-  rows_.need[row] = -FLT_MAX;
+  rows_.required_gain[row] = -FLT_MAX;
   return contact_count_++;
 }
 
@@ -42,14 +42,14 @@ void ContactSet::close_idle() noexcept {
     if (used) {
       contact(kept++) = c;
     } else {
-      rows_.need[c.row] = static_cast<float>(c.need);
+      rows_.required_gain[c.row] = static_cast<float>(c.required_gain);
     }
   }
   contact_count_ = kept;
 }
 
 void ContactSet::close_all() noexcept {
-  for (int k = 0; k < contact_count_; ++k) rows_.need[contact(k).row] = static_cast<float>(contact(k).need);
+  for (int k = 0; k < contact_count_; ++k) rows_.required_gain[contact(k).row] = static_cast<float>(contact(k).required_gain);
   contact_count_ = 0;
 }
 
@@ -88,7 +88,7 @@ void ContactSet::restore(const Saved& saved) noexcept {
   active_ = saved.active;
   contacts_ = saved.contacts;
   contact_count_ = saved.contact_count;
-  for (int k = 0; k < contact_count_; ++k) rows_.need[contact(k).row] = -FLT_MAX;
+  for (int k = 0; k < contact_count_; ++k) rows_.required_gain[contact(k).row] = -FLT_MAX;
 }
 
 }  // namespace godobject::detail

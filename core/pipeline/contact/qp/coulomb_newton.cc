@@ -53,7 +53,7 @@ void assemble(const ContactSet& set, const Vector6& target, NewtonSystem& system
   for (int j = 0; j < n; ++j) {
     const auto at = static_cast<std::size_t>(j);
     for (int k = 0; k < system.size(); ++k) equations.matrix[j][k] = row[at].dot(system.force_of(k));
-    equations.rhs[j] = set.contact_of(j).need - row[at].dot(target);
+    equations.rhs[j] = set.contact_of(j).required_gain - row[at].dot(target);
     if (across[at] < 0) continue;
     const int i = across[at];
     const Vector6& e = system.force_of(i);

@@ -89,7 +89,7 @@ void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMet
   }
   if (solve(rows, wanted, metric, friction, last, step)) return;
   // what nobody can meet together need not be gained; the motion zero is then one that meets all rows
-  for (std::uint32_t i = 0; i < rows.count; ++i) rows.need[i] = std::min(rows.need[i], 0.0f);
+  for (std::uint32_t i = 0; i < rows.count; ++i) rows.required_gain[i] = std::min(rows.required_gain[i], 0.0f);
   step.force_count = 0;
   solve(rows, wanted, metric, friction, last, step);
   step.infeasible = true;

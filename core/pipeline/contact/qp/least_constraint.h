@@ -110,7 +110,7 @@ inline constexpr int kMostFrictionAdditions = 512;
 /// Bounded: at most 100 additions without and 512 with friction (kMostAdditions, kMostFrictionAdditions), twice that
 /// where infeasible (seen in random problems: up to 27 and 196); an addition is one scan of the rows and at most
 /// seven exchanges. Newton's method takes at most 144 steps, each a scan and a system of at most twelve equations. No
-/// allocation. `rows.need` is restored but for infeasible rows. `step` holds the last cycle's result as the warm start;
+/// allocation. `rows.required_gain` is restored but for infeasible rows. `step` holds the last cycle's result as the warm start;
 /// of several rows with its id a force goes to the one whose normal fits best.
 ///
 /// Time in the recorded scenes, warm: 20 rows 0.3 to 0.4 us without (99 %: 0.7 us), 1.1 to 2 us with friction (99 %: 4

@@ -24,7 +24,7 @@ ViolatedCone most_violated_cone(const ContactSet& set, const Motion& m, double l
   for (int k = 0; k < set.contact_count(); ++k) {
     const Contact& c = set.contact(k);
     const Slip slip = set.slip_of(c, m);
-    const double violation = c.need + c.ratio * (slip.speed - c.shift) - slip.approach;
+    const double violation = c.required_gain + c.ratio * (slip.speed - c.shift) - slip.approach;
     if (violation > limit) {
       limit = violation;
       worst = {k, slip};

@@ -36,19 +36,9 @@ struct Ripples {
   Vector3 gradient(const Vector3& p) const noexcept { return {scale * kSlope * std::sin(kNumber * p.x()), 0.0, scale}; }
 };
 
-template <bool kFriction, DistanceField Field>
-Status run_alone(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
-                 State& state, CycleReport& report, StepTimes* times) {
-  static const auto workspace = std::make_unique<ContactWorkspace>();
-  ContactSearch search;
-  const FeatureContacts<Field>* const none = nullptr;
-  search.start(field, shell, none, ContactLengths::make(q), {});
-  return contact_cycle<kFriction, Field, Field>(field, shell, none, q, input, search, state, *workspace, report, times);
-}
-
 template <class Shape, bool kFriction = false>
-struct ContactRun : AnalyticRun<AnalyticField<Shape>, &run_alone<kFriction, AnalyticField<Shape>>> {
-  using Base = AnalyticRun<AnalyticField<Shape>, &run_alone<kFriction, AnalyticField<Shape>>>;
+struct ContactRun : AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>> {
+  using Base = AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>>;
   ContactRun(const AnalyticField<Shape>& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
     this->parameters.margin = kMargin;
     this->parameters.friction = {0.2, 0.18, 0.0};
@@ -351,19 +341,20 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   const SampledBody spike({{{0.0, 0.0, 0.0}}, {{0.0, 0.0, -1.0}}}, Vector3::Ones());
   const Pointshell tip = spike.pointshell();
   const Vector3 tip_W(0.304, 0.007, 0.05);
-  const FeatureContacts<AnalyticField<BoxField>> features{box, tip, tip_W, 0.05};
+  const FeatureContacts<AnalyticField<BoxField>> features{&box, tip, tip_W, 0.05};
 
   Parameters q;
   q.mass = body.mass;
   q.voxel_size = kVoxel;
   q.margin = kMargin;
-  const auto workspace = std::make_unique<ContactWorkspace>();
-  ContactSearch search;
-  search.start(nothing, body.pointshell(), &features, ContactLengths::make(q), {});
+  const Pointshell shell = body.pointshell();
+  const ContactScene<AnalyticField<HalfSpace>, AnalyticField<BoxField>> scene(nothing, shell, features, q);
+  const auto memory = std::make_unique<ContactMemory>();
+  memory->search.start(scene, {});
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  State state;
-  state.H_WS = state.H_WD = at(tip_W + Vector3(0.0, 0.0, 0.03));
+  ProxyState state;
+  state.H_WS = memory->H_WD_last = at(tip_W + Vector3(0.0, 0.0, 0.03));
   state.started = true;
   CycleReport report;
   Pose device = state.H_WS;
@@ -371,19 +362,20 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
     // wanders about the tip, mostly pressing upon it
     device.translation = tip_W + Vector3(0.01 * std::sin(0.013 * i), 0.01 * std::sin(0.017 * i), 0.008);
     device.rotation = exp_rotation(Vector3(0.3 * std::sin(0.011 * i), 0.3 * std::sin(0.019 * i), 0.002 * i));
-    ASSERT_EQ((contact_cycle<false>(nothing, body.pointshell(), &features, q, {device, {}}, search, state, *workspace,
-                                    report)),
-              Status::kOk);
+    CycleInput input;
+    input.H_WD = device;
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
     ASSERT_GT(BoxField{}.distance(state.H_WS.inverse() * tip_W), 0.0) << i;
   }
   EXPECT_EQ(report.contacts, 1u);
   EXPECT_NEAR(BoxField{}.distance(state.H_WS.inverse() * tip_W), kMargin, 1e-5);
   // without the second direction the box does not know of it
-  State blind = state;
+  const ContactScene<AnalyticField<HalfSpace>, AnalyticField<BoxField>> one_direction(nothing, shell, {}, q);
+  ProxyState blind = state;
+  CycleInput input;
+  input.H_WD = device;
   for (int i = 0; i < 50; ++i) {
-    ASSERT_EQ((contact_cycle<false, AnalyticField<HalfSpace>, AnalyticField<BoxField>>(
-                  nothing, body.pointshell(), nullptr, q, {device, {}}, search, blind, *workspace, report)),
-              Status::kOk);
+    ASSERT_EQ(contact_cycle<false>(one_direction, input, *memory, blind, report), Status::kOk);
   }
   EXPECT_LT(BoxField{}.distance(blind.H_WS.inverse() * tip_W), -0.001);
 }
@@ -438,15 +430,16 @@ TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
   q.coupling_rotation = 0.01;
   const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
   int damped = 0;
+  const auto memory = std::make_unique<ContactMemory>();
   for (int i = 0; i < 20000; ++i) {
     ConstrainedStep step;
-    detail::ContactResult result(State{}, step);
+    detail::ContactResult result;
     const Vector3 point = single(0.05 * vector());
     const double load = std::pow(10.0, 16.0 * unit(random) - 3.0);
     Vector3 sum = Vector3::Zero();
     const std::uint32_t count = 2 + static_cast<std::uint32_t>(4.0 * unit(random));
     for (std::uint32_t j = 0; j < count; ++j) {
-      ContactForce& force = result.step.forces[result.step.force_count++];
+      ContactForce& force = step.forces[step.force_count++];
       force.point = point;
       const bool closes = j + 1 == count;
       force.normal = single(closes ? Vector3(-sum.normalized()) : Vector3(vector().normalized()));
@@ -455,9 +448,9 @@ TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
     }
     CycleInput input;
     input.velocity_W = {0.1 * vector(), vector()};
-    State state;
+    ProxyState state;
     CycleReport report;
-    ASSERT_EQ(detail::finish(input, result, false, q, state, report), Status::kOk);
+    ASSERT_EQ(detail::finish_contact(input, result, step, q, *memory, state, report), Status::kOk);
     const Wrench& total = report.force.total_W;  // without a stretch there is no spring
     const double speed = std::hypot(input.velocity_W.translation.norm(), gyration * input.velocity_W.rotation.norm());
     ASSERT_LE(std::hypot(total.force.norm(), total.torque.norm() / gyration), q.damping * speed * 1.000001)

@@ -13,8 +13,8 @@ namespace godobject::test {
 namespace {
 
 using Floor = AnalyticField<HalfSpace>;
-using PlainRun = AnalyticRun<Floor, &corrected_cycle<false, Floor>>;
-using FrictionRun = AnalyticRun<Floor, &corrected_cycle<true, Floor>>;
+using PlainRun = AnalyticRun<Floor, CorrectedCycle<false>>;
+using FrictionRun = AnalyticRun<Floor, CorrectedCycle<true>>;
 
 constexpr double kBallRadius = 0.02;
 constexpr double kVoxel = 0.002;
@@ -87,7 +87,7 @@ TEST(Projection, IsTheNearestOfTheAllowedMotions) {
 TEST(Projection, FollowsBetweenOpposingContactsWithoutLeavingThem) {
   const AnalyticField<Slot> slot(Slot{kBallRadius + 1e-4}, kVoxel);
   const SampledBody ball = ball_body();
-  AnalyticRun<AnalyticField<Slot>, &corrected_cycle<false, AnalyticField<Slot>>> run(slot, ball, Pose{});
+  AnalyticRun<AnalyticField<Slot>, CorrectedCycle<false>> run(slot, ball, Pose{});
   for (int k = 0; k < 4000; ++k) {
     ASSERT_EQ(run.step(at(0.0, 1e-5 * k)), Status::kOk);
     ASSERT_LT(std::fabs(run.state.H_WS.translation.x()), 2e-4);
@@ -118,7 +118,7 @@ TEST(Corrected, StaysOnABallWithinATenthOfAVoxelWhileItSlidesAround) {
   const auto pose = [](double angle, double distance) {
     return at(distance * std::sin(angle), distance * std::cos(angle));
   };
-  AnalyticRun<AnalyticField<Ball>, &corrected_cycle<false, AnalyticField<Ball>>> run(world, ball, pose(0.0, 0.13));
+  AnalyticRun<AnalyticField<Ball>, CorrectedCycle<false>> run(world, ball, pose(0.0, 0.13));
   double deepest = 0.0;
   for (int k = 0; k < 4000; ++k) {
     const double distance = 0.13 - std::min(0.015, 3e-5 * k);
@@ -276,7 +276,7 @@ TEST(Corrected, IsFiniteAndBoundedUnderJumpsOfTheDevice) {
   std::normal_distribution<double> normal;
   for (const SampledBody& body :
        {ball_body(), box_body(), SampledBody({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero())}) {
-    AnalyticRun<AnalyticField<Plate>, &corrected_cycle<true, AnalyticField<Plate>>> run(plate, body, at(0.0, 0.1));
+    AnalyticRun<AnalyticField<Plate>, CorrectedCycle<true>> run(plate, body, at(0.0, 0.1));
     run.parameters.friction = {0.2, 0.18, 1.0};
     for (int k = 0; k < 2000; ++k) {
       Pose device;

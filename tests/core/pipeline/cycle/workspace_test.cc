@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/god_object.h"
+#include "toolchain/session/owned_god_object.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
 
@@ -70,8 +70,8 @@ constexpr Pipeline kPipelines[] = {
 class Session {
  public:
   Session(const Pipeline& pipeline, const std::optional<format::Workspace>& workspace)
-      : image_(make_image(pipeline.body, workspace)), scene_(open_scene(image_)), memory_(GodObject::memory(scene_)) {
-    EXPECT_EQ(god_object_->start(scene_, pipeline.solver, pipeline.friction, memory_), Status::kOk);
+      : image_(make_image(pipeline.body, workspace)), scene_(open_scene(image_)) {
+    EXPECT_EQ(god_object_.start(scene_, pipeline.solver, pipeline.friction), Status::kOk);
   }
 
   /// The body's centre at `center`.
@@ -82,18 +82,17 @@ class Session {
     H_WB.rotation = exp_rotation(turn);
     return god_object_->update({H_WB * scene_.H_MB.inverse(), {velocity, Vector3::Zero()}}, report);
   }
-  const Vector3& center() const { return god_object_->state().H_WS.translation; }
-  double depth() const { return -smallest_distance(scene_.voxelmap, scene_.pointshell, god_object_->state().H_WS); }
+  const Vector3& center() const { return god_object_.state().H_WS.translation; }
+  double depth() const { return -smallest_distance(scene_.voxelmap, scene_.pointshell, god_object_.state().H_WS); }
   const Scene& scene() const { return scene_; }
-  GodObject& god_object() { return *god_object_; }
+  OwnedGodObject& god_object() { return god_object_; }
 
   CycleReport report;
 
  private:
   SceneImage image_;
   Scene scene_;
-  std::vector<std::uint32_t> memory_;
-  std::unique_ptr<GodObject> god_object_ = std::make_unique<GodObject>();
+  OwnedGodObject god_object_;
 };
 
 class InAWorkspace : public testing::TestWithParam<Pipeline> {};
@@ -191,7 +190,7 @@ TEST_P(InAWorkspace, RendersNothingUntilTheDeviceHasBeenWithinIt) {
   ASSERT_EQ(run.update({0.0, 0.0, 0.09}), Status::kOk);
   EXPECT_TRUE(run.god_object().state().started);
   EXPECT_FALSE(run.report.outside);
-  run.god_object().reset();
+  run.god_object()->reset();
   ASSERT_EQ(run.update({0.0, 0.2, 0.09}), Status::kOk);
   EXPECT_TRUE(run.report.force.total_W.force.isZero(0.0));
 }

@@ -12,7 +12,7 @@ namespace godobject::test {
 namespace {
 
 using Floor = AnalyticField<HalfSpace>;
-using PaperRun = AnalyticRun<Floor, &paper_cycle<false, Floor>>;
+using PaperRun = AnalyticRun<Floor, PaperCycle<false>>;
 
 constexpr double kBallRadius = 0.02;
 constexpr double kVoxel = 0.002;

@@ -26,7 +26,7 @@ TEST(ContactRows, FindTheRowThatIsViolatedMost) {
       std::uint32_t row = ContactRows::kNone;
       for (std::uint32_t i = 0; i < rows->count; ++i) {
         const Vector3 v = motion.translation + motion.rotation.cross(rows->point(i));
-        const double violation = static_cast<double>(rows->need[i]) - rows->normal(i).dot(v);
+        const double violation = static_cast<double>(rows->required_gain[i]) - rows->normal(i).dot(v);
         if (violation > largest) {
           largest = violation;
           row = i;
@@ -52,7 +52,7 @@ TEST(ContactRows, HaveNoViolatedRowWithinTheTolerance) {
 
 /// A batch gives the rows that the definitions give, contact by contact.
 TEST(ContactRows, TakeContactsInBatches) {
-  constexpr ContactRows::Gap kGap{1e-5, 1e-8, 0.3, 5e-4};
+  constexpr GapLaw kGap{1e-5, 1e-8, 0.3, 5e-4};
   test::Random random(11);
   for (std::uint32_t count = 0; count <= ContactRows::Batch::kCapacity; ++count) {
     const auto rows = std::make_unique<ContactRows>();
@@ -83,7 +83,7 @@ TEST(ContactRows, TakeContactsInBatches) {
       const Vector3 torque(static_cast<double>(rows->torque_x[row]), static_cast<double>(rows->torque_y[row]),
                            static_cast<double>(rows->torque_z[row]));
       EXPECT_LE((torque - point.cross(gradient_S.normalized())).norm(), 2e-8);
-      EXPECT_NEAR(static_cast<double>(rows->need[row]), need, 1e-7 * std::fabs(need) + 1e-12);
+      EXPECT_NEAR(static_cast<double>(rows->required_gain[row]), need, 1e-7 * std::fabs(need) + 1e-12);
     }
   }
 }

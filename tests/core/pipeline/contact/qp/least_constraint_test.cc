@@ -54,7 +54,7 @@ struct Problem {
     double worst = 0.0;
     const SixVector z = six(m, metric.gyration);
     for (const SlowContact& c : slow_contacts(*rows, metric.gyration)) {
-      worst = std::max(worst, c.need - c.gradient.dot(z));
+      worst = std::max(worst, c.required_gain - c.gradient.dot(z));
     }
     return worst;
   }
@@ -100,7 +100,7 @@ void expect_optimal(const Problem& p, const ConstrainedStep& step, double roundi
     EXPECT_EQ(f.normal, p.rows->normal(f.id));
     EXPECT_EQ(f.point, p.rows->point(f.id));
     const Vector3 v = step.motion.translation + step.motion.rotation.cross(f.point);
-    EXPECT_NEAR(f.normal.dot(v), static_cast<double>(p.rows->need[f.id]), 0.5 * p.metric.tolerance);
+    EXPECT_NEAR(f.normal.dot(v), static_cast<double>(p.rows->required_gain[f.id]), 0.5 * p.metric.tolerance);
     SixVector push;
     push << f.normal, f.point.cross(f.normal) / gyration;
     sum += f.multiplier * push;
@@ -141,13 +141,13 @@ TEST(LeastConstraint, IsOptimalOnRandomProblems) {
   for (int problem = 0; problem < 4000; ++problem) {
     const bool feasible = problem % 3 != 0;
     Problem p = random_problem(random, 1 + problem % 200, feasible);
-    const std::vector<float> needs(p.rows->need, p.rows->need + p.rows->count);
+    const std::vector<float> needs(p.rows->required_gain, p.rows->required_gain + p.rows->count);
     const ConstrainedStep step = p.solve();
     most = std::max(most, step.iterations);
     infeasible += step.infeasible ? 1 : 0;
     EXPECT_FALSE(feasible && step.infeasible);
     for (std::uint32_t i = 0; i < p.rows->count; ++i) {
-      EXPECT_EQ(p.rows->need[i], step.infeasible ? std::min(needs[i], 0.0f) : needs[i]);
+      EXPECT_EQ(p.rows->required_gain[i], step.infeasible ? std::min(needs[i], 0.0f) : needs[i]);
     }
     expect_optimal(p, step);
     if (HasFailure()) FAIL() << "problem " << problem;
@@ -284,7 +284,7 @@ TEST(LeastConstraint, TakesDuplicatedRowsForOne) {
     often.wanted = once.wanted;
     for (int copy = 0; copy < 7; ++copy) {
       for (std::uint32_t i = 0; i < once.rows->count; ++i) {
-        often.push(once.rows->normal(i), once.rows->point(i), static_cast<double>(once.rows->need[i]));
+        often.push(once.rows->normal(i), once.rows->point(i), static_cast<double>(once.rows->required_gain[i]));
       }
     }
     const ConstrainedStep step = often.solve();
@@ -430,7 +430,7 @@ TEST(LeastConstraint, KnowsNoUnitOfLength) {
       Problem scaled;
       scaled.metric = {scale * p.metric.gyration, scale * p.metric.tolerance, scale * p.metric.still};
       for (std::uint32_t i = 0; i < p.rows->count; ++i) {
-        scaled.push(p.rows->normal(i), scale * p.rows->point(i), scale * static_cast<double>(p.rows->need[i]));
+        scaled.push(p.rows->normal(i), scale * p.rows->point(i), scale * static_cast<double>(p.rows->required_gain[i]));
       }
       scaled.wanted = {scale * p.wanted.translation, p.wanted.rotation};
       const ConstrainedStep at_scale = scaled.solve();
@@ -510,7 +510,7 @@ CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, cons
     }
     if (total.tangential.norm() < 0.999 * limit - p.metric.tolerance) worst.creep = std::max(worst.creep, slip.norm());
     if (total.load > p.metric.tolerance) {
-      worst.gap = std::max(worst.gap, std::fabs(n.dot(v) - static_cast<double>(p.rows->need[id])));
+      worst.gap = std::max(worst.gap, std::fabs(n.dot(v) - static_cast<double>(p.rows->required_gain[id])));
     }
     const Vector3 force = total.load * n + total.tangential - friction.viscous_step * total.load / all * slip;
     SixVector push;
@@ -760,10 +760,10 @@ TEST(LeastConstraintFriction, ObeysCoulombOnRandomProblems) {
         const ContactFriction friction{ratio, random.between(0.5, 1.0) * ratio,
                                        viscous ? random.between(0.0, 2.0) : 0.0};
         const Motion last = problem % 2 == 0 ? Motion{} : random.motion(0.001, 0.01);
-        const std::vector<float> needs(p.rows->need, p.rows->need + p.rows->count);
+        const std::vector<float> needs(p.rows->required_gain, p.rows->required_gain + p.rows->count);
         const ConstrainedStep step = p.solve(friction, last, problem % 3 == 0 ? unrelated : ConstrainedStep{});
         outcomes.count(p, step, friction, last);
-        for (std::uint32_t i = 0; i < p.rows->count; ++i) ASSERT_EQ(p.rows->need[i], needs[i]);
+        for (std::uint32_t i = 0; i < p.rows->count; ++i) ASSERT_EQ(p.rows->required_gain[i], needs[i]);
         unrelated = step;
       }
       std::printf("mu %.2f%s ", ratio, viscous ? ", viscous" : "");

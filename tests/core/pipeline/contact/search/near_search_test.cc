@@ -119,8 +119,8 @@ void expect_the_points_of_brute_force(const Scene& scene, unsigned seed) {
     odometer.move_to(H, mass.sphere);
     const double cut = longest * (step % 7 == 0 ? 1.0 : walk.share());
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
-    ASSERT_EQ(found(remembers, direction, scene.voxelmap, scene.pointshell, H, odometer.way(), cut), expected) << step;
-    ASSERT_EQ(found(forgets, direction, scene.voxelmap, scene.pointshell, H, odometer.way(), cut), expected) << step;
+    ASSERT_EQ(found(remembers, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected) << step;
+    ASSERT_EQ(found(forgets, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected) << step;
     near += expected.size();
   }
   EXPECT_GT(near, static_cast<std::size_t>(kSteps)) << "the walk must come near";
@@ -158,7 +158,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
     const Pose H = detail::FeatureDirection::pose(H_WS, {0.05, 0.0, 0.0});
     const double cut = longest * walk.share();
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
-    ASSERT_EQ(found(search, direction, scene.voxelmap, scene.pointshell, H, odometer.way(), cut), expected) << step;
+    ASSERT_EQ(found(search, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected) << step;
     near += expected.size();
   }
   EXPECT_GT(near, 1000u) << "the walk must come near";
@@ -183,12 +183,12 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
     const double cut = longest * walk.share();
     if (walk.share() < 0.5) {
       search.find(
-          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.way(), cut, PointBudget{3, 1e-4},
+          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut, PointBudget{3, 1e-4},
           [](const SampleBatch&, const auto&, std::uint64_t) {}, [&](double) { ++short_of_it; });
       continue;
     }
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
-    ASSERT_EQ(found(search, detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.way(), cut),
+    ASSERT_EQ(found(search, detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut),
               expected)
         << step;
     near += expected.size();
@@ -228,7 +228,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
     std::vector<std::uint32_t> near;
     double least_left_out = std::numeric_limits<double>::infinity();
     search.find(
-        detail::SampleDirection{}, field, shell, H, odometer.way(), cut, budget,
+        detail::SampleDirection{}, field, shell, H, odometer.travelled(), cut, budget,
         [&](const SampleBatch&, const auto& index, std::uint64_t found) {
           for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
         },
@@ -295,14 +295,14 @@ TEST(Odometer, IsNeverBehindAnyPoint) {
   }
   Pose last = walk.next();
   odometer.move_to(last, sphere);
-  EXPECT_EQ(odometer.way(), 0.0);
+  EXPECT_EQ(odometer.travelled(), 0.0);
   for (int step = 0; step < 2000; ++step) {
-    const double before = odometer.way();
+    const double before = odometer.travelled();
     const Pose H = walk.next();
     odometer.move_to(H, sphere);
     double farthest = 0.0;
     for (const Vector3& p : points) farthest = std::max(farthest, (H * p - last * p).norm());
-    ASSERT_GE(odometer.way() - before, farthest) << step;
+    ASSERT_GE(odometer.travelled() - before, farthest) << step;
     last = H;
   }
 }

@@ -1,0 +1,87 @@
+#include "core/pipeline/compiled_session.h"
+
+#include "core/pipeline/cycle/workspace_limit.h"
+
+namespace godobject {
+namespace {
+
+/// Refuses a pose that is none; makes its rotation exactly unit.
+Status make_unit(Pose& H_WM) noexcept {
+  constexpr double kUnit = 1e-3;
+  constexpr double kFarthest_m = 1e7;  // the largest coordinate of a scene image
+  if (!H_WM.is_finite()) return Status::kNotFinite;
+  const double length = H_WM.rotation.norm();
+  if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return Status::kNotUnit;
+  if (H_WM.translation.cwiseAbs().maxCoeff() > kFarthest_m) return Status::kOutOfRange;
+  H_WM.rotation.coeffs() /= length;
+  return Status::kOk;
+}
+
+}  // namespace
+
+void CompiledSession::start(const Scene& scene, Solver solver, bool friction,
+                            std::span<std::uint32_t> words) noexcept {
+  scene_ = scene;
+  H_MB_ = scene.H_MB;
+  H_BM_ = scene.H_MB.inverse();
+  const Parameters parameters = Parameters::make(scene);
+  if constexpr (kSceneTraits.contact) {
+    if (solver == Solver::kContact && !friction && is_ball(scene)) {
+      return core_.start_ball(scene_.voxelmap, scene_.pointshell, parameters);
+    }
+  }
+  FeatureContacts<BodyField> features;
+  if constexpr (kSceneTraits.features) {
+    if (scene_.has_features()) {
+      features = {&scene_.body_map, scene_.features, scene_.features_origin,
+                  scene_.body_map.surface_radius(parameters.mass.sphere.center)};
+    }
+  }
+  core_.start(scene_.voxelmap, scene_.pointshell, features, parameters, solver, friction, words);
+}
+
+Status CompiledSession::refuse(Status status, CycleReport& report) const noexcept {
+  report = CycleReport{};
+  report.H_WS = core_.state().H_WS;
+  report.outcome = Outcome::kBadInput;
+  return status;
+}
+
+Status CompiledSession::follow(const Pose& H_WM, CycleReport& report) noexcept {
+  Pose unit = H_WM;
+  if (const Status status = make_unit(unit); status != Status::kOk) return refuse(status, report);
+  core_.place(unit * H_MB_);
+  report = CycleReport{};
+  report.H_WS = core_.state().H_WS;
+  return Status::kOk;
+}
+
+Status CompiledSession::update(const GodObject::Input& input, CycleReport& report, StepTimes* times) noexcept {
+  if (!input.velocity_W.translation.allFinite() || !input.velocity_W.rotation.allFinite()) {
+    return refuse(Status::kNotFinite, report);
+  }
+  Pose H_WM = input.H_WM;
+  if (const Status status = make_unit(H_WM); status != Status::kOk) return refuse(status, report);
+  CycleInput cycle_input;
+  cycle_input.H_WD = H_WM * H_MB_;
+  cycle_input.velocity_W = input.velocity_W;
+  const Parameters& parameters = core_.parameters();
+  if (parameters.workspace.limited) {
+    const Vector3 device = cycle_input.H_WD.translation;
+    cycle_input.H_WD.translation = parameters.workspace.nearest(device);
+    const Vector3 back_W = cycle_input.H_WD.translation - device;
+    if (!back_W.isZero(0.0)) {
+      if (!core_.state().started) {
+        const Status status = follow(H_WM, report);
+        report.outside = status == Status::kOk;
+        return status;
+      }
+      cycle_input.outside = true;
+      cycle_input.push = workspace_push(back_W, input.velocity_W.translation, parameters);
+    }
+  }
+  const Status status = core_.update(cycle_input, report, times);
+  return status == Status::kOk ? status : refuse(status, report);
+}
+
+}  // namespace godobject

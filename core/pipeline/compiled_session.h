@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "core/pipeline/session.h"
+#include "core/scene/scene.h"
+#include "godobject/god_object.h"
+
+namespace godobject {
+
+/// A session on a compiled scene, in the moving mesh's frame: what GodObject keeps in its caller's memory.
+class CompiledSession {
+ public:
+  using BodyField = std::conditional_t<kSceneTraits.features, Voxelmap, NoBodyField>;
+  using Core = Session<Voxelmap, BodyField>;
+
+  /// Words of the search's memory behind the session.
+  static std::size_t search_words(const Scene& scene) noexcept {
+    return Core::search_words(scene.pointshell, scene.features);
+  }
+
+  /// The solver, and friction if asked for, are in the image and in this build.
+  void start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept;
+
+  void reset() noexcept { core_.reset(); }
+  Status follow(const Pose& H_WM, CycleReport& report) noexcept;
+  Status update(const GodObject::Input& input, CycleReport& report, StepTimes* times) noexcept;
+  Pose mesh_pose() const noexcept { return core_.state().H_WS * H_BM_; }
+
+  const Parameters& parameters() const noexcept { return core_.parameters(); }
+  const ProxyState& state() const noexcept { return core_.state(); }
+
+ private:
+  Status refuse(Status status, CycleReport& report) const noexcept;
+
+  Scene scene_;
+  Pose H_MB_;
+  Pose H_BM_;
+  Core core_;
+};
+
+}  // namespace godobject

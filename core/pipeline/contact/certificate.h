@@ -1,0 +1,162 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "core/pipeline/contact/contact_lengths.h"
+#include "core/pipeline/contact/contact_limits.h"
+#include "core/pipeline/contact/search/near_points.h"
+#include "core/scene/field.h"
+#include "core/scene/sample_bits.h"
+
+/// The certificate of `contact`: a motion is accepted only if the chord of every near point, from the old pose to the new
+/// one, meets no stored surface, and no gap shrinks below the least margin. Points that are not near need no look: the
+/// motion is kept so short that their clearance covers it (`Surroundings::left_out`). So a point whose stored distance is
+/// positive keeps it so.
+///
+/// A chord is free if its two end balls (radius: FieldSample::clearance) cover it; or if a kernel proves it cell by cell
+/// (DistanceField::free_chords); or if further free balls along it do.
+namespace godobject::detail {
+
+/// The first point for which a motion was found not to be free.
+struct Obstacle {
+  static constexpr std::uint32_t kNone = ~0u;
+  std::uint32_t near = kNone;  ///< number of the near point for which the last motion was not free
+  double share = 1.0;          ///< share of its chord at which the look-up `sample` was made
+  bool exhausted = false;      ///< no surface was met up to `share`, but no more balls were left
+  FieldSample sample;          ///< at `share`
+};
+
+/// Look-ups for free balls that a cycle has left.
+struct Budget {
+  int balls = kMostBallsOfCycle;
+};
+
+/// Whether free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it. If not, the obstacle
+/// says where. At most kMostBallsOfChord look-ups.
+template <DistanceField Field>
+bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1, Budget& budget,
+                   Obstacle& obstacle) noexcept {
+  const Vector3 chord = p1 - p0;
+  const double length = chord.norm();
+  double covered = c0;
+  for (int ball = 0; ball < kMostBallsOfChord; ++ball) {
+    if (covered + c1 >= length) return true;
+    obstacle.share = covered / length;
+    if (budget.balls <= 0) break;
+    --budget.balls;
+    obstacle.sample = field.sample(p0 + obstacle.share * chord);
+    if (!(obstacle.sample.clearance > 0.0)) return false;
+    covered += obstacle.sample.clearance;
+  }
+  obstacle.exhausted = true;
+  return false;
+}
+
+/// The certificate of one direction for the motion from pose H0 to H1 of its shell in the field's frame.
+template <DistanceField Field>
+class Certificate {
+ public:
+  /// `least_gap`: no gap may shrink below it [m].
+  Certificate(const Field& field, const Pose& H0, const Pose& H1, double least_gap, double rounding,
+              const NearPoints& near, Budget& budget, Obstacle& obstacle) noexcept
+      : field_(field),
+        H0_(H0),
+        H1_(H1),
+        R0_(H0.rotation.toRotationMatrix()),
+        least_gap_(least_gap),
+        rounding_(rounding),
+        near_(near),
+        budget_(budget),
+        obstacle_(obstacle) {}
+
+  /// Whether all chords are free. Points that started inside are let out. The point of `obstacle` is looked at first,
+  /// since it is the likeliest to fail again.
+  bool holds() noexcept {
+    const Matrix3 turn = H1_.rotation.toRotationMatrix() - R0_;
+    const Vector3 shift = H1_.translation - H0_.translation;
+    const std::uint32_t suspect = obstacle_.near;
+    const bool has_suspect = suspect < near_.count;
+    if (has_suspect && (leaving(suspect - suspect % 64, turn, shift) >> suspect % 64 & 1) != 0) {
+      add(suspect);
+      if (any_fails()) return false;
+    }
+    for (std::uint32_t first = 0; first < near_.count; first += 64) {
+      std::uint64_t open = leaving(first, turn, shift);
+      if (has_suspect && suspect / 64 == first / 64) open &= ~(std::uint64_t{1} << suspect % 64);
+      for (; open != 0; open &= open - 1) {
+        add(first + static_cast<std::uint32_t>(std::countr_zero(open)));
+        if (ends_.count == SampleBatch::kCapacity && any_fails()) return false;
+      }
+    }
+    return ends_.count == 0 || !any_fails();
+  }
+
+ private:
+  /// Of 64 near points from `first` on those whose own ball does not cover the chord, a bit each.
+  std::uint64_t leaving(std::uint32_t first, const Matrix3& turn, const Vector3& shift) const noexcept {
+    return near_.leave_their_ball(first, turn, shift, least_gap_);
+  }
+
+  void add(std::uint32_t k) noexcept {
+    const std::uint32_t at = ends_.count++;
+    number_[at] = k;
+    ends_.x[at] = near_.x[k];
+    ends_.y[at] = near_.y[k];
+    ends_.z[at] = near_.z[k];
+    ends_.from_clearance[at] = near_.clearance[k];
+    ends_.from_distance[at] = near_.distance[k];
+  }
+
+  /// Looks up the ends of the chords in the batch and empties it; true where one is not proved free.
+  bool any_fails() noexcept {
+    for (std::uint32_t i = ends_.count; i % SampleBatch::kAtOnce != 0; ++i) ends_.from_distance[i] = 0.0;
+    field_.samples(H1_, ends_);
+    const std::uint64_t keeps_gap = keeps_distance(ends_, least_gap_, rounding_);
+    std::uint64_t open = first_bits(ends_.count) & ~(keeps_gap & field_.free_chords(H0_, H1_, ends_));
+    ends_.count = 0;
+    for (; open != 0; open &= open - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(open));
+      if (fails(i, (keeps_gap >> i & 1) != 0)) return true;
+    }
+    return false;
+  }
+
+  bool fails(std::uint32_t i, bool keeps_gap) noexcept {
+    const std::uint32_t k = number_[i];
+    const Vector3 p0 = R0_ * near_.point(k) + H0_.translation;
+    const bool is_free = chord_is_free(field_, p0, near_.clearance[k], stored_position(ends_, i), ends_.clearance[i],
+                                       budget_, obstacle_);
+    if (is_free && keeps_gap) return false;
+    if (is_free) {
+      obstacle_.share = 1.0;
+      obstacle_.sample = stored_sample(ends_, i);
+    }
+    obstacle_.near = k;
+    return true;
+  }
+
+  const Field& field_;
+  const Pose& H0_;
+  const Pose& H1_;
+  const Matrix3 R0_;
+  double least_gap_;
+  double rounding_;
+  const NearPoints& near_;
+  Budget& budget_;
+  Obstacle& obstacle_;
+  SampleBatch ends_;
+  std::array<std::uint32_t, SampleBatch::kCapacity> number_;
+};
+
+template <DistanceField Field>
+bool motion_is_free(const Field& field, const Pose& H0, const Pose& H1, double least_gap,
+                    const ContactLengths& lengths, const NearPoints& near, Budget& budget,
+                    Obstacle& obstacle) noexcept {
+  obstacle.exhausted = false;
+  if (near.count == 0) return true;
+  return Certificate<Field>(field, H0, H1, least_gap, lengths.rounding, near, budget, obstacle).holds();
+}
+
+}  // namespace godobject::detail

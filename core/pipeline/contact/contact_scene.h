@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/pipeline/contact/contact_directions.h"
+#include "core/pipeline/contact/contact_lengths.h"
+#include "core/pipeline/contact/feature_contacts.h"
+#include "core/pipeline/contact/qp/least_constraint.h"
+#include "core/pipeline/cycle/parameters.h"
+
+namespace godobject {
+
+/// Constants of a session of `contact`: the two bodies, and all lengths that depend on them only.
+template <DistanceField Field, DistanceField BodyField>
+struct ContactScene {
+  const Field* field = nullptr;         ///< of the still body, in W
+  const Pointshell* shell = nullptr;    ///< of the moving body, in S
+  FeatureContacts<BodyField> features;  ///< of the still body
+  const Parameters* parameters = nullptr;
+  ContactLengths lengths;
+  ContactFriction friction;
+  detail::FeatureDirection feature_direction;
+  double longest_search_radius = 0.0;  ///< displacement in a sub-step beyond which no field tells near from far [m]
+  double free_clearance = 0.0;         ///< a motion along which every clearance stays above this is free [m]
+
+  ContactScene() noexcept = default;
+
+  /// All references must outlive the scene.
+  ContactScene(const Field& still, const Pointshell& points, const FeatureContacts<BodyField>& second,
+               const Parameters& q) noexcept
+      : field(&still),
+        shell(&points),
+        features(second),
+        parameters(&q),
+        lengths(ContactLengths::make(q)),
+        friction{q.friction.static_ratio, q.friction.kinetic_ratio,
+                 q.friction.viscous / (q.stiffness * q.coupling_translation * q.period)},
+        feature_direction(lengths, second.body_radius),
+        longest_search_radius(std::min(lengths.longest_search_radius, still.assured_clearance())) {
+    if constexpr (kHasSecondDirection<BodyField>) {
+      if (features.map != nullptr) {
+        longest_search_radius =
+            std::min(longest_search_radius, features.map->assured_clearance() / feature_direction.most_stretch());
+      }
+    }
+    // beyond it a gap does not hold a motion back that it is free for, and is not reported
+    free_clearance = std::min(std::max(lengths.margin, lengths.shortest_search_radius), longest_search_radius);
+  }
+
+  bool has_features() const noexcept {
+    if constexpr (kHasSecondDirection<BodyField>) return features.map != nullptr;
+    return false;
+  }
+};
+
+}  // namespace godobject

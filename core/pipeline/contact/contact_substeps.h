@@ -1,0 +1,315 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "core/pipeline/contact/arrival.h"
+#include "core/pipeline/contact/certificate.h"
+#include "core/pipeline/contact/contact_memory.h"
+#include "core/pipeline/contact/contact_result.h"
+#include "core/pipeline/contact/contact_scene.h"
+#include "core/pipeline/contact/motion_share.h"
+#include "core/pipeline/contact/second_look.h"
+#include "core/pipeline/contact/substep_limits.h"
+#include "core/pipeline/contact/surroundings.h"
+#include "core/pipeline/cycle/state.h"
+#include "core/pipeline/cycle/step_times.h"
+#include "core/pipeline/cycle/unconstrained_motion.h"
+#include "core/pipeline/cycle/workspace_limit.h"
+
+namespace godobject::detail {
+
+/// The sub-steps of one cycle of `contact`: the lines of `contact_cycle`, and the variables that they share.
+template <bool kFriction, DistanceField Field, DistanceField BodyField>
+class ContactSubsteps {
+ public:
+  ContactSubsteps(const ContactScene<Field, BodyField>& scene, const CycleInput& input, const ProxyState& state,
+                  ContactMemory& memory, StepTimes* times) noexcept
+      : scene_(scene),
+        lengths_(scene.lengths),
+        input_(input),
+        state_(state),
+        memory_(memory),
+        rows_(memory.workspace.rows),
+        step_(memory.workspace.step),
+        times_(times),
+        wanted_(unconstrained_motion(state.H_WS, input.H_WD)),
+        last_motion_(memory.last_step.motion) {
+    step_ = memory.last_step;
+    result_.H_WS = state.H_WS;
+    result_.inside = state.inside;
+  }
+
+  /// The unconstrained motion from the god object to the device, #3.
+  void begin() noexcept {
+    H0_ = result_.H_WS;
+    is_first_ = result_.substeps + free_substeps_ == 0;
+    free_ = is_first_ ? wanted_ : unconstrained_motion(H0_, input_.H_WD);
+    free_displacement_ = travel(lengths_.sphere, free_);
+    if (!is_first_) end(times_, &StepTimes::solve_ns);
+    memory_.search.odometer.move_to(H0_, lengths_.sphere);
+  }
+
+  /// Earlier searches already tell that nothing is in the way; then the god object is at the device.
+  bool is_known_free() noexcept {
+    if (!is_clear_to_device()) return false;
+    follow_device();
+    result_.inside = false;
+    return true;
+  }
+
+  /// Near points and rows of both directions, #1.
+  void find_surroundings() noexcept {
+    if (is_first_) {
+      search_radius_ = first_search_radius(memory_, state_, input_.H_WD, lengths_, scene_.longest_search_radius);
+    }
+    around_ = Surroundings{.left_out = search_radius_};
+    rows_.count = 0;
+    find_samples();
+    find_features();
+    if (around_.dropped > 0) select_again();
+    end(times_, &StepTimes::step1_ns);
+    result_.smallest = around_.smallest;
+    result_.dropped = around_.dropped + around_.unseen;
+    // a point inside has no clearance, so it is near; the first pose is judged by both directions
+    const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
+    result_.inside = may_be_inside && around_.smallest <= 0.0;
+  }
+
+  /// No point is near on the whole motion; then the god object is at the device.
+  bool is_free() noexcept {
+    const bool alone = memory_.workspace.samples.count + memory_.workspace.features.count == 0;
+    ++(alone ? free_substeps_ : result_.substeps);
+    if (!alone) return false;
+    if (!is_clear_to_device() && allowed_share(free_, around_, search_radius_, lengths_, false) != 1.0) return false;
+    follow_device();
+    return true;
+  }
+
+  /// The motion nearest to the device that all rows and the workspace allow, #4.
+  void constrain() noexcept {
+    const WorkspaceBox& box = scene_.parameters->workspace;
+    const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
+    if (!box.limited) return least_constraint(rows_, free_, lengths_.metric, friction, last_motion_, step_);
+    bool infeasible = false;
+    push_within(box, lengths_.metric.tolerance, [&](const Vector3& push_W) noexcept {
+      Motion pushed = free_;
+      pushed.translation -= H0_.rotation.conjugate()._transformVector(push_W);
+      least_constraint(rows_, pushed, lengths_.metric, friction, last_motion_, step_);
+      infeasible |= step_.infeasible;
+      step_.follows &= push_W.isZero(0.0);
+      return H0_ * step_.motion.translation;
+    });
+    step_.infeasible = infeasible;
+  }
+
+  /// After a start inside the surroundings do not tell a way out; then the god object is at the device, without force.
+  bool is_lost() noexcept {
+    if (!result_.inside || !(around_.swallowed || step_.infeasible)) return false;
+    step_ = ConstrainedStep{};
+    result_.H_WS = input_.H_WD;
+    result_.cut = false;
+    return true;
+  }
+
+  /// Tries the motion, or less of it, until the certificate holds. Sets `motion_` and `H1_`.
+  void certify() noexcept {
+    share_ = MotionShare(allowed_share(step_.motion, around_, search_radius_, lengths_, rows_.count > 0));
+    at_sample_ = at_feature_ = Obstacle{};
+    opened_ = false;
+    while (share_.next()) {
+      if (!set_trial_pose()) {
+        share_.halve();
+        continue;
+      }
+      end(times_, &StepTimes::solve_ns);
+      const bool samples_free = are_samples_free();
+      const bool features_free = are_features_free();
+      const bool is_free = samples_free && features_free;
+      Arrival arrival;
+      if (is_free && share_.is_whole() && travel(lengths_.sphere, motion_) > lengths_.metric.tolerance) {
+        arrival = arrive(scene_, H0_, H1_, step_);
+      }
+      end(times_, &StepTimes::step1_ns);
+      if (arrival.overshoot > kMostOvershoot) {
+        share_.stop_at(1.0 / (1.0 + arrival.overshoot));
+        continue;
+      }
+      opened_ = arrival.opened;
+      if (is_free) return;
+      react_to_obstacle(samples_free, features_free);
+    }
+    share_.give_up();
+    H1_ = H0_;
+    motion_ = Motion{};
+  }
+
+  /// Goes to the certified pose and chooses the next sub-step's search radius.
+  void advance() noexcept {
+    const double remainder = (1.0 - share_.value()) * travel(lengths_.sphere, step_.motion);
+    step_.motion = motion_;
+    last_motion_ = motion_;
+    whole_.translation += motion_.translation;
+    whole_.rotation += motion_.rotation;
+    result_.H_WS = H1_;
+    result_.cut = share_.is_cut();
+    most_search_radius_ =
+        std::min(std::max(most_search_radius_, 2.0 * search_radius_), scene_.longest_search_radius);
+    longest_displacement_ = std::max(longest_displacement_, travel(lengths_.sphere, motion_));
+    // the remainder of a cut motion may change its direction, but is seldom twice as long; what follows a motion round an
+    // edge is seldom longer than all before
+    const double expected = result_.cut ? 2.0 * remainder : longest_displacement_;
+    search_radius_ =
+        std::min(most_search_radius_, lengths_.search_radius_for(expected, scene_.longest_search_radius));
+  }
+
+  /// Whether another sub-step follows.
+  bool remain() const noexcept {
+    return share_.value() != 0.0 && (result_.cut || opened_) && !result_.inside && budget_.balls > 0 &&
+           result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
+  }
+
+  Status finish(ProxyState& state, CycleReport& report) noexcept {
+    if (result_.substeps == 0 && step_.follows) {
+      step_.motion = wanted_;  // in however many sub-steps
+    } else if (result_.substeps + free_substeps_ > 1) {
+      // friction asks whether a point slipped in the whole cycle; the sum keeps the slip of a point that stuck at zero
+      step_.motion = whole_;
+    }
+    return finish_contact(input_, result_, step_, *scene_.parameters, memory_, state, report);
+  }
+
+ private:
+  bool is_clear_to_device() const noexcept {
+    return memory_.search.is_free(free_displacement_, scene_.free_clearance);
+  }
+
+  void follow_device() noexcept {
+    result_.H_WS = input_.H_WD;
+    step_.release();
+    result_.smallest = std::numeric_limits<double>::infinity();
+    result_.dropped = 0;
+    result_.cut = false;
+  }
+
+  void find_samples() noexcept {
+    ContactSearch& search = memory_.search;
+    NearPoints& near = memory_.workspace.samples;
+    near.count = 0;
+    const double travelled = search.odometer.travelled();
+    if (search.samples.is_free(travelled, search_radius_)) return;
+    find_near(search.samples, SampleDirection{}, *scene_.field, *scene_.shell, H0_, travelled, search_radius_, lengths_,
+              near, rows_, around_);
+  }
+
+  void find_features() noexcept {
+    NearPoints& near = memory_.workspace.features;
+    near.count = 0;
+    if (!scene_.has_features()) return;
+    ContactSearch& search = memory_.search;
+    const double travelled = search.odometer.travelled();
+    const double radius = search_radius_ * scene_.feature_direction.most_stretch();
+    if (search.features.is_free(travelled, radius)) return;
+    H0_features_ = FeatureDirection::pose(H0_, scene_.features.origin_W);
+    find_near(search.features, scene_.feature_direction, *scene_.features.map, scene_.features.points, H0_features_,
+              travelled, radius, lengths_, near, rows_, around_);
+  }
+
+  /// More near points than rows: the deepest become rows, and some spread over the others.
+  void select_again() noexcept {
+    const Selection selection = select_rows(memory_.workspace);
+    rows_.count = 0;
+    push_selected<SampleDirection>(*scene_.field, H0_, selection, lengths_, memory_.workspace.samples, rows_);
+    if (scene_.has_features() && memory_.workspace.features.count > 0) {
+      push_selected<FeatureDirection>(*scene_.features.map, H0_features_, selection, lengths_,
+                                      memory_.workspace.features, rows_);
+    }
+  }
+
+  /// The share of the motion, and its end. False: the workspace's face turns it into a motion that points left out of the
+  /// search do not allow.
+  bool set_trial_pose() noexcept {
+    motion_ = {share_.value() * step_.motion.translation, share_.value() * step_.motion.rotation};
+    H1_ = step_.follows && share_.is_whole() ? input_.H_WD : H0_ * set_matrix(motion_);
+    const bool was_cut_off = cut_off(scene_.parameters->workspace, H0_, H1_, motion_);
+    return !was_cut_off || travel(lengths_.sphere, motion_) <= around_.left_out;
+  }
+
+  bool are_samples_free() noexcept {
+    return motion_is_free(*scene_.field, H0_, H1_, share_.least_gap(lengths_), lengths_, memory_.workspace.samples,
+                          budget_, at_sample_);
+  }
+
+  bool are_features_free() noexcept {
+    if (!scene_.has_features() || memory_.workspace.features.count == 0) return true;
+    H1_features_ = FeatureDirection::pose(H1_, scene_.features.origin_W);
+    return motion_is_free(*scene_.features.map, H0_features_, H1_features_, share_.least_gap(lengths_), lengths_,
+                          memory_.workspace.features, budget_, at_feature_);
+  }
+
+  /// After an attempt that failed: an obstacle becomes a row, or the motion is shortened.
+  void react_to_obstacle(bool samples_free, bool features_free) noexcept {
+    if (at_sample_.exhausted || at_feature_.exhausted) {
+      share_.shrink_to(std::min(at_sample_.exhausted ? at_sample_.share : 1.0,
+                                at_feature_.exhausted ? at_feature_.share : 1.0));
+      return;
+    }
+    if (!push_obstacles(samples_free, features_free)) return share_.shrink_at_obstacle();
+    const bool infeasible = step_.infeasible;
+    constrain();
+    step_.infeasible |= infeasible;
+    share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
+  }
+
+  /// The second look; false: no row was added.
+  bool push_obstacles(bool samples_free, bool features_free) noexcept {
+    if (share_.looks_left() == 0) return false;
+    bool pushed = false;
+    if (!samples_free) {
+      pushed = push_obstacle<SampleDirection>(H0_, H1_, lengths_, memory_.workspace.samples, at_sample_, rows_);
+    }
+    if (scene_.has_features() && !features_free) {
+      pushed |= push_obstacle<FeatureDirection>(H0_features_, H1_features_, lengths_, memory_.workspace.features,
+                                                at_feature_, rows_);
+    }
+    return pushed;
+  }
+
+  const ContactScene<Field, BodyField>& scene_;
+  const ContactLengths& lengths_;
+  const CycleInput& input_;
+  const ProxyState& state_;
+  ContactMemory& memory_;
+  ContactRows& rows_;
+  ConstrainedStep& step_;
+  StepTimes* times_;
+  const Motion wanted_;  // of the whole cycle
+
+  // of the cycle so far
+  ContactResult result_;
+  Motion last_motion_;
+  Motion whole_;
+  Budget budget_;
+  std::uint32_t free_substeps_ = 0;
+  double most_search_radius_ = 0.0;
+  double longest_displacement_ = 0.0;  // of any sub-step [m]
+  bool opened_ = false;
+
+  // of the sub-step
+  bool is_first_ = true;
+  Pose H0_;
+  Pose H0_features_;
+  Motion free_;
+  double free_displacement_ = 0.0;  // of any point, at most [m]
+  double search_radius_ = 0.0;
+  Surroundings around_{};
+  MotionShare share_{1.0};
+  Motion motion_;
+  Pose H1_;
+  Pose H1_features_;
+  Obstacle at_sample_;
+  Obstacle at_feature_;
+};
+
+}  // namespace godobject::detail

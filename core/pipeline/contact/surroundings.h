@@ -1,0 +1,115 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "core/pipeline/contact/contact_directions.h"
+#include "core/pipeline/contact/contact_lengths.h"
+#include "core/pipeline/contact/contact_limits.h"
+#include "core/pipeline/contact/contact_memory.h"
+#include "core/scene/sample_bits.h"
+
+/// Step #1 of `contact`: near points of one direction, and their rows.
+namespace godobject::detail {
+
+/// Knowledge of one sub-step about the surface around its start.
+struct Surroundings {
+  double left_out;  ///< displacement up to which all points are free that are not in the lists of near points [m]
+  double smallest = std::numeric_limits<double>::infinity();  ///< stored distance of the near points [m]
+  bool swallowed = false;     ///< a point lies inside, where the field has no gradient
+  std::uint32_t dropped = 0;  ///< near points without room as rows
+  std::uint32_t unseen = 0;   ///< points that the point budget left without a look-up
+};
+
+/// Turns the chosen points of a batch that have a gradient into rows while there is room; returns how many found none.
+template <class Direction>
+std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, std::uint64_t chosen, const Matrix3& R,
+                        const ContactLengths& lengths, ContactRows& rows) noexcept {
+  ContactRows::Batch contacts;
+  std::uint32_t count = 0;
+  for_each_bit(chosen & batch.known & steeper(batch, kFlat), [&](std::uint32_t k) noexcept {
+    const std::uint32_t i = count++;
+    const Vector3 point = Direction::point_S(batch, k);
+    contacts.id[i] = Direction::kId | index[k];
+    contacts.point_x[i] = point.x();
+    contacts.point_y[i] = point.y();
+    contacts.point_z[i] = point.z();
+    contacts.gradient_x[i] = batch.gradient_x[k];
+    contacts.gradient_y[i] = batch.gradient_y[k];
+    contacts.gradient_z[i] = batch.gradient_z[k];
+    contacts.distance[i] = batch.distance[k];
+  });
+  contacts.count = count;
+  return rows.push(contacts, Direction::from_S(R), lengths.gap_law());
+}
+
+/// Finds all points of one direction with a clearance below `search_radius` and turns those with a gradient into rows
+/// while there is room. `near` is empty before. `travelled`: the odometer's reading at H.
+template <class Direction, DistanceField Field>
+void find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
+               const Pose& H, double travelled, double search_radius, const ContactLengths& lengths, NearPoints& near,
+               ContactRows& rows, Surroundings& around) noexcept {
+  const Matrix3 R = H.rotation.toRotationMatrix();
+  const auto leave_out = [&](double clearance) noexcept {
+    around.left_out = std::min(around.left_out, clearance / direction.most_stretch());
+  };
+  search.find(
+      direction, field, shell, H, travelled, search_radius, PointBudget{lengths.point_budget, lengths.margin},
+      [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
+        const std::uint64_t stored = near.push(index.data(), batch, found);
+        for_each_bit(found & ~stored, [&](std::uint32_t k) noexcept {
+          leave_out(batch.clearance[k]);
+          around.smallest = std::min(around.smallest, batch.distance[k]);
+          around.swallowed |= batch.distance[k] <= 0.0;  // without a row nothing brings it out
+          ++around.dropped;
+        });
+        for_each_bit(found & ~batch.known,
+                     [&](std::uint32_t k) noexcept { around.swallowed |= batch.distance[k] < 0.0; });
+        around.dropped += push_rows<Direction>(batch, index.data(), stored, R, lengths, rows);
+      },
+      [&](double clearance) noexcept {
+        leave_out(clearance);
+        ++around.unseen;
+      });
+  around.smallest = std::min(around.smallest, near.least_distance());
+  near.pad();
+}
+
+/// A choice among too many near points.
+struct Selection {
+  double deepest;        ///< points up to this distance become rows: half of the capacity [m]
+  std::uint32_t stride;  ///< every stride-th of the others becomes a row: the other half
+};
+Selection select_rows(ContactWorkspace& workspace) noexcept;
+
+/// Pushes the selected near points of one direction as rows. In the tree's order every k-th point is spread over the
+/// surface.
+template <class Direction, DistanceField Field>
+void push_selected(const Field& field, const Pose& H, const Selection& selection, const ContactLengths& lengths,
+                   const NearPoints& near, ContactRows& rows) noexcept {
+  const Matrix3 R = H.rotation.toRotationMatrix();
+  SampleBatch batch;
+  std::array<std::uint32_t, SampleBatch::kCapacity> index;
+  const auto flush = [&]() noexcept {
+    field.samples(H, batch);
+    push_rows<Direction>(batch, index.data(), first_bits(batch.count), R, lengths, rows);
+    batch.count = 0;
+  };
+  std::uint32_t others = 0;
+  for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
+    const bool chosen = near.distance[k] <= selection.deepest || others++ % selection.stride == 0;
+    if (!chosen) continue;
+    const std::uint32_t at = batch.count++;
+    index[at] = near.index[k];
+    batch.x[at] = near.x[k];
+    batch.y[at] = near.y[k];
+    batch.z[at] = near.z[k];
+    if (batch.count == SampleBatch::kCapacity) flush();
+  }
+  if (batch.count > 0) flush();
+}
+
+}  // namespace godobject::detail

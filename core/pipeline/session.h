@@ -1,0 +1,149 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "core/pipeline/contact/ball_cycle.h"
+#include "core/pipeline/contact/contact_cycle.h"
+#include "core/pipeline/contact/contact_memory.h"
+#include "core/pipeline/contact/contact_scene.h"
+#include "core/pipeline/corrected/corrected_cycle.h"
+#include "core/pipeline/cycle/parameters.h"
+#include "core/pipeline/cycle/scene_traits.h"
+#include "core/pipeline/cycle/state.h"
+#include "core/pipeline/paper/paper_cycle.h"
+#include "core/pipeline/penalty/penalty_contacts.h"
+#include "godobject/report.h"
+#include "godobject/scene.h"
+#include "godobject/status.h"
+
+namespace godobject {
+
+/// One solver at work on one pair of bodies: constants of the session, the state that is carried from cycle to cycle, and
+/// the workspace. `Field` is the still body's field (a Voxelmap, or an analytic world), `BodyField` the moving body's.
+/// Poses are those of frame B. Lies in static storage or on the heap: its size is most of a mebibyte.
+template <DistanceField Field, DistanceField BodyField>
+class Session {
+ public:
+  /// Words of memory for the search of `contact`.
+  static std::size_t search_words(const Pointshell& shell, const Pointshell& features) noexcept {
+    return kHasSearch ? ContactSearch::memory(shell, features) : 0;
+  }
+
+  /// Starts anew with a solver that this build has (missing_part). All references outlive the session. `words`: at least
+  /// search_words(...) of them, this session's alone; with none, results are the same, and `contact` looks at all nodes
+  /// in every cycle.
+  void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>& features,
+             const Parameters& parameters, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept {
+    field_ = &field;
+    shell_ = &shell;
+    parameters_ = parameters;
+    cycle_ = cycle_of(solver, friction);
+    contact_scene_ = {field, shell, features, parameters_};
+    if constexpr (kHasSearch) contact_.search.start(contact_scene_, words);
+    reset();
+  }
+
+  /// As `start`, for a ball without friction (is_ball) by `contact`.
+  void start_ball(const Field& field, const Pointshell& shell, const Parameters& parameters) noexcept {
+    static_assert(std::is_same_v<Field, Voxelmap>);
+    field_ = &field;
+    shell_ = &shell;
+    parameters_ = parameters;
+    cycle_ = &run_ball;
+    contact_scene_ = {field, shell, {}, parameters_};
+    reset();
+  }
+
+  /// Forgets the god object: the next update starts with it at the device pose.
+  void reset() noexcept {
+    state_ = ProxyState{};
+    projection_ = ProjectionState{};
+    if constexpr (kHasSearch) contact_.reset();
+  }
+
+  /// Forgets the god object and puts it at a pose without a look at the scene.
+  void place(const Pose& H_WS) noexcept {
+    reset();
+    state_.H_WS = H_WS;
+  }
+
+  /// One cycle, steps #1-#7. The first one puts the god object at the device pose and judges whether it penetrates.
+  /// Statuses as those of `commit`; if not kOk, nothing that is carried on changed. Real-time safe.
+  Status update(const CycleInput& input, CycleReport& report, StepTimes* times = nullptr) noexcept {
+    if (state_.started) return cycle_(*this, input, state_, report, times);
+    ProxyState first;
+    first.H_WS = input.H_WD;
+    first.inside = smallest_distance(*field_, *shell_, first.H_WS) < 0.0;
+    const Status status = cycle_(*this, input, first, report, times);
+    if (status == Status::kOk) state_ = first;
+    return status;
+  }
+
+  const Parameters& parameters() const noexcept { return parameters_; }
+  const ProxyState& state() const noexcept { return state_; }
+  const ContactScene<Field, BodyField>& contact_scene() const noexcept { return contact_scene_; }
+
+ private:
+  static constexpr bool kHasSearch = kSceneTraits.contact && kSceneTraits.points;
+  struct NoMemory {};
+  using Cycle = Status (*)(Session&, const CycleInput&, ProxyState&, CycleReport&, StepTimes*) noexcept;
+
+  template <bool kFriction>
+  static Status run_paper(Session& s, const CycleInput& input, ProxyState& state, CycleReport& report,
+                          StepTimes* times) noexcept {
+    return paper_cycle<kFriction>(*s.field_, *s.shell_, s.parameters_, input, state, report, times);
+  }
+  template <bool kFriction>
+  static Status run_corrected(Session& s, const CycleInput& input, ProxyState& state, CycleReport& report,
+                              StepTimes* times) noexcept {
+    return corrected_cycle<kFriction>(*s.field_, *s.shell_, s.parameters_, input, s.projection_, state, report, times);
+  }
+  template <bool kFriction>
+  static Status run_contact(Session& s, const CycleInput& input, ProxyState& state, CycleReport& report,
+                            StepTimes* times) noexcept {
+    return contact_cycle<kFriction>(s.contact_scene_, input, s.contact_, state, report, times);
+  }
+  static Status run_ball(Session& s, const CycleInput& input, ProxyState& state, CycleReport& report,
+                         StepTimes* times) noexcept {
+    return ball_cycle(*s.field_, s.parameters_, s.contact_scene_.lengths, input, state, report, times);
+  }
+
+  template <bool kFriction>
+  static Cycle cycle_of(Solver solver) noexcept {
+    switch (solver) {
+      case Solver::kPaper:
+        if constexpr (kSceneTraits.paper) return &run_paper<kFriction>;
+        break;
+      case Solver::kCorrected:
+        if constexpr (kSceneTraits.corrected) return &run_corrected<kFriction>;
+        break;
+      case Solver::kContact:
+        if constexpr (kHasSearch) return &run_contact<kFriction>;
+        break;
+    }
+    return nullptr;
+  }
+  static Cycle cycle_of(Solver solver, bool friction) noexcept {
+    if constexpr (kSceneTraits.friction) {
+      if (friction) return cycle_of<true>(solver);
+    }
+    return cycle_of<false>(solver);
+  }
+
+  // constants
+  const Field* field_ = nullptr;
+  const Pointshell* shell_ = nullptr;
+  Parameters parameters_;
+  Cycle cycle_ = nullptr;
+  ContactScene<Field, BodyField> contact_scene_;
+
+  // carried from cycle to cycle
+  ProxyState state_;
+  ProjectionState projection_;
+  [[no_unique_address]] std::conditional_t<kHasSearch, ContactMemory, NoMemory> contact_;
+};
+
+}  // namespace godobject
