@@ -17,6 +17,19 @@ Status make_unit(Pose& H_WM) noexcept {
   return Status::kOk;
 }
 
+/// The second direction of the scene, as far as this build has it.
+template <DistanceField BodyField>
+FeatureContacts<BodyField> feature_contacts(const Scene& scene, const Vector3& sphere_center) noexcept {
+  FeatureContacts<BodyField> features;
+  if constexpr (kHasSecondDirection<BodyField>) {
+    if (scene.has_features()) {
+      features = {&scene.body_map, scene.features, scene.features_origin,
+                  scene.body_map.surface_radius(sphere_center)};
+    }
+  }
+  return features;
+}
+
 }  // namespace
 
 void CompiledSession::start(const Scene& scene, Solver solver, bool friction,
@@ -30,14 +43,8 @@ void CompiledSession::start(const Scene& scene, Solver solver, bool friction,
       return core_.start_ball(scene_.voxelmap, scene_.pointshell, parameters);
     }
   }
-  FeatureContacts<BodyField> features;
-  if constexpr (kSceneTraits.features) {
-    if (scene_.has_features()) {
-      features = {&scene_.body_map, scene_.features, scene_.features_origin,
-                  scene_.body_map.surface_radius(parameters.mass.sphere.center)};
-    }
-  }
-  core_.start(scene_.voxelmap, scene_.pointshell, features, parameters, solver, friction, words);
+  core_.start(scene_.voxelmap, scene_.pointshell, feature_contacts<BodyField>(scene_, parameters.mass.sphere.center),
+              parameters, solver, friction, words);
 }
 
 Status CompiledSession::refuse(Status status, CycleReport& report) const noexcept {
