@@ -63,7 +63,7 @@ class AnalyticWorld : public World {
     };
   }
 
-  /// One direction: the still body has no feature points here.
+  /// Returns a cycle of `contact` with one direction; analytic still bodies have no feature points.
   Cycle contact(Contact cycle) const {
     struct Memory {
       std::vector<std::uint32_t> values;
