@@ -23,9 +23,9 @@ const std::vector<QuantitySpec>& quantities() {
       {kOptimum, "optimum_distance", "distance to the optimum", "mm", 0.04, 4, false,
        "a body in a groove keeps the margin m from both walls: a distance of m / sin(half the angle), 0.04 mm at 60 "
        "degrees"},
-      {kOptimumTight, "optimum_distance_tight", "same, slot, peg, L", "mm", 0.25, 4, false},
+      {kOptimumTight, "optimum_distance_tight", "optimum, slot, peg and L", "mm", 0.25, 4, false},
       {kExcess, "optimum_excess", "longer than the best optimum", "mm", kNone, 4, false},
-      {kSlipTime, "slip_time", "late after an edge at 1 m/s", "ms", 20.0, 0, false},
+      {kSlipTime, "slip_time", "delay after an edge at 1 m/s", "ms", 20.0, 0, false},
       {kDrag, "drag", "drag, frictionless", "N", 0.02, 4, false},
       {kPull, "pull", "pull on retreat", "N", 0.0, 4, false},
       {kRatio, "friction_ratio_error", "friction ratio, plane", "%", 0.5, 3, false},
@@ -36,7 +36,7 @@ const std::vector<QuantitySpec>& quantities() {
        "the sample points form a polyhedron, which snaps from facet to facet; compare the chatter of the optimum "
        "itself"},
       {kChatterElsewhere, "chatter_elsewhere", "chatter, elsewhere", "N", 0.1, 4, false},
-      {kChatterOptimum, "chatter_optimum", "optimum's own, where missed", "N", kNone, 4, false},
+      {kChatterOptimum, "chatter_optimum", "chatter of the optimum itself", "N", kNone, 4, false},
       {kMovedPose, "moved_pose", "turned, shifted 10 m: pose", "um", 1.0, 4, false},
       {kMovedForce, "moved_force", "turned, shifted 10 m: force", "mN", 5.0, 4, false},
       {kSolveMedian, "solve_median", "solver, median", "us", 0.5, 2, true, kBusy},
