@@ -6,6 +6,7 @@
 
 namespace godobject::hal {
 
+/// Result of handing a frame to a bus.
 enum class SendResult : std::uint8_t {
   kSent,  ///< handed over; it comes back as an own frame once it has been on the wire
   kFull,  ///< no room in the queue: lost
@@ -29,6 +30,7 @@ class CanBus {
  public:
   virtual ~CanBus() = default;
 
+  /// Hands a frame over for sending.
   virtual SendResult send(const CanFrame& frame) noexcept = 0;
 
   /// The oldest frame that has come, own ones included, in the order of the wire. False: there is none.

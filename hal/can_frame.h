@@ -7,15 +7,15 @@ namespace godobject::hal {
 
 /// A CAN data frame with an 11 bit identifier.
 struct CanFrame {
-  std::uint16_t id = 0;
-  std::uint8_t length = 0;  ///< bytes of data: 0 to 8; FD: 0 to 8, 12, 16, 20, 24, 32, 48, 64
-  bool fd = false;          ///< FD format, data at the higher bit rate
-  std::array<std::uint8_t, 64> data{};
+  std::uint16_t id = 0;                 ///< 11 bits
+  std::uint8_t length = 0;              ///< bytes of data: 0 to 8; FD: 0 to 8, 12, 16, 20, 24, 32, 48, 64
+  bool fd = false;                      ///< FD format, data at the higher bit rate
+  std::array<std::uint8_t, 64> data{};  ///< `length` bytes are valid
 };
 
 /// A frame as it came from the bus.
 struct ReceivedFrame {
-  CanFrame frame;
+  CanFrame frame;            ///< identifier and data
   std::int64_t time_ns = 0;  ///< of its end on the bus, by a clock that may be set: for logs, never for decisions
   bool own = false;          ///< sent by this very bus object: it has been on the wire now
 };

@@ -9,6 +9,7 @@ class Clock {
  public:
   virtual ~Clock() = default;
 
+  /// Returns the present time [ns].
   virtual std::int64_t now_ns() noexcept = 0;
 
   /// Returns at `ns` or later, at once if it has passed.

@@ -46,17 +46,18 @@ struct JointReading {
   JointVector position = JointVector::Zero();   ///< [rad]
   JointVector torque = JointVector::Zero();     ///< as the drive measures it [Nm]
   std::array<std::uint32_t, kMaxJoints> age{};  ///< cycles since position and state came; 0: in this one
-  std::array<DriveState, kMaxJoints> state{};
-  bool emergency_stop = false;  ///< the emergency stop is pressed, or its line is dead
-  bool enable_switch = false;   ///< the operator holds the enable switch
-  bool clutch_open = false;     ///< the operator moves the arm without moving in the scene
-  Alarm alarm = Alarm::kNone;   ///< the first one since the last reset
-  int alarm_joint = -1;         ///< whose it is; -1: nobody's
+  std::array<DriveState, kMaxJoints> state{};   ///< of each drive
+  bool emergency_stop = false;                  ///< the emergency stop is pressed, or its line is dead
+  bool enable_switch = false;                   ///< the operator holds the enable switch
+  bool clutch_open = false;                     ///< the operator moves the arm without moving in the scene
+  Alarm alarm = Alarm::kNone;                   ///< the first one since the last reset
+  int alarm_joint = -1;                         ///< whose it is; -1: nobody's
 };
 
+/// Joint side, SI; entries from the joint count on are ignored.
 struct JointCommand {
   JointVector torque = JointVector::Zero();  ///< [Nm]; a drive that is not enabled ignores it
-  PowerRequest power = PowerRequest::kOff;
+  PowerRequest power = PowerRequest::kOff;   ///< the same for all joints
 };
 
 /// The joints as the control cycle sees them: `request`, `receive` and `send` once a cycle, in this order; `receive`
@@ -66,6 +67,7 @@ class JointDrives {
  public:
   virtual ~JointDrives() = default;
 
+  /// Returns the number of joints, 1 to kMaxJoints.
   virtual int joint_count() const noexcept = 0;
 
   /// Asks all joints for a sample of now: the beginning of the cycle.

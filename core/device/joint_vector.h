@@ -4,6 +4,7 @@
 
 namespace godobject {
 
+/// The largest number of joints of an arm.
 inline constexpr int kMaxJoints = 7;
 
 /// One number a joint; those from the arm's joint count on are zero.

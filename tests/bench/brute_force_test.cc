@@ -16,7 +16,7 @@ namespace {
 
 using test::Random;
 
-/// A lattice, points and room for what a scan finds.
+/// A lattice, points and room for the points that a scan finds.
 struct ScanWorld {
   std::array<std::int32_t, 3> nodes;
   std::vector<float> values;
@@ -26,7 +26,7 @@ struct ScanWorld {
   std::vector<std::uint32_t> scratch, index;
   std::array<std::vector<float>, 4> found;
 
-  /// `value` of node coordinates; points in lattice coordinates.
+  /// `value` is a function of node coordinates; the points are in lattice coordinates.
   template <class Value>
   ScanWorld(std::array<std::int32_t, 3> lattice, const std::vector<Vector3>& points, Value&& value)
       : nodes(lattice), count(points.size()) {

@@ -1,5 +1,5 @@
-// counted_cycles X.scene POSES.csv FIRST END FRICTION: replays a path with `contact` up to row END. Cycles from row
-// FIRST on pass through counted_update, by whose name callgrind collects.
+// counted_cycles X.scene POSES.csv FIRST END FRICTION: replays a path with `contact` up to row END. From row FIRST on,
+// cycles run in counted_update, the function that callgrind counts.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

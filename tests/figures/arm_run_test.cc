@@ -41,7 +41,7 @@ std::string verdict(const ArmRun& run) { return judge_arm_runs({run}).front(); }
 
 TEST(ArmRun, CountsFromTheFirstRenderedCycleToTheLast) {
   ArmLog log = run_in_order();
-  log.cycles[0].cycle.depth = 0.001;  // where nothing was rendered nothing was kept out
+  log.cycles[0].cycle.depth = 0.001;  // before rendering starts the depth does not count
   log.cycles[2].cycle.H_WD.translation = Vector3(0.003, 0.004, 0.0);
   const ArmRun run = judged(log);
   EXPECT_DOUBLE_EQ(run.seconds, 0.003);
@@ -56,23 +56,24 @@ TEST(ArmRun, CountsFromTheFirstRenderedCycleToTheLast) {
 }
 
 TEST(ArmRun, InOrderHoldsAllThatIsClaimed) {
-  EXPECT_EQ(verdict(judged(run_in_order())),
-            "HOLDS in every scene, closed loop: rendered without a break, ended without a fault; no penetration, the "
-            "smallest gap is 0.0200 mm; joint torques of at most 60 % of their limits; the hand never gets back more "
-            "work than it put in");
+  EXPECT_EQ(
+      verdict(judged(run_in_order())),
+      "HOLDS in every scene, closed loop: rendering without interruption, end without a fault; no penetration, the "
+      "smallest gap is 0.0200 mm; joint torques of at most 60 % of their limits; the hand never receives more "
+      "work than it did");
   EXPECT_TRUE(judge_arm_runs({}).empty());
 }
 
 TEST(ArmRun, ThatStopsIsMissed) {
   ArmLog log = run_in_order();
   log.cycles[1].fault = 14;
-  EXPECT_EQ(verdict(judged(log)), "MISSED peg, closed loop: fault 14 ended it");
+  EXPECT_EQ(verdict(judged(log)), "MISSED peg, closed loop: fault 14 ended the run");
   log = run_in_order();
   log.cycles.pop_back();
-  EXPECT_EQ(verdict(judged(log)), "MISSED peg, closed loop: its last cycle is in mode running, not ended");
+  EXPECT_EQ(verdict(judged(log)), "MISSED peg, closed loop: the last cycle is in mode running, not in mode ended");
   log = run_in_order();
   log.cycles.insert(log.cycles.begin() + 2, cycle(0.0015, "armed", 0.0));
-  EXPECT_EQ(verdict(judged(log)), "MISSED peg, closed loop: it did not render from one start to one end");
+  EXPECT_EQ(verdict(judged(log)), "MISSED peg, closed loop: rendering was interrupted or did not start");
 }
 
 TEST(ArmRun, WithoutContactShowsNothing) {
@@ -90,10 +91,10 @@ TEST(ArmRun, ThatPenetratesPopsThroughOverloadsOrPushesIsMissed) {
   EXPECT_NE(verdict(run).find("goes 100.0 mm behind the surface, at 1.500 s"), std::string::npos);
   log = run_in_order();
   log.cycles[1].torque = {101.0, 0.0};
-  EXPECT_NE(verdict(judged(log)).find("joint 1 is sent 101 % of its limit"), std::string::npos);
+  EXPECT_NE(verdict(judged(log)).find("the torque of joint 1 is 101 % of its limit"), std::string::npos);
   log = run_in_order();
-  log.hand[2].work = 0.9;  // less than where it began, though it ends above that
-  EXPECT_NE(verdict(judged(log)).find("the hand had got back 0.1000 J more than it had put in"), std::string::npos);
+  log.hand[2].work = 0.9;  // below the first value, although the last one is above it
+  EXPECT_NE(verdict(judged(log)).find("the hand received 0.1000 J more work than it did"), std::string::npos);
 }
 
 TEST(ArmRun, IsATableOf120Characters) {

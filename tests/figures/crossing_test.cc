@@ -11,7 +11,7 @@
 namespace godobject::figures {
 namespace {
 
-/// A body of two points, 0.1 m either way along the x of its mesh frame, whose body frame is turned against that.
+/// A body of two points at plus and minus 0.1 m along x of its mesh frame; its body frame is rotated.
 test::SceneImage dumbbell() {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return p.norm() - 0.02; };

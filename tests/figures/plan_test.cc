@@ -103,7 +103,7 @@ TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {
   EXPECT_NE(html.find("<th>behind [mm]</th>"), std::string::npos);
   EXPECT_NE(html.find("peg/paper_1.200.png"), std::string::npos);
   EXPECT_NE(html.find("paper, 1.200 s: depth 0.100 mm, force 7.5 N"), std::string::npos);
-  EXPECT_NE(html.find("paper, 1.201 s (when any is deepest): depth 3.000 mm, force 2.0 N"), std::string::npos);
+  EXPECT_NE(html.find("paper, 1.201 s (largest depth of all solvers): depth 3.000 mm, force 2.0 N"), std::string::npos);
   EXPECT_LT(html.find("<figcaption>contact, 1.200"), html.find("<figcaption>paper, 1.200"));
   EXPECT_LT(html.find("<figcaption>paper, 1.200"), html.find("<figcaption>paper, 1.201"));
   EXPECT_NE(html.find("<figcaption>sketch.png"), std::string::npos);

@@ -61,8 +61,8 @@ TEST_F(ReplayLogFile, IsReadColumnByColumn) {
 
 TEST_F(ReplayLogFile, NamesTheLineThatIsWrong) {
   expect_refused(kFirst + "0.001,1,2\n", ":3:");
-  expect_refused(kFirst + kFirst, ":3:");                                                 // time stands still
-  expect_refused(kFirst + "x" + kSecond, ":3:");                                          // no number
+  expect_refused(kFirst + kFirst, ":3:");                                                 // the same time twice
+  expect_refused(kFirst + "x" + kSecond, ":3:");                                          // not a number
   expect_refused("0.000,1,2,3,1,0,0,0,nan" + kFirst.substr(kFirst.find(",5,6")), ":2:");  // not finite
   expect_refused(kFirst.substr(0, kFirst.size() - 1) + ",1\n", ":2:");                    // a field too many
 }

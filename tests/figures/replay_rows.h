@@ -4,7 +4,7 @@
 
 namespace godobject::figures {
 
-/// A cycle with what the figures look at; depth in metres, times in nanoseconds.
+/// Returns a cycle with the values that the figures use; depth in metres, times in nanoseconds.
 inline ReplayRow replay_row(double t, double force, double depth, double contacts, double step1_ns, double solve_ns) {
   ReplayRow row;
   row.t = t;

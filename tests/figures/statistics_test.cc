@@ -85,7 +85,7 @@ TEST(Statistics, HoldTheLargestForceStepAndCountTheStatuses) {
   log[1].status = "overflow";
   log[2].status = "cut";
   const Statistics s = statistics(log, 0.006);
-  EXPECT_DOUBLE_EQ(s.force_step, 10.0);  // of the vector: it turns round; the first force is no step
+  EXPECT_DOUBLE_EQ(s.force_step, 10.0);  // of the vector, which reverses; the first force is no step
   EXPECT_DOUBLE_EQ(s.force_step_at, 0.002);
   EXPECT_EQ(s.cut, 2u);
   EXPECT_EQ(s.overflow, 1u);

@@ -71,7 +71,7 @@ TEST_F(TelemetryLogFile, IsAReplayOfTheCyclesThatRendered) {
   ASSERT_EQ(log.size(), 1u);
   EXPECT_EQ(log[0].t, 0.001);
   EXPECT_EQ(log[0].depth, -0.00002);
-  EXPECT_THROW((void)read_replay_log(holding(kHeader + kBoot)), Failure) << "nothing was rendered";
+  EXPECT_THROW((void)read_replay_log(holding(kHeader + kBoot)), Failure) << "no cycle rendered";
 }
 
 TEST_F(TelemetryLogFile, NamesWhatIsWrong) {

@@ -25,29 +25,29 @@ TEST(PowerStates, StatuswordsAsDrivesSendThem) {
   EXPECT_EQ(power_state(0x0238), PowerState::kFault);
 }
 
-/// Of the six bits that matter, written out: 0 ready, 1 switched on, 2 enabled, 3 fault, 5 quick stop, 6 disabled.
+/// The standard's table, written out by its six bits: 0 ready, 1 switched on, 2 enabled, 3 fault, 5 quick stop, 6
+/// disabled.
+PowerState state_by_bits(int word) {
+  const bool ready = (word & 1) != 0;
+  const bool on = (word & 2) != 0;
+  const bool enabled = (word & 4) != 0;
+  const bool fault = (word & 8) != 0;
+  const bool no_quick_stop = (word & 0x20) != 0;
+  const bool disabled = (word & 0x40) != 0;
+  const bool none = !ready && !on && !enabled;
+  const bool all = ready && on && enabled;
+  if (disabled) return none && !fault ? PowerState::kSwitchOnDisabled : PowerState::kUnknown;
+  if (fault) return none ? PowerState::kFault : all ? PowerState::kFaultReaction : PowerState::kUnknown;
+  if (none) return PowerState::kNotReady;
+  if (all) return no_quick_stop ? PowerState::kOperationEnabled : PowerState::kQuickStopActive;
+  if (ready && !enabled && no_quick_stop) return on ? PowerState::kSwitchedOn : PowerState::kReadyToSwitchOn;
+  return PowerState::kUnknown;
+}
+
 TEST(PowerStates, EveryCombinationOfTheSixBits) {
   int found = 0;
   for (int word = 0; word < 0x10000; ++word) {
-    const bool ready = (word & 1) != 0;
-    const bool on = (word & 2) != 0;
-    const bool enabled = (word & 4) != 0;
-    const bool fault = (word & 8) != 0;
-    const bool no_quick_stop = (word & 0x20) != 0;
-    const bool disabled = (word & 0x40) != 0;
-    PowerState expected = PowerState::kUnknown;
-    if (disabled) {
-      if (!ready && !on && !enabled && !fault) expected = PowerState::kSwitchOnDisabled;
-    } else if (fault) {
-      if (!ready && !on && !enabled) expected = PowerState::kFault;
-      if (ready && on && enabled) expected = PowerState::kFaultReaction;
-    } else if (!ready && !on && !enabled) {
-      expected = PowerState::kNotReady;
-    } else if (ready && on && enabled) {
-      expected = no_quick_stop ? PowerState::kOperationEnabled : PowerState::kQuickStopActive;
-    } else if (ready && !enabled && no_quick_stop) {
-      expected = on ? PowerState::kSwitchedOn : PowerState::kReadyToSwitchOn;
-    }
+    const PowerState expected = state_by_bits(word);
     ASSERT_EQ(power_state(static_cast<std::uint16_t>(word)), expected) << std::hex << word;
     found += expected != PowerState::kUnknown ? 1 : 0;
   }

@@ -1,4 +1,4 @@
-// The study's own plant: closed forms against hand-computed motions and a fine integration.
+// The plant of the study: closed forms compared with hand-computed motions and a fine integration.
 #include "toolchain/report/stability/axis_loop.h"
 
 #include <cmath>
@@ -68,14 +68,14 @@ TEST(DelayedHold, BringsEachForceLateByItsDelay) {
 }
 
 TEST(ImposedWork, OfATriangleIsThatOfTheHold) {
-  // to and fro between 0 and a: -K a a is held on the way back to 0, nothing on the way there
+  // back and forth between 0 and a: -K a a acts on the way back to 0, no force on the way there
   const ImposedWork work = imposed_work({0.0, 2.0}, {.stiffness = 3.0}, 0.0);
   EXPECT_DOUBLE_EQ(work.generated, 3.0 * 2.0 * 2.0);
   EXPECT_DOUBLE_EQ(work.square_motion, 2.0 * 4.0 / 1e-3);
   EXPECT_DOUBLE_EQ(imposed_work({0.0, 2.0}, {.stiffness = 3.0}, 1.0).generated, -12.0) << "a period later it brakes";
 }
 
-/// The plant, its hold and delay share nothing with the theory.
+/// The plant, its hold and delay share no code with the theory.
 TEST(SimulatedBoundary, IsTheExactOne) {
   test::Random random(2);
   for (int trial = 0; trial < 12; ++trial) {
@@ -93,7 +93,7 @@ TEST(SimulatedBoundary, IsTheExactOne) {
   }
 }
 
-/// Above the boundary the damping takes all that a plate may push, and the swing stays as it is: no plate that is
+/// Above the boundary the damping needs all the force that a plate can exert, and the swing remains: the plate is not
 /// stable.
 TEST(StiffestStablePlate, DoesNotCountASwingThatStays) {
   const std::filesystem::path work = testing::TempDir() + "/stiffest_stable_plate";

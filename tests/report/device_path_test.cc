@@ -67,7 +67,7 @@ TEST(DevicePath, TremblesInEncoderSteps) {
   }
   EXPECT_GT(largest, 1e-4);
   EXPECT_LT(largest, 1e-3);
-  for (std::size_t k = path.begin; k + 1000 < path.end; ++k) {  // periodic, so that means tell the drift
+  for (std::size_t k = path.begin; k + 1000 < path.end; ++k) {  // periodic, so that the means differ by the drift
     ASSERT_LT((path.H_OC[k].translation - path.H_OC[k + 1000].translation).norm(), 6e-6);
   }
 }

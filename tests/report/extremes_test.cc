@@ -1,4 +1,4 @@
-// The fuzzer's checks see what they are to see, and a case file brings a run back.
+// The fuzzer's checks find planted violations, and a case file repeats a run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace godobject::report {
 namespace {
 
-/// A solver that does what it is told in one cycle, and follows the device in the others.
+/// A solver that plays a trick in one cycle and follows the device in the others.
 class Cheat final : public Rig {
  public:
   enum class Trick { kNone, kRefuses, kNan, kLongRotation, kFallsThrough, kPushesTooHard, kRunsAway, kStepsOut };
@@ -105,7 +105,7 @@ TEST(CaseFile, OfAnotherGeneratorIsRefused) {
   EXPECT_THROW(static_cast<void>(read_case(other)), std::exception);
 }
 
-/// A family of setups reaches what its row is for.
+/// Each family of setups has the property of its row.
 TEST(SetupOf, EachRowIsOfThatRow) {
   std::mt19937 random(6);
   double widest = 0.0;

@@ -1,4 +1,4 @@
-// The table of faults: what is held and what is not, and what is read of the tests' results.
+// The table of faults: verdicts, and reading of the tests' results.
 #include <gtest/gtest.h>
 
 #include <filesystem>

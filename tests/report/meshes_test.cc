@@ -55,7 +55,7 @@ TEST(Meshes, OfAllScenesAndBodiesAreSound) {
 }
 
 TEST(Scenes, MeshesLieOnTheExactSurfaceWhereTheBodiesAre) {
-  // vertices of the mesh lie on the solid's surface, or far from where the body comes
+  // vertices of the mesh lie on the solid's surface, or far from the body's path
   for (const SceneSpec& scene : scenes()) {
     if (scene.kind != WorldKind::kCompiled || scene.still.shell) continue;
     int on_surface = 0;

@@ -1,4 +1,4 @@
-// The optimum that god objects are compared with, against optima that can be worked out by hand.
+// The reference optimum for god objects, compared with optima computed by hand.
 
 #include "toolchain/report/contact_quality/reference.h"
 

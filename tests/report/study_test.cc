@@ -1,4 +1,4 @@
-// The list of cases: what is run, what is skipped, and what becomes of it on the page.
+// The list of cases: cases that run, cases that are skipped, and the page.
 #include <gtest/gtest.h>
 
 #include <atomic>

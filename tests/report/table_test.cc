@@ -84,7 +84,7 @@ TEST(Notes, SayWhyAMissedTargetIsMissedAndOnlyThen) {
   EXPECT_EQ(notes(some()).find("solver, median is missed"), std::string::npos);
 }
 
-TEST(Notes, SayWhatAUnitMeans) { EXPECT_NE(notes(some()).find("\nvoxels: their edges"), std::string::npos); }
+TEST(Notes, ExplainTheUnit) { EXPECT_NE(notes(some()).find("voxels: voxel edges of the scene"), std::string::npos); }
 
 TEST(SummaryCsv, HasAllQuantitiesAndTheSameColumnsEverywhere) {
   const std::string text = summary_csv(some());

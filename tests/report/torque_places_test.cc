@@ -1,4 +1,4 @@
-// An arm led through places where the field jumps: what is sent never does, and a limiter that is left out is seen.
+// An arm led through places where the field jumps: the sent torques never jump, and a missing limiter is found.
 #include "toolchain/report/extremes/torque_places.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class AtPlace : public testing::TestWithParam<Place> {
   firmware::Device device_;
 };
 
-/// The check can fail: with a limiter that limits nothing it sees the solvers' own steps.
+/// The check can fail: without a limit it finds the steps of the solvers.
 TEST_P(AtPlace, NoTorqueThatIsSentChangesFasterThanItMayUnlessTheLimiterIsLeftOut) {
   const command::SceneImage image = place_scene(GetParam(), work_);
   const firmware::TorqueLimits none{.rate = 2.0};  // from one end of a joint's torques to the other

@@ -1,4 +1,4 @@
-// How far the way out of a lost margin is: hand cases, the bound on the solver's motions, and the nearest pose of all.
+// The distance out of a lost margin: hand cases, the bound of the solver's motions, and the nearest of all poses.
 #include "toolchain/report/extremes/way_out.h"
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(WayOut, IsTheLostGapOnAPlaneAndGrowsAsAWedgeNarrows) {
   EXPECT_NEAR(way_out({{Vector3::Zero(), Vector3::UnitZ(), -1.0}}, q)[2], 0.25 * q.voxel_size, 1e-12);
 }
 
-/// Two ends of a bar across a bore, each at height z over the middle: it turns about y, at the lever z.
+/// Two ends of a bar across a bore, each at height z above the middle; the bar turns about y with the lever z.
 TEST(WayOut, IsATurnWhereTheWallsLeaveNothingElse) {
   const double rho = 0.3;
   const double lost = 0.2 * kMargin;
@@ -107,9 +107,9 @@ TEST(WayOut, BoundsHowFarAMotionEndsFromTheDevice) {
   EXPECT_GT(sharpest, 0.999);
 }
 
-/// A flat box that fits into a bore, but not with the margin: held at rest, the god object turns until it has it. It
-/// ends as far from the device as the nearest pose of all that keeps the margin, and no cycle goes farther than the way
-/// out; four margins would not do.
+/// A flat box that fits into a bore, but not with the margin. Held at rest, the god object turns until it has the
+/// margin. It ends as far from the device as the nearest pose with the margin, and no cycle goes farther than the
+/// distance out; four margins would not suffice.
 TEST(WayOut, LeadsAFlatBoxInANarrowBoreToTheNearestPoseWithTheMargin) {
   report::Setup setup{
       .row = "test", .world = "bore", .body = "flat", .motion = "jump", .seed = 3340209945, .points = 4};

@@ -1,4 +1,4 @@
-// The chapter on error against run time, on a ball on a block that stands in for a real one.
+// The chapter on error against run time, with a ball on a block in place of a real scene.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -88,8 +88,8 @@ TEST(Camera, ChoosesToLookFromTheBodysSideOfThePlate) {
 }
 
 TEST(Camera, LooksFromAsideAtAnEarInTheHandle) {
-  // the ear fits the handle: the place where they touch is seen from nowhere, and much of the way there is behind the
-  // body
+  // the ear fills the handle: no direction shows the place where they touch, and the body hides much of the
+  // surroundings
   scene_compiler::MeshReport report;
   const std::filesystem::path meshes = GODOBJECT_MESH_FOLDER;
   const auto teapot = scene_compiler::import_mesh(meshes / "teapot.ply", 0.037, report);

@@ -7,7 +7,7 @@
 namespace godobject::bench {
 namespace {
 
-/// Bits 0-20 spread to every third bit.
+/// Spreads bits 0-20 to every third bit.
 std::uint64_t spread(std::uint64_t bits) noexcept {
   bits &= 0x1fffff;
   bits = (bits | bits << 32) & 0x1f00000000ffff;
@@ -17,7 +17,7 @@ std::uint64_t spread(std::uint64_t bits) noexcept {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// Numbers of the points along a Morton curve through their bounding cube.
+/// Returns the numbers of the points in Morton order in their bounding cube.
 std::vector<std::uint32_t> morton_order(const Pointshell& shell) {
   Vector3 low = shell.point(0);
   Vector3 high = low;
@@ -45,10 +45,10 @@ BruteForce::BruteForce(const Scene& scene, double cut) {
   const format::Grid& lattice = scene.grid;
   const double s = lattice.voxel_size;
   voxel_size_ = s;
-  // half a voxel's diagonal, and some room for what trilinear interpolation takes off a distance
+  // half a voxel's diagonal, and some room for the error of trilinear interpolation
   constexpr double kCull = 1.0;
   limits_ = {static_cast<float>(cut), static_cast<float>(cut + kCull * s), static_cast<float>(1.0 / s)};
-  // the border's nodes must be out of reach of the surface, so that beyond it nothing is found
+  // the border's nodes must be farther from the surface than the cut, so that no point beyond them is found
   const double room = cut + (kCull + 1.0) * s;
   for (int k = 0; k < 3; ++k) {
     const double first = std::floor((lattice.surface_min[k] - room - lattice.origin[k]) / s);

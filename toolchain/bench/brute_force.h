@@ -10,17 +10,16 @@
 
 namespace godobject::bench {
 
-/// The peer of step #1 without a tree, without bricks and without a memory of the last cycle: every sample point is
-/// looked up in a tight dense grid of single-precision distances with the scene's voxel edge. Points stand in Morton
-/// order, so that neighbours in space are neighbours in memory. What it does not know of the scene: refined bricks,
-/// exact edges, seams, the second direction.
+/// Alternative to step #1 without a tree, bricks or memory of the last cycle: it looks up every sample point in a tight
+/// dense grid of single-precision distances with the scene's voxel edge. Points are stored in Morton order, so that
+/// neighbours in space are neighbours in memory. It lacks refined bricks, exact edges, seams and the second direction.
 class BruteForce {
  public:
-  /// Copies points and distances at the lattice's nodes out of the scene. `cut`: scans find points nearer than that
-  /// [m]. Cost: a look-up a node of the tight grid.
+  /// Copies the points and the distances at the lattice's nodes from the scene. Scans find points nearer than `cut`
+  /// [m]. Cost: one look-up per node of the tight grid.
   BruteForce(const Scene& scene, double cut);
 
-  /// Scans the points with the body at H_WS; what was found holds until the next call.
+  /// Scans the points with the body at H_WS. The result is valid until the next call.
   const NearList& scan(PointScan how, const Pose& H_WS) noexcept;
 
   std::size_t grid_bytes() const noexcept { return values_.size() * sizeof(float); }
@@ -41,7 +40,7 @@ class BruteForce {
   NearList near_;
 };
 
-/// The scans that this processor can run, the plain ones first.
+/// Returns the scans that this processor can run, the scalar ones first.
 std::vector<NamedScan> runnable_scans();
 
 }  // namespace godobject::bench

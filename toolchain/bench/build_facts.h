@@ -2,7 +2,7 @@
 
 namespace godobject::bench {
 
-/// SHA-256 of the scene compiler that this build holds.
+/// SHA-256 of the scene compiler in this build.
 extern const char* const kCompilerDigest;
 
 }  // namespace godobject::bench

@@ -12,15 +12,15 @@
 
 namespace godobject::bench {
 
-/// What all chapters need.
+/// Options that all chapters share.
 struct BenchRequest {
   std::filesystem::path scenes;  ///< folder of scene files, with `paths` and `meshes`
   std::filesystem::path cache;   ///< folder of compiled scenes
-  bool full = false;             ///< also what takes minutes
+  bool full = false;             ///< more passes and larger scenes, some minutes more
   std::function<void(std::string_view phase, double done)> progress;
 };
 
-/// A curve over x for the page's plots.
+/// A curve of a plot.
 struct Curve {
   std::string name;
   std::vector<double> x;
@@ -36,7 +36,7 @@ struct Plot {
   std::vector<Curve> curves;
 };
 
-/// What a chapter found.
+/// The results of a chapter.
 struct Chapter {
   std::vector<Table> tables;   ///< on stdout and on the page
   std::vector<Table> details;  ///< on the page and as CSV only
@@ -45,13 +45,13 @@ struct Chapter {
   std::vector<std::string> remarks;
 };
 
-/// Whole cycles of every pipeline on every workload, warm and cold, and steps #1 and #2-#7 apart.
+/// Times whole cycles of every pipeline on every workload, warm and cold, and the steps #1 and #2-#7 apart.
 Chapter cycles_chapter(const BenchRequest& request);
 
-/// The peers at the poses of `contact`, in the same run, and how much quicker it is.
+/// Times the peers at the poses of `contact` in the same run, and their ratios to `contact`.
 Chapter peers_chapter(const BenchRequest& request);
 
-/// The sliding bunny with 10^3 .. 10^6 points, and with voxels of 2 .. 0.25 mm.
+/// Times the sliding bunny with 10^3 .. 10^6 points, and with voxels of 2 .. 0.25 mm.
 Chapter scaling_chapter(const BenchRequest& request);
 
 }  // namespace godobject::bench

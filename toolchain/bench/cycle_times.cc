@@ -9,13 +9,13 @@
 namespace godobject::bench {
 namespace {
 
-/// A god object with the memory that it remembers the scene in.
+/// A god object with its memory.
 class Runner {
  public:
   Runner(const Scene& scene, const Pipeline& pipeline) {
     if (god_object_.start(scene, pipeline.solver, pipeline.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kBadData,
-                             "the scene image was compiled without " + pipeline.name() + "; compile it anew");
+                             "the scene image was compiled without " + pipeline.name() + "; compile it again");
     }
   }
 
@@ -24,7 +24,7 @@ class Runner {
   CycleReport update(const Pose& H_WM, StepTimes* times = nullptr) {
     CycleReport report;
     if (god_object_->update({H_WM, Motion{}}, report, times) != Status::kOk) {
-      throw command::Failure(command::ExitCode::kBadData, "a pose of the path is none; see godobject-replay");
+      throw command::Failure(command::ExitCode::kBadData, "a pose of the path is invalid; godobject-replay names it");
     }
     return report;
   }
@@ -33,7 +33,7 @@ class Runner {
   OwnedGodObject god_object_;
 };
 
-/// Passes while the budget lasts.
+/// Runs passes within the budget.
 template <class Pass>
 void run_passes(const PassBudget& budget, Pass&& pass) {
   const command::Stopwatch now_ns = command::stopwatch();
@@ -114,7 +114,7 @@ std::vector<std::size_t> thinned(std::span<const std::size_t> cycles, std::size_
 
 void ColdWalk::walk() const noexcept {
   constexpr std::size_t kLine = 64;
-  // volatile: the compiler must not see that nobody needs it
+  // volatile, so that the compiler does not remove the unused reads
   const volatile unsigned char* const bytes = bytes_.data();
   for (std::size_t i = 0; i < bytes_.size(); i += kLine) static_cast<void>(bytes[i]);
 }

@@ -12,42 +12,42 @@
 
 namespace godobject::bench {
 
-/// What a pipeline did along a path, for peers to look at the same poses.
+/// The poses of a pipeline along a path, at which peers are measured.
 struct Recording {
-  std::vector<Pose> H_WS;  ///< god object's body frame before each cycle: where its step #1 looks first
-  std::vector<Pose> H_WD;  ///< the device's, body frame
+  std::vector<Pose> H_WS;  ///< body frame of the god object before each cycle, where step #1 begins
+  std::vector<Pose> H_WD;  ///< body frame of the device
 };
 
-/// Runs the path once. Throws Failure if the scene lacks the pipeline.
+/// Runs the path once and returns its poses. Throws Failure if the scene lacks the pipeline.
 Recording record(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device);
 
-/// How long passes go on.
+/// Limits of the number of passes.
 struct PassBudget {
   std::size_t least_passes = 3;
   std::size_t most_passes = 40;
   double seconds = 1.0;
 };
 
-/// Times of single cycles along a path [ns], pass after pass, each from the path's first pose.
+/// Times of single cycles along a path [ns], pass after pass; each pass begins at the first pose.
 struct CycleTimes {
-  PassSamples whole;  ///< without a stopwatch inside
-  PassSamples step1;  ///< in passes of their own: each holds readings of the clock
+  PassSamples whole;  ///< cycles without a stopwatch inside
+  PassSamples step1;  ///< from separate passes with a stopwatch inside the cycle, as `solve`
   PassSamples solve;
 };
 
-/// Warm: one cycle follows the other.
+/// Times cycles with warm caches: each cycle follows the one before at once.
 CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
                        const PassBudget& budget);
 
-/// Whole cycles with a cold cache [ns], in the order of `cycles` (ascending): 96 MB are walked before each of them, the
-/// others run warm.
+/// Returns the times of whole cycles with cold caches [ns], in the order of `cycles` (ascending). 96 MB are read before
+/// each of them; the other cycles of the path run warm.
 std::vector<double> time_cold_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
                                      std::span<const std::size_t> cycles);
 
-/// Every n-th of `cycles`, so that about `wanted` are left.
+/// Returns every n-th of `cycles`, about `wanted` of them.
 std::vector<std::size_t> thinned(std::span<const std::size_t> cycles, std::size_t wanted);
 
-/// 96 MB of memory, read once a line: what was in the caches before is gone, unless they are larger.
+/// 96 MB of memory. walk() reads them once per cache line, which evicts all caches that are not larger.
 class ColdWalk {
  public:
   static constexpr std::size_t kBytes = 96'000'000;
@@ -59,7 +59,7 @@ class ColdWalk {
   std::vector<unsigned char> bytes_;
 };
 
-/// What two readings of the clock right after each other differ by [ns]: it is in every time of a single cycle.
+/// Returns the difference of two successive readings of the clock [ns], which is part of every time of a single cycle.
 Distribution clock_cost();
 
 }  // namespace godobject::bench

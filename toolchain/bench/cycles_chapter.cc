@@ -37,7 +37,7 @@ std::vector<std::string> row(const Workload& workload, const Phase& phase, const
           cold_us(cold.p99)};
 }
 
-/// Of points, normals and sphere tree.
+/// Returns the bytes of points, normals and sphere tree.
 std::size_t bytes_of(const Pointshell& shell) {
   const std::size_t arrays = shell.normal_x != nullptr ? 6 : 3;
   return arrays * sizeof(float) * shell.size + shell.nodes.size_bytes();
@@ -45,7 +45,7 @@ std::size_t bytes_of(const Pointshell& shell) {
 
 using ColdTimes = std::map<const Phase*, std::vector<double>>;
 
-/// Of `wanted` cycles of each phase, all in one pass.
+/// Times about `wanted` cycles of each phase with cold caches, all in one pass [ns].
 ColdTimes cold_by_phase(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
                         const Workload& workload, std::size_t wanted) {
   std::map<std::size_t, const Phase*> phase_of;
@@ -60,7 +60,7 @@ ColdTimes cold_by_phase(const Scene& scene, const Pipeline& pipeline, std::span<
   return found;
 }
 
-/// What is aimed at in this phase of this path.
+/// Adds the targets of a phase of a path.
 void add_targets(const Workload& workload, const Phase& phase, const Pipeline& pipeline, const CycleTimes& times,
                  const Distribution& cold, std::vector<Target>& targets) {
   if (workload.name != "bunny-teapot" || pipeline.solver != Solver::kContact) return;
@@ -79,7 +79,7 @@ void add_targets(const Workload& workload, const Phase& phase, const Pipeline& p
   add("cycle, cold, p50", 10.0, cold.p50);
 }
 
-/// The peg from where it goes in to where it is pressed on the bottom.
+/// Adds the targets of the peg, from its way into the hole to the press on the bottom.
 void add_peg_targets(const Workload& workload, const Pipeline& pipeline, const CycleTimes& times,
                      std::vector<Target>& targets) {
   if (workload.name != "peg-hole" || pipeline.solver != Solver::kContact) return;
@@ -107,9 +107,9 @@ Chapter cycles_chapter(const BenchRequest& request) {
               .columns = kColumns,
               .rows = {},
               .note =
-                  "own: each cycle's least of all passes, what it takes when nobody interrupts it; #1 (look-ups and "
-                  "certificate) and #2-#7 are of that kind, with a few readings of the clock in them. cold: 96 MB "
-                  "walked before the cycle."};
+                  "own: the shortest time of a cycle of all passes, without interruptions. #1 (look-ups and "
+                  "certificate) and #2-#7 are own times and include some readings of the clock. cold: 96 MB are read "
+                  "before the cycle."};
   Chapter chapter;
   Table all = shown;
   all.name = "cycles_all";
@@ -129,7 +129,7 @@ Chapter cycles_chapter(const BenchRequest& request) {
     }
     for (std::size_t p = 0; p < held.size(); ++p) {
       request.progress("cycles, " + workload.name, static_cast<double>(p) / static_cast<double>(held.size()));
-      const bool twice = request.full || held[p].solver == Solver::kContact;  // own times need it
+      const bool twice = request.full || held[p].solver == Solver::kContact;  // for own times
       const PassBudget budget{.least_passes = twice ? 2u : 1u, .most_passes = 40, .seconds = request.full ? 4.0 : 0.4};
       const CycleTimes times = time_cycles(image.scene, held[p], device, budget);
       auto cold_times = held[p].solver == Solver::kContact

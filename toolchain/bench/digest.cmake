@@ -1,4 +1,4 @@
-# cmake -DFILE=ARCHIVE -DOUTPUT=SOURCE -P digest.cmake: a source file that names what ARCHIVE holds.
+# cmake -DFILE=ARCHIVE -DOUTPUT=SOURCE -P digest.cmake: writes a source file with the SHA-256 of ARCHIVE.
 file(SHA256 "${FILE}" digest)
 file(WRITE "${OUTPUT}" "#include \"toolchain/bench/build_facts.h\"
 

@@ -16,7 +16,7 @@ struct Distribution {
   double max = 0.0;
 };
 
-/// Zeros where there is nothing. Sorts its copy: O(n log n).
+/// Returns the quantiles of the values, zeros for no value. Sorts its copy: O(n log n).
 Distribution distribution(std::vector<double> values);
 
 /// Measurements of the same cycles, pass after pass [ns].
@@ -25,15 +25,15 @@ class PassSamples {
   explicit PassSamples(std::size_t cycles) : cycles_(cycles) {}
 
   void reserve_passes(std::size_t passes) { values_.reserve(passes * cycles_); }
-  /// In the order of the cycles, `cycles` of them a pass.
+  /// Appends a measurement, in the order of the cycles; a pass has `cycles` of them.
   void push(double value) { values_.push_back(value); }
 
   std::size_t passes() const { return cycles_ == 0 ? 0 : values_.size() / cycles_; }
 
-  /// Of the cycles whose numbers are given, all passes together.
+  /// Returns the quantiles over the cycles with these numbers, all passes together.
   Distribution all(std::span<const std::size_t> cycles) const;
 
-  /// Of each cycle the least of all passes: what it takes when nobody interrupts it.
+  /// Returns the quantiles of the own times: the least value of each cycle over all passes, without interruptions.
   Distribution least(std::span<const std::size_t> cycles) const;
 
  private:

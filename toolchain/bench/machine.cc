@@ -15,7 +15,7 @@
 namespace godobject::bench {
 namespace {
 
-/// What stands behind the colon of the first line of /proc/cpuinfo that begins with `key`.
+/// Returns the text after the colon in the first line of /proc/cpuinfo that begins with `key`, or "unknown".
 std::string cpu_fact(const std::string& key) {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

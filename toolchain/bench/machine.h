@@ -6,7 +6,7 @@
 
 namespace godobject::bench {
 
-/// What a figure was measured on: processor, caches, kernel, compiler, commit, load, the clock's cost.
+/// Returns the facts of this machine and build: processor, caches, kernel, compiler, commit, load, cost of the clock.
 std::vector<std::pair<std::string, std::string>> machine_facts();
 
 }  // namespace godobject::bench

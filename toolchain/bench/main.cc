@@ -26,18 +26,24 @@ const char* const kFooter = R"(Example:
   godobject-bench -o bench
   godobject-bench --only peers
 
-Chapters: cycles, whole cycles #1-#7 of every solver with and without friction on the bunny and the teapot, an ear in
-its handle, the peg in the hole and the thin plate, warm and cold; peers, brute force over all points and FCL at the same poses;
-scaling, the sliding bunny with 10^3 .. 10^5 points and voxels of 2 and 1 mm, with --full to 10^6 and 0.25 mm; parts, look-ups, searches and
-solvers one by one under Google Benchmark, which also takes its own options (--benchmark_filter=look-up, ...).
-Scenes are compiled at the first run (some minutes) and kept in --cache; then it takes less than two minutes, with --full ten.
+Chapters:
+  cycles   whole cycles #1-#7 of every solver with and without friction, warm and cold: the bunny on the teapot, an ear
+           in the handle, the peg in its hole, the bunny at the thin plate
+  peers    brute force over all points, and FCL, at the same poses
+  scaling  the sliding bunny with 10^3 to 10^5 points and voxels of 2 and 1 mm; with --full to 10^6 points and 0.25 mm
+  parts    look-ups, searches and solvers one by one, by Google Benchmark, whose options it takes
+           (--benchmark_filter=look-up, ...)
 
-Exit codes: 0 done, 64 usage, 65 bad mesh, 66 an input is missing or may not be read, 74 cannot write, 77 no right to write.)";
+The first run compiles the scenes (some minutes) and stores them in --cache. A later run takes less than two minutes,
+with --full ten.
+
+Exit codes: 0 done, 64 usage, 65 bad mesh, 66 an input is missing or unreadable, 74 cannot write, 77 no permission to
+write.)";
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // what begins so is Google Benchmark's
+  // Google Benchmark gets its own options
   std::vector<char*> ours;
   std::vector<std::string> for_benchmark;
   for (int i = 0; i < argc; ++i) {
@@ -47,7 +53,7 @@ int main(int argc, char** argv) {
       ours.push_back(argv[i]);
     }
   }
-  CLI::App app("Measures run times: cycles, steps, and peers in the same run.", "godobject-bench");
+  CLI::App app("Measures run times of cycles and steps, beside alternatives in the same run.", "godobject-bench");
   app.footer(kFooter);
   std::string only;
   std::string output;
@@ -62,7 +68,7 @@ int main(int argc, char** argv) {
       ->type_name("FOLDER");
   app.add_option("--cache", request.cache, "folder of compiled scenes; default: ~/.cache/godobject-bench")
       ->type_name("FOLDER");
-  app.add_option("-o,--out", output, "folder for CSV files and a page; made where it is not there")->type_name("DIR");
+  app.add_option("-o,--out", output, "folder for CSV files and a page; created if it is missing")->type_name("DIR");
   return command::run(app, static_cast<int>(ours.size()), ours.data(), [&] {
     if (!output.empty()) command::make_output_folder(output);
     start_google_benchmark(request.full, for_benchmark);

@@ -10,14 +10,14 @@
 
 namespace godobject::bench {
 
-/// A library that looks at the two meshes themselves.
+/// A library that tests the two meshes themselves.
 struct MeshPeer {
   std::string name;  ///< "FCL collide"
-  /// One query with the moving mesh at H_WM; the number of contacts, or the distance [m].
+  /// Runs one query with the moving mesh at H_WM and returns the number of contacts, or the distance [m].
   std::function<double(const Pose& H_WM)> query;
 };
 
-/// A peer that this build does not hold.
+/// A peer that this build lacks.
 struct MissingPeer {
   std::string name;
   std::string cure;
@@ -28,7 +28,7 @@ struct MeshPeers {
   std::vector<MissingPeer> missing;
 };
 
-/// Bounding volume hierarchies over both meshes, each in its own frame [m].
+/// Builds bounding volume hierarchies over both meshes, each in its own frame [m].
 MeshPeers mesh_peers(const scene_compiler::TriangleMesh& still, const scene_compiler::TriangleMesh& moving);
 
 }  // namespace godobject::bench

@@ -20,7 +20,7 @@
 namespace godobject::bench {
 namespace {
 
-/// Keeps what Google Benchmark has measured for our own table: of all repetitions the least.
+/// Collects the results of Google Benchmark in a table, for each benchmark its fastest repetition.
 class TableReporter : public benchmark::BenchmarkReporter {
  public:
   explicit TableReporter(Table& table) : table_(table) {}
@@ -41,7 +41,7 @@ class TableReporter : public benchmark::BenchmarkReporter {
   Table& table_;
 };
 
-/// The bunny while it slides on the teapot.
+/// The scene in which the bunny slides on the teapot, and the recorded poses.
 struct Sliding {
   Sliding(const BenchRequest& request, const Workload& workload)
       : image(SceneCache(request.cache).image(request.scenes / (workload.scene + ".toml"), request.progress)),
@@ -54,7 +54,7 @@ struct Sliding {
     }
   }
 
-  /// The poses of the phase, one after the other, for ever.
+  /// Returns the next pose of the phase; after the last one follows the first.
   const Pose& H_WS() { return recording.H_WS[cycles[next++ % cycles.size()]]; }
 
   command::SceneImage image;
@@ -66,7 +66,8 @@ struct Sliding {
   std::size_t next = 0;
 };
 
-/// Sample points at poses of the path with a stored distance between `low` and `high` [m], far apart in memory.
+/// Returns positions of sample points along the path with a stored distance between `low` and `high` [m]. Successive
+/// positions are far apart in memory.
 std::vector<Vector3> places(const Sliding& sliding, double low, double high) {
   constexpr std::size_t kMost = 4096;
   const Scene& scene = sliding.image.scene;
@@ -141,7 +142,7 @@ void add_searches(Sliding& sliding) {
   }
 }
 
-/// A cycle of the phase as the solver meets it: rows of the points that brute force finds, and the motion wanted.
+/// The solver's input in a cycle of the phase: rows of the points that brute force finds, and the wanted motion.
 struct RecordedRows {
   ContactRows rows;
   Motion wanted;
@@ -220,7 +221,7 @@ void start_google_benchmark(bool full, const std::vector<std::string>& arguments
   benchmark::Initialize(&argc, argv.data());
   if (argc > 1) {
     throw command::Failure(command::ExitCode::kUsage,
-                           std::string(argv[1]) + ": Google Benchmark does not know it; see its documentation");
+                           std::string(argv[1]) + ": Google Benchmark has no such option; see its documentation");
   }
 }
 
@@ -232,10 +233,10 @@ Chapter micro_chapter(const BenchRequest& request) {
   request.progress("parts", 0.0);
   Chapter chapter;
   Table table{.name = "parts",
-              .title = "Parts, mean over the poses of the sliding bunny, warm, least of five repetitions [ns]",
+              .title = "Parts, mean over the poses of the sliding bunny, warm, fastest of five repetitions [ns]",
               .columns = {"part", "time", "iterations"},
               .rows = {},
-              .note = "By Google Benchmark. The solver begins without what it remembers from the last cycle."};
+              .note = "By Google Benchmark. The solver starts without the contacts of the last cycle."};
   TableReporter reporter(table);
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();

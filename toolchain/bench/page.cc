@@ -12,7 +12,7 @@ namespace {
 const char* const kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>The god object, timed</title>
+<title>Run times of the god object</title>
 <style>
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 1200px; margin: 2em auto; padding: 0 1em }
 table { border-collapse: collapse; font-size: 13px }
@@ -21,7 +21,7 @@ th:nth-child(-n+2), td:nth-child(-n+2) { text-align: left }
 .wide { overflow-x: auto }
 img { max-width: 100%; height: auto }
 </style></head><body>
-<h1>The god object, timed</h1>
+<h1>Run times of the god object</h1>
 )";
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -30,7 +30,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   out.commit();
 }
 
-/// A program for gnuplot.
+/// Returns a gnuplot program that draws the plot into `png`.
 std::string plot_text(const Plot& plot, const std::filesystem::path& png) {
   using figures::quoted;
   std::string text = fmt::format(

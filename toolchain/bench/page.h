@@ -9,8 +9,8 @@
 
 namespace godobject::bench {
 
-/// Writes what was found to a folder: NAME.csv for each table, NAME.png for each plot, index.html over all of it.
-/// Throws Failure if something cannot be written or gnuplot is not installed.
+/// Writes the results to a folder: NAME.csv for each table, NAME.png for each plot, index.html with all of them. Throws
+/// Failure if a file cannot be written or gnuplot is not installed.
 void write_page(const Chapter& found, const std::vector<std::pair<std::string, std::string>>& machine,
                 const std::filesystem::path& folder);
 

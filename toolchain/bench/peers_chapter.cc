@@ -16,7 +16,7 @@ namespace {
 
 std::string us(double ns) { return digits(1e-3 * ns); }
 
-/// All peers on one workload.
+/// Measures all peers on one workload.
 class PeersOnWorkload {
  public:
   PeersOnWorkload(const BenchRequest& request, const Workload& workload, const SceneCache& cache)
@@ -50,7 +50,7 @@ class PeersOnWorkload {
     const MeshPeers meshes = mesh_peers(scene_compiler::import_mesh(config.still.file, config.still.scale, report),
                                         scene_compiler::import_mesh(config.moving.file, config.moving.scale, report));
     for (const MissingPeer& missing : meshes.missing) {
-      const std::string remark = fmt::format("left out: {}, not in this build; {}", missing.name, missing.cure);
+      const std::string remark = fmt::format("not measured: {} is not in this build; {}", missing.name, missing.cure);
       auto& remarks = chapter.remarks;
       if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
     }
@@ -106,17 +106,17 @@ class PeersOnWorkload {
     for (const Phase& phase : workload_.phases) add(times, phase, what, samples.all(phase.cycles));
   }
 
-  /// Penetrating points at the device's poses: those of the god object have none.
+  /// Compares the penetrating points at the device poses; at the poses of the god object no point penetrates.
   void compare(std::vector<std::string>& remarks) const {
     std::vector<std::size_t> cycles;
     for (std::size_t i = 0; i < recording_.H_WD.size(); ++i) cycles.push_back(i);
     const Agreement found = agreement(image_.scene, recording_.H_WD, thinned(cycles, 100));
     const double s = image_.scene.grid.voxel_size;
     remarks.push_back(fmt::format(
-        "{}: the same points inside at {} device poses? {} found by the tree, {} by one of tree and brute force only, "
-        "those within {:.3f} voxels of the surface; distances of the others differ by up to {:.3f} voxels (the dense "
-        "grid knows neither refined bricks nor exact edges); missed by the nearest cull: {}; grid {} x {} x {}, {:.1f} "
-        "MB",
+        "{}: penetrating points at {} device poses: the tree finds {}. {} are found by only one of tree and brute "
+        "force, at most {:.3f} voxels from the surface. The distances of the others differ by up to {:.3f} voxels, "
+        "because the dense grid has neither refined bricks nor exact edges. The nearest cull misses {}. Grid {} x {} x "
+        "{}, {:.1f} MB",
         workload_.name, found.poses, found.points, found.differing, found.worst / s, found.worst_distance / s,
         found.missed_by_cull, brute_.nodes()[0], brute_.nodes()[1], brute_.nodes()[2],
         1e-6 * static_cast<double>(brute_.grid_bytes())));
@@ -141,16 +141,16 @@ Chapter peers_chapter(const BenchRequest& request) {
               .columns = {"path, phase", "what", "p50", "p99", "p99.9", "max", "samples"},
               .rows = {},
               .note =
-                  "Brute force looks at all sample points where the god object is before the cycle; FCL tests the "
-                  "meshes themselves, up to 1000 contacts."};
+                  "Brute force looks up all sample points at the god object's pose before the cycle. FCL tests the "
+                  "meshes, with up to 1000 contacts."};
   Table ratios{.name = "ratios",
-               .title = "Against peers, medians [us]",
+               .title = "Comparison with peers, medians [us]",
                .columns = {"path, phase", "best brute force", "brute", "brute, cold", "our #1", "brute / #1", "cycle",
                            "with friction", "FCL collide", "FCL / cycle", "FCL / with friction"},
                .rows = {},
                .note =
-                   "Our #1 finds near points in both directions and certifies the motion; brute force only finds "
-                   "the sample points nearer than an eighth of a voxel. FCL: at the device's poses."};
+                   "Our #1 finds near points in both directions and certifies the motion. Brute force only finds the "
+                   "sample points nearer than an eighth of a voxel. FCL runs at the device poses."};
   Chapter chapter;
   for (const Workload& workload : workloads()) {
     PeersOnWorkload(request, workload, cache).run(times, ratios, chapter);

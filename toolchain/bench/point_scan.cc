@@ -16,7 +16,7 @@ Real on_lattice(Real q, std::int32_t nodes) noexcept {
   return std::min(std::max(q, Real{0}), static_cast<Real>(nodes - 1));
 }
 
-/// Lattice coordinates of point i.
+/// Returns the lattice coordinates of point i.
 template <class Real>
 Position<Real> position(const GridView& grid, const PointView& points, const LatticePose& pose,
                         std::size_t i) noexcept {
@@ -36,7 +36,7 @@ std::size_t node(const GridView& grid, std::int32_t x, std::int32_t y, std::int3
              (static_cast<std::size_t>(y) + static_cast<std::size_t>(grid.nodes[1]) * static_cast<std::size_t>(z));
 }
 
-/// Looks at point i and keeps it if it is near.
+/// Interpolates at q and appends the point to `near` if its distance is below the cut.
 template <class Real>
 void keep_if_near(const GridView& grid, const Position<Real>& q, const ScanLimits& limits, std::uint32_t index,
                   NearList& near) noexcept {

@@ -56,7 +56,7 @@ GODOBJECT_AVX2 inline __m256 mix(__m256 low, __m256 high, __m256 f) noexcept {
   return _mm256_fmadd_ps(f, _mm256_sub_ps(high, low), low);
 }
 
-/// Keeps those of `lanes` (bits) that are near.
+/// Appends the points of `lanes` (bits) that are near.
 GODOBJECT_AVX2 inline void keep_near(const GridView& grid, const Lattice& l, const Coordinates& q, __m256i index,
                                      std::uint32_t lanes, const ScanLimits& limits, NearList& near) noexcept {
   const __m256i x = _mm256_min_epi32(_mm256_cvttps_epi32(q.x), l.last_cell[0]);
@@ -136,7 +136,7 @@ GODOBJECT_AVX2 void scan_cull_avx2(const GridView& grid, const PointView& points
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const Coordinates q =
         coordinates(l, _mm256_loadu_ps(points.x + i), _mm256_loadu_ps(points.y + i), _mm256_loadu_ps(points.z + i));
-    // to the nearest
+    // round to the nearest node
     const __m256i at = node(l, _mm256_cvtps_epi32(q.x), _mm256_cvtps_epi32(q.y), _mm256_cvtps_epi32(q.z));
     const __m256 below = _mm256_cmp_ps(gather(grid.value, at), cull, _CMP_LT_OQ);
     auto kept = lanes_left(points.count, i) & static_cast<std::uint32_t>(_mm256_movemask_ps(below));
@@ -144,7 +144,7 @@ GODOBJECT_AVX2 void scan_cull_avx2(const GridView& grid, const PointView& points
       scratch[survivors++] = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(__builtin_ctz(kept));
     }
   }
-  for (std::size_t k = survivors; k < survivors + kLanes; ++k) scratch[k] = 0;  // lanes that are not asked for
+  for (std::size_t k = survivors; k < survivors + kLanes; ++k) scratch[k] = 0;  // unused lanes
   near.count = 0;
   for (std::size_t k = 0; k < survivors; k += kLanes) {
     const __m256i i = load(scratch + k);

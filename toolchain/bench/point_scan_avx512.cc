@@ -58,7 +58,7 @@ GODOBJECT_AVX512 inline __m512 mix(__m512 low, __m512 high, __m512 f) noexcept {
   return _mm512_fmadd_ps(f, _mm512_sub_ps(high, low), low);
 }
 
-/// Keeps those of `lanes` that are near.
+/// Appends the points of `lanes` that are near.
 GODOBJECT_AVX512 inline void keep_near(const GridView& grid, const Lattice& l, const Coordinates& q, __m512i index,
                                        __mmask16 lanes, const ScanLimits& limits, NearList& near) noexcept {
   const __m512i x = _mm512_min_epi32(_mm512_cvttps_epi32(q.x), l.last_cell[0]);
@@ -129,7 +129,7 @@ GODOBJECT_AVX512 void scan_cull_avx512(const GridView& grid, const PointView& po
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const Coordinates q =
         coordinates(l, _mm512_loadu_ps(points.x + i), _mm512_loadu_ps(points.y + i), _mm512_loadu_ps(points.z + i));
-    // to the nearest
+    // round to the nearest node
     const __m512i at = node(l, _mm512_cvtps_epi32(q.x), _mm512_cvtps_epi32(q.y), _mm512_cvtps_epi32(q.z));
     const __mmask16 kept = _mm512_cmp_ps_mask(gather(grid.value, at), cull, _CMP_LT_OQ);
     if (kept != 0) {
@@ -142,7 +142,7 @@ GODOBJECT_AVX512 void scan_cull_avx512(const GridView& grid, const PointView& po
   for (std::size_t k = 0; k < survivors; k += kLanes) {
     __mmask16 lanes = lanes_left(survivors, k);
     const __m512i i = _mm512_maskz_loadu_epi32(lanes, scratch + k);
-    // the padding behind the last point may have survived
+    // the padding behind the last point may have passed the cull
     lanes = _mm512_mask_cmplt_epu32_mask(lanes, i, _mm512_set1_epi32(static_cast<int>(points.count)));
     const Coordinates q = coordinates(l, gather(points.x, i), gather(points.y, i), gather(points.z, i));
     const __m512i order = _mm512_i32gather_epi32(i, points.order, 4);

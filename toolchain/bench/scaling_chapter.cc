@@ -12,13 +12,13 @@
 namespace godobject::bench {
 namespace {
 
-/// Of one scene in which the bunny slides on the teapot.
+/// Points and voxel size of one scene in which the bunny slides on the teapot.
 struct Scale {
   std::uint32_t points;
   double voxel_size;  ///< [m]
 };
 
-/// Levels that leave the tree as many branches at a node as the bunny's 5587 points in 7 levels.
+/// Returns the levels with which each node of the tree has as many children as with 5587 points in 7 levels.
 int levels_for(std::uint32_t points) {
   return static_cast<int>(std::lround(7.0 * std::log(static_cast<double>(points)) / std::log(5587.0)));
 }
@@ -33,7 +33,7 @@ std::string scene_text(const Scale& scale, const std::filesystem::path& scenes) 
       mesh("teapot.ply"), scale.voxel_size, mesh("bunny_npm.ply"), scale.points, levels_for(scale.points));
 }
 
-/// Medians and the like of one scale [ns].
+/// Quantiles of one scale [ns].
 struct Found {
   std::size_t points = 0;
   Distribution plain, friction, own_plain, own_friction, step1, cold;
@@ -41,7 +41,7 @@ struct Found {
   std::string brute_name = "-";
 };
 
-/// Larger dense grids are left out.
+/// Dense grids above this size are not measured.
 constexpr double kMostGridBytes = 1e9;
 
 double grid_bytes(const Scene& scene) {
@@ -128,7 +128,7 @@ Chapter scaling_chapter(const BenchRequest& request) {
       .columns = {"points", "voxel", "cycle p50", "p99.9", "own p99.9", "with friction p50", "p99.9", "own p99.9",
                   "cold p50", "#1 p50", "brute p50", "brute p99.9", "brute cold p50", "best brute force"},
       .rows = {},
-      .note = request.full ? "" : "10^6 points and voxels of 0.5 and 0.25 mm: with --full."};
+      .note = request.full ? "" : "--full adds 10^6 points and voxels of 0.5 and 0.25 mm."};
   Plot by_points{.name = "scaling_points",
                  .title = "Sliding, voxels of 2 mm: more points",
                  .x_label = "points",

@@ -17,7 +17,7 @@
 namespace godobject::bench {
 namespace {
 
-/// FNV-1a, 64 bits: tells files apart that nobody made to look alike.
+/// FNV-1a, 64 bits. It distinguishes files, but does not resist forgery.
 class Digest {
  public:
   void add(std::string_view bytes) noexcept {

@@ -9,18 +9,18 @@
 
 namespace godobject::bench {
 
-/// Compiled scenes in a folder, each under a name that follows from the scene file's text, its meshes' bytes and the
-/// compiler, so that a second run need not compile and a changed compiler is never mixed up with an older one.
+/// Compiled scenes in a folder. The name of each follows from the text of the scene file, the bytes of its meshes and
+/// the compiler, so a second run need not compile, and a changed compiler never uses the scenes of an older one.
 class SceneCache {
  public:
-  /// Makes the folder where it is not there. Throws Failure.
+  /// Creates the folder if it is missing. Throws Failure.
   explicit SceneCache(std::filesystem::path folder);
 
-  /// The image of a scene file, compiled if it is not there. `progress` may be empty. Throws Failure.
+  /// Returns the image of a scene file, and compiles it if it is not cached. `progress` may be empty. Throws Failure.
   command::SceneImage image(const std::filesystem::path& scene_file,
                             const std::function<void(const char* phase, double done)>& progress) const;
 
-  /// The same of a text, whose meshes have absolute paths; `name` is a file name's begin.
+  /// The same for the text of a scene file, whose meshes have absolute paths; the file's name begins with `name`.
   command::SceneImage image_of_text(std::string_view name, std::string_view text,
                                     const std::function<void(const char* phase, double done)>& progress) const;
 
@@ -28,7 +28,7 @@ class SceneCache {
   std::filesystem::path folder_;
 };
 
-/// $XDG_CACHE_HOME/godobject-bench, or ~/.cache/godobject-bench, or a folder in the one for temporary files.
+/// Returns $XDG_CACHE_HOME/godobject-bench, or ~/.cache/godobject-bench, or a folder among the temporary files.
 std::filesystem::path default_cache_folder();
 
 }  // namespace godobject::bench

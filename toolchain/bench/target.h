@@ -7,7 +7,7 @@
 
 namespace godobject::bench {
 
-/// A figure that is aimed at.
+/// A quantity with its wanted and its measured value.
 struct Target {
   std::string quantity;
   std::string unit;
@@ -18,7 +18,7 @@ struct Target {
   bool held() const { return at_least ? measured >= wanted : measured <= wanted; }
 };
 
-/// All of them, with the verdict on each.
+/// Returns a table of the targets with a verdict on each.
 Table table_of(const std::vector<Target>& targets);
 
 }  // namespace godobject::bench

@@ -11,7 +11,7 @@
 
 namespace godobject::bench {
 
-/// Part of a path, by the numbers of its cycles.
+/// Part of a path, given by the numbers of its cycles.
 struct Phase {
   std::string name;
   std::vector<std::size_t> cycles;
@@ -25,10 +25,10 @@ struct Workload {
   std::vector<Phase> phases;
 };
 
-/// Bunny on teapot, ear in handle, peg in hole, thin plate; of the last cycles none is left out.
+/// Returns the workloads: bunny on teapot, ear in handle, peg in hole, thin plate.
 const std::vector<Workload>& workloads();
 
-/// The device's poses of a workload, of the moving mesh's frame in W. Throws Failure.
+/// Returns the device poses of a workload, H_WM of the moving mesh. Throws Failure.
 std::vector<Pose> device_poses(const Workload& workload, const std::filesystem::path& scenes);
 
 /// A solver, with or without friction.
@@ -39,7 +39,7 @@ struct Pipeline {
   std::string name() const;  ///< "contact, friction"
 };
 
-/// All pipelines that a scene holds.
+/// Returns all pipelines that a scene has data for.
 std::vector<Pipeline> pipelines(const Scene& scene);
 
 }  // namespace godobject::bench

@@ -12,13 +12,13 @@ namespace godobject::figures {
 namespace {
 
 constexpr std::size_t kPanels = 7;
-constexpr double kDeepest_um = -100.0;  ///< lower end of the axis of depth: further off nothing is near
+constexpr double kDeepest_um = -100.0;  ///< lower end of the axis of depth; larger gaps are drawn here
 
-/// Of the joints; easy to tell apart for the colour-blind.
+/// Colours of the joints; colour-blind readers can distinguish them.
 constexpr std::array<const char*, 8> kJointColors = {"#e69f00", "#56b4e9", "#009e73", "#c2185b",
                                                      "#0072b2", "#d55e00", "#888888", "#7b3fa0"};
 
-/// Names of the supervisor's modes in the order in which they came.
+/// Returns the names of the supervisor's modes in the order in which they occurred.
 std::vector<std::string> modes(const TelemetryLog& log) {
   std::vector<std::string> names;
   for (const TelemetryRow& row : log) {
@@ -27,8 +27,8 @@ std::vector<std::string> modes(const TelemetryLog& log) {
   return names;
 }
 
-/// t, force, torque, distance [mm], depth [um], mode, joint torques [% of the limit]; what was not rendered is no
-/// number.
+/// Returns a gnuplot data block with t, force, torque, distance [mm], depth [um], mode and joint torques [% of the
+/// limit]. Distance and depth are nan in a cycle without rendering.
 std::string cycle_block(const ArmLog& log, const std::vector<std::string>& names) {
   std::string text = "$cycles << END\n";
   auto out = std::back_inserter(text);
@@ -69,7 +69,7 @@ std::string joint_curves(std::size_t joints) {
   return text + "\n";
 }
 
-/// Colours of the joints, named above the first panel.
+/// Returns the key of the joints' colours above the first panel.
 std::string joint_keys(std::size_t joints) {
   std::string text;
   for (std::size_t i = 0; i < joints; ++i) {
@@ -108,7 +108,7 @@ std::string gnuplot_text(const ArmFigure& figure, const std::filesystem::path& p
   text += marker_text(figure.markers, true) + "set yrange [0:*]\nset ylabel 'force [N]'\n" + force + "unset key\n";
   text += marker_text(figure.markers, false);
   text += "set ylabel 'torque [Nm]'\n" + curve(3);
-  text += "set ylabel 'god object off [mm]'\n" + curve(4);
+  text += "set ylabel 'distance [mm]'\n" + curve(4);
   text += "set ylabel 'depth [um]'\n" + zero;
   text += "set ylabel 'joints [% of limit]'\n" + joint_curves(joints);
   text += "set ylabel 'work of hand [J]'\n" + curve(2, "$hand");

@@ -20,11 +20,11 @@ using command::ExitCode;
 using command::Failure;
 using command::TomlTable;
 
-/// Of the integration of the arm's motion; a push of the hand is a hundred times as much.
+/// Error of the integration of the arm's motion; a push of the hand does a hundred times as much work.
 constexpr double kNoWork = 1e-3;  // [J]
 
 struct Claim {
-  std::string (*missed)(const ArmRun& run);  ///< in words; empty: it holds
+  std::string (*missed)(const ArmRun& run);  ///< the violation in words; empty: the claim holds
   std::string (*holds)(const std::vector<ArmRun>& runs);
 };
 
@@ -35,9 +35,9 @@ double largest(const std::vector<ArmRun>& runs, double (*value)(const ArmRun&)) 
 }
 
 std::string stopped(const ArmRun& run) {
-  if (run.fault != 0) return fmt::format("fault {} ended it", run.fault);
-  if (run.last_mode != "ended") return fmt::format("its last cycle is in mode {}, not ended", run.last_mode);
-  return run.interrupted ? "it did not render from one start to one end" : "";
+  if (run.fault != 0) return fmt::format("fault {} ended the run", run.fault);
+  if (run.last_mode != "ended") return fmt::format("the last cycle is in mode {}, not in mode ended", run.last_mode);
+  return run.interrupted ? "rendering was interrupted or did not start" : "";
 }
 
 std::string penetration(const ArmRun& run) {
@@ -57,17 +57,17 @@ std::string pop_through(const ArmRun& run) {
 
 std::string torque(const ArmRun& run) {
   if (run.torque <= 1.0) return "";
-  return fmt::format("joint {} is sent {:.0f} % of its limit", run.torque_joint, 1e2 * run.torque);
+  return fmt::format("the torque of joint {} is {:.0f} % of its limit", run.torque_joint, 1e2 * run.torque);
 }
 
 std::string work(const ArmRun& run) {
   if (run.least_work >= -kNoWork) return "";
-  return fmt::format("the hand had got back {:.4f} J more than it had put in", -run.least_work);
+  return fmt::format("the hand received {:.4f} J more work than it did", -run.least_work);
 }
 
 constexpr Claim kClaims[] = {
     {stopped,
-     [](const std::vector<ArmRun>&) { return std::string("rendered without a break, ended without a fault"); }},
+     [](const std::vector<ArmRun>&) { return std::string("rendering without interruption, end without a fault"); }},
     {penetration,
      [](const std::vector<ArmRun>& runs) {
        return fmt::format("no penetration, the smallest gap is {:.4f} mm",
@@ -83,7 +83,7 @@ constexpr Claim kClaims[] = {
        return fmt::format("joint torques of at most {:.0f} % of their limits",
                           1e2 * largest(runs, [](const ArmRun& r) { return r.torque; }));
      }},
-    {work, [](const std::vector<ArmRun>&) { return std::string("the hand never gets back more work than it put in"); }},
+    {work, [](const std::vector<ArmRun>&) { return std::string("the hand never receives more work than it did"); }},
 };
 
 std::vector<double> torque_limits(const std::filesystem::path& device) {
@@ -110,7 +110,7 @@ ArmLog read_arm_log(const std::filesystem::path& folder, const std::filesystem::
   ArmLog log{read_telemetry_log(folder / "telemetry.csv"), read_hand_log(folder / "hand.csv"), torque_limits(device)};
   const std::size_t joints = log.cycles.front().torque.size();
   if (joints != log.torque_limits.size()) {
-    throw Failure(ExitCode::kBadData, fmt::format("{}: has {} joints, {} has {}; name the arm's own device file",
+    throw Failure(ExitCode::kBadData, fmt::format("{}: has {} joints, {} has {}; name the device file of this arm",
                                                   device.string(), log.torque_limits.size(), folder.string(), joints));
   }
   return log;
@@ -189,8 +189,9 @@ std::string arm_table(const std::vector<ArmRun>& runs) {
     for (const ArmRun& run : runs) columns.back().push_back(column.value(run));
   }
   return laid_out(columns) +
-         "closed loop: the controller on a simulated arm, a hand follows the path, solver contact; device: furthest of "
-         "the god\nobject from the device; torque: largest of a joint, of its limit; work: of the hand until the end\n";
+         "closed loop: controller on a simulated arm, a hand follows the path, solver contact; device: largest\n"
+         "distance of the god object from the device; torque: largest share of a joint's limit; work: done by the "
+         "hand\n";
 }
 
 }  // namespace godobject::figures

@@ -11,7 +11,7 @@
 
 namespace godobject::figures {
 
-/// What the whole controller left of a run on an arm.
+/// The logs of a run of the whole controller on an arm.
 struct ArmLog {
   TelemetryLog cycles;
   std::vector<HandWork> hand;
@@ -22,30 +22,30 @@ struct ArmLog {
 /// kBadData, kBadConfig, and kBadData if telemetry and device file differ in their number of joints.
 ArmLog read_arm_log(const std::filesystem::path& folder, const std::filesystem::path& device);
 
-/// What a run shows.
+/// Results of a run.
 struct ArmRun {
   std::string name;
   double voxel_size = 0.0;           ///< [m]
-  Statistics statistics;             ///< of the cycles in which something was rendered; without times
-  std::optional<Crossing> crossing;  ///< where the scene has a barrier
+  Statistics statistics;             ///< of the cycles that rendered; without times
+  std::optional<Crossing> crossing;  ///< if the scene has a barrier
   double seconds = 0.0;
-  int fault = 0;            ///< the first one, 0: none
+  int fault = 0;            ///< the first fault, 0: none
   std::string last_mode;    ///< of the supervisor
-  bool interrupted = true;  ///< it did not render at all, or more than once
-  double distance = 0.0;    ///< largest of god object and device [m]
-  double torque = 0.0;      ///< largest of a joint, share of its limit [1]
-  int torque_joint = 0;     ///< of it, from 1
-  double work = 0.0;        ///< of the hand on the tool, from the first to the last cycle that rendered [J]
-  double least_work = 0.0;  ///< the least that this was meanwhile: below zero the hand had got back more [J]
+  bool interrupted = true;  ///< the cycles that rendered are not one uninterrupted sequence
+  double distance = 0.0;    ///< largest distance of god object and device [m]
+  double torque = 0.0;      ///< largest joint torque, as share of the joint's limit [1]
+  int torque_joint = 0;     ///< number of that joint, from 1
+  double work = 0.0;        ///< work of the hand on the tool, from the first to the last cycle that rendered [J]
+  double least_work = 0.0;  ///< minimum of that work during the run; below zero the hand gained energy [J]
 };
 
-/// `band`: distances are stored up to it [m]. Of `crossing` and `name` nothing is known here.
+/// Returns the results of a run, without `crossing` and `name`. `band`: limit of the stored distances [m].
 ArmRun arm_run(const ArmLog& log, double band);
 
-/// What is claimed of the closed loop: it runs from start to end without a fault and renders without a break; nothing
-/// penetrates, nothing pops through; no joint is asked for more than it can give; and seen from the hand it is passive:
-/// at no time has the hand got back more work than it had put in. One sentence for each claim that a run misses, then
-/// one with what holds in all of them. Nothing without runs.
+/// Judges the claims on the closed loop: it runs from start to end without a fault and renders without interruption;
+/// the god object does not penetrate or pop through; no joint torque exceeds its limit; and the loop is passive at the
+/// hand: at no time has the hand received more work than it has done. Returns one sentence for each claim that a run
+/// misses, then one sentence with the claims that all runs hold. Without runs the result is empty.
 std::vector<std::string> judge_arm_runs(const std::vector<ArmRun>& runs);
 
 /// A quantity of the table of runs.
@@ -56,7 +56,7 @@ struct ArmColumn {
 
 const std::vector<ArmColumn>& arm_columns();
 
-/// The table of runs for a terminal.
+/// Returns the table of runs for a terminal.
 std::string arm_table(const std::vector<ArmRun>& runs);
 
 }  // namespace godobject::figures

@@ -14,11 +14,12 @@ namespace {
 
 constexpr double kSolve_us = 5.0;
 
-/// Something that is claimed of a solver's run in a scene. `missed` says by how much it is not so; empty: it is so.
+/// A claim on a solver's run in a scene. `missed` tells by how much the run misses it; empty: the claim holds.
 struct Claim {
   std::string (*missed)(const Entry& entry);
-  std::string (*holds)(const std::vector<const Entry*>& entries);  ///< in words; empty: they do not show it
-  /// Of claims that the machine's load decides as well: how far missed. One sentence a solver then, of its worst scene.
+  std::string (*holds)(const std::vector<const Entry*>& entries);  ///< the claim in words; empty: not tested
+  /// Only for claims that depend on the machine's load: the size of the miss. Such a claim gets one sentence per
+  /// solver, about its worst scene.
   double (*size)(const Entry& entry) = nullptr;
 };
 
@@ -64,8 +65,8 @@ std::string cycle_time(const Entry& e) {
   const Statistics& s = e.statistics;
   if (s.over_1ms == 0) return "";
   return fmt::format(
-      "{} of {} cycles took longer than 1 ms (paper: none; a machine without real-time scheduling can do that by "
-      "itself)",
+      "{} of {} cycles took longer than 1 ms (paper: none; without real-time scheduling the machine alone can cause "
+      "this)",
       s.over_1ms, s.cycles);
 }
 
@@ -78,7 +79,7 @@ constexpr Claim kClaims[] = {
      [](const Entry& e) { return static_cast<double>(e.statistics.over_1ms); }},
 };
 
-/// One sentence of one solver: the scenes in which it misses the claim, and by how much in the worst.
+/// Returns a sentence about one solver: the scenes in which it misses the claim, and the size of the worst miss.
 std::string missed_most(const Claim& claim, const std::vector<const Entry*>& entries) {
   std::vector<std::string_view> scenes;
   const Entry* worst = nullptr;
@@ -92,7 +93,7 @@ std::string missed_most(const Claim& claim, const std::vector<const Entry*>& ent
   return fmt::format("MISSED {}, solver {}: {}{}", fmt::join(scenes, ", "), worst->solver, where, claim.missed(*worst));
 }
 
-/// What holds of one solver in all of its scenes.
+/// Returns the claims that one solver holds in all of its scenes.
 std::string held(const std::vector<const Entry*>& entries) {
   std::vector<std::string> words;
   for (const Claim& claim : kClaims) {

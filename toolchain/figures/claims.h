@@ -7,11 +7,11 @@
 
 namespace godobject::figures {
 
-/// What the paper says of its own measurements (section 4), held against ours: the god object penetrates less than one
-/// voxel (and stays on its side of the scene's barrier to within one, if it has one); steps #2-#7 take "only around 5
-/// us" in contact (held against the 99th percentile); #1-#7 always stay below 1 ms. And what `contact` adds: nothing
-/// penetrates at all. One sentence for each claim that an entry misses, then one a solver with what holds in all of its
-/// entries.
+/// Judges the results by the claims of the paper (section 4): the god object penetrates less than one voxel, and goes
+/// less than one voxel behind the scene's barrier, if there is one; steps #2-#7 take "only around 5 us" in contact
+/// (compared with the 99th percentile); #1-#7 always take less than 1 ms. The solver `contact` claims no penetration at
+/// all. Returns one sentence for each claim that an entry misses, then one sentence per solver with the claims that all
+/// its entries hold.
 std::vector<std::string> judge(const std::vector<Entry>& entries);
 
 }  // namespace godobject::figures

@@ -7,20 +7,20 @@
 
 namespace godobject::figures {
 
-/// A plane of the still surface that the moving body is to stay on one side of. A thin body's depth says nothing once
-/// it has been passed; this does.
+/// A plane of the still surface; the moving body must stay on one side of it. After a body has passed through a thin
+/// body its depth is meaningless; the distance behind the barrier is not.
 struct Barrier {
   Vector3 point = Vector3::Zero();    ///< in W [m]
-  Vector3 normal = Vector3::UnitZ();  ///< unit, in W, towards where the body may be
+  Vector3 normal = Vector3::UnitZ();  ///< unit, in W, towards the allowed side
 };
 
-/// How far the god object went behind the barrier, and when it was furthest.
+/// Largest distance of the god object behind the barrier, and its time.
 struct Crossing {
-  double distance = 0.0;  ///< of the furthest sample point, 0 if none went behind [m]
+  double distance = 0.0;  ///< of the farthest sample point, 0 if no point went behind [m]
   double t = 0.0;         ///< [s]
 };
 
-/// Looks at every sample point of the scene in every cycle.
+/// Returns the crossing over all sample points of the scene and all cycles.
 Crossing furthest_crossing(const ReplayLog& log, const Scene& scene, const Barrier& barrier);
 
 }  // namespace godobject::figures

@@ -9,8 +9,8 @@
 
 namespace godobject::figures {
 
-/// The paper's Figure 8 made anew, all solvers in each panel, a colour each: one below the other force, torque,
-/// penetration of the god object (with the voxel edge), points in contact, and time of step #1 and of #2-#7.
+/// The paper's Figure 8 for our runs, with all solvers in each panel, one colour each. Its panels are: force, torque,
+/// penetration of the god object (with the voxel edge), points in contact, time of step #1 and of steps #2-#7.
 struct Figure {
   struct Series {
     std::string solver;
@@ -24,10 +24,10 @@ struct Figure {
   std::vector<Series> series;  ///< one or more; later ones are drawn over earlier ones
 };
 
-/// The picture as a program for gnuplot, data included, that writes `png`.
+/// Returns a gnuplot program, data included, that draws the figure into `png`.
 std::string gnuplot_text(const Figure& figure, const std::filesystem::path& png);
 
-/// Draws it. Throws Failure if gnuplot is not installed or fails, or the file cannot be written.
+/// Draws the figure. Throws Failure if gnuplot is not installed or fails, or the file cannot be written.
 void draw(const Figure& figure, const std::filesystem::path& png);
 
 }  // namespace godobject::figures

@@ -8,19 +8,19 @@
 
 namespace godobject::figures {
 
-/// A line across all panels.
+/// A named time, drawn as a line across all panels.
 struct Marker {
   std::string name;
   double t = 0.0;  ///< [s]
 };
 
-/// Text as gnuplot takes it.
+/// Returns the text as a string of gnuplot.
 std::string quoted(const std::string& text);
 
-/// The lines of a panel, with their names above it if it is the first.
+/// Returns gnuplot commands for the markers of a panel; `named`: with their names above it.
 std::string marker_text(const std::vector<Marker>& markers, bool named);
 
-/// A picture of panels one below the other over the time from `begin` to `end` [s]; keys stand above the first.
+/// A picture of panels, one below the other, over the time from `begin` to `end` [s]. The keys are above the first.
 struct PanelSheet {
   std::string title;
   std::size_t panels = 0;
@@ -31,11 +31,11 @@ struct PanelSheet {
 
 std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& png);
 
-/// Before the last panel: the axis of time gets its numbers.
+/// Gnuplot command before the last panel: it labels the axis of time.
 extern const char* const kTimeAxis;
 
-/// Runs the program for gnuplot that `text` makes for the file that it is to write, and puts that at `png`. Throws
-/// Failure if gnuplot is not installed or fails, or the file cannot be written.
+/// Draws a picture into the file `png`. `text` returns the gnuplot program for a given output file. Throws Failure if
+/// gnuplot is not installed or fails, or the file cannot be written.
 void draw_with_gnuplot(const std::function<std::string(const std::filesystem::path&)>& text,
                        const std::filesystem::path& png);
 

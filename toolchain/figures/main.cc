@@ -32,18 +32,21 @@ namespace fs = std::filesystem;
 const char* const kFooter = R"(Example:
   godobject-figures figures.toml --images images --solvers paper,corrected,contact -o out
 
-FIGURES.toml holds tables [[scene]] with the keys name, image, title, text and, if wanted, markers =
-{ A = 0.4 } [s] and barrier = [x, y, z, nx, ny, nz]: the god object is to stay on that side of a plane of W [m]. For each of them
-OUT/NAME/SOLVER.csv (of godobject-replay) and IMAGES/IMAGE.scene (of godobject-scenec) must be there. Writes OUT/NAME/figure.png
-with gnuplot, OUT/statistics.csv and OUT/index.html, and prints the table, what is missed of the paper's claims and of
-what contact promises, and what holds; the CSV table has more columns than the printed one. Tables [[run]], if there are any, have
-the same keys and device, the device file of an arm: for each OUT/NAME/telemetry.csv and OUT/NAME/hand.csv (of godobject-controller)
-must be there; they become a figure, a table and verdicts of their own. Pictures OUT/NAME/SOLVER_MOMENT.png
-and OUT/NAME/telemetry_MOMENT.png (of godobject-view) are shown if they are there.
-Percentiles are of nearest rank, over the cycles in contact; "over 1 ms" counts all cycles.
+Inputs:
+  FIGURES.toml   tables [[scene]] with the keys name, image, title and text; optional are markers = { A = 0.4 } [s] and
+                 barrier = [x, y, z, nx, ny, nz], a plane of W [m] on whose side the god object must stay. Optional
+                 tables [[run]] have the same keys and device, the device file of an arm.
+  for a scene    OUT/NAME/SOLVER.csv of godobject-replay, IMAGES/IMAGE.scene of godobject-scenec
+  for a run      OUT/NAME/telemetry.csv and OUT/NAME/hand.csv of godobject-controller, and the image
+  optional       pictures OUT/NAME/SOLVER_MOMENT.png and OUT/NAME/telemetry_MOMENT.png of godobject-view
+Outputs:
+  OUT/NAME/figure.png (with gnuplot), OUT/statistics.csv, OUT/index.html; on stdout the table (the CSV file has more
+  columns) and verdicts on the claims of the paper and of the solver contact, missed ones first
 
-Exit codes: 0 done (whatever is missed), 64 usage, 65 bad image or replay, 66 an input is missing or may not be read,
-70 gnuplot fails or is not installed, 74 cannot write, 77 no right to write, 78 not TOML, or a bad key.)";
+Percentiles are nearest-rank, over the cycles in contact; "over 1 ms" counts all cycles.
+
+Exit codes: 0 done (missed claims included), 64 usage, 65 bad image or replay, 66 an input is missing or unreadable,
+70 gnuplot fails or is not installed, 74 cannot write, 77 no permission to write, 78 not TOML, or a bad key.)";
 
 struct Options {
   std::string plan, images, output;
@@ -56,7 +59,7 @@ void write(const fs::path& file, const std::string& text) {
   out.commit();
 }
 
-/// Refuses what is missing or cannot be written, before the work.
+/// Refuses missing inputs and outputs that cannot be written, before the work.
 void check_files(const Options& options, const Plan& plan) {
   const fs::path output = options.output;
   for (const char* file : {"statistics.csv", "index.html"}) command::output_target(output / file);

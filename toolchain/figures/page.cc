@@ -16,7 +16,7 @@ namespace {
 const char* const kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>The god object, measured</title>
+<title>God object: results of this run</title>
 <style>
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 1200px; margin: 2em auto; padding: 0 1em }
 table { border-collapse: collapse; font-size: 13px }
@@ -27,20 +27,21 @@ img { max-width: 100%; height: auto }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(360px, 1fr)); gap: 12px }
 dt { font-weight: bold } figure { margin: 0 } figcaption { font-size: 13px; color: #555 }
 </style></head><body>
-<h1>The god object, measured</h1>
-<p>The voxelised object is green. The moving object is red where the device has it, blue where the god object keeps it.
-Depths are those of the god object; times are those of this run, of cycles in contact. The path of the device is the same
-for all solvers:</p>
+<h1>God object: results of this run</h1>
+<p>In the pictures the voxelised object is green. The moving object is red at the device pose and blue at the pose of
+the god object. Depths are those of the god object. Times are those of this run, over the cycles in contact. All
+solvers get the same device path:</p>
 <dl>
-<dt>contact</dt><dd>The default. The least-constraint motion over all contact points at once, a small quadratic programme with
-Coulomb friction at each point, in sub-steps that are certified not to meet the surface. Keeps a gap of a hundredth of a
-voxel.</dd>
-<dt>corrected</dt><dd>One projection in closed form from one wrench for all contacts: exact for a single contact, not for several.</dd>
-<dt>paper</dt><dd>The published heuristic as printed, to compare with.</dd>
+<dt>contact</dt><dd>The default. It computes the least-constraint motion over all contact points at once, by a small
+quadratic programme with Coulomb friction at each point, in sub-steps that are certified not to meet the surface. It
+keeps a gap of a hundredth of a voxel.</dd>
+<dt>corrected</dt><dd>One projection in closed form from one wrench for all contacts. It is exact for a single
+contact, not for several.</dd>
+<dt>paper</dt><dd>The published heuristic as printed, for comparison.</dd>
 </dl>
 )";
 
-/// A line for each of `rows`, with the columns' headings above.
+/// Returns an HTML table with a line for each of `rows`.
 template <class Column, class Row>
 std::string cells_html(const std::vector<Column>& columns, const std::vector<Row>& rows) {
   std::string text = "<div class=\"wide\"><table><tr>";
@@ -56,13 +57,12 @@ std::string cells_html(const std::vector<Column>& columns, const std::vector<Row
 
 std::string table_html(const std::vector<Entry>& entries) {
   return cells_html(columns(), entries) +
-         "<p>Depth: of the deepest sample point in contact, below 0 a gap; behind: beyond the plate. "
-         "Force "
-         "step: largest change of the force from one cycle to the next. Points: of paper and corrected those that "
-         "collide, of contact rows that carry a force. Cut, overflow, infeasible: cycles whose motion could not be "
-         "finished, with more near points than fit, with constraints without a solution. #1: look-ups; #2-#7: the rest "
-         "of a cycle; p50, p99: what half, 99 % of the cycles in contact stay below. The same as <a "
-         "href=\"statistics.csv\">CSV</a>.</p>\n";
+         "<p>Depth: deepest sample point in contact; below 0: a gap. Behind: distance behind the plate. Force step: "
+         "largest change of the force from one cycle to the next. Points: colliding points (paper, corrected), or "
+         "rows with a force (contact). Cut: cycles whose motion could not be finished. Overflow: cycles with more "
+         "near points than the solver has room for. Infeasible: cycles whose constraints have no solution. #1: "
+         "look-ups. #2-#7: the rest of a cycle. p50, p99: median and 99th percentile over the cycles in contact. The "
+         "table as <a href=\"statistics.csv\">CSV</a>.</p>\n";
 }
 
 std::string list(const std::vector<std::string>& sentences) {
@@ -84,7 +84,7 @@ Picture picture_of(const std::filesystem::path& file) {
   return {file.filename().string(), stem.substr(0, line), line < stem.size() ? stem.substr(line + 1) : ""};
 }
 
-/// The pictures in a scene's folder, the figure left out, by moment, then by solver.
+/// Returns the pictures in a scene's folder without the figure, by moment, then by solver.
 std::vector<Picture> pictures(const std::filesystem::path& folder) {
   std::vector<Picture> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -97,7 +97,8 @@ std::vector<Picture> pictures(const std::filesystem::path& folder) {
   return found;
 }
 
-/// "corrected, 1.200 s: depth 0.123 mm, force 4.5 N"; the name of the file if it is not of a replay.
+/// Returns a caption such as "corrected, 1.200 s: depth 0.123 mm, force 4.5 N", or the name of the file if the picture
+/// does not belong to a replay.
 std::string caption(const Picture& picture, const std::vector<Figure::Series>& all) {
   std::vector<const ReplayLog*> logs;
   for (const auto& series : all) logs.push_back(&series.log);
@@ -107,11 +108,11 @@ std::string caption(const Picture& picture, const std::vector<Figure::Series>& a
   if (own == all.end() || !t) return picture.name;
   const ReplayRow& row = row_at(own->log, *t, picture.name);
   return fmt::format("{}, {:.3f} s{}: depth {:.3f} mm, force {:.1f} N", picture.solver, row.t,
-                     picture.moment == "deepest" ? " (when any is deepest)" : "", 1e3 * row.depth,
+                     picture.moment == "deepest" ? " (largest depth of all solvers)" : "", 1e3 * row.depth,
                      row.wrench.force.norm());
 }
 
-/// Figure and pictures of a scene.
+/// Returns the section of a scene: figure and pictures.
 std::string scene_html(const ScenePlan& plan, const std::string& facts, const std::vector<Figure::Series>& series,
                        const std::filesystem::path& folder) {
   const std::string name = command::html_text(plan.name);
@@ -138,21 +139,22 @@ std::string replays_html(const std::string& scene, const std::vector<Entry>& ent
   return text + "</p>\n";
 }
 
-const char* const kArmHead = R"(<h1 id="closed-loop">The loop closed: felt through an arm</h1>
-<p>The controller itself, from boot to end, in virtual time: it reads the joints of a simulated arm once a millisecond, keeps the
-god object on the surface and sends the joints torques, which act a millisecond later. A hand holds the tool by a
-spring and follows the path as far as arm and force let it, so the device is where both balance, not where the path says. Solver
-contact. Red is where the device has the moving object, blue where the god object keeps it. How long cycles take is told by the
-replays.</p>
+const char* const kArmHead = R"(<h1 id="closed-loop">Closed loop: the controller on a simulated arm</h1>
+<p>The controller runs from boot to end, in virtual time. Once a millisecond it reads the joints of a simulated arm,
+computes the god object and sends torques to the joints, which act a millisecond later. A hand holds the tool by a
+spring and follows the path as far as arm and force allow. So the device pose is where hand and force balance, not the
+pose of the path. The solver is contact. In the pictures the moving object is red at the device pose and blue at the
+pose of the god object. For times see the replays.</p>
 )";
 
 const char* const kArmColumns =
-    R"(<p>In contact: cycles. Depth: of the deepest sample point in contact, below 0 a gap; behind: beyond the plate. Device: how far
-the god object was from it at most. Force: largest at the hand. Step: largest change of it from one cycle to the next. Cut, ovf:
-cycles whose motion could not be finished, with more near points than fit. Torque: largest of a joint, of its limit; most of it holds
-the arm. Work: of the hand on the tool from the first to the last cycle that rendered; what it does not get back goes into friction
-and dampers. In the figures the torque at the hand is about the mesh's origin, depths below -100 um are drawn there, and what is
-not rendered is left out.</p>
+    R"(<p>In contact: number of cycles. Depth: deepest sample point in contact; below 0: a gap. Behind: distance
+behind the plate. Device: largest distance of the god object from the device. Force: largest force at the hand. Step:
+largest change of that force from one cycle to the next. Cut: cycles whose motion could not be finished. Ovf: cycles
+with more near points than the solver has room for. Torque: largest share of a joint's limit; most of it holds the
+arm. Work: work of the hand on the tool from the first to the last cycle that rendered; friction and dampers absorb
+it. In the figures the torque at the hand is about the mesh's origin, depths below -100 um are drawn at -100 um, and
+cycles without rendering are blank.</p>
 )";
 
 std::string arm_html(const PageContent& content, const std::filesystem::path& folder) {
@@ -163,7 +165,7 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
     const ArmFigure& figure = content.arm_figures[i];
     text += scene_html(plan, figure.facts, {{"telemetry", rendered(figure.log.cycles)}}, folder);
     text += fmt::format(
-        "<p>Of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
+        "<p>Logs of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
         "hand</a></p>\n",
         command::html_text(plan.name));
   }
@@ -175,8 +177,8 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
 std::string page(const PageContent& content, const std::filesystem::path& folder) {
   std::string text = kHead;
   text += table_html(content.entries);
-  text += "<h2>What holds, and what is missed</h2>\n" + list(content.verdicts);
-  if (!content.runs.empty()) text += "<p>And <a href=\"#closed-loop\">the loop closed</a>, through an arm.</p>\n";
+  text += "<h2>Verdicts</h2>\n" + list(content.verdicts);
+  if (!content.runs.empty()) text += "<p>See also the <a href=\"#closed-loop\">closed loop</a> with an arm.</p>\n";
   for (std::size_t i = 0; i < content.plan.scenes.size(); ++i) {
     const ScenePlan& plan = content.plan.scenes[i];
     text += scene_html(plan, content.figures[i].facts, content.figures[i].series, folder);

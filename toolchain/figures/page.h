@@ -12,7 +12,7 @@
 
 namespace godobject::figures {
 
-/// What the page shows: figures are those of the plan, in its order; verdicts are sentences.
+/// The content of the page. The figures are those of the plan, in its order; verdicts are sentences.
 struct PageContent {
   Plan plan;
   std::vector<Figure> figures;
@@ -23,9 +23,9 @@ struct PageContent {
   std::vector<std::string> run_verdicts;
 };
 
-/// The static HTML page over `folder`: what the solvers are, table, verdicts, and for each scene its figure, the
-/// pictures found in its folder (PNG, by moment) with depth and force at their moment, and its replays; then the same
-/// of the runs on an arm.
+/// Returns the static HTML page for `folder`: a description of the solvers, the table, the verdicts, and for each scene
+/// its figure, the pictures in its folder (PNG, by moment) with depth and force at their moment, and its replays; then
+/// the same for the runs on an arm.
 std::string page(const PageContent& content, const std::filesystem::path& folder);
 
 }  // namespace godobject::figures

@@ -38,13 +38,13 @@ toml::table parse(const std::filesystem::path& file) {
   }
 }
 
-/// A table [[KIND]] of a file.
+/// A table [[KIND]] of a plan.
 struct Source {
   const std::filesystem::path& file;
   const toml::table& table;
   const char* kind;  // scene or run
 
-  /// Names the key; `node` is where it stands.
+  /// Throws Failure (kBadConfig) with the key and its place, that of `node`.
   [[noreturn]] void refuse(std::string_view key, std::string_view what, const toml::node& node) const {
     figures::refuse(file, node, fmt::format("{}.{}: {}", kind, key, what));
   }
@@ -100,7 +100,7 @@ ScenePlan scene_plan(const Source& source, std::span<const std::string_view> key
           .barrier = barrier_of(source)};
 }
 
-/// The tables [[KIND]].
+/// Returns the tables [[KIND]] of a plan.
 std::vector<Source> tables(const std::filesystem::path& file, const toml::table& root, const char* kind) {
   const toml::array* array = root[kind].as_array();
   if (array == nullptr || !array->is_homogeneous<toml::table>())

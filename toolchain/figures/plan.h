@@ -10,7 +10,7 @@
 
 namespace godobject::figures {
 
-/// What is to be shown of a scene: what the demo knows beside the scene file.
+/// Title, text and markers of a scene in the demo.
 struct ScenePlan {
   std::string name;   ///< folder of its replays
   std::string image;  ///< name of its scene image, without folder and extension
@@ -20,9 +20,9 @@ struct ScenePlan {
   std::optional<Barrier> barrier;
 };
 
-/// What is to be shown of a run of the whole controller.
+/// Title, text and markers of a run of the whole controller.
 struct ArmPlan {
-  ScenePlan scene;               ///< its name is that of the folder of its telemetry
+  ScenePlan scene;               ///< its name is the folder of its telemetry
   std::filesystem::path device;  ///< the arm's device file
 };
 
@@ -31,9 +31,9 @@ struct Plan {
   std::vector<ArmPlan> runs;
 };
 
-/// Reads tables [[scene]] with name, image, title, text and, if wanted, markers = { A = 0.4, ... } and barrier =
-/// [point, normal]; and, if wanted, tables [[run]] with the same and device, a path relative to the file. Throws
-/// Failure: kNoInput, kBadData if it is not TOML, kBadConfig naming the key.
+/// Reads tables [[scene]] with name, image, title, text and, optionally, markers = { A = 0.4, ... } and barrier =
+/// [point, normal]. Optional tables [[run]] have the same keys and device, a path relative to the file. Throws Failure:
+/// kNoInput, kBadData if it is not TOML, kBadConfig naming the key.
 Plan read_plan(const std::filesystem::path& file);
 
 }  // namespace godobject::figures

@@ -24,7 +24,7 @@ constexpr std::size_t kNumbers = 26;  // and the status
 
 Pose pose(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
 
-/// Cuts a line into its numbers and the status; false if it has not that many, or one is no finite number.
+/// Splits a line into its numbers and the status. Returns false if their number is wrong or a number is malformed.
 bool split(std::string_view line, std::array<double, kNumbers>& numbers, std::string& status) {
   for (double& number : numbers) {
     const std::size_t comma = line.find(',');
@@ -51,7 +51,7 @@ ReplayRow make_row(const std::array<double, kNumbers>& v, std::string status) {
   return row;
 }
 
-/// The device pose of a `bad_input` row may hold anything; nothing else may.
+/// Tells if all numbers are finite, except the device pose of a `bad_input` row, which may have any value.
 bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
   const auto first = v.begin() + (status == "bad_input" ? 8 : 0);
   return std::isfinite(v[0]) && std::all_of(first, v.end(), [](double x) { return std::isfinite(x); });
@@ -72,7 +72,8 @@ ReplayLog read_replay_log(const std::filesystem::path& file) {
   if (text.starts_with(kTelemetryBegin)) {
     log = rendered(read_telemetry_log(file));
     if (log.empty())
-      throw Failure(ExitCode::kBadData, fmt::format("{}: nothing was rendered in any cycle", file.string()));
+      throw Failure(ExitCode::kBadData,
+                    fmt::format("{}: no cycle rendered a force; see the mode and the fault of the run", file.string()));
     return log;
   }
   if (text != replay::kColumns) refuse(1, "not the header of a replay");

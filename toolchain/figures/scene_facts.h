@@ -6,7 +6,7 @@
 
 namespace godobject::figures {
 
-/// What a compiled scene is made of, in a sentence: voxels, points of both bodies, levels, friction.
+/// Returns a sentence about a compiled scene: voxels, points of both bodies, levels, friction.
 std::string scene_facts(const Scene& scene);
 
 }  // namespace godobject::figures

@@ -10,48 +10,48 @@
 
 namespace godobject::figures {
 
-/// The value below or at which a share of all lies: of n sorted values the ceil(share n)-th (nearest rank), at least
-/// the first. `values` must not be empty; it is sorted in passing. share in (0, 1].
+/// Returns the nearest-rank percentile: of n sorted values the ceil(share n)-th, at least the first. Sorts `values`,
+/// which must not be empty. share in (0, 1].
 double percentile(std::vector<double>& values, double share);
 
-/// Run time of part of a cycle over the cycles in contact [us]; zeros where there is none.
+/// Run time of part of a cycle over the cycles in contact [us]; zeros without contact.
 struct Times {
   double p50 = 0.0;
   double p99 = 0.0;
   double max = 0.0;
 };
 
-/// What one solver did in one scene. A cycle is in contact when a point collides or the god object penetrates.
+/// Results of one solver in one scene. A cycle is in contact if a point collides or the god object penetrates.
 struct Statistics {
   std::size_t cycles = 0;
   std::size_t contact_cycles = 0;
-  double penetration_max = 0.0;   ///< over the cycles in contact; negative: a gap was kept. 0 without contact [m]
-  double penetration_at = 0.0;    ///< time of it [s]
-  bool depth_is_bound = false;    ///< it reaches the band of stored distances: the true depth may be larger
+  double penetration_max = 0.0;   ///< over the cycles in contact; negative: a gap remained. 0 without contact [m]
+  double penetration_at = 0.0;    ///< its time [s]
+  bool depth_is_bound = false;    ///< it reaches the limit of the stored distances; the true depth may be larger
   double penetration_mean = 0.0;  ///< over the cycles in contact, depths below zero counted as zero [m]
   double peak_force = 0.0;        ///< [N]
   double force_step = 0.0;        ///< largest change of the force from one cycle to the next [N]
-  double force_step_at = 0.0;     ///< time of it [s]
+  double force_step_at = 0.0;     ///< its time [s]
   double peak_contacts = 0.0;
   Times step1;               ///< #1
   Times solve;               ///< #2-#7
   std::size_t over_1ms = 0;  ///< of all cycles, those whose #1-#7 took longer than 1 ms
-  // of all cycles, those with this status
+  // number of cycles with this status
   std::size_t cut = 0;
   std::size_t overflow = 0;
   std::size_t infeasible = 0;
 };
 
-/// `band`: distances are stored up to it [m].
+/// Returns the statistics of a replay. `band`: limit of the stored distances [m].
 Statistics statistics(const ReplayLog& log, double band);
 
-/// A line of the table: which solver in which scene.
+/// A line of the table: one solver in one scene.
 struct Entry {
   std::string scene;
   std::string solver;
   double voxel_size = 0.0;  ///< [m]
   Statistics statistics;
-  std::optional<Crossing> crossing;  ///< where the scene has a barrier
+  std::optional<Crossing> crossing;  ///< if the scene has a barrier
 };
 
 }  // namespace godobject::figures

@@ -8,16 +8,16 @@ namespace godobject::figures {
 namespace {
 
 constexpr const char* kColumnsExplained =
-    "depth: deepest sample point in contact (below 0: a gap); behind: beyond the plate; step: largest change of the\n"
-    "force in a cycle; points: of paper and corrected those that collide, of contact rows that carry a force; cycles "
-    "cut,\nwith overflow (ovf) or infeasible (inf), over 1 ms; times of #1 and #2-#7 in us";
+    "depth: deepest sample point in contact (below 0: a gap); behind: distance behind the plate; step: largest\n"
+    "change of the force in a cycle; points: colliding points (paper, corrected) or rows with a force (contact);\n"
+    "cycles that were cut, had an overflow (ovf), were infeasible (inf) or took over 1 ms; times of #1 and #2-#7 in us";
 
 std::string us(double time) { return fmt::format("{:.2f}", time); }
 
-/// Negative where a gap was kept [mm].
+/// Returns the largest penetration [mm]; negative: a gap remained.
 std::string depth(const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }
 
-/// Furthest behind the scene's barrier [mm].
+/// Returns the largest distance behind the scene's barrier [mm], or "-".
 std::string behind(const Entry& e) {
   return e.crossing ? fmt::format("{:.3f}", 1e3 * e.crossing->distance) : std::string("-");
 }

@@ -26,7 +26,7 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-/// Where the columns stand that are looked at.
+/// The places of the used columns.
 class Columns {
  public:
   Columns(const CsvLines& lines, std::string_view header) : lines_(lines) {

@@ -9,36 +9,36 @@
 
 namespace godobject::figures {
 
-/// One cycle as godobject-controller wrote it.
+/// One cycle of the telemetry of godobject-controller.
 struct TelemetryRow {
-  /// As of a replay. The wrench is the one that the hand feels, in the room's directions about the mesh's origin; no
-  /// times are told.
+  /// As in a replay, without run times. The wrench is that at the hand, in the room's directions about the mesh's
+  /// origin.
   ReplayRow cycle;
   std::string mode;            ///< of the supervisor
   int fault = 0;               ///< 0: none
-  double share = 0.0;          ///< of what is rendered [0, 1]
+  double share = 0.0;          ///< share of the wrench that is rendered [0, 1]
   std::vector<double> torque;  ///< of the joints [Nm]
 };
 
 using TelemetryLog = std::vector<TelemetryRow>;
 
-/// The first line of a telemetry begins so.
+/// Begin of the first line of a telemetry.
 inline constexpr std::string_view kTelemetryBegin = "t_s,";
 
-/// Reads telemetry.csv of godobject-controller, whose columns may be in any order and more than are looked at. Throws
-/// Failure: kNoInput if it cannot be read, kBadData naming the line.
+/// Reads telemetry.csv of godobject-controller. The columns may be in any order; other columns are ignored. Throws
+/// Failure: kNoInput if the file cannot be read, kBadData naming the line.
 TelemetryLog read_telemetry_log(const std::filesystem::path& file);
 
-/// The cycles in which something was rendered.
+/// Returns the cycles that rendered.
 ReplayLog rendered(const TelemetryLog& log);
 
-/// What the hand had done on the tool by a time.
+/// Work that the hand has done on the tool up to a time.
 struct HandWork {
   double t = 0.0;     ///< [s]
   double work = 0.0;  ///< [J]
 };
 
-/// Reads hand.csv of godobject-controller. Throws Failure as above.
+/// Reads hand.csv of godobject-controller. Throws Failure as read_telemetry_log.
 std::vector<HandWork> read_hand_log(const std::filesystem::path& file);
 
 }  // namespace godobject::figures

@@ -24,18 +24,24 @@ const char* const kFooter = R"(Examples:
   godobject-report --only contact --only stability --quick -j 2 -o report
   godobject-report --list | parallel godobject-report --case {} -o report && godobject-report --merge report
 
-The study is a list of independent cases. Each leaves one file, DIR/cases/NAME.json; a case whose file is there is not run again
-unless the program or its inputs have changed, so an interrupted run is gone on with by the same line. From these files
-DIR/report.html is made, one page with all pictures in it, and the tables beside it as CSV. --merge does the latter alone: with the
-same options the page of one machine and that of several are the same but for times and machines.
+The study is a list of independent cases. Each case writes one file, DIR/cases/NAME.json. A case with a file is run
+again only if the program or its inputs have changed, so the same command continues an interrupted run. From these
+files the command makes DIR/report.html, one page with all pictures, and the tables as CSV. --merge makes the page
+without running a case. With the same options the pages of one machine and of several differ only in times and names
+of machines.
 
-Chapters: `contact` (the solvers in the same scenes along the same paths; a figure is that of the worst scene, times are medians,
-and grow where cases run side by side), `faults` (runs the test programs of --tests that inject faults; what `ctest -L hil` has
-left in the same build is read), `precision` (error against run time, and which settings to use under a budget), `stability` (theory and simulation, in virtual time), `extremes` (numerical extremes, and a
-fuzzer whose violations become files for --replay). Missed rows do not change the exit code.
+Chapters:
+  contact    the solvers in the same scenes along the same paths; values are those of the worst scene, times are
+             medians and grow if cases run side by side
+  faults     runs the test programs of --tests that inject faults, and reads the results of `ctest -L hil` in the same
+             build
+  precision  error against run time, and the recommended settings under a budget
+  stability  theory and simulation, in virtual time
+  extremes   numerical extremes, and a fuzzer whose violations become files for --replay
 
-Exit codes: 0 done (whatever is missed), 1 --replay: still violated, --known-misses: another row is missed, 64 usage, 65 bad mesh or case file, 66 a mesh, device or test
-program is missing or may not be read, 70 gnuplot is missing, 74 cannot write, 77 no right to write.)";
+Exit codes: 0 done (missed rows included), 1 --replay: still violated, --known-misses: another row is missed, 64
+usage, 65 bad mesh or case file, 66 a mesh, device or test program is missing or unreadable, 70 gnuplot is missing, 74
+cannot write, 77 no permission to write.)";
 
 struct Options {
   std::vector<std::string> only;
@@ -76,18 +82,18 @@ std::string words(const RunProgress& now) {
   return fmt::format("{}, about {:.0f} min left", now.chapter, std::ceil(now.seconds_left / 60.0));
 }
 
-/// The page. True if a row is missed that should not be.
+/// Makes the page. Returns true if a row is missed that is not known to be.
 bool conclude(const Options& options, const std::vector<Chapter>& all, const std::string& folder, std::string made) {
   if (options.contact.quick) made += ", --quick";
   const Merged merged = merge(all, folder, made);
   fmt::print("{}", merged.text);
   if (options.known_misses.empty()) return false;
   const std::vector<std::string> unknown = news(merged.verdicts, read_known_misses(options.known_misses));
-  for (const std::string& line : unknown) fmt::print("not known to be missed: {}\n", line);
+  for (const std::string& line : unknown) fmt::print("missed, but not a known miss: {}\n", line);
   return !unknown.empty();
 }
 
-/// True as above.
+/// Runs the cases and makes the page. Returns as conclude().
 bool run_all(const Options& options) {
   const std::vector<Chapter> all = chapters(options);
   std::vector<const StudyCase*> cases = all_cases(all);
@@ -108,26 +114,27 @@ bool run_all(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures, and makes one page: solvers, faults, error against run time, stability, numerical extremes.",
+  CLI::App app("Measures solvers, faults, precision, stability and numerical extremes, and makes one page of verdicts.",
                "godobject-report");
   app.footer(kFooter);
   Options options;
-  app.add_option("--only", options.only, "chapters to make, one each time; default: all")
+  app.add_option("--only", options.only, "chapter to make, may be repeated; default: all")
       ->check(CLI::IsMember({"contact", "faults", "precision", "stability", "extremes"}))
       ->option_text("CHAPTER");
-  app.add_flag("--quick", options.contact.quick, "less of everything: below three minutes on two cores");
+  app.add_flag("--quick", options.contact.quick, "less of everything, below three minutes on two cores");
   app.add_option("-j,--threads", options.threads, "cases at the same time")
       ->check(CLI::Range(1, 1024))
       ->option_text("N")
       ->capture_default_str();
-  app.add_option("--cycles", options.cycles, "cycles of the fuzzer in all; default: 100000, with --quick 20000")
+  app.add_option("--cycles", options.cycles, "total cycles of the fuzzer; default: 100000, with --quick 20000")
       ->check(CLI::Range(std::int64_t{1000}, std::int64_t{1'000'000'000'000}))
       ->option_text("N");
-  app.add_option("--seed", options.seed, "of the fuzzer; each gives other runs")
+  app.add_option("--seed", options.seed, "seed of the fuzzer")
       ->check(CLI::Range(0u, 1'000'000u))
       ->option_text("N")
       ->capture_default_str();
-  app.add_option("--scene", options.contact.scene, "chapter contact: only scenes whose name holds this; default: all")
+  app.add_option("--scene", options.contact.scene,
+                 "chapter contact: only scenes whose name contains this; default: all")
       ->type_name("PART");
   app.add_option("--meshes", options.contact.meshes, "folder of bunny_npm.ply, the moving body of some scenes")
       ->type_name("FOLDER")
@@ -142,20 +149,20 @@ int main(int argc, char** argv) {
       ->type_name("FOLDER")
       ->capture_default_str();
   app.add_option("--known-misses", options.known_misses,
-                 "rows that may be missed; any other that was computed, not timed, ends with 1")
+                 "list of known misses; any other missed row, run times excepted, ends with 1")
       ->type_name("FILE");
-  auto* what = app.add_option_group("what to do");
-  auto* output =
-      what->add_option("-o,--output", options.output, "folder of what is written; made where it is not there")
-          ->type_name("DIR");
-  app.add_option("--case", options.case_name, "run this case only, and make no page")->type_name("NAME")->needs(output);
-  what->add_option("--merge", options.merge_folder, "run nothing: the page from the result files in DIR/cases")
+  auto* what = app.add_option_group("task");
+  auto* output = what->add_option("-o,--output", options.output, "folder of the outputs; created if it is missing")
+                     ->type_name("DIR");
+  app.add_option("--case", options.case_name, "run only this case, without a page")->type_name("NAME")->needs(output);
+  what->add_option("--merge", options.merge_folder,
+                   "make the page from the result files in DIR/cases, without running a case")
       ->type_name("DIR");
-  auto* list = what->add_flag("--list", options.list, "print the names of the cases, one a line");
-  app.add_option("--missing-in", options.missing_in, "list only the cases that have no result in DIR yet")
+  auto* list = what->add_flag("--list", options.list, "print the names of the cases, one per line");
+  app.add_option("--missing-in", options.missing_in, "list only the cases without a result in DIR")
       ->type_name("DIR")
       ->needs(list);
-  what->add_option("--replay", options.replay_file, "run a case file of the fuzzer again")->type_name("FILE");
+  what->add_option("--replay", options.replay_file, "run a case file of the fuzzer")->type_name("FILE");
   what->require_option(1);
   bool failed = false;
   const int code = godobject::command::run(app, argc, argv, [&] {

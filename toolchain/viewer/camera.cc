@@ -24,7 +24,7 @@ TriangleTree tree_of(const TriangleMesh& mesh, const Pose& pose) {
   return TriangleTree(std::move(triangles));
 }
 
-/// Of the bounding box.
+/// Returns the centre of the bounding box.
 Vector3 middle(const std::vector<Vector3>& points) {
   Vector3 low = points.front();
   Vector3 high = low;
@@ -41,14 +41,15 @@ double furthest(const std::vector<Vector3>& points, const Vector3& from) {
   return radius;
 }
 
-/// A mesh in W and its tree.
+/// A mesh with its pose in W and its tree.
 struct PlacedMesh {
   const TriangleMesh& mesh;
   const Pose& pose;
   const TriangleTree& tree;
 };
 
-/// The vertex of either mesh that is nearest to the other's surface: where a vertex touches a face it may be of either.
+/// Returns the vertex of either mesh that is nearest to the surface of the other one. Both are tested, because the
+/// touching vertex may belong to either mesh.
 Vector3 nearest_place(const PlacedMesh& a, const PlacedMesh& b) {
   Vector3 place = a.pose.translation;
   TriangleTree::Nearest nearest{std::numeric_limits<double>::infinity(), Vector3::Zero(), 0};
@@ -61,7 +62,7 @@ Vector3 nearest_place(const PlacedMesh& a, const PlacedMesh& b) {
   return place;
 }
 
-/// Unit vector from the target to the eye.
+/// Returns the unit vector from the target to the eye.
 Vector3 toward_eye(const ViewDirection& direction, int up_axis) {
   Vector3 v;
   v[up_axis] = std::sin(direction.elevation);
@@ -70,7 +71,7 @@ Vector3 toward_eye(const ViewDirection& direction, int up_axis) {
   return v;
 }
 
-/// Share of points spread around `place` from which the way to the eye is free.
+/// Returns the share of points at the distance `spread` around `place` with a free line of sight to the eye.
 double visible_share(const Vector3& place, double spread, const Vector3& to_eye, const TriangleTree& still,
                      const TriangleTree& moving) {
   constexpr int kRays = 24;
@@ -88,15 +89,15 @@ double visible_share(const Vector3& place, double spread, const Vector3& to_eye,
 }
 
 struct Subject {
-  Vector3 place;       ///< of nearest approach
-  Vector3 separation;  ///< unit, from the device to the god object where they differ, else from the place to the body
+  Vector3 place;       ///< place of nearest approach
+  Vector3 separation;  ///< unit, from the device to the god object; if they agree, from the place to the body
   double size;
 };
 
 Vector3 choose_direction(const Subject& subject, int up_axis, const TriangleTree& still, const TriangleTree& moving) {
   constexpr int kAround = 72;
   constexpr double kDegree = std::numbers::pi / 180.0;
-  constexpr double kSpreads[] = {0.05, 0.15, 0.3};  // the place itself may lie in a hole: then what is around it counts
+  constexpr double kSpreads[] = {0.05, 0.15, 0.3};  // the surroundings count too, because the place may lie in a hole
   Vector3 best = Vector3::UnitX();
   double best_score = -1.0;
   for (const double elevation : {12.0 * kDegree, 25.0 * kDegree, 40.0 * kDegree}) {

@@ -32,14 +32,14 @@ const char* const kFooter = R"(Examples:
   godobject-view bunny-teapot.toml paper.csv corrected.csv contact.csv --at 0.6 --at deepest -o pictures --up y
   godobject-view peg-hole.toml contact.csv --at 1.9 -o tilted.png --cut 0,0,0,0,-1,0 --camera -80,20
 
-The still body is green, the moving one red where the device has it and blue where the god object is. A telemetry.csv of
-godobject-controller is taken as a replay of the cycles in which something was rendered. Several replays of a
-scene are pictured from one camera, each in a picture of its own. Without --camera a direction is chosen from which the
-contact is seen. A picture's name is that of the replay and the moment: contact_0.600.png, contact_deepest.png, or what
--o says if it ends in .png. Prints the names of the pictures that it wrote. A picture takes some seconds.
+The still body is green. The moving body is red at the device pose and blue at the pose of the god object. Each replay
+gets a picture of its own; all pictures of a moment share one camera. Of a telemetry.csv only the cycles that rendered
+count. Without --camera the command chooses a direction from which the contact is visible. A picture is named after
+replay and moment (contact_0.600.png, contact_deepest.png), unless -o ends in .png. The command prints the names of
+the pictures. A picture takes some seconds.
 
-Exit codes: 0 done, 64 usage, 65 bad mesh or replay, or no such time in it, 66 an input is missing or may not be read, 70 POV-Ray
-fails or is not installed, 74 cannot write, 77 no right to write, 78 bad scene file.)";
+Exit codes: 0 done, 64 usage, 65 bad mesh or replay, or no such time in it, 66 an input is missing or unreadable,
+70 POV-Ray fails or is not installed, 74 cannot write, 77 no permission to write, 78 bad scene file.)";
 
 struct Options {
   std::string scene, output;
@@ -51,7 +51,7 @@ struct Options {
   std::string size = "800x600";
 };
 
-/// "800x600" -> width and height.
+/// Returns width and height of a size such as "800x600".
 std::pair<int, int> parse_size(const std::string& text) {
   int width = 0;
   int height = 0;
@@ -79,22 +79,22 @@ std::optional<viewer::Cut> cut(const std::vector<double>& numbers) {
 
 bool names_one_picture(const Options& options) { return fs::path(options.output).extension() == ".png"; }
 
-/// Refuses an output that cannot be written before anything is read or rendered; makes the folder.
+/// Creates the output folder. Refuses an output that cannot be written, before the work.
 void prepare_output(const Options& options) {
   if (!names_one_picture(options)) return godobject::command::make_output_folder(options.output);
   if (options.moments.size() * options.replays.size() > 1)
-    throw Failure(ExitCode::kUsage, "-o names one picture, but there are more replays or times; name a folder");
+    throw Failure(ExitCode::kUsage, "-o names one picture, but several replays or times are given; name a folder");
   godobject::command::output_target(options.output);
 }
 
-/// Where the picture of a replay at a moment goes.
+/// Returns the file of the picture of a replay at a moment.
 fs::path picture_path(const Options& options, const fs::path& replay, const std::string& moment) {
   const fs::path output = options.output;
   if (names_one_picture(options)) return output;
   return output / fmt::format("{}_{}.png", replay.stem().string(), moment);
 }
 
-/// What is pictured from one camera: the same moment of every replay.
+/// A moment and the poses of every replay at that moment; they share one camera.
 struct Moment {
   std::string name;
   std::vector<viewer::Placement> placements;
@@ -155,21 +155,22 @@ int main(int argc, char** argv) {
   CLI::App app("Renders pictures of a replay, or of a run on an arm, with POV-Ray.", "godobject-view");
   app.footer(kFooter);
   Options options;
-  app.add_option("SCENE.toml", options.scene, "scene file: its meshes are drawn")->required()->type_name("");
+  app.add_option("SCENE.toml", options.scene, "scene file with the meshes")->required()->type_name("");
   app.add_option("REPLAY.csv", options.replays,
-                 "outputs of godobject-replay, of the same path, or a telemetry.csv of godobject-controller")
+                 "outputs of godobject-replay for one path, or a telemetry.csv of godobject-controller")
       ->required()
       ->type_name("");
-  app.add_option("--at", options.moments, "time to show [s], or deepest: when the god object is; may be given often")
+  app.add_option("--at", options.moments,
+                 "time to show [s], or deepest: the time of the largest depth; may be repeated")
       ->required()
       ->type_name("TIME|deepest")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("-o,--output", options.output, "folder of the pictures (made where it is not there), or one picture")
+  app.add_option("-o,--output", options.output, "folder of the pictures (created if it is missing), or one picture")
       ->required()
       ->type_name("FOLDER|X.png");
   app.add_option("--camera", options.camera,
-                 "from the body to the eye [degrees]; zoom 2 is twice as near; default: chosen, zoom 1")
+                 "direction from the body to the eye [degrees]; zoom 2 doubles all sizes; default: automatic, zoom 1")
       ->option_text("AZIMUTH,ELEVATION[,ZOOM]")
       ->delimiter(',')
       ->expected(2, 3);

@@ -27,7 +27,7 @@ background { rgb <0.90, 0.91, 0.93> }
 
 std::string vector(const Vector3& v) { return fmt::format("<{:.6g},{:.6g},{:.6g}>", v.x(), v.y(), v.z()); }
 
-/// A mesh with smooth faces and sharp creases, under a name.
+/// Returns the declaration of a mesh with smooth faces and sharp creases.
 std::string declare(const char* name, const TriangleMesh& mesh) {
   const auto faces = scene_compiler::face_normals(mesh);
   const auto corners = scene_compiler::corner_normals(mesh, faces);
@@ -47,7 +47,7 @@ std::string declare(const char* name, const TriangleMesh& mesh) {
   return text;
 }
 
-/// Every vertex moved inward by a share of the mesh's diagonal.
+/// Returns the mesh with every vertex moved inward by a share of the diagonal.
 TriangleMesh shrunk(const TriangleMesh& mesh) {
   constexpr double kShare = 1.0 / 500.0;
   const auto faces = scene_compiler::face_normals(mesh);
@@ -68,7 +68,7 @@ TriangleMesh shrunk(const TriangleMesh& mesh) {
   return small;
 }
 
-/// POV-Ray multiplies row vectors: the rotation goes in transposed.
+/// Returns the pose as POV-Ray's matrix; POV-Ray multiplies row vectors, so the rotation is transposed.
 std::string matrix(const Pose& pose) {
   const Matrix3 r = pose.rotation.normalized().toRotationMatrix();
   const Vector3 t = kMillimetre * pose.translation;
@@ -77,7 +77,7 @@ std::string matrix(const Pose& pose) {
                      t.z());
 }
 
-/// The eye's vectors are written out, so that POV-Ray's left-handed habits do not matter.
+/// Returns the camera. All its vectors are given, so that POV-Ray's left-handed defaults do not apply.
 std::string camera_text(const Camera& camera, int width, int height) {
   const double side = 2.0 * std::tan(kHalfView);
   const double across = width >= height ? side * width / height : side;
@@ -86,7 +86,7 @@ std::string camera_text(const Camera& camera, int width, int height) {
                      vector(camera.forward), vector(across * camera.right), vector(upright * camera.up));
 }
 
-/// A broad key light from above the left shoulder, a weak one from the right without shadows.
+/// Returns the lights: a broad key light from above the left shoulder, and a weak one from the right without shadows.
 std::string lights(const Camera& camera) {
   const Vector3 back = -camera.forward;
   const double distance = (camera.eye - camera.target).norm();

@@ -9,7 +9,7 @@
 
 namespace godobject::viewer {
 
-/// Leaves out of the still body what lies on the side of `normal`.
+/// A plane that cuts the still body; the part on the side of `normal` is not drawn.
 struct Cut {
   Vector3 point;   ///< on the plane, in W [m]
   Vector3 normal;  ///< unit, in W
@@ -23,8 +23,8 @@ struct Picture {
   std::optional<Cut> cut;  ///< the still mesh must be closed
 };
 
-/// A scene for POV-Ray 3.7, lengths in millimetres: still body green, device pose red, god object blue. The red body is
-/// drawn smaller by 1/500 of its diagonal, so that where both poses agree it lies hidden in the blue one.
+/// Returns a scene for POV-Ray 3.7 in millimetres: still body green, device pose red, god object blue. The red body is
+/// drawn smaller by 1/500 of its diagonal, so that the blue one hides it if both poses agree.
 std::string pov_text(const scene_compiler::TriangleMesh& still, const scene_compiler::TriangleMesh& moving,
                      const Picture& picture);
 

@@ -6,7 +6,7 @@
 
 namespace godobject::viewer {
 
-/// The two meshes of a scene, in metres: the still one in W, the moving one in its own frame M.
+/// The two meshes of a scene in metres: the still one in W, the moving one in its own frame M.
 struct SceneBodies {
   scene_compiler::TriangleMesh still;
   scene_compiler::TriangleMesh moving;

@@ -6,23 +6,23 @@
 
 namespace godobject {
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
+using Vector3 = Eigen::Vector3d;  ///< column of three doubles
+using Matrix3 = Eigen::Matrix3d;  ///< 3 x 3 doubles
 
 /// A rigid motion as the paper writes it: translation, then rotation vector, both in one frame. [m, rad]
 /// The set is (x, r) of the paper's `setMatrix` and `getTranslation`/`getRotation`: NOT the SE(3) logarithm.
 struct Motion {
-  Vector3 translation = Vector3::Zero();
-  Vector3 rotation = Vector3::Zero();
+  Vector3 translation = Vector3::Zero();  ///< x [m]
+  Vector3 rotation = Vector3::Zero();     ///< r: unit axis times angle [rad]
 };
 
 /// Force, then torque, both in one frame and about one point. [N, Nm] unless a name says otherwise.
 struct Wrench {
-  Vector3 force = Vector3::Zero();
-  Vector3 torque = Vector3::Zero();
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Vector3 torque = Vector3::Zero();  ///< [Nm]
 };
 
-using Quaternion = Eigen::Quaterniond;
+using Quaternion = Eigen::Quaterniond;  ///< of unit length, unless a function says otherwise
 
 /// Rotation vector -> unit quaternion; exact to rounding for every angle, 0 included.
 inline Quaternion exp_rotation(const Vector3& r) noexcept {
@@ -75,6 +75,7 @@ struct Pose {
     return rotation.coeffs() == other.rotation.coeffs() && translation == other.translation;
   }
 
+  /// Tells if no number is NaN or Inf.
   bool is_finite() const noexcept { return rotation.coeffs().allFinite() && translation.allFinite(); }
 };
 

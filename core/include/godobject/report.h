@@ -38,7 +38,7 @@ struct CycleReport {
   std::uint32_t substeps = 0;  ///< `contact`: with something near; 1 where nothing was
   bool unconverged = false;    ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
   bool outside = false;        ///< the device is outside of the workspace: it is pushed back, once it has been inside
-  Outcome outcome = Outcome::kFree;
+  Outcome outcome = Outcome::kFree;  ///< how the cycle went
 };
 
 /// Optional stopwatch: how long step #1 and steps #2-#7 of one cycle took, all its sub-steps and attempts together
@@ -46,10 +46,10 @@ struct CycleReport {
 /// time holds one reading of the clock: one of step #1 and one of the rest in `paper`; one of both a sub-step in
 /// `corrected`; in `contact` one of both a sub-step and one of both for each of its attempts at a motion.
 struct StepTimes {
-  std::int64_t (*now_ns)() noexcept = nullptr;
-  std::int64_t step1_ns = 0;
-  std::int64_t solve_ns = 0;
-  std::int64_t since_ns = 0;  ///< begin of the stretch that runs
+  std::int64_t (*now_ns)() noexcept = nullptr;  ///< the caller's monotonic clock
+  std::int64_t step1_ns = 0;                    ///< time of step #1
+  std::int64_t solve_ns = 0;                    ///< time of steps #2-#7
+  std::int64_t since_ns = 0;                    ///< begin of the stretch that runs
 };
 
 }  // namespace godobject

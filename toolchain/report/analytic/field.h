@@ -6,10 +6,10 @@
 
 #include "core/scene/field.h"
 
-/// Still bodies given by formulae: what a solver does in them is its own doing, not the voxels'.
+/// Still bodies given by formulae, which show the solvers without the errors of voxels.
 namespace godobject::analytic {
 
-/// Exact signed distance to an axis-aligned box about the origin [m].
+/// Returns the exact signed distance to an axis-aligned box about the origin [m].
 inline double box_distance(const Vector3& p, const Vector3& half_edges) {
   const Vector3 q = p.cwiseAbs() - half_edges;
   return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);

@@ -9,10 +9,10 @@
 
 namespace godobject::analytic {
 
-/// Sample points with the sphere tree of one leaf; owns what its Pointshell looks at.
+/// Sample points with a sphere tree of one leaf; owns the data of its Pointshell.
 class SampledBody {
  public:
-  /// `normals`: unit, pointing into the body, one a point. `principal_inertia`: J_B / m [m^2].
+  /// `normals`: unit, pointing into the body, one per point. `principal_inertia`: J_B / m [m^2].
   SampledBody(const std::vector<Vector3>& points, const std::vector<Vector3>& normals, const Vector3& principal_inertia,
               double voxel_size)
       : count_(points.size()) {

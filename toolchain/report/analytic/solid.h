@@ -8,7 +8,7 @@
 
 namespace godobject::analytic {
 
-/// A solid box, its edges along the axes, swollen by `radius`: edges and corners are rounded then.
+/// A solid box with edges along the axes, dilated by `radius`, which rounds edges and corners.
 struct Box {
   Vector3 center = Vector3::Zero();
   Vector3 half_edges = Vector3::Constant(0.1);
@@ -38,14 +38,14 @@ class Solid {
  public:
   explicit Solid(std::vector<Primitive> primitives) : primitives_(std::move(primitives)) {}
 
-  /// The same with frame O at H_WO.
+  /// Returns the same solid with frame O at H_WO.
   Solid moved(const Pose& H_WO) const;
 
   double distance(const Vector3& p_W) const noexcept;
-  Vector3 gradient(const Vector3& p_W) const noexcept;  ///< of the primitive that is nearest
+  Vector3 gradient(const Vector3& p_W) const noexcept;  ///< of the nearest primitive
 
-  /// Appends distance and gradient of each primitive: their minimum is the distance, and each is smooth where its own
-  /// surface is.
+  /// Appends distance and gradient of each primitive. Their minimum is the distance; each is smooth near its own
+  /// surface.
   void pieces(const Vector3& p_W, std::vector<Piece>& out) const;
 
  private:

@@ -10,7 +10,7 @@ Body make_body(const std::string& name, const scene_compiler::TriangleMesh& mesh
   const std::filesystem::path file = folder / (name + ".ply");
   write_ply(mesh, file);
   const Vector3 half = Vector3::Constant(0.01);
-  // an image for `paper` has the sample points that were asked for and none for the still body's sake
+  // an image for `paper` has the requested sample points, and none added because of the still body
   const SceneText text{
       .still = {.mesh = box_mesh(-half, half)}, .body = file, .points = points, .only_solver = format::Solver::kPaper};
   return {file, points, compile(name + "-body", text, folder)};

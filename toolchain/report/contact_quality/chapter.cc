@@ -25,12 +25,13 @@ std::vector<SceneSpec> chosen_scenes(const ContactQualityRequest& request) {
     return (request.quick && !scene.quick) || scene.name.find(request.scene) == std::string::npos;
   });
   if (all.empty()) {
-    throw Failure(ExitCode::kUsage, fmt::format("--scene {}: no scene's name holds this", request.scene));
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--scene {}: no scene's name contains this; see --list", request.scene));
   }
   return all;
 }
 
-/// Some scenes read a body's mesh: refused before the first scene, not in the midst of them.
+/// Refuses a missing mesh of a body before the first scene runs.
 void require_meshes(const std::vector<SceneSpec>& chosen, const std::filesystem::path& folder) {
   const bool reads =
       std::any_of(chosen.begin(), chosen.end(), [](const SceneSpec& scene) { return scene.body == BodyShape::kBunny; });
@@ -93,7 +94,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
     write_file(folder / "contact_summary.csv", summary_csv(measurements));
     section.text = text_table(measurements) + notes(measurements);
     section.html = fmt::format(
-        "<p>All solvers side by side, as <a href=\"contact_summary.csv\">CSV</a>; each scene, as <a "
+        "<p>All solvers side by side as <a href=\"contact_summary.csv\">CSV</a>; each scene as <a "
         "href=\"contact_quality.csv\">CSV</a>.</p>\n<div class=\"wide\"><pre>{}</pre></div>\n<p>{}</p>\n",
         command::html_text(text_table(measurements)), command::html_text(notes(measurements)));
   }
@@ -120,8 +121,8 @@ Chapter contact_chapter(const ContactQualityRequest& request) {
   Chapter chapter{.name = "contact",
                   .title = "Contact quality",
                   .introduction =
-                      "<p>The three solvers in the same scenes along the same device paths; the targets are those of "
-                      "<code>contact</code>. Times grow where cases run side by side.</p>",
+                      "<p>The three solvers run in the same scenes along the same device paths. The targets are those "
+                      "of <code>contact</code>. Times grow if cases run side by side.</p>",
                   .cases = {},
                   .conclude = conclude};
   for (const SceneSpec& scene : chosen) {

@@ -9,12 +9,12 @@ namespace godobject::report {
 
 struct ContactQualityRequest {
   std::filesystem::path meshes;  ///< folder of the project's meshes
-  bool quick = false;            ///< a few scenes, short
-  std::string scene;             ///< only those whose name holds this
+  bool quick = false;            ///< few scenes and short motions
+  std::string scene;             ///< only scenes whose name contains this
 };
 
-/// All solvers through all scenes, a case a scene; writes contact_quality.csv and contact_summary.csv. Throws Failure:
-/// kUsage where there is no such scene, kNoInput where a mesh is missing.
+/// Returns the chapter that runs all solvers through all scenes, one case per scene. It writes contact_quality.csv and
+/// contact_summary.csv. Throws Failure: kUsage if there is no such scene, kNoInput if a mesh is missing.
 Chapter contact_chapter(const ContactQualityRequest& request);
 
 }  // namespace godobject::report

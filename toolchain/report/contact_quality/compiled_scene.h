@@ -12,7 +12,7 @@
 
 namespace godobject::report {
 
-/// What all worlds of the study share: the margin does not follow the voxels.
+/// Parameters that all worlds of the study share. The margin does not depend on the voxel size.
 struct WorldSettings {
   double voxel_size = 0.002;       ///< s [m]
   double safety_distance = 0.003;  ///< d [m]
@@ -23,13 +23,13 @@ struct WorldSettings {
   double friction_kinetic = 0.18;
 };
 
-/// A still body as the scene compiler takes it.
+/// A still body for the scene compiler.
 struct CompiledStill {
   scene_compiler::TriangleMesh mesh;
   bool shell = false;  ///< thickened to two voxels
 };
 
-/// What a scene file says.
+/// Content of a scene file.
 struct SceneText {
   CompiledStill still;
   std::filesystem::path body;  ///< mesh of the moving body, in metres
@@ -40,7 +40,7 @@ struct SceneText {
 
 double shell_thickness(const WorldSettings& settings);
 
-/// Where `compile` puts the still body's mesh.
+/// Returns the file to which `compile` writes the still body's mesh.
 std::filesystem::path still_file(const std::string& name, const std::filesystem::path& folder);
 
 /// Writes mesh and scene file NAME to `folder` and compiles them to NAME.scene.

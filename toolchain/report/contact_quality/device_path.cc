@@ -41,7 +41,7 @@ double pressed(const Placement& placement, double t, double depth) {
   return -placement.clear + (depth + placement.clear) * smooth_step(t / kPress_s);
 }
 
-/// Distance gone at t after a start from rest to `speed`, smooth, within `rise`.
+/// Returns the distance travelled at t after a smooth start from rest to `speed` within `rise`.
 double run_up(double t, double speed, double rise) {
   const double u = std::clamp(t / rise, 0.0, 1.0);
   const double integral = u * u * u * u * (2.5 + u * (-3.0 + u));  // of smooth_step
@@ -68,7 +68,7 @@ Placement touch(Placement placement, const std::vector<Vector3>& points_C,
   double met = 0.0;
   while (is_free(met)) {
     met += kStep_m;
-    if (met > kFarthest_m) throw std::runtime_error("a scene's body meets nothing");
+    if (met > kFarthest_m) throw std::runtime_error("a scene's body does not meet the still body");
   }
   double low = met - kStep_m;
   for (int i = 0; i < kHalvings; ++i) {
@@ -161,7 +161,7 @@ DevicePath tremor(const Placement& placement, double depth, double duration) {
     Vector3 x = Vector3::Zero();
     Vector3 r = Vector3::Zero();
     for (int hertz = kSlowest; hertz <= kFastest; ++hertz) {
-      for (int axis = 0; axis < 3; ++axis) {  // phases without a pattern, the same in every run
+      for (int axis = 0; axis < 3; ++axis) {  // random phases, the same in every run
         x[axis] += kAmplitude_m * std::sin(2.0 * std::numbers::pi * hertz * t + 1.7 * hertz + 2.3 * axis);
         r[axis] += kAmplitude_rad * std::sin(2.0 * std::numbers::pi * hertz * t + 0.9 * hertz + 1.1 * axis);
       }

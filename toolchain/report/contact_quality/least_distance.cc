@@ -18,7 +18,7 @@ Eigen::VectorXd least_squares(const Columns& columns, const std::vector<Eigen::I
   return chosen.colPivHouseholderQr().solve(target);
 }
 
-/// u >= 0 that minimises |columns u - target|.
+/// Returns the u >= 0 that minimises |columns u - target|.
 Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7& target) {
   constexpr int kMaxRounds = 300;
   constexpr double kTolerance = 1e-13;
@@ -33,7 +33,7 @@ Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7
     bool added = true;
     while (!passive.empty()) {
       const Eigen::VectorXd trial = least_squares(columns, passive, target);
-      if (added && trial[trial.size() - 1] <= 0.0) {  // rounding: the new column would leave at once
+      if (added && trial[trial.size() - 1] <= 0.0) {  // by rounding the new column would leave at once
         return u;
       }
       added = false;

@@ -17,12 +17,11 @@ struct HalfPlane {
 struct LeastDistance {
   bool feasible = false;
   Vector6 x = Vector6::Zero();
-  double multiplier_sum = 0.0;  ///< of the rows as given; the gradient of |x|^2 / 2 is their combination
+  double multiplier_sum = 0.0;  ///< sum over the given rows; the gradient of |x|^2 / 2 is their combination
 };
 
-/// The shortest x with normal.x >= bound for all rows: Lawson and Hanson's LDP, by non-negative least squares
-/// ("Solving Least Squares Problems", 1974, algorithms LDP and NNLS). Exact to rounding; cost: some tens of
-/// factorisations of at most 7 columns.
+/// Returns the shortest x with normal.x >= bound for all rows, by Lawson and Hanson's algorithms LDP and NNLS ("Solving
+/// Least Squares Problems", 1974). Exact to rounding. Cost: some tens of factorisations of at most 7 columns.
 LeastDistance least_distance(const std::vector<HalfPlane>& rows);
 
 }  // namespace godobject::report

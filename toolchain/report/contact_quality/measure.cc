@@ -18,7 +18,7 @@ constexpr double kPercent = 100.0;
 constexpr double kDegrees = 57.29577951308232;
 constexpr double kPerMicrosecond = 1e-3;
 
-/// All runs of one solver in one scene, and the worst of what they show.
+/// All runs of one solver in one scene, and their worst results.
 class Study {
  public:
   Study(const SceneSpec& scene, const World& world, const World* still_world, Solver solver, const Effort& effort)
@@ -68,7 +68,7 @@ class Study {
                   scene_.kind == WorldKind::kCompiled ? kTrueDepthEvery : 0);
   }
 
-  /// A run with what every run is judged by: penetration and time.
+  /// Runs a path and notes penetration and time, which every run has.
   std::vector<RecordedCycle> run_along(const DevicePath& path, bool friction) {
     std::vector<RecordedCycle> cycles = record_in(world_, scene_.H_WO, path, friction);
     for (const RecordedCycle& c : cycles) {
@@ -103,8 +103,8 @@ class Study {
 
   OptimumGap gap(const RecordedCycle& c) const { return optimum_gap(problem_of(c), c.H_WS, scene_.one_sided); }
 
-  /// What the device would feel of the optimum itself, followed from cycle to cycle: no solver that keeps the sample
-  /// points out chatters less.
+  /// Returns the forces of the optimum, followed from cycle to cycle. A solver that keeps all sample points outside
+  /// cannot chatter less.
   std::vector<Vector3> optimum_forces(const DevicePath& path, const std::vector<RecordedCycle>& cycles) const {
     std::vector<Vector3> result;
     Pose H_WS = cycles[path.begin].H_WS;
@@ -190,7 +190,7 @@ class Study {
     const Vector3 against = -in_W(placement_.along);
     for (std::size_t k = path.begin; k < path.end; ++k) {
       const Vector3& force = cycles[k].force_W;
-      // in a groove what is left across the way is the walls' normal forces, if the device is off its middle
+      // in a groove the force across the motion comes from the walls' normal forces, if the device is off the middle
       const double tangential = scene_.groove ? std::fabs(force.dot(against)) : across(force, normal).norm();
       const double error = tangential / std::fabs(force.dot(normal)) / scene_.friction_ratio - 1.0;
       note(scene_.groove ? Quantity::kRatioGroove : Quantity::kRatio, kPercent * std::fabs(error));

@@ -10,14 +10,14 @@
 
 namespace godobject::report {
 
-/// How long a study takes.
+/// Extent of a study.
 struct Effort {
   int dashes = 100;
   double tremor_s = 10.0;
 };
 
-/// One solver in one scene: all motions, all quantities that the scene has. `still_world` is the unmoved world of a
-/// moved one, null otherwise. Empty where the solver cannot run there.
+/// Returns all quantities of one solver in all motions of one scene. `still_world` is the unmoved world of a moved one,
+/// null otherwise. The result is empty if the solver cannot run in the scene.
 std::vector<Measurement> measure(const SceneSpec& scene, const World& world, const World* still_world, Solver solver,
                                  const Effort& effort);
 

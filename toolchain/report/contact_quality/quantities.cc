@@ -9,7 +9,7 @@ namespace godobject::report {
 namespace {
 
 constexpr std::nullopt_t kNone = std::nullopt;
-constexpr const char* kBusy = "times grow when the machine does something else: repeat on an idle one";
+constexpr const char* kBusy = "times grow on a busy machine; repeat on an idle one";
 
 }  // namespace
 
@@ -21,10 +21,11 @@ const std::vector<QuantitySpec>& quantities() {
       {kTruePenetrationSharp, "true_penetration_sharp", "penetration (mesh), sharp", "voxels", 0.05, 3, false},
       {kCrossings, "crossings", "crossings of plate and sheet", "points", 0.0, 0, false},
       {kOptimum, "optimum_distance", "distance to the optimum", "mm", 0.04, 4, false,
-       "a body in a groove keeps the margin from both walls: m / sin(half its angle) away, 0.04 mm at 60 degrees"},
-      {kOptimumTight, "optimum_distance_tight", "same, slot, peg, L", "mm", 0.25, 4, false},
+       "a body in a groove keeps the margin m from both walls: a distance of m / sin(half the angle), 0.04 mm at 60 "
+       "degrees"},
+      {kOptimumTight, "optimum_distance_tight", "optimum, slot, peg and L", "mm", 0.25, 4, false},
       {kExcess, "optimum_excess", "longer than the best optimum", "mm", kNone, 4, false},
-      {kSlipTime, "slip_time", "late after an edge at 1 m/s", "ms", 20.0, 0, false},
+      {kSlipTime, "slip_time", "delay after an edge at 1 m/s", "ms", 20.0, 0, false},
       {kDrag, "drag", "drag, frictionless", "N", 0.02, 4, false},
       {kPull, "pull", "pull on retreat", "N", 0.0, 4, false},
       {kRatio, "friction_ratio_error", "friction ratio, plane", "%", 0.5, 3, false},
@@ -32,9 +33,10 @@ const std::vector<QuantitySpec>& quantities() {
       {kDirection, "friction_direction_error", "friction direction", "deg", 0.5, 3, false},
       {kDrift, "stick_drift", "stick drift, 8-12 Hz tremor", "um", 1.0, 3, false},
       {kChatterPlain, "chatter_plain", "chatter, convex and flat", "N", 0.01, 4, false,
-       "sample points are a polyhedron, which snaps from facet to facet: see the optimum's own"},
+       "the sample points form a polyhedron, which snaps from facet to facet; compare the chatter of the optimum "
+       "itself"},
       {kChatterElsewhere, "chatter_elsewhere", "chatter, elsewhere", "N", 0.1, 4, false},
-      {kChatterOptimum, "chatter_optimum", "optimum's own, where missed", "N", kNone, 4, false},
+      {kChatterOptimum, "chatter_optimum", "chatter of the optimum itself", "N", kNone, 4, false},
       {kMovedPose, "moved_pose", "turned, shifted 10 m: pose", "um", 1.0, 4, false},
       {kMovedForce, "moved_force", "turned, shifted 10 m: force", "mN", 5.0, 4, false},
       {kSolveMedian, "solve_median", "solver, median", "us", 0.5, 2, true, kBusy},

@@ -9,7 +9,7 @@
 
 namespace godobject::report {
 
-/// What is measured; the order is that of the table.
+/// The measured quantities, in the order of the table.
 enum class Quantity {
   kPenetration,
   kTruePenetrationSmooth,
@@ -40,22 +40,22 @@ enum class Quantity {
   kSubstepsMax,
 };
 
-/// How one quantity is read.
+/// Name, unit and target of a quantity.
 struct QuantitySpec {
   Quantity id;
-  const char* key;    ///< in files
-  const char* title;  ///< in the table
+  const char* key;    ///< name in files
+  const char* title;  ///< name in the table
   const char* unit;
-  std::optional<double> target;  ///< held by `contact` if the value is not above it; nothing: for information
+  std::optional<double> target;  ///< `contact` holds it if the value is not above it; nullopt: for information
   int decimals;
-  bool median;                      ///< the solver's figure is the median over the scenes, not the worst
-  const char* if_missed = nullptr;  ///< why `contact` may miss the target, as far as that is known
+  bool median;                      ///< the value of a solver is the median over the scenes, not the worst
+  const char* if_missed = nullptr;  ///< the known reason if `contact` misses the target
 };
 
 const std::vector<QuantitySpec>& quantities();
 const QuantitySpec& spec(Quantity id);
 
-/// One measured value: the worst within a scene.
+/// The worst value of a quantity within a scene.
 struct Measurement {
   std::string scene;
   std::string world;
@@ -67,11 +67,11 @@ struct Measurement {
 /// A quantity of one solver over all scenes.
 struct Verdict {
   double value = 0.0;
-  std::string worst_scene;  ///< where the value is the worst one; empty for 0
-  bool held = true;         ///< true where there is no target
+  std::string worst_scene;  ///< scene with the worst value; empty for 0
+  bool held = true;         ///< true without a target
 };
 
-/// Nothing where no scene measured it. A value that is no number is the worst there is.
+/// Returns the verdict on a quantity of a solver; nullopt if no scene measured it. NaN is the worst value.
 std::optional<Verdict> judge(const std::vector<Measurement>& measurements, Quantity quantity, format::Solver solver);
 
 }  // namespace godobject::report

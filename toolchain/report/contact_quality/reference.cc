@@ -14,7 +14,7 @@
 namespace godobject::report {
 namespace {
 
-/// d exp(r) = [J_l(r) dr]x exp(r)
+/// Returns J_l of d exp(r) = [J_l(r) dr]x exp(r).
 Matrix3 left_jacobian(const Vector3& r) {
   const double angle = r.norm();
   Matrix3 skew;
@@ -25,14 +25,14 @@ Matrix3 left_jacobian(const Vector3& r) {
          (angle - std::sin(angle)) / (a2 * angle) * skew * skew;
 }
 
-/// What a pose is like: how deep it is, and a.step >= -g for whatever a step may bring to a surface.
+/// Constraints at a pose: its penetration, and rows a.step >= -g for all points that a step may bring to a surface.
 struct Constraints {
   double violation = 0.0;
   std::vector<HalfPlane> rows;
 };
 
-/// The free set seen from the device pose: eta = (x_e, rho r_e). Points that are far from all surfaces are not looked
-/// at again before the body has come far enough; distances grow by less than twice the way.
+/// The free set in the coordinates of the device pose, eta = (x_e, rho r_e). Points that are far from all surfaces are
+/// not looked up again until the body has moved far enough; distances change by less than twice the distance travelled.
 class FreeSet {
  public:
   explicit FreeSet(const OptimumProblem& problem)
@@ -89,15 +89,15 @@ class FreeSet {
   const OptimumProblem& problem_;
   double rho_;
   Quaternion R_DW_;
-  double reach_ = 1.0;  ///< how far a sample point moves at most with a step of length 1
-  double way_ = 0.0;    ///< that sample points have gone at most [m]
+  double reach_ = 1.0;  ///< largest motion of a sample point for a step of length 1
+  double way_ = 0.0;    ///< largest distance that a sample point has travelled [m]
   Vector6 last_ = Vector6::Zero();
-  std::vector<double> wake_;  ///< way after which a point is looked at again [m]
+  std::vector<double> wake_;  ///< distance travelled at which a point is looked up again [m]
   std::vector<analytic::Piece> pieces_;
 };
 
-/// The step to the shortest eta + step that keeps the rows, with `proximity` |step|^2 added to the objective. Where the
-/// rows contradict each other they ask for less, down to not getting worse.
+/// Returns the step to the shortest eta + step that satisfies the rows, with `proximity` |step|^2 added to the
+/// objective. If the rows contradict each other, their bounds are reduced, at most down to no deterioration.
 LeastDistance proximal_step(std::vector<HalfPlane> rows, const Vector6& eta, double proximity) {
   constexpr int kMaxHalvings = 4;
   const Vector6 center = -eta / (1.0 + proximity);  // of the step
@@ -116,8 +116,8 @@ LeastDistance proximal_step(std::vector<HalfPlane> rows, const Vector6& eta, dou
   }
 }
 
-/// The surface as it was seen from where a step was refused, `way` from here: in a valley its other side. Rows that do
-/// not hold here belong to another side of an edge, where they say nothing.
+/// Adds the rows of the surface at the end of a refused step, `way` from here; in a valley they are those of the other
+/// side. Rows that are violated here belong to another side of an edge and are not added.
 void add_cuts(const std::vector<HalfPlane>& there, const Vector6& way, std::vector<HalfPlane>& here) {
   for (HalfPlane row : there) {
     row.bound += row.normal.dot(way);
@@ -135,7 +135,8 @@ double metric_distance(const Pose& H_WA, const Pose& H_WB, double rho_squared) {
 Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
   constexpr int kMaxIterations = 300;
   constexpr double kConverged_m = 1e-7;
-  constexpr double kStagnated_m = 2e-5;  // of the stretch, where gradients jump: 3 mrad of its direction at 7 mm
+  constexpr double kStagnated_m =
+      2e-5;  // of the coupling's length, where gradients jump: 3 mrad of its direction at 7 mm
   constexpr double kMaxProximity = 1e7;
   FreeSet free_set(problem);
   Vector6 eta = free_set.eta(H_WS_start);
@@ -166,7 +167,7 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
       add_cuts(there.rows, trial - eta, here.rows);
       proximity = std::max(0.1, 3.0 * proximity);
       if (proximity > kMaxProximity) {
-        // steps of all lengths down to nanometres have failed to bring it nearer: a ripple's bottom
+        // no step of any length down to nanometres comes nearer: the bottom of a ripple
         optimum.converged = (1.0 + proximity) * length < kStagnated_m && here.violation < kConverged_m;
         break;
       }

@@ -18,7 +18,7 @@ using analytic::Solid;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kKinetic = 0.18;
-constexpr double kPlateHalf = 0.3;         // no dash gets round it
+constexpr double kPlateHalf = 0.3;         // wider than any dash
 constexpr double kPlateThickness = 0.004;  // two voxels
 constexpr double kBallRadius = 0.05;
 constexpr double kSlotGap = 0.031;
@@ -27,7 +27,7 @@ constexpr double kHoleDepth = 0.03;
 constexpr double kPegRadius = 0.0098;
 constexpr double kPegVoxel = 0.00025;
 
-/// Half a V of full opening angle `opening` [deg].
+/// Returns one half of a V with the full opening angle `opening` [deg].
 double half_angle(double opening) { return 0.5 * opening * kPi / 180.0; }
 
 Solid plane() { return Solid({HalfSpace{}}); }
@@ -92,7 +92,7 @@ TriangleMesh hole_mesh() {
   return turned_solid(profile, kAround);
 }
 
-/// A rotation and translation without any symmetry.
+/// Returns a rotation and translation without symmetry.
 Pose odd_motion(const Vector3& shift) {
   Pose pose;
   pose.rotation = exp_rotation(0.7 * Vector3(1.0, -2.0, 0.5).normalized());
@@ -110,9 +110,9 @@ Pose at(const Vector3& translation, const Vector3& rotation = Vector3::Zero()) {
 }
 
 const Vector3 kDown = -Vector3::UnitZ();
-const Vector3 kInPlane = Vector3(std::cos(0.6), std::sin(0.6), 0.0);  // no lattice direction
+const Vector3 kInPlane = Vector3(std::cos(0.6), std::sin(0.6), 0.0);  // not a lattice direction
 
-/// A box tilted so that it comes down with a corner.
+/// Returns a tilted box that touches with a corner first.
 const Vector3 kTilt = Vector3(0.3, -0.4, 0.2);
 
 SceneSpec on_plane(BodyShape body) {

@@ -8,7 +8,7 @@
 namespace godobject::report {
 namespace {
 
-/// High-pass of second order by the bilinear transform, on three channels.
+/// High-pass filter of second order by the bilinear transform, on three channels.
 class HighPass {
  public:
   HighPass(double corner_hz, double quality, double rate_hz) {

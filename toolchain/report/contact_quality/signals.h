@@ -6,26 +6,26 @@
 
 #include "godobject/pose.h"
 
-/// Figures of signals sampled once a millisecond.
+/// Quantities of signals with one sample per millisecond.
 namespace godobject::report {
 
-/// Root mean square of what is faster than 100 Hz (Butterworth of fourth order; the first 50 ms let it settle and do
-/// not count). 0 for signals that are shorter.
+/// Returns the root mean square above 100 Hz (Butterworth filter of fourth order; the first 50 ms, in which the filter
+/// settles, do not count). 0 for shorter signals.
 double chatter(std::span<const Vector3> signal);
 
-/// Value of nearest rank; q in 0 .. 1. NaN for nothing.
+/// Returns the nearest-rank quantile; q in 0 .. 1. NaN without values.
 double percentile(std::vector<double> values, double q);
 
-/// Distance between the means of the first and the last `window` positions [m].
+/// Returns the distance between the means of the first and the last `window` positions [m].
 double drift(std::span<const Vector3> positions, std::size_t window);
 
-/// Longest run of values above `limit`, in samples.
+/// Returns the length of the longest run of values above `limit`, in samples.
 std::size_t longest_above(std::span<const double> values, double limit);
 
-/// The part of a vector that is perpendicular to a unit vector.
+/// Returns the part of a vector that is perpendicular to a unit vector.
 Vector3 across(const Vector3& v, const Vector3& unit);
 
-/// [rad]; exact for small angles too.
+/// Returns the angle between two vectors [rad], exact for small angles too.
 double angle_between(const Vector3& a, const Vector3& b);
 
 /// A rectangle in the plane z = 0 about the origin.
@@ -33,7 +33,7 @@ struct Rectangle {
   double half_x = 0.0;
   double half_y = 0.0;
 
-  /// The straight way from a to b goes from one side to the other through it.
+  /// Tells if the line from a to b passes from one side to the other through the rectangle.
   bool is_pierced(const Vector3& a, const Vector3& b) const;
 };
 

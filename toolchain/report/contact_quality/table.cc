@@ -20,7 +20,7 @@ std::string number(const QuantitySpec& quantity, double value) {
   return fmt::format("{:.{}f}", value, quantity.decimals);
 }
 
-/// Values of a hundredth of the last digit shown must not look like 0.
+/// Returns a number for a file, with nine digits: a hundredth of the last shown digit does not become 0.
 std::string file_number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.9g}", value); }
 
 std::string target_text(const QuantitySpec& quantity) {
@@ -56,22 +56,21 @@ std::array<std::optional<Verdict>, kSolverCount> judge_all(const std::vector<Mea
   return verdicts;
 }
 
-/// What the table's words mean, and how much it stands on.
+/// Returns the explanation of the table: number of scenes, and terms.
 std::string legend(const std::vector<Measurement>& measurements) {
   std::set<std::pair<std::string, std::string>> scenes;
   for (const Measurement& m : measurements) scenes.emplace(m.scene, m.world);
   return fmt::format(
-      "{} scenes; a figure is that of the solver's worst scene, a time the median over the scenes (us: of steps #2-#7; "
-      "whole cycle: #1 too).\n"
-      "voxels: their edges in the scene; mesh: against the exact mesh, field: against the stored distances; optimum: "
-      "the "
-      "pose nearest to\nthe device that does not penetrate; targets are those of contact.\n",
+      "{} scenes. Each value is that of the solver's worst scene; each time is the median over the scenes (solver:\n"
+      "steps #2-#7; whole cycle: #1 too). voxels: voxel edges of the scene; mesh: measured against the exact mesh;\n"
+      "field: against the stored distances; optimum: the pose nearest to the device without penetration. The targets\n"
+      "are those of contact.\n",
       scenes.size());
 }
 
 constexpr auto kContact = static_cast<std::size_t>(Solver::kContact);
 
-/// Why targets are missed that are.
+/// Returns the known reasons for the missed targets.
 std::string reasons(const std::vector<Measurement>& measurements) {
   std::string text;
   for (const QuantitySpec& quantity : quantities()) {

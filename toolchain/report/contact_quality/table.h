@@ -7,19 +7,21 @@
 
 namespace godobject::report {
 
-/// "held", "missed by 1.3 mm", "-" without a target, "not run" without `contact`: the targets are those of `contact`.
+/// Returns "held", "missed by 1.3 mm", "-" without a target, or "not run" without `contact`; the targets are those of
+/// `contact`.
 std::string verdict_text(const QuantitySpec& quantity, const std::optional<Verdict>& contact);
 
-/// One line a quantity: target, a column a solver, where `contact` is worst, verdict. Fixed width.
+/// Returns a table of fixed width with one line per quantity: target, one column per solver, verdict, and the worst
+/// scene of `contact`.
 std::string text_table(const std::vector<Measurement>& measurements);
 
-/// Lines: why targets are missed that are, how many scenes the table stands on, and what its words mean.
+/// Returns notes below the table: reasons for missed targets, number of scenes, and explanations of the terms.
 std::string notes(const std::vector<Measurement>& measurements);
 
-/// quantity,unit,target,paper,corrected,contact,worst_scene_paper,..,verdict
+/// Returns CSV: quantity,unit,target,paper,corrected,contact,worst_scene_paper,..,verdict
 std::string summary_csv(const std::vector<Measurement>& measurements);
 
-/// scene,world,solver,quantity,unit,value,target,verdict; one row each.
+/// Returns CSV with one row per measurement: scene,world,solver,quantity,unit,value,target,verdict
 std::string measurements_csv(const std::vector<Measurement>& measurements);
 
 }  // namespace godobject::report

@@ -13,27 +13,27 @@
 
 namespace godobject::report {
 
-/// One cycle of a god object that keeps its state: from the pose of body frame B on the device. The first call starts
-/// it at the device pose.
+/// A function that runs one cycle of a god object with its state, for the device pose of body frame B. The first call
+/// starts the god object at the device pose.
 using Cycle = std::function<Status(const Pose& H_WD, CycleReport& report, StepTimes& times)>;
 
-/// A still body, the body that moves in it, and the solvers that can run there.
+/// A still body, a moving body, and the solvers that can run with them.
 class World {
  public:
   virtual ~World() = default;
 
-  /// A solver at its start; empty where it cannot run.
+  /// Returns a solver at its start; empty if it cannot run here.
   virtual Cycle start(Solver solver, bool friction) const = 0;
 
-  /// The distance that solvers see: exact, or stored and interpolated.
+  /// Returns the distance for solvers: exact, or stored and interpolated.
   virtual double distance(const Vector3& p_W) const = 0;
   virtual void pieces(const Vector3& p_W, std::vector<analytic::Piece>& out) const = 0;
 
-  /// Deepest sample point at a pose, in the distance that solvers see [m], positive inside.
+  /// Returns the depth of the deepest sample point at a pose, by the distance for solvers [m], positive inside.
   virtual double depth(const Pose& H_WS) const = 0;
 
-  /// Deepest sample point in the mesh that was compiled [m]; the same as `depth` where there is no mesh. Only points
-  /// within half a voxel of the stored surface are looked at.
+  /// Returns the depth of the deepest sample point in the compiled mesh [m]; without a mesh the same as `depth`. Only
+  /// points within half a voxel of the stored surface count.
   virtual double true_depth(const Pose& H_WS) const = 0;
 
   virtual const Pose& H_MB() const = 0;
@@ -43,7 +43,7 @@ class World {
 std::unique_ptr<World> make_analytic_world(const analytic::Solid& solid, const Body& body,
                                            const WorldSettings& settings);
 
-/// Through the scene compiler: scene file and meshes are written to `folder`, the image is compiled there and read.
+/// Returns a world from the scene compiler. Writes scene file and meshes to `folder`, and compiles the image there.
 std::unique_ptr<World> make_compiled_world(const std::string& name, const CompiledStill& still, const Body& body,
                                            const WorldSettings& settings, const std::filesystem::path& folder);
 

@@ -22,10 +22,10 @@ namespace {
 
 const char* const kViolations = "extremes_violations";
 const char* const kCycles = "extremes_cycles";
-constexpr std::size_t kSlenderRow = 1;         ///< of kRows: stands for a million cycles
-constexpr std::uint32_t kMostStretches = 200;  ///< that the fuzzer is cut into, each with a seed
+constexpr std::size_t kSlenderRow = 1;         ///< of kRows; it runs a million cycles
+constexpr std::uint32_t kMostStretches = 200;  ///< largest number of stretches of the fuzzer, each with a seed
 
-/// What a stretch of runs has come to: findings for its row, and a case file for each run that violates something.
+/// Results of a stretch of runs: the findings of its row, and a case file for each run with a violation.
 class Tally {
  public:
   explicit Tally(std::string row) : row_(std::move(row)) {
@@ -54,9 +54,9 @@ class Tally {
     note("NaN in pose or force", both.not_finite, both.first);
     note("rotations not of unit length", both.not_unit, both.first);
     note("forces beyond spring and damper", both.unbounded, both.first);
-    note("poses refused, or taken that are none", both.bad_status, both.first);
+    note("valid poses refused, or invalid ones accepted", both.bad_status, both.first);
     note("contact: points that crossed a surface", contact_.crossings, contact_.first);
-    note("contact: further from the device than if it had stayed", contact_.pulled_away, contact_.first);
+    note("contact: farther from the device than without motion", contact_.pulled_away, contact_.first);
     Sheet cycles{.name = kCycles, .columns = {"row", "cycles", "cycles_of_contact"}, .rows = {}};
     cycles.rows.push_back({row_, std::to_string(both.cycles), std::to_string(contact_.cycles)});
     result.sheets = {sheet_, cycles};
@@ -79,7 +79,7 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
     Setup setup = row == "fuzzer" ? any_setup(random) : setup_of(row, random);
     const bool wants_mesh = setup.world == "compiled" || row == kRows[3];
     if (wants_mesh && !compiled) {
-      // one mesh in each stretch: it takes as long to compile as many runs
+      // one mesh per stretch, because compiling takes as long as many runs
       constexpr const char* kMeshes[] = {"mesh-box", "mesh-ball", "mesh-turned"};
       setup.world = kMeshes[setup.seed % std::size(kMeshes)];
       setup.body = setup.body == "ball" ? "ball" : "box";
@@ -99,7 +99,7 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
   return tally.result();
 }
 
-/// How many cycles the rows stand on.
+/// Returns a sentence on the number of cycles of the rows.
 std::string cycles_html(const Sheet& cycles) {
   std::int64_t all = 0;
   std::int64_t of_contact = 0;
@@ -108,9 +108,8 @@ std::string cycles_html(const Sheet& cycles) {
     of_contact += std::stoll(row[2]);
   }
   return fmt::format(
-      "<p>Generated rows and fuzzer: {} cycles, {} of them of the solver <code>contact</code>; a row's figure is that "
-      "of "
-      "its worst stretch. <a href=\"{}.csv\">Each stretch</a>.</p>\n",
+      "<p>Generated rows and fuzzer: {} cycles, {} of them of the solver <code>contact</code>. The value of a row is "
+      "that of its worst stretch. <a href=\"{}.csv\">All stretches</a>.</p>\n",
       all, of_contact, kCycles);
 }
 
@@ -120,7 +119,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   const Sheet violations = gathered(outcomes, kViolations);
   if (violations.rows.empty()) return section;
   command::make_output_folder(folder / "violations");
-  section.html += "<p>Violations; <code>godobject-report --replay FILE</code> runs one again:</p>\n<ul>\n";
+  section.html += "<p>Violations (<code>godobject-report --replay FILE</code> runs one again):</p>\n<ul>\n";
   for (std::size_t i = 0; i < violations.rows.size(); ++i) {
     const std::string name = fmt::format("violations/{:04}.json", i);
     write_file(folder / name, violations.rows[i][2]);
@@ -143,12 +142,11 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
       .name = "extremes",
       .title = "Numerical extremes",
       .introduction =
-          "<p>Generated cases at the edges of what numbers can do, then random ones with fixed seeds: worlds, bodies, "
-          "scales, motions, parameters. Torque rate: the whole control cycle on an arm that is led through places "
-          "where the field jumps, and the same without its supervisor; of the solvers alone, for comparison, what they "
-          "would "
-          "ask of the joints there. Stiffness, mass and delay on the right side of A4: the random loops of "
-          "the chapter on stability.</p>",
+          "<p>Generated cases at numerical extremes, then random ones with fixed seeds: worlds, bodies, scales, "
+          "motions, parameters. Torque rate: the whole control cycle runs on an arm that is led through places where "
+          "the field jumps, with and without its supervisor; for comparison, the torques that the solvers alone would "
+          "command there. For stiffness, mass and delay on the stable side of A4 see the random loops of the chapter "
+          "on stability.</p>",
       .cases = {},
       .conclude = conclude};
   const auto add = [&](const std::string& name, const std::string& inputs,
@@ -207,8 +205,9 @@ bool replay(const std::filesystem::path& file) {
   try {
     setup = read_case(text);
   } catch (const std::exception& error) {
-    throw command::Failure(command::ExitCode::kBadData,
-                           fmt::format("{}: no case file ({})", file.string(), error.what()));
+    throw command::Failure(
+        command::ExitCode::kBadData,
+        fmt::format("{}: not a case file ({}); name one that the fuzzer wrote", file.string(), error.what()));
   }
   const command::WorkFolder work(std::filesystem::temp_directory_path() / "case");
   const auto rig = make_rig(setup, work.path());

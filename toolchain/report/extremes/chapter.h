@@ -9,15 +9,15 @@ namespace godobject::report {
 
 struct ExtremesRequest {
   std::filesystem::path devices;  ///< folder of the device files
-  std::int64_t cycles = 0;        ///< of the fuzzer in all; 0: as many as fit
+  std::int64_t cycles = 0;        ///< total of the fuzzer; 0: the default number
   bool quick = false;
-  std::uint32_t seed = 0;  ///< of the fuzzer: another one, other runs
+  std::uint32_t seed = 0;  ///< of the fuzzer
 };
 
-/// Numerical extremes, and the fuzzer. Throws Failure (kNoInput) where the device file is missing.
+/// Returns the chapter on numerical extremes, with the fuzzer. Throws Failure (kNoInput) if the device file is missing.
 Chapter extremes_chapter(const ExtremesRequest& request);
 
-/// Runs a case file of the fuzzer again and prints what it finds. True: it is violated still. Throws Failure.
+/// Runs a case file of the fuzzer again and prints the violations. Returns true if there is one. Throws Failure.
 bool replay(const std::filesystem::path& file);
 
 }  // namespace godobject::report

@@ -12,9 +12,9 @@ namespace {
 
 using namespace firmware;
 
-constexpr int kStartCycles = 400;  ///< until the drives have power, and some more
+constexpr int kStartCycles = 400;  ///< more than the drives need to get power
 
-/// Drives of joints that are where they are put, enabled as soon as they are asked.
+/// Drives whose joints are at given positions; they are enabled at once.
 class LedDrives final : public hal::JointDrives {
  public:
   explicit LedDrives(int joint_count) : joint_count_(joint_count) {}
@@ -46,7 +46,7 @@ class LedDrives final : public hal::JointDrives {
   hal::DriveState state_ = hal::DriveState::kOff;
 };
 
-/// Brings the tool to H_RM, by Newton's method from a posture that is near.
+/// Returns joint positions with the tool at H_RM, by Newton's method from a near posture.
 JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
   constexpr double kSingular = 1e-6;  // keeps the step finite at singular postures
   for (int i = 0; i < 3; ++i) {
@@ -62,7 +62,7 @@ JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
   return q;
 }
 
-/// Everything but the supervisor: renders in full from the first cycle on.
+/// The controller without its supervisor; it renders fully from the first cycle on.
 class Unsupervised {
  public:
   Unsupervised(const LedArm& arm, const CycleSetup& setup)
@@ -73,7 +73,7 @@ class Unsupervised {
     }
   }
 
-  /// At the positions of the controller's record.
+  /// Runs a cycle at the positions of the controller's record.
   void cycle(LedCycle& cycle) {
     TorqueRequest request;
     request.q = cycle.record.q;
@@ -127,7 +127,7 @@ std::vector<LedCycle> lead(const LedArm& arm, std::span<const Pose> path) {
   setup.mapping = placement.mapping;
   setup.torque = arm.torque;
   setup.supervisor.sign_test = false;   // the joints do not yield
-  setup.supervisor.engage_cycles = 20;  // soon all is rendered
+  setup.supervisor.engage_cycles = 20;  // full rendering soon
   LedDrives drives(model.joint_count);
   const auto controller = std::make_unique<ControlCycle>(setup, drives);
   Unsupervised unsupervised(arm, setup);

@@ -10,7 +10,7 @@
 
 namespace godobject::report {
 
-/// An arm in a scene, and how the controller limits its torques. What is pointed to outlives the runs.
+/// An arm in a scene, and the limits of its torques. Scene and device must outlive the runs.
 struct LedArm {
   const Scene* scene = nullptr;
   const firmware::Device* device = nullptr;
@@ -23,19 +23,18 @@ struct LedArm {
 struct LedCycle {
   firmware::CycleRecord record;
   JointVector sent = JointVector::Zero();  ///< [Nm]
-  /// What a controller that renders everything from the first cycle on would compute and send [Nm].
+  /// Torques that a controller which renders fully from the first cycle on would compute and send [Nm].
   JointVector computed_at_once = JointVector::Zero();
   JointVector sent_at_once = JointVector::Zero();
-  Wrench wrench_W;                   ///< of the solver in that case, before any limit
-  Outcome outcome = Outcome::kFree;  ///< the same
-  std::uint32_t contacts = 0;        ///< the same
+  Wrench wrench_W;                   ///< wrench of that solver, before any limit
+  Outcome outcome = Outcome::kFree;  ///< outcome of that solver
+  std::uint32_t contacts = 0;        ///< contacts of that solver
 };
 
-/// The whole control cycle on an arm whose joints follow the poses of the moving mesh in the scene, H_WM, a millisecond
-/// apart, whatever torques are sent. The first pose is held until the drives have power. Beside it, along the same
-/// positions: solver, limits at the hand, joint torques and torque limiter without a supervisor, which holds nothing
-/// back where the controller still waits for the hand to come out. Throws Failure (kInternal) where the scene lacks the
-/// solver.
+/// Runs the whole control cycle on an arm whose joints follow the poses of the moving mesh, H_WM, one per millisecond,
+/// independent of the torques. The first pose is held until the drives have power. Beside it, solver, limits at the
+/// hand, joint torques and torque limiter run along the same positions without a supervisor; they render too while the
+/// controller still waits for the hand to come out. Throws Failure (kInternal) if the scene lacks the solver.
 std::vector<LedCycle> lead(const LedArm& arm, std::span<const Pose> path);
 
 }  // namespace godobject::report

@@ -20,7 +20,7 @@ constexpr double kPeriod = 1e-3;
 
 double to_double(bool yes) { return yes ? 1.0 : 0.0; }
 
-/// A body for scenes that are only looked up.
+/// Returns a scene with a body, for look-ups only.
 SceneText with_a_body(CompiledStill still, double voxel_size, const std::filesystem::path& work) {
   const std::filesystem::path body = work / "body.ply";
   write_ply(box_mesh(Vector3::Constant(-0.01), Vector3::Constant(0.01)), body);
@@ -33,7 +33,7 @@ SceneText with_a_body(CompiledStill still, double voxel_size, const std::filesys
 
 struct LookUps {
   std::int64_t not_finite = 0;
-  std::int64_t wrong_sign = 0;  ///< where the exact distance is beyond a voxel
+  std::int64_t wrong_sign = 0;  ///< only where the exact distance exceeds a voxel
 };
 
 LookUps look_up(const Scene& scene, const Vector3& half, int count, bool open) {
@@ -41,7 +41,7 @@ LookUps look_up(const Scene& scene, const Vector3& half, int count, bool open) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   LookUps found;
   for (int i = 0; i < count; ++i) {
-    const double reach = i % 10 == 0 ? 100.0 : 1.3;  // some far outside of the grid
+    const double reach = i % 10 == 0 ? 100.0 : 1.3;  // some far outside the grid
     const Vector3 p = reach * half.cwiseProduct(Vector3(unit(random), unit(random), unit(random)));
     const FieldSample sample = scene.voxelmap.sample(p);
     const LayerSample layer = scene.voxelmap.layer(p);
@@ -96,9 +96,8 @@ CaseResult bad_meshes(bool quick, const std::filesystem::path& work) {
       if (name == "flipped") note("bad triangles not reported", to_double(report.misoriented_edges == 0), name);
       if (name == "open") note("bad triangles not reported", to_double(report.boundary_edges == 0), name);
     } catch (const command::Failure& failure) {
-      // refused in words is as good, but not for a mesh that can be mended
-      note("meshes refused that can be mended",
-           to_double(name == "sound" || name == "degenerate" || name == "duplicate"),
+      // a refusal is as good, except for a mesh that can be repaired
+      note("repairable meshes refused", to_double(name == "sound" || name == "degenerate" || name == "duplicate"),
            fmt::format("{}: {}", name, failure.what()));
     }
   }
@@ -160,8 +159,7 @@ CaseResult same_at_every_scale(bool quick) {
       }
       return poses;
     };
-    setup.scale =
-        1.0;  // powers of two from it: sample points are stored as floats, which must not be rounded otherwise
+    setup.scale = 1.0;  // others are powers of two from it, so that the float sample points round in the same way
     const auto unit = god_objects(setup);
     for (const double scale : {0x1p-10, 0x1p-6, 0x1p6, 0x1p10}) {
       Setup scaled = setup;
@@ -175,7 +173,7 @@ CaseResult same_at_every_scale(bool quick) {
         if (std::isnan(off)) break;
       }
       result.findings.push_back({.row = kRows[0],
-                                 .what = "god object at another scale, off that of 1 m",
+                                 .what = "god object's deviation from that at 1 m",
                                  .unit = "voxels",
                                  .value = worst / setup.voxel,
                                  .most = 0.01,
@@ -188,7 +186,7 @@ CaseResult same_at_every_scale(bool quick) {
 CaseResult long_run(std::int64_t cycles) {
   CaseResult result;
   Setup setup{.row = "long run", .world = "plane", .body = "box", .motion = "spin", .points = 60, .depth = 0.2};
-  // all of the motion repeats once a second; what is compared is a second apart
+  // the whole motion repeats every second; poses one second apart are compared
   const auto rig = make_rig(setup, {});
   CycleReport report;
   double off_unit = 0.0;
@@ -213,7 +211,7 @@ CaseResult long_run(std::int64_t cycles) {
                              .most = 1e-12,
                              .where = fmt::format("{} cycles", cycles)});
   result.findings.push_back({.row = "long run",
-                             .what = "drift of a motion that repeats",
+                             .what = "drift of a periodic motion",
                              .unit = "voxels",
                              .value = drift,
                              .most = 1e-3,
@@ -271,13 +269,13 @@ CaseResult closed_path(bool quick) {
       }
       const std::string where = fmt::format("{}, {}, {}", world, setup.body, i);
       result.findings.push_back({.row = "closed path",
-                                 .what = "net work on the hand, of the peak stored energy",
+                                 .what = "net work on the hand over the peak stored energy",
                                  .unit = "",
                                  .value = peak > 0.0 ? std::max(0.0, work) / peak : 0.0,
                                  .most = 1e-3,
                                  .where = where});
       result.findings.push_back({.row = "closed path",
-                                 .what = "cycles that a replay gives otherwise",
+                                 .what = "cycles that differ in a replay",
                                  .unit = "",
                                  .value = static_cast<double>(different),
                                  .most = 0.0,

@@ -84,7 +84,7 @@ Solid solid_of(const Setup& setup) {
   return Solid(heap);
 }
 
-/// Half edges of the bodies that are boxes, and what is left of them.
+/// Returns the half edges of bodies that are boxes, or degenerate boxes.
 Vector3 half_edges(const Setup& setup) {
   const double s = setup.scale;
   if (setup.body == "needle") return s * Vector3(1.0, 0.001, 0.001);
@@ -136,10 +136,10 @@ Parameters parameters_of(const Setup& setup, const MassModel& mass) {
   return q;
 }
 
-/// Reach of the longest sub-step: what is farther away is in no row.
-double reach_of(const Parameters& q) { return ContactLengths::make(q).longest_search_radius; }
+/// Returns the search radius of the longest sub-step; farther points are in no row.
+double search_radius_of(const Parameters& q) { return ContactLengths::make(q).longest_search_radius; }
 
-/// Calls visit(p, p_field, normal, gap) for the points of the shell, which is at H in the field's frame, that are near.
+/// Calls visit(p, p_field, normal, gap) for the near points of the shell, which is at H in the field's frame.
 template <class Field, class Visit>
 void visit_near(const Field& field, const Pointshell& shell, const Pose& H, double reach, const Visit& visit) {
   for (std::size_t i = 0; i < shell.size; ++i) {
@@ -181,7 +181,7 @@ class AnalyticRig final : public Rig {
 
   double smallest_gap(const Pose& H_WS) const override { return smallest_distance(field_, shell_, H_WS); }
   std::vector<Touch> touches(const Pose& H_WS) const override {
-    return sample_touches(field_, shell_, H_WS, reach_of(q_));
+    return sample_touches(field_, shell_, H_WS, search_radius_of(q_));
   }
   const Parameters& parameters() const override { return q_; }
 
@@ -211,7 +211,7 @@ TriangleMesh mesh_of(const Setup& setup) {
   return box_mesh({-1.6 * s, -1.4 * s, -1.2 * s}, {1.6 * s, 1.4 * s, 0.0});
 }
 
-/// Through the scene compiler and the whole pipeline, both directions.
+/// A world from the scene compiler with the whole pipeline and both directions.
 class CompiledRig final : public Rig {
  public:
   CompiledRig(const Setup& setup, const std::filesystem::path& work)
@@ -224,7 +224,7 @@ class CompiledRig final : public Rig {
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {
     if (started_ != Status::kOk) return started_;
-    Pose H_WM = H_WD;  // as it comes: what is no pose must arrive as it is
+    Pose H_WM = H_WD;  // unchanged: an invalid pose must arrive as it is
     if (H_WD.is_finite()) {
       H_WM.translation = H_WD * H_BM_.translation;
       H_WM.rotation = H_WD.rotation * H_BM_.rotation;
@@ -237,7 +237,7 @@ class CompiledRig final : public Rig {
   }
   std::vector<Touch> touches(const Pose& H_WS) const override {
     const Scene& scene = image_.scene;
-    const double reach = reach_of(god_object_.parameters());
+    const double reach = search_radius_of(god_object_.parameters());
     std::vector<Touch> touches = sample_touches(scene.voxelmap, scene.pointshell, H_WS, reach);
     if (!scene.has_features()) return touches;
     Pose H_WF;
@@ -274,7 +274,7 @@ class CompiledRig final : public Rig {
   Status started_ = Status::kOk;
 };
 
-/// What is no pose: each kind in turn.
+/// Returns an invalid pose; `which` selects the kind in turn.
 Pose bad_pose(const Pose& pose, int which) {
   Pose bad = pose;
   switch (which % 4) {
@@ -291,7 +291,7 @@ double stretch(const Pose& H_WS, const Pose& H_WD, double rho_squared) {
   return std::sqrt(x.translation.squaredNorm() + rho_squared * x.rotation.squaredNorm());
 }
 
-/// Finds what a cycle did wrong.
+/// Finds the violations of a cycle.
 class Watch {
  public:
   Watch(const Setup& setup, const Rig& rig) : setup_(setup), rig_(rig), q_(rig.parameters()) {}
@@ -317,7 +317,7 @@ class Watch {
 
   void bad_input(int cycle, Status status, const CycleReport& report) {
     ++found.cycles;
-    if (status == Status::kOk) note(found.bad_status, cycle, "took what is no pose");
+    if (status == Status::kOk) note(found.bad_status, cycle, "accepted an invalid pose");
     if (!report.force.total_W.force.isZero(0.0) || !report.force.total_W.torque.isZero(0.0)) {
       note(found.unbounded, cycle, "force without a pose");
     }
@@ -363,7 +363,7 @@ class Watch {
     const double out = (way_out(rig_.touches(last_), q_) - to_device).norm();
     if (now <= out + 4.0 * q_.margin) return;
     note(found.pulled_away, cycle,
-         fmt::format("{} m from the device, {} if it had stayed, {} by the shortest way out", now, stayed, out));
+         fmt::format("{} m from the device, {} without motion, {} by the shortest way out", now, stayed, out));
   }
 
   const Setup& setup_;
@@ -398,7 +398,7 @@ std::vector<Pose> device_path(const Setup& setup) {
     const double share = std::min(1.0, 5.0 * k / setup.cycles);  // of the way in
     Pose H_OD;
     if (setup.motion == "dash") {
-      // to and fro through the origin, from 3 scales away
+      // back and forth through the origin, from 3 scales away
       const double along = std::fmod(setup.speed * t, 12.0);
       H_OD.translation = s * (along < 6.0 ? 3.0 - along : along - 9.0) * (way.z() < 0.0 ? Vector3(-way) : way);
       H_OD.rotation = exp_rotation(std::remainder(setup.spin * t, 2.0 * M_PI) * axis);

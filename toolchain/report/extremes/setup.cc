@@ -130,7 +130,7 @@ std::string case_file(const Setup& s, const std::string& found) {
 
 Setup read_case(const std::string& text) {
   const nlohmann::json all = nlohmann::json::parse(text);
-  if (all.at("generator") != kGenerator) throw std::runtime_error("made by another generator");
+  if (all.at("generator") != kGenerator) throw std::runtime_error("it is of another generator");
   Setup s;
   s.row = all.at("row");
   s.world = all.at("world");

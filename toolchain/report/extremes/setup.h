@@ -9,12 +9,12 @@
 
 namespace godobject::report {
 
-/// Number of the generator below: what a seed means.
+/// Number of the generator below; with another number a seed gives other setups.
 inline constexpr int kGenerator = 1;
 
-/// One run of a solver, down to the last number, as a case file holds it. Lengths are multiples of `scale`.
+/// One run of a solver with all numbers, as in a case file. Lengths are multiples of `scale`.
 struct Setup {
-  std::string row = {};          ///< of the table of extremes
+  std::string row = {};          ///< row of the table of extremes
   std::string world = "plane";   ///< plane, slot, groove, bore, plate, heap, or compiled: box, ball, turned
   std::string body = "ball";     ///< ball, box, needle, flat, line, point
   std::string motion = "press";  ///< press, dash, jump, spin, rest
@@ -23,12 +23,12 @@ struct Setup {
   format::Solver solver = format::Solver::kContact;
   bool friction = false;
   int points = 100;
-  int bad_every = 0;    ///< cycles from one input that is no pose to the next; 0: none
+  int bad_every = 0;    ///< cycles from one invalid pose to the next; 0: none
   double scale = 0.02;  ///< size of the moving body [m]
-  double far = 0.0;     ///< of the scene from the origin
-  double width = 1.1;   ///< of slot, groove and bore, half
-  double start = 2.0;   ///< height over z = 0 that the device starts at
-  double depth = 0.5;   ///< that it presses
+  double far = 0.0;     ///< distance of the scene from the origin
+  double width = 1.1;   ///< half width of slot, groove and bore
+  double start = 2.0;   ///< start height of the device over z = 0
+  double depth = 0.5;   ///< depth of the press
   double speed = 5.0;   ///< [1/s]
   double spin = 3.0;    ///< [rad/s]
   double voxel = 0.1;
@@ -42,18 +42,18 @@ struct Setup {
   double margin() const { return 0.01 * voxel * scale; }
 };
 
-/// Any setup; the same for the same numbers from `random`.
+/// Returns a random setup, the same for the same numbers from `random`.
 Setup any_setup(std::mt19937& random);
 
-/// One of a row of the table. The rows that are families of setups:
+/// The rows of the table that are families of setups; setup_of returns a setup of one of them.
 extern const char* const kRows[];
 extern const std::size_t kRowCount;
 Setup setup_of(const std::string& row, std::mt19937& random);
 
-/// JSON; `found` is what it violates.
+/// Returns the case file of a setup as JSON; `found` is its violation.
 std::string case_file(const Setup& setup, const std::string& found);
 
-/// Throws std::exception where the text is no case file of this generator.
+/// Reads a case file. Throws std::exception if the text is not a case file of this generator.
 Setup read_case(const std::string& text);
 
 }  // namespace godobject::report

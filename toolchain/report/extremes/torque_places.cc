@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kVoxel = 2.0 * kMillimetre;
-constexpr double kMayChangeBy = 0.05;              ///< of a joint's torque limit, a cycle: what the controller promises
+constexpr double kMayChangeBy = 0.05;              ///< allowed change per cycle, share of a joint's torque limit
 constexpr double kHalfWidth = 30.0 * kMillimetre;  ///< of the still body
 constexpr double kDepth = 40.0 * kMillimetre;      ///< of the block, its top at z = 0
 constexpr int kPathCycles = 2200;
@@ -31,13 +31,13 @@ Vector3 top_of_grid(const Scene& scene) {
   return Eigen::Map<const Vector3>(scene.grid.origin) + format::kBrickCells * scene.grid.voxel_size * bricks;
 }
 
-/// The field tells that p is inside, and no more.
+/// Tells if the field knows of p only that it is inside.
 bool is_beyond_band(const Scene& scene, const Vector3& p_W) {
   const FieldSample sample = scene.voxelmap.sample(p_W);
   return !sample.known && sample.distance < 0.0;
 }
 
-/// The cycle is what the place is for.
+/// Tells if the arm is at the place in this cycle.
 bool is_there(Place place, const Scene& scene, const LedCycle& cycle) {
   const Pose& H_WM = cycle.record.H_WM;
   const Vector3& p_W = H_WM.translation;
@@ -57,7 +57,7 @@ bool is_there(Place place, const Scene& scene, const LedCycle& cycle) {
   return false;
 }
 
-/// Of the changes from one cycle to the next, that of the joint which comes nearest to what it may.
+/// Returns the largest change of a joint torque from one cycle to the next, over the allowed change.
 double largest_step(const ArmModel& arm, const JointVector& now, const JointVector& before) {
   double most = 0.0;
   for (int i = 0; i < arm.joint_count; ++i) {
@@ -69,7 +69,7 @@ double largest_step(const ArmModel& arm, const JointVector& now, const JointVect
   return most;
 }
 
-/// A maximum that keeps what is no number.
+/// Raises a maximum; NaN remains.
 void raise(double& most, double value) {
   if (std::isnan(value) || value > most) most = value;
 }
@@ -100,8 +100,8 @@ std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
   };
   const double outside = top_of_grid(scene).x() / kMillimetre + 15.0;
-  Vector3 begin(between(-12.0, 12.0), between(-12.0, 12.0), 15.0);  // [mm] down to where both are scaled
-  Vector3 reach(0.0, 0.0, 0.0);                                     // to there and back, twice
+  Vector3 begin(between(-12.0, 12.0), between(-12.0, 12.0), 15.0);  // [mm] until both are scaled below
+  Vector3 reach(0.0, 0.0, 0.0);                                     // there and back, twice
   switch (place) {
     case Place::kStartInside:
       begin.z() = between(-8.0, 5.0);
@@ -159,7 +159,7 @@ TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device
                          const firmware::TorqueLimits& used, std::uint32_t seed) {
   const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, used}, place_path(place, scene, seed));
   TorqueSteps found{.cycles = static_cast<std::int64_t>(cycles.size())};
-  LedCycle before = cycles.front();  // the weight of the arm, all at once, is no flip
+  LedCycle before = cycles.front();  // the arm's weight, which comes at once, does not count as a change
   before.sent.setZero();
   for (const LedCycle& cycle : cycles) {
     raise(found.sent, largest_step(device.model, cycle.sent, before.sent));
@@ -171,7 +171,7 @@ TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device
     before = cycle;
   }
   const bool stopped = cycles.back().record.fault != firmware::Fault::kNone;
-  // who starts inside may come out on the other side: then the controller stays silent for good
+  // a body that starts inside may come out on the other side; then the controller never renders
   const bool begins_inside = cycles.front().outcome == Outcome::kStartInside;
   if (stopped || found.there == 0 || (found.rendered == 0 && !begins_inside)) found.idle_runs = 1;
   return found;
@@ -205,7 +205,7 @@ CaseResult torque_rate(Place place, const std::filesystem::path& device_file, st
     const char* const kSent = "change of a joint torque in a cycle, as sent, over the 5 % of its limit";
     note(kSent, all.sent, 1.0 + kRounding, where);
     note(kSent, all.sent_at_once, 1.0 + kRounding, where + ", without supervisor");
-    note("runs that stopped, or did not get to the place", static_cast<double>(all.idle_runs), 0.0, where);
+    note("runs that stopped, or did not reach the place", static_cast<double>(all.idle_runs), 0.0, where);
     note(fmt::format("{}: the same as computed, before the torque limiter",
                      solver == Solver::kContact ? name : "paper, corrected"),
          all.computed, {}, fmt::format("{}: {:.2g} N", where, all.force));

@@ -14,44 +14,44 @@
 
 namespace godobject::report {
 
-/// Where the field says nothing, or something else a little further on.
+/// Places where the field has no information, or jumps.
 enum class Place : std::uint8_t {
   kStartInside,
   kStartDeep,    ///< inside, all of the body beyond the narrow band
-  kDeep,         ///< pressed to there
-  kOutsideGrid,  ///< to and fro
+  kDeep,         ///< pressed beyond the narrow band
+  kOutsideGrid,  ///< out and back
   kGridBorder,   ///< pressed, with half of the body outside
   kMedialAxis,   ///< of a plate of two voxels, and through it
 };
 extern const char* const kPlaceNames[];
 extern const std::size_t kPlaceCount;
 
-/// The scene of a place, compiled in `work`.
+/// Compiles the scene of a place in `work`.
 command::SceneImage place_scene(Place place, const std::filesystem::path& work);
 
-/// A way to the place and back at less than 0.3 m/s: H_WM, a millisecond apart. Each seed gives another one.
+/// Returns a path to the place and back at less than 0.3 m/s: H_WM, one pose per millisecond. It depends on the seed.
 std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed);
 
-/// What runs at a place have come to.
+/// Results of runs at a place.
 struct TorqueSteps {
   std::int64_t cycles = 0;
-  std::int64_t there = 0;      ///< cycles in which the arm was where it was to be led
-  std::int64_t rendered = 0;   ///< in which the controller rendered all
-  std::int64_t idle_runs = 0;  ///< without one or the other, or that the controller stopped
-  /// Largest change of a joint's torque from a cycle to the next, of the 5 % of its limit that it may change by.
+  std::int64_t there = 0;      ///< cycles in which the arm was at the place
+  std::int64_t rendered = 0;   ///< cycles in which the controller rendered fully
+  std::int64_t idle_runs = 0;  ///< runs without one of these, or that the controller stopped
+  /// Largest change of a joint's torque from a cycle to the next, over the allowed 5 % of its limit.
   double sent = 0.0;          ///< by the controller
   double sent_at_once = 0.0;  ///< without its supervisor, from the second cycle on
-  double computed = 0.0;      ///< the same before the torque limiter
+  double computed = 0.0;      ///< without its supervisor, before the torque limiter
   double force = 0.0;         ///< largest change of the solver's force, before any limit [N]
 
   void add(const TorqueSteps& other);
 };
 
-/// One run along a way. `used`: what the controller is given; it is judged by the 5 % whatever that is.
+/// Runs one path. `used`: limits of the controller; the judgement always uses 5 %.
 TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device& device, Solver solver, bool friction,
                          const firmware::TorqueLimits& used, std::uint32_t seed);
 
-/// All solvers, with friction and without, `cycles` or some more.
+/// Runs all solvers, with and without friction, for `cycles` or a little more.
 CaseResult torque_rate(Place place, const std::filesystem::path& device_file, std::int64_t cycles,
                        const std::filesystem::path& work);
 

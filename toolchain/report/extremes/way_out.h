@@ -15,14 +15,14 @@ struct Touch {
   double gap = 0.0;  ///< [m]
 };
 
-/// The shortest motion z_0 = (x, rho r) [m] of a god object by which it regains in one cycle what is lost of its
-/// margin, wherever the device is: that meets the rows of `contact` (core/README.md: of a lost margin 0.3, a quarter of
-/// a voxel at most; other gaps stay above the margin). Zero where nothing is lost, and where nobody can meet all rows:
-/// then nothing need be gained.
+/// Returns the shortest motion z_0 = (x, rho r) [m] by which a god object regains the lost margin in one cycle,
+/// independent of the device. It satisfies the rows of `contact` (core/README.md: 0.3 of a lost margin, a quarter of a
+/// voxel at most; other gaps stay above the margin). Zero if no margin is lost, and if no motion satisfies all rows;
+/// then no gap need grow.
 ///
-/// In a narrow place it is many times the lost gap, because a wedge opens slowly along the way out. And it bounds how
-/// far a cycle may end from the device, w as seen from where it began: without friction the motion is the point nearest
-/// to w of a convex set that z_0 belongs to, so |z - w| <= |z_0 - w|.
+/// In a narrow place it is many times the lost gap, because a wedge opens slowly along the way out. It bounds the
+/// distance from the device at the end of a cycle. Let w be the device seen from the begin of the cycle: without
+/// friction the motion z is the point nearest to w of a convex set that contains z_0, so |z - w| <= |z_0 - w|.
 Vector6 way_out(const std::vector<Touch>& touches, const Parameters& parameters);
 
 }  // namespace godobject::report

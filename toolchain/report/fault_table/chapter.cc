@@ -13,7 +13,7 @@
 namespace godobject::report {
 namespace {
 
-/// The tests of each program.
+/// Returns the tests of each program.
 std::map<std::string, std::vector<std::string>> programs() {
   std::map<std::string, std::vector<std::string>> found;
   for (const Requirement& requirement : requirements()) {
@@ -24,7 +24,7 @@ std::map<std::string, std::vector<std::string>> programs() {
   return found;
 }
 
-/// What a program says of its tests; with a reason where it died.
+/// Runs tests of a program and returns their records; if the program dies, with the reason.
 std::vector<TestResult> run(const std::filesystem::path& program, const std::vector<std::string>& tests,
                             const std::filesystem::path& results) {
   std::string died;
@@ -79,7 +79,7 @@ std::map<std::string, TestResult> results_of(const Sheet& sheet) {
 
 Finding finding_of(const FaultRow& row) {
   Finding finding{.row = row.requirement.fault,
-                  .what = "injections that are not as required: " + row.requirement.reaction,
+                  .what = "injections with another reaction than: " + row.requirement.reaction,
                   .unit = "",
                   .value = row.verdict == FaultVerdict::kMissed ? 1.0 : 0.0,
                   .most = 0.0,
@@ -111,11 +111,11 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   for (const FaultRow& row : rows) section.findings.push_back(finding_of(row));
   section.findings = worst_of(section.findings);
   section.text = fault_summary(rows) + "\n";
-  section.html = "<p>Each injection: <a href=\"faults.html\">table</a>, <a href=\"faults.csv\">CSV</a>.</p>\n";
+  section.html = "<p>All injections: <a href=\"faults.html\">table</a>, <a href=\"faults.csv\">CSV</a>.</p>\n";
   return section;
 }
 
-/// What a case's result depends on: the test program, or what a session of the virtual machine has left.
+/// Returns the inputs of a case: the test program, or the results of a session of the virtual machine.
 std::string inputs_of(const std::filesystem::path& tests, const std::string& program,
                       const std::vector<std::string>& names) {
   if (program != kVirtualMachine) return file_digest(tests / program);
@@ -127,8 +127,8 @@ std::string inputs_of(const std::filesystem::path& tests, const std::string& pro
 Chapter fault_chapter(const std::filesystem::path& tests) {
   Chapter chapter{
       .name = "faults",
-      .title = "Faults, injected",
-      .introduction = "<p>What the controller makes of faults, as the tests that inject them have measured it.</p>",
+      .title = "Injected faults",
+      .introduction = "<p>Reactions of the controller to faults, measured by the tests that inject them.</p>",
       .cases = {},
       .conclude = conclude};
   for (const auto& [program, names] : programs()) {

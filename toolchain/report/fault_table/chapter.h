@@ -6,8 +6,9 @@
 
 namespace godobject::report {
 
-/// Runs the tests that inject faults, a case a test program of the folder `tests`; writes faults.csv and faults.html.
-/// What a test or its program fails with is in them. Throws Failure: kNoInput where a program is not there.
+/// Returns the chapter that runs the tests which inject faults, one case per test program of the folder `tests`. It
+/// writes faults.csv and faults.html, with the messages of failed tests and programs. Throws Failure: kNoInput if a
+/// program is missing.
 Chapter fault_chapter(const std::filesystem::path& tests);
 
 }  // namespace godobject::report

@@ -5,11 +5,11 @@
 
 namespace godobject::report {
 
-/// What must happen.
+/// The required reaction to a fault.
 enum class Reaction {
-  kGoesOn,  ///< without any less rendered; what was wrong is counted
-  kStop,   ///< nothing rendered, by fading within the cycles allowed or at once; then the drives' quick stop and brakes
-  kDrive,  ///< the drives stop by themselves
+  kGoesOn,  ///< full rendering continues; the fault is counted
+  kStop,  ///< rendering ends, by fading within the allowed cycles or at once; then quick stop of the drives, and brakes
+  kDrive,   ///< the drives stop by themselves
   kRefuse,  ///< no start: exit 65, 69, 77 or 78, no torque sent
   kEnd,     ///< ramp, quick stop, exit 0
 };
@@ -23,16 +23,16 @@ struct Injection {
 /// A row of the table of faults.
 struct Requirement {
   std::string fault;
-  std::string reaction;  ///< in words
+  std::string reaction;  ///< description of the reaction
   Reaction kind;
   int most;  ///< cycles; -1: not counted in cycles
   std::vector<Injection> injections;
 };
 
-/// The whole table, in its order; a row without injections is not covered.
+/// Returns the whole table in its order; a row without injections is not covered.
 const std::vector<Requirement>& requirements();
 
-/// "FADE, STOP" is a stop, and so on.
+/// Tells if the reaction that a test has recorded is of this kind: "FADE, STOP" is a stop, and so on.
 bool is(Reaction kind, const std::string& seen);
 
 }  // namespace godobject::report

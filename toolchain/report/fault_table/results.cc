@@ -44,12 +44,12 @@ TestResult result_of(const nlohmann::json& test) {
   result.cycles = std::stoi(test.value("fault_cycles", "-1"));
   if (result.passed && result.reaction.empty()) {
     result.passed = false;
-    result.why_not = "the test has recorded nothing";
+    result.why_not = "the test passed without a record of the reaction";
   }
   return result;
 }
 
-/// "StopsInTime/bus_off" -> "bus off"; "RefusesWhatIsHuge" -> "refuses what is huge".
+/// Returns a test's name in words: "bus off" for "StopsInTime/bus_off", "waits for a drive" for "WaitsForADrive".
 std::string in_words(const std::string& test) {
   const std::size_t slash = test.rfind('/');
   const std::size_t dot = test.find('.');
@@ -63,7 +63,7 @@ std::string in_words(const std::string& test) {
   return words;
 }
 
-/// Where a test runs.
+/// Returns the place in which the tests of a program run.
 const char* place(const std::string& program) {
   if (program == "closed_loop_can_faults_test") return "simulated CAN";
   if (program == "closed_loop_faults_test") return "no wire";
@@ -82,7 +82,7 @@ std::string seen_text(const FaultRow& row) {
 const char* const kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Faults, injected</title>
+<title>Injected faults</title>
 <style>
 body { font: 15px/1.45 sans-serif; color: #222; max-width: 1700px; margin: 2em auto; padding: 0 1em }
 table { border-collapse: collapse; font-size: 13px }
@@ -92,16 +92,16 @@ td.where { white-space: nowrap } td.then { min-width: 15em }
 tr.first td { border-top: 2px solid #999 }
 .held { color: #06691f } .missed { color: #fff; background: #b00020 } .not { background: #ffe9a8 }
 </style></head><body>
-<h1>Faults, injected</h1>
+<h1>Injected faults</h1>
 )";
 
 const char* const kColumns =
-    R"(<p>Each row of the table of faults, with every test that injects it. Seen, cycles and what follows are what
-the test has measured in this run; required and allowed are the table's. Cycles of 1 ms are counted from the cause, its own cycle being the
-first, to the one in which nothing is rendered any more, for drives that stop by themselves to the last of them that leaves its
-operation. Held: the test has passed, the reaction is the required one, and in time. STOP: nothing is rendered from then on on any axis,
-the arm is held, then quick stop and brakes, until the operator resets. FADE: what was rendered last goes to nothing in 5 cycles. DRIVE: the
-drives stop by themselves. REFUSE: no start, no torque was sent.</p>
+    R"(<p>Each row of the table of faults, with every test that injects it. The test has measured the columns seen,
+cycles and then in this run; required and allowed are given. Cycles of 1 ms are counted from the cause, whose own
+cycle is the first, to the first cycle without rendering; for drives that stop by themselves, to the last drive
+that leaves operation. Held: the test passed with the required reaction, and in time. STOP: rendering ends on all
+axes, the arm is held, then quick stop and brakes, until the operator resets. FADE: the last rendered wrench fades
+to zero in 5 cycles. DRIVE: the drives stop by themselves. REFUSE: no start and no torque.</p>
 )";
 
 }  // namespace
@@ -124,8 +124,8 @@ std::vector<TestResult> read_test_results(const std::filesystem::path& file) {
       for (const auto& test : suite.at("testsuite")) results.push_back(result_of(test));
     }
   } catch (const std::exception& error) {
-    throw command::Failure(command::ExitCode::kBadData,
-                           fmt::format("{}: no results of GoogleTest ({})", file.string(), one_line(error.what())));
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: not a result file of GoogleTest ({})",
+                                                                    file.string(), one_line(error.what())));
   }
   return results;
 }
@@ -133,7 +133,7 @@ std::vector<TestResult> read_test_results(const std::filesystem::path& file) {
 TestResult read_hil_case(const std::filesystem::path& tests, const std::string& name) {
   TestResult result;
   result.test = name;
-  result.why_not = "run ctest -L hil before";
+  result.why_not = "no result; run ctest -L hil first";
   std::error_code error;
   for (const auto& session : std::filesystem::directory_iterator(tests / "hil", error)) {
     const std::filesystem::path code = session.path() / (name + ".code");
@@ -201,7 +201,7 @@ std::string fault_page(const std::vector<FaultRow>& rows, const std::string& hea
 }
 
 std::string fault_summary(const std::vector<FaultRow>& rows) {
-  // a row of the table is as good as the worst of its injections
+  // the verdict on a row is that of its worst injection
   std::vector<std::pair<std::string, FaultVerdict>> faults;
   const auto worse = [](FaultVerdict a, FaultVerdict b) {
     const auto rank = [](FaultVerdict v) {

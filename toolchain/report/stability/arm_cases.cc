@@ -28,7 +28,7 @@ constexpr std::int64_t kPeriod_ns = 1'000'000;
 constexpr double kPeriod = 1e-9 * kPeriod_ns;
 constexpr double kPercent = 100.0;
 
-/// The coupling of step #7 between the tool and a fixed pose, on both sides: a god object that does not move.
+/// The two-sided coupling of step #7 between the tool and a fixed god object.
 struct Coupling {
   double stiffness = 2000.0;        ///< k_D [N/m]
   double damping = 20.0;            ///< b_D [Ns/m]
@@ -36,7 +36,7 @@ struct Coupling {
   double rotation_damping = 0.06;   ///< b_D k_VC,r [Nms/rad]
 };
 
-/// What an arm is used with: the light desktop device stands a sixteenth of the other's.
+/// The gains in use of an arm; those of the light desktop device are a sixteenth of the other's.
 struct ArmGains {
   const char* device;
   Coupling coupling;
@@ -58,8 +58,8 @@ ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& cou
   return loop;
 }
 
-/// The arm without weight (its compensation would be sampled and delayed as well) on drives that round nothing, in
-/// lock-step: the plant advances while the clock sleeps, and only then.
+/// The arm without weight (its compensation would be sampled and delayed too) on drives without rounding, in lock-step:
+/// the plant advances only while the clock sleeps.
 class CoupledArm {
  public:
   CoupledArm(const ArmModel& model, const JointVector& q, const Coupling& coupling, double delay)
@@ -70,12 +70,12 @@ class CoupledArm {
         drives_(plant_, hardware_, {kPeriod_ns, std::llround(1e9 * delay)}),
         clock_(drives_) {
     target_ = forward_kinematics(model, q).H_WM;
-    // let go a hundredth of a millimetre and of a milliradian off, in no direction in particular
+    // released a hundredth of a millimetre and of a milliradian away, in a random direction
     target_.translation += 1e-5 * Vector3(0.6, -0.5, 0.62);
     target_.rotation = exp_rotation(1e-5 * Vector3(-0.4, 0.7, 0.6)) * target_.rotation;
   }
 
-  /// Root of the coupling's energy that was largest within the next `cycles` periods.
+  /// Runs `cycles` periods and returns the root of the coupling's largest energy.
   double swing(int cycles) {
     double most = 0.0;
     for (int i = 0; i < cycles; ++i) most = std::max(most, cycle());
@@ -128,7 +128,7 @@ class CoupledArm {
   std::int64_t deadline_ns_ = 0;
 };
 
-/// Where growth, linear in between, passes zero. Shares and what grew there.
+/// Returns the share at which the growth, linear in between, passes zero; the arguments are shares and their growth.
 double zero_between(double low, double grown_low, double high, double grown_high) {
   return low - grown_low * (high - low) / (grown_high - grown_low);
 }
@@ -143,7 +143,7 @@ JointVector posture(const ArmModel& model, std::mt19937& random) {
   return q;
 }
 
-/// A4 on the whole matrix: the boundary found between 0.98 and 1.02 of the exact one, at random postures.
+/// A4 on the whole matrix: finds the boundary between 0.98 and 1.02 of the exact one, at random postures.
 CaseResult whole_arm(const firmware::Device& device, const Coupling& coupling, bool quick) {
   ArmModel model = device.model;
   model.gravity_W.setZero();
@@ -189,7 +189,7 @@ CaseResult whole_arm(const firmware::Device& device, const Coupling& coupling, b
                                  .most = 1.0,
                                  .where = where});
       result.findings.push_back({.row = "A13",
-                                 .what = "the same, passivity excess: below 0, not passive",
+                                 .what = "gains in use: passivity excess (below 0: not passive)",
                                  .unit = "Nms",
                                  .value = passivity_excess(loop),
                                  .most = {},
@@ -207,8 +207,8 @@ CaseResult whole_arm(const firmware::Device& device, const Coupling& coupling, b
   return result;
 }
 
-/// A13, the linear rule: the joints are moved slowly to and fro along the direction that it calls the least passive.
-/// What spring, hold and delay give there, less what the joints' damping takes, is its eigenvalue.
+/// A13, the linear rule: moves the joints slowly back and forth along the direction that the rule states as the least
+/// passive. Its eigenvalue is the energy of spring, hold and delay minus that of the joints' damping.
 CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling) {
   constexpr std::size_t kSamples = 2000;
   const double w = 2.0 * M_PI / (kPeriod * kSamples);
@@ -236,7 +236,7 @@ CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling)
       const double stated = passivity_excess(loop);
       result.findings.push_back(
           {.row = "A13",
-           .what = "energy given along the least passive motion against the rule",
+           .what = "energy generated along the least passive motion against the rule",
            .unit = "%",
            .value = kPercent * std::fabs(measured / stated - 1.0),
            .most = 2.0,
@@ -246,9 +246,8 @@ CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling)
   return result;
 }
 
-/// Rotors that do not touch each other, each a joint of the device's own buses: what the schedule delays is all that
-/// couples a position to its torque.
-/// Each grows or decays within seconds, and swings with half of its drive's torque.
+/// Independent rotors, each a joint on the device's own buses. Only the delay of the schedule lies between a position
+/// and its torque. Each rotor's swing grows or decays within seconds, with half of its drive's torque.
 ArmModel rotors(const hal::BusLayout& layout) {
   constexpr double kDampingOfTorque = 0.03;  // s/rad
   constexpr double kSettling = 0.5;          // m/b [s]
@@ -268,8 +267,8 @@ ArmModel rotors(const hal::BusLayout& layout) {
   return model;
 }
 
-/// All joints of the device's layout over simulated CAN, the controller's own drives at the other end, each on a spring
-/// of its own: `share` of its exact boundary at the delay of the bus plan. -> growth of each, as logarithm.
+/// Runs all joints of the device's layout over simulated CAN with the controller's own drives, each joint on a spring
+/// with `share` of its exact boundary at the delay of the bus plan. Returns the logarithm of the growth of each joint.
 std::optional<JointVector> growth_on_the_bus(const hal::BusLayout& layout, const ArmModel& model, double share,
                                              const JointVector& stiffness) {
   constexpr int kSettle = 500;
@@ -283,7 +282,7 @@ std::optional<JointVector> growth_on_the_bus(const hal::BusLayout& layout, const
   std::array<hal::CanBus*, hal::kMaxBuses> wires{};
   for (int i = 0; i < layout.bus_count; ++i) wires.at(static_cast<std::size_t>(i)) = &device->bus(i);
   const hal::BusPlan plan = hal::plan_buses(layout);
-  std::optional<hal::CanDrives> drives;  // it may not stand on the heap
+  std::optional<hal::CanDrives> drives;  // it must not be on the heap
   drives.emplace(layout, std::span(wires.data(), static_cast<std::size_t>(layout.bus_count)), plan.timing);
   if (drives->bring_up(clock).status != hal::BringUpStatus::kOk) return std::nullopt;
   clock.sleep_until((device->now_ns() / kPeriod_ns + 1) * kPeriod_ns);
@@ -337,7 +336,7 @@ CaseResult bus_schedule(const firmware::Device& device) {
                                .where = fmt::format("{} joint {} t_d {:.0f} us", device.name, i, delay_us)});
   }
   result.findings.push_back({.row = "bus schedule",
-                             .what = "longest delay of the plan, of two periods",
+                             .what = "longest delay of the plan over two periods",
                              .unit = "ms",
                              .value = 1e3 * plan.timing.delay_s,
                              .most = 2e3 * layout.period,

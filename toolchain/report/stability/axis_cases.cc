@@ -29,7 +29,7 @@ std::vector<double> cosine(std::size_t samples, std::size_t waves) {
   return script;
 }
 
-/// Smallest device damping with which no motion at the samples gets energy: the worst of all frequencies.
+/// Returns the smallest device damping with which the loop generates no energy at any frequency.
 double needed_damping(const Wall& wall, double delay_in_periods, std::size_t samples) {
   double most = 0.0;
   for (std::size_t waves = 1; waves <= samples / 2; ++waves) {
@@ -39,7 +39,7 @@ double needed_damping(const Wall& wall, double delay_in_periods, std::size_t sam
   return most;
 }
 
-/// A2 for all frequencies: its largest right side.
+/// Returns the largest right side of A2 over all frequencies.
 double needed_by_formula(const Wall& wall, int d, std::size_t samples) {
   double most = 0.0;
   for (std::size_t waves = 1; waves <= samples / 2; ++waves) {
@@ -80,7 +80,7 @@ CaseResult passivity(bool quick) {
     }
     const Wall spring{.stiffness = stiffness, .period = kPeriod};
     for (const double delay : {0.0, 0.3, 1.0, 1.7, 2.5}) {
-      // the slowest wave of `samples` is not yet slow: (w T)^2 / 6 of it, which is within the bound
+      // the slowest wave of `samples` still has a relative error of (w T)^2 / 6, which is within the bound
       note("A2", "needed damping of a spring against K (T/2 + t_d)", spring, delay,
            stiffness * kPeriod * (0.5 + delay));
     }
@@ -89,7 +89,7 @@ CaseResult passivity(bool quick) {
   return result;
 }
 
-/// K_crit as it was computed elsewhere [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms; 0: unstable.
+/// K_crit [N/m] of an independent computation for m = 1 kg, b = 2 Ns/m, T = 1 ms; 0: unstable.
 struct TableRow {
   double delay;
   std::array<double, 10> stiffness;
@@ -101,7 +101,7 @@ constexpr std::array<TableRow, 3> kTable = {{
     {2e-3, {801, 2783, 4737, 8560, 19336, 34903, 56312, 63019, 52150, 0}},
 }};
 
-/// A3: how far true/rule is outside of what is stated, at B T / m.
+/// Returns the distance of true/rule from its stated range (A3) at B T / m.
 double outside_of_stated(double virtual_damping, double ratio) {
   struct Stated {
     double damping, low, high;
@@ -112,7 +112,7 @@ double outside_of_stated(double virtual_damping, double ratio) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// One row of the table, and the curve between.
+/// Tests one row of the table, and the curve between its entries.
 CaseResult boundaries(const TableRow& row, bool quick) {
   constexpr double kBound = 2.0;
   CaseResult result;
@@ -159,7 +159,7 @@ CaseResult boundaries(const TableRow& row, bool quick) {
                                  .where = wrong > 0 ? where : ""});
     } else {
       result.findings.push_back({.row = "A4",
-                                 .what = "stiffness found stable where none is",
+                                 .what = "stiffness found stable although none is",
                                  .unit = "N/m",
                                  .value = simulated,
                                  .most = 0.0,
@@ -168,7 +168,7 @@ CaseResult boundaries(const TableRow& row, bool quick) {
     const double outside = outside_of_stated(damping, simulated / rule);
     if (std::isnan(stated) || std::isnan(outside)) continue;
     result.findings.push_back({.row = "A3",
-                               .what = "true/rule outside of the stated range",
+                               .what = "true/rule outside the stated range",
                                .unit = "",
                                .value = outside,
                                .most = 0.005,
@@ -218,8 +218,8 @@ struct DryAxis {
   double limit() const { return std::min(2.0 * damping / kPeriod, 2.0 * coulomb / quantum); }
 };
 
-/// The worst motion there is goes to and fro across the place where the reading changes, once a period: by less than a
-/// quantum where dry friction is what fails, by many where it is the damping.
+/// The worst motion goes back and forth across the place where the reading changes, once a period: by less than a
+/// quantum if dry friction is the weak part, by many quanta if damping is.
 bool is_passive(const DryAxis& axis, double stiffness) {
   const Wall wall{.stiffness = stiffness, .period = kPeriod, .quantum = axis.quantum};
   for (double exponent = -6.0; exponent <= 6.0; exponent += 0.02) {
@@ -231,7 +231,7 @@ bool is_passive(const DryAxis& axis, double stiffness) {
   return true;
 }
 
-/// A free mass let go anywhere comes to rest.
+/// Tells if a free mass that is released at a random place comes to rest.
 bool comes_to_rest(const DryAxis& axis, double stiffness, FreeAxis::State state) {
   constexpr double kMass = 1.0;
   constexpr int kPeriods = 60000;
@@ -273,7 +273,7 @@ CaseResult quantisation(bool quick) {
     }
   }
   result.findings.push_back({.row = "A6",
-                             .what = "masses let go below the limit that do not come to rest",
+                             .what = "masses released below the limit that do not come to rest",
                              .unit = "",
                              .value = restless,
                              .most = 0.0});
@@ -284,7 +284,7 @@ CaseResult quantisation(bool quick) {
 CaseResult energy_identity() {
   constexpr std::size_t kSamples = 1000;  // a second
   const double w = 2.0 * kPi / (kSamples * kPeriod);
-  const std::vector<double> script = cosine(kSamples, 1);  // 1 m of amplitude: all is linear
+  const std::vector<double> script = cosine(kSamples, 1);  // amplitude of 1 m, because the loop is linear
   CaseResult result;
   Sheet sheet{.name = "stability_energy",
               .columns = {"K", "B", "t_d_ms", "h_of_amplitude", "E_stated_J", "E_measured_J"},
@@ -298,10 +298,10 @@ CaseResult energy_identity() {
         const double absorbed = -imposed_work(script, wall, delay).generated;
         sheet.rows.push_back({cell(wall.stiffness), cell(damping), cell(delay * kPeriod * kMilli), cell(quantum),
                               cell(stated), cell(absorbed)});
-        // of the larger of both terms: they cancel where the damper takes what the delay gives
+        // relative to the larger of both terms, which cancel if the damper absorbs the energy of the delay
         const double scale = kPi * w * std::max(wall.stiffness * time, damping);
         result.findings.push_back({.row = "A9",
-                                   .what = damping > 0.0 ? "energy a cycle, with B" : "energy a cycle, B = 0",
+                                   .what = damping > 0.0 ? "energy per cycle, with B" : "energy per cycle, B = 0",
                                    .unit = "%",
                                    .value = kPercent * std::fabs(absorbed - stated) / scale,
                                    .most = 2.0,
@@ -309,7 +309,7 @@ CaseResult energy_identity() {
         if (damping > 0.0) continue;
         const double measured = -absorbed / (kPi * w * wall.stiffness) - 0.5 * kPeriod;
         result.findings.push_back({.row = "A9",
-                                   .what = "delay measured by it, of T/2 + t_d",
+                                   .what = "delay from this energy over T/2 + t_d",
                                    .unit = "%",
                                    .value = kPercent * std::fabs(measured - delay * kPeriod) / time,
                                    .most = 2.0,
@@ -321,7 +321,8 @@ CaseResult energy_identity() {
   return result;
 }
 
-/// Mean growth a period, as logarithm, where a sample is lost with probability `loss` and the last force is held on.
+/// Returns the logarithm of the mean growth per period, if samples are lost with probability `loss` and the last force
+/// is held.
 double growth_with_loss(double stiffness, double loss, int periods, unsigned seed) {
   constexpr double kMass = 1.0;
   const FreeAxis axis(kMass, 2.0, kPeriod);
@@ -371,7 +372,7 @@ CaseResult frame_loss(bool quick) {
     const std::string where = fmt::format("{:.0f} % lost: falls by {:.2f} %", kPercent * stated.loss, kPercent * falls);
     if (!std::isnan(stated.falls)) {
       result.findings.push_back({.row = "A10",
-                                 .what = "fall of the boundary against the stated one, of K_crit",
+                                 .what = "fall of the boundary against the stated one, share of K_crit",
                                  .unit = "%",
                                  .value = kPercent * std::fabs(falls - stated.falls),
                                  .most = 2.0,
@@ -390,7 +391,7 @@ CaseResult frame_loss(bool quick) {
   return result;
 }
 
-/// A11 of the law alone, a wall on one side: the hand does what it likes, from outside.
+/// A11 for the control law alone, a one-sided wall: the hand makes random motions from outside.
 CaseResult observer(bool quick) {
   constexpr double kStiffness = 2000.0;
   constexpr double kQuantum = 5e-6;
@@ -420,19 +421,20 @@ CaseResult observer(bool quick) {
   }
   const double allowed = 0.5 * kStiffness * kQuantum * kQuantum;
   result.findings.push_back({.row = "A11",
-                             .what = "energy that the law has given away, of K h^2 / 2",
+                             .what = "energy generated by the law, over K h^2 / 2",
                              .unit = "",
                              .value = std::max(0.0, -lowest) / allowed,
                              .most = 1.0});
   result.findings.push_back({.row = "A11",
-                             .what = "what the held force has given away, of K h^2 / 2",
+                             .what = "energy generated by the held force, over K h^2 / 2",
                              .unit = "",
                              .value = std::max(0.0, -held) / allowed,
                              .most = {}});
   return result;
 }
 
-/// K 200 .. 20000 N/m, m 0.1 .. 5 kg, t_d 0 .. 3 T and any damping: what is within 2 % of the boundary is left out.
+/// Random loops: K 200 .. 20000 N/m, m 0.1 .. 5 kg, t_d 0 .. 3 T and any damping. Loops within 2 % of the boundary do
+/// not count.
 CaseResult random_loops(bool quick) {
   CaseResult result;
   std::mt19937 random(4);

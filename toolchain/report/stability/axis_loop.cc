@@ -8,7 +8,7 @@ FreeAxis::FreeAxis(double mass, double damping, double duration) {
   const double rate = damping / mass;
   const double a = rate * duration;
   decay_ = std::exp(-a);
-  if (a < 1e-3) {  // series: the closed forms lose digits
+  if (a < 1e-3) {  // series, because the closed forms lose digits
     coast_ = duration * (1.0 - a / 2.0 * (1.0 - a / 3.0 * (1.0 - a / 4.0 * (1.0 - a / 5.0))));
     push_ = duration * duration / mass * (0.5 - a / 6.0 * (1.0 - a / 4.0 * (1.0 - a / 5.0 * (1.0 - a / 6.0))));
   } else {
@@ -20,7 +20,7 @@ FreeAxis::FreeAxis(double mass, double damping, double duration) {
 
 void advance_with_friction(double mass, double damping, double coulomb, double force, double duration,
                            FreeAxis::State& state) {
-  constexpr int kMostEvents = 4;  // a slip that ends, stick or a slip the other way, and rounding
+  constexpr int kMostEvents = 4;  // end of a slip, stick or a slip in the other direction, and rounding
   for (int event = 0; event < kMostEvents && duration > 0.0; ++event) {
     if (state.v == 0.0 && std::fabs(force) <= coulomb) return;
     const double way = state.v != 0.0 ? std::copysign(1.0, state.v) : std::copysign(1.0, force);
@@ -55,7 +55,7 @@ double growth(const AxisSetup& setup, FreeAxis::State state, const std::function
   const int quarter = setup.periods / 4;
   double early = 0.0;
   double late = 0.0;
-  double lately = 0.0;  // largest of the present stretch, to end early
+  double lately = 0.0;  // largest swing of the present stretch, to end early
   for (int k = 0; k < setup.periods; ++k) {
     const double swing = std::fabs(state.x);
     lately = std::max(lately, swing);

@@ -5,7 +5,7 @@
 
 namespace godobject::report {
 
-/// The loop of a setup as the theory has it.
+/// Returns the loop of a setup for the theory.
 inline AxisLoop theory_of(const AxisSetup& setup) {
   AxisLoop loop;
   loop.mass = setup.mass;

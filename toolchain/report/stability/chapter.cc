@@ -13,36 +13,35 @@ namespace godobject::report {
 namespace {
 
 const char* const kIntroduction =
-    "<p>The sampled, delayed loop in lock-step virtual time. T period, t<sub>d</sub> delay without the hold's half "
-    "period, K stiffness, B virtual damping, b device damping, m mass, c Coulomb friction, h encoder quantum. The rows "
-    "are judged by these rules; &quot;stated&quot; are the figures in them.</p>\n"
+    "<p>The sampled, delayed loop in lock-step virtual time. T: period; t<sub>d</sub>: delay without the hold's half "
+    "period; K: stiffness; B: virtual damping; b: device damping; m: mass; c: Coulomb friction; h: encoder quantum. "
+    "These rules judge the rows; &quot;stated&quot; values are those in the rules.</p>\n"
     "<div class=\"wide\"><table><tr><th>row</th><th>rule</th></tr>\n"
     "<tr><td>A1</td><td>passive without delay: b &gt; K T/2 + |B| (Colgate and Schenkel 1994)</td></tr>\n"
     "<tr><td>A2</td><td>passive with a delay of d samples: b &gt; (K T/2) sin((2d+1)q/2) / sin(q/2) - B cos((d+1)q) "
     "for all q; for B = 0: b &gt; K (T/2 + t<sub>d</sub>)</td></tr>\n"
     "<tr><td>A3</td><td>linear rule: K &lt; (b + B) / (T/2 + t<sub>d</sub>), optimistic for B &gt; 0: true over rule "
     "0.99 at B T/m = 0.01, 0.86 to 0.90 at 0.1, 0.70 to 0.82 at 0.2</td></tr>\n"
-    "<tr><td>A4</td><td>stable: the spectral radius of the discretised plant with its delay is below 1 (K_crit is "
-    "where "
-    "it is 1); 0.98 K_crit decays, 1.02 K_crit grows; within 2 %</td></tr>\n"
+    "<tr><td>A4</td><td>stable: the spectral radius of the discretised plant with its delay is below 1 (K_crit: it is "
+    "1); 0.98 K_crit decays, 1.02 K_crit grows; within 2 %</td></tr>\n"
     "<tr><td>A5</td><td>K &rarr; 0: B T/m &lt; 2.00, 1.14, 0.83, 0.65, 0.54, 0.40 at t<sub>d</sub> = 0, 0.5, 1, 1.5, "
     "2, 3 T; within 2 %</td></tr>\n"
     "<tr><td>A6</td><td>passive in spite of quantisation: K &le; min(2 b/T, 2 c/h) (Abbott and Okamura 2005); within "
     "1 %</td></tr>\n"
-    "<tr><td>A9</td><td>energy that a wall takes from a slow sine of amplitude A and rate w, a cycle: "
+    "<tr><td>A9</td><td>energy that a wall absorbs from a slow sine of amplitude A and rate w, per cycle: "
     "-&pi; w A<sup>2</sup> (K (T/2 + t<sub>d</sub>) - B); within 2 %</td></tr>\n"
     "<tr><td>A10</td><td>samples lost, the last force held: K_crit falls by 0.5 % at 1 % loss, 3.5 % at 5 %, 6.8 % at "
     "10 %; 0.85 K_crit is stable</td></tr>\n"
-    "<tr><td>A11</td><td>the control law gives no energy: &Sigma; f<sub>k</sub> (x<sub>k</sub> - x<sub>k-1</sub>) "
-    "&ge; -K h<sup>2</sup>/2 an axis</td></tr>\n"
-    "<tr><td>A13</td><td>an arm is passive where its joint damping less (T/2 + t<sub>d</sub>) J<sup>T</sup> K J is "
+    "<tr><td>A11</td><td>the control law generates no energy: &Sigma; f<sub>k</sub> (x<sub>k</sub> - x<sub>k-1</sub>) "
+    "&ge; -K h<sup>2</sup>/2 per axis</td></tr>\n"
+    "<tr><td>A13</td><td>an arm is passive if its joint damping minus (T/2 + t<sub>d</sub>) J<sup>T</sup> K J is "
     "positive definite, and stable by A4 on the whole matrix</td></tr></table></div>";
 
 std::size_t column(const Sheet& sheet, const std::string& name) {
   return static_cast<std::size_t>(std::find(sheet.columns.begin(), sheet.columns.end(), name) - sheet.columns.begin());
 }
 
-/// Points of two columns for each text of a third, ascending in x.
+/// Returns the points of two columns for each text of a third column, ascending in x.
 std::map<std::string, std::vector<std::pair<double, double>>> by(const Sheet& sheet, const std::string& key,
                                                                  const std::string& x, const std::string& y) {
   std::map<std::string, std::vector<std::pair<double, double>>> all;
@@ -57,9 +56,9 @@ std::function<std::string(const std::filesystem::path&)> drawn(const Plot& plot)
   return [plot](const std::filesystem::path& png) { return gnuplot_text(plot, png); };
 }
 
-constexpr int kCurvePoints = 91;  ///< of a curve from theory
+constexpr int kCurvePoints = 91;  ///< points of a theoretical curve
 
-/// The exact boundary of 1 kg, 2 Ns/m and T = 1 ms over B from 0 to `most` [Ns/m].
+/// Returns the exact boundary of 1 kg, 2 Ns/m and T = 1 ms over B from 0 to `most` [Ns/m].
 std::vector<std::pair<double, double>> exact_boundary(double delay_ms, double most) {
   std::vector<std::pair<double, double>> curve;
   for (int i = 0; i < kCurvePoints; ++i) {
@@ -87,11 +86,10 @@ Picture boundary_picture(const Sheet& sheet) {
     plot.curves.push_back({i == 0 ? "linear rule (A3)" : "", "lines dt 2 lw 1 " + color(i), rule.at(delay)});
     ++i;
   }
-  return {
-      "stability_boundary",
-      "The boundary K(B, t_d), a colour for each delay: lines from the spectral radius of the discretised loop (A4), "
-      "circles found by bisection in simulation, dashed the linear rule A3, which is optimistic for B > 0.",
-      drawn(plot)};
+  return {"stability_boundary",
+          "The boundary K(B, t_d), one colour for each delay. Lines: spectral radius of the discretised loop (A4). "
+          "Circles: bisection in simulation. Dashed: the linear rule A3, which is optimistic for B > 0.",
+          drawn(plot)};
 }
 
 Picture damping_picture(const Sheet& sheet) {
@@ -114,8 +112,7 @@ Picture damping_picture(const Sheet& sheet) {
                  {"simulated", "points pt 6 ps 1.5 " + color(1), points("simulated")},
                  {"stated", "points pt 2 ps 1.2 " + color(6), points("stated")}};
   return {"stability_damping_limit",
-          "The damping that the loop stands without a spring falls with the delay; crosses: the figures of A5.",
-          drawn(plot)};
+          "The largest stable damping without a spring falls with the delay. Crosses: values of A5.", drawn(plot)};
 }
 
 Picture z_width_picture(const Sheet& sheet) {
@@ -133,8 +130,8 @@ Picture z_width_picture(const Sheet& sheet) {
     ++i;
   }
   return {"stability_z_width",
-          "A slab of 1 kg pressed 2 mm into a compiled plate through the whole pipeline; what lies below a solver's "
-          "mark is stable.",
+          "A slab of 1 kg is pressed 2 mm into a compiled plate through the whole pipeline. Stiffnesses below a "
+          "solver's mark are stable.",
           drawn(plot)};
 }
 
@@ -152,16 +149,16 @@ Picture gyration_picture(const Sheet& sheet) {
     plot.curves.push_back({i == 0 ? "measured" : "", "points pt 6 ps 1.5 " + color(i), measured.at(damping)});
     ++i;
   }
-  return {"stability_gyration",
-          "A device with radius of gyration g stands k_VC,r up to g<sup>2</sup> times the factor that is left of k_D; "
-          "measured by "
-          "the tilt of a body on three feet on a compiled plate, solver contact.",
-          drawn(plot)};
+  return {
+      "stability_gyration",
+      "The largest stable k_VC,r for a device with radius of gyration g is g<sup>2</sup> times the remaining factor "
+      "of k_D; measured by the tilt of a body on three feet on a compiled plate, solver contact.",
+      drawn(plot)};
 }
 
 Picture loss_picture(const Sheet& sheet) {
   Plot plot{
-      .title = "Lost frames, the last force held on (A10)", .x = "lost [%]", .y = "fall of K_crit [%]", .curves = {}};
+      .title = "Lost frames, the last force is held (A10)", .x = "lost [%]", .y = "fall of K_crit [%]", .curves = {}};
   std::vector<std::pair<double, double>> measured;
   std::vector<std::pair<double, double>> stated;
   for (const auto& row : sheet.rows) {
@@ -172,7 +169,7 @@ Picture loss_picture(const Sheet& sheet) {
                  {"stated", "points pt 2 ps 1.4 " + color(1), stated},
                  {"0.85 K_crit", "lines dt 2 " + color(6), {{0.0, 15.0}, {20.0, 15.0}}}};
   return {"stability_frame_loss",
-          "Samples lost at random, 1 kg, 2 Ns/m, t_d = 1 ms; mean of several seeds; crosses: the figures of A10.",
+          "Samples lost at random, 1 kg, 2 Ns/m, t_d = 1 ms; mean of several seeds. Crosses: values of A10.",
           drawn(plot)};
 }
 
@@ -189,12 +186,12 @@ Picture passivity_picture(const Sheet& sheet) {
     ++i;
   }
   return {"stability_passivity_controller",
-          "The boundary found by simulation with the time-domain passivity controller, which may inject a quarter of "
-          "the damping that the loop would stand beside B, and without it.",
+          "The simulated boundary with and without the time-domain passivity controller, which may inject a quarter of "
+          "the largest stable damping in addition to B.",
           drawn(plot)};
 }
 
-/// What the longer cases take [s], by the beginning of their names.
+/// Durations of the longer cases [s], by the beginning of their names.
 double seconds(const std::string& name, bool quick) {
   struct Taken {
     const char* begins;

@@ -4,8 +4,8 @@
 
 namespace godobject::report {
 
-/// What the sampled, delayed loop is stable with, in virtual time, against theory. Throws Failure: kNoInput where a
-/// device file is missing.
+/// Returns the chapter on the stability of the sampled, delayed loop, in virtual time and compared with theory. Throws
+/// Failure: kNoInput if a device file is missing.
 Chapter stability_chapter(const StabilityRequest& request);
 
 }  // namespace godobject::report

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPercent = 100.0;
 constexpr double kMilli = 1e3;
 
-/// Observer and controller of one axis, as in the control cycle.
+/// Passivity observer and controller of one axis, as in the control cycle.
 class Account {
  public:
   Account(double period, double delay_in_periods, double most_damping)
@@ -23,7 +23,7 @@ class Account {
         observer_(delay_in_periods),
         controller_({.most_damping = most_damping, .period = period, .rotation_length = 1.0}) {}
 
-  /// Once a period: where the hand is [m], and with what force to meet it in place of `law(x, before)` [N].
+  /// Returns the force for the hand's position [m], in place of `law(x, before)` [N]. Call it once a period.
   template <class Law>
   double force(double x, Law law) {
     JointVector q = JointVector::Zero();
@@ -41,7 +41,7 @@ class Account {
     return sent[0];
   }
 
-  double changed() const { return changed_; }  ///< by how much, the last time [N]
+  double changed() const { return changed_; }  ///< last change of the force [N]
   double absorbed() const { return observer_.absorbed(); }
 
  private:
@@ -52,7 +52,7 @@ class Account {
   double changed_ = 0.0;
 };
 
-/// On the wall, from x = 0, where the spring holds nothing.
+/// Returns the growth on the wall, from x = 0, where the spring is relaxed.
 double watched_growth(const AxisSetup& setup, double stiffness, double most_damping) {
   Account account(setup.period, setup.delay / setup.period, most_damping);
   return growth(setup, {.x = 0.0, .v = 1.0}, [&](double position) {
@@ -85,20 +85,20 @@ CaseResult boundary_with_controller(bool quick) {
       const std::string where = fmt::format("t_d {} ms B {} b_max {:.0f}: {:.4g} to {:.4g} N/m", kMilli * delay,
                                             damping, most, without, with);
       result.findings.push_back({.row = "passivity controller",
-                                 .what = "boundary with it below that without, and that of B + b_max",
+                                 .what = "boundary with controller below those without it and of B + b_max",
                                  .unit = "%",
                                  .value = kPercent * std::max(0.0, 1.0 - with / std::min(without, of_damped)),
                                  .most = 2.0,
                                  .where = where});
-      // more damping than that with the highest boundary lowers it, whoever injects it
+      // more damping than that of the highest boundary lowers the boundary, from any source
       result.findings.push_back({.row = "passivity controller",
-                                 .what = "boundary with it below that without",
+                                 .what = "boundary with controller below that without it",
                                  .unit = "%",
                                  .value = kPercent * std::max(0.0, 1.0 - with / without),
                                  .most = {},
                                  .where = where});
       result.findings.push_back({.row = "passivity controller",
-                                 .what = "boundary with it over that without",
+                                 .what = "boundary with controller over that without it",
                                  .unit = "",
                                  .value = with / without,
                                  .most = {},
@@ -109,7 +109,7 @@ CaseResult boundary_with_controller(bool quick) {
   return result;
 }
 
-/// A hand that goes into the wall and out again as it likes: what the controller changes of the force.
+/// The controller's change of the force, for a hand that moves randomly into the wall and out again.
 CaseResult force_with_controller(bool quick) {
   constexpr double kPeriod = 1e-3;
   constexpr double kStiffness = 2000.0;
@@ -124,7 +124,7 @@ CaseResult force_with_controller(bool quick) {
       const double slow = 1.0 + 3.0 * unit(random);
       const double quick_wave = 5.0 + 45.0 * unit(random);
       const double share = 0.3 * unit(random);
-      // one side: the spring pushes, and damping turns no push into a pull
+      // one-sided: the spring pushes, and damping does not turn a push into a pull
       const auto wall = [damping](double x, double before) {
         if (x <= 0.0) return 0.0;
         return std::min(0.0, -kStiffness * x - damping * (x - before) / kPeriod);
@@ -141,8 +141,8 @@ CaseResult force_with_controller(bool quick) {
     const bool passive = damping > 0.0;
     result.findings.push_back(
         {.row = "passivity controller",
-         .what = passive ? "change of the force of a passive wall, of the largest"
-                         : "change of the force of a spring alone, which the delay makes active, of the largest",
+         .what = passive ? "change of the force of a passive wall over the largest force"
+                         : "change of the force of a spring, made active by the delay, over the largest force",
          .unit = "%",
          .value = kPercent * change / largest,
          .most = passive ? std::optional<double>{0.1} : std::nullopt,

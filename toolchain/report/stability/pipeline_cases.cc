@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -20,23 +21,23 @@ namespace {
 constexpr double kPeriod = 1e-3;
 constexpr double kMass = 1.0;
 constexpr double kDeviceDamping = 2.0;
-constexpr double kPressed = 2e-3;  ///< m of the spring
+constexpr double kPressed = 2e-3;  ///< length of the pressed spring [m]
 constexpr double kPercent = 100.0;
-constexpr std::uint32_t kPoints = 160;  ///< of a body
-constexpr double kGone = 1e-3;          ///< of the first swing: what is left has died out
-constexpr double kGrown = 6.0;  ///< of the first swing, there and back: it has grown, even where it no longer does
-constexpr double kResolution = 1e-3;  ///< of a boundary; what is required is twenty times as much
+constexpr std::uint32_t kPoints = 160;  ///< points of a body
+constexpr double kGone = 1e-3;          ///< share of the first swing; a smaller swing has died out
+constexpr double kGrown = 6.0;          ///< share of the first swing, there and back; a larger swing has grown
+constexpr double kResolution = 1e-3;    ///< of a boundary; a twentieth of the required one
 
-/// A body over a plate of 64 x 64 x 16 mm, its top at z = 0: flat on flat, so nothing turns unless it is turned, and
-/// the stored distance is exact. Both are compiled once in a process, by whoever comes first, in its folder.
+/// A body over a plate of 64 x 64 x 16 mm with its top at z = 0. Flat on flat, the body does not rotate by itself, and
+/// the stored distance is exact. The first user in a process compiles the scene in its folder.
 class Press {
  public:
-  /// 40 x 40 x 10 mm: of its lower face any few points may hold it.
+  /// A slab of 40 x 40 x 10 mm, which any few points of its lower face may support.
   static const Press& slab(const std::filesystem::path& work) {
     static const Press press("slab", box_mesh({-0.02, -0.02, -0.005}, {0.02, 0.02, 0.005}), work);
     return press;
   }
-  /// The same on three feet of 4 x 4 mm: all of them hold it.
+  /// The same on three feet of 4 x 4 mm, all of which support it.
   static const Press& tripod(const std::filesystem::path& work) {
     static const Press press(
         "tripod",
@@ -67,112 +68,169 @@ class Press {
   command::SceneImage image_;
 };
 
-/// A floating body that is pushed down by a constant force: height and tilt about y move, each by the closed form.
+/// A floating body under a constant downward force; its height and its tilt about y move, each in closed form.
 struct Floating {
   AxisSetup height{.mass = kMass, .damping = kDeviceDamping};
-  double gyration = 0.02;  ///< of the device: inertia m g^2, damping b g^2 [m]
+  double gyration = 0.02;  ///< radius of gyration g of the device: inertia m g^2, damping b g^2 [m]
   double stiffness = 2000.0;
   double coupling_rotation = 0.0;  ///< k_VC,r [m^2]
   Solver solver = Solver::kContact;
-  double load_shift = HUGE_VAL;  ///< of the middle of the pushes, up to which all is linear [m]
+  double load_shift = HUGE_VAL;  ///< linear range: largest shift of the centre of pressure [m]
 };
 
+/// Logarithm of the change of each swing's width from the second quarter of a run to the last.
 struct Swings {
-  double height = 0.0;  ///< logarithm of what became of the swing from the second quarter to the last
+  double height = 0.0;
   double tilt = 0.0;
 };
 
-/// Held where the spring is `kPressed` long until all is still, then let go with `push` [m/s] and `turn` [rad/s]. Grown
-/// beyond the linear range counts as infinite.
-Swings let_go(const Press& press, const Floating& floating, double push, double turn) {
+/// The floating body under delayed forces: height and tilt, each in closed form between two changes of its force.
+class FloatingPlant {
+ public:
+  explicit FloatingPlant(const Floating& floating)
+      : forces_(floating.height.delay / kPeriod),
+        torques_(floating.height.delay / kPeriod),
+        height_first_(kMass, kDeviceDamping, before_change()),
+        height_second_(kMass, kDeviceDamping, kPeriod - before_change()),
+        tilt_first_(kMass * square(floating.gyration), kDeviceDamping * square(floating.gyration), before_change()),
+        tilt_second_(kMass * square(floating.gyration), kDeviceDamping * square(floating.gyration),
+                     kPeriod - before_change()) {}
+
+  FreeAxis::State height{.x = Press::kTouching + 1e-3};
+  FreeAxis::State tilt;
+
+  Pose pose() const {
+    Pose H_WM;
+    H_WM.rotation = exp_rotation({0.0, tilt.x, 0.0});
+    H_WM.translation.z() = height.x;
+    return H_WM;
+  }
+
+  /// Returns the mean velocity since the last call.
+  Motion velocity() {
+    Motion velocity;
+    velocity.translation.z() = (height.x - height_before_.x) / kPeriod;
+    velocity.rotation.y() = (tilt.x - tilt_before_.x) / kPeriod;
+    height_before_ = height;
+    tilt_before_ = tilt;
+    return velocity;
+  }
+
+  void send(const Wrench& wrench_W) {
+    forces_.send(wrench_W.force.z());
+    torques_.send(wrench_W.torque.y());
+  }
+
+  /// Advances one period; `load` is the force with which the hand presses down.
+  void advance(double load) {
+    height_first_.advance(forces_.before() - load, height);
+    height_second_.advance(forces_.after() - load, height);
+    tilt_first_.advance(torques_.before(), tilt);
+    tilt_second_.advance(torques_.after(), tilt);
+  }
+
+ private:
+  static double square(double x) { return x * x; }
+  double before_change() const { return forces_.share_before() * kPeriod; }
+
+  DelayedHold forces_, torques_;
+  FreeAxis height_first_, height_second_, tilt_first_, tilt_second_;
+  FreeAxis::State height_before_ = height;
+  FreeAxis::State tilt_before_;
+};
+
+/// Widths of the swings of height and tilt in the second and in the last quarter of a run.
+class SwingWidths {
+ public:
+  explicit SwingWidths(int periods) : periods_(periods), quarter_(periods / 4) {}
+
+  void note(int period, double height, double tilt) {
+    if (period >= periods_ - quarter_) {
+      add(late_, height, tilt);
+    } else if (period >= quarter_ && period < 2 * quarter_) {
+      add(early_, height, tilt);
+    }
+  }
+
+  /// Returns the logarithm of the change of the width of an axis (0: height, 1: tilt); `first` is the first swing.
+  double growth(std::size_t axis, double first) const {
+    const double late = late_.high[axis] - late_.low[axis];
+    if (late > kGrown * first) return HUGE_VAL;
+    return late < kGone * first ? -HUGE_VAL : std::log(late / (early_.high[axis] - early_.low[axis]));
+  }
+
+ private:
+  struct Range {
+    std::array<double, 2> low{HUGE_VAL, HUGE_VAL};
+    std::array<double, 2> high{-HUGE_VAL, -HUGE_VAL};
+  };
+
+  static void add(Range& range, double height, double tilt) {
+    const std::array<double, 2> now{height, tilt};
+    for (std::size_t axis = 0; axis < now.size(); ++axis) {
+      range.low[axis] = std::min(range.low[axis], now[axis]);
+      range.high[axis] = std::max(range.high[axis], now[axis]);
+    }
+  }
+
+  int periods_, quarter_;
+  Range early_, late_;
+};
+
+/// Holds the body with the spring `kPressed` long until it is still, then releases it with `push` [m/s] and `turn`
+/// [rad/s]. Growth beyond the linear range counts as infinite.
+Swings release(const Press& press, const Floating& floating, double push, double turn) {
   Scene scene = press.scene();
   scene.settings.stiffness = floating.stiffness;
   scene.settings.damping = floating.height.virtual_damping;
   scene.settings.coupling_rotation = floating.coupling_rotation;
   OwnedGodObject god_object;
-  Swings swings{HUGE_VAL, HUGE_VAL};
-  if (god_object.start(scene, floating.solver, false) != Status::kOk) return swings;
-
-  const double g2 = floating.gyration * floating.gyration;
-  const double delay = floating.height.delay / kPeriod;
-  DelayedHold forces(delay);
-  DelayedHold torques(delay);
-  const double split = forces.share_before() * kPeriod;
-  const FreeAxis height_first(kMass, kDeviceDamping, split);
-  const FreeAxis height_second(kMass, kDeviceDamping, kPeriod - split);
-  const FreeAxis tilt_first(kMass * g2, kDeviceDamping * g2, split);
-  const FreeAxis tilt_second(kMass * g2, kDeviceDamping * g2, kPeriod - split);
+  const Swings failed{HUGE_VAL, HUGE_VAL};
+  if (god_object.start(scene, floating.solver, false) != Status::kOk) return failed;
 
   constexpr int kHeld = 400;
   const double middle = Press::kTouching - kPressed;
-  FreeAxis::State height{.x = Press::kTouching + 1e-3};
-  FreeAxis::State tilt;
-  FreeAxis::State height_before = height;
-  FreeAxis::State tilt_before;
-  double carried = 0.0;  // what the hand presses with, down
-  double low[2][2] = {{HUGE_VAL, HUGE_VAL}, {HUGE_VAL, HUGE_VAL}};
-  double high[2][2] = {{-HUGE_VAL, -HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-  const int quarter = floating.height.periods / 4;
+  const double most_torque = floating.stiffness * kPressed * floating.load_shift;
+  FloatingPlant plant(floating);
+  SwingWidths widths(floating.height.periods);
+  double load = 0.0;
   CycleReport report;
   for (int k = -kHeld; k < floating.height.periods; ++k) {
     if (k < 0) {  // down within half of the time
-      height.x = std::max(middle, height.x - (1e-3 + kPressed) / (0.5 * kHeld));
-      height.v = 0.0;
+      plant.height.x = std::max(middle, plant.height.x - (1e-3 + kPressed) / (0.5 * kHeld));
+      plant.height.v = 0.0;
     }
     if (k == 0) {
-      height.v = push;
-      tilt.v = turn;
+      plant.height.v = push;
+      plant.tilt.v = turn;
     }
-    Pose H_WM;
-    H_WM.rotation = exp_rotation({0.0, tilt.x, 0.0});
-    H_WM.translation.z() = height.x;
-    Motion velocity;
-    velocity.translation.z() = (height.x - height_before.x) / kPeriod;
-    velocity.rotation.y() = (tilt.x - tilt_before.x) / kPeriod;
-    height_before = height;
-    tilt_before = tilt;
-    if (god_object->update({H_WM, velocity}, report) != Status::kOk) return swings;
-    forces.send(report.force.total_W.force.z());
-    torques.send(report.force.total_W.torque.y());
+    const Pose H_WM = plant.pose();
+    if (god_object->update({H_WM, plant.velocity()}, report) != Status::kOk) return failed;
+    const Wrench& wrench_W = report.force.total_W;
+    plant.send(wrench_W);
     if (k < 0) {
-      carried = report.force.total_W.force.z();
+      load = wrench_W.force.z();
       continue;
     }
-    const bool left_high = std::fabs(height.x - middle) > 0.4 * kPressed;
-    const double most_torque = floating.stiffness * kPressed * floating.load_shift;
-    if (left_high || std::fabs(tilt.x) > 0.02 || std::fabs(report.force.total_W.torque.y()) > most_torque) {
+    const bool left_high = std::fabs(plant.height.x - middle) > 0.4 * kPressed;
+    if (left_high || std::fabs(plant.tilt.x) > 0.02 || std::fabs(wrench_W.torque.y()) > most_torque) {
       return {left_high ? HUGE_VAL : -HUGE_VAL, left_high ? -HUGE_VAL : HUGE_VAL};
     }
-    const int stretch = k >= floating.height.periods - quarter ? 1 : k >= quarter && k < 2 * quarter ? 0 : -1;
-    if (stretch >= 0) {
-      const double now[2] = {height.x, tilt.x};
-      for (int axis = 0; axis < 2; ++axis) {
-        low[stretch][axis] = std::min(low[stretch][axis], now[axis]);
-        high[stretch][axis] = std::max(high[stretch][axis], now[axis]);
-      }
-    }
-    height_first.advance(forces.before() - carried, height);
-    height_second.advance(forces.after() - carried, height);
-    tilt_first.advance(torques.before(), tilt);
-    tilt_second.advance(torques.after(), tilt);
+    widths.note(k, plant.height.x, plant.tilt.x);
+    plant.advance(load);
   }
-  const auto growth_of = [&](int axis, double first) {
-    const double late = high[1][axis] - low[1][axis];
-    if (late > kGrown * first) return HUGE_VAL;
-    return late < kGone * first ? -HUGE_VAL : std::log(late / (high[0][axis] - low[0][axis]));
-  };
-  swings.height = growth_of(0, push * std::sqrt(kMass / floating.stiffness));
-  swings.tilt = growth_of(1, turn * std::sqrt(kMass * g2 / (floating.stiffness * floating.coupling_rotation)));
-  return swings;
+  const double first_tilt = turn * std::sqrt(kMass * (floating.gyration * floating.gyration) /
+                                             (floating.stiffness * floating.coupling_rotation));
+  return {widths.growth(0, push * std::sqrt(kMass / floating.stiffness)), widths.growth(1, first_tilt)};
 }
 
-/// A slab that is let go on a plate.
+/// Returns a slab that is released on a plate.
 Floating slab_on_plate(Solver solver, double delay, double damping, int periods) {
   Floating floating{.solver = solver};
   floating.height.delay = delay;
   floating.height.virtual_damping = damping;
   floating.height.periods = periods;
-  floating.coupling_rotation = 1e-6;  // nothing turns here
+  floating.coupling_rotation = 1e-6;  // no rotation here
   return floating;
 }
 
@@ -198,9 +256,9 @@ CaseResult z_width(Solver solver, double delay, bool quick, const std::filesyste
                                .value = kPercent * std::max(0.0, 1.0 - measured / exact),
                                .most = 2.0,
                                .where = where});
-    // the others have losses of their own, which help
+    // the other solvers dissipate energy, which stabilises
     result.findings.push_back({.row = "Z-width",
-                               .what = fmt::format("{}: the same off the exact boundary, either way", name),
+                               .what = fmt::format("{}: stiffest stable plate, distance from the exact boundary", name),
                                .unit = "%",
                                .value = kPercent * std::fabs(measured / exact - 1.0),
                                .most = solver == Solver::kContact ? std::optional<double>{2.0} : std::nullopt,
@@ -210,18 +268,18 @@ CaseResult z_width(Solver solver, double delay, bool quick, const std::filesyste
   return result;
 }
 
-/// k_VC,r up to which the tilt of a device with radius of gyration g decays, at half of the height's boundary. Its
-/// damping grows with it, b_D k_VC,r.
+/// Finds the largest k_VC,r for which the tilt of a device with radius of gyration g decays, at half of the height's
+/// boundary. The damping b_D k_VC,r grows with it.
 ///
 /// The theory's loop is linear: torque -k_D k_VC,r tilt - b_D k_VC,r rate. A plate can only push, and a torque moves
-/// the middle of its pushes by torque / load. While that stays within the points that hold the body the loop is the
-/// theory's. Beyond them the torque is cut, and a loop that grows ends in a swing that does not: so a run counts as
-/// grown once it comes near, and begins far from there. A tripod's feet hold it about the middle whatever the tilt. Of
-/// a slab's face any three points may, and the middle of the pushes may lie at their rim: then `contact`, which
-/// projects the damping on what these can push, cuts it until the next cycle has found others.
+/// the centre of pressure by torque / load. While it stays within the supporting points, the loop is that of the
+/// theory. Beyond them the torque is cut, and growth ends in a steady swing. So a run counts as grown as soon as it
+/// comes near this limit, and it begins far below. A tripod's feet support it about the middle at every tilt. A slab
+/// may rest on any three points of its face, and the centre of pressure may lie at their rim. Then `contact`, which
+/// projects the damping on forces that these points can exert, cuts it until the next cycle finds other points.
 CaseResult gyration(bool quick, const std::filesystem::path& work) {
-  constexpr double kMostShift = 4e-3;   // half of the way to where two of the feet hold all [m]
-  constexpr double kFirstShift = 2e-4;  // of the first swing's spring [m]
+  constexpr double kMostShift = 4e-3;   // half the distance to the line between two feet [m]
+  constexpr double kFirstShift = 2e-4;  // of the centre of pressure, by the spring of the first swing [m]
   CaseResult result;
   Sheet sheet{.name = "stability_gyration",
               .columns = {"gyration_mm", "B_Ns_per_m", "k_VC_r_exact", "k_VC_r_measured", "k_VC_r_slab"},
@@ -250,7 +308,7 @@ CaseResult gyration(bool quick, const std::filesystem::path& work) {
           floating.coupling_rotation = coupling;
           const double rate = std::sqrt(floating.stiffness * coupling / (kMass * radius * radius));
           const double swing = std::min(1e-3, kPressed * kFirstShift / coupling);
-          return let_go(press, floating, 0.0, swing * rate).tilt < 0.0;
+          return release(press, floating, 0.0, swing * rate).tilt < 0.0;
         };
         return boundary(0.25 * exact, stable, kResolution);
       };
@@ -266,7 +324,7 @@ CaseResult gyration(bool quick, const std::filesystem::path& work) {
       const double measured = measured_of(Press::tripod(work));
       note("largest stable k_VC,r against the exact one, by the radius of gyration", measured, 2.0);
       const double of_slab = damping > 0.0 && (!quick || radius < 0.02) ? measured_of(Press::slab(work)) : 0.0;
-      if (of_slab > 0.0) note("the same of a slab, whose face is held by few of its points", of_slab, std::nullopt);
+      if (of_slab > 0.0) note("the same for a slab, supported by few points of its face", of_slab, std::nullopt);
       sheet.rows.push_back(
           {cell(1e3 * radius), cell(damping), cell(exact), cell(measured), of_slab > 0.0 ? cell(of_slab) : ""});
     }
@@ -275,9 +333,10 @@ CaseResult gyration(bool quick, const std::filesystem::path& work) {
   return result;
 }
 
-/// A11 through the pipeline: what the spring's law gives away where the hand moves as it likes, all six axes together.
+/// A11 through the pipeline: the energy that the spring's law generates under random motions of the hand, all six axes
+/// together.
 CaseResult pipeline_observer(bool quick, const std::filesystem::path& work) {
-  constexpr double kQuantum = 5e-6;  // of an encoder, at the hand
+  constexpr double kQuantum = 5e-6;  // of an encoder at the hand
   const Press& press = Press::slab(work);
   CaseResult result;
   for (std::uint32_t s = 0; s < format::kSolverCount; ++s) {
@@ -323,7 +382,7 @@ CaseResult pipeline_observer(bool quick, const std::filesystem::path& work) {
     const double allowed = 0.5 * scene.settings.stiffness * kQuantum * kQuantum;
     result.findings.push_back(
         {.row = "A11",
-         .what = fmt::format("{} over a plate: energy given away, of K h^2 / 2", format::kSolverNames[s]),
+         .what = fmt::format("{} over a plate: generated energy over K h^2 / 2", format::kSolverNames[s]),
          .unit = "",
          .value = std::max(0.0, -lowest) / allowed,
          .most = solver == Solver::kContact ? std::optional<double>{1.0} : std::nullopt});
@@ -343,7 +402,7 @@ double stiffest_stable_plate(Solver solver, double delay, double damping, int pe
       [&](double stiffness) {
         floating.stiffness = stiffness;
         const double rate = std::sqrt(stiffness / kMass);
-        return let_go(press, floating, 0.01 * kPressed * rate, 0.0).height < 0.0;
+        return release(press, floating, 0.01 * kPressed * rate, 0.0).height < 0.0;
       },
       kResolution);
 }

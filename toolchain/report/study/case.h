@@ -9,24 +9,24 @@
 
 namespace godobject::report {
 
-/// A table of texts; numbers as `cell` writes them.
+/// A table of texts; `cell` writes its numbers.
 struct Sheet {
-  std::string name;  ///< that of its CSV file
+  std::string name;  ///< name of its CSV file
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A number so that it reads back as the same.
+/// Returns a number as text; `number` reads the same value back.
 std::string cell(double value);
 double number(const std::string& cell);
 
-/// Text as a cell of a CSV file: in quotes where it needs them.
+/// Returns text as a cell of a CSV file, quoted if necessary.
 std::string csv_text(std::string text);
 
-/// A whole file, or none. Throws Failure (kIo, kNoPermission).
+/// Writes a file completely or not at all. Throws Failure (kIo, kNoPermission).
 void write_file(const std::filesystem::path& file, const std::string& text);
 
-/// Columns, then a line for each row.
+/// Returns the sheet as CSV: the columns, then a line for each row.
 std::string csv(const Sheet& sheet);
 
 struct CaseResult {
@@ -34,33 +34,33 @@ struct CaseResult {
   std::vector<Sheet> sheets;
 };
 
-/// A piece of the study that needs no other one.
+/// An independent part of the study.
 struct StudyCase {
-  std::string name;    ///< of letters, digits, '.', '-', '_': that of its result file
-  std::string inputs;  ///< all that the result depends on beside the program, as text
-  /// `work` is a folder of its own that is gone afterwards. May run beside others in a thread of its own.
+  std::string name;    ///< letters, digits, '.', '-', '_'; name of its result file
+  std::string inputs;  ///< all inputs of the result except the program, as text
+  /// Runs the case, possibly in a thread beside other cases. `work` is an empty folder, which is removed afterwards.
   std::function<CaseResult(const std::filesystem::path& work)> run;
-  double seconds = 1.0;      ///< that it takes, about: what takes longest is begun first
-  bool takes_times = false;  ///< by the clock: begun when nothing else runs
+  double seconds = 1.0;      ///< approximate duration; long cases are begun first
+  bool takes_times = false;  ///< measures run times: begun when no other case runs
 };
 
 /// A picture of the page.
 struct Picture {
-  std::string name;  ///< of its file, without ".png"
+  std::string name;  ///< name of its file, without ".png"
   std::string caption;
-  /// A program for gnuplot that writes `png`.
+  /// Returns a gnuplot program that draws the picture into `png`.
   std::function<std::string(const std::filesystem::path& png)> program;
 };
 
-/// What a chapter has come to.
+/// The results of a chapter.
 struct Section {
   std::vector<Finding> findings;  ///< the chapter's verdicts
   std::vector<Picture> pictures;
-  std::string html;  ///< goes on the page as it is, behind the verdicts
+  std::string html;  ///< inserted in the page after the verdicts
   std::string text;  ///< for a terminal
 };
 
-/// A case of a chapter, and what it has given; null where it was not run.
+/// A case of a chapter and its result; null if it was not run.
 struct CaseOutcome {
   const StudyCase* study_case = nullptr;
   const CaseResult* result = nullptr;
@@ -75,14 +75,14 @@ struct Chapter {
   std::function<Section(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder)> conclude;
 };
 
-/// Rows of the sheets of one name, in the order of the cases.
+/// Returns one sheet with the rows of all sheets of this name, in the order of the cases.
 Sheet gathered(const std::vector<CaseOutcome>& outcomes, const std::string& name);
 
-/// A finding for each case without a result.
+/// Returns a finding for each case without a result.
 std::vector<Finding> not_run(const std::vector<CaseOutcome>& outcomes);
 
-/// What most chapters come to: the worst of all findings, "not run" for cases without result, and a CSV file for each
-/// sheet.
+/// Concludes most chapters: returns the worst of all findings, and "not run" for cases without a result; writes a CSV
+/// file for each sheet.
 Section gather(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder);
 
 }  // namespace godobject::report

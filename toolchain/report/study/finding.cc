@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kNamed = 4;  ///< rows in a sentence
 
-/// 2: missed, 1: not judged, 0: held.
+/// Returns 2 for missed, 1 for not judged, 0 for held.
 int rank(const Finding& finding) {
   if (!finding.not_judged.empty()) return 1;
   return is_held(finding) ? 0 : 2;
@@ -68,7 +68,7 @@ std::string summary(const std::vector<Finding>& findings) {
   }
   std::string text = fmt::format("{} rows: {} held", judged, held);
   for (const auto& [verdict, rows] : others) {
-    // all that is missed; of what was not judged some
+    // names all missed rows, and some of the others
     const std::size_t named = verdict == "missed" ? rows.size() : std::min(kNamed, rows.size());
     text += fmt::format(", {} {} ({}", rows.size(), verdict,
                         fmt::join(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(named), "; "));

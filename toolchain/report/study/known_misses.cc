@@ -12,7 +12,7 @@
 namespace godobject::report {
 namespace {
 
-constexpr double kGrown = 1.1;  // other processors round otherwise
+constexpr double kGrown = 1.1;  // processors differ in rounding
 
 bool is_known(const PageVerdict& verdict, const std::vector<KnownMiss>& known) {
   return std::any_of(known.begin(), known.end(), [&](const KnownMiss& miss) {

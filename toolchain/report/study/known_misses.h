@@ -14,19 +14,19 @@ struct PageVerdict {
   Finding finding;
 };
 
-/// A row that is missed and known to be.
+/// A row that is known to be missed.
 struct KnownMiss {
   std::string chapter;
   std::string row;
   std::string quantity;
-  double measured = 0.0;  ///< in the unit of the row; no number where none was measured
+  double measured = 0.0;  ///< in the unit of the row; NaN if no value was measured
 };
 
-/// From a TOML file, one table [[missed]] each. Throws Failure (kNoInput, kBadConfig).
+/// Reads the known misses from a TOML file, one table [[missed]] each. Throws Failure (kNoInput, kBadConfig).
 std::vector<KnownMiss> read_known_misses(const std::filesystem::path& file);
 
-/// A line for each row that was computed, not timed, and is missed without being known, or by a tenth more than is
-/// known.
+/// Returns a line for each computed row that is missed and not known, or missed by a tenth more than known. Rows that
+/// depend on run times do not count.
 std::vector<std::string> news(const std::vector<PageVerdict>& verdicts, const std::vector<KnownMiss>& known);
 
 }  // namespace godobject::report

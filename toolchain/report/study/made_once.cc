@@ -14,7 +14,7 @@
 namespace godobject::report {
 namespace {
 
-/// Held by one at a time, of all threads and processes.
+/// A lock that one thread of all processes holds at a time.
 class FileLock {
  public:
   explicit FileLock(const std::filesystem::path& file)

@@ -5,9 +5,9 @@
 
 namespace godobject::report {
 
-/// A file that several cases need. `make` writes it, whole or not at all, where it is not there; meanwhile other cases
-/// that want it wait, in this process and in others. A file FILE.lock stays beside it. Throws Failure (kIo) where that
-/// cannot be locked, and what `make` throws.
+/// Makes a file that several cases need, if it is missing. `make` writes it, completely or not at all. Other cases that
+/// need the file wait meanwhile, in this process and in others. A file FILE.lock remains beside it. Throws Failure
+/// (kIo) if that file cannot be locked, and the exceptions of `make`.
 void make_once(const std::filesystem::path& file, const std::function<void()>& make);
 
 }  // namespace godobject::report

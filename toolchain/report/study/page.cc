@@ -16,7 +16,7 @@ using command::html_text;
 const char* const kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>The god object under study</title>
+<title>Study of the god object</title>
 <style>
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 1000px; margin: 1.5em auto; padding: 0 1em }
 table { border-collapse: collapse; font-size: 13px; margin: 1em 0 }
@@ -28,7 +28,7 @@ img { max-width: 100%; height: auto }
 figure { margin: 1.5em 0 } figcaption { font-size: 14px; color: #444 }
 .facts { font-size: 13px; color: #555 }
 </style></head><body>
-<h1>The god object under study</h1>
+<h1>Study of the god object</h1>
 )";
 
 const char* look(const Finding& finding) {

@@ -20,9 +20,9 @@ std::string color(std::size_t i) {
 
 namespace {
 
-constexpr int kBelowAxis = 4;  ///< lines: numbers, name, and air
+constexpr int kBelowAxis = 4;  ///< lines for numbers, name and space
 
-/// The key has two columns.
+/// Returns the number of lines of the key, which has two columns.
 std::ptrdiff_t lines_of_key(const Plot& plot) {
   const auto titles =
       std::count_if(plot.curves.begin(), plot.curves.end(), [](const Curve& it) { return !it.title.empty(); });
@@ -40,7 +40,7 @@ std::string gnuplot_text(const Plot& plot, const std::filesystem::path& png) {
     }
     text += "END\n";
   }
-  // half as wide on a phone, where the letters must still be read
+  // a phone shows the picture half as wide, so the letters are large
   text += fmt::format(
       "set terminal pngcairo size 760,680 font 'DejaVu Sans,15' background rgb 'white'\nset output {}\n"
       "set title {} font ',13' noenhanced\nset xlabel {} offset 0,0.4 noenhanced\nset ylabel {} noenhanced\n"

@@ -9,7 +9,7 @@ namespace godobject::report {
 /// Points (x, y) of one curve.
 struct Curve {
   std::string title;
-  std::string look;  ///< of gnuplot: "lines lw 2 lc 1", "points pt 7 lc 1"
+  std::string look;  ///< gnuplot's style: "lines lw 2 lc 1", "points pt 7 lc 1"
   std::vector<std::pair<double, double>> points;
 };
 
@@ -23,10 +23,10 @@ struct Plot {
   std::vector<Curve> curves;
 };
 
-/// A program for gnuplot, data included, that writes `png`. What is not finite is left out.
+/// Returns a gnuplot program, data included, that draws the plot into `png`. Points that are not finite are omitted.
 std::string gnuplot_text(const Plot& plot, const std::filesystem::path& png);
 
-/// Colours that the colour-blind can tell apart, by number from 0 on, as gnuplot takes them: "lc rgb '#...'".
+/// Returns the i-th colour for gnuplot: "lc rgb '#...'". Colour-blind readers can distinguish the colours.
 std::string color(std::size_t i);
 
 }  // namespace godobject::report

@@ -110,7 +110,7 @@ std::optional<StoredResult> read_result(const std::filesystem::path& file, const
     }
     return stored;
   } catch (const std::exception& error) {
-    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: no result of the case {} ({}); remove it",
+    throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: not a result of the case {} ({}); remove it",
                                                                     file.string(), name, error.what()));
   }
 }

@@ -8,33 +8,34 @@
 
 namespace godobject::report {
 
-/// A case's result as it stands in its file, with what it was made from.
+/// The content of a result file: a case's result and its origin.
 struct StoredResult {
-  std::string inputs;   ///< `digest` of the case's inputs
-  std::string program;  ///< `digest` of the program that made it
+  std::string inputs;   ///< digest of the case's inputs
+  std::string program;  ///< digest of the program that made it
   std::string machine;
   double seconds = 0.0;
   CaseResult result;
 };
 
-/// 64 bits in hexadecimal.
+/// Returns a digest of 64 bits in hexadecimal.
 std::string digest(const std::string& bytes);
 
 std::string file_digest(const std::filesystem::path& file);
 
-/// Of the program that runs.
+/// Returns the digest of the running program.
 const std::string& program_digest();
 
-/// "Linux 6.1.0, x86_64, AMD EPYC ..., 2 processors"
+/// Returns a description such as "Linux 6.1.0, x86_64, AMD EPYC ..., 2 processors".
 const std::string& this_machine();
 
-/// FOLDER/NAME.json
+/// Returns FOLDER/NAME.json.
 std::filesystem::path result_path(const std::filesystem::path& folder, const std::string& name);
 
-/// Appears under its name only when it is complete. Throws Failure (kIo, kNoPermission).
+/// Writes a result file, which appears under its name only when it is complete. Throws Failure (kIo, kNoPermission).
 void write_result(const std::filesystem::path& file, const std::string& name, const StoredResult& stored);
 
-/// Nothing where there is no file. Throws Failure (kBadData) naming the file if it is no result of the case `name`.
+/// Reads a result file; nullopt if it is missing. Throws Failure (kBadData) naming the file if it is not a result of
+/// the case `name`.
 std::optional<StoredResult> read_result(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace godobject::report

@@ -18,7 +18,7 @@ bool is_done(const StudyCase& study_case, const std::filesystem::path& file) {
     const auto stored = read_result(file, study_case.name);
     return stored && stored->inputs == digest(study_case.inputs) && stored->program == program_digest();
   } catch (const std::exception&) {
-    return false;  // it is written anew
+    return false;  // it is written again
   }
 }
 
@@ -30,12 +30,12 @@ void run_case(const StudyCase& study_case, const std::filesystem::path& file) {
   write_result(file, study_case.name, stored);
 }
 
-/// What the threads share.
+/// State that the threads share.
 struct Queue {
   std::span<const StudyCase* const> waiting;
   std::size_t next = 0;
   std::size_t finished = 0;
-  double seconds_done = 0.0;  ///< of those expected
+  double seconds_done = 0.0;  ///< expected duration of the completed cases
   std::exception_ptr failure;
   std::mutex mutex;
   std::condition_variable changed;
@@ -62,13 +62,13 @@ void work_off(Queue& queue, const std::filesystem::path& folder) {
   }
 }
 
-/// Seconds that cases are expected to take.
+/// Returns the expected duration of cases [s].
 double expected(std::span<const StudyCase* const> cases) {
   return std::accumulate(cases.begin(), cases.end(), 0.0,
                          [](double sum, const StudyCase* study_case) { return sum + study_case->seconds; });
 }
 
-/// The pace of what is done so far, and what it means for the rest.
+/// Returns the progress, with an estimate by the pace so far.
 class Pace {
  public:
   explicit Pace(double seconds_in_all) : in_all_(seconds_in_all) {}

@@ -17,11 +17,11 @@
 namespace godobject::report {
 namespace {
 
-/// What the result files have told of the machines.
+/// Machines, programs and unused results among the result files.
 struct Origin {
   std::map<std::string, std::size_t> machines;  ///< cases by machine
   std::set<std::string> programs;
-  std::vector<std::string> stale;  ///< cases whose result was made from other inputs
+  std::vector<std::string> stale;  ///< cases whose result has other inputs
 
   std::vector<std::string> sentences(const std::string& what_was_run) const {
     std::vector<std::string> all{fmt::format("Commit {}. Made by: {}.", command::kSourceCommit, what_was_run)};
@@ -30,7 +30,8 @@ struct Origin {
       all.push_back(fmt::format("The cases were run by {} different builds.", programs.size()));
     }
     if (!stale.empty()) {
-      all.push_back(fmt::format("Not used, because made from other inputs: {}.", fmt::join(stale, ", ")));
+      all.push_back(
+          fmt::format("Not used, because made from other inputs: {}. Run these cases again.", fmt::join(stale, ", ")));
     }
     return all;
   }

@@ -10,19 +10,20 @@
 
 namespace godobject::report {
 
-/// FOLDER/cases: the result files.
+/// Returns FOLDER/cases, the folder of the result files.
 std::filesystem::path case_folder(const std::filesystem::path& folder);
 
-/// FOLDER/kept: what several cases need. May be removed at any time; cases make it anew.
+/// Returns FOLDER/kept, the folder of files that several cases share. It may be removed at any time; cases make it
+/// again.
 std::filesystem::path kept_folder(const std::filesystem::path& folder);
 
-/// FOLDER/report.html
+/// Returns FOLDER/report.html.
 std::filesystem::path report_file(const std::filesystem::path& folder);
 
-/// All cases, in their order.
+/// Returns all cases in their order.
 std::vector<const StudyCase*> all_cases(const std::vector<Chapter>& chapters);
 
-/// The case of that name. Throws Failure (kUsage).
+/// Returns the case of that name. Throws Failure (kUsage).
 const StudyCase& find_case(const std::vector<Chapter>& chapters, const std::string& name);
 
 struct Merged {
@@ -30,7 +31,7 @@ struct Merged {
   std::vector<PageVerdict> verdicts;
 };
 
-/// Reads the result files of FOLDER that were made from the present inputs, writes each chapter's files, the pictures,
+/// Reads the result files of FOLDER that match the present inputs, and writes each chapter's files, the pictures,
 /// FOLDER/verdicts.csv and FOLDER/report.html. Throws Failure.
 Merged merge(const std::vector<Chapter>& chapters, const std::filesystem::path& folder,
              const std::string& what_was_run);

@@ -21,12 +21,12 @@ namespace {
 constexpr double kBudget_us = 20.0;
 constexpr std::size_t kKeyColumns = 9;
 
-/// A setting of a scene with all that was measured, by the columns' names.
+/// A setting of a scene with all measured values, by the names of the columns.
 using Measured = std::map<std::string, std::string>;
 
 double value(const Measured& row, const std::string& column) { return number(row.at(column)); }
 
-/// Rows of both sheets that have the same setting.
+/// Returns the rows of both sheets, joined by their setting.
 std::vector<Measured> joined(const Sheet& errors, const Sheet& costs) {
   const auto key = [](const std::vector<std::string>& row) {
     return std::vector<std::string>(row.begin(), row.begin() + kKeyColumns);
@@ -52,7 +52,7 @@ std::string words(const Measured& row) {
                      row.at("levels"), row.at("margin_um"));
 }
 
-/// Settings of one scene with friction, as a user runs them, and their front.
+/// The settings of one scene with friction, and their Pareto front.
 struct Field {
   std::string scene;
   std::vector<Measured> rows;
@@ -79,7 +79,7 @@ struct Field {
 
 char letter(std::size_t i) { return static_cast<char>('A' + i % 26); }
 
-/// So near in a picture of `all` with logarithmic axes that letters at both would lie on one another.
+/// Tells if letters at two points of a picture of `all` with logarithmic axes would overlap.
 bool are_near(const precision::Trade& one, const precision::Trade& other, const std::vector<precision::Trade>& all) {
   constexpr double kShare = 0.05;  // of an axis
   const auto share = [&](double precision::Trade::*axis) {
@@ -90,10 +90,10 @@ bool are_near(const precision::Trade& one, const precision::Trade& other, const 
   return !(share(&precision::Trade::cost) > kShare) && !(share(&precision::Trade::error) > kShare);
 }
 
-/// `quantity` against p99, with its own front; letters are those of the wrench's front, as in the table.
+/// Returns a picture of `quantity` against p99 with its own front; the letters are those of the wrench's front.
 Picture picture(const Field& field, const std::string& quantity, double scale, const std::string& y,
                 const std::string& caption) {
-  constexpr double kLeast = 1e-4;  // what is drawn at the bottom of a logarithmic axis for 0
+  constexpr double kLeast = 1e-4;  // a 0 is drawn here, at the bottom of the logarithmic axis
   Plot plot{.title = field.scene + ", with friction",
             .x = "p99 of a cycle [us]",
             .y = y,
@@ -162,7 +162,7 @@ std::string front_table(const Field& field) {
   return html + "</table></div>\n";
 }
 
-/// The setting under the budget, and how much better it is than the paper's own.
+/// Returns the section on the setting under the budget, compared with those of `paper`.
 void recommend(const Field& field, Section& section) {
   const auto chosen = field.best("", kBudget_us);
   Finding within{.row = field.scene,
@@ -185,7 +185,7 @@ void recommend(const Field& field, Section& section) {
     html += fmt::format(" The paper's solver at no more than the same cost has {:.3g} %, {:.3g} times as much ({}).",
                         100.0 * of_paper, of_paper / error, command::html_text(words(field.rows[*paper])));
     section.findings.push_back({.row = field.scene,
-                                .what = "its wrench error over that of paper at no more than its cost",
+                                .what = "wrench error over that of paper at the same cost or less",
                                 .unit = "",
                                 .value = error / of_paper,
                                 .most = 1.0,
@@ -198,7 +198,7 @@ void recommend(const Field& field, Section& section) {
   section.html += html + "</p>\n";
 }
 
-/// What an image takes to compile and to judge, about [s].
+/// Returns the approximate time to compile and judge an image [s].
 double seconds(const ImageTrial& trial) {
   const precision::ImageSetting& image = trial.image.setting;
   const double judged = trial.quick ? 5.0 : 15.0;
@@ -213,8 +213,8 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
     if (field.rows.empty()) continue;
     section.pictures.push_back(picture(field, "wrench_error", 100.0, "wrench error [% of the reference]",
                                        field.scene +
-                                           ": error of the wrench against the solver contact on the exact meshes. "
-                                           "Letters: the table below. Dotted: 20 us."));
+                                           ": error of the wrench relative to the solver contact on the exact meshes. "
+                                           "Letters: rows of the table below. Dotted: 20 us."));
     section.pictures.push_back(picture(field, "penetration_deepest_mm", 1.0, "deepest penetration [mm]",
                                        field.scene +
                                            ": deepest point of either body in the other's exact mesh; at the bottom: "
@@ -224,7 +224,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   }
   for (const Measured& row : all) {
     if (value(row, "load") <= 1.5) continue;
-    section.html += "<p>Other work ran on the machine: times are indicative.</p>\n";
+    section.html += "<p>Other programs ran on the machine, so the times are indicative only.</p>\n";
     break;
   }
   section.html +=
@@ -240,9 +240,10 @@ Chapter work_precision_chapter(const WorkPrecisionRequest& request) {
       .name = "precision",
       .title = "Error against run time",
       .introduction =
-          "<p>Settings that a user may choose, along the scenes' motions. Reference: the solver <code>contact</code> "
-          "without voxels, on the exact distances to both meshes. Wrench error: rms of the difference over the rms of "
-          "the reference, torques by the coupling's metric. A cycle's time is the median of interleaved passes.</p>",
+          "<p>Settings that a user may choose, along the scenes' motions. The reference is the solver "
+          "<code>contact</code> on the exact distances to both meshes, without voxels. The wrench error is the rms of "
+          "the difference over the rms of the reference, with torques in the coupling's metric. The time of a cycle is "
+          "the median of interleaved passes.</p>",
       .cases = {},
       .conclude = conclude};
   for (const PrecisionScene& scene : precision_scenes()) {
@@ -251,7 +252,7 @@ Chapter work_precision_chapter(const WorkPrecisionRequest& request) {
     const std::filesystem::path motion = request.scenes / "paths" / scene.path;
     for (const auto& input : {file, motion}) {
       command::require_regular_input(input,
-                                     "name the folder of the scenes with --scenes: toolchain/scenes of the sources");
+                                     "name the folder of the scenes with --scenes; the sources have toolchain/scenes");
     }
     const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(file);
     const std::string inputs =

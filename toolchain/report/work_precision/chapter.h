@@ -8,11 +8,11 @@ namespace godobject::report {
 
 struct WorkPrecisionRequest {
   std::filesystem::path scenes;  ///< folder of the scene files; their motions in its folder `paths`
-  std::filesystem::path kept;    ///< made where it is not there: images and references that several cases need
+  std::filesystem::path kept;    ///< folder of images and references that several cases share; created if missing
   bool quick = false;
 };
 
-/// Error against run time. Throws Failure (kNoInput) where a scene file or motion is not there.
+/// Returns the chapter on error against run time. Throws Failure (kNoInput) if a scene file or motion is missing.
 Chapter work_precision_chapter(const WorkPrecisionRequest& request);
 
 }  // namespace godobject::report

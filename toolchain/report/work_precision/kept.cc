@@ -69,7 +69,8 @@ std::vector<TracedCycle> kept_cycles(const std::filesystem::path& folder, const 
   Numbers numbers;
   while (in.read(reinterpret_cast<char*>(numbers.data()), sizeof numbers)) cycles.push_back(cycle_of(numbers));
   if (in.gcount() == 0 && !cycles.empty()) return cycles;
-  throw command::Failure(command::ExitCode::kBadData, fmt::format("{}: torn; remove it", file.string()));
+  throw command::Failure(command::ExitCode::kBadData,
+                         fmt::format("{}: the file is incomplete; remove it", file.string()));
 }
 
 }  // namespace godobject::report

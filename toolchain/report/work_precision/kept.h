@@ -9,15 +9,15 @@
 #include "toolchain/precision/trace.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
-/// What several cases of a scene need, made once by this program and kept in a folder.
+/// Images and references that several cases of a scene share, made once by this program and stored in a folder.
 namespace godobject::report {
 
-/// The image of `config`; `key` names all that it depends on beside the program.
+/// Returns the image of `config`; `key` names all its inputs except the program.
 command::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
                                const scene_compiler::SceneConfig& config);
 
-/// Cycles that `run` gives; `key` as above. Kept in the machine's own order of bytes. Throws Failure (kBadData) where
-/// the file holds no whole number of cycles.
+/// Returns the cycles of `run`; `key` as above. They are stored in the machine's byte order. Throws Failure (kBadData)
+/// if the file ends within a cycle.
 std::vector<precision::TracedCycle> kept_cycles(const std::filesystem::path& folder, const std::string& key,
                                                 const std::function<std::vector<precision::TracedCycle>()>& run);
 

@@ -24,7 +24,7 @@ std::vector<Vector3> forces(const std::vector<precision::TracedCycle>& cycles) {
   return all;
 }
 
-/// Tangential over normal spring force while sliding, mean of its cycles; NaN where it is not measured.
+/// Returns the mean ratio of tangential to normal spring force while sliding; NaN if the scene does not measure it.
 double friction_ratio(const PrecisionScene& scene, const precision::Result& result) {
   double sum = 0.0;
   double count = 0.0;
@@ -39,7 +39,7 @@ double friction_ratio(const PrecisionScene& scene, const precision::Result& resu
   return sum / count;
 }
 
-/// Cycles in which the reference pushes hardest, one in each of `wanted` parts of the motion.
+/// Returns the cycles with the largest force of the reference, one in each of `wanted` parts of the motion.
 std::vector<std::size_t> checkpoints(const std::vector<precision::TracedCycle>& reference, std::size_t wanted) {
   std::vector<std::size_t> chosen;
   for (std::size_t part = 0; part < wanted; ++part) {
@@ -54,8 +54,8 @@ std::vector<std::size_t> checkpoints(const std::vector<precision::TracedCycle>& 
   return chosen;
 }
 
-/// Largest distance of the god object to the constrained optimum on the exact still mesh at a few poses; without
-/// friction only, NaN with it and where no reference was found. [m]
+/// Returns the largest distance of the god object to the constrained optimum on the exact still mesh at a few poses
+/// [m]. NaN with friction, and if no optimum was found.
 double optimum_distance(const precision::ExactScene& exact, const std::vector<Pose>& path,
                         const std::vector<std::size_t>& cycles, const precision::Result& result) {
   double farthest = std::numeric_limits<double>::quiet_NaN();
@@ -112,7 +112,7 @@ command::SceneImage image_of(const ImageTrial& trial, const scene_compiler::Scen
                     precision::with(config, trial.image.setting));
 }
 
-/// All solvers with and without friction.
+/// Returns all solvers, each with and without friction.
 std::vector<precision::Setting> settings(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
   std::vector<precision::Variant> variants;
   for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {

@@ -13,50 +13,50 @@
 
 namespace godobject::report {
 
-/// Where a body slides along a flat face.
+/// The part of a motion in which a body slides along a flat face.
 struct Sliding {
   std::size_t begin = 0;  ///< cycles
   std::size_t end = 0;
-  Vector3 normal = Vector3::UnitZ();  ///< of the face, in W
+  Vector3 normal = Vector3::UnitZ();  ///< normal of the face, in W
 };
 
 /// A scene of the study, and the motion in it.
 struct PrecisionScene {
   std::string name;
-  std::string path;  ///< in the folder `paths`
+  std::string path;  ///< file in the folder `paths`
   precision::Judging judging = {};
-  std::optional<Sliding> sliding = {};  ///< where the friction's ratio is measured
+  std::optional<Sliding> sliding = {};  ///< measures the friction ratio
   bool finest_refined = false;          ///< also refined at half the voxel edge, which takes minutes to compile
 };
 
 const std::vector<PrecisionScene>& precision_scenes();
 
-/// The images that are tried in a scene as it is written.
+/// An image setting to try in a scene.
 struct TriedImage {
-  std::string name;  ///< of the case
+  std::string name;  ///< name of the case
   precision::ImageSetting setting;
-  bool margins = false;  ///< `contact` also with a tenth and ten times of its margin
+  bool margins = false;  ///< `contact` also with a tenth of its margin and with ten times its margin
 };
 std::vector<TriedImage> tried_images(const precision::ImageSetting& written, bool quick, bool finest_refined);
 
-/// Names of the sheets that a case fills: what does not differ from run to run, and what does.
+/// Names of the sheets of a case: errors are the same in every run, costs differ.
 inline constexpr const char* kErrors = "work_precision_errors";
 inline constexpr const char* kCosts = "work_precision_costs";
 
-/// An image and what it is tried on.
+/// An image setting with its scene and inputs.
 struct ImageTrial {
   PrecisionScene scene;
   TriedImage image;
   std::filesystem::path scenes;  ///< folder of the scene files
-  std::filesystem::path kept;    ///< for images and references that several cases need
+  std::filesystem::path kept;    ///< folder of images and references that several cases share
   std::string inputs;            ///< scene file, meshes and motion, as text
   bool quick = false;
 };
 
-/// All solvers with and without friction along the scene's motion: the errors.
+/// Measures the errors of all solvers with and without friction along the scene's motion.
 CaseResult image_errors(const ImageTrial& trial);
 
-/// Of the same settings what cycles cost.
+/// Measures the costs of the same settings.
 CaseResult image_costs(const ImageTrial& trial);
 
 }  // namespace godobject::report
