@@ -14,7 +14,8 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/query/query_points.h"
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -67,11 +68,11 @@ TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   EXPECT_TRUE(image.scene.holds(format::Solver::kCorrected));
   EXPECT_EQ(image.scene.pointshell.size, 300u + report.second.added_points);
   EXPECT_NE(image.scene.pointshell.normal_x, nullptr);
-  EXPECT_LE(report.field_error.largest_node_error, 1e-5);
-  EXPECT_LE(report.field_error.largest_node_excess, report.field_error.largest_node_error);
-  EXPECT_LE(report.field_error.rms, 1.001 * report.field_error.floor_rms);
-  EXPECT_LE(report.field_error.sign_errors, report.field_error.floor_sign_errors);
-  EXPECT_GE(report.field_error.points, 10000u);
+  EXPECT_LE(report.check.field_error.largest_node_error, 1e-5);
+  EXPECT_LE(report.check.field_error.largest_node_excess, report.check.field_error.largest_node_error);
+  EXPECT_LE(report.check.field_error.rms, 1.001 * report.check.field_error.floor_rms);
+  EXPECT_LE(report.check.field_error.sign_errors, report.check.field_error.floor_sign_errors);
+  EXPECT_GE(report.check.field_error.points, 10000u);
 }
 
 TEST_F(CompileScene, LeavesTheSecondDirectionOutWhereNobodyReadsIt) {
@@ -123,10 +124,12 @@ TEST_F(CompileScene, BehavesAlikeFromAThousandthToAThousandfold) {
   const CompileReport one = compile({});
   for (const double size : {1e-3, 1e3}) {
     const CompileReport scaled = compile({.size = size});
-    EXPECT_EQ(scaled.grid.brick_count, one.grid.brick_count) << size;
-    EXPECT_NEAR(scaled.field_error.rms / size, one.field_error.rms, 1e-3 * one.field_error.rms) << size;
-    EXPECT_NEAR(scaled.grid.lipschitz, one.grid.lipschitz, 1e-3) << size;
-    EXPECT_NEAR(scaled.body.coverage / size, one.body.coverage, 0.05 * one.body.coverage) << size;
+    EXPECT_EQ(scaled.field.grid.brick_count, one.field.grid.brick_count) << size;
+    EXPECT_NEAR(scaled.check.field_error.rms / size, one.check.field_error.rms, 1e-3 * one.check.field_error.rms)
+        << size;
+    EXPECT_NEAR(scaled.field.grid.lipschitz, one.field.grid.lipschitz, 1e-3) << size;
+    EXPECT_NEAR(scaled.points.spread.coverage / size, one.points.spread.coverage, 0.05 * one.points.spread.coverage)
+        << size;
   }
 }
 
@@ -172,7 +175,7 @@ TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
 
 TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
   const CompileReport report = compile({.still = "cube_100mm"});
-  ASSERT_GT(report.refinement.refined, 0u);
+  ASSERT_GT(report.field.refinement.refined, 0u);
   const std::string image = slurp(folder_.file("out.scene"));
   const Json index = inspect_json(command::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
   std::uint64_t positions = 0;
@@ -186,7 +189,8 @@ TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
   }
   const std::string text = report_text(report);
   EXPECT_NE(text.find(fmt::format(": {} of {} positions stored", stored, positions)), std::string::npos) << text;
-  EXPECT_NE(text.find(fmt::format("{} finer bricks", report.grid.brick_count - stored)), std::string::npos) << text;
+  EXPECT_NE(text.find(fmt::format("{} finer bricks", report.field.grid.brick_count - stored)), std::string::npos)
+      << text;
 }
 
 TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
@@ -206,7 +210,8 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
     EXPECT_EQ(said.find(';'), std::string::npos) << "one limit: " << said;
   };
   // 5 times the tolerance of 0.05 voxels of 4 mm is 1 mm
-  expect_limit([](CompileReport& r) { r.field_error.near.largest = 1.2e-3; }, "0.30 voxels off near the surface (0.25");
+  expect_limit([](CompileReport& r) { r.check.field_error.near.largest = 1.2e-3; },
+               "0.30 voxels off near the surface (0.25");
   expect_limit([](CompileReport& r) { r.thin.walls.samples = 3; }, "walls thinner than two voxels");
   expect_limit(
       [](CompileReport& r) {
@@ -215,7 +220,7 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
       },
       "walls thinner than a voxel, which bodies may pass");
   expect_limit([](CompileReport& r) { r.thin.gaps.samples = 3; }, "gaps thinner than two voxels");
-  expect_limit([](CompileReport& r) { r.seams.cells = 1; }, "the mesh is open");
+  expect_limit([](CompileReport& r) { r.field.seams.cells = 1; }, "the mesh is open");
   expect_limit([](CompileReport& r) { r.second.sought = false; }, "nobody looks between the points");
   expect_limit([](CompileReport& r) { r.second.between.bound = 0.006 - r.second.slack; },
                "6 mm deep between the points (4 mm");

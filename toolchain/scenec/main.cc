@@ -15,9 +15,11 @@
 #include "toolchain/files/work_folder.h"
 #include "toolchain/path/pose_file.h"
 #include "toolchain/precision/recommendation.h"
-#include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/image/build_traits.h"
+#include "toolchain/scene_compiler/image/image_json.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 
 namespace {
 
@@ -150,7 +152,7 @@ void compile(const Options& options) {
   }
   if (!options.traits.empty()) {
     AtomicFile file(options.traits);
-    file.write(traits_text(report.traits, options.scene_file));
+    file.write(traits_text(report.check.traits, options.scene_file));
     file.commit();
   }
   fmt::print("{}", report_text(report));

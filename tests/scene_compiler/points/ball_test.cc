@@ -16,7 +16,8 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/query/query_points.h"
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
 namespace godobject::scene_compiler {
@@ -342,7 +343,7 @@ TEST_F(BallScene, StandsOnFacesWhereManyPointsStand) {
   Rendered ball(folder_.file("with.scene"));
   Rendered points(folder_.file("without.scene"));
   // the mesh lies inside of the ball, its points up to `coverage` from a place of it
-  const double polyhedron = with.ball->deviation + std::pow(without.body.coverage, 2) / (2.0 * kRadius);
+  const double polyhedron = with.ball->deviation + std::pow(without.points.spread.coverage, 2) / (2.0 * kRadius);
   double apart = 0.0, force_apart = 0.0, torque = 0.0;
   int compared = 0;
   follow_cube([&](const Vector3d& on_cube, const Vector3d& normal) {

@@ -32,6 +32,7 @@ constexpr double kBoxArea = 2.0 * (0.06 * 0.04 + 0.04 * 0.03 + 0.03 * 0.06);
 /// What the image holds, back in the mesh's frame M.
 struct Made {
   MovingBody moving;
+  PointSpread spread;
   std::vector<Vector3d> points;
   std::vector<Vector3d> normals;
 
@@ -57,7 +58,8 @@ Made make(const TriangleMesh& mesh, std::uint32_t points, std::uint32_t levels, 
           double thickness = 0.002) {
   const SolidSurface surface(mesh, kind, thickness);
   const OuterSurface outer(surface);
-  Made made{make_moving_body(outer, sample_moving_body(outer, points, levels, {})), {}, {}};
+  const MovingSampling sampling = sample_moving_body(outer, points, levels, {});
+  Made made{make_moving_body(outer, sampling), measure_spread(outer, sampling), {}, {}};
   const format::Body& body = made.moving.body;
   const Eigen::Quaterniond rotation(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]);
   const Vector3d translation(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);
@@ -143,10 +145,10 @@ TEST(MovingBody, OpensAsAnImageWhateverItsSize) {
     EXPECT_EQ(made.moving.body.point_count, size.points);
     EXPECT_EQ(made.moving.points.size(), 3u * size.points);
     EXPECT_EQ(made.moving.normals.size(), 3u * size.points);
-    EXPECT_EQ(made.moving.level_sizes.size(), size.levels);
-    EXPECT_EQ(made.moving.level_sizes.back(), size.points);
+    EXPECT_EQ(made.spread.level_sizes.size(), size.levels);
+    EXPECT_EQ(made.spread.level_sizes.back(), size.points);
     for (std::uint32_t k = 1; k <= size.levels; ++k)
-      EXPECT_EQ(made.level(k).size(), made.moving.level_sizes[k - 1]) << k;
+      EXPECT_EQ(made.level(k).size(), made.spread.level_sizes[k - 1]) << k;
     expect_opens(made.moving);
   }
 }
@@ -177,7 +179,7 @@ TEST(MovingBody, PointsKeepTheirDistance) {
   // random (a maximal Poisson disc set) 0.7 by construction; uniform random points have a minimum of about 0.01
   EXPECT_GE(distances.front(), 0.6 * densest);
   EXPECT_GE(distances[distances.size() / 2], 0.7 * densest);
-  EXPECT_NEAR(made.moving.spacing, distances[distances.size() / 2], 1e-6);
+  EXPECT_NEAR(made.spread.spacing, distances[distances.size() / 2], 1e-6);
 }
 
 TEST(MovingBody, EveryLevelCoversTheSurface) {
@@ -191,8 +193,8 @@ TEST(MovingBody, EveryLevelCoversTheSurface) {
       for (const Vector3d& p : made.points) gap = std::max(gap, distance_to_nearest(p, samples));
       EXPECT_LE(gap, 2.0 * distances[distances.size() / 2]) << "level " << k;
     }
-    EXPECT_LE(made.moving.coverage, 2.0 * made.moving.spacing);
-    EXPECT_GE(made.moving.coverage, 0.5 * made.moving.spacing);
+    EXPECT_LE(made.spread.coverage, 2.0 * made.spread.spacing);
+    EXPECT_GE(made.spread.coverage, 0.5 * made.spread.spacing);
   }
 }
 
@@ -293,7 +295,7 @@ TEST(MovingBody, BuriedTrianglesCarryNoPoints) {
     const Vector3d in = p + 1e-5 * made.normals[i];
     EXPECT_LT(std::min(test::box_distance(in, 0.5 * flat), test::box_distance(in, 0.5 * upright)), 0.0);
   }
-  EXPECT_LE(made.moving.coverage, 2.0 * made.moving.spacing);
+  EXPECT_LE(made.spread.coverage, 2.0 * made.spread.spacing);
   expect_opens(made.moving);
 }
 
@@ -347,7 +349,7 @@ TEST(MovingBody, AThinPlateIsSampledOnEachSideAsIfAlone) {
         gap = std::max(gap, distance_to_nearest({0.1 * i / 40 - 0.05, 0.1 * j / 40 - 0.05, side * 0.00025}, points));
       }
     }
-    EXPECT_LT(gap, 2.0 * made.moving.spacing);
+    EXPECT_LT(gap, 2.0 * made.spread.spacing);
   }
 }
 
@@ -406,15 +408,17 @@ TEST(MovingBody, SaysWhatIsWrongAndTheCure) {
 
 TEST(MovingBody, IsTheSameEveryTime) {
   const TriangleMesh mesh = test::moved(box_mesh(kEdges), test::odd_motion());
-  const MovingBody first = make(mesh, 3000, 5).moving;
-  const MovingBody second = make(mesh, 3000, 5).moving;
+  const Made one = make(mesh, 3000, 5);
+  const Made other = make(mesh, 3000, 5);
+  const MovingBody& first = one.moving;
+  const MovingBody& second = other.moving;
   EXPECT_EQ(std::memcmp(&first.body, &second.body, sizeof(first.body)), 0);
   EXPECT_EQ(first.points, second.points);
   EXPECT_EQ(first.normals, second.normals);
   ASSERT_EQ(first.nodes.size(), second.nodes.size());
   EXPECT_EQ(std::memcmp(first.nodes.data(), second.nodes.data(), first.nodes.size() * sizeof(format::Node)), 0);
-  EXPECT_EQ(first.spacing, second.spacing);
-  EXPECT_EQ(first.coverage, second.coverage);
+  EXPECT_EQ(one.spread.spacing, other.spread.spacing);
+  EXPECT_EQ(one.spread.coverage, other.spread.coverage);
 }
 
 TEST(MovingBody, ProgressAscendsToOne) {

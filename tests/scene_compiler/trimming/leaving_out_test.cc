@@ -14,7 +14,8 @@
 #include "core/pipeline/god_object.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 #include "toolchain/scene_compiler/trimming/tree_levels.h"
 #include "toolchain/scene_compiler/trimming/try_out.h"
 
@@ -182,8 +183,8 @@ TEST_F(LeavesOut, PointsThatTouchNothing) {
   const LeftOut* const points = item(less, "points of the moving body");
   const LeftOut* const features = item(less, "feature points");
   ASSERT_TRUE(points != nullptr && features != nullptr && item(less, "brick positions") != nullptr);
-  EXPECT_LT(less.body.body.point_count, 0.9 * all.body.body.point_count);
-  EXPECT_EQ(points->count, all.body.body.point_count - less.body.body.point_count);
+  EXPECT_LT(less.points.body.point_count, 0.9 * all.points.body.point_count);
+  EXPECT_EQ(points->count, all.points.body.point_count - less.points.body.point_count);
   EXPECT_LT(less.second.features.point_count, 0.9 * all.second.features.point_count);
   EXPECT_GT(less.second.features.point_count, 0u);
   EXPECT_EQ(features->count, all.second.features.point_count - less.second.features.point_count);

@@ -11,7 +11,7 @@ struct CodeBytes {
   std::uint64_t paper_with_friction = 0;  ///< only there, beyond `paper`
   std::uint64_t corrected = 0;
   std::uint64_t corrected_with_friction = 0;
-  std::uint64_t closed_forms = 0;  ///< of either of the two
+  std::uint64_t closed_forms = 0;         ///< of either of the two
   std::uint64_t contact = 0;              ///< of a ball by its centre
   std::uint64_t contact_with_points = 0;  ///< beyond it, of any number of points
   std::uint64_t contact_with_friction = 0;

@@ -103,7 +103,6 @@ MovingBody make_ball_body(const Ball& ball) {
   MovingBody moving;
   moving.points = {0.0f, 0.0f, 0.0f};
   moving.nodes = tree.nodes;
-  moving.level_sizes = {1};
   format::Body& body = moving.body;
   body.rotation_MB[0] = 1.0;
   std::copy_n(ball.center.data(), 3, body.translation_MB);

@@ -146,14 +146,12 @@ double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> sam
 }
 
 MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling) {
-  MovingBody moving;
-  const std::vector<Vector3d> points_M = points_of(sampling.samples);
-  moving.level_sizes = level_sizes(sampling.points, sampling.levels);
   const std::span<const SurfaceSample> spread = std::span(sampling.samples).first(sampling.points);
-  std::vector<std::vector<std::uint32_t>> levels = nested_levels(spread, moving.level_sizes, sampling.area);
-  levels.back() = all_indices(points_M.size());
-  moving.level_sizes.back() = static_cast<std::uint32_t>(points_M.size());
+  std::vector<std::vector<std::uint32_t>> levels =
+      nested_levels(spread, level_sizes(sampling.points, sampling.levels), sampling.area);
+  levels.back() = all_indices(sampling.samples.size());
 
+  MovingBody moving;
   format::Body& body = moving.body;
   // samples that were added crowd at edges: they carry no mass
   const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_of(spread), body).inverse();
@@ -178,13 +176,19 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   std::copy_n(sphere.center.data(), 3, body.sphere_center);
   // not so small that points of the still body seem to swing far about a few clustered samples
   body.sphere_radius = std::max(sphere.radius * kRoundedUp, kLeastSphere * body.radius);
-  body.point_count = moving.level_sizes.back();
+  body.point_count = static_cast<std::uint32_t>(sampling.samples.size());
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());
   body.level_count = sampling.levels;
-
-  moving.spacing = median_neighbour_distance(sampling.samples, PointTree(points_M));
-  moving.coverage = largest_gap(outer, sampling.samples);
   return moving;
+}
+
+PointSpread measure_spread(const OuterSurface& outer, const MovingSampling& sampling) {
+  PointSpread spread;
+  spread.level_sizes = level_sizes(sampling.points, sampling.levels);
+  spread.level_sizes.back() = static_cast<std::uint32_t>(sampling.samples.size());
+  spread.spacing = median_neighbour_distance(sampling.samples, PointTree(points_of(sampling.samples)));
+  spread.coverage = largest_gap(outer, sampling.samples);
+  return spread;
 }
 
 }  // namespace godobject::scene_compiler

@@ -27,10 +27,13 @@ struct MovingBody {
   std::vector<float> points;   ///< x[n], y[n], z[n] in the body frame B
   std::vector<float> normals;  ///< the same, unit, pointing into the body
   std::vector<format::Node> nodes;
-  std::vector<std::uint32_t> level_sizes;  ///< samples of level 1 .. level_count; the last is n
-  double spacing = 0.0;  ///< median distance of a point to the nearest one on its side of the body [m]
-  double coverage =
-      0.0;  ///< largest distance of the (outer) surface from its nearest sample point, on fresh samples [m]
+};
+
+/// How evenly the points of the moving body cover its surface.
+struct PointSpread {
+  std::vector<std::uint32_t> level_sizes;  ///< samples of level 1 .. level_count; the last is the number of points
+  double spacing = 0.0;   ///< median distance of a point to the nearest one on its side of the body [m]
+  double coverage = 0.0;  ///< largest distance of the outer surface to its nearest point, at random places [m]
 };
 
 /// Spreads `points` samples over the outer surface (Poisson disk by sample elimination), enough for `levels` nested
@@ -41,6 +44,9 @@ MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t point
 /// The samples in nested levels (added ones in the last), with inward normals, sphere tree and mass properties.
 /// Deterministic.
 MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling);
+
+/// Measures the spread of the samples that make_moving_body stores. Deterministic.
+PointSpread measure_spread(const OuterSurface& outer, const MovingSampling& sampling);
 
 /// Largest distance of the outer surface to its nearest sample, on fresh draws [m].
 double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> samples);

@@ -1,3 +1,5 @@
+#include "toolchain/scene_compiler/report_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -5,14 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/compile_phases.h"
+#include "toolchain/scene_compiler/report_json.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
 std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 
-std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFacts& facts) {
+std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFindings& facts) {
   const MeshReport& r = facts.report;
   const auto shells =
       std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.shell; });
@@ -84,14 +87,14 @@ std::string points_text(const CompileReport& report) {
         millimetres(ball.radius), millimetres(ball.deviation),
         report.config.settings.friction != 0 ? ", nor that of friction, whose lever the radius is" : "");
   }
-  const format::Body& body = report.body.body;
+  const format::Body& body = report.points.body;
   const std::uint32_t asked = report.config.points;
   const std::uint32_t added = report.second.added_points;
   return fmt::format(
       "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends{}; {} apart, no "
       "place of the surface further than {} from one\n",
       body.point_count, body.level_count, asked, added, without(asked + added - body.point_count),
-      millimetres(report.body.spacing), millimetres(report.body.coverage));
+      millimetres(report.points.spread.spacing), millimetres(report.points.spread.coverage));
 }
 
 std::string second_direction_text(const CompileReport& report) {
@@ -128,28 +131,28 @@ std::string second_direction_text(const CompileReport& report) {
 }
 
 std::string field_text(const CompileReport& report) {
-  const format::Grid& g = report.grid;
-  const std::uint64_t finer = report.refinement.finer;
+  const format::Grid& g = report.field.grid;
+  const std::uint64_t finer = report.field.refinement.finer;
   std::string text = fmt::format(
       "field    {} x {} x {} voxels of {}, distances kept up to {} from the surface (the band): {} of {} positions "
       "stored, "
       "a brick of {} x {} x {} voxels each; {} finer bricks beside\n"
       "         rounded to multiples of {}, half that where bricks are halved once, a quarter twice, ...\n",
       g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells,
-      millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.brick_positions,
+      millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.field.brick_positions,
       format::kBrickCells, format::kBrickCells, format::kBrickCells, finer, millimetres(g.quantum));
-  if (report.seams.cells > 0) {
+  if (report.field.seams.cells > 0) {
     text += fmt::format(
         "         seams, where holes of the mesh leave the side open, in {} cells: the distance jumps by up to {}, at "
         "({:.4g}, {:.4g}, {:.4g}) m\n",
-        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
-        report.seams.at.z());
+        report.field.seams.cells, millimetres(report.field.seams.largest_jump), report.field.seams.at.x(),
+        report.field.seams.at.y(), report.field.seams.at.z());
   }
   return text;
 }
 
 std::string error_text(const CompileReport& report) {
-  const FieldError& e = report.field_error;
+  const FieldError& e = report.check.field_error;
   const ErrorNorms& near = e.near;
   return fmt::format(
       "error    of the stored distance against the mesh, at {} random points of the band: rms {}, largest {}\n"
@@ -166,18 +169,19 @@ std::string error_text(const CompileReport& report) {
 std::string refinement_text(const CompileReport& report) {
   double seconds = 0.0;
   for (const auto& [phase, time] : report.seconds) seconds += phase == kRefinementPhase ? time : 0.0;
-  std::string text = fmt::format(
-      "finer    bricks by how often they were halved, 0, 1, 2, ... times: {}; {:.1f} KiB, {:.2f} s\n",
-      fmt::join(report.refinement.bricks, ", "), static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
-  if (report.refinement.edges > 0) {
+  std::string text =
+      fmt::format("finer    bricks by how often they were halved, 0, 1, 2, ... times: {}; {:.1f} KiB, {:.2f} s\n",
+                  fmt::join(report.field.refinement.bricks, ", "),
+                  static_cast<double>(report.field.refinement.bytes()) / 1024.0, seconds);
+  if (report.field.refinement.edges > 0) {
     text += fmt::format("         {} stretches of straight edges stored as such: there the field is exact\n",
-                        report.refinement.edges);
+                        report.field.refinement.edges);
   }
   const auto look_up_text = [](double time) {
     return time > 0.0 ? fmt::format("{:.0f} ns", time) : std::string("(none)");
   };
   text += fmt::format("         a look-up takes {} in bricks that are not halved, {} in finer ones\n",
-                      look_up_text(report.look_up.unrefined), look_up_text(report.look_up.refined));
+                      look_up_text(report.check.look_up.unrefined), look_up_text(report.check.look_up.refined));
   return text;
 }
 
@@ -185,7 +189,7 @@ std::string refinement_text(const CompileReport& report) {
 std::string code_text(const CompileReport& report) {
   std::vector<std::string> parts;
   double total = 0.0;
-  const Json left_out = full_report_json(report)["left_out_code"];
+  const Json left_out = left_out_code_json(report.check.traits);
   for (const Json& item : left_out) {
     const double saved = item["bytes_saved"].get<double>() / 1024.0;
     if (saved <= 0.0) continue;  // this build is one for a scene and without it itself
@@ -231,8 +235,8 @@ std::string thin_limit(const ThinPlaces& places, const char* what, const char* l
 /// What of the image is not as wished.
 std::vector<std::string> limits(const CompileReport& report) {
   const SceneConfig& config = report.config;
-  const ErrorNorms& near = report.field_error.near;
-  const double s = report.grid.voxel_size;
+  const ErrorNorms& near = report.check.field_error.near;
+  const double s = report.field.grid.voxel_size;
   const double off = kHeldOff * config.field_tolerance;  // what refinement may leave on either side
   std::vector<std::string> found;
   if (near.largest > off * s)
@@ -240,7 +244,7 @@ std::vector<std::string> limits(const CompileReport& report) {
         fmt::format("the field is up to {:.2f} voxels off near the surface ({:.2f} wanted)", near.largest / s, off));
   found.push_back(thin_limit(report.thin.walls, "walls", "which bodies may pass"));
   found.push_back(thin_limit(report.thin.gaps, "gaps", "which may be closed"));
-  if (report.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
+  if (report.field.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
   const SecondDirection& second = report.second;
   const double bound = second.between.bound + second.slack;
   if (report.ball) {
@@ -270,7 +274,7 @@ std::string verdict_text(const CompileReport& report) {
 }
 
 std::string report_text(const CompileReport& report) {
-  const double voxel_size = report.grid.voxel_size;
+  const double voxel_size = report.field.grid.voxel_size;
   std::string text = mesh_text("still", report.config.still, report.still);
   text += mesh_text("moving", report.config.moving, report.moving);
   text += report.ball ? "" : thin_text("walls", report.thin.walls);
