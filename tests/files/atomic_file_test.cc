@@ -13,8 +13,11 @@
 #include "toolchain/files/output_target.h"
 #include "toolchain/files/work_folder.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 namespace fs = std::filesystem;
 
@@ -160,4 +163,4 @@ TEST_F(AtomicFileTest, EndsWithItsOwnCodeWhereOneMayNotWrite) {
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -9,8 +9,11 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 class CommandFiles : public testing::Test {
  protected:
@@ -78,4 +81,4 @@ TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -10,8 +10,11 @@
 #include "tests/support/ordinary_user.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 namespace fs = std::filesystem;
 
@@ -75,4 +78,4 @@ TEST_F(InputFileTest, SaysWhenThereIsNoRight) {
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -1,6 +1,5 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
@@ -13,7 +12,6 @@
 
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
-#include "toolchain/query/query_points.h"
 #include "toolchain/scene_compiler/report_json.h"
 #include "toolchain/scene_compiler/report_text.h"
 
@@ -62,7 +60,7 @@ class CompileScene : public testing::Test {
 
 TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   const CompileReport report = compile({});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
+  const files::SceneImage image = files::SceneImage::read(folder_.file("out.scene"));
   EXPECT_EQ(image.bytes.span().size(), report.image_bytes);
   EXPECT_TRUE(image.scene.holds(format::Solver::kPaper));
   EXPECT_TRUE(image.scene.holds(format::Solver::kCorrected));
@@ -77,11 +75,11 @@ TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
 
 TEST_F(CompileScene, LeavesTheSecondDirectionOutWhereNobodyReadsIt) {
   compile({});
-  EXPECT_TRUE(command::SceneImage::read(folder_.file("out.scene")).scene.has_features());
+  EXPECT_TRUE(files::SceneImage::read(folder_.file("out.scene")).scene.has_features());
   compile({.more = "[contact]\nboth_directions = false\n"});
-  EXPECT_FALSE(command::SceneImage::read(folder_.file("out.scene")).scene.has_features());
+  EXPECT_FALSE(files::SceneImage::read(folder_.file("out.scene")).scene.has_features());
   compile({}, "paper.scene", format::Solver::kPaper);
-  const command::SceneImage paper = command::SceneImage::read(folder_.file("paper.scene"));
+  const files::SceneImage paper = files::SceneImage::read(folder_.file("paper.scene"));
   EXPECT_FALSE(paper.scene.has_features());
   EXPECT_EQ(paper.scene.pointshell.size, 300u);
 }
@@ -97,20 +95,20 @@ TEST_F(CompileScene, GivesTheSameBytesEveryTime) {
 TEST_F(CompileScene, OnlySolverStripsNormalsAndSaysSo) {
   const CompileReport all = compile({}, "all.scene");
   const CompileReport one = compile({}, "one.scene", format::Solver::kCorrected);
-  const command::SceneImage image = command::SceneImage::read(folder_.file("one.scene"));
+  const files::SceneImage image = files::SceneImage::read(folder_.file("one.scene"));
   EXPECT_FALSE(image.scene.holds(format::Solver::kPaper));
   EXPECT_EQ(image.scene.pointshell.normal_x, nullptr);
   EXPECT_LT(one.image_bytes, all.image_bytes);
   EXPECT_NE(report_json(one).dump().find("normals"), std::string::npos);
   compile({}, "paper.scene", format::Solver::kPaper);
-  const command::SceneImage paper = command::SceneImage::read(folder_.file("paper.scene"));
+  const files::SceneImage paper = files::SceneImage::read(folder_.file("paper.scene"));
   EXPECT_FALSE(paper.scene.holds(format::Solver::kCorrected));
   EXPECT_EQ(paper.scene.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kPaper));
 }
 
 TEST_F(CompileScene, InspectShowsWhatWasCompiled) {
   compile({.more = "[friction]\nstatic = 0.3\n"});
-  const Json json = inspect_json(command::SceneImage::read(folder_.file("out.scene")));
+  const Json json = inspect_json(files::SceneImage::read(folder_.file("out.scene")));
   EXPECT_EQ(json["settings"]["solver"], "contact");
   EXPECT_DOUBLE_EQ(json["settings"]["friction"]["kinetic"], 0.27);
   EXPECT_DOUBLE_EQ(json["grid"]["voxel_size"], 0.004);
@@ -177,7 +175,7 @@ TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
   const CompileReport report = compile({.still = "cube_100mm"});
   ASSERT_GT(report.field.refinement.refined, 0u);
   const std::string image = slurp(folder_.file("out.scene"));
-  const Json index = inspect_json(command::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
+  const Json index = inspect_json(files::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
   std::uint64_t positions = 0;
   std::uint64_t stored = 0;
   for (std::uint64_t at = index["offset"];
@@ -254,57 +252,9 @@ TEST_F(CompileScene, DamageIsSeen) {
   compile({});
   std::string bytes = slurp(folder_.file("out.scene"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
-  EXPECT_THROW(command::SceneImage::read(folder_.write("bad.scene", bytes)), command::Failure);
-  EXPECT_THROW(command::SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), command::Failure);
-  EXPECT_THROW(command::SceneImage::read(folder_.write("none.scene", "")), command::Failure);
-}
-
-TEST_F(CompileScene, AnswersQueries) {
-  compile({.still = "cube_100mm"});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  const auto points = folder_.write("p.csv", "x,y,z\r\n0.0,0.0,0.053\n0, 0 ,0\n1e3,0,0\n\n");
-  const std::uint64_t rows = query_points(image.scene, points, folder_.file("d.csv"), {});
-  EXPECT_EQ(rows, 3u);
-  std::istringstream lines(slurp(folder_.file("d.csv")));
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(line, "x,y,z,distance,nx,ny,nz,known");
-  std::getline(lines, line);
-  double v[8];
-  ASSERT_EQ(
-      std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7),
-      8);
-  EXPECT_EQ(v[2], 0.053);
-  EXPECT_NEAR(v[3], 0.003, 1e-7 + image.scene.grid.quantum);
-  EXPECT_NEAR(v[6], 1.0, 1e-6);
-  EXPECT_EQ(v[7], 1.0);
-  std::getline(lines, line);
-  EXPECT_EQ(line, "0, 0 ,0,-0.013,0,0,0,0");
-  std::getline(lines, line);
-  EXPECT_EQ(line, "1e3,0,0,0.013,0,0,0,0");
-}
-
-TEST_F(CompileScene, TakesPointsAsOtherTablesAreTaken) {
-  compile({.still = "cube_100mm"});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  for (const char* text : {"\xef\xbb\xbf+0.01,0,0\n0,0,0\n", "# made by hand\nx,y,z\n0,0,0\n\n# end\n1,1,1"}) {
-    EXPECT_EQ(query_points(image.scene, folder_.write("p.csv", text), folder_.file("d.csv"), {}), 2u) << text;
-  }
-}
-
-TEST_F(CompileScene, NamesTheLineOfABadRow) {
-  compile({.still = "cube_100mm"});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0", "+-1,0,0"}) {
-    try {
-      query_points(image.scene, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"), folder_.file("d.csv"), {});
-      FAIL() << "took " << row;
-    } catch (const command::Failure& failure) {
-      EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
-      EXPECT_NE(std::string(failure.what()).find("p.csv:2:"), std::string::npos) << failure.what();
-    }
-  }
-  EXPECT_FALSE(std::filesystem::exists(folder_.file("d.csv")));
+  EXPECT_THROW(files::SceneImage::read(folder_.write("bad.scene", bytes)), command::Failure);
+  EXPECT_THROW(files::SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), command::Failure);
+  EXPECT_THROW(files::SceneImage::read(folder_.write("none.scene", "")), command::Failure);
 }
 
 }  // namespace

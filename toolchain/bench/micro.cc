@@ -57,7 +57,7 @@ struct Sliding {
   /// The poses of the phase, one after the other, for ever.
   const Pose& H_WS() { return recording.H_WS[cycles[next++ % cycles.size()]]; }
 
-  command::SceneImage image;
+  files::SceneImage image;
   std::vector<Pose> device;
   Recording recording;
   Parameters parameters;

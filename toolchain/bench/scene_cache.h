@@ -17,12 +17,12 @@ class SceneCache {
   explicit SceneCache(std::filesystem::path folder);
 
   /// The image of a scene file, compiled if it is not there. `progress` may be empty. Throws Failure.
-  command::SceneImage image(const std::filesystem::path& scene_file,
-                            const std::function<void(const char* phase, double done)>& progress) const;
+  files::SceneImage image(const std::filesystem::path& scene_file,
+                          const std::function<void(const char* phase, double done)>& progress) const;
 
   /// The same of a text, whose meshes have absolute paths; `name` is a file name's begin.
-  command::SceneImage image_of_text(std::string_view name, std::string_view text,
-                                    const std::function<void(const char* phase, double done)>& progress) const;
+  files::SceneImage image_of_text(std::string_view name, std::string_view text,
+                                  const std::function<void(const char* phase, double done)>& progress) const;
 
  private:
   std::filesystem::path folder_;

@@ -10,7 +10,7 @@
 
 #include "toolchain/files/output_target.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
 AtomicFile::AtomicFile(std::filesystem::path file)
     : file_(std::move(file)),
@@ -60,4 +60,4 @@ void AtomicFile::commit() {
 
 void AtomicFile::fail(const char* what) const { throw output_failure(file_, what, errno); }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// An output that appears under its name only when it is complete: written to a temporary name beside it, flushed to
 /// the disk, renamed. Without `commit` nothing is left behind. A link is followed and stays one; what is no regular
@@ -40,4 +40,4 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -8,7 +8,10 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
@@ -47,4 +50,4 @@ void CsvLines::refuse(std::string_view what) const {
   throw Failure(ExitCode::kBadData, fmt::format("{}:{}: {}", file_.string(), number_, what));
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

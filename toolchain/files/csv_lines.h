@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// `text` without the blanks, tabs and carriage returns around it.
 std::string_view trimmed(std::string_view text);
@@ -39,4 +39,4 @@ class CsvLines {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

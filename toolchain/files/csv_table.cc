@@ -9,8 +9,11 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/csv_lines.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 /// Calls take(field) for each comma-separated field.
 template <class Take>
@@ -55,4 +58,4 @@ CsvTable read_csv(const std::filesystem::path& file, std::span<const std::string
   return table;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// Numbers of a CSV file, row by row; which of its lines count is told by CsvLines.
 struct CsvTable {
@@ -23,4 +23,4 @@ struct CsvTable {
 /// Throws Failure: kNoInput if it cannot be read, kBadData naming the line.
 CsvTable read_csv(const std::filesystem::path& file, std::span<const std::string_view> columns);
 
-}  // namespace godobject::command
+}  // namespace godobject::files

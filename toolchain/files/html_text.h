@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// Text as it stands in HTML, in an attribute's quotes too.
 inline std::string html_text(std::string_view text) {
@@ -20,4 +20,4 @@ inline std::string html_text(std::string_view text) {
   return result;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

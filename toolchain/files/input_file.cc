@@ -11,7 +11,10 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 namespace {
 
@@ -40,4 +43,4 @@ void require_regular_input(const std::filesystem::path& file, std::string_view c
   if (!std::filesystem::is_regular_file(file, error)) refuse(file, "is a pipe or a device; name a file");
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

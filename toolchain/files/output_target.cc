@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
+
 namespace {
 
 const char* name_of(std::filesystem::file_type type) {
@@ -82,4 +86,4 @@ Failure output_failure(const std::filesystem::path& file, std::string_view what,
                                        : "choose a folder that exists, may be written to and has room"));
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

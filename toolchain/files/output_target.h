@@ -5,7 +5,7 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// The file that an output named `file` makes or replaces: symbolic links are followed, so that a link stays one. To be
 /// called before the work whose result it is.
@@ -19,6 +19,6 @@ void make_output_folder(const std::filesystem::path& folder);
 
 /// What ends a command whose output `file` failed with `error` (an errno): kNoPermission for EACCES and EPERM, kIo for
 /// all others; each with its cure.
-Failure output_failure(const std::filesystem::path& file, std::string_view what, int error);
+command::Failure output_failure(const std::filesystem::path& file, std::string_view what, int error);
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -9,7 +9,10 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/csv_table.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 PosePath read_pose_path(const std::filesystem::path& file) {
   constexpr double kPeriod = 1e-3;
@@ -37,4 +40,4 @@ PosePath read_pose_path(const std::filesystem::path& file) {
   return path;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

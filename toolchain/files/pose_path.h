@@ -6,7 +6,7 @@
 
 #include "godobject/pose.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// One device pose a millisecond, of the moving mesh's frame in W.
 struct PosePath {
@@ -19,4 +19,4 @@ struct PosePath {
 /// within 10 %.
 PosePath read_pose_path(const std::filesystem::path& file);
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -10,7 +10,10 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 AlignedBytes::AlignedBytes(std::size_t size)
     : bytes_(static_cast<std::byte*>(
@@ -56,4 +59,4 @@ SceneImage SceneImage::read(const std::filesystem::path& file) {
   return SceneImage(std::move(image), file.string());
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -8,7 +8,7 @@
 
 #include "core/scene/scene.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// The bytes of a scene image, aligned as the format asks.
 class AlignedBytes {
@@ -38,4 +38,4 @@ struct SceneImage {
   static SceneImage read(const std::filesystem::path& file);
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -7,7 +7,10 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 toml::table parse_toml_file(const std::filesystem::path& file) {
   require_regular_input(file);
@@ -29,4 +32,4 @@ void allow_tables(const toml::table& root, const std::filesystem::path& file,
   }
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

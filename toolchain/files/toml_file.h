@@ -6,7 +6,7 @@
 
 #include <toml++/toml.h>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// What a TOML file holds. Throws Failure: kNoInput if it cannot be read, kBadConfig with its line if it is not TOML.
 toml::table parse_toml_file(const std::filesystem::path& file);
@@ -15,4 +15,4 @@ toml::table parse_toml_file(const std::filesystem::path& file);
 void allow_tables(const toml::table& root, const std::filesystem::path& file,
                   std::initializer_list<std::string_view> tables);
 
-}  // namespace godobject::command
+}  // namespace godobject::files

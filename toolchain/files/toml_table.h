@@ -3,13 +3,14 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <toml++/toml.h>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// One table of a TOML file, read key by key; every complaint is a Failure (kBadConfig) naming file, line and key.
 class TomlTable {
@@ -17,6 +18,8 @@ class TomlTable {
   struct Range {
     double low, high;
   };
+  /// Every number but infinity and NaN.
+  static constexpr Range kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 
   /// What a user may write for a key that has no default: told where it is missing.
   struct Example {
@@ -29,6 +32,11 @@ class TomlTable {
   /// The tables of an array, [[name]], in their order; complaints count them from 1. Empty if `root` has none.
   static std::vector<TomlTable> each(const toml::table& root, const std::string& name,
                                      const std::filesystem::path& file);
+
+  /// The keys at the top of the file, outside of all tables.
+  static TomlTable top(const toml::table& root, std::filesystem::path file) {
+    return TomlTable(&root, "", std::move(file));
+  }
 
   bool present() const { return table_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
@@ -61,4 +69,4 @@ class TomlTable {
   std::filesystem::path file_;
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

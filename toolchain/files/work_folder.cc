@@ -10,7 +10,10 @@
 
 #include "toolchain/files/output_target.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 WorkFolder::WorkFolder(const std::filesystem::path& output) {
   const auto parent = output_target(output).parent_path();
@@ -40,4 +43,4 @@ void WorkFolder::deliver(const char* name, const std::filesystem::path& output) 
   if (error) throw output_failure(output, "could not be put in its place", error.value());
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

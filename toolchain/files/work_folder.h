@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// A folder for what is made on the way to an output, in the output's own folder (so that a rename out of it is
 /// atomic); gone at the end, whatever happens. Throws Failure (kIo, kNoPermission) if it cannot be made, or if the
@@ -28,4 +28,4 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -52,9 +52,9 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", out_path, "device path to write")->required()->type_name("POSES.csv");
 
   return godobject::command::run(app, argc, argv, [&] {
-    godobject::command::output_target(out_path);  // refused before anything is read
+    godobject::files::output_target(out_path);  // refused before anything is read
     const godobject::path::Keyframes motion = godobject::path::read_keyframes(keyframes_path);
-    godobject::command::AtomicFile out(out_path);
+    godobject::files::AtomicFile out(out_path);
     out.write("t,px,py,pz,qw,qx,qy,qz\n");
     for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample));
     out.commit();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "core/pipeline/cycle/parameters.h"
 #include "toolchain/precision/mesh_field.h"
 #include "toolchain/precision/trace.h"
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/points/moving_body.h"
 #include "toolchain/scene_compiler/points/still_features.h"
 
@@ -40,8 +40,8 @@ class ExactScene {
   const Parameters& parameters() const { return parameters_; }
 
   /// Boxes that hold the bodies: the still one's in W, the moving one's in M.
-  const std::array<Vector3, 2>& still_box() const { return still_box_; }
-  const std::array<Vector3, 2>& moving_box() const { return moving_box_; }
+  const scene_compiler::Box& still_box() const { return still_box_; }
+  const scene_compiler::Box& moving_box() const { return moving_box_; }
 
  private:
   FeatureContacts<MeshField> feature_contacts() const;
@@ -49,8 +49,8 @@ class ExactScene {
 
   scene_compiler::SolidSurface still_;
   scene_compiler::SolidSurface moving_;  ///< in the mesh's frame M
-  std::array<Vector3, 2> still_box_;
-  std::array<Vector3, 2> moving_box_;
+  scene_compiler::Box still_box_;
+  scene_compiler::Box moving_box_;
   scene_compiler::MovingBody body_;
   scene_compiler::StillFeatures features_;
   Pose H_MB_;

@@ -121,7 +121,7 @@ std::vector<CycleCost> costs_of(const Scene& scene, std::span<const Setting> set
   return time_cycles(sessions, paths, passes);
 }
 
-std::vector<Result> Trial::errors(const command::SceneImage& image, std::span<const Setting> settings) {
+std::vector<Result> Trial::errors(const files::SceneImage& image, std::span<const Setting> settings) {
   const Parameters& q = exact_.parameters();
   std::vector<Result> results;
   for (const Setting& setting : settings) {
@@ -148,7 +148,7 @@ std::vector<Result> Trial::operator()(const Image& image, std::span<const Varian
                                  .only_solver = image.only_solver,
                                  .choice = {},
                                  .progress = {}});
-  const command::SceneImage scene = command::SceneImage::read(image.file);
+  const files::SceneImage scene = files::SceneImage::read(image.file);
   std::filesystem::remove(image.file);
   const std::vector<Setting> settings = settings_of(config_, image.setting, variants);
   std::vector<Result> results = errors(scene, settings);

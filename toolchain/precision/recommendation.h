@@ -76,7 +76,7 @@ class Trial {
   std::vector<Result> operator()(const Image& image, std::span<const Variant> variants);
 
   /// All but the costs, of settings that are all of this image.
-  std::vector<Result> errors(const command::SceneImage& image, std::span<const Setting> settings);
+  std::vector<Result> errors(const files::SceneImage& image, std::span<const Setting> settings);
 
   const ExactScene& exact() const { return exact_; }
 

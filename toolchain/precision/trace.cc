@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "toolchain/command_line/failure.h"
-#include "toolchain/command_line/stopwatch.h"
 #include "toolchain/precision/instruction_counter.h"
+#include "toolchain/timing/stopwatch.h"
 
 namespace godobject::precision {
 namespace {
@@ -64,7 +64,7 @@ std::vector<TracedCycle> trace(Session& session, const Paths& paths) {
 }
 
 std::vector<CycleCost> time_cycles(std::span<Session> sessions, const Paths& paths, std::size_t passes) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   std::vector<std::vector<std::vector<double>>> times_ns(sessions.size());
   for (std::size_t pass = 0; pass < passes; ++pass) {
     for (std::size_t s = 0; s < sessions.size(); ++s) {

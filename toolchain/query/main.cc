@@ -32,9 +32,9 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", output, "distances to write")->required()->type_name("OUT.csv");
   app.footer(kFooter);
   return command::run(app, argc, argv, [&] {
-    command::output_target(output);  // refused before anything is read
-    const command::SceneImage image = command::SceneImage::read(scene);
+    files::output_target(output);  // refused before anything is read
+    const files::SceneImage image = files::SceneImage::read(scene);
     command::Progress line;
-    scene_compiler::query_points(image.scene, points, output, [&line](double done) { line.show("points", done); });
+    query::query_points(image.scene, points, output, [&line](double done) { line.show("points", done); });
   });
 }

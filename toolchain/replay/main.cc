@@ -78,7 +78,7 @@ std::string outcomes_text(const godobject::replay::Summary& summary, bool contac
 
 /// k_D in place of the scene's.
 double checked_stiffness(double stiffness) {
-  const auto& range = godobject::command::kStiffness;
+  const auto& range = godobject::files::kStiffness;
   if (stiffness >= range.low && stiffness <= range.high) return stiffness;
   throw Failure(ExitCode::kUsage, fmt::format("--stiffness {:g}: must be from {:g} to {:g} N/m, such as 2000",
                                               stiffness, range.low, range.high));
@@ -113,8 +113,8 @@ int main(int argc, char** argv) {
       ->type_name("NUMBER");
 
   return godobject::command::run(app, argc, argv, [&] {
-    godobject::command::output_target(out_path);  // refused before anything is read
-    auto image = godobject::command::SceneImage::read(scene_path);
+    godobject::files::output_target(out_path);  // refused before anything is read
+    auto image = godobject::files::SceneImage::read(scene_path);
     if (stiffness) image.scene.settings.stiffness = checked_stiffness(*stiffness);
     const godobject::Scene& scene = image.scene;
     const Solver solver = solver_name.empty() ? scene.default_solver() : *godobject::command::solver_of(solver_name);
@@ -132,8 +132,8 @@ int main(int argc, char** argv) {
                                 scene_path, solver_name));
     }
     godobject::command::require_in_build(scene_path, scene, solver, friction);
-    const godobject::command::PosePath path = godobject::command::read_pose_path(poses_path);
-    godobject::command::AtomicFile out(out_path);
+    const godobject::files::PosePath path = godobject::files::read_pose_path(poses_path);
+    godobject::files::AtomicFile out(out_path);
     godobject::replay::Summary summary;
     {
       godobject::command::Progress progress;

@@ -35,7 +35,7 @@ extern const char* const kColumns;
 
 /// Runs the god object along the path, one cycle a row, and appends a CSV row a cycle to `rows` (header first).
 /// Everything but the two timing columns is a function of the input alone, to the last bit.
-Summary replay(const Scene& scene, Solver solver, bool friction, const command::PosePath& path,
+Summary replay(const Scene& scene, Solver solver, bool friction, const files::PosePath& path,
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress);
 
 }  // namespace godobject::replay

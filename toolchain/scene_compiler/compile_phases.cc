@@ -79,7 +79,7 @@ struct FeaturePhase {
 
 /// Chooses features of the still body, and adds points of the moving one to `sampling` where its own are too few.
 FeaturePhase find_features(const SceneConfig& config, const SolidSurface& still, const OuterSurface& moving,
-                           MovingSampling& sampling, const Progress& progress) {
+                           MovingSampling& sampling, const parallel::Progress& progress) {
   FeaturePhase phase;
   SecondDirection& second = phase.second;
   second.slack = slack_of(config.field_tolerance) * config.body_voxel_size;
@@ -98,10 +98,10 @@ FeaturePhase find_features(const SceneConfig& config, const SolidSurface& still,
 }
 
 DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body, double slack,
-                             const Progress& progress) {
+                             const parallel::Progress& progress) {
   const double band = default_band(config.body_voxel_size, config.settings.safety_distance);
-  DistanceGrid field = make_distance_grid(body, config.body_voxel_size, band, part_of(progress, 0.0, 0.5));
-  refine(field, body, config.field_tolerance * config.body_voxel_size, part_of(progress, 0.5, 1.0), slack);
+  DistanceGrid field = make_distance_grid(body, config.body_voxel_size, band, parallel::part_of(progress, 0.0, 0.5));
+  refine(field, body, config.field_tolerance * config.body_voxel_size, parallel::part_of(progress, 0.5, 1.0), slack);
   return field;
 }
 
@@ -110,10 +110,10 @@ DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body
 Bodies read_bodies(const SceneConfig& config, PhaseClock& clock) {
   MeshFindings still_findings;
   MeshFindings moving_findings;
-  SolidSurface still = clock.run(
-      "still mesh", [&](const Progress&) { return read_body(config.still, config.thickness, still_findings); });
+  SolidSurface still =
+      clock.run("still mesh", [&](const auto&) { return read_body(config.still, config.thickness, still_findings); });
   SolidSurface moving = clock.run(
-      "moving mesh", [&](const Progress&) { return read_body(config.moving, config.thickness, moving_findings); });
+      "moving mesh", [&](const auto&) { return read_body(config.moving, config.thickness, moving_findings); });
   return {std::move(still), std::move(moving), std::move(still_findings), std::move(moving_findings)};
 }
 
@@ -121,12 +121,12 @@ Obstacle make_obstacle(const SceneConfig& config, const Bodies& bodies, PhaseClo
   const std::string still_name = config.still.file.string();
   Obstacle obstacle;
   if (config.ball) {
-    obstacle.ball = clock.run("ball", [&](const Progress&) {
+    obstacle.ball = clock.run("ball", [&](const auto&) {
       return require_ball(bodies.moving, config.moving.file.string(), bodies.still, still_name, config.voxel_size);
     });
     obstacle.dilated.emplace(bodies.still.mesh(), config.still.surface, config.thickness, obstacle.ball->radius);
   } else {
-    obstacle.thin = clock.run("walls and gaps", [&](const Progress& progress) {
+    obstacle.thin = clock.run("walls and gaps", [&](const auto& progress) {
       return find_thin_places(bodies.still, config.voxel_size, progress);
     });
     require_walls_that_last(obstacle.thin, config.voxel_size, still_name);
@@ -137,11 +137,11 @@ Obstacle make_obstacle(const SceneConfig& config, const Bodies& bodies, PhaseClo
 FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, PhaseClock& clock) {
   const double band = default_band(config.voxel_size, config.settings.safety_distance);
   FieldPhase phase;
-  phase.field = clock.run("distances", [&](const Progress& progress) {
+  phase.field = clock.run("distances", [&](const auto& progress) {
     return make_distance_grid(obstacle, config.voxel_size, band, progress);
   });
   require_some_inside(phase.field, config.still.file.string());
-  phase.refinement = clock.run(kRefinementPhase, [&](const Progress& progress) {
+  phase.refinement = clock.run(kRefinementPhase, [&](const auto& progress) {
     return refine(phase.field, obstacle, config.field_tolerance * config.voxel_size, progress);
   });
   return phase;
@@ -158,23 +158,23 @@ PointPhase make_points(const CompileTarget& target, const Bodies& bodies, const 
     return phase;
   }
   const OuterSurface outer(bodies.moving);
-  MovingSampling sampling = clock.run("points", [&](const Progress& progress) {
+  MovingSampling sampling = clock.run("points", [&](const auto& progress) {
     return naming_moving_mesh(config,
                               [&] { return sample_moving_body(outer, config.points, config.levels, progress); });
   });
   if (wants_features(target)) {
-    FeaturePhase found = clock.run("between points", [&](const Progress& progress) {
+    FeaturePhase found = clock.run("between points", [&](const auto& progress) {
       return find_features(config, bodies.still, outer, sampling, progress);
     });
     parts.features = std::move(found.features);
     phase.second = found.second;
   }
-  parts.body = clock.run("body", [&](const Progress&) {
+  parts.body = clock.run("body", [&](const auto&) {
     phase.spread = measure_spread(outer, sampling);
     return make_moving_body(outer, sampling);
   });
   if (parts.features.points.empty()) return phase;
-  parts.body_field = clock.run("body distances", [&](const Progress& progress) {
+  parts.body_field = clock.run("body distances", [&](const auto& progress) {
     return make_body_field(config, in_body_frame(bodies.moving, parts.body.body, config), phase.second.slack, progress);
   });
   return phase;
@@ -202,15 +202,15 @@ Trimmed trim(SceneParts parts, const CompileTarget& target, const Bodies& bodies
     // and one voxel for the errors of the fields
     deepest = second.between.bound + second.slack + std::max(config.voxel_size, config.body_voxel_size);
   }
-  return clock.run("unneeded data", [&](const Progress&) {
+  return clock.run("unneeded data", [&](const auto&) {
     return leave_out_unneeded(std::move(parts), {bodies.still, bodies.moving, config.ball, deepest, timed});
   });
 }
 
 CheckFindings check_image(const std::vector<SectionBytes>& sections, const DistanceGrid& field,
                           const SolidSurface& obstacle, const std::string& name, PhaseClock& clock) {
-  CheckFindings findings = clock.run("check", [&](const Progress& progress) {
-    const command::SceneImage image(make_image(sections), name);
+  CheckFindings findings = clock.run("check", [&](const auto& progress) {
+    const files::SceneImage image(make_image(sections), name);
     CheckFindings found;
     found.traits = traits_of(image.scene);
     found.look_up = time_look_ups(field, image.scene.voxelmap);

@@ -55,17 +55,17 @@ std::vector<LeftOut> timed_items(std::vector<LeftOut> items, const std::optional
 
 std::optional<CycleTimes> time_trimming(const CompileRequest& request, const TrimmingSteps& steps, PhaseClock& clock) {
   if (!request.times_left_out) return {};
-  return clock.run("times", [&](const Progress& progress) { return steps.time(progress); });
+  return clock.run("times", [&](const auto& progress) { return steps.time(progress); });
 }
 
 /// Writes the image under a temporary name, reads it back, opens it as the device does and renames it. Returns its
 /// size in bytes.
 std::uint64_t write_image(const std::vector<SectionBytes>& sections, const std::filesystem::path& file) {
-  const command::AlignedBytes image = make_image(sections);
-  command::AtomicFile output(file);
+  const files::AlignedBytes image = make_image(sections);
+  files::AtomicFile output(file);
   output.write(image.span());
   output.flush();
-  const command::SceneImage read_back = command::SceneImage::read(output.temporary());
+  const files::SceneImage read_back = files::SceneImage::read(output.temporary());
   if (std::memcmp(read_back.bytes.span().data(), image.span().data(), image.span().size()) != 0) {
     throw command::Failure(
         command::ExitCode::kIo,
@@ -121,7 +121,7 @@ CompileReport compile_scene(const CompileRequest& request) {
                        .image_bytes = 0,
                        .seconds = {}};
   sections.push_back(provenance(report));
-  report.image_bytes = clock.run("write", [&](const Progress&) { return write_image(sections, request.output); });
+  report.image_bytes = clock.run("write", [&](const auto&) { return write_image(sections, request.output); });
   report.seconds = clock.seconds();
   return report;
 }

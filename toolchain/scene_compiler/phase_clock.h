@@ -25,7 +25,7 @@ class PhaseClock {
   template <class Work>
   auto run(const char* phase, Work&& work) {
     const auto begin = std::chrono::steady_clock::now();
-    const Progress progress = [this, phase](double done) {
+    const parallel::Progress progress = [this, phase](double done) {
       if (progress_) progress_(phase, done);
     };
     progress(0.0);

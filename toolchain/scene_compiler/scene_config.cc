@@ -12,7 +12,7 @@
 namespace godobject::scene_compiler {
 namespace {
 
-using command::TomlTable;
+using files::TomlTable;
 using Range = TomlTable::Range;
 
 constexpr Range kScale{1e-9, 1e9};
@@ -94,8 +94,8 @@ std::optional<format::Workspace> read_workspace(const TomlTable& table) {
 }  // namespace
 
 SceneConfig read_scene_config(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling", "workspace"});
+  const toml::table root = files::parse_toml_file(file);
+  files::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling", "workspace"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   const std::filesystem::path folder = file.parent_path();
   SceneConfig config;
@@ -136,7 +136,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   const TomlTable coupling = table("coupling");
   coupling.allow({"stiffness", "damping", "rotational"});
-  settings.stiffness = coupling.number("stiffness", command::kStiffness, 2000.0);
+  settings.stiffness = coupling.number("stiffness", files::kStiffness, 2000.0);
   settings.damping = coupling.number("damping", {0.0, 1e6}, 20.0);
   settings.coupling_translation = 1.0;  // the spring along the translation is k_D itself
   settings.coupling_rotation = coupling.number("rotational", {1e-15, 1e9}, 0.025);

@@ -25,6 +25,7 @@ namespace {
 
 using namespace godobject;
 using namespace godobject::command;
+using namespace godobject::files;
 using namespace godobject::scene_compiler;
 
 constexpr const char* kFooter = R"(

@@ -1,5 +1,5 @@
-#include "toolchain/scene_compiler/field/brick_packing.h"
 #include "toolchain/scene_compiler/points/ball.h"
+#include "toolchain/scene_compiler/field/brick_packing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/query/query_points.h"
+#include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/report_json.h"
 #include "toolchain/scene_compiler/report_text.h"
-#include "toolchain/scene_compiler/compile_scene.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -144,7 +144,7 @@ std::string as_obj(const TriangleMesh& mesh) {
 /// A god object in a compiled scene.
 struct Rendered {
   explicit Rendered(const std::filesystem::path& file, Solver solver = Solver::kContact, bool friction = false)
-      : image(command::SceneImage::read(file)), memory(GodObject::memory(image.scene)) {
+      : image(files::SceneImage::read(file)), memory(GodObject::memory(image.scene)) {
     EXPECT_EQ(god_object->start(image.scene, solver, friction, memory), Status::kOk);
   }
 
@@ -159,7 +159,7 @@ struct Rendered {
   }
   Vector3d center() const { return god_object->mesh_pose() * kCenter; }
 
-  command::SceneImage image;
+  files::SceneImage image;
   std::vector<std::uint32_t> memory;
   std::unique_ptr<GodObject> god_object = std::make_unique<GodObject>();
 };
@@ -213,7 +213,7 @@ class BallScene : public testing::Test {
 TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   const CompileReport report = compile({});
   ASSERT_TRUE(report.ball);
-  const Scene& scene = command::SceneImage::read(folder_.file("out.scene")).scene;
+  const Scene& scene = files::SceneImage::read(folder_.file("out.scene")).scene;
   EXPECT_EQ(scene.pointshell.size, 1u);
   EXPECT_EQ(scene.pointshell.point(0), Vector3::Zero());
   EXPECT_LT((scene.H_MB.translation - kCenter).norm(), 1e-8);
@@ -415,9 +415,9 @@ TEST_F(BallScene, RubsWithoutALever) {
 
 TEST_F(BallScene, TellsDistancesFromTheMesh) {
   compile({});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
+  const files::SceneImage image = files::SceneImage::read(folder_.file("out.scene"));
   const auto points = folder_.write("p.csv", "0,0,0.061\n0,0.0585,0.01\n0,0,0\n0,0,1\n");
-  query_points(image.scene, points, folder_.file("d.csv"), {});
+  query::query_points(image.scene, points, folder_.file("d.csv"), {});
   std::ifstream rows(folder_.file("d.csv"));
   std::string row;
   std::getline(rows, row);

@@ -94,7 +94,7 @@ void expect_opens(const MovingBody& moving) {
   sections.push_back(section(SectionId::kPoints, std::span<const float>(moving.points)));
   sections.push_back(section(SectionId::kNormals, std::span<const float>(moving.normals)));
   sections.push_back(section(SectionId::kNodes, std::span<const format::Node>(moving.nodes)));
-  EXPECT_NO_THROW(command::SceneImage(make_image(sections), "body"));
+  EXPECT_NO_THROW(files::SceneImage(make_image(sections), "body"));
 }
 
 double distance_to_nearest(const Vector3d& p, const std::vector<Vector3d>& points) {

@@ -57,7 +57,7 @@ class LeavesOut : public testing::Test {
     request.times_left_out = timed;
     return compile_scene(request);
   }
-  command::SceneImage image(const char* name) { return command::SceneImage::read(folder_.file(name)); }
+  files::SceneImage image(const char* name) { return files::SceneImage::read(folder_.file(name)); }
 
   ScratchFolder folder_;
 };
@@ -165,8 +165,8 @@ TEST_F(LeavesOut, NothingThatChangesAResultInTheWorkspace) {
     done = scene.bodies.still;
     const CompileReport report = compile(scene.bodies.text() + table(scene.workspace), "less.scene");
     ASSERT_FALSE(report.left_out.empty());
-    const command::SceneImage all = image("all.scene");
-    const command::SceneImage less = image("less.scene");
+    const files::SceneImage all = image("all.scene");
+    const files::SceneImage less = image("less.scene");
     EXPECT_LT(less.bytes.span().size(), all.bytes.span().size());
     EXPECT_EQ(less.scene.body.radius, all.scene.body.radius);
     const int touching = expect_same_bits(limited(all.scene, scene.workspace), less.scene, 6, seed++);
@@ -215,7 +215,7 @@ TEST_F(LeavesOut, PointsInACavity) {
   const LeftOut* const of_moving = item(moving, "own walls");
   ASSERT_NE(of_moving, nullptr);
   EXPECT_GT(of_moving->count, 30u);
-  const command::SceneImage image_of_moving = image("moving.scene");
+  const files::SceneImage image_of_moving = image("moving.scene");
   const Pointshell& shell = image_of_moving.scene.pointshell;
   EXPECT_EQ(shell.size + of_moving->count, 1000u + moving.second.added_points);
   for (std::size_t i = 0; i < shell.size; ++i)
@@ -227,7 +227,7 @@ TEST_F(LeavesOut, PointsInACavity) {
   const LeftOut* const of_still = item(still, "still body's walls");
   ASSERT_NE(of_still, nullptr);
   EXPECT_EQ(still.second.features.point_count + of_still->count, still.second.found());
-  const command::SceneImage image_of_still = image("still.scene");
+  const files::SceneImage image_of_still = image("still.scene");
   const Pointshell& features = image_of_still.scene.features;
   for (std::size_t i = 0; i < features.size; ++i)
     ASSERT_NEAR((image_of_still.scene.features_origin + features.point(i)).cwiseAbs().maxCoeff(), 0.05, 1e-6);
@@ -287,7 +287,7 @@ TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
                           mesh_file("cube_100mm").string(), hollow_file),
               "less.scene");
   ASSERT_NE(item(report, "own walls"), nullptr);
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage less = image("less.scene");
   std::mt19937 random(8);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
@@ -336,8 +336,8 @@ TEST_F(LeavesOut, TheSecondDirectionWhereNoFeatureIsMet) {
   compile(bodies.text(), "all.scene");
   const CompileReport report = compile(bodies.text() + table(workspace), "less.scene");
   EXPECT_GT(report.second.found(), 0u);
-  const command::SceneImage all = image("all.scene");
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage all = image("all.scene");
+  const files::SceneImage less = image("less.scene");
   EXPECT_TRUE(all.scene.has_features());
   EXPECT_FALSE(less.scene.has_features());
   EXPECT_GT(expect_same_bits(limited(all.scene, workspace), less.scene, 6, 9), 300);
@@ -349,8 +349,8 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
   const Limited scene = limited_scenes().front();
   compile(scene.bodies.text(), "all.scene");
   const CompileReport report = compile(scene.bodies.text() + table(scene.workspace), "less.scene");
-  const command::SceneImage all = image("all.scene");
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage all = image("all.scene");
+  const files::SceneImage less = image("less.scene");
   const LeftOut* const bricks = item(report, "positions that no look-up");
   ASSERT_NE(bricks, nullptr);
   EXPECT_GT(bricks->count, 10u);
@@ -398,8 +398,8 @@ TEST_F(LeavesOut, NoBrickOfTheMovingBodyThatAFeatureMeets) {
   ASSERT_NE(bricks, nullptr);
   EXPECT_GT(bricks->count, 10u);
   EXPECT_GT(bricks->bytes, 10u * sizeof(format::Brick));
-  const command::SceneImage all = image("all.scene");
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage all = image("all.scene");
+  const files::SceneImage less = image("less.scene");
   const Pointshell& features = all.scene.features;
   std::mt19937 random(6);
   std::normal_distribution<double> normal;
@@ -432,7 +432,7 @@ TEST_F(LeavesOut, NothingWithoutAWorkspaceThatIsReachableEverywhere) {
 /// Any level of either tree, and all.
 TEST_F(LeavesOut, LevelsThatChangeNoResult) {
   compile(kBracket.text(), "all.scene");
-  const command::SceneImage whole = image("all.scene");
+  const files::SceneImage whole = image("all.scene");
   const Scene& all = whole.scene;
   const Scene limited_all = limited(all, {{-0.06, -0.06, -0.06}, {0.16, 0.12, 0.14}});
   const std::uint32_t deepest = deepest_level(all.pointshell.nodes);
@@ -456,7 +456,7 @@ TEST_F(LeavesOut, LevelsOnlyWhereNoMoreIsLookedUp) {
     const std::string more = fmt::format("[contact]\nsolver = \"{}\"\n", solver);
     bodies.more = more.c_str();
     compile(bodies.text(), "all.scene");
-    const command::SceneImage whole = image("all.scene");
+    const files::SceneImage whole = image("all.scene");
     const std::vector<Pose> poses = poses_along(whole.scene, try_out_motion(whole.scene));
     ASSERT_GT(poses.size(), 1000u);
     for (const Tree tree : {Tree::kSamples, Tree::kFeatures}) {
@@ -528,8 +528,8 @@ TEST_F(LeavesOut, AndTellsBytesAndTimesButKeepsTimesOutOfTheImage) {
   EXPECT_NE(report_text(timed).find("ns a cycle"), std::string::npos);
   EXPECT_NE(report_text(timed).find(" +- "), std::string::npos);
   EXPECT_EQ(report_text(plain).find(" +- "), std::string::npos);
-  const command::SceneImage a = image("plain.scene");
-  const command::SceneImage b = image("timed.scene");
+  const files::SceneImage a = image("plain.scene");
+  const files::SceneImage b = image("timed.scene");
   EXPECT_TRUE(std::ranges::equal(a.bytes.span(), b.bytes.span()));
 }
 

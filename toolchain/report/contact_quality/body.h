@@ -14,7 +14,7 @@ namespace godobject::report {
 struct Body {
   std::filesystem::path file;  ///< its mesh, in metres
   std::uint32_t points = 0;    ///< asked for
-  command::SceneImage image;   ///< of a scene that holds it; its still body does not matter
+  files::SceneImage image;     ///< of a scene that holds it; its still body does not matter
 
   const Scene& scene() const { return image.scene; }
 };

@@ -289,7 +289,7 @@ class CompiledRig final : public Rig {
                          .friction_kinetic = setup.friction_kinetic}};
   }
 
-  command::SceneImage image_;
+  files::SceneImage image_;
   std::unique_ptr<GodObject> god_object_;
   std::vector<std::uint32_t> memory_;
   Pose H_BM_;

@@ -27,7 +27,7 @@ extern const char* const kPlaceNames[];
 extern const std::size_t kPlaceCount;
 
 /// The scene of a place, compiled in `work`.
-command::SceneImage place_scene(Place place, const std::filesystem::path& work);
+files::SceneImage place_scene(Place place, const std::filesystem::path& work);
 
 /// A way to the place and back at less than 0.3 m/s: H_WM, a millisecond apart. Each seed gives another one.
 std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed);

@@ -64,7 +64,7 @@ class Press {
     return file;
   }
 
-  command::SceneImage image_;
+  files::SceneImage image_;
 };
 
 /// A floating body that is pushed down by a constant force: height and tilt about y move, each by the closed form.

@@ -13,8 +13,8 @@
 namespace godobject::report {
 
 /// The image of `config`; `key` names all that it depends on beside the program.
-command::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
-                               const scene_compiler::SceneConfig& config);
+files::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
+                             const scene_compiler::SceneConfig& config);
 
 /// Cycles that `run` gives; `key` as above. Kept in the machine's own order of bytes. Throws Failure (kBadData) where
 /// the file holds no whole number of cycles.

@@ -77,7 +77,8 @@ std::vector<format::Brick> packed_bricks(const DistanceGrid& field) {
   }
   const std::vector<int> levels = levels_of(field);
   std::vector<format::Brick> bricks(field.bricks.size());
-  parallel_for(bricks.size(), [&](std::size_t i) { bricks[i] = packed(field.bricks[i], quantum, levels[i]); });
+  parallel::for_each_index(bricks.size(),
+                           [&](std::size_t i) { bricks[i] = packed(field.bricks[i], quantum, levels[i]); });
   return bricks;
 }
 

@@ -305,7 +305,7 @@ void BrickTree::join() {
     for (std::uint32_t b = 0; b < brick_count(); ++b) {
       if (places_[b].level == level) bricks.push_back(b);
     }
-    parallel_for(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
+    parallel::for_each_index(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
   }
 }
 
@@ -369,7 +369,7 @@ void BrickTree::round(double slack) {
     for (float& value : brick.value) value = static_cast<float>(kept(value));
   };
   std::vector<Brick> own = field_.bricks;
-  parallel_for(own.size(), [&](std::size_t b) {
+  parallel::for_each_index(own.size(), [&](std::size_t b) {
     keep(own[b]);
     round_nodes(places_[b], own[b]);
   });

@@ -73,7 +73,7 @@ class ClearanceBounds {
   void measure() {
     for (Brick& brick : field_.bricks) brick.deviation = 0.0f;
     std::vector<PositionFacts> facts(lattice_.count());
-    parallel_for(facts.size(), [&](std::size_t i) {
+    parallel::for_each_index(facts.size(), [&](std::size_t i) {
       if (!is_stored(i)) return;
       const double s = field_.grid.voxel_size;
       const BrickPosition p = lattice_.position(i);
@@ -170,7 +170,7 @@ class ClearanceBounds {
 
   std::vector<double> largest_about() const {
     std::vector<double> largest(steepest_.size());
-    parallel_for(largest.size(), [&](std::size_t i) {
+    parallel::for_each_index(largest.size(), [&](std::size_t i) {
       double most = 1.0;
       visit_about(lattice_.position(i), [&](std::size_t j) { most = std::max(most, steepest_[j]); });
       largest[i] = most;

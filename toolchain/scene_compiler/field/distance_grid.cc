@@ -30,8 +30,8 @@ class GridBuilder {
  public:
   GridBuilder(const SolidSurface& surface, double voxel_size, double band);
 
-  void classify(const Progress& progress);
-  void evaluate(const Progress& progress);
+  void classify(const parallel::Progress& progress);
+  void evaluate(const parallel::Progress& progress);
   DistanceGrid assemble();
 
  private:
@@ -44,7 +44,7 @@ class GridBuilder {
   bool is_boundary(const BrickPosition& p) const;
   void require_free_boundary(bool inside, const BrickPosition& p) const;
   std::vector<std::size_t> first_bricks() const;
-  void add_blocks(const std::vector<std::size_t>& bricks, const Progress& progress);
+  void add_blocks(const std::vector<std::size_t>& bricks, const parallel::Progress& progress);
   void fill(Block& block, const BrickPosition& position) const;
   float value(const BrickPosition& brick, int x, int y, int z) const;
   bool face_disagrees(const BrickPosition& brick, const BrickPosition& step, bool inside) const;
@@ -102,11 +102,11 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
   block_lattice_.size = moved(bricks_.size, {1, 1, 1});
 }
 
-void GridBuilder::classify(const Progress& progress) {
+void GridBuilder::classify(const parallel::Progress& progress) {
   center_.resize(bricks_.count());
   const auto rows = static_cast<std::size_t>(bricks_.size[1]) * static_cast<std::size_t>(bricks_.size[2]);
   const auto row_length = static_cast<std::size_t>(bricks_.size[0]);
-  parallel_for(
+  parallel::for_each_index(
       rows,
       [&](std::size_t row) {
         DistanceProbe probe(surface_);
@@ -151,7 +151,7 @@ std::vector<std::size_t> GridBuilder::first_bricks() const {
   return first;
 }
 
-void GridBuilder::evaluate(const Progress& progress) {
+void GridBuilder::evaluate(const parallel::Progress& progress) {
   evaluated_.assign(bricks_.count(), false);
   block_of_.assign(block_lattice_.count(), kNone);
   std::vector<std::size_t> front = first_bricks();
@@ -181,7 +181,7 @@ void GridBuilder::evaluate(const Progress& progress) {
   }
 }
 
-void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progress& progress) {
+void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const parallel::Progress& progress) {
   std::vector<std::size_t> added;
   for (const std::size_t i : bricks) {
     for (int corner = 0; corner < 8; ++corner) {
@@ -194,7 +194,7 @@ void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progr
   }
   const std::size_t before = blocks_.size();
   blocks_.resize(before + added.size());
-  parallel_for(
+  parallel::for_each_index(
       added.size(), [&](std::size_t i) { fill(blocks_[before + i], block_lattice_.position(added[i])); }, progress);
 }
 
@@ -321,7 +321,8 @@ double default_band(double voxel_size, double safety_distance) {
   return std::max(3.0 * voxel_size, safety_distance + 1.5 * voxel_size) + 0.25 * voxel_size;
 }
 
-DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band, const Progress& progress) {
+DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band,
+                                const parallel::Progress& progress) {
   constexpr double kClassifyShare = 0.25;  // of the time, roughly
   GridBuilder builder(surface, voxel_size, band);
   builder.classify([&](double done) {

@@ -44,6 +44,7 @@ double default_band(double voxel_size, double safety_distance);
 /// Exact signed distances at the nodes of all bricks that hold a node within `band` [m] or a change of sign, with
 /// clearances (bound_clearances).
 /// Deterministic. Throws Failure (kBadData) naming the cure if the grid would be too large or the sign does not close.
-DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band, const Progress& progress);
+DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band,
+                                const parallel::Progress& progress);
 
 }  // namespace godobject::scene_compiler

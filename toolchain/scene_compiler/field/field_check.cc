@@ -171,7 +171,7 @@ ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<P
 }  // namespace
 
 FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
-                       std::uint64_t points, const Progress& progress) {
+                       std::uint64_t points, const parallel::Progress& progress) {
   const Places places(grid);
   std::vector<Place> drawn;
   std::mt19937_64 random(20160902);
@@ -180,7 +180,7 @@ FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, co
     if (field.sample(place.point).known) drawn.push_back(place);
   }
   std::vector<PointError> errors(drawn.size());
-  parallel_for(
+  parallel::for_each_index(
       drawn.size(), [&](std::size_t i) { errors[i] = measure(surface, grid, field, drawn[i]); }, progress);
 
   FieldError total;

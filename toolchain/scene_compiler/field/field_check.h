@@ -35,7 +35,7 @@ struct FieldError {
 
 /// Deterministic. `field` is the view that the core has of `grid`.
 FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
-                       std::uint64_t points, const Progress& progress);
+                       std::uint64_t points, const parallel::Progress& progress);
 
 /// Time of Voxelmap::sample at random points of the band, many times over [ns].
 struct LookUpTime {

@@ -62,14 +62,14 @@ class SurfaceCheck {
   SurfaceCheck(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred, double tolerance)
       : surface_(surface), tree_(tree), barred_(barred), tolerance_(tolerance), marked_(tree.brick_count()) {}
 
-  Misses run(const std::vector<std::uint32_t>& triangles, const Progress& progress) {
+  Misses run(const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
     const bool dilated = surface_.dilation() > 0.0;
     std::vector<char> missed(triangles.size(), dilated ? 1 : 0);
     if (dilated) {
-      parallel_for(
+      parallel::for_each_index(
           tree_.brick_count(), [&](std::size_t i) { check_brick(static_cast<std::uint32_t>(i)); }, progress);
     } else {
-      parallel_for(
+      parallel::for_each_index(
           triangles.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i]) ? 1 : 0; }, progress);
     }
     Misses misses;
@@ -363,7 +363,8 @@ Octants evaluate(const SolidSurface& surface, const BrickTree& tree, std::uint32
 
 class Refinement {
  public:
-  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, double slack, const Progress& progress)
+  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, double slack,
+             const parallel::Progress& progress)
       : field_(field), surface_(surface), tolerance_(tolerance), slack_(slack), barred_(field.bricks.size()) {
     for (std::size_t i = 0; i < field.bricks.size(); ++i) {
       barred_[i] = field.beside_seam[i] && holds_seam(field.bricks[i], field.grid.voxel_size);
@@ -374,7 +375,7 @@ class Refinement {
   }
 
   /// False if some position had to be barred: begin again without it.
-  bool run(const Progress& progress) {
+  bool run(const parallel::Progress& progress) {
     BrickTree tree(field_, edges_);
     std::vector<bool> barred = barred_;
     if (!part_edges(tree, barred)) return false;
@@ -412,7 +413,7 @@ class Refinement {
 
  private:
   /// Those that reach a brick in which the surface is missed without.
-  void find_edges(const Progress& progress) {
+  void find_edges(const parallel::Progress& progress) {
     const format::Grid& grid = field_.grid;
     // what is stored holds them: it goes as far as the band, interpolated
     const double room = grid.band - kInterpolationError * grid.voxel_size;
@@ -485,8 +486,8 @@ class Refinement {
       const auto [found, fresh] = known_.try_emplace(tree.place(brick));
       if (fresh) unknown.emplace_back(brick, &found->second);
     }
-    parallel_for(unknown.size(),
-                 [&](std::size_t i) { *unknown[i].second = evaluate(surface_, tree, unknown[i].first); });
+    parallel::for_each_index(unknown.size(),
+                             [&](std::size_t i) { *unknown[i].second = evaluate(surface_, tree, unknown[i].first); });
     for (const auto& [brick, octants] : wanted) {
       if (barred[brick]) continue;
       const Octants& finer = known_.at(tree.place(brick));
@@ -506,7 +507,7 @@ class Refinement {
     bool possible = true;
     std::vector<bool> left_out(edges_.size());
     std::vector<char> steep(tree.brick_count());
-    parallel_for(tree.brick_count(), [&](std::size_t i) {
+    parallel::for_each_index(tree.brick_count(), [&](std::size_t i) {
       const auto b = static_cast<std::uint32_t>(i);
       if (tree.whole(b) == 0 || (tree.level(b) == 0 && tree.edges_of(b).empty())) return;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
@@ -551,8 +552,8 @@ class Refinement {
 
 }  // namespace
 
-RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress,
-                        double slack) {
+RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance,
+                        const parallel::Progress& progress, double slack) {
   Refinement refinement(field, surface, tolerance, slack, progress);
   while (!refinement.run(progress)) {
   }

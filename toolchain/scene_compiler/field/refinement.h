@@ -38,8 +38,8 @@ inline constexpr double kHeldOff = 5.0;
 ///
 /// Deterministic. Updates the constants of `field.grid` with it. Throws Failure (kBadData) naming the cure where the
 /// bricks would be more than kMaxBricks.
-RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress,
-                        double slack = 0.0);
+RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance,
+                        const parallel::Progress& progress, double slack = 0.0);
 
 /// The same of a field that is left as coarse as it is.
 void round_distances(DistanceGrid& field);

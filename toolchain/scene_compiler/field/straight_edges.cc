@@ -324,8 +324,9 @@ std::vector<format::Edge> straight_edges(const SolidSurface& surface, double vox
   if (creases.empty()) return {};
   const Surroundings surroundings(surface, body, voxel_size);
   std::vector<std::vector<format::Edge>> found(creases.size());
-  parallel_for(creases.size(),
-               [&](std::size_t i) { found[i] = stretches(surroundings, creases[i], voxel_size, largest_radius); });
+  parallel::for_each_index(creases.size(), [&](std::size_t i) {
+    found[i] = stretches(surroundings, creases[i], voxel_size, largest_radius);
+  });
   std::vector<format::Edge> edges;
   for (const auto& some : found) {
     for (format::Edge edge : some) {

@@ -106,7 +106,7 @@ Json body_json(const format::Body& b) {
           {"volume", b.volume}};
 }
 
-Json inspect_json(const command::SceneImage& image) {
+Json inspect_json(const files::SceneImage& image) {
   const Scene& scene = image.scene;
   format::Header header{};
   std::copy_n(image.bytes.span().data(), sizeof(header), reinterpret_cast<std::byte*>(&header));

@@ -24,6 +24,6 @@ Json grid_json(const format::Grid& grid);
 Json body_json(const format::Body& body);
 
 /// Everything that an opened image holds: header, settings, grid, body, sections, build traits and provenance.
-Json inspect_json(const command::SceneImage& image);
+Json inspect_json(const files::SceneImage& image);
 
 }  // namespace godobject::scene_compiler

@@ -14,6 +14,6 @@ struct SectionBytes {
 };
 
 /// Lays sections out as one image, with checksums.
-command::AlignedBytes make_image(const std::vector<SectionBytes>& sections);
+files::AlignedBytes make_image(const std::vector<SectionBytes>& sections);
 
 }  // namespace godobject::scene_compiler

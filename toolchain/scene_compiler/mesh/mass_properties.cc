@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/box.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
@@ -42,15 +44,11 @@ Vector3d nearest_frame_axis_across(const Vector3d& axis) {
 MassMoments moments_of_volume(const TriangleMesh& closed_mesh) {
   MassMoments moments;
   if (closed_mesh.triangles.empty()) return moments;
-  Vector3d low = closed_mesh.vertices[closed_mesh.triangles[0][0]];
-  Vector3d high = low;
+  Box box;
   for (const auto& t : closed_mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      low = low.cwiseMin(closed_mesh.vertices[v]);
-      high = high.cwiseMax(closed_mesh.vertices[v]);
-    }
+    for (const std::uint32_t v : t) box.add(closed_mesh.vertices[v]);
   }
-  const Vector3d reference = 0.5 * (low + high);
+  const Vector3d reference = 0.5 * (box.low + box.high);
   Vector3d first = Vector3d::Zero();
   Matrix3d second = Matrix3d::Zero();
   double volume = 0.0;
@@ -65,7 +63,7 @@ MassMoments moments_of_volume(const TriangleMesh& closed_mesh) {
     first += part / 4.0 * sum;
     second += part / 20.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
-  if (!(volume > kLeastVolume * std::pow((high - low).norm(), 3))) return moments;
+  if (!(volume > kLeastVolume * std::pow(box.diagonal(), 3))) return moments;
   const Vector3d offset = first / volume;
   moments.volume = volume;
   moments.center = reference + offset;

@@ -9,6 +9,7 @@
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/mesh/components.h"
+#include "toolchain/scene_compiler/mesh/mesh_edges.h"
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 namespace godobject::scene_compiler {
@@ -160,38 +161,17 @@ void drop_loose_vertices(TriangleMesh& mesh) {
 }
 
 void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
-  struct Edge {
-    std::uint32_t low, high;
-    bool forward;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = t[i];
-      const std::uint32_t to = t[(i + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
-  std::int64_t distinct = 0;
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::size_t end = begin;
-    std::ptrdiff_t forward = 0;
-    while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) {
-      forward += edges[end++].forward ? 1 : 0;
-    }
-    const std::size_t count = end - begin;
-    if (count == 1) ++report.boundary_edges;
-    if (count > 2) ++report.nonmanifold_edges;
-    if (count == 2 && forward != 1) ++report.misoriented_edges;
-    ++distinct;
-    begin = end;
+  const MeshEdges edges(mesh);
+  for (const MeshEdges::Edge& edge : edges.all()) {
+    const auto sides = edges.sides(edge);
+    if (sides.size() == 1) ++report.boundary_edges;
+    if (sides.size() > 2) ++report.nonmanifold_edges;
+    if (sides.size() == 2 && sides[0].forward == sides[1].forward) ++report.misoriented_edges;
   }
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();
-  report.euler = static_cast<std::int64_t>(report.vertices) - distinct + static_cast<std::int64_t>(report.triangles);
+  report.euler = static_cast<std::int64_t>(report.vertices) - static_cast<std::int64_t>(edges.all().size()) +
+                 static_cast<std::int64_t>(report.triangles);
   report.components = connected_components(mesh).count;
 }
 

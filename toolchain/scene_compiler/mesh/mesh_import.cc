@@ -29,7 +29,7 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
         command::ExitCode::kBadData,
         fmt::format("{}: not a PLY, STL or OBJ file by its name; export the mesh as one of them", file.string()));
   }
-  command::require_regular_input(file, "check `mesh` in the scene file: it is found relative to that");
+  files::require_regular_input(file, "check `mesh` in the scene file: it is found relative to that");
   std::ifstream stream(file, std::ios::binary);
   if (stream.peek() == std::ifstream::traits_type::eof()) {
     throw command::Failure(command::ExitCode::kBadData,

@@ -61,12 +61,12 @@ bool OuterSurface::is_outer(const SurfaceSample& sample, Known& known) const {
 
 std::vector<std::uint8_t> OuterSurface::are_outer(std::span<const SurfaceSample> samples) const {
   std::vector<std::uint8_t> outer(samples.size());
-  parallel_chunks(samples.size(), kRun,
-                  [&](std::size_t begin, std::size_t end) {
-                    Known known;
-                    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i], known) ? 1 : 0;
-                  },
-                  {});
+  parallel::for_each_chunk(samples.size(), kRun,
+                           [&](std::size_t begin, std::size_t end) {
+                             Known known;
+                             for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i], known) ? 1 : 0;
+                           },
+                           {});
   return outer;
 }
 
@@ -96,7 +96,7 @@ std::vector<SurfaceSample> OuterSurface::draw_near(double spacing, std::uint32_t
   const CellDraws draws{spacing, 2 * std::uint64_t{seed}, near};
   const std::size_t parts = patches_.size() / kPieces + 1;
   std::vector<std::vector<SurfaceSample>> samples(parts);
-  parallel_for(parts, [&](std::size_t part) {
+  parallel::for_each_index(parts, [&](std::size_t part) {
     const std::size_t end = std::min((part + 1) * kPieces, patches_.size());
     for (std::size_t piece = part * kPieces; piece < end; ++piece) {
       draw_cell({piece, 0.0, 0.0, 1.0, 1.0}, draws, samples[part]);
@@ -136,7 +136,8 @@ void OuterSurface::draw_cell(const Cell& cell, const CellDraws& draws, std::vect
                                 cell.v + uniform(draws.seed, key, 2) * cell.size_v));
 }
 
-void OuterSurface::draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const {
+void OuterSurface::draw_outer(const Draws& draws, const parallel::Progress& progress,
+                              std::vector<SurfaceSample>& samples) const {
   for (std::uint64_t begin = 0; begin < draws.count; begin += kBlock) {
     const std::uint64_t end = std::min(begin + kBlock, draws.count);
     append_outer(draw(draws, begin, end), samples);
@@ -144,7 +145,8 @@ void OuterSurface::draw_outer(const Draws& draws, const Progress& progress, std:
   }
 }
 
-OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const {
+OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed,
+                                          const parallel::Progress& progress) const {
   Spread spread;
   std::uint64_t drawn = wanted;
   if (patches_.area() > 0.0) draw_outer({drawn, 2 * std::uint64_t{seed}}, progress, spread.samples);

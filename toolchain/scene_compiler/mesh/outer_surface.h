@@ -32,7 +32,7 @@ class OuterSurface {
   /// About `wanted` samples or more, random and stratified by area; another `seed` gives others. `progress` gets 0 ..
   /// 1; may be empty. Cost: a winding number a draw. Throws std::runtime_error if (nearly) nothing of the mesh is outer
   /// surface.
-  Spread spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const;
+  Spread spread(std::uint32_t wanted, std::uint32_t seed, const parallel::Progress& progress) const;
 
   /// `count` draws of the whole surface, buried parts included, for who needs to know only of some whether they are
   /// outer.
@@ -73,7 +73,7 @@ class OuterSurface {
   };
 
   std::vector<SurfaceSample> draw(const Draws& draws, std::uint64_t begin, std::uint64_t end) const;
-  void draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const;
+  void draw_outer(const Draws& draws, const parallel::Progress& progress, std::vector<SurfaceSample>& samples) const;
   void append_outer(const std::vector<SurfaceSample>& candidates, std::vector<SurfaceSample>& samples) const;
   void draw_cell(const Cell& cell, const CellDraws& draws, std::vector<SurfaceSample>& samples) const;
   bool is_outer(const SurfaceSample& sample, Known& known) const;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/open_boundary.h"
 #include "toolchain/scene_compiler/mesh/triangle_tree.h"
@@ -88,16 +89,6 @@ TriangleTree tree_of(const TriangleMesh& mesh, const std::vector<SolidSurface::C
   return TriangleTree(std::move(triangles));
 }
 
-double diagonal(const TriangleMesh& mesh) {
-  Vector3d low = mesh.vertices.front();
-  Vector3d high = low;
-  for (const Vector3d& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).norm();
-}
-
 /// Median over the samples of the mean winding number just outside and just inside.
 double principal_value(const TriangleTree& tree, const SurfaceSamples& samples, double step) {
   std::vector<double> values;
@@ -149,7 +140,7 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
     samples.push_back(sample_component(mesh, ids[c]));
     components[c].triangles = static_cast<std::uint32_t>(ids[c].size());
   }
-  const double step = kStepOffSurface * diagonal(mesh);
+  const double step = kStepOffSurface * Box::around(mesh.vertices).diagonal();
   const TriangleTree whole = tree_of(mesh, components, component_of, true, true);
   for (std::uint32_t c = 0; c < connected.count; ++c) {
     components[c].winding = principal_value(whole, samples[c], step);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -16,6 +18,13 @@ struct SurfaceSample {
   Place place = Place::kFace;
   bool on_shell = false;  ///< half a thickness off the triangles of a sheet; otherwise on a triangle of a solid
 };
+
+inline std::vector<Eigen::Vector3d> points_of(std::span<const SurfaceSample> samples) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(samples.size());
+  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
+  return points;
+}
 
 /// Whether samples stand for the same side of the body. Where it is thinner than their distance those of the other side
 /// are near, but feel other contacts: they neither crowd each other nor stand in for each other.

@@ -181,12 +181,12 @@ ThinPlaces gather(const std::vector<std::optional<Thin>>& seen, double area_each
 
 }  // namespace
 
-ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const Progress& progress) {
+ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const parallel::Progress& progress) {
   const Samples samples = sample(surface, voxel_size);
   const double reach = kThin * voxel_size * (1.0 - kRounding);
   std::vector<std::optional<Thin>> walls(samples.all.size());
   std::vector<std::optional<Thin>> gaps(samples.all.size());
-  parallel_for(
+  parallel::for_each_index(
       samples.all.size(),
       [&](std::size_t i) {
         const Sample& from = samples.all[i];

@@ -33,7 +33,7 @@ struct ThinReport {
 };
 
 /// Looks inward (walls) and outward (gaps) from samples of the still surface, half a voxel apart.
-ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const Progress& progress);
+ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const parallel::Progress& progress);
 
 /// Throws Failure (kBadData), naming `mesh_name` and the cure, if a wall is lost by kRefusalRule. Near-parallel: within
 /// ten degrees.

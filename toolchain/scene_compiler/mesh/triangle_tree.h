@@ -67,7 +67,15 @@ class TriangleTree {
   template <class Counts>
   bool nearest_of(const Eigen::Vector3d& p, double bound_squared, const Counts& counts, Nearest& nearest) const;
   std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
+  struct Extent {
+    int axis;
+    double low, high;  ///< of the centroids along the axis
+  };
   std::uint32_t split(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
+  std::uint32_t split_by_bins(std::uint32_t begin, std::uint32_t end, const Extent& extent,
+                              std::vector<Eigen::Vector3d>& centroids);
+  std::uint32_t split_at_median(std::uint32_t begin, std::uint32_t end, int axis,
+                                std::vector<Eigen::Vector3d>& centroids);
   void set_dipoles();
 
   std::vector<Triangle> triangles_;

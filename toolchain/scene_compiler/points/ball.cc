@@ -19,9 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFlat = 1e-5;              // of the bounding box's diagonal
-constexpr double kFloatRounding = 4e-7;     // of that too: of a face's corners, against each other
-constexpr double kLeastPointRadius = 1e-9;  // [m], of a body of one point
+constexpr double kFlat = 1e-5;           // of the bounding box's diagonal
+constexpr double kFloatRounding = 4e-7;  // of that too: of a face's corners, against each other
 
 bool is_one_solid(const SolidSurface& surface) {
   return surface.components().size() == 1 && !surface.components().front().shell && surface.sealed();
@@ -62,7 +61,7 @@ bool is_convex(const SolidSurface& surface) {
   const TriangleMesh& mesh = surface.mesh();
   const Sphere sphere = bounding_sphere(mesh.vertices);
   std::atomic<bool> convex = true;
-  parallel_for(mesh.triangles.size(), [&](std::size_t face) {
+  parallel::for_each_index(mesh.triangles.size(), [&](std::size_t face) {
     if (!convex.load(std::memory_order_relaxed)) return;
     const FacePlane plane = plane_of(surface, face, 2.0 * sphere.radius);
     for (const Vector3d& vertex : mesh.vertices) {

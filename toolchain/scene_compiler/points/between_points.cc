@@ -16,13 +16,6 @@ using Place = SurfaceSample::Place;
 constexpr std::size_t kCandidates = 8;  // for a point, that are tried
 constexpr double kOverlap = 2.6;        // squared radii, that one of many overlapping discs covers alone
 
-std::vector<Vector3d> points_of(std::span<const SurfaceSample> samples) {
-  std::vector<Vector3d> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
-  return points;
-}
-
 /// Distance of `point` from the normal at place `i`.
 double aside(const Relief& relief, std::size_t i, const Vector3d& point) {
   const double depth = relief.depth_below(i, point);
@@ -64,7 +57,7 @@ Open open_places(const Relief& relief, std::span<const std::uint8_t> among, cons
   Open open;
   open.is_open.resize(count);
   std::vector<double> reaches(count);
-  parallel_for(count, [&](std::size_t i) {
+  parallel::for_each_index(count, [&](std::size_t i) {
     if (among.empty() || among[i] != 0) open.is_open[i] = is_open(i, reaches[i]) ? 1 : 0;
   });
   open.count = static_cast<std::size_t>(std::count(open.is_open.begin(), open.is_open.end(), 1));
@@ -94,7 +87,7 @@ class Cover {
       if (open[i] != 0) open_.push_back(i);
     }
     radii_.resize(open_.size());
-    parallel_for(open_.size(), [&](std::size_t k) { radii_[k] = served_within(relief, open_[k], demand); });
+    parallel::for_each_index(open_.size(), [&](std::size_t k) { radii_[k] = served_within(relief, open_[k], demand); });
     std::vector<Vector3d> open_points;
     for (std::size_t k = 0; k < open_.size(); ++k) {
       open_points.push_back(place(k).point);
@@ -207,7 +200,7 @@ std::vector<SurfaceSample> points_to_add(const Relief& relief, std::span<const s
 double estimated_points(const Relief& relief, const Demand& demand, double dense, std::size_t stride) {
   const std::size_t count = relief.evenly_spread() / stride;
   std::vector<double> needed(count);
-  parallel_for(count, [&](std::size_t k) {
+  parallel::for_each_index(count, [&](std::size_t k) {
     const double radius = std::max(served_within(relief, k * stride, demand), demand.target.bound);
     needed[k] = std::max(0.0, 1.0 / (kOverlap * radius * radius) - dense);
   });

@@ -6,6 +6,9 @@
 
 namespace godobject::scene_compiler {
 
+/// Radius of the sphere that an image stores about a single point: the format wants a positive one [m].
+inline constexpr double kLeastPointRadius = 1e-9;
+
 struct Sphere {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0.0;

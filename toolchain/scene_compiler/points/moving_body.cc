@@ -25,7 +25,6 @@ using Eigen::Vector3d;
 constexpr std::uint32_t kCandidatesPerPoint = 6;
 constexpr std::uint32_t kLeastCandidates = 1000;
 constexpr double kEdgeCandidates = 4.0;  // per distance between points
-constexpr double kLeastRadius = 1e-9;    // [m], of a body of one point
 constexpr std::uint32_t kCandidateSeed = 1;
 constexpr std::uint32_t kProbeSeed = 2;
 constexpr std::uint32_t kLeastProbes = 20000;
@@ -50,16 +49,9 @@ void check_arguments(std::uint32_t points, std::uint32_t levels) {
   }
 }
 
-std::vector<Vector3d> points_of(std::span<const SurfaceSample> samples) {
-  std::vector<Vector3d> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
-  return points;
-}
-
 double median_neighbour_distance(const std::vector<SurfaceSample>& samples, const PointTree& tree) {
   std::vector<double> squared(samples.size());
-  parallel_for(samples.size(), [&](std::size_t i) {
+  parallel::for_each_index(samples.size(), [&](std::size_t i) {
     const auto other = [&](std::uint32_t j) { return j != i && same_side(samples[i], samples[j]); };
     squared[i] = tree.nearest(samples[i].point, other).squared_distance;
   });
@@ -102,10 +94,10 @@ Eigen::Isometry3d body_pose(const format::Body& body) {
 }
 
 MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t points, std::uint32_t levels,
-                                  const Progress& progress) {
+                                  const parallel::Progress& progress) {
   check_arguments(points, levels);
   OuterSurface::Spread spread = outer.spread(std::max(kCandidatesPerPoint * points, kLeastCandidates), kCandidateSeed,
-                                             part_of(progress, 0.0, 0.4));
+                                             parallel::part_of(progress, 0.0, 0.4));
   std::vector<SurfaceSample>& candidates = spread.samples;
   const auto most_sharp = static_cast<std::uint32_t>(candidates.size());
   const double distance = 2.0 * densest_disc_radius(spread.area, points);
@@ -113,8 +105,8 @@ MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t point
   candidates.insert(candidates.end(), sharp.begin(), sharp.end());
 
   MovingSampling sampling{{}, points, levels, spread.area};
-  for (const std::uint32_t i :
-       eliminate(candidates, all_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 1.0))) {
+  for (const std::uint32_t i : eliminate(candidates, all_indices(candidates.size()), spread.area, points,
+                                         parallel::part_of(progress, 0.4, 1.0))) {
     sampling.samples.push_back(candidates[i]);
   }
   if (progress) progress(1.0);
@@ -127,7 +119,7 @@ double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> sam
   const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
   const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);
   std::vector<std::pair<double, std::uint32_t>> far_first(probes.size());
-  parallel_for(probes.size(), [&](std::size_t i) {
+  parallel::for_each_index(probes.size(), [&](std::size_t i) {
     far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
   });
   std::sort(far_first.begin(), far_first.end());
@@ -157,7 +149,7 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_of(spread), body).inverse();
   std::vector<Eigen::Vector3f> points_B;
   std::vector<Eigen::Vector3f> normals_B;
-  double radius = kLeastRadius;
+  double radius = kLeastPointRadius;
   for (const SurfaceSample& sample : sampling.samples) {
     points_B.push_back((X_BM * sample.point).cast<float>());
     normals_B.push_back((X_BM.linear() * sample.inward).cast<float>());

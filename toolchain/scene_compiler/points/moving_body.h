@@ -39,7 +39,7 @@ struct PointSpread {
 /// Spreads `points` samples over the outer surface (Poisson disk by sample elimination), enough for `levels` nested
 /// levels. Deterministic. `progress` gets 0 .. 1; may be empty. Throws std::runtime_error naming the cure.
 MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t points, std::uint32_t levels,
-                                  const Progress& progress);
+                                  const parallel::Progress& progress);
 
 /// The samples in nested levels (added ones in the last), with inward normals, sphere tree and mass properties.
 /// Deterministic.

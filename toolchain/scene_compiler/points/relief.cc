@@ -40,7 +40,8 @@ Vector3d inward_at(const OuterSurface& outer, const SurfaceSample& sample) {
 
 }  // namespace
 
-Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed, const Progress& progress)
+Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
+               const parallel::Progress& progress)
     : fine_below_(kFineBelow / kCoarsePerReach * resolution.reach), fine_(resolution.fine), coarse_({}), all_({}) {
   const double coarse = std::clamp(resolution.reach / kCoarsePerReach, std::sqrt(outer.area() / kMostCoarse),
                                    std::sqrt(outer.area() / kLeastCoarse));
@@ -52,14 +53,14 @@ Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uin
   const std::vector<SurfaceSample> sharp = outer.sharp_samples(kSharpPart * resolution.fine, kMostSharp);
   even.insert(even.end(), sharp.begin(), sharp.end());
   coarse_ = add(outer, even);
-  all_ = add(outer, fine_places(outer, resolution, seed, part_of(progress, 0.3, 1.0)));
+  all_ = add(outer, fine_places(outer, resolution, seed, parallel::part_of(progress, 0.3, 1.0)));
 }
 
 PointTree Relief::add(const OuterSurface& outer, std::span<const SurfaceSample> samples) {
   const std::size_t first = places_.size();
   places_.insert(places_.end(), samples.begin(), samples.end());
   inward_.resize(places_.size());
-  parallel_for(samples.size(), [&](std::size_t i) { inward_[first + i] = inward_at(outer, samples[i]); });
+  parallel::for_each_index(samples.size(), [&](std::size_t i) { inward_[first + i] = inward_at(outer, samples[i]); });
   std::vector<Vector3d> points;
   points.reserve(places_.size());
   for (const SurfaceSample& place : places_) points.push_back(place.point);
@@ -67,9 +68,9 @@ PointTree Relief::add(const OuterSurface& outer, std::span<const SurfaceSample> 
 }
 
 std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const Resolution& resolution,
-                                               std::uint32_t seed, const Progress& progress) {
+                                               std::uint32_t seed, const parallel::Progress& progress) {
   std::vector<std::uint8_t> is_rough(places_.size());
-  parallel_for(places_.size(), [&](std::size_t i) {
+  parallel::for_each_index(places_.size(), [&](std::size_t i) {
     is_rough[i] = falls(i, fine_below_, {kRoughSlack * resolution.fall, resolution.fall + fine_below_}) ? 1 : 0;
   });
   std::vector<Vector3d> rough_points;

@@ -22,7 +22,8 @@ class Relief {
   };
 
   /// Deterministic; another `seed` gives other places. Cost: some 10 us a place.
-  Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed, const Progress& progress);
+  Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
+         const parallel::Progress& progress);
 
   std::span<const SurfaceSample> places() const { return places_; }
 
@@ -56,7 +57,7 @@ class Relief {
 
   PointTree add(const OuterSurface& outer, std::span<const SurfaceSample> samples);
   std::vector<SurfaceSample> fine_places(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
-                                         const Progress& progress);
+                                         const parallel::Progress& progress);
 
   std::vector<SurfaceSample> places_;
   std::vector<Eigen::Vector3d> inward_;  ///< by place: normal of its triangle

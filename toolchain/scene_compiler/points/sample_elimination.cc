@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "toolchain/parallel/parallel.h"
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/points/point_tree.h"
 
 namespace godobject::scene_compiler {
@@ -50,7 +51,7 @@ class Crowd {
         tree_(points_of(samples, chosen)),
         alive_(chosen.size(), 1),
         weights_(chosen.size()) {
-    parallel_for(chosen.size(), [&](std::size_t i) { weights_[i] = weight_of(i); });
+    parallel::for_each_index(chosen.size(), [&](std::size_t i) { weights_[i] = weight_of(i); });
     for (std::uint32_t i = 0; i < chosen.size(); ++i) queue_.push_back({weights_[i], i});
     std::make_heap(queue_.begin(), queue_.end(), later);
   }
@@ -126,13 +127,9 @@ class Crowd {
 };
 
 double extent_of(std::span<const SurfaceSample> samples, const std::vector<std::uint32_t>& chosen) {
-  Eigen::Vector3d low = samples[chosen.front()].point;
-  Eigen::Vector3d high = low;
-  for (const std::uint32_t i : chosen) {
-    low = low.cwiseMin(samples[i].point);
-    high = high.cwiseMax(samples[i].point);
-  }
-  return (high - low).norm();
+  Box box;
+  for (const std::uint32_t i : chosen) box.add(samples[i].point);
+  return box.diagonal();
 }
 
 }  // namespace
@@ -142,7 +139,7 @@ double densest_disc_radius(double area, std::uint32_t count) {
 }
 
 std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen,
-                                     double area, std::uint32_t count, const Progress& progress) {
+                                     double area, std::uint32_t count, const parallel::Progress& progress) {
   if (chosen.size() <= count) return chosen;
   const std::size_t to_go = chosen.size() - count;
   const double kept_part = static_cast<double>(count) / static_cast<double>(chosen.size());

@@ -23,7 +23,7 @@ double densest_disc_radius(double area, std::uint32_t count);
 ///
 /// `progress` gets 0 .. 1; may be empty. Deterministic. Cost: about 5 us for each of `chosen`.
 std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen,
-                                     double area, std::uint32_t count, const Progress& progress);
+                                     double area, std::uint32_t count, const parallel::Progress& progress);
 
 /// 0, 1, .. count - 1.
 std::vector<std::uint32_t> all_indices(std::size_t count);

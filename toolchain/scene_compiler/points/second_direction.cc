@@ -130,7 +130,7 @@ class Search {
 }  // namespace
 
 BothDirections see_both_directions(const OuterSurface& still, const OuterSurface& moving, double wanted,
-                                   MovingSampling& sampling, const Progress& progress) {
+                                   MovingSampling& sampling, const parallel::Progress& progress) {
   BothDirections both;
   const double coverage = largest_gap(moving, sampling.samples);
   Search search(wanted, sampling, both, coverage);
@@ -138,8 +138,8 @@ BothDirections see_both_directions(const OuterSurface& still, const OuterSurface
     const std::uint32_t seed = kFirstSeed + static_cast<std::uint32_t>(round);
     const auto share = [&](double part) { return (round + part) / (kRounds + 1); };
     const Reliefs reliefs{
-        Relief(moving, search.resolution(Side::kMoving), seed, part_of(progress, share(0.0), share(0.4))),
-        Relief(still, search.resolution(Side::kStill), seed, part_of(progress, share(0.4), share(0.8)))};
+        Relief(moving, search.resolution(Side::kMoving), seed, parallel::part_of(progress, share(0.0), share(0.4))),
+        Relief(still, search.resolution(Side::kStill), seed, parallel::part_of(progress, share(0.4), share(0.8)))};
     const double dense_for = std::max(reliefs.moving.fine(), reliefs.still.fine()) / kMostDense;
     both.area = reliefs.still.area();
     if (round == 0) {

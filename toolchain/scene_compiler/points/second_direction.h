@@ -27,6 +27,6 @@ struct BothDirections {
 /// between_points.h bounds what no point sees by `wanted` [m], or the most points are spent: `between` says what was
 /// reached. Deterministic. `progress` gets 0 .. 1; may be empty.
 BothDirections see_both_directions(const OuterSurface& still, const OuterSurface& moving, double wanted,
-                                   MovingSampling& sampling, const Progress& progress);
+                                   MovingSampling& sampling, const parallel::Progress& progress);
 
 }  // namespace godobject::scene_compiler

@@ -40,7 +40,7 @@ Children attach(std::span<const Eigen::Vector3f> points, std::span<const std::ui
                 std::span<const std::uint32_t> samples) {
   const PointTree tree(points_of(points, parents));
   std::vector<std::size_t> parent(samples.size());
-  parallel_for(samples.size(), [&](std::size_t i) {
+  parallel::for_each_index(samples.size(), [&](std::size_t i) {
     parent[i] = holds(parents, samples[i]) ? place_of(samples[i], parents)
                                            : tree.nearest(points[samples[i]].cast<double>()).index;
   });
@@ -127,7 +127,7 @@ SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
                              const std::vector<std::vector<std::uint32_t>>& levels) {
   SphereTree tree = Layout(points, levels).make();
   const std::vector<Vector3d> ordered = points_of(points, tree.order);
-  parallel_for(tree.nodes.size(), [&](std::size_t i) {
+  parallel::for_each_index(tree.nodes.size(), [&](std::size_t i) {
     format::Node& node = tree.nodes[i];
     set_sphere(std::span(ordered).subspan(node.first_point, node.point_count), node);
   });

@@ -29,10 +29,10 @@ void TrimmingSteps::step(const std::string& what, const SceneParts& parts, const
   if (timed_) store_image(sections);
 }
 
-std::optional<CycleTimes> TrimmingSteps::time(const Progress& progress) const {
+std::optional<CycleTimes> TrimmingSteps::time(const parallel::Progress& progress) const {
   if (images_.size() < 2) return {};
   std::vector<const Scene*> scenes;
-  for (const command::SceneImage& image : images_) scenes.push_back(&image.scene);
+  for (const files::SceneImage& image : images_) scenes.push_back(&image.scene);
   const std::vector<Pose> motion = try_out_motion(*scenes.front());
   if (motion.empty()) return {};
   return time_cycles(scenes, motion, progress);

@@ -34,14 +34,14 @@ class TrimmingSteps {
   /// Times a cycle on each image along try_out_motion() of the untrimmed scene. Returns the time of a cycle on the
   /// untrimmed image and the saving of each item. Empty if nothing was left out, the steps are not timed or no motion
   /// was found. Takes some seconds.
-  std::optional<CycleTimes> time(const Progress& progress) const;
+  std::optional<CycleTimes> time(const parallel::Progress& progress) const;
 
  private:
   void store_image(const std::vector<SectionBytes>& sections);
 
   bool timed_;
   std::vector<LeftOut> items_;
-  std::vector<command::SceneImage> images_;  ///< the untrimmed one, then one after each item
+  std::vector<files::SceneImage> images_;  ///< the untrimmed one, then one after each item
 };
 
 }  // namespace godobject::scene_compiler

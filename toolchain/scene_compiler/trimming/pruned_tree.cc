@@ -77,7 +77,7 @@ std::uint32_t prune(const std::vector<bool>& stays, const TreeOfPoints& tree) {
     points[i] = Eigen::Vector3f(tree.points[i], tree.points[n + i], tree.points[2 * n + i]).cast<double>();
   std::uint16_t deepest = 0;
   for (const Node& node : tree.nodes) deepest = std::max(deepest, node.level);
-  parallel_for(tree.nodes.size(), [&](std::size_t i) {
+  parallel::for_each_index(tree.nodes.size(), [&](std::size_t i) {
     Node& node = tree.nodes[i];
     if (pruning.smaller()[i]) set_sphere(std::span(points).subspan(node.first_point, node.point_count), node);
   });

@@ -18,9 +18,6 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 namespace index_entry = format::index_entry;
 
-/// Beyond the radius: a look-up in single precision may take the next position for the one that it is in. [voxels]
-constexpr double kSlack = 1.0;
-
 /// The entries that stay, renumbered in the order in which a walk meets them.
 class Selection {
  public:
@@ -171,7 +168,7 @@ double least_look_up(const StillFeatures& features, const format::Workspace& wor
 }
 
 LeftOutBricks leave_out_unreachable_core(DistanceGrid& body_field, double least) {
-  const double kept_from = least - kSlack * body_field.grid.voxel_size;
+  const double kept_from = least - kLookUpSlack * body_field.grid.voxel_size;
   LeftOutBricks left_out;
   leave_out_unmet(
       body_field,
@@ -185,7 +182,7 @@ LeftOutBricks leave_out_unreachable_core(DistanceGrid& body_field, double least)
 LeftOutBricks leave_out_unreachable(DistanceGrid& field, const format::Workspace& workspace, double radius) {
   const Eigen::Map<const Vector3d> low(workspace.low);
   const Eigen::Map<const Vector3d> high(workspace.high);
-  const double reach = radius + kSlack * field.grid.voxel_size;
+  const double reach = radius + kLookUpSlack * field.grid.voxel_size;
   LeftOutBricks left_out;
   const bool any_stays = leave_out_unmet(
       field,

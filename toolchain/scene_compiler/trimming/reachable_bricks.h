@@ -9,6 +9,10 @@
 
 namespace godobject::scene_compiler {
 
+/// Distance that trimming adds to every bound: a look-up in single precision may take the neighbouring position for the
+/// one that its point is in [voxels].
+inline constexpr double kLookUpSlack = 1.0;
+
 /// What was left out of a field.
 struct LeftOutBricks {
   std::uint64_t positions = 0;

@@ -8,7 +8,9 @@
 
 #include "toolchain/parallel/parallel.h"
 #include "toolchain/scene_compiler/field/brick_lattice.h"
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/components.h"
+#include "toolchain/scene_compiler/trimming/reachable_bricks.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -17,21 +19,6 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 using format::kBrickNodes;
 namespace index_entry = format::index_entry;
-
-/// Of look-ups in single precision. [voxels]
-constexpr double kSlack = 1.0;
-
-struct Box {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = Vector3d::Constant(-std::numeric_limits<double>::infinity());
-
-  void add(const Vector3d& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  double nearest(const Box& other) const { return (low - other.high).cwiseMax(other.low - high).cwiseMax(0.0).norm(); }
-  double farthest(const Box& other) const { return (other.high - low).cwiseMax(high - other.low).norm(); }
-};
 
 Box box_of(const format::Workspace& workspace) {
   return {Vector3d(workspace.low[0], workspace.low[1], workspace.low[2]),
@@ -72,7 +59,7 @@ Range range_of(const DistanceGrid& field, const Box& box) {
   const format::Grid& grid = field.grid;
   const BrickLattice lattice{{grid.bricks[0], grid.bricks[1], grid.bricks[2]}};
   const double edge = kBrickCells * grid.voxel_size;
-  const double slack = kSlack * grid.voxel_size;
+  const double slack = kLookUpSlack * grid.voxel_size;
   Range range;
   const auto add = [&](const Box& felt) {
     range.least = std::min(range.least, felt.nearest(box) - slack);
@@ -96,7 +83,7 @@ Range range_of(const DistanceGrid& field, const Box& box) {
 class Cells {
  public:
   Cells(const SolidSurface& body, double deepest) {
-    for (const Vector3d& vertex : body.mesh().vertices) bounds_.add(vertex);
+    bounds_ = Box::around(body.mesh().vertices);
     edge_ = (bounds_.high - bounds_.low).maxCoeff() / kCavityCells;
     low_ = bounds_.low.array() - 1.5 * edge_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -106,7 +93,7 @@ class Cells {
     const double half_diagonal = 0.5 * std::sqrt(3.0) * edge_;
     const std::size_t count = lattice_.count();
     part_.resize(count);
-    parallel_for(count, [&](std::size_t i) {
+    parallel::for_each_index(count, [&](std::size_t i) {
       part_[i] = body.signed_distance(center(lattice_.position(i))) + half_diagonal < -deepest ? kWall : kOpen;
     });
     for (std::size_t i = 0; i < count; ++i) {  // the first cell is outside, and so is all about the body
@@ -123,7 +110,7 @@ class Cells {
     return part_[lattice_.number(cell)];
   }
   bool is_part(std::size_t part) const { return part < extent_.size(); }
-  double diagonal(std::size_t part) const { return (extent_[part].high - extent_[part].low).norm(); }
+  double diagonal(std::size_t part) const { return extent_[part].diagonal(); }
 
  private:
   static constexpr std::uint32_t kOpen = 0xffffffff;

@@ -157,7 +157,8 @@ std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion) 
   return poses;
 }
 
-CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion, const Progress& progress) {
+CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion,
+                       const parallel::Progress& progress) {
   std::vector<std::vector<double>> runs(scenes.size());  // [ns] a cycle
   const auto begin = std::chrono::steady_clock::now();
   for (int run = 0; run < kRuns; ++run) {

@@ -31,6 +31,7 @@ struct CycleTimes {
 
 /// Times each scene's solver along the motion, with friction where the scene has it: runs in turns, of one after the
 /// other, for some seconds. `motion` is not empty. Of this machine now.
-CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion, const Progress& progress);
+CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion,
+                       const parallel::Progress& progress);
 
 }  // namespace godobject::scene_compiler

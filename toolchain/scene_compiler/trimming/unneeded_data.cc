@@ -61,7 +61,7 @@ class Unneeded {
   /// Judged along try_out_motion().
   std::uint64_t levels() {
     if (input_.moving_is_ball) return 0;
-    const command::SceneImage image(make_image(lay_out(parts_)), "image under trimming");
+    const files::SceneImage image(make_image(lay_out(parts_)), "image under trimming");
     const Scene& scene = image.scene;
     const std::vector<Pose> poses = poses_along(scene, try_out_motion(scene));
     const auto leave_out = [&](Tree tree, std::vector<format::Node>& nodes, auto& header) {
@@ -85,7 +85,7 @@ class Unneeded {
 
   std::uint64_t core_bricks() {
     if (!parts_.workspace || !has_features()) return 0;
-    const command::SceneImage image(make_image(lay_out(parts_)), "image under trimming");
+    const files::SceneImage image(make_image(lay_out(parts_)), "image under trimming");
     const Parameters q = Parameters::make(image.scene);
     const ContactLengths lengths = ContactLengths::make(q);
     const double body_radius = image.scene.body_map.surface_radius(q.mass.sphere.center);

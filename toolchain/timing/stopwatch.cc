@@ -1,4 +1,4 @@
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 #include <ctime>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <x86intrin.h>
 #endif
 
-namespace godobject::command {
+namespace godobject::timing {
 namespace {
 
 std::int64_t monotonic_ns() noexcept {
@@ -53,4 +53,4 @@ Stopwatch stopwatch() {
   return chosen;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::timing

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace godobject::command {
+namespace godobject::timing {
 
 /// A clock for stretches of less than a microsecond: nanoseconds since some moment. The processor's own counter where
 /// it is known to run evenly, because a system clock's reading can take 0.1 us; else CLOCK_MONOTONIC.
@@ -11,4 +11,4 @@ using Stopwatch = std::int64_t (*)() noexcept;
 /// The first call compares the counter with the system's clock for 20 ms.
 Stopwatch stopwatch();
 
-}  // namespace godobject::command
+}  // namespace godobject::timing

@@ -1,10 +1,10 @@
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 #include <chrono>
 
 #include <gtest/gtest.h>
 
-namespace godobject::command {
+namespace godobject::timing {
 namespace {
 
 TEST(Stopwatch, NeverRunsBackwards) {
@@ -32,4 +32,4 @@ TEST(Stopwatch, RunsAsFastAsTheSystemsClock) {
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::timing
