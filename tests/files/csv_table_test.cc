@@ -70,9 +70,9 @@ TEST_F(CommandFiles, CsvMayBeginWithAByteOrderMarkAndNumbersWithAPlus) {
 
 TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
   EXPECT_NE(
-      refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number; mend the row"),
+      refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number; correct the row"),
       std::string::npos);
-  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3 (a,b,c); mend the row"),
+  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3 (a,b,c); correct the row"),
             std::string::npos);
   EXPECT_NE(refusal("a,b,c\n1,2,3,\n", ExitCode::kBadData).find(":2: \"\" is not a number"), std::string::npos);
   EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);

@@ -227,7 +227,7 @@ TEST_F(ReplayTest, TakesAnotherStiffness) {
 TEST_F(ReplayTest, SaysWhenNothingCameNear) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.5,1,0,0,0\n";
   ASSERT_EQ(run(""), 0) << output_;
-  EXPECT_NE(output_.find("nothing came near"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("no point within the stored band"), std::string::npos) << output_;
 }
 
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {

@@ -81,7 +81,7 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " " + good + " -o /dev/null", 74, "/dev/null: is a device");
   expect_refusal(kScenec + " " + good + out + " --report /dev", 74, "/dev: is a folder");
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
-  expect_refusal(kScenec + " " + good + " -o " + folder.file("s.toml").string() + "/o.scene", 74, "is no folder");
+  expect_refusal(kScenec + " " + good + " -o " + folder.file("s.toml").string() + "/o.scene", 74, "is not a folder");
   expect_refusal(kScenec + " " + good + out + " --report /nowhere/r.json", 74, "there is no folder /nowhere");
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
   expect_refusal(kScenec + " " + folder.file("").string() + out, 66, "is a folder");
@@ -171,7 +171,7 @@ TEST(Command, RefusesABudgetThatNothingFits) {
       << hopeless.output;
   const Outcome without_unit = tried(folder, "c.scene", " --budget 20");
   EXPECT_EQ(without_unit.exit_code, 64);
-  EXPECT_NE(without_unit.output.find("give a time for a cycle with its unit"), std::string::npos);
+  EXPECT_NE(without_unit.output.find("give the time of a cycle"), std::string::npos);
   const Outcome without_budget = tried(folder, "c.scene", "");
   EXPECT_EQ(without_budget.exit_code, 64);
   EXPECT_NE(without_budget.output.find("--path is for --budget"), std::string::npos);

@@ -160,10 +160,9 @@ TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
   report.thin.walls = {.samples = 9, .area = 3e-5, .smallest = 2e-3, .voxel_needed = 1e-3, .lost_area = 2e-5};
   report.thin.walls.at = {0.01, 0.02, 0.03};
   const std::string text = report_text(report);
-  EXPECT_NE(
-      text.find("thinner than one voxel: 0.2 cm^2, too thin for the field to hold, bodies may pass there; at (0.01, "
-                "0.02, 0.03) m"),
-      std::string::npos)
+  EXPECT_NE(text.find("thinner than one voxel: 0.2 cm^2, the field cannot hold them, bodies may pass there; at (0.01, "
+                      "0.02, 0.03) m"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find(kRefusalRule), std::string::npos) << text;
   EXPECT_EQ(report_json(report)["walls"]["area_thinner_than_a_voxel"], 2e-5);
@@ -219,7 +218,7 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
       "walls thinner than a voxel, which bodies may pass");
   expect_limit([](CompileReport& r) { r.thin.gaps.samples = 3; }, "gaps thinner than two voxels");
   expect_limit([](CompileReport& r) { r.field.seams.cells = 1; }, "the mesh is open");
-  expect_limit([](CompileReport& r) { r.second.sought = false; }, "nobody looks between the points");
+  expect_limit([](CompileReport& r) { r.second.sought = false; }, "the depth between the points is not bounded");
   expect_limit([](CompileReport& r) { r.second.between.bound = 0.006 - r.second.slack; },
                "6 mm deep between the points (4 mm");
   expect_limit([](CompileReport& r) { r.second.between.bound = std::numeric_limits<double>::infinity(); },

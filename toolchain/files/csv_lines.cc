@@ -41,7 +41,7 @@ bool CsvLines::next(std::string_view& content) {
     if (!content.empty() && content.front() != '#') return true;
   }
   if (stream_.bad()) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: could not be read to its end; check the disk", file_.string()));
+    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be read to its end; check the disk", file_.string()));
   }
   return false;
 }

@@ -5,7 +5,7 @@
 
 namespace godobject::files {
 
-/// Text as it stands in HTML, in an attribute's quotes too.
+/// Returns the text escaped for HTML, also within the quotes of an attribute.
 inline std::string html_text(std::string_view text) {
   std::string result;
   for (const char c : text) {

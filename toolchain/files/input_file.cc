@@ -24,7 +24,7 @@ namespace {
 
 [[noreturn]] void refuse_error(const std::filesystem::path& file, std::string_view cure, int error) {
   if (error == ENOENT || error == ENOTDIR) refuse(file, fmt::format("no such file; {}", cure));
-  if (error == EACCES) refuse(file, "there is no right to read it; have the rights of the file and its folder changed");
+  if (error == EACCES) refuse(file, "no permission to read it; change the permissions of the file and its folder");
   refuse(file, fmt::format("cannot be read ({}); {}", std::strerror(error), cure));
 }
 

@@ -49,12 +49,13 @@ SceneImage SceneImage::read(const std::filesystem::path& file) {
   if (size > kLargest)
     throw Failure(
         ExitCode::kBadData,
-        fmt::format("{}: is not a scene image (X.scene, made by godobject-scenec): larger than any; check the path",
-                    file.string()));
+        fmt::format(
+            "{}: is not a scene image (X.scene, made by godobject-scenec): it is larger than 8 GiB; check the path",
+            file.string()));
   AlignedBytes image(size);
   stream.read(reinterpret_cast<char*>(image.span().data()), static_cast<std::streamsize>(size));
   if (stream.gcount() != static_cast<std::streamsize>(size)) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: reading it failed; check the disk", file.string()));
+    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be read completely; check the disk", file.string()));
   }
   return SceneImage(std::move(image), file.string());
 }

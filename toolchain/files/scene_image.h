@@ -10,7 +10,7 @@
 
 namespace godobject::files {
 
-/// The bytes of a scene image, aligned as the format asks.
+/// The bytes of a scene image, aligned as the format requires, initially zero.
 class AlignedBytes {
  public:
   explicit AlignedBytes(std::size_t size);
@@ -26,12 +26,14 @@ class AlignedBytes {
   std::size_t size_;
 };
 
-/// A scene image in memory and the core's view of it.
+/// A scene image in memory and the core's view of it, for tools at the desk. The controller has its own reader
+/// (firmware/scene_file.h), which locks the memory and accepts no links.
 struct SceneImage {
   AlignedBytes bytes;
   Scene scene;
 
-  /// Throws Failure (kBadData) if it is no image at all, else with the core's reason; `name` is used in the message.
+  /// Opens an image. Throws Failure (kBadData) if the bytes are no image, or with the core's reason. `name` stands for
+  /// it in messages.
   SceneImage(AlignedBytes image, const std::string& name);
 
   /// Reads a file. Throws Failure: kNoInput if it cannot be read, kBadData if it is larger than any image.

@@ -30,7 +30,7 @@ Vector3 vector_or_zero(const TomlTable& table, std::string_view key) {
   return table.has(key) ? vector(table, key) : Vector3::Zero();
 }
 
-/// From `quaternion` (w, x, y, z) or `axis_angle` (x, y, z, degrees); neither means as the mesh is.
+/// Returns the rotation from `quaternion` (w, x, y, z) or `axis_angle` (x, y, z, degrees); without either the identity.
 Quaternion rotation(const TomlTable& table) {
   if (table.has("quaternion") && table.has("axis_angle"))
     table.complain("axis_angle", "and quaternion exclude each other; give one of them");

@@ -13,7 +13,7 @@ namespace {
 using scene_compiler::OuterSurface;
 using scene_compiler::SolidSurface;
 
-constexpr std::uint32_t kLevels = 8;
+constexpr std::uint32_t kLevels = 8;  // chosen: the tree of 6000 points grows by 2.6 from level to level
 
 SolidSurface read_surface(const scene_compiler::SceneConfig::Mesh& mesh, double thickness) {
   scene_compiler::MeshReport report;
@@ -61,7 +61,7 @@ Pointshell shell_of(const std::vector<float>& values, const std::vector<format::
 }
 
 Parameters make_parameters(const scene_compiler::SceneConfig& config, const format::Body& body) {
-  constexpr double kMargin = 1e-3;  // [voxels]: a tenth of the default
+  constexpr double kMargin = 1e-3;  // [voxels] a tenth of the default
   Scene scene;
   scene.settings = config.settings;
   scene.grid.voxel_size = config.voxel_size;

@@ -18,7 +18,7 @@ double nearest_rank(std::vector<double>& values, double quantile) {
   return *nth;
 }
 
-/// `passes` times of each cycle, cycle by cycle.
+/// Returns the cost from `passes` times of each cycle.
 CycleCost cost_of(const std::vector<std::vector<double>>& times_ns) {
   std::vector<double> medians;
   for (std::vector<double> of_cycle : times_ns) medians.push_back(nearest_rank(of_cycle, 0.5));
@@ -45,14 +45,15 @@ Session::Session(const Scene& scene, const Setting& setting)
   memory_.resize(GodObject::memory(*scene_));
   if (god_object_->start(*scene_, setting.solver, setting.friction, memory_) != Status::kOk) {
     throw command::Failure(command::ExitCode::kBadData,
-                           "the scene image was compiled without " + name(setting) + "; compile it anew");
+                           "the scene image was compiled without " + name(setting) + "; compile it again");
   }
 }
 
 TracedCycle Session::update(const Pose& H_WM) {
   CycleReport report;
   if (god_object_->update({H_WM, Motion{}}, report) != Status::kOk) {
-    throw command::Failure(command::ExitCode::kBadData, "a pose of the path is none; see godobject-replay");
+    throw command::Failure(command::ExitCode::kBadData,
+                           "the path contains an invalid pose; godobject-replay names its row");
   }
   return {god_object_->mesh_pose(), report.force.spring_W};
 }

@@ -15,7 +15,7 @@
 namespace godobject::query {
 namespace {
 
-/// Exactly three finite numbers parted by commas.
+/// Reads exactly three finite numbers separated by commas.
 bool read_point(std::string_view line, Vector3& point) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t comma = line.find(',');
@@ -55,7 +55,8 @@ std::uint64_t query_points(const Scene& scene, const std::filesystem::path& poin
     if (first && names_columns(row)) continue;
     Vector3 point;
     if (!read_point(row, point)) {
-      lines.refuse(fmt::format("\"{}\" is not three finite numbers x,y,z; mend or drop the row", row.substr(0, 60)));
+      lines.refuse(
+          fmt::format("\"{}\" is not three finite numbers x,y,z; correct or remove the row", row.substr(0, 60)));
     }
     append_row(text, row, scene.voxelmap.sample(point), dilation);
     ++rows;

@@ -57,7 +57,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const files::Po
     ++summary.by_outcome[static_cast<std::size_t>(report.outcome)];
     if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];
     const State& state = god_object.state();
-    // before the first good row there is no god object to measure
+    // before the first valid row there is no god object to measure
     const double depth =
         state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
     summary.deepest = std::max(summary.deepest, depth);

@@ -16,7 +16,7 @@
 namespace godobject::scene_compiler {
 namespace {
 
-constexpr std::uint64_t kCheckedPoints = 20000;
+constexpr std::uint64_t kCheckedPoints = 20000;  // chosen: errors of one point in a thousand appear some 20 times
 
 SolidSurface read_body(const SceneConfig::Mesh& mesh, double thickness, MeshFindings& findings) {
   SolidSurface body(import_mesh(mesh.file, mesh.scale, findings.report), mesh.surface, thickness);
@@ -30,17 +30,17 @@ bool has_inside(const DistanceGrid& field) {
   });
 }
 
-/// A body that leaves no node inside would be no obstacle at all.
+/// Refuses a body without any node inside: it would be no obstacle.
 void require_some_inside(const DistanceGrid& field, const std::string& mesh_name) {
   if (has_inside(field)) return;
   throw command::Failure(
       command::ExitCode::kBadData,
-      fmt::format("{}: no node of the grid lies inside of it: it encloses nothing, or is smaller than a voxel; "
+      fmt::format("{}: no node of the grid is inside the mesh, which encloses nothing or is smaller than a voxel; "
                   "set surface = \"shell\", or a smaller voxel_size",
                   mesh_name));
 }
 
-/// Runs `work` on the moving mesh and puts the name of the mesh before its errors.
+/// Runs `work` on the moving mesh. Puts the name of the mesh before its errors.
 template <class Work>
 auto naming_moving_mesh(const SceneConfig& config, Work&& work) {
   try {
@@ -53,13 +53,13 @@ auto naming_moving_mesh(const SceneConfig& config, Work&& work) {
   }
 }
 
-/// The scene asks for the second direction, and the solver of the image reads it.
+/// True if the scene asks for the second direction and the solver of the image reads it.
 bool wants_features(const CompileTarget& target) {
   return target.config.both_directions &&
          target.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
 }
 
-/// The moving mesh in its body frame.
+/// Returns the moving mesh in its body frame.
 SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body, const SceneConfig& config) {
   const Eigen::Isometry3d X_BM = body_pose(body).inverse();
   TriangleMesh mesh = moving.mesh();
@@ -67,9 +67,9 @@ SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body,
   return SolidSurface(std::move(mesh), config.moving.surface, config.thickness);
 }
 
-/// By how much the moving body is smaller in its field [voxels]: as much as refinement may hold bodies off at its edges
-/// (kHeldOff tolerances). Otherwise an edge of the still body that lies in the plane of a face in contact would catch
-/// on that difference.
+/// Returns the slack by which the moving body is smaller in its field [voxels]: as much as refinement may hold bodies
+/// off at its edges (kHeldOff tolerances). Otherwise an edge of the still body in the plane of a touching face would
+/// catch on that difference.
 double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
 
 struct FeaturePhase {
@@ -199,7 +199,7 @@ Trimmed trim(SceneParts parts, const CompileTarget& target, const Bodies& bodies
   const SceneConfig& config = target.config;
   std::optional<double> deepest;
   if (second.sought && std::isfinite(second.between.bound)) {
-    // and one voxel for the errors of the fields
+    // plus one voxel for the errors of the fields
     deepest = second.between.bound + second.slack + std::max(config.voxel_size, config.body_voxel_size);
   }
   return clock.run("unneeded data", [&](const auto&) {

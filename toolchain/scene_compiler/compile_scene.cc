@@ -18,10 +18,11 @@ namespace {
 /// Refuses --only-solver paper for a ball: its one point has no normal.
 void require_held(const SceneConfig& config, std::optional<format::Solver> only_solver) {
   if (!only_solver || (config.settings.solvers >> static_cast<std::uint32_t>(*only_solver) & 1u) != 0) return;
-  throw command::Failure(command::ExitCode::kBadConfig,
-                         fmt::format("--only-solver {}: needs points with normals, a ball has its centre alone; take "
-                                     "contact or corrected, or leave out moving.ball",
-                                     format::kSolverNames[static_cast<std::size_t>(*only_solver)]));
+  throw command::Failure(
+      command::ExitCode::kBadConfig,
+      fmt::format("--only-solver {}: the solver needs points with normals, a ball has only its centre; choose "
+                  "contact or corrected, or leave out moving.ball",
+                  format::kSolverNames[static_cast<std::size_t>(*only_solver)]));
 }
 
 CompileTarget target_of(const CompileRequest& request) {
@@ -30,7 +31,7 @@ CompileTarget target_of(const CompileRequest& request) {
   return target;
 }
 
-/// The refinement that is left after trimming.
+/// Returns the refinement that remains after trimming.
 RefinementReport trimmed_refinement(RefinementReport refinement, const LeftOutBricks& left_out) {
   refinement.refined -= left_out.refined;
   refinement.finer -= left_out.all_bricks - left_out.positions;
@@ -39,14 +40,14 @@ RefinementReport trimmed_refinement(RefinementReport refinement, const LeftOutBr
   return refinement;
 }
 
-/// The second direction that is left after trimming.
+/// Returns the second direction that remains after trimming.
 SecondDirection trimmed_second(SecondDirection second, const SceneParts& parts) {
   second.features = parts.features.header;
   second.grid = parts.body_field.grid;
   return second;
 }
 
-/// Adds the time that each item saves to the items.
+/// Returns the items with the time that each of them saves.
 std::vector<LeftOut> timed_items(std::vector<LeftOut> items, const std::optional<CycleTimes>& times) {
   if (!times) return items;
   for (std::size_t i = 0; i < items.size(); ++i) items[i].cycle = times->savings[i];
@@ -58,8 +59,8 @@ std::optional<CycleTimes> time_trimming(const CompileRequest& request, const Tri
   return clock.run("times", [&](const auto& progress) { return steps.time(progress); });
 }
 
-/// Writes the image under a temporary name, reads it back, opens it as the device does and renames it. Returns its
-/// size in bytes.
+/// Writes the image under a temporary name, reads it back, opens it as the device does and renames it. Returns its size
+/// in bytes.
 std::uint64_t write_image(const std::vector<SectionBytes>& sections, const std::filesystem::path& file) {
   const files::AlignedBytes image = make_image(sections);
   files::AtomicFile output(file);
@@ -69,7 +70,7 @@ std::uint64_t write_image(const std::vector<SectionBytes>& sections, const std::
   if (std::memcmp(read_back.bytes.span().data(), image.span().data(), image.span().size()) != 0) {
     throw command::Failure(
         command::ExitCode::kIo,
-        fmt::format("{}: what was read back is not what was written; check the disk", file.string()));
+        fmt::format("{}: the bytes read back differ from the bytes written; check the disk", file.string()));
   }
   output.commit();
   return image.span().size();

@@ -49,8 +49,8 @@ Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFindings& facts, double 
           {"shell_thickness", thickness}};
 }
 
-/// Of walls or gaps; "at" is the middle of the thinnest, "patch_at" of the thinnest in the largest patch that lies
-/// between near-parallel faces.
+/// Returns the JSON of walls or gaps. "at" is the middle of the thinnest place. "patch_at" is that of the thinnest one
+/// in the largest patch between near-parallel faces.
 Json thin_json(const ThinPlaces& places) {
   Json json = {{"found", places.samples > 0}};
   if (places.samples == 0) return json;
@@ -167,7 +167,8 @@ Json left_out_json(const CompileReport& report) {
                             : report.second.sought          ? "no feature point is needed"
                             : report.config.both_directions ? "only contact reads it"
                                                             : "contact.both_directions = false";
-    list.push_back({{"what", std::string("the second direction: ") + why}, {"bytes_saved", nullptr}});  // never made
+    // Never made, so its size is unknown.
+    list.push_back({{"what", std::string("the second direction: ") + why}, {"bytes_saved", nullptr}});
   }
   return list;
 }
@@ -220,7 +221,7 @@ Json left_out_code_json(const SceneTraits& traits) {
   };
   if (!traits.paper) leave_out("the solver paper", code.paper + code.paper_with_friction);
   if (!traits.corrected) leave_out("the solver corrected", code.corrected + code.corrected_with_friction);
-  if (!traits.paper && !traits.corrected) leave_out("what these two share", code.closed_forms);
+  if (!traits.paper && !traits.corrected) leave_out("code shared by paper and corrected", code.closed_forms);
   if (!traits.contact) {
     leave_out("the solver contact",
               code.contact + code.contact_with_points + code.contact_with_friction + code.contact_features);
@@ -239,7 +240,7 @@ Json left_out_code_json(const SceneTraits& traits) {
 Json full_report_json(const CompileReport& report) {
   Json json = report_json(report);
   json["image_bytes"] = report.image_bytes;
-  for (std::size_t i = 0; i < report.left_out.size(); ++i) {  // they come first
+  for (std::size_t i = 0; i < report.left_out.size(); ++i) {  // they are the first entries of the list
     const std::optional<Saving>& cycle = report.left_out[i].cycle;
     if (!cycle) continue;
     json["left_out"][i]["nanoseconds_saved"] = cycle->ns;

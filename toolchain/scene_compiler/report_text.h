@@ -6,10 +6,10 @@
 
 namespace godobject::scene_compiler {
 
-/// One line: "ready", and each limit of the image that the scene did not ask for.
+/// Returns one line: "ready", or "ready, with limits" and each property of the image that misses the scene's settings.
 std::string verdict_text(const CompileReport& report);
 
-/// The report for people, about one screen. The verdict is its last line.
+/// Returns the report for people, about one screen. The verdict is its last line.
 std::string report_text(const CompileReport& report);
 
 }  // namespace godobject::scene_compiler

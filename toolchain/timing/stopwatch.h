@@ -4,11 +4,11 @@
 
 namespace godobject::timing {
 
-/// A clock for stretches of less than a microsecond: nanoseconds since some moment. The processor's own counter where
-/// it is known to run evenly, because a system clock's reading can take 0.1 us; else CLOCK_MONOTONIC.
+/// A clock for times below a microsecond: nanoseconds since some moment. It is the processor's own counter if that runs
+/// evenly, because reading a system clock can take 0.1 us; otherwise CLOCK_MONOTONIC.
 using Stopwatch = std::int64_t (*)() noexcept;
 
-/// The first call compares the counter with the system's clock for 20 ms.
+/// Returns the clock. The first call compares the counter with the system's clock for 20 ms.
 Stopwatch stopwatch();
 
 }  // namespace godobject::timing

@@ -222,13 +222,13 @@ TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   EXPECT_TRUE(scene.holds(format::Solver::kCorrected));
   EXPECT_NEAR(ball_radius(scene), kRadius, 1e-8);
   const std::string text = report_text(report);
-  EXPECT_NE(text.find("ball     of 10 mm radius, the mesh up to 0.00685"), std::string::npos) << text;
+  EXPECT_NE(text.find("ball     of 10 mm radius, the mesh at most 0.00685"), std::string::npos) << text;
   EXPECT_NE(text.find("points of the ball, which its centre stands for"), std::string::npos) << text;
-  EXPECT_EQ(text.find("friction, whose lever"), std::string::npos) << text;
+  EXPECT_EQ(text.find("from friction, whose lever"), std::string::npos) << text;
   EXPECT_EQ(verdict_text(report), "ready: the field is within its tolerance near the surface at the ball's radius");
   const CompileReport rough = compile({.more = "[friction]\nstatic = 0.2\n"});
-  EXPECT_NE(report_text(rough).find("friction, whose lever"), std::string::npos);
-  EXPECT_NE(verdict_text(rough).find("with limits: friction turns no ball"), std::string::npos);
+  EXPECT_NE(report_text(rough).find("from friction, whose lever"), std::string::npos);
+  EXPECT_NE(verdict_text(rough).find("with limits: friction cannot turn a ball"), std::string::npos);
 }
 
 /// The device 1 mm under the surface of the cube dilated by the ball, following a polygon outside: over faces, edges
@@ -434,7 +434,7 @@ TEST_F(BallScene, TellsDistancesFromTheMesh) {
 
 TEST_F(BallScene, RefusesWhatItWouldRenderWrongly) {
   using command::ExitCode;
-  expect_refused({.moving = mesh_file("cube_100mm").string()}, ExitCode::kBadData, "is no ball");
+  expect_refused({.moving = mesh_file("cube_100mm").string()}, ExitCode::kBadData, "is not a ball");
   expect_refused({.still = mesh_file("bracket").string()}, ExitCode::kBadData, "is not one closed convex solid");
   expect_refused({.voxel_size = 0.011}, ExitCode::kBadData, "smaller than a voxel");
   expect_refused({.more = "[contact]\nsolver = \"paper\"\n"}, ExitCode::kBadConfig, "contact.solver");

@@ -23,7 +23,7 @@ Json traits_json(const SceneTraits& traits);
 Json grid_json(const format::Grid& grid);
 Json body_json(const format::Body& body);
 
-/// Everything that an opened image holds: header, settings, grid, body, sections, build traits and provenance.
+/// Returns the contents of an opened image: header, settings, grid, body, sections, build traits and provenance.
 Json inspect_json(const files::SceneImage& image);
 
 }  // namespace godobject::scene_compiler

@@ -21,7 +21,7 @@ struct SceneParts {
   DistanceGrid body_field;  ///< of the moving body; stored only with features
 };
 
-/// All sections of the image but the provenance. Normals are stored only for the solver `paper`, which reads them.
+/// Returns all sections of the image but the provenance. Stores normals only for the solver `paper`, which reads them.
 std::vector<SectionBytes> lay_out(const SceneParts& parts);
 
 }  // namespace godobject::scene_compiler

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kLeafTriangles = 4;
+constexpr std::uint32_t kLeafTriangles = 4;  // chosen
 constexpr std::uint32_t kMostUneven = 16;
 /// Depth of the stack of open nodes. Each split leaves more than 1 / kMostUneven of the triangles on either side. So
 /// 2^26 triangles, twice kMaxTriangles, need at most ln(2^26 / kLeafTriangles) / ln(16 / 15) = 258 levels.
@@ -40,13 +40,13 @@ Box box_of(const TriangleTree::Triangle& t) noexcept {
   return box;
 }
 
-/// Range of t in which the ray is inside the box; false if it misses.
+/// True if the ray is inside the box for some t in the range.
 bool ray_meets_box(const Vector3d& origin, const Vector3d& inverse, const Vector3d& low, const Vector3d& high,
                    double t_min, double t_max) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const double t0 = (low[axis] - origin[axis]) * inverse[axis];
     const double t1 = (high[axis] - origin[axis]) * inverse[axis];
-    // fmin and fmax drop the NaN of 0 * infinity: the ray runs in the slab's plane
+    // fmin and fmax drop the NaN of 0 * infinity, which occurs if the ray lies in the slab's plane
     t_min = std::fmax(t_min, std::fmin(t0, t1));
     t_max = std::fmin(t_max, std::fmax(t0, t1));
   }
@@ -64,7 +64,7 @@ bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const
   const double u = from_a.dot(h) / determinant;
   const Vector3d q = from_a.cross(e1);
   const double v = direction.dot(q) / determinant;
-  constexpr double kEdge = 1e-9;  // a ray through an edge meets one of the two triangles at least
+  constexpr double kEdge = 1e-9;  // so that a ray through an edge meets at least one of its two triangles
   if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge) return false;
   t = e2.dot(q) / determinant;
   return true;
@@ -177,7 +177,7 @@ std::uint32_t TriangleTree::split_at_median(std::uint32_t begin, std::uint32_t e
 void TriangleTree::set_dipoles() {
   dipoles_.resize(nodes_.size());
   std::vector<double> areas(nodes_.size());
-  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children stand behind their parent
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children follow their parent
     const Node& node = nodes_[n];
     Dipole& dipole = dipoles_[n];
     Vector3d weighted = Vector3d::Zero();
@@ -295,8 +295,8 @@ double TriangleTree::winding_number(const Vector3d& p, double opening) const noe
     const Dipole& dipole = dipoles_[index];
     const Vector3d to_center = dipole.center - p;
     const double squared = to_center.squaredNorm();
-    const double reach = opening * dipole.radius;
-    if (squared > reach * reach) {
+    const double far = opening * dipole.radius;
+    if (squared > far * far) {
       sum += dipole.area.dot(to_center) / (squared * std::sqrt(squared));
       continue;
     }

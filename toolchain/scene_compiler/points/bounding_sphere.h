@@ -6,7 +6,7 @@
 
 namespace godobject::scene_compiler {
 
-/// Radius of the sphere that an image stores about a single point: the format wants a positive one [m].
+/// Radius that an image stores for the sphere about a single point, because the format requires a positive one [m].
 inline constexpr double kLeastPointRadius = 1e-9;
 
 struct Sphere {
@@ -14,8 +14,9 @@ struct Sphere {
   double radius = 0.0;
 };
 
-/// Smallest sphere around `points` (at least one): minimal to about 1e-10 of its radius, and no point is further from
-/// the center than `radius`. Coincident, collinear, coplanar and cospherical points are fine. Cost: some ten passes.
+/// Returns the smallest sphere around `points` (at least one), minimal to about 1e-10 of its radius. No point is
+/// farther from the centre than `radius`. Coincident, collinear, coplanar and cospherical points are allowed. Cost:
+/// some ten passes.
 Sphere bounding_sphere(std::span<const Eigen::Vector3d> points);
 
 }  // namespace godobject::scene_compiler

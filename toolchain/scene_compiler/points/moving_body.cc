@@ -33,18 +33,20 @@ constexpr std::size_t kProbeBlock = 256;
 
 void check_arguments(std::uint32_t points, std::uint32_t levels) {
   if (points < 1 || points > format::kMaxPoints) {
-    throw command::Failure(command::ExitCode::kBadConfig,
-                           fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("moving.points = {} is out of range; set it to 1 .. {}", points, format::kMaxPoints));
   }
   if (levels < 1 || levels > format::kMaxLevels) {
-    throw command::Failure(command::ExitCode::kBadConfig,
-                           fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("moving.levels = {} is out of range; set it to 1 .. {}", levels, format::kMaxLevels));
   }
   const std::uint32_t deepest = most_levels(points);
   if (levels > deepest) {
     throw command::Failure(
         command::ExitCode::kBadConfig,
-        fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
+        fmt::format("moving.levels = {} is too large for {} points; set levels to {} or less, or points to {} or more",
                     levels, points, deepest, least_points(levels)));
   }
 }
@@ -62,7 +64,8 @@ double median_neighbour_distance(const std::vector<SurfaceSample>& samples, cons
   return std::sqrt(*middle);
 }
 
-/// Mass of the enclosed volume, or else of the points; fills the body's frame, inertia and volume.
+/// Sets the body's frame, inertia and volume from the mass of the enclosed volume, or else of the points. Returns the
+/// pose of the body frame.
 Eigen::Isometry3d set_mass(const BodyMesh& mesh, const std::vector<Vector3d>& points, format::Body& body) {
   MassMoments moments;
   if (mesh.encloses_volume()) moments = moments_of_volume(mesh.mesh);
@@ -113,7 +116,7 @@ MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t point
   return sampling;
 }
 
-/// Those furthest off are looked at first: the first one that is not buried decides.
+/// Tests the probes farthest from any sample first: the first one that is not buried decides.
 double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> samples) {
   const PointTree tree(points_of(samples));
   const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
@@ -145,7 +148,7 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
 
   MovingBody moving;
   format::Body& body = moving.body;
-  // samples that were added crowd at edges: they carry no mass
+  // added samples crowd at edges, so they have no mass
   const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_of(spread), body).inverse();
   std::vector<Eigen::Vector3f> points_B;
   std::vector<Eigen::Vector3f> normals_B;
@@ -166,7 +169,7 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   for (const Eigen::Vector3f& p : points_B) stored_B.push_back(p.cast<double>());
   const Sphere sphere = bounding_sphere(stored_B);
   std::copy_n(sphere.center.data(), 3, body.sphere_center);
-  // not so small that points of the still body seem to swing far about a few clustered samples
+  // The sphere must not be so small that points of the still body seem to swing far about a few clustered samples.
   body.sphere_radius = std::max(sphere.radius * kRoundedUp, kLeastSphere * body.radius);
   body.point_count = static_cast<std::uint32_t>(sampling.samples.size());
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());

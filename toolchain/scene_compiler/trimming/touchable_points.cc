@@ -25,7 +25,7 @@ Box box_of(const format::Workspace& workspace) {
           Vector3d(workspace.high[0], workspace.high[1], workspace.high[2])};
 }
 
-/// Distances from the places of a box to those at which the field is felt, a little too small and too large.
+/// The range of distances between places of a box and places that the field affects, slightly widened.
 struct Range {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
@@ -33,7 +33,7 @@ struct Range {
   bool holds(double distance) const { return distance >= least && distance <= most; }
 };
 
-/// Calls visit(box) for the cells of a stored position in which the field may be below its band: it is nowhere lower
+/// Calls visit(box) for the cells of a stored position in which the field may be below its band. It is nowhere lower
 /// than the least of the cell's own nodes less Brick::deviation.
 template <class Visit>
 void visit_felt_cells(const DistanceGrid& field, std::uint32_t entry, const Vector3d& low, const Visit& visit) {
@@ -79,7 +79,7 @@ Range range_of(const DistanceGrid& field, const Box& box) {
   return range;
 }
 
-/// Cells about a body, its walls, and the parts into which they cut the rest; part 0 is outside.
+/// The cells about a body: walls, and the parts into which walls separate the other cells. Part 0 is outside.
 class Cells {
  public:
   Cells(const SolidSurface& body, double deepest) {
@@ -96,7 +96,7 @@ class Cells {
     parallel::for_each_index(count, [&](std::size_t i) {
       part_[i] = body.signed_distance(center(lattice_.position(i))) + half_diagonal < -deepest ? kWall : kOpen;
     });
-    for (std::size_t i = 0; i < count; ++i) {  // the first cell is outside, and so is all about the body
+    for (std::size_t i = 0; i < count; ++i) {  // the first cell is outside, and so are all cells about the body
       if (part_[i] == kOpen) flood(i);
     }
   }

@@ -50,7 +50,7 @@ class Rebuilding {
   std::vector<Node> nodes_;
 };
 
-/// A voxelmap that counts what it is asked. Batches by the kernel that every processor has, so that all count the same.
+/// A voxelmap that counts its look-ups. Batches use the kernel of every processor, so the count is the same everywhere.
 class CountingField {
  public:
   CountingField(const Voxelmap& map, double& cost) : map_(map), cost_(cost) {}
@@ -82,7 +82,7 @@ class CountingField {
 
 static_assert(DistanceField<CountingField>);
 
-/// Step #1 of `contact` in one direction, once a pose, for what a cycle that steady would look for.
+/// Step #1 of `contact` in one direction, once for each pose, with the search radius of a cycle that steady.
 template <class Direction>
 class NearWork {
  public:
@@ -103,11 +103,11 @@ class NearWork {
     const double moved = odometer_.way() - before;
     const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_reach), longest_);
     if (search_.is_free(odometer_.way() + moved, free_cut)) return;
-    const double reach =
+    const double search_radius =
         direction_.most_stretch() * lengths_.reach_for(ContactLengths::kReachOverWay * moved, longest_);
-    if (search_.is_free(odometer_.way(), reach)) return;
+    if (search_.is_free(odometer_.way(), search_radius)) return;
     search_.find(
-        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.way(), reach,
+        direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.way(), search_radius,
         PointBudget{}, [](auto&&...) noexcept {}, [](double) noexcept {});
   }
 
@@ -123,7 +123,7 @@ class NearWork {
   Odometer odometer_;
 };
 
-/// Calls visit(pose) for each, which adds to `cost`.
+/// Calls visit(pose) for each pose, which adds to `cost`.
 template <class Visit>
 SearchWork work_of(std::span<const Pose> poses, const double& cost, const Visit& visit) {
   SearchWork work;

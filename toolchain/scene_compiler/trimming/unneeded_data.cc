@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// In the frame that X takes them to.
+/// Returns the points in the target frame of X.
 std::vector<Vector3d> points_of(const std::vector<float>& axes, const Eigen::Isometry3d& X) {
   const std::size_t n = axes.size() / 3;
   std::vector<Vector3d> points;
@@ -92,8 +92,8 @@ class Unneeded {
     const godobject::detail::FeatureDirection direction(lengths, body_radius);
     // the lever of a near point bounds the distance that it travels
     const double lever = body_radius + direction.most_stretch() * lengths.longest_reach;
-    const double longest_way = direction.stretch(lever) * lengths.longest_reach;
-    const double least = least_look_up(parts_.features, *parts_.workspace, longest_way);
+    const double longest_path = direction.stretch(lever) * lengths.longest_reach;
+    const double least = least_look_up(parts_.features, *parts_.workspace, longest_path);
     return leave_out_unreachable_core(parts_.body_field, least).positions;
   }
 
