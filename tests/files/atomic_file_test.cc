@@ -37,7 +37,7 @@ class AtomicFileTest : public testing::Test {
     output.commit();
   }
 
-  /// With which code, and saying what, `file` is refused as an output of either kind.
+  /// Expects that `file` is refused as an output of either kind, with this code and these words.
   static void expect_refusal(const fs::path& file, ExitCode code, const std::string& words) {
     const auto expect = [&](const auto& open) {
       try {

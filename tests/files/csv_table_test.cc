@@ -29,7 +29,7 @@ class CommandFiles : public testing::Test {
     return folder_ / "table.csv";
   }
 
-  /// The message with which `text` is refused; empty if it is not.
+  /// Returns the message with which `text` is refused; empty if it is accepted.
   std::string refusal(const std::string& text, ExitCode expected) const {
     try {
       read_csv(file(text), kColumns);

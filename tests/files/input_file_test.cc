@@ -29,7 +29,7 @@ class InputFileTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// What is said of `file`; nothing if it is taken.
+  /// Returns the message with which `file` is refused; empty if it is accepted.
   static std::string refusal(const fs::path& file, bool regular = false) {
     try {
       regular ? require_regular_input(file, "bake it") : require_input(file, "bake it");

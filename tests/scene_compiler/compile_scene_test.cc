@@ -23,7 +23,7 @@ std::string slurp(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A scene of two meshes, `size` times as large as the meshes are.
+/// A scene of two meshes, scaled by `size`.
 struct SceneText {
   const char* still = "bracket";
   const char* moving = "cube_100mm";
@@ -154,7 +154,7 @@ TEST(FieldCheck, HoldsNodesToTheSmallerOfTenMicrometresAndAThousandthOfAVoxel) {
 }
 
 TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
-  // too small a patch to refuse, but never silent
+  // too small a patch to refuse, but it is reported
   CompileReport report = compile({.still = "cube_100mm"});
   EXPECT_EQ(report_text(report).find("thinner than one voxel"), std::string::npos);
   report.thin.walls = {.samples = 9, .area = 3e-5, .smallest = 2e-3, .voxel_needed = 1e-3, .lost_area = 2e-5};

@@ -24,11 +24,11 @@ TEST(Stopwatch, RunsAsFastAsTheSystemsClock) {
   const std::int64_t begin_ns = now();
   while (Clock::now() - begin < std::chrono::milliseconds(50)) {
   }
-  const double way = static_cast<double>(now() - begin_ns);
+  const double elapsed = static_cast<double>(now() - begin_ns);
   const double system =
       static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count());
-  // being put aside between the two readings makes the system's way longer, never shorter
-  EXPECT_LT(way, 1.01 * system);
+  // if the process is suspended between the two readings, the system's time is longer, never shorter
+  EXPECT_LT(elapsed, 1.01 * system);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::string ascii_ply(const std::string& vertices, int vertex_count, const std::
          "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
 }
 
-/// Imports text as a file and returns what the import says is wrong.
+/// Imports text as a file. Returns the error message.
 std::pair<command::ExitCode, std::string> refusal(const std::string& name, const std::string& text) {
   const ScratchFolder folder;
   MeshReport report;

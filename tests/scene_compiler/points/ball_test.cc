@@ -42,7 +42,7 @@ TriangleMesh rounded(TriangleMesh mesh) {
   return mesh;
 }
 
-/// With its first triangle out of the way.
+/// Removes the first triangle.
 TriangleMesh opened(TriangleMesh mesh) {
   mesh.triangles.erase(mesh.triangles.begin());
   return mesh;
@@ -231,7 +231,7 @@ TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   EXPECT_NE(verdict_text(rough).find("with limits: friction cannot turn a ball"), std::string::npos);
 }
 
-/// The device 1 mm under the surface of the cube dilated by the ball, following a polygon outside: over faces, edges
+/// Moves the device 1 mm under the surface of the cube dilated by the ball, along a polygon outside: over faces, edges
 /// and corners. `at` gets the place on the cube and the outward direction.
 template <class At>
 void follow_cube(At&& at) {
@@ -272,7 +272,7 @@ TEST_P(BallOnCube, StandsWhereGeometryHasIt) {
     const CycleReport report = ball.update(on_cube + (kRadius - kDepth) * normal, rotation);
     EXPECT_LT(ball.god_object->mesh_pose().rotation.angularDistance(rotation), 1e-7);
     EXPECT_LT(report.force.spring_W.torque.norm(), 1e-9);
-    if (cycle < 20) return;  // it started inside and comes out
+    if (cycle < 20) return;  // it started inside and moves out
     EXPECT_LE(report.penetration, 0.0);
     const double gap = to_cube(ball.center()) - kRadius;
     lowest = std::min(lowest, gap);
@@ -294,7 +294,7 @@ TEST_P(BallOnCube, StandsWhereGeometryHasIt) {
 
 INSTANTIATE_TEST_SUITE_P(OfTolerance, BallOnCube, testing::Values(Tolerated{0.05, 1.0}, Tolerated{0.005, 0.5}));
 
-/// The same image by `contact_cycle`, which has the ball's centre as one point among any number.
+/// The same image with `contact_cycle`, for which the ball's centre is an ordinary point.
 TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
   compile({});
   Rendered ball(folder_.file("out.scene"));
@@ -329,7 +329,7 @@ TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
     damped_apart = std::max(damped_apart, (report.force.total_W.force - expected.force.total_W.force).norm());
   });
   fmt::print("{} cycles: {:.3g} m apart, {:.3g} N, {:.3g} N with damping\n", cycle, apart, force_apart, damped_apart);
-  // needs met up to the tolerance are met, and ContactRows keeps them in single precision
+  // required gap increases are met within the tolerance, and ContactRows stores them in single precision
   const double tolerance = 1.5 * ContactLengths::make(parameters).metric.tolerance;
   EXPECT_LT(apart, tolerance);
   EXPECT_LT(force_apart, kStiffness * tolerance);
@@ -342,12 +342,12 @@ TEST_F(BallScene, StandsOnFacesWhereManyPointsStand) {
       compile({.ball = false, .more = "[contact]\nboth_directions = false\n"}, "without.scene");
   Rendered ball(folder_.file("with.scene"));
   Rendered points(folder_.file("without.scene"));
-  // the mesh lies inside of the ball, its points up to `coverage` from a place of it
+  // the mesh lies inside the ball, and its points are up to `coverage` from a place of it
   const double polyhedron = with.ball->deviation + std::pow(without.points.spread.coverage, 2) / (2.0 * kRadius);
   double apart = 0.0, force_apart = 0.0, torque = 0.0;
   int compared = 0;
   follow_cube([&](const Vector3d& on_cube, const Vector3d& normal) {
-    // beside an edge, which finds its way in between the points, the ball is lifted
+    // beside an edge, which can enter between the points, the ball is lifted
     const bool on_face = (on_cube.cwiseAbs().array() > kHalfCube - kRadius).count() == 1;
     const Vector3d device = on_cube + (kRadius + (on_face ? -kDepth : 5e-3)) * normal;
     const CycleReport one = ball.update(device, Quaternion::Identity());

@@ -29,7 +29,7 @@ using test::box_mesh;
 const Vector3d kEdges(0.06, 0.04, 0.03);
 constexpr double kBoxArea = 2.0 * (0.06 * 0.04 + 0.04 * 0.03 + 0.03 * 0.06);
 
-/// What the image holds, back in the mesh's frame M.
+/// The contents of the image in the mesh's frame M.
 struct Made {
   MovingBody moving;
   PointSpread spread;
@@ -76,7 +76,7 @@ SectionBytes section(format::SectionId id, std::span<const T> items) {
   return {id, {bytes.begin(), bytes.end()}};
 }
 
-/// The judge of the format: an image of the body beside some still ball, opened as the device does.
+/// Opens an image of the body beside a still ball, as the device does.
 void expect_opens(const MovingBody& moving) {
   test::SceneDescription still;
   still.distance = [](const Vector3& p) { return test::ball_distance(p, 0.02); };
@@ -214,7 +214,7 @@ TEST(MovingBody, SamplesHangOnTheNearestOneOfTheLevelBefore) {
     if (node.level == 0) continue;
     std::vector<Vector3d> siblings;
     for (const std::uint32_t i : made.level(node.level)) siblings.push_back(made.points[i]);
-    // the first points of the children (of a leaf: its points) are those that hang on the node
+    // a child's first point (of a leaf: all its points) belongs to the node
     std::vector<std::uint32_t> hanging;
     if (node.leaf) {
       for (std::uint32_t i = 0; i < node.point_count; ++i) hanging.push_back(node.first_point + i);
@@ -237,7 +237,7 @@ TEST(MovingBody, SpheresAreMinimal) {
   for (const format::Node& node : made.moving.nodes) {
     std::vector<Vector3d> points;
     for (std::uint32_t i = 0; i < node.point_count; ++i) points.push_back(at(made.moving.points, node.first_point + i));
-    const double smallest = bounding_sphere(points).radius;  // itself held against an oracle in its own test
+    const double smallest = bounding_sphere(points).radius;  // tested against an oracle in its own test
     // the center's rounding to float moves it by 3.5e-9 m at 0.06 m
     EXPECT_LE(static_cast<double>(node.radius), smallest * (1.0 + 3e-7) + 4e-9);
     EXPECT_GE(static_cast<double>(node.radius), smallest * (1.0 - 1e-9));
@@ -277,7 +277,7 @@ TEST(MovingBody, ABoxHasPointsAllAlongItsEdges) {
       ASSERT_GE(stations.size(), 2u);
       EXPECT_NEAR(stations.front(), 0.0, 1e-7);
       EXPECT_NEAR(stations.back(), length, 1e-7);
-      // a gap of twice the distance would hold another point that crowds nobody
+      // a gap of twice the distance would leave room for another point
       for (std::size_t i = 1; i < stations.size(); ++i) EXPECT_LT(stations[i] - stations[i - 1], 2.0 * spacing);
     }
   }
@@ -335,7 +335,7 @@ TEST(MovingBody, AShellHasPointsOnBothSidesAndOnItsRim) {
 }
 
 TEST(MovingBody, AThinPlateIsSampledOnEachSideAsIfAlone) {
-  // much thinner than the spacing: sides that crowded each other would leave holes of twice the spacing
+  // much thinner than the spacing: if the sides crowded each other, there would be holes of twice the spacing
   const Vector3d edges(0.1, 0.1, 0.0005);
   const Made made = make(box_mesh(edges), 800, 4);
   for (const double side : {-1.0, 1.0}) {
@@ -361,7 +361,7 @@ TEST(MovingBody, ANeedleIsSampledFromTipToBase) {
   for (const Vector3d& p : made.points) stations.push_back(p.x());
   std::sort(stations.begin(), stations.end());
   EXPECT_NEAR(stations.back(), 1.0, 1e-6);
-  // the tip has next to no area: equal areas would leave it bare for sqrt(1 / 200) of the length
+  // the tip has almost no area: equal areas would leave sqrt(1 / 200) of the length without points
   for (std::size_t i = 1; i < stations.size(); ++i) EXPECT_LT(stations[i] - stations[i - 1], 0.05) << stations[i];
   expect_opens(made.moving);
 }
@@ -374,7 +374,7 @@ TEST(MovingBody, ASingleTriangleIsAShell) {
 }
 
 TEST(MovingBody, AClosedPlateWithoutVolumeIsAShell) {
-  // both sides of the plate are one on the other: 8 corners at 4 places, welded as a mesh file's would be
+  // both sides of the plate coincide: 8 corners at 4 places, welded as in a mesh file
   const TriangleMesh mesh{{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}},
                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
   const Made made = make(mesh, 300, 3, SurfaceKind::kShell);

@@ -14,6 +14,7 @@
 #include "core/pipeline/god_object.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/report_json.h"
 #include "toolchain/scene_compiler/report_text.h"
 #include "toolchain/scene_compiler/trimming/tree_levels.h"
@@ -80,8 +81,8 @@ class Session {
   Pose H_BM_;
 };
 
-/// Devices that wander in the workspace and somewhat out of it, with all solvers: both give the same bits. Returns in
-/// how many cycles there was contact.
+/// Moves devices in the workspace and a little outside, with all solvers. Both scenes must give the same bits. Returns
+/// the number of cycles with contact.
 int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -114,7 +115,7 @@ int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uin
         EXPECT_EQ(x.force.total_W.force, y.force.total_W.force);
         EXPECT_EQ(x.force.total_W.torque, y.force.total_W.torque);
         EXPECT_EQ(x.contacts, y.contacts);
-        if (x.contacts > 0) {  // else it is a bound that the spheres give
+        if (x.contacts > 0) {  // otherwise it is a bound from the spheres
           EXPECT_EQ(x.penetration, y.penetration);
         }
         EXPECT_EQ(x.outcome, y.outcome);
@@ -126,7 +127,7 @@ int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uin
   return touching;
 }
 
-/// Item of the report.
+/// Returns the item of the report; null if there is none.
 const LeftOut* item(const CompileReport& report, const char* words) {
   for (const LeftOut& left_out : report.left_out) {
     if (left_out.what.find(words) != std::string::npos) return &left_out;
@@ -134,7 +135,7 @@ const LeftOut* item(const CompileReport& report, const char* words) {
   return nullptr;
 }
 
-/// The scene with everything, limited to the workspace.
+/// Returns the complete scene, limited to the workspace.
 Scene limited(const Scene& scene, const format::Workspace& workspace) {
   Scene all = scene;
   all.workspace.limited = true;
@@ -175,7 +176,7 @@ TEST_F(LeavesOut, NothingThatChangesAResultInTheWorkspace) {
   }
 }
 
-/// A peg upright above a cube: its ends and the cube's upper edges are what may touch.
+/// A peg upright above a cube: only its ends and the cube's upper edges can touch.
 TEST_F(LeavesOut, PointsThatTouchNothing) {
   const Limited scene = limited_scenes()[2];
   const CompileReport all = compile(scene.bodies.text(), "all.scene");
@@ -198,8 +199,8 @@ std::string obj(const TriangleMesh& mesh) {
   return text;
 }
 
-/// A hollow cube before a cube that is no smaller than the hollow, and the other way round with a loose piece in the
-/// hollow: edges of the hollow itself are re-entrant, which gives no features.
+/// A hollow cube and a cube no smaller than the hollow, and the reverse with a loose piece in the hollow: edges of the
+/// hollow itself are re-entrant, so they have no features.
 TEST_F(LeavesOut, PointsInACavity) {
   using Eigen::Vector3d;
   const TriangleMesh hollow = joined(box(Vector3d::Constant(-0.05), Vector3d::Constant(0.05)),
@@ -233,7 +234,7 @@ TEST_F(LeavesOut, PointsInACavity) {
     ASSERT_NEAR((image_of_still.scene.features_origin + features.point(i)).cwiseAbs().maxCoeff(), 0.05, 1e-6);
 }
 
-/// The scene of an image with more points in a sphere about `center` (in M), as a leaf behind all others.
+/// The scene of an image with more points in a sphere about `center` (in M), as the last leaf.
 class WithMorePoints {
  public:
   WithMorePoints(const Scene& scene, std::span<const Vector3> more_M, const Vector3& center_M) : scene_(scene) {
@@ -273,8 +274,8 @@ class WithMorePoints {
   std::vector<format::Node> nodes_;
 };
 
-/// A hollow cube that is pressed on a cube as large, from all sides and with its own hollow where the other one is: it
-/// moves as if nothing had been left out.
+/// A hollow cube, pressed on a cube of the same size from all sides, also with the other cube in its hollow: it moves
+/// as if nothing had been left out.
 TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
   using Eigen::Vector3d;
   constexpr double kHollow = 0.015;
@@ -375,7 +376,7 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
     ASSERT_EQ(all.scene.voxelmap.lower_bound(p, 0.01), less.scene.voxelmap.lower_bound(p, 0.01));
     ASSERT_EQ(all.scene.voxelmap.layer(p).layer, less.scene.voxelmap.layer(p).layer);
     if (x.known) ++known;
-    // farther away: as it was, or held
+    // farther away: unchanged, or held
     const Vector3 q = at + 4.0 * radius * way;
     const FieldSample there = less.scene.voxelmap.sample(q);
     if (there.distance == all.scene.voxelmap.sample(q).distance) continue;
@@ -409,7 +410,7 @@ TEST_F(LeavesOut, NoBrickOfTheMovingBodyThatAFeatureMeets) {
   for (int k = 0; k < 200000; ++k) {
     const Vector3 at = box.low + Vector3(share(random), share(random), share(random)).cwiseProduct(box.high - box.low);
     const Vector3 feature = all.scene.features_origin + features.point(random() % features.size);
-    // and up to a quarter of the longest reach, 1.5 voxels, nearer: somewhere on a way
+    // and up to a quarter of the longest search radius, 1.5 voxels, nearer: a place on a path
     const double radius = (feature - at).norm() - (k % 2 == 0 ? 0.0 : 0.25 * 1.5 * 0.004 * share(random));
     const Vector3 p = radius * Vector3(normal(random), normal(random), normal(random)).normalized();
     const FieldSample x = all.scene.body_map.sample(p);
@@ -429,7 +430,7 @@ TEST_F(LeavesOut, NothingWithoutAWorkspaceThatIsReachableEverywhere) {
   EXPECT_TRUE(image("less.scene").scene.workspace.limited);
 }
 
-/// Any level of either tree, and all.
+/// Leaves out any level of either tree, and all.
 TEST_F(LeavesOut, LevelsThatChangeNoResult) {
   compile(kBracket.text(), "all.scene");
   const files::SceneImage whole = image("all.scene");
@@ -460,7 +461,7 @@ TEST_F(LeavesOut, LevelsOnlyWhereNoMoreIsLookedUp) {
     const std::vector<Pose> poses = poses_along(whole.scene, try_out_motion(whole.scene));
     ASSERT_GT(poses.size(), 1000u);
     for (const Tree tree : {Tree::kSamples, Tree::kFeatures}) {
-      // the compiler left out what it found; a tree of one level more, with a node over each leaf, asks for more
+      // the compiler removed useless levels; a tree with one more level, a node over each leaf, needs more look-ups
       Scene scene = whole.scene;
       std::span<const format::Node>& nodes = tree == Tree::kSamples ? scene.pointshell.nodes : scene.features.nodes;
       EXPECT_EQ(lean_tree(scene, tree, poses).levels_left_out, 0u);
