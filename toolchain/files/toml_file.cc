@@ -17,8 +17,8 @@ toml::table parse_toml_file(const std::filesystem::path& file) {
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& wrong) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
-                                                    std::string_view(wrong.description())));
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}; correct the line", file.string(),
+                                                    wrong.source().begin.line, std::string_view(wrong.description())));
   }
 }
 

@@ -77,8 +77,8 @@ toml::table parse(std::string_view text, std::string_view name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw Failure(ExitCode::kBadConfig,
-                  fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}; correct the line", name,
+                                                    error.source().begin.line, error.description()));
   }
 }
 
