@@ -525,7 +525,7 @@ void control(const Options& options) {
   }
   const ArmLink link = link_arm(options, config, placement);
   drives.emplace(config.device.bus, link.buses, plan.timing, config.telemetry.bus ? &bus_ring : nullptr);
-  command::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(scene)));
+  files::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(scene)));
   const firmware::CycleSetup pipeline = cycle_setup(config, scene, placement, memory.span());
   cycle.emplace(pipeline, *drives);
   const Status status = cycle->start();

@@ -15,7 +15,7 @@
 namespace godobject::firmware {
 namespace {
 
-using command::TomlTable;
+using files::TomlTable;
 
 /// A path as the file means it; empty stays empty.
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
@@ -97,10 +97,10 @@ void read_start(const TomlTable& table, ControllerConfig::Start& start) {
 }  // namespace
 
 ControllerConfig read_controller_file(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file,
-                        {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "passivity",
-                         "telemetry", "simulation"});
+  const toml::table root = files::parse_toml_file(file);
+  files::allow_tables(root, file,
+                      {"scene", "device", "workspace", "loop", "limits", "engage", "start", "gains", "passivity",
+                       "telemetry", "simulation"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   ControllerConfig config;
   read_scene(table("scene"), file, config);

@@ -15,7 +15,7 @@
 namespace godobject::firmware {
 namespace {
 
-using command::TomlTable;
+using files::TomlTable;
 using Range = TomlTable::Range;
 
 constexpr Range kLength{-1e3, 1e3};
@@ -188,8 +188,8 @@ void read_torque(const TomlTable& table, Device& device) {
 }  // namespace
 
 Device read_device_file(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file, {"arm", "torque", "bus", "joint", "tool", "payload"});
+  const toml::table root = files::parse_toml_file(file);
+  files::allow_tables(root, file, {"arm", "torque", "bus", "joint", "tool", "payload"});
   Device device;
   const TomlTable arm(root, "arm", file);
   arm.allow({"name", "base", "gravity"});

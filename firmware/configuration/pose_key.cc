@@ -6,7 +6,7 @@
 namespace godobject::firmware {
 namespace {
 
-Quaternion unit(const command::TomlTable& table, std::string_view key, const double* n) {
+Quaternion unit(const files::TomlTable& table, std::string_view key, const double* n) {
   const Quaternion rotation(n[0], n[1], n[2], n[3]);
   if (std::fabs(rotation.norm() - 1.0) > 1e-3) {
     table.complain(key, "has a quaternion that is not of unit length; write it as qw, qx, qy, qz");
@@ -16,12 +16,12 @@ Quaternion unit(const command::TomlTable& table, std::string_view key, const dou
 
 }  // namespace
 
-Pose read_pose(const command::TomlTable& table, std::string_view key) {
+Pose read_pose(const files::TomlTable& table, std::string_view key) {
   const std::vector<double> n = table.numbers(key, 7, {-1e3, 1e3});
   return {unit(table, key, n.data() + 3), Vector3(n[0], n[1], n[2])};
 }
 
-Quaternion read_rotation(const command::TomlTable& table, std::string_view key) {
+Quaternion read_rotation(const files::TomlTable& table, std::string_view key) {
   return unit(table, key, table.numbers(key, 4, {-1.1, 1.1}).data());
 }
 

@@ -8,9 +8,9 @@
 namespace godobject::firmware {
 
 /// [x, y, z, qw, qx, qy, qz]; a rotation within 1e-3 of unit length is normalised, any other refused.
-Pose read_pose(const command::TomlTable& table, std::string_view key);
+Pose read_pose(const files::TomlTable& table, std::string_view key);
 
 /// [qw, qx, qy, qz], the same.
-Quaternion read_rotation(const command::TomlTable& table, std::string_view key);
+Quaternion read_rotation(const files::TomlTable& table, std::string_view key);
 
 }  // namespace godobject::firmware

@@ -106,7 +106,7 @@ class CanRun {
   std::unique_ptr<sim::VirtualClock> clock_;
   std::vector<DisturbedBus> buses_;
   std::optional<hal::CanDrives> drives_;
-  command::AlignedBytes memory_{GodObject::least_memory_size()};
+  files::AlignedBytes memory_{GodObject::least_memory_size()};
   std::unique_ptr<ControlCycle> cycle_;
   std::int64_t deadline_ns_ = 0;
 };

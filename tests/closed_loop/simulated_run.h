@@ -107,7 +107,7 @@ class SimulatedRun {
   std::unique_ptr<sim::DirectDrives> drives_;
   std::unique_ptr<sim::VirtualClock> clock_;
   std::unique_ptr<TelemetryRing> ring_;
-  command::AlignedBytes memory_{GodObject::least_memory_size()};
+  files::AlignedBytes memory_{GodObject::least_memory_size()};
   std::unique_ptr<ControlCycle> cycle_;
 };
 

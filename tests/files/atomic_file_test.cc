@@ -13,8 +13,11 @@
 #include "toolchain/files/output_target.h"
 #include "toolchain/files/work_folder.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 namespace fs = std::filesystem;
 
@@ -34,7 +37,7 @@ class AtomicFileTest : public testing::Test {
     output.commit();
   }
 
-  /// With which code, and saying what, `file` is refused as an output of either kind.
+  /// Expects that `file` is refused as an output of either kind, with this code and these words.
   static void expect_refusal(const fs::path& file, ExitCode code, const std::string& words) {
     const auto expect = [&](const auto& open) {
       try {
@@ -160,4 +163,4 @@ TEST_F(AtomicFileTest, EndsWithItsOwnCodeWhereOneMayNotWrite) {
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -9,8 +9,11 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 class CommandFiles : public testing::Test {
  protected:
@@ -26,7 +29,7 @@ class CommandFiles : public testing::Test {
     return folder_ / "table.csv";
   }
 
-  /// The message with which `text` is refused; empty if it is not.
+  /// Returns the message with which `text` is refused; empty if it is accepted.
   std::string refusal(const std::string& text, ExitCode expected) const {
     try {
       read_csv(file(text), kColumns);
@@ -67,9 +70,9 @@ TEST_F(CommandFiles, CsvMayBeginWithAByteOrderMarkAndNumbersWithAPlus) {
 
 TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
   EXPECT_NE(
-      refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number; mend the row"),
+      refusal("a,b,c\n1,2,3\n1,x,3\n", ExitCode::kBadData).find("table.csv:3: \"x\" is not a number; correct the row"),
       std::string::npos);
-  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3 (a,b,c); mend the row"),
+  EXPECT_NE(refusal("a,b,c\n1,2\n", ExitCode::kBadData).find(":2: has 2 fields, not 3 (a,b,c); correct the row"),
             std::string::npos);
   EXPECT_NE(refusal("a,b,c\n1,2,3,\n", ExitCode::kBadData).find(":2: \"\" is not a number"), std::string::npos);
   EXPECT_NE(refusal("a,c,b\n", ExitCode::kBadData).find(":1: the first line must be \"a,b,c\""), std::string::npos);
@@ -78,4 +81,4 @@ TEST_F(CommandFiles, CsvThatIsWrongIsRefusedByLine) {
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::files

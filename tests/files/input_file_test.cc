@@ -10,8 +10,11 @@
 #include "tests/support/ordinary_user.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 namespace fs = std::filesystem;
 
@@ -26,7 +29,7 @@ class InputFileTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// What is said of `file`; nothing if it is taken.
+  /// Returns the message with which `file` is refused; empty if it is accepted.
   static std::string refusal(const fs::path& file, bool regular = false) {
     try {
       regular ? require_regular_input(file, "bake it") : require_input(file, "bake it");
@@ -71,8 +74,8 @@ TEST_F(InputFileTest, SaysWhenThereIsNoRight) {
   fs::permissions(folder_ / "there", fs::perms::none);
   const test::AsOrdinaryUser user;
   if (!user.holds()) GTEST_SKIP() << "not run: as the superuser, who cannot become another user here, one may read all";
-  EXPECT_NE(refusal(folder_ / "there").find("there is no right to read it"), std::string::npos);
+  EXPECT_NE(refusal(folder_ / "there").find("no permission to read it"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -101,7 +101,7 @@ class ControlCycleTest : public testing::Test {
   Scene scene_;
   FakeDrives drives_;
   CycleSetup setup_;
-  command::AlignedBytes memory_{GodObject::least_memory_size()};
+  files::AlignedBytes memory_{GodObject::least_memory_size()};
   JointVector q0_ = JointVector::Zero();
   std::unique_ptr<ControlCycle> cycle_;
 };

@@ -135,7 +135,7 @@ TEST(RealTimeSetup, SaysWhatItMayNotDoAndTheLoopNeedsNoPageAfterIt) {
   setup.supervisor.sign_test = false;
   setup.mapping.H_WR.translation =
       Vector3(0.0, 0.0, 0.031) - forward_kinematics(arm.model, drives.reading.position).H_WM.translation;
-  command::AlignedBytes memory(GodObject::least_memory_size());
+  files::AlignedBytes memory(GodObject::least_memory_size());
   setup.memory = memory.span();
   auto cycle = std::make_unique<ControlCycle>(setup, drives);
   ASSERT_EQ(cycle->start(), Status::kOk);

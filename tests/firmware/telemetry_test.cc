@@ -150,7 +150,7 @@ TEST_F(TelemetryTest, DoesNotHoldUpTheLoopWhenTheDiskStalls) {
   cycle_setup.arm = &arm.model;
   cycle_setup.joint_torque = &arm.parameters;
   cycle_setup.supervisor.sign_test = false;
-  command::AlignedBytes memory(GodObject::least_memory_size());
+  files::AlignedBytes memory(GodObject::least_memory_size());
   cycle_setup.memory = memory.span();
   const auto cycle = std::make_unique<ControlCycle>(cycle_setup, drives);
   ASSERT_EQ(cycle->start(), Status::kOk);

@@ -64,15 +64,15 @@ TEST(Keyframes, RefuseWhatIsNotToml) {
 
 TEST(Keyframes, RefuseAnUnknownKeyByName) {
   expect_refused("pivto = [0, 0, 0]\n" + kTwo, ExitCode::kBadConfig,
-                 "pivto: unknown key; known here: pivot, keyframe, oscillation");
-  expect_refused(kTwo + "postion = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe.postion");
+                 "pivto is not a known key; known here: pivot, keyframe, oscillation");
+  expect_refused(kTwo + "postion = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe[2].postion");
 }
 
 TEST(Keyframes, RefuseAMissingKeyByName) {
   expect_refused("[[keyframe]]\nt = 0.0\n", ExitCode::kBadConfig,
-                 "keyframe.position: is missing; write position = [3 numbers]");
+                 "keyframe[1].position is missing and has no default; below [[keyframe]] write position = ");
   expect_refused("[[keyframe]]\nposition = [0, 0, 0]\n", ExitCode::kBadConfig,
-                 "keyframe.t: is missing; write t = NUMBER");
+                 "keyframe[1].t is missing and has no default");
 }
 
 TEST(Keyframes, RefuseASingleOneAndNone) {
@@ -82,25 +82,26 @@ TEST(Keyframes, RefuseASingleOneAndNone) {
 }
 
 TEST(Keyframes, RefuseTimesThatDoNotAscend) {
-  expect_refused(kTwo + "[[keyframe]]\nt = 1.0\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe.t");
+  expect_refused(kTwo + "[[keyframe]]\nt = 1.0\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe[3].t");
 }
 
 TEST(Keyframes, RefuseNumbersOutOfRange) {
-  expect_refused("[[keyframe]]\nt = nan\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe.t");
-  expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0]\n", ExitCode::kBadConfig, "keyframe.position");
-  expect_refused("[[keyframe]]\nt = 0\nposition = [0, inf, 0]\n", ExitCode::kBadConfig, "keyframe.position");
+  expect_refused("[[keyframe]]\nt = nan\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe[1].t");
+  expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0]\n", ExitCode::kBadConfig, "keyframe[1].position");
+  expect_refused("[[keyframe]]\nt = 0\nposition = [0, inf, 0]\n", ExitCode::kBadConfig, "keyframe[1].position");
   expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0, 0]\nquaternion = [1, 1, 0, 0]\n", ExitCode::kBadConfig,
-                 "keyframe.quaternion");
+                 "keyframe[1].quaternion");
   expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0, 0]\naxis_angle = [0, 0, 0, 9]\n", ExitCode::kBadConfig,
-                 "keyframe.axis_angle");
+                 "keyframe[1].axis_angle");
 }
 
 TEST(Keyframes, RefuseAnOscillationThatCannotBe) {
-  expect_refused(kTwo + "[[oscillation]]\nfrom = 1\nto = 1\nfrequency = 9\n", ExitCode::kBadConfig, "oscillation.to");
+  expect_refused(kTwo + "[[oscillation]]\nfrom = 1\nto = 1\nfrequency = 9\n", ExitCode::kBadConfig,
+                 "oscillation[1].to");
   expect_refused(kTwo + "[[oscillation]]\nfrom = 0\nto = 1\nfrequency = 0\n", ExitCode::kBadConfig,
-                 "oscillation.frequency");
+                 "oscillation[1].frequency");
   expect_refused(kTwo + "[[oscillation]]\nfrom = 0\nto = 1\nfrequency = 9\nfade = 0.6\n", ExitCode::kBadConfig,
-                 "oscillation.fade");
+                 "oscillation[1].fade");
 }
 
 TEST(Keyframes, NameAFileThatIsNotThere) {

@@ -1,4 +1,4 @@
-// Errors worked out by hand, and the exact scene against a box and a plane that can be.
+// Errors calculated by hand, and the exact scene against a box and a plane.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Fronts and choices worked out by hand, and against the definition on random trades.
+// Fronts and choices calculated by hand, and against the definition on random trades.
 #include <gtest/gtest.h>
 
 #include <algorithm>

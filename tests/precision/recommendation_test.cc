@@ -1,4 +1,4 @@
-// What is taken for a budget, with costs and errors that are made up.
+// The choice for a budget, with made-up costs and errors.
 #include <gtest/gtest.h>
 
 #include "toolchain/command_line/failure.h"

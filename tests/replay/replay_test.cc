@@ -1,4 +1,4 @@
-// godobject-replay as its users meet it: the program is run, its files and exit codes are looked at.
+// Runs godobject-replay as its users do and checks its files and exit codes.
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ class ReplayTest : public testing::Test {
     }
   }
 
-  /// Exit code; `output` gets stdout and stderr.
+  /// Returns the exit code. `output` gets stdout and stderr.
   int run(const std::string& arguments, const std::string& out = "out.csv") {
     const std::string command = fmt::format("cd {} && {} balls.scene path.csv -o {} {} > log.txt 2>&1",
                                             folder_.string(), GODOBJECT_REPLAY, out, arguments);
@@ -188,7 +188,7 @@ TEST_F(ReplayTest, StartsInsideWithItsStatus) {
 }
 
 TEST_F(ReplayTest, CountsTheCyclesThatDidNotGoAsWished) {
-  // thirty poses inside, then a leap through the whole ball, which no sub-steps can finish in one cycle
+  // thirty poses inside, then a jump through the whole ball, which no sub-steps can finish in one cycle
   std::ofstream path(folder_ / "path.csv");
   path << "t,px,py,pz,qw,qx,qy,qz\n";
   for (int k = 0; k < 40; ++k) path << fmt::format("{},0,0,{},1,0,0,0\n", 1e-3 * k, k < 30 ? 0.07 : -0.3);
@@ -213,7 +213,7 @@ TEST_F(ReplayTest, TakesAnotherStiffness) {
   const auto soft = rows("soft.csv");
   ASSERT_EQ(scene.size(), soft.size());
   for (std::size_t i = 1; i < scene.size(); ++i) {
-    // the motion does not depend on it, and the force is in proportion to it: 2000 N/m in the scene
+    // the motion does not depend on the stiffness, and the force is proportional to it: 2000 N/m in the scene
     ASSERT_EQ(scene[i][kGodZ], soft[i][kGodZ]);
     ASSERT_NEAR(std::stod(soft[i][kForceZ]), 0.25 * std::stod(scene[i][kForceZ]), 1e-9);
   }
@@ -227,7 +227,7 @@ TEST_F(ReplayTest, TakesAnotherStiffness) {
 TEST_F(ReplayTest, SaysWhenNothingCameNear) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.5,1,0,0,0\n";
   ASSERT_EQ(run(""), 0) << output_;
-  EXPECT_NE(output_.find("nothing came near"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("no point within the stored band"), std::string::npos) << output_;
 }
 
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {

@@ -31,7 +31,7 @@ class AtPlace : public testing::TestWithParam<Place> {
 
 /// The check can fail: without a limit it finds the steps of the solvers.
 TEST_P(AtPlace, NoTorqueThatIsSentChangesFasterThanItMayUnlessTheLimiterIsLeftOut) {
-  const command::SceneImage image = place_scene(GetParam(), work_);
+  const files::SceneImage image = place_scene(GetParam(), work_);
   const firmware::TorqueLimits none{.rate = 2.0};  // from one end of a joint's torques to the other
   double unlimited = 0.0;
   for (const Solver solver : {Solver::kPaper, Solver::kCorrected, Solver::kContact}) {

@@ -11,7 +11,7 @@
 
 namespace godobject::scene_compiler {
 
-/// The slow, plain truth about a mesh: every triangle is looked at. Written apart from the compiler on purpose.
+/// The slow and plain oracle of a mesh: it tests every triangle. It shares no code with the compiler.
 class BruteForce {
  public:
   explicit BruteForce(const TriangleMesh& mesh) : mesh_(mesh) {}
@@ -46,7 +46,7 @@ class BruteForce {
     return (a + t * ab - p).norm();
   }
 
-  /// In the plane's coordinates: above the face the height counts, else the nearest of the three edges.
+  /// In the plane's coordinates: the height above the face, or else the distance to the nearest of the three edges.
   static double to_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             const Eigen::Vector3d& c) {
     const Eigen::Vector3d n = (b - a).cross(c - a).normalized();

@@ -34,7 +34,7 @@ Outcome run(const std::string& command) {
 const std::string kScenec = GODOBJECT_SCENEC;
 const std::string kQuery = GODOBJECT_QUERY;
 
-/// One line that names the place and the cure, and the right exit code.
+/// Expects one line that names the place and the cure, and the exit code.
 void expect_refusal(const std::string& command, int exit_code, const std::string& names) {
   const Outcome outcome = run(command);
   EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
@@ -81,7 +81,7 @@ TEST(Command, RefusesInOneLineWithTheRightExitCode) {
   expect_refusal(kScenec + " " + good + " -o /dev/null", 74, "/dev/null: is a device");
   expect_refusal(kScenec + " " + good + out + " --report /dev", 74, "/dev: is a folder");
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
-  expect_refusal(kScenec + " " + good + " -o " + folder.file("s.toml").string() + "/o.scene", 74, "is no folder");
+  expect_refusal(kScenec + " " + good + " -o " + folder.file("s.toml").string() + "/o.scene", 74, "is not a folder");
   expect_refusal(kScenec + " " + good + out + " --report /nowhere/r.json", 74, "there is no folder /nowhere");
   EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
   expect_refusal(kScenec + " " + folder.file("").string() + out, 66, "is a folder");
@@ -125,7 +125,7 @@ TEST(Command, CompilesInspectsAndQueries) {
   EXPECT_EQ(run(kQuery + " " + image + " " + points + " -o " + folder.file("d.csv").string()).exit_code, 0);
 }
 
-/// A small tilted cube that is pressed on the top of a large one and moved along: one pose a millisecond.
+/// A small tilted cube, pressed on the top of a large one and moved along: one pose for each millisecond.
 std::string pressed_cube() {
   std::string rows = "t,px,py,pz,qw,qx,qy,qz\n";
   for (int k = 0; k < 40; ++k) {
@@ -141,7 +141,7 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// `more` goes to the command that tries settings of a small scene for a budget and writes IMAGE.
+/// Runs the command that tries settings of a small scene for a budget and writes IMAGE. `more`: further arguments.
 Outcome tried(const ScratchFolder& folder, const std::string& image, const std::string& more) {
   const std::string mesh = "mesh = \"" + mesh_file("cube_100mm").string() + "\"\n";
   const std::string text = "[still]\n" + mesh + "voxel_size = 0.02\nfield_tolerance = 2\n[moving]\n" + mesh +
@@ -152,7 +152,7 @@ Outcome tried(const ScratchFolder& folder, const std::string& image, const std::
 
 TEST(Command, ChoosesSettingsForABudget) {
   const ScratchFolder folder;
-  const Outcome generous = tried(folder, "a.scene", " --budget 1000ms");  // everything fits, so no time has a say
+  const Outcome generous = tried(folder, "a.scene", " --budget 1000ms");  // everything fits, so times do not matter
   ASSERT_EQ(generous.exit_code, 0) << generous.output;
   EXPECT_NE(generous.output.find("chosen   contact,"), std::string::npos) << generous.output;
   const Outcome inspected = run(kScenec + " --inspect " + folder.file("a.scene").string());
@@ -171,7 +171,7 @@ TEST(Command, RefusesABudgetThatNothingFits) {
       << hopeless.output;
   const Outcome without_unit = tried(folder, "c.scene", " --budget 20");
   EXPECT_EQ(without_unit.exit_code, 64);
-  EXPECT_NE(without_unit.output.find("give a time for a cycle with its unit"), std::string::npos);
+  EXPECT_NE(without_unit.output.find("give the time of a cycle"), std::string::npos);
   const Outcome without_budget = tried(folder, "c.scene", "");
   EXPECT_EQ(without_budget.exit_code, 64);
   EXPECT_NE(without_budget.output.find("--path is for --budget"), std::string::npos);

@@ -1,6 +1,5 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
@@ -13,8 +12,8 @@
 
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
-#include "toolchain/query/query_points.h"
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -24,7 +23,7 @@ std::string slurp(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A scene of two meshes, `size` times as large as the meshes are.
+/// A scene of two meshes, scaled by `size`.
 struct SceneText {
   const char* still = "bracket";
   const char* moving = "cube_100mm";
@@ -61,26 +60,26 @@ class CompileScene : public testing::Test {
 
 TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   const CompileReport report = compile({});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
+  const files::SceneImage image = files::SceneImage::read(folder_.file("out.scene"));
   EXPECT_EQ(image.bytes.span().size(), report.image_bytes);
   EXPECT_TRUE(image.scene.holds(format::Solver::kPaper));
   EXPECT_TRUE(image.scene.holds(format::Solver::kCorrected));
   EXPECT_EQ(image.scene.pointshell.size, 300u + report.second.added_points);
   EXPECT_NE(image.scene.pointshell.normal_x, nullptr);
-  EXPECT_LE(report.field_error.largest_node_error, 1e-5);
-  EXPECT_LE(report.field_error.largest_node_excess, report.field_error.largest_node_error);
-  EXPECT_LE(report.field_error.rms, 1.001 * report.field_error.floor_rms);
-  EXPECT_LE(report.field_error.sign_errors, report.field_error.floor_sign_errors);
-  EXPECT_GE(report.field_error.points, 10000u);
+  EXPECT_LE(report.check.field_error.largest_node_error, 1e-5);
+  EXPECT_LE(report.check.field_error.largest_node_excess, report.check.field_error.largest_node_error);
+  EXPECT_LE(report.check.field_error.rms, 1.001 * report.check.field_error.floor_rms);
+  EXPECT_LE(report.check.field_error.sign_errors, report.check.field_error.floor_sign_errors);
+  EXPECT_GE(report.check.field_error.points, 10000u);
 }
 
 TEST_F(CompileScene, LeavesTheSecondDirectionOutWhereNobodyReadsIt) {
   compile({});
-  EXPECT_TRUE(command::SceneImage::read(folder_.file("out.scene")).scene.has_features());
+  EXPECT_TRUE(files::SceneImage::read(folder_.file("out.scene")).scene.has_features());
   compile({.more = "[contact]\nboth_directions = false\n"});
-  EXPECT_FALSE(command::SceneImage::read(folder_.file("out.scene")).scene.has_features());
+  EXPECT_FALSE(files::SceneImage::read(folder_.file("out.scene")).scene.has_features());
   compile({}, "paper.scene", format::Solver::kPaper);
-  const command::SceneImage paper = command::SceneImage::read(folder_.file("paper.scene"));
+  const files::SceneImage paper = files::SceneImage::read(folder_.file("paper.scene"));
   EXPECT_FALSE(paper.scene.has_features());
   EXPECT_EQ(paper.scene.pointshell.size, 300u);
 }
@@ -96,20 +95,20 @@ TEST_F(CompileScene, GivesTheSameBytesEveryTime) {
 TEST_F(CompileScene, OnlySolverStripsNormalsAndSaysSo) {
   const CompileReport all = compile({}, "all.scene");
   const CompileReport one = compile({}, "one.scene", format::Solver::kCorrected);
-  const command::SceneImage image = command::SceneImage::read(folder_.file("one.scene"));
+  const files::SceneImage image = files::SceneImage::read(folder_.file("one.scene"));
   EXPECT_FALSE(image.scene.holds(format::Solver::kPaper));
   EXPECT_EQ(image.scene.pointshell.normal_x, nullptr);
   EXPECT_LT(one.image_bytes, all.image_bytes);
   EXPECT_NE(report_json(one).dump().find("normals"), std::string::npos);
   compile({}, "paper.scene", format::Solver::kPaper);
-  const command::SceneImage paper = command::SceneImage::read(folder_.file("paper.scene"));
+  const files::SceneImage paper = files::SceneImage::read(folder_.file("paper.scene"));
   EXPECT_FALSE(paper.scene.holds(format::Solver::kCorrected));
   EXPECT_EQ(paper.scene.settings.default_solver, static_cast<std::uint32_t>(format::Solver::kPaper));
 }
 
 TEST_F(CompileScene, InspectShowsWhatWasCompiled) {
   compile({.more = "[friction]\nstatic = 0.3\n"});
-  const Json json = inspect_json(command::SceneImage::read(folder_.file("out.scene")));
+  const Json json = inspect_json(files::SceneImage::read(folder_.file("out.scene")));
   EXPECT_EQ(json["settings"]["solver"], "contact");
   EXPECT_DOUBLE_EQ(json["settings"]["friction"]["kinetic"], 0.27);
   EXPECT_DOUBLE_EQ(json["grid"]["voxel_size"], 0.004);
@@ -123,10 +122,12 @@ TEST_F(CompileScene, BehavesAlikeFromAThousandthToAThousandfold) {
   const CompileReport one = compile({});
   for (const double size : {1e-3, 1e3}) {
     const CompileReport scaled = compile({.size = size});
-    EXPECT_EQ(scaled.grid.brick_count, one.grid.brick_count) << size;
-    EXPECT_NEAR(scaled.field_error.rms / size, one.field_error.rms, 1e-3 * one.field_error.rms) << size;
-    EXPECT_NEAR(scaled.grid.lipschitz, one.grid.lipschitz, 1e-3) << size;
-    EXPECT_NEAR(scaled.body.coverage / size, one.body.coverage, 0.05 * one.body.coverage) << size;
+    EXPECT_EQ(scaled.field.grid.brick_count, one.field.grid.brick_count) << size;
+    EXPECT_NEAR(scaled.check.field_error.rms / size, one.check.field_error.rms, 1e-3 * one.check.field_error.rms)
+        << size;
+    EXPECT_NEAR(scaled.field.grid.lipschitz, one.field.grid.lipschitz, 1e-3) << size;
+    EXPECT_NEAR(scaled.points.spread.coverage / size, one.points.spread.coverage, 0.05 * one.points.spread.coverage)
+        << size;
   }
 }
 
@@ -153,16 +154,15 @@ TEST(FieldCheck, HoldsNodesToTheSmallerOfTenMicrometresAndAThousandthOfAVoxel) {
 }
 
 TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
-  // too small a patch to refuse, but never silent
+  // too small a patch to refuse, but it is reported
   CompileReport report = compile({.still = "cube_100mm"});
   EXPECT_EQ(report_text(report).find("thinner than one voxel"), std::string::npos);
   report.thin.walls = {.samples = 9, .area = 3e-5, .smallest = 2e-3, .voxel_needed = 1e-3, .lost_area = 2e-5};
   report.thin.walls.at = {0.01, 0.02, 0.03};
   const std::string text = report_text(report);
-  EXPECT_NE(
-      text.find("thinner than one voxel: 0.2 cm^2, too thin for the field to hold, bodies may pass there; at (0.01, "
-                "0.02, 0.03) m"),
-      std::string::npos)
+  EXPECT_NE(text.find("thinner than one voxel: 0.2 cm^2, the field cannot hold them, bodies may pass there; at (0.01, "
+                      "0.02, 0.03) m"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find(kRefusalRule), std::string::npos) << text;
   EXPECT_EQ(report_json(report)["walls"]["area_thinner_than_a_voxel"], 2e-5);
@@ -172,9 +172,9 @@ TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
 
 TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
   const CompileReport report = compile({.still = "cube_100mm"});
-  ASSERT_GT(report.refinement.refined, 0u);
+  ASSERT_GT(report.field.refinement.refined, 0u);
   const std::string image = slurp(folder_.file("out.scene"));
-  const Json index = inspect_json(command::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
+  const Json index = inspect_json(files::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
   std::uint64_t positions = 0;
   std::uint64_t stored = 0;
   for (std::uint64_t at = index["offset"];
@@ -186,7 +186,8 @@ TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
   }
   const std::string text = report_text(report);
   EXPECT_NE(text.find(fmt::format(": {} of {} positions stored", stored, positions)), std::string::npos) << text;
-  EXPECT_NE(text.find(fmt::format("{} finer bricks", report.grid.brick_count - stored)), std::string::npos) << text;
+  EXPECT_NE(text.find(fmt::format("{} finer bricks", report.field.grid.brick_count - stored)), std::string::npos)
+      << text;
 }
 
 TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
@@ -206,7 +207,8 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
     EXPECT_EQ(said.find(';'), std::string::npos) << "one limit: " << said;
   };
   // 5 times the tolerance of 0.05 voxels of 4 mm is 1 mm
-  expect_limit([](CompileReport& r) { r.field_error.near.largest = 1.2e-3; }, "0.30 voxels off near the surface (0.25");
+  expect_limit([](CompileReport& r) { r.check.field_error.near.largest = 1.2e-3; },
+               "0.30 voxels off near the surface (0.25");
   expect_limit([](CompileReport& r) { r.thin.walls.samples = 3; }, "walls thinner than two voxels");
   expect_limit(
       [](CompileReport& r) {
@@ -215,8 +217,8 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
       },
       "walls thinner than a voxel, which bodies may pass");
   expect_limit([](CompileReport& r) { r.thin.gaps.samples = 3; }, "gaps thinner than two voxels");
-  expect_limit([](CompileReport& r) { r.seams.cells = 1; }, "the mesh is open");
-  expect_limit([](CompileReport& r) { r.second.sought = false; }, "nobody looks between the points");
+  expect_limit([](CompileReport& r) { r.field.seams.cells = 1; }, "the mesh is open");
+  expect_limit([](CompileReport& r) { r.second.sought = false; }, "the depth between the points is not bounded");
   expect_limit([](CompileReport& r) { r.second.between.bound = 0.006 - r.second.slack; },
                "6 mm deep between the points (4 mm");
   expect_limit([](CompileReport& r) { r.second.between.bound = std::numeric_limits<double>::infinity(); },
@@ -249,57 +251,9 @@ TEST_F(CompileScene, DamageIsSeen) {
   compile({});
   std::string bytes = slurp(folder_.file("out.scene"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
-  EXPECT_THROW(command::SceneImage::read(folder_.write("bad.scene", bytes)), command::Failure);
-  EXPECT_THROW(command::SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), command::Failure);
-  EXPECT_THROW(command::SceneImage::read(folder_.write("none.scene", "")), command::Failure);
-}
-
-TEST_F(CompileScene, AnswersQueries) {
-  compile({.still = "cube_100mm"});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  const auto points = folder_.write("p.csv", "x,y,z\r\n0.0,0.0,0.053\n0, 0 ,0\n1e3,0,0\n\n");
-  const std::uint64_t rows = query_points(image.scene, points, folder_.file("d.csv"), {});
-  EXPECT_EQ(rows, 3u);
-  std::istringstream lines(slurp(folder_.file("d.csv")));
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(line, "x,y,z,distance,nx,ny,nz,known");
-  std::getline(lines, line);
-  double v[8];
-  ASSERT_EQ(
-      std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7),
-      8);
-  EXPECT_EQ(v[2], 0.053);
-  EXPECT_NEAR(v[3], 0.003, 1e-7 + image.scene.grid.quantum);
-  EXPECT_NEAR(v[6], 1.0, 1e-6);
-  EXPECT_EQ(v[7], 1.0);
-  std::getline(lines, line);
-  EXPECT_EQ(line, "0, 0 ,0,-0.013,0,0,0,0");
-  std::getline(lines, line);
-  EXPECT_EQ(line, "1e3,0,0,0.013,0,0,0,0");
-}
-
-TEST_F(CompileScene, TakesPointsAsOtherTablesAreTaken) {
-  compile({.still = "cube_100mm"});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  for (const char* text : {"\xef\xbb\xbf+0.01,0,0\n0,0,0\n", "# made by hand\nx,y,z\n0,0,0\n\n# end\n1,1,1"}) {
-    EXPECT_EQ(query_points(image.scene, folder_.write("p.csv", text), folder_.file("d.csv"), {}), 2u) << text;
-  }
-}
-
-TEST_F(CompileScene, NamesTheLineOfABadRow) {
-  compile({.still = "cube_100mm"});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
-  for (const char* row : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1,,3", "inf,0,0", "+-1,0,0"}) {
-    try {
-      query_points(image.scene, folder_.write("p.csv", "0,0,0\n" + std::string(row) + "\n"), folder_.file("d.csv"), {});
-      FAIL() << "took " << row;
-    } catch (const command::Failure& failure) {
-      EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
-      EXPECT_NE(std::string(failure.what()).find("p.csv:2:"), std::string::npos) << failure.what();
-    }
-  }
-  EXPECT_FALSE(std::filesystem::exists(folder_.file("d.csv")));
+  EXPECT_THROW(files::SceneImage::read(folder_.write("bad.scene", bytes)), command::Failure);
+  EXPECT_THROW(files::SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), command::Failure);
+  EXPECT_THROW(files::SceneImage::read(folder_.write("none.scene", "")), command::Failure);
 }
 
 }  // namespace

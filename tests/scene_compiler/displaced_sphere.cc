@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-/// Writes a closed ball of 200 mm with waves of 4 mm on it, about as many triangles as asked for, as binary PLY in
-/// metres: the large mesh of the compiler's timing.   displaced_sphere OUT.ply TRIANGLES
+/// Writes a closed ball of 200 mm with waves of 4 mm, with about the given number of triangles, as binary PLY in
+/// metres: the large mesh for timing the compiler. Usage: displaced_sphere OUT.ply TRIANGLES
 int main(int argc, char** argv) {
   if (argc != 3) {
     std::fputs("usage: displaced_sphere OUT.ply TRIANGLES\n", stderr);

@@ -17,7 +17,7 @@ SceneConfig read(const std::string& text) {
   return read_scene_config(folder.write("scene.toml", text));
 }
 
-/// Reads a scene that must be refused; the message must name the line and the key.
+/// Reads a scene that must be refused. The message must name the line and the key.
 void expect_refused(const std::string& text, const std::string& line, const std::string& key) {
   try {
     read(text);

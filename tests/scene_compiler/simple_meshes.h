@@ -8,7 +8,7 @@
 
 #include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
-/// Meshes whose properties can be worked out by hand. Counter-clockwise seen from outside; metres.
+/// Meshes with properties that are known by hand calculation. Counter-clockwise seen from outside; metres.
 namespace godobject::test {
 
 using scene_compiler::TriangleMesh;

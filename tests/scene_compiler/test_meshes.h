@@ -11,7 +11,7 @@
 
 namespace godobject::scene_compiler {
 
-/// A mesh of the project by its name.
+/// Returns the file of one of the project's meshes.
 inline std::filesystem::path mesh_file(const std::string& name) {
   return std::filesystem::path(GODOBJECT_MESH_FOLDER) / (name + ".ply");
 }
@@ -21,7 +21,7 @@ inline TriangleMesh load(const std::string& name, double scale) {
   return import_mesh(mesh_file(name), scale, report);
 }
 
-/// A folder of this test's own, gone with it.
+/// A folder of this test. The destructor removes it.
 class ScratchFolder {
  public:
   ScratchFolder() : path_(std::filesystem::temp_directory_path() / ("godobject_test_" + std::to_string(::getpid()))) {
@@ -41,7 +41,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Box from `low` to `high`, outward triangles; `faces` tells which of -x, +x, -y, +y, -z, +z are there.
+/// Returns a box from `low` to `high` with outward triangles. `faces`: which of -x, +x, -y, +y, -z, +z exist.
 inline TriangleMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                         const std::array<bool, 6>& faces = {true, true, true, true, true, true}) {
   TriangleMesh mesh;
@@ -60,7 +60,7 @@ inline TriangleMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
   return mesh;
 }
 
-/// Both meshes as one, their vertices apart.
+/// Returns both meshes as one, with separate vertices.
 inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
   const auto first = static_cast<std::uint32_t>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());

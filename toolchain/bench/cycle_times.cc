@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "toolchain/command_line/failure.h"
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 namespace godobject::bench {
 namespace {
@@ -36,7 +36,7 @@ class Runner {
 /// Runs passes within the budget.
 template <class Pass>
 void run_passes(const PassBudget& budget, Pass&& pass) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   const std::int64_t begin_ns = now_ns();
   for (std::size_t done = 0; done < budget.most_passes; ++done) {
     const double spent = 1e-9 * static_cast<double>(now_ns() - begin_ns);
@@ -61,7 +61,7 @@ Recording record(const Scene& scene, const Pipeline& pipeline, std::span<const P
 
 CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
                        const PassBudget& budget) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   CycleTimes times{PassSamples(device.size()), PassSamples(device.size()), PassSamples(device.size())};
   Runner runner(scene, pipeline);
   run_passes(budget, [&] {
@@ -86,7 +86,7 @@ CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<c
 
 std::vector<double> time_cold_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
                                      std::span<const std::size_t> cycles) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   const ColdWalk cold;
   Runner runner(scene, pipeline);
   std::vector<double> times;
@@ -121,7 +121,7 @@ void ColdWalk::walk() const noexcept {
 
 Distribution clock_cost() {
   constexpr int kReadings = 100'000;
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   std::vector<double> costs;
   for (int i = 0; i < kReadings; ++i) {
     const std::int64_t begin_ns = now_ns();

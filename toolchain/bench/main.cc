@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       ->type_name("FOLDER");
   app.add_option("-o,--out", output, "folder for CSV files and a page; created if it is missing")->type_name("DIR");
   return command::run(app, static_cast<int>(ours.size()), ours.data(), [&] {
-    if (!output.empty()) command::make_output_folder(output);
+    if (!output.empty()) files::make_output_folder(output);
     start_google_benchmark(request.full, for_benchmark);
     Chapter all;
     std::vector<Target> targets;

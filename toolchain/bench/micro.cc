@@ -57,7 +57,7 @@ struct Sliding {
   /// Returns the next pose of the phase; after the last one follows the first.
   const Pose& H_WS() { return recording.H_WS[cycles[next++ % cycles.size()]]; }
 
-  command::SceneImage image;
+  files::SceneImage image;
   std::vector<Pose> device;
   Recording recording;
   Parameters parameters;

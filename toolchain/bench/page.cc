@@ -25,7 +25,7 @@ img { max-width: 100%; height: auto }
 )";
 
 void write(const std::filesystem::path& file, const std::string& text) {
-  command::AtomicFile out(file);
+  files::AtomicFile out(file);
   out.write(text);
   out.commit();
 }
@@ -58,7 +58,7 @@ void write_page(const Chapter& found, const std::vector<std::pair<std::string, s
   std::string facts = "what,value\n";
   html += "<table>";
   for (const auto& [key, value] : machine) {
-    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", command::html_text(key), command::html_text(value));
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", files::html_text(key), files::html_text(value));
     facts += fmt::format("{},\"{}\"\n", key, value);
   }
   html += "</table>\n";
@@ -72,10 +72,10 @@ void write_page(const Chapter& found, const std::vector<std::pair<std::string, s
   for (const Plot& plot : found.plots) {
     figures::draw_with_gnuplot([&](const std::filesystem::path& png) { return plot_text(plot, png); },
                                folder / (plot.name + ".png"));
-    html += fmt::format("<p><img src=\"{}.png\" alt=\"{}\"></p>\n", plot.name, command::html_text(plot.title));
+    html += fmt::format("<p><img src=\"{}.png\" alt=\"{}\"></p>\n", plot.name, files::html_text(plot.title));
   }
   html += "<ul>\n";
-  for (const std::string& remark : found.remarks) html += fmt::format("<li>{}</li>\n", command::html_text(remark));
+  for (const std::string& remark : found.remarks) html += fmt::format("<li>{}</li>\n", files::html_text(remark));
   html += "</ul>\n</body></html>\n";
   write(folder / "index.html", html);
 }

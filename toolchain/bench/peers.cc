@@ -6,12 +6,12 @@
 #include <set>
 
 #include "core/pipeline/penalty/penalty_contacts.h"
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 namespace godobject::bench {
 
 PassSamples time_scan(BruteForce& brute, PointScan scan, std::span<const Pose> poses, const PassBudget& budget) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   PassSamples samples(poses.size());
   const std::int64_t first_ns = now_ns();
   for (std::size_t pass = 0; pass < budget.most_passes; ++pass) {
@@ -27,7 +27,7 @@ PassSamples time_scan(BruteForce& brute, PointScan scan, std::span<const Pose> p
 
 std::vector<double> time_cold_scan(BruteForce& brute, PointScan scan, std::span<const Pose> poses,
                                    std::span<const std::size_t> cycles) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   const ColdWalk cold;
   std::vector<double> times;
   for (const std::size_t i : cycles) {
@@ -41,7 +41,7 @@ std::vector<double> time_cold_scan(BruteForce& brute, PointScan scan, std::span<
 
 Distribution time_query(const MeshPeer& peer, const Pose& H_BM, std::span<const Pose> poses,
                         std::span<const std::size_t> cycles) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   std::vector<double> times;
   for (const std::size_t i : cycles) {
     const Pose H_WM = poses[i] * H_BM;

@@ -125,7 +125,7 @@ class PeersOnWorkload {
   const BenchRequest& request_;
   const Workload& workload_;
   std::filesystem::path scene_file_;
-  command::SceneImage image_;
+  files::SceneImage image_;
   std::vector<Pose> device_;
   bool friction_;
   Recording recording_;

@@ -37,11 +37,11 @@ std::string bytes_of(const std::filesystem::path& file) {
 }  // namespace
 
 SceneCache::SceneCache(std::filesystem::path folder) : folder_(std::move(folder)) {
-  command::make_output_folder(folder_);
+  files::make_output_folder(folder_);
 }
 
-command::SceneImage SceneCache::image(const std::filesystem::path& scene_file,
-                                      const std::function<void(const char* phase, double done)>& progress) const {
+files::SceneImage SceneCache::image(const std::filesystem::path& scene_file,
+                                    const std::function<void(const char* phase, double done)>& progress) const {
   const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(scene_file);
   Digest digest;
   digest.add(kCompilerDigest);
@@ -50,14 +50,13 @@ command::SceneImage SceneCache::image(const std::filesystem::path& scene_file,
   if (!std::filesystem::exists(image)) {
     scene_compiler::compile_scene({.scene_file = scene_file, .output = image, .only_solver = {}, .progress = progress});
   }
-  return command::SceneImage::read(image);
+  return files::SceneImage::read(image);
 }
 
-command::SceneImage SceneCache::image_of_text(
-    std::string_view name, std::string_view text,
-    const std::function<void(const char* phase, double done)>& progress) const {
+files::SceneImage SceneCache::image_of_text(std::string_view name, std::string_view text,
+                                            const std::function<void(const char* phase, double done)>& progress) const {
   const auto file = folder_ / fmt::format("{}.toml", name);
-  command::AtomicFile out(file);
+  files::AtomicFile out(file);
   out.write(text);
   out.commit();
   return image(file, progress);

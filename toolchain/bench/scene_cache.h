@@ -17,11 +17,11 @@ class SceneCache {
   explicit SceneCache(std::filesystem::path folder);
 
   /// Returns the image of a scene file, and compiles it if it is not cached. `progress` may be empty. Throws Failure.
-  command::SceneImage image(const std::filesystem::path& scene_file,
+  files::SceneImage image(const std::filesystem::path& scene_file,
                             const std::function<void(const char* phase, double done)>& progress) const;
 
   /// The same for the text of a scene file, whose meshes have absolute paths; the file's name begins with `name`.
-  command::SceneImage image_of_text(std::string_view name, std::string_view text,
+  files::SceneImage image_of_text(std::string_view name, std::string_view text,
                                     const std::function<void(const char* phase, double done)>& progress) const;
 
  private:

@@ -22,7 +22,7 @@ std::string csv_line(const std::vector<std::string>& fields) {
 
 std::string html_row(const std::vector<std::string>& cells, const char* tag) {
   std::string row = "<tr>";
-  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, command::html_text(cell));
+  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, files::html_text(cell));
   return row + "</tr>\n";
 }
 
@@ -44,10 +44,10 @@ std::string csv_of(const Table& table) {
 }
 
 std::string html_of(const Table& table) {
-  std::string text = fmt::format("<h2>{}</h2>\n<div class=\"wide\"><table>{}", command::html_text(table.title),
+  std::string text = fmt::format("<h2>{}</h2>\n<div class=\"wide\"><table>{}", files::html_text(table.title),
                                  html_row(table.columns, "th"));
   for (const auto& row : table.rows) text += html_row(row, "td");
-  return text + fmt::format("</table></div>\n<p>{} <a href=\"{}.csv\">CSV</a></p>\n", command::html_text(table.note),
+  return text + fmt::format("</table></div>\n<p>{} <a href=\"{}.csv\">CSV</a></p>\n", files::html_text(table.note),
                             table.name);
 }
 

@@ -30,7 +30,7 @@ std::string drain(int descriptor) {
   }
 }
 
-/// The last lines on one line: the user's message is one.
+/// Returns the last lines of the text on one line, because an error message is one line.
 std::string ending(const std::string& text) {
   constexpr std::size_t kLongest = 400;
   std::string end = text.size() > kLongest ? text.substr(text.size() - kLongest) : text;
@@ -68,7 +68,7 @@ void run_program(const std::vector<std::string>& arguments, const std::string& p
 
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw Failure(ExitCode::kInternal, fmt::format("{}: no pipe ({})", name, std::strerror(errno)));
+    throw Failure(ExitCode::kInternal, fmt::format("{}: cannot create a pipe ({})", name, std::strerror(errno)));
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

@@ -18,7 +18,7 @@ enum class ExitCode : int {
   kBadConfig = 78
 };
 
-/// Ends a command: one line for the user (what, where, the cure) and the exit code.
+/// Ends a command with an exit code and one line for the user: what happened, where, what to do.
 class Failure : public std::runtime_error {
  public:
   Failure(ExitCode exit_code, const std::string& message) : std::runtime_error(message), exit_code_(exit_code) {}

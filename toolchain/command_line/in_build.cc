@@ -15,7 +15,7 @@ const char* describe(Part part) {
     case Part::kContact: return "the solver contact";
     case Part::kFriction: return "friction";
     case Part::kFeatures: return "the second direction (points of the still body against the moving body's field)";
-    case Part::kPoints: return "points of a moving body that is no ball without friction";
+    case Part::kPoints: return "points of a moving body other than a ball without friction";
   }
   return "nothing";
 }

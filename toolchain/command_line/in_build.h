@@ -6,8 +6,8 @@
 
 namespace godobject::command {
 
-/// A build for one scene (-DGODOBJECT_SCENE) runs only what that scene needs. Throws Failure, kBadConfig, naming the
-/// scene, what this build is without, and the build option to drop, if the pipeline is not in it.
+/// Refuses a scene that this build cannot run: a build for one scene (-DGODOBJECT_SCENE) contains only the parts that
+/// its scene needs. Throws Failure (kBadConfig) naming the scene, the missing part and the build option to drop.
 void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction,
                       const SceneTraits& traits = kSceneTraits);
 

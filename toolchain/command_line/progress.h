@@ -6,18 +6,18 @@
 
 namespace godobject::command {
 
-/// What to write about long work, and when. On a terminal "phase  42 %", rewritten in place. Elsewhere (a pipe, a file)
-/// lines "  12 s  phase": nothing in the first second, so that short work leaves no line and its error is the only one;
-/// from then on one for each phase, those of the first second as well, and one with the share every ten seconds.
+/// The text about the progress of long work. On a terminal: "phase  42 %", rewritten in place. Elsewhere (a pipe, a
+/// file): lines "  12 s  phase". Nothing is written in the first second, so short work leaves no line. Later there is
+/// one line for each phase, those of the first second included, and one with the share every ten seconds.
 class ProgressText {
  public:
   explicit ProgressText(bool on_terminal) : on_terminal_(on_terminal) {}
 
-  /// What is due now; mostly nothing. `share` of the phase's work done, 0 .. 1; `now` since the work began, not
-  /// falling.
+  /// Returns the text that is due now, which is mostly empty. `share` of the phase's work done, 0 .. 1. `now`: time
+  /// since the start of the work, not decreasing.
   std::string show(std::string_view phase, double share, std::chrono::nanoseconds now);
 
-  /// What clears a terminal's line.
+  /// Returns the text that clears a terminal's line.
   std::string end() const;
 
  private:
@@ -27,10 +27,10 @@ class ProgressText {
   bool on_terminal_;
   std::string phase_;
   std::string waiting_;              // lines of the first second
-  std::chrono::nanoseconds next_{};  // nothing more of this phase before
+  std::chrono::nanoseconds next_{};  // no text of this phase before this time
 };
 
-/// ProgressText of this moment, on stderr.
+/// Writes ProgressText to stderr.
 class Progress {
  public:
   Progress();

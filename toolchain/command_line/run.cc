@@ -15,12 +15,12 @@
 namespace godobject::command {
 namespace {
 
-/// One line, whatever the text holds.
+/// Prints the message as one line. Returns the exit code.
 int fail(const CLI::App& app, ExitCode exit_code, std::string message) {
   for (char& c : message) {
     if (c == '\n' || c == '\r') c = ' ';
   }
-  std::fflush(stdout);  // what led to it comes before it, also where both go to one file
+  std::fflush(stdout);  // earlier output comes first, also if both go to one file
   fmt::print(stderr, "{}: {}\n", app.get_name(), message);
   return static_cast<int>(exit_code);
 }
@@ -28,16 +28,16 @@ int fail(const CLI::App& app, ExitCode exit_code, std::string message) {
 }  // namespace
 
 int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
-  app.get_formatter()->column_width(38);  // names of options and values in one line with what they mean
+  app.get_formatter()->column_width(38);  // an option, its value and its description fit in one line
   app.set_version_flag("--version", app.get_name() + " " GODOBJECT_VERSION);
   try {
-    // an empty word before one that is unknown, and the parser goes round for ever where there is a group of options
+    // The parser loops forever on an empty word before an unknown one if there is a group of options.
     if (std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word).empty(); })) {
       throw CLI::ParseError("an argument is empty", CLI::ExitCodes::ExtrasError);
     }
     app.parse(argc, argv);
     body();
-    if (std::fflush(stdout) != 0) throw Failure(ExitCode::kIo, "standard output: writing failed; check where it goes");
+    if (std::fflush(stdout) != 0) throw Failure(ExitCode::kIo, "standard output: cannot be written; check its target");
     return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::Success& wanted) {  // --help, --version
     return app.exit(wanted);

@@ -10,12 +10,12 @@
 
 namespace godobject::command {
 
-/// The solvers as files and command lines name them.
+/// Returns the names of the solvers in files and on command lines.
 inline std::vector<std::string> solver_names() {
   return {std::begin(format::kSolverNames), std::end(format::kSolverNames)};
 }
 
-/// Nothing if there is no solver of that name.
+/// Returns the solver of that name; nothing if there is none.
 inline std::optional<format::Solver> solver_of(std::string_view name) {
   const auto* found = std::find(std::begin(format::kSolverNames), std::end(format::kSolverNames), name);
   if (found == std::end(format::kSolverNames)) return std::nullopt;

@@ -1,4 +1,5 @@
-# cmake -DSOURCE=DIR -DOUTPUT=FILE -P source_commit.cmake: a source file that says which commit was built; left alone where it does.
+# cmake -DSOURCE=DIR -DOUTPUT=FILE -P source_commit.cmake
+# Writes a source file with the commit that is built. Leaves it alone if it has that commit already.
 execute_process(COMMAND git -C "${SOURCE}" describe --always --dirty --exclude "*"
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)

@@ -18,7 +18,7 @@ namespace {
 
 using command::ExitCode;
 using command::Failure;
-using command::TomlTable;
+using files::TomlTable;
 
 /// Error of the integration of the arm's motion; a push of the hand does a hundred times as much work.
 constexpr double kNoWork = 1e-3;  // [J]
@@ -89,7 +89,7 @@ constexpr Claim kClaims[] = {
 std::vector<double> torque_limits(const std::filesystem::path& device) {
   constexpr TomlTable::Range kPositive{1e-6, 1e6};
   std::vector<double> limits;
-  const toml::table root = command::parse_toml_file(device);
+  const toml::table root = files::parse_toml_file(device);
   for (const TomlTable& joint : TomlTable::each(root, "joint", device))
     limits.push_back(joint.number("torque", kPositive));
   return limits;

@@ -39,7 +39,7 @@ std::string sheet_head(const PanelSheet& sheet, const std::filesystem::path& png
 
 void draw_with_gnuplot(const std::function<std::string(const std::filesystem::path&)>& text,
                        const std::filesystem::path& png) {
-  const command::WorkFolder folder(png);
+  const files::WorkFolder folder(png);
   const auto program = folder.write("figure.gp", text(folder.path() / "figure.png"));
   command::run_program({"gnuplot", program.string()}, "gnuplot-nox");
   folder.deliver("figure.png", png);

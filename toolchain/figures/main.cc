@@ -27,6 +27,7 @@ namespace {
 
 using namespace godobject::figures;
 namespace command = godobject::command;
+namespace files = godobject::files;
 namespace fs = std::filesystem;
 
 const char* const kFooter = R"(Example:
@@ -54,7 +55,7 @@ struct Options {
 };
 
 void write(const fs::path& file, const std::string& text) {
-  command::AtomicFile out(file);
+  files::AtomicFile out(file);
   out.write(text);
   out.commit();
 }
@@ -62,21 +63,21 @@ void write(const fs::path& file, const std::string& text) {
 /// Refuses missing inputs and outputs that cannot be written, before the work.
 void check_files(const Options& options, const Plan& plan) {
   const fs::path output = options.output;
-  for (const char* file : {"statistics.csv", "index.html"}) command::output_target(output / file);
+  for (const char* file : {"statistics.csv", "index.html"}) files::output_target(output / file);
   for (const ScenePlan& scene : plan.scenes) {
     for (const std::string& solver : options.solvers)
-      command::require_input(output / scene.name / (solver + ".csv"), "make it with godobject-replay");
-    command::output_target(output / scene.name / "figure.png");
+      files::require_input(output / scene.name / (solver + ".csv"), "make it with godobject-replay");
+    files::output_target(output / scene.name / "figure.png");
   }
   for (const ArmPlan& run : plan.runs) {
     for (const char* file : {"telemetry.csv", "hand.csv"})
-      command::require_input(output / run.scene.name / file, "make it with godobject-controller --log");
-    command::output_target(output / run.scene.name / "figure.png");
+      files::require_input(output / run.scene.name / file, "make it with godobject-controller --log");
+    files::output_target(output / run.scene.name / "figure.png");
   }
 }
 
-command::SceneImage read_image(const Options& options, const ScenePlan& plan) {
-  return command::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
+files::SceneImage read_image(const Options& options, const ScenePlan& plan) {
+  return files::SceneImage::read(fs::path(options.images) / (plan.image + ".scene"));
 }
 
 void add_scene(const Options& options, const ScenePlan& plan, PageContent& content) {

@@ -45,11 +45,11 @@ contact, not for several.</dd>
 template <class Column, class Row>
 std::string cells_html(const std::vector<Column>& columns, const std::vector<Row>& rows) {
   std::string text = "<div class=\"wide\"><table><tr>";
-  for (const Column& column : columns) text += fmt::format("<th>{}</th>", command::html_text(column.heading));
+  for (const Column& column : columns) text += fmt::format("<th>{}</th>", files::html_text(column.heading));
   text += "</tr>\n";
   for (const Row& row : rows) {
     text += "<tr>";
-    for (const Column& column : columns) text += fmt::format("<td>{}</td>", command::html_text(column.value(row)));
+    for (const Column& column : columns) text += fmt::format("<td>{}</td>", files::html_text(column.value(row)));
     text += "</tr>\n";
   }
   return text + "</table></div>\n";
@@ -67,7 +67,7 @@ std::string table_html(const std::vector<Entry>& entries) {
 
 std::string list(const std::vector<std::string>& sentences) {
   std::string text = "<ul>\n";
-  for (const std::string& sentence : sentences) text += fmt::format("<li>{}</li>\n", command::html_text(sentence));
+  for (const std::string& sentence : sentences) text += fmt::format("<li>{}</li>\n", files::html_text(sentence));
   return text + "</ul>\n";
 }
 
@@ -115,16 +115,16 @@ std::string caption(const Picture& picture, const std::vector<Figure::Series>& a
 /// Returns the section of a scene: figure and pictures.
 std::string scene_html(const ScenePlan& plan, const std::string& facts, const std::vector<Figure::Series>& series,
                        const std::filesystem::path& folder) {
-  const std::string name = command::html_text(plan.name);
+  const std::string name = files::html_text(plan.name);
   std::string text = fmt::format(
       "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p>{3}</p>\n<p><a href=\"{0}/figure.png\"><img src=\"{0}/figure.png\" "
       "alt=\"{1}\"></a></p>\n",
-      name, command::html_text(plan.title), command::html_text(plan.text), command::html_text(facts));
+      name, files::html_text(plan.title), files::html_text(plan.text), files::html_text(facts));
   text += "<div class=\"pictures\">\n";
   for (const Picture& picture : pictures(folder / plan.name)) {
     text += fmt::format(
         "<figure><a href=\"{0}/{1}\"><img src=\"{0}/{1}\" alt=\"{2}\"></a><figcaption>{2}</figcaption></figure>\n",
-        name, command::html_text(picture.name), command::html_text(caption(picture, series)));
+        name, files::html_text(picture.name), files::html_text(caption(picture, series)));
   }
   return text + "</div>\n";
 }
@@ -133,8 +133,7 @@ std::string replays_html(const std::string& scene, const std::vector<Entry>& ent
   std::string text = "<p>Replays:";
   for (const Entry& entry : entries) {
     if (entry.scene == scene)
-      text +=
-          fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", command::html_text(scene), command::html_text(entry.solver));
+      text += fmt::format(" <a href=\"{0}/{1}.csv\">{1}</a>", files::html_text(scene), files::html_text(entry.solver));
   }
   return text + "</p>\n";
 }
@@ -167,7 +166,7 @@ std::string arm_html(const PageContent& content, const std::filesystem::path& fo
     text += fmt::format(
         "<p>Logs of the run: <a href=\"{0}/telemetry.csv\">telemetry</a>, <a href=\"{0}/hand.csv\">work of the "
         "hand</a></p>\n",
-        command::html_text(plan.name));
+        files::html_text(plan.name));
   }
   return text;
 }

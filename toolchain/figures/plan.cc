@@ -27,7 +27,7 @@ using command::Failure;
 }
 
 toml::table parse(const std::filesystem::path& file) {
-  command::require_input(file);
+  files::require_input(file);
   std::ifstream stream(file);
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   try {

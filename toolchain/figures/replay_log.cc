@@ -60,7 +60,7 @@ bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
 }  // namespace
 
 ReplayLog read_replay_log(const std::filesystem::path& file) {
-  command::require_input(file, "make it with godobject-replay or godobject-controller, or check the path");
+  files::require_input(file, "make it with godobject-replay or godobject-controller, or check the path");
   std::ifstream stream(file);
   const auto refuse = [&](std::size_t line, std::string_view what) {
     throw Failure(ExitCode::kBadData,

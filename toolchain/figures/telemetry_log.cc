@@ -14,13 +14,13 @@
 namespace godobject::figures {
 namespace {
 
-using command::CsvLines;
+using files::CsvLines;
 
 void split(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   for (;;) {
     const std::size_t comma = line.find(',');
-    fields.push_back(command::trimmed(line.substr(0, comma)));
+    fields.push_back(files::trimmed(line.substr(0, comma)));
     if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
@@ -80,7 +80,7 @@ class Columns {
 
   double number(std::size_t place) const {
     double value = 0.0;
-    if (!command::read_number(fields_[place], value) || !std::isfinite(value))
+    if (!files::read_number(fields_[place], value) || !std::isfinite(value))
       lines_.refuse(fmt::format("{} is \"{}\", no finite number", names_[place], fields_[place]));
     return value;
   }
@@ -120,7 +120,7 @@ ReplayLog rendered(const TelemetryLog& log) {
 
 std::vector<HandWork> read_hand_log(const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 2> kColumns = {"t_s", "hand_J"};
-  const command::CsvTable table = command::read_csv(file, kColumns);
+  const files::CsvTable table = files::read_csv(file, kColumns);
   std::vector<HandWork> log;
   for (std::size_t i = 0; i < table.rows(); ++i) log.push_back({table.row(i)[0], table.row(i)[1]});
   if (log.empty())

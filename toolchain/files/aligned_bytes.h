@@ -7,7 +7,7 @@
 #include <new>
 #include <span>
 
-namespace godobject::command {
+namespace godobject::files {
 
 /// Bytes on the heap, aligned as a scene image and the memory of a god object must be.
 class AlignedBytes {
@@ -33,4 +33,4 @@ class AlignedBytes {
   std::size_t size_;
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -10,7 +10,7 @@
 
 #include "toolchain/files/output_target.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
 AtomicFile::AtomicFile(std::filesystem::path file)
     : file_(std::move(file)),
@@ -22,7 +22,7 @@ AtomicFile::AtomicFile(std::filesystem::path file)
 
 AtomicFile::~AtomicFile() {
   ::close(descriptor_);
-  std::error_code ignored;  // gone after a rename
+  std::error_code ignored;  // the file does not exist after a rename
   std::filesystem::remove(temporary_, ignored);
 }
 
@@ -41,7 +41,7 @@ void AtomicFile::write_through() {
   while (!rest.empty()) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("could not be written whole");
+    if (written <= 0) fail("cannot be written completely");
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
   pending_.clear();
@@ -49,15 +49,15 @@ void AtomicFile::write_through() {
 
 void AtomicFile::flush() {
   write_through();
-  // EINVAL, EROFS: a device that has nothing to flush
-  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("could not be flushed to the disk");
+  // EINVAL, EROFS: the device has nothing to flush
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot be flushed to the disk");
 }
 
 void AtomicFile::commit() {
   flush();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("could not be put in its place");
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be renamed to its final name");
 }
 
 void AtomicFile::fail(const char* what) const { throw output_failure(file_, what, errno); }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -8,7 +8,10 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
@@ -38,7 +41,7 @@ bool CsvLines::next(std::string_view& content) {
     if (!content.empty() && content.front() != '#') return true;
   }
   if (stream_.bad()) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: could not be read to its end; check the disk", file_.string()));
+    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be read to its end; check the disk", file_.string()));
   }
   return false;
 }
@@ -47,4 +50,4 @@ void CsvLines::refuse(std::string_view what) const {
   throw Failure(ExitCode::kBadData, fmt::format("{}:{}: {}", file_.string(), number_, what));
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -9,8 +9,11 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/csv_lines.h"
 
-namespace godobject::command {
+namespace godobject::files {
 namespace {
+
+using command::ExitCode;
+using command::Failure;
 
 /// Calls take(field) for each comma-separated field.
 template <class Take>
@@ -44,15 +47,15 @@ CsvTable read_csv(const std::filesystem::path& file, std::span<const std::string
     std::size_t count = 0;
     each_field(content, [&](std::string_view field) {
       double value = 0.0;
-      if (!read_number(field, value)) lines.refuse(fmt::format("\"{}\" is not a number; mend the row", field));
+      if (!read_number(field, value)) lines.refuse(fmt::format("\"{}\" is not a number; correct the row", field));
       table.values.push_back(value);
       ++count;
     });
     if (count != columns.size())
-      lines.refuse(fmt::format("has {} fields, not {} ({}); mend the row", count, columns.size(), names));
+      lines.refuse(fmt::format("has {} fields, not {} ({}); correct the row", count, columns.size(), names));
     table.lines.push_back(lines.number());
   }
   return table;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// Text as it stands in HTML, in an attribute's quotes too.
+/// Returns the text escaped for HTML, also within the quotes of an attribute.
 inline std::string html_text(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -20,4 +20,4 @@ inline std::string html_text(std::string_view text) {
   return result;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -11,7 +11,10 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 namespace {
 
@@ -21,7 +24,7 @@ namespace {
 
 [[noreturn]] void refuse_error(const std::filesystem::path& file, std::string_view cure, int error) {
   if (error == ENOENT || error == ENOTDIR) refuse(file, fmt::format("no such file; {}", cure));
-  if (error == EACCES) refuse(file, "there is no right to read it; have the rights of the file and its folder changed");
+  if (error == EACCES) refuse(file, "no permission to read it; change the permissions of the file and its folder");
   refuse(file, fmt::format("cannot be read ({}); {}", std::strerror(error), cure));
 }
 
@@ -40,4 +43,4 @@ void require_regular_input(const std::filesystem::path& file, std::string_view c
   if (!std::filesystem::is_regular_file(file, error)) refuse(file, "is a pipe or a device; name a file");
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

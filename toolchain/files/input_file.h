@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <string_view>
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// To be called before `file` is opened for reading, so that the user is told which of these it is. Throws Failure
-/// (kNoInput) naming the file if nothing stands there (then with `cure`), if it is a folder, or if it may not be read.
+/// Refuses a `file` that cannot be read, with the reason. Call it before opening the file. Throws Failure (kNoInput)
+/// naming the file if nothing has this name (then with `cure`), if it is a folder, or if reading is not permitted.
 void require_input(const std::filesystem::path& file, std::string_view cure = "check the path");
 
-/// The same for what is read more than once, or as a whole: a pipe or a device is refused as well.
+/// The same for files that are read more than once, or as a whole. A pipe or a device is refused too.
 void require_regular_input(const std::filesystem::path& file, std::string_view cure = "check the path");
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
+
 namespace {
 
 const char* name_of(std::filesystem::file_type type) {
@@ -22,7 +26,7 @@ const char* name_of(std::filesystem::file_type type) {
   }
 }
 
-/// An output is made under another name beside its own.
+/// Requires a folder in which the temporary file of an output can be created.
 void require_writable(const std::filesystem::path& folder, const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_type type = std::filesystem::status(folder, error).type();
@@ -32,9 +36,9 @@ void require_writable(const std::filesystem::path& folder, const std::filesystem
                               "that exists",
                               file.string(), folder.string()));
   }
-  if (type == std::filesystem::file_type::none) throw output_failure(file, "cannot be looked at", error.value());
+  if (type == std::filesystem::file_type::none) throw output_failure(file, "cannot be examined", error.value());
   if (type != std::filesystem::file_type::directory) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be written: {} is no folder; choose a folder that exists",
+    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be written: {} is not a folder; choose a folder that exists",
                                              file.string(), folder.string()));
   }
   if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
@@ -51,17 +55,17 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 std::filesystem::path output_target(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_type type = std::filesystem::status(file, error).type();
-  if (type == std::filesystem::file_type::none) throw output_failure(file, "cannot be looked at", error.value());
+  if (type == std::filesystem::file_type::none) throw output_failure(file, "cannot be examined", error.value());
   if (type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::regular) {
     throw Failure(ExitCode::kIo,
-                  fmt::format("{}: is a {}, which an output would replace; name a file that is new or may be replaced",
+                  fmt::format("{}: is a {}, which an output would replace; name a new file or one that may be replaced",
                               file.string(), name_of(type)));
   }
-  std::filesystem::path target = file;  // status() followed the links: they end
+  std::filesystem::path target = file;  // status() followed the links, so they end
   while (std::filesystem::is_symlink(target, error)) {
     const std::filesystem::path next = std::filesystem::read_symlink(target, error);
     if (error) throw output_failure(file, "is a link that cannot be followed", error.value());
-    target = target.parent_path() / next;  // an absolute one replaces the folder
+    target = target.parent_path() / next;  // an absolute path replaces the folder
   }
   require_writable(folder_of(target), file);
   return target;
@@ -78,8 +82,8 @@ Failure output_failure(const std::filesystem::path& file, std::string_view what,
   const bool forbidden = error == EACCES || error == EPERM;
   return Failure(forbidden ? ExitCode::kNoPermission : ExitCode::kIo,
                  fmt::format("{}: {} ({}); {}", file.string(), what, std::strerror(error),
-                             forbidden ? "choose a folder that you may write to, or have its rights changed"
-                                       : "choose a folder that exists, may be written to and has room"));
+                             forbidden ? "choose a folder that you may write to, or change its permissions"
+                                       : "choose a folder that exists, can be written and has free space"));
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

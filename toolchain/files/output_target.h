@@ -5,20 +5,20 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// The file that an output named `file` makes or replaces: symbolic links are followed, so that a link stays one. To be
-/// called before the work whose result it is.
-/// Throws Failure: kIo if a folder, a device, a pipe or a socket stands there, which a rename would do away with, or if
-/// its folder is not there or no folder; kNoPermission if one may not look, or not write to that folder.
+/// Returns the file that an output named `file` creates or replaces. Symbolic links are followed, so a link stays one.
+/// Call it before the work that makes the output. Throws Failure: kIo if a folder, a device, a pipe or a socket has
+/// this name, because a rename would remove it, or if the containing folder does not exist; kNoPermission if that
+/// folder cannot be searched or written.
 std::filesystem::path output_target(const std::filesystem::path& file);
 
-/// Makes a folder of outputs, and those above it, where it is not there; one may write to it.
-/// Throws Failure: kIo if it cannot be made, kNoPermission if one may not.
+/// Creates an output folder and its parents if necessary, and checks that it can be written. Throws Failure: kIo if it
+/// cannot be created, kNoPermission without the permission.
 void make_output_folder(const std::filesystem::path& folder);
 
-/// What ends a command whose output `file` failed with `error` (an errno): kNoPermission for EACCES and EPERM, kIo for
-/// all others; each with its cure.
-Failure output_failure(const std::filesystem::path& file, std::string_view what, int error);
+/// Returns the failure of an output `file` with `error` (an errno): kNoPermission for EACCES and EPERM, kIo for all
+/// others. Each has its cure.
+command::Failure output_failure(const std::filesystem::path& file, std::string_view what, int error);
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -9,24 +9,28 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/csv_table.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 PosePath read_pose_path(const std::filesystem::path& file) {
   constexpr double kPeriod = 1e-3;
-  constexpr double kTolerance = 0.1 * kPeriod + 1e-9;  // and the rounding of t itself
+  constexpr double kTolerance = 0.1 * kPeriod + 1e-9;  // plus the rounding of t itself
   constexpr std::array<std::string_view, 8> kPathColumns = {"t", "px", "py", "pz", "qw", "qx", "qy", "qz"};
   const CsvTable table = read_csv(file, kPathColumns);
   if (table.rows() == 0)
-    throw Failure(ExitCode::kBadData, fmt::format("{}: holds no pose; write one row a millisecond", file.string()));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: contains no pose; write one row for each millisecond", file.string()));
   PosePath path;
   path.lines = table.lines;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto row = table.row(i);
     if (!std::isfinite(row[0]) || (i > 0 && !(std::fabs(row[0] - path.t.back() - kPeriod) <= kTolerance))) {
-      throw Failure(ExitCode::kBadData,
-                    fmt::format("{}:{}: t = {} does not follow its predecessor by 1 ms within 10 %; resample the path "
-                                "to 1 kHz",
-                                file.string(), table.lines[i], row[0]));
+      throw Failure(
+          ExitCode::kBadData,
+          fmt::format("{}:{}: t = {} is not 1 ms (within 10 %) after the row before; resample the path to 1 kHz",
+                      file.string(), table.lines[i], row[0]));
     }
     Pose pose;
     pose.translation = Vector3(row[1], row[2], row[3]);
@@ -37,4 +41,4 @@ PosePath read_pose_path(const std::filesystem::path& file) {
   return path;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

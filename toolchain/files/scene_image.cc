@@ -8,7 +8,10 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std::move(image)) {
   const std::span<const std::byte> whole = bytes.span();
@@ -33,14 +36,15 @@ SceneImage SceneImage::read(const std::filesystem::path& file) {
   if (size > kLargest)
     throw Failure(
         ExitCode::kBadData,
-        fmt::format("{}: is not a scene image (X.scene, made by godobject-scenec): larger than any; check the path",
-                    file.string()));
+        fmt::format(
+            "{}: is not a scene image (X.scene, made by godobject-scenec): it is larger than 8 GiB; check the path",
+            file.string()));
   AlignedBytes image(size);
   stream.read(reinterpret_cast<char*>(image.span().data()), static_cast<std::streamsize>(size));
   if (stream.gcount() != static_cast<std::streamsize>(size)) {
-    throw Failure(ExitCode::kIo, fmt::format("{}: reading it failed; check the disk", file.string()));
+    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be read completely; check the disk", file.string()));
   }
   return SceneImage(std::move(image), file.string());
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -6,18 +6,20 @@
 #include "core/scene/scene.h"
 #include "toolchain/files/aligned_bytes.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// A scene image in memory and the core's view of it.
+/// A scene image in memory and the core's view of it, for tools at the desk. The controller has its own reader
+/// (firmware/scene_file.h), which locks the memory and accepts no links.
 struct SceneImage {
   AlignedBytes bytes;
   Scene scene;
 
-  /// Throws Failure (kBadData) if it is no image at all, else with the core's reason; `name` is used in the message.
+  /// Opens an image. Throws Failure (kBadData) if the bytes are no image, or with the core's reason. `name` stands for
+  /// it in messages.
   SceneImage(AlignedBytes image, const std::string& name);
 
   /// Reads a file. Throws Failure: kNoInput if it cannot be read, kBadData if it is larger than any image.
   static SceneImage read(const std::filesystem::path& file);
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

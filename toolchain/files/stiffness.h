@@ -2,9 +2,9 @@
 
 #include "toolchain/files/toml_table.h"
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// k_D that scene files and command lines may ask for [N/m].
+/// Range of the stiffness k_D in scene files and on command lines [N/m].
 inline constexpr TomlTable::Range kStiffness{1e-6, 1e8};
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -7,15 +7,18 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/input_file.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 toml::table parse_toml_file(const std::filesystem::path& file) {
   require_regular_input(file);
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& wrong) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}", file.string(), wrong.source().begin.line,
-                                                    std::string_view(wrong.description())));
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}; correct the line", file.string(),
+                                                    wrong.source().begin.line, std::string_view(wrong.description())));
   }
 }
 
@@ -29,4 +32,4 @@ void allow_tables(const toml::table& root, const std::filesystem::path& file,
   }
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -6,13 +6,14 @@
 
 #include <toml++/toml.h>
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// What a TOML file holds. Throws Failure: kNoInput if it cannot be read, kBadConfig with its line if it is not TOML.
+/// Returns the content of a TOML file. Throws Failure: kNoInput if it cannot be read, kBadConfig naming the line if it
+/// is not TOML.
 toml::table parse_toml_file(const std::filesystem::path& file);
 
-/// Throws Failure (kBadConfig) for the first entry at the top that is not one of `tables`.
+/// Throws Failure (kBadConfig) for the first top-level entry that is not in `tables`.
 void allow_tables(const toml::table& root, const std::filesystem::path& file,
                   std::initializer_list<std::string_view> tables);
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -7,7 +7,10 @@
 
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 TomlTable::TomlTable(const toml::table& root, std::string name, std::filesystem::path file)
     : name_(std::move(name)), file_(std::move(file)) {
@@ -113,16 +116,22 @@ void TomlTable::complain(std::string_view key, const std::string& what) const {
                                   : table_ != nullptr ? table_->source().begin.line
                                                       : 0;
   const std::string where = line == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line);
-  throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}.{} {}", where, name_, key, what));
+  const std::string table = name_.empty() ? "" : name_ + ".";
+  throw Failure(ExitCode::kBadConfig, fmt::format("{}: {}{} {}", where, table, key, what));
 }
 
 void TomlTable::miss(std::string_view key, std::string_view example) const {
-  complain(key, fmt::format("is missing and has no default; below [{}] write {} = {}", name_, key, example));
+  const std::size_t bracket = name_.find('[');  // of an array of tables
+  const std::string below = name_.empty()                  ? "at the top"
+                            : bracket == std::string::npos ? fmt::format("below [{}]", name_)
+                                                           : fmt::format("below [[{}]]", name_.substr(0, bracket));
+  complain(key, fmt::format("is missing and has no default; {} write {} = {}", below, key, example));
 }
 
 void TomlTable::require_in_range(std::string_view key, double value, Range range) const {
   if (value >= range.low && value <= range.high) return;
+  if (range.low == kFinite.low && range.high == kFinite.high) complain(key, "must be a finite number");
   complain(key, fmt::format("= {:g} is out of range; it must be from {:g} to {:g}", value, range.low, range.high));
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -3,37 +3,45 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <toml++/toml.h>
 
-namespace godobject::command {
+namespace godobject::files {
 
-/// One table of a TOML file, read key by key; every complaint is a Failure (kBadConfig) naming file, line and key.
+/// One table of a TOML file, read key by key. Every complaint is a Failure (kBadConfig) naming file, line and key.
 class TomlTable {
  public:
   struct Range {
     double low, high;
   };
+  /// Every number except infinity and NaN.
+  static constexpr Range kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 
-  /// What a user may write for a key that has no default: told where it is missing.
+  /// An example value for a key without a default, for the message if the key is missing.
   struct Example {
     std::string_view text;
   };
 
-  /// `name` may be absent from `root`: then the table is empty and complaints give no line.
+  /// The table `name` of `root`. If it is absent, the table is empty and complaints name no line.
   TomlTable(const toml::table& root, std::string name, std::filesystem::path file);
 
-  /// The tables of an array, [[name]], in their order; complaints count them from 1. Empty if `root` has none.
+  /// Returns the tables of an array, [[name]], in their order. Complaints number them from 1. Empty if `root` has none.
   static std::vector<TomlTable> each(const toml::table& root, const std::string& name,
                                      const std::filesystem::path& file);
+
+  /// Returns the table of the keys at the top of the file, outside all tables.
+  static TomlTable top(const toml::table& root, std::filesystem::path file) {
+    return TomlTable(&root, "", std::move(file));
+  }
 
   bool present() const { return table_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
 
-  /// Throws for the first key that is not one of `keys`.
+  /// Throws for the first key that is not in `keys`.
   void allow(std::initializer_list<std::string_view> keys) const;
 
   std::string text(std::string_view key, const char* fallback) const;
@@ -45,7 +53,7 @@ class TomlTable {
   std::int64_t whole_number(std::string_view key, Range range, std::int64_t fallback) const;
   bool flag(std::string_view key, bool fallback) const;
 
-  /// "FILE:LINE: TABLE.KEY WHAT"
+  /// Throws "FILE:LINE: TABLE.KEY WHAT".
   [[noreturn]] void complain(std::string_view key, const std::string& what) const;
 
  private:
@@ -61,4 +69,4 @@ class TomlTable {
   std::filesystem::path file_;
 };
 
-}  // namespace godobject::command
+}  // namespace godobject::files

@@ -10,7 +10,10 @@
 
 #include "toolchain/files/output_target.h"
 
-namespace godobject::command {
+namespace godobject::files {
+
+using command::ExitCode;
+using command::Failure;
 
 WorkFolder::WorkFolder(const std::filesystem::path& output) {
   const auto parent = output_target(output).parent_path();
@@ -30,14 +33,14 @@ std::filesystem::path WorkFolder::write(const char* name, std::string_view text)
   stream << text;
   stream.close();
   if (!stream)
-    throw Failure(ExitCode::kIo, fmt::format("{}: could not be written whole; make room there", file.string()));
+    throw Failure(ExitCode::kIo, fmt::format("{}: cannot be written completely; free some space there", file.string()));
   return file;
 }
 
 void WorkFolder::deliver(const char* name, const std::filesystem::path& output) const {
   std::error_code error;
   std::filesystem::rename(path_ / name, output_target(output), error);
-  if (error) throw output_failure(output, "could not be put in its place", error.value());
+  if (error) throw output_failure(output, "cannot be renamed to its final name", error.value());
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::files

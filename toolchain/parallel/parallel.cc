@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-namespace godobject::scene_compiler {
+namespace godobject::parallel {
 namespace {
 
 std::size_t thread_count() { return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 64); }
 
 }  // namespace
 
-void parallel_chunks(std::size_t count, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& work,
-                     const Progress& progress) {
+void for_each_chunk(std::size_t count, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& work,
+                    const Progress& progress) {
   std::atomic<std::size_t> next{0};
   std::atomic<bool> failed{false};
   std::exception_ptr failure;
@@ -42,9 +42,9 @@ void parallel_chunks(std::size_t count, std::size_t chunk, const std::function<v
   if (failure) std::rethrow_exception(failure);
 }
 
-void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work, const Progress& progress) {
+void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work, const Progress& progress) {
   const std::size_t chunk = std::clamp<std::size_t>(count / (thread_count() * 64), 1, 256);
-  parallel_chunks(
+  for_each_chunk(
       count, chunk,
       [&work](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) work(i);
@@ -57,4 +57,4 @@ Progress part_of(Progress progress, double begin, double end) {
   return [progress = std::move(progress), begin, end](double done) { progress(begin + done * (end - begin)); };
 }
 
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::parallel

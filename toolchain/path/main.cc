@@ -15,25 +15,26 @@ const char* const kFooter = R"(Example:
   godobject-path peg.keyframes.toml -o peg.csv
 
 KEYFRAMES.toml:
-  pivot = [0, 0, 0]            # optional: point of the moving mesh (scaled, its own frame) that positions speak of [m]
-  [[keyframe]]                 # two or more
+  pivot = [0, 0, 0]            # optional: point of the moving mesh (scaled, own frame) to which positions refer [m]
+  [[keyframe]]                 # at least two
   t = 0.0                      # [s]
   position = [0, 0, 0.1]       # of the pivot in W, the still mesh's frame [m]
-  axis_angle = [0, 0, 1, 90]   # x, y, z, degrees; or quaternion = [w, x, y, z]; neither: unrotated
-  [[oscillation]]              # optional: a sine laid over the path
+  axis_angle = [0, 0, 1, 90]   # x, y, z, degrees; or quaternion = [w, x, y, z]; default: not rotated
+  [[oscillation]]              # optional: a sine added to the path
   from = 1.0                   # [s]
   to = 2.0
   frequency = 9.0              # [Hz]
   phase_deg = 0                # optional; a circle is two oscillations 90 degrees apart
-  fade = 0.1                   # optional: grows and shrinks within this time at both ends [s]
+  fade = 0.1                   # optional: time of growth and decay at both ends [s]
   translation = [0.001, 0, 0]  # amplitude of the pivot in W [m]
   rotation_deg = [0, 0, 2]     # amplitude as a rotation vector in W, about the pivot
 
-POSES.csv gets t,px,py,pz,qw,qx,qy,qz, one row a millisecond: the moving mesh's frame in W. Each keyframe is a place of rest;
-between two the pivot goes straight and the rotation along the shorter arc, with the least jerk (10 u^3 - 15 u^4 + 6 u^5).
+POSES.csv gets the columns t,px,py,pz,qw,qx,qy,qz, one row for each millisecond: the moving mesh's frame in W. The body
+rests at each keyframe. Between two keyframes the pivot moves straight and the rotation along the shorter arc, with the
+least jerk (10 u^3 - 15 u^4 + 6 u^5).
 
-Exit codes: 0 done, 64 usage, 66 KEYFRAMES.toml is missing or may not be read, 74 cannot write, 77 no right to write, 78 not TOML,
-or a bad key.)";
+Exit codes: 0 done, 64 usage, 66 KEYFRAMES.toml is missing or cannot be read, 74 cannot write, 77 no permission to
+write, 78 not TOML, or a bad key.)";
 
 std::string row(const godobject::path::Sample& sample) {
   const godobject::Vector3& p = sample.pose.translation;
@@ -45,16 +46,16 @@ std::string row(const godobject::path::Sample& sample) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes a device path, one pose a millisecond, from keyframes.", "godobject-path");
+  CLI::App app("Makes a device path, one pose for each millisecond, from keyframes.", "godobject-path");
   app.footer(kFooter);
   std::string keyframes_path, out_path;
   app.add_option("KEYFRAMES.toml", keyframes_path, "places, times, oscillations")->required()->type_name("");
   app.add_option("-o,--output", out_path, "device path to write")->required()->type_name("POSES.csv");
 
   return godobject::command::run(app, argc, argv, [&] {
-    godobject::command::output_target(out_path);  // refused before anything is read
+    godobject::files::output_target(out_path);  // refused before anything is read
     const godobject::path::Keyframes motion = godobject::path::read_keyframes(keyframes_path);
-    godobject::command::AtomicFile out(out_path);
+    godobject::files::AtomicFile out(out_path);
     out.write("t,px,py,pz,qw,qx,qy,qz\n");
     for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample));
     out.commit();

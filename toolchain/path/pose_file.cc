@@ -7,7 +7,7 @@
 namespace godobject::path {
 
 std::vector<Pose> read_poses(const std::filesystem::path& file) {
-  if (file.extension() == ".csv") return command::read_pose_path(file).poses;
+  if (file.extension() == ".csv") return files::read_pose_path(file).poses;
   std::vector<Pose> poses;
   for (const Sample& sample : sample(read_keyframes(file))) poses.push_back(sample.pose);
   return poses;

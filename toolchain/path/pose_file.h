@@ -7,8 +7,8 @@
 
 namespace godobject::path {
 
-/// The poses of a motion, recorded (.csv, see toolchain/files/pose_path.h) or of key frames (TOML): of the moving
-/// mesh's frame in W, one a millisecond. Throws Failure.
+/// Returns the poses of a motion, recorded (.csv, see toolchain/files/pose_path.h) or from key frames (TOML): the
+/// moving mesh's frame in W, one pose for each millisecond. Throws Failure.
 std::vector<Pose> read_poses(const std::filesystem::path& file);
 
 }  // namespace godobject::path

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-/// Keyframes alone: rotation R_WM and the pivot's place in W.
+/// Returns the pose from the keyframes alone: rotation R_WM and the pivot's place in W.
 Pose blend(const std::vector<Keyframe>& keyframes, double t) {
   const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), t,
                                      [](double time, const Keyframe& k) { return time < k.t; });

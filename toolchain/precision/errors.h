@@ -9,25 +9,24 @@
 
 namespace godobject::precision {
 
-/// How far the wrenches of a setting are from the reference's, over all cycles that are compared. A torque counts by
-/// the coupling's metric: |F|^2 = |f|^2 + |t|^2 / rho^2, which is (k_D k_VC,x times the distance of the two god
-/// objects)^2.
+/// The error of a setting's wrenches against the reference, over all compared cycles. A torque counts by the coupling's
+/// metric: |F|^2 = |f|^2 + |t|^2 / rho^2, which is (k_D k_VC,x times the distance between the two god objects)^2.
 struct WrenchError {
   double rms = 0.0;        ///< of the difference [N]
-  double relative = 0.0;   ///< the same over the rms of the reference; infinity where that never pushes
+  double relative = 0.0;   ///< the same over the rms of the reference; infinity if the reference never pushes
   double magnitude = 0.0;  ///< rms of |f| - |f_ref| [N]
   double direction = 0.0;  ///< rms of the angle between the forces where both are above 1 % of the largest [rad]
 };
 
-/// `squared_gyration`: rho^2 = k_VC,r / k_VC,x [m^2]. Both of one length.
+/// Returns the error. `squared_gyration`: rho^2 = k_VC,r / k_VC,x [m^2]. Both spans have the same length.
 WrenchError wrench_error(std::span<const Wrench> wrenches, std::span<const Wrench> reference, double squared_gyration);
 
 struct PenetrationError {
   double deepest = 0.0;  ///< [m]
-  double rms = 0.0;      ///< over all cycles that were looked at [m]
+  double rms = 0.0;      ///< over all checked cycles [m]
 };
 
-/// Every `stride`-th cycle against the exact meshes.
+/// Measures every `stride`-th cycle against the exact meshes.
 PenetrationError penetration_error(const ExactScene& exact, std::span<const TracedCycle> cycles, std::size_t stride);
 
 }  // namespace godobject::precision

@@ -1,7 +1,6 @@
 #include "toolchain/precision/exact_scene.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/pipeline/penalty/penalty_contacts.h"
@@ -14,21 +13,11 @@ namespace {
 using scene_compiler::OuterSurface;
 using scene_compiler::SolidSurface;
 
-constexpr std::uint32_t kLevels = 8;
+constexpr std::uint32_t kLevels = 8;  // chosen: the tree of 6000 points grows by 2.6 from level to level
 
 SolidSurface read_surface(const scene_compiler::SceneConfig::Mesh& mesh, double thickness) {
   scene_compiler::MeshReport report;
   return {scene_compiler::import_mesh(mesh.file, mesh.scale, report), mesh.surface, thickness};
-}
-
-std::array<Vector3, 2> box_of(const SolidSurface& surface) {
-  std::array<Vector3, 2> box{Vector3::Constant(std::numeric_limits<double>::infinity()),
-                             Vector3::Constant(-std::numeric_limits<double>::infinity())};
-  for (const Vector3& vertex : surface.mesh().vertices) {
-    box[0] = box[0].cwiseMin(vertex);
-    box[1] = box[1].cwiseMax(vertex);
-  }
-  return box;
 }
 
 scene_compiler::MovingSampling sampled(const OuterSurface& outer, std::uint32_t points) {
@@ -72,7 +61,7 @@ Pointshell shell_of(const std::vector<float>& values, const std::vector<format::
 }
 
 Parameters make_parameters(const scene_compiler::SceneConfig& config, const format::Body& body) {
-  constexpr double kMargin = 1e-3;  // [voxels]: a tenth of the default
+  constexpr double kMargin = 1e-3;  // [voxels] a tenth of the default
   Scene scene;
   scene.settings = config.settings;
   scene.grid.voxel_size = config.voxel_size;
@@ -87,8 +76,8 @@ Parameters make_parameters(const scene_compiler::SceneConfig& config, const form
 ExactScene::ExactScene(const scene_compiler::SceneConfig& config, std::uint32_t points)
     : still_(read_surface(config.still, config.thickness)),
       moving_(read_surface(config.moving, config.thickness)),
-      still_box_(box_of(still_)),
-      moving_box_(box_of(moving_)),
+      still_box_(scene_compiler::Box::around(still_.mesh().vertices)),
+      moving_box_(scene_compiler::Box::around(moving_.mesh().vertices)),
       body_(make_body(moving_, points)),
       features_(make_features(still_, points)),
       H_MB_(body_pose(body_.body)),

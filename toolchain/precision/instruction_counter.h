@@ -2,8 +2,8 @@
 
 namespace godobject::precision {
 
-/// Instructions that this thread retires in user mode, by the processor's own counter (perf_event_open). Many virtual
-/// machines have none, and a system may forbid it: then everything counts as NaN.
+/// Counts the instructions that this thread retires in user mode, with the processor's own counter (perf_event_open).
+/// Many virtual machines have none, and a system may forbid it. Then every count is NaN.
 class InstructionCounter {
  public:
   InstructionCounter();

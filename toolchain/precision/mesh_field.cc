@@ -31,7 +31,7 @@ LayerSample MeshField::layer(const Vector3& p) const noexcept {
 }
 
 double MeshField::lower_bound(const Vector3& center, double radius) const noexcept {
-  // the winding number, which takes longest, has a say only where the surface is farther away than that
+  // the winding number, which takes longest, matters only if the surface is farther away than the radius
   const double nearest = surface_->closest(center).distance;
   const double bound = nearest < radius ? -1.0 : surface_->signed_distance(center, nearest) - radius;
   return bound >= 0.0 ? bound : -std::numeric_limits<double>::infinity();

@@ -5,10 +5,11 @@
 
 namespace godobject::precision {
 
-/// The exact signed distance to a mesh as the pipeline reads a field: no voxels. Some microseconds a look-up.
+/// The exact signed distance to a mesh in the interface of the pipeline's fields, without voxels. Cost: some
+/// microseconds for each look-up.
 class MeshField {
  public:
-  /// `surface` is read later on: it must stay alive. `voxel_size` is what lengths of the solvers follow [m].
+  /// Stores a reference: `surface` must outlive this object. `voxel_size`: unit of the solvers' lengths [m].
   MeshField(const scene_compiler::SolidSurface& surface, double voxel_size)
       : surface_(&surface), voxel_size_(voxel_size) {}
 

@@ -7,17 +7,18 @@
 
 namespace godobject::precision {
 
-/// What a setting costs and how wrong it is; less of either is better. NaN is worse than any number.
+/// Cost and error of a setting. Less is better. NaN is worse than any number.
 struct Trade {
   double cost = 0.0;
   double error = 0.0;
 };
 
-/// The settings that no other one beats in one without losing in the other, ascending in cost, descending in error. Of
-/// equal ones the first.
+/// Returns the settings that no other one beats in cost or error without losing in the other, ascending in cost,
+/// descending in error; the first of equal ones.
 std::vector<std::size_t> pareto_front(std::span<const Trade> trades);
 
-/// The smallest error at no more than `budget`; of equal errors the cheapest. Nothing where all cost more.
+/// Returns the setting with the smallest error at a cost of at most `budget`; the cheapest of equal errors. Nothing if
+/// all cost more.
 std::optional<std::size_t> best_within(std::span<const Trade> trades, double budget);
 
 }  // namespace godobject::precision

@@ -10,23 +10,24 @@
 namespace godobject::precision {
 namespace {
 
-constexpr int kWanted = 4;
-constexpr int kMostTries = 40;
+constexpr int kWanted = 4;      // motions, chosen: from four sides
+constexpr int kMostTries = 40;  // chosen
 
-/// Where a body touches first that comes straight along `into`.
-std::optional<Pose> touch(const ExactScene& exact, Pose H_WM, const Vector3& into, double way) {
+/// Returns the first pose of contact of a body that moves straight along `into`, at most `longest` [m] far; nothing if
+/// it starts in contact or meets nothing.
+std::optional<Pose> touch(const ExactScene& exact, Pose H_WM, const Vector3& into, double longest) {
   const double near = 1e-3 * exact.still().voxel_size();
-  double gone = 0.0;
-  while (gone < way) {
+  double travelled = 0.0;
+  while (travelled < longest) {
     const double gap = exact.clearance(H_WM);
-    if (gap < near) return gone > 0.0 ? std::optional(H_WM) : std::nullopt;
+    if (gap < near) return travelled > 0.0 ? std::optional(H_WM) : std::nullopt;
     H_WM.translation += gap * into;
-    gone += gap;
+    travelled += gap;
   }
   return std::nullopt;
 }
 
-/// From `clear` off the touch pose into contact and back; the pivot is the body's centre of mass.
+/// Returns the motion from free space to the touch pose, into contact and back. The pivot is the body's centre of mass.
 std::vector<Pose> pressed(const ExactScene& exact, const Pose& H_WM, const Vector3& into, const Vector3& axis) {
   const double s = exact.still().voxel_size();
   const Vector3 along = into.cross(axis).normalized();
@@ -55,7 +56,7 @@ Paths press_paths(const ExactScene& exact) {
   const auto direction = [&] { return Vector3(normal(random), normal(random), normal(random)).normalized(); };
   const auto& [low, high] = exact.still_box();
   const auto& [moving_low, moving_high] = exact.moving_box();
-  const double way = (high - low).norm() + 2.0 * (moving_high - moving_low).norm();
+  const double longest = (high - low).norm() + 2.0 * (moving_high - moving_low).norm();
   std::uniform_real_distribution<double> share(0.2, 0.8);
   Paths paths;
   for (int i = 0; i < kMostTries && paths.size() < kWanted; ++i) {
@@ -65,8 +66,8 @@ Paths press_paths(const ExactScene& exact) {
     H_WM.rotation = Quaternion(normal(random), normal(random), normal(random), normal(random)).normalized();
     const Vector3 target = low + Vector3(share(random), share(random), share(random)).cwiseProduct(high - low);
     const Vector3 middle = 0.5 * (moving_low + moving_high);
-    H_WM.translation = target - H_WM.rotation._transformVector(middle) - 0.5 * way * into;
-    if (const auto touching = touch(exact, H_WM, into, way)) paths.push_back(pressed(exact, *touching, into, axis));
+    H_WM.translation = target - H_WM.rotation._transformVector(middle) - 0.5 * longest * into;
+    if (const auto touching = touch(exact, H_WM, into, longest)) paths.push_back(pressed(exact, *touching, into, axis));
   }
   return paths;
 }

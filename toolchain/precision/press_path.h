@@ -4,9 +4,9 @@
 
 namespace godobject::precision {
 
-/// Motions for a scene of which nothing is known: from several sides, turned at random (fixed seed), the body comes
+/// Returns motions for an unknown scene. From several sides and in random orientation (fixed seed) the body approaches
 /// until it touches, is pressed three voxels deep, slides to and fro by ten voxels while it turns, and is lifted off.
-/// None where the body meets nothing from any side.
+/// Empty if the body meets nothing from any side.
 Paths press_paths(const ExactScene& exact);
 
 }  // namespace godobject::precision

@@ -27,8 +27,9 @@ std::vector<Wrench> wrenches(const std::vector<TracedCycle>& cycles) {
 Paths or_pressed(Paths paths, const ExactScene& exact, const scene_compiler::SceneConfig& config) {
   if (paths.empty()) paths = press_paths(exact);
   if (!paths.empty()) return paths;
-  throw Failure(ExitCode::kBadData, fmt::format("{} and {}: the bodies meet from no side; name a motion with --path",
-                                                config.moving.name, config.still.name));
+  throw Failure(ExitCode::kBadData,
+                fmt::format("{} and {}: the bodies do not meet from any side; give a motion with --path",
+                            config.moving.name, config.still.name));
 }
 
 std::string us(double nanoseconds) { return fmt::format("{:.3g} us", 1e-3 * nanoseconds); }
@@ -38,7 +39,7 @@ std::string line(const Result& result) {
                      1e3 * result.penetration.deepest, name(result.setting));
 }
 
-/// The best that `paper` does at no more than `budget_ns`, or nothing.
+/// Returns the best result of `paper` at no more than `budget_ns`, or nothing.
 const Result* best_of_paper(const std::vector<Result>& tried, double budget_ns) {
   std::vector<Trade> trades;
   for (const Result& result : tried) {
@@ -121,7 +122,7 @@ std::vector<CycleCost> costs_of(const Scene& scene, std::span<const Setting> set
   return time_cycles(sessions, paths, passes);
 }
 
-std::vector<Result> Trial::errors(const command::SceneImage& image, std::span<const Setting> settings) {
+std::vector<Result> Trial::errors(const files::SceneImage& image, std::span<const Setting> settings) {
   const Parameters& q = exact_.parameters();
   std::vector<Result> results;
   for (const Setting& setting : settings) {
@@ -148,7 +149,7 @@ std::vector<Result> Trial::operator()(const Image& image, std::span<const Varian
                                  .only_solver = image.only_solver,
                                  .choice = {},
                                  .progress = {}});
-  const command::SceneImage scene = command::SceneImage::read(image.file);
+  const files::SceneImage scene = files::SceneImage::read(image.file);
   std::filesystem::remove(image.file);
   const std::vector<Setting> settings = settings_of(config_, image.setting, variants);
   std::vector<Result> results = errors(scene, settings);
@@ -163,7 +164,7 @@ Recommendation recommend(const std::vector<ImageSetting>& images, double budget_
   for (const ImageSetting& image : images) {
     std::vector<Result> results = evaluate(image);
     for (Result& result : results) {
-      result.cycles.clear();  // only what they have come to is kept
+      result.cycles.clear();  // only the numbers are stored
       recommendation.tried.push_back(std::move(result));
     }
   }
@@ -180,7 +181,8 @@ double parse_budget_ns(std::string_view text) {
   unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
   const double scale = unit == "ns" ? 1.0 : unit == "us" ? 1e3 : unit == "ms" ? 1e6 : 0.0;
   if (error != std::errc() || scale == 0.0 || !(value > 0.0) || !std::isfinite(value)) {
-    throw Failure(ExitCode::kUsage, fmt::format("--budget {}: give a time for a cycle with its unit: 20us", text));
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("--budget {}: no time with a unit; give the time of a cycle, for example 20us", text));
   }
   return scale * value;
 }

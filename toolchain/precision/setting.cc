@@ -9,8 +9,8 @@
 namespace godobject::precision {
 namespace {
 
-constexpr double kNeverRefined = 1e3;    // field_tolerance [voxels]
-constexpr double kAlwaysRefined = 0.05;  // the default of scene files
+constexpr double kNeverRefined = 1e3;    // field_tolerance [voxels]: no brick is refined
+constexpr double kAlwaysRefined = 0.05;  // field_tolerance [voxels]: the default of scene files
 
 }  // namespace
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "toolchain/command_line/failure.h"
-#include "toolchain/command_line/stopwatch.h"
 #include "toolchain/precision/instruction_counter.h"
+#include "toolchain/timing/stopwatch.h"
 
 namespace godobject::precision {
 namespace {
@@ -18,7 +18,7 @@ double nearest_rank(std::vector<double>& values, double quantile) {
   return *nth;
 }
 
-/// `passes` times of each cycle, cycle by cycle.
+/// Returns the cost from `passes` times of each cycle.
 CycleCost cost_of(const std::vector<std::vector<double>>& times_ns) {
   std::vector<double> medians;
   for (std::vector<double> of_cycle : times_ns) medians.push_back(nearest_rank(of_cycle, 0.5));
@@ -45,14 +45,15 @@ Session::Session(const Scene& scene, const Setting& setting)
   with_margin.settings.margin = setting.margin;
   if (god_object_->start(with_margin, setting.solver, setting.friction) != Status::kOk) {
     throw command::Failure(command::ExitCode::kBadData,
-                           "the scene image was compiled without " + name(setting) + "; compile it anew");
+                           "the scene image was compiled without " + name(setting) + "; compile it again");
   }
 }
 
 TracedCycle Session::update(const Pose& H_WM) {
   CycleReport report;
   if ((*god_object_)->update({H_WM, Motion{}}, report) != Status::kOk) {
-    throw command::Failure(command::ExitCode::kBadData, "a pose of the path is none; see godobject-replay");
+    throw command::Failure(command::ExitCode::kBadData,
+                           "the path contains an invalid pose; godobject-replay names its row");
   }
   return {(*god_object_)->mesh_pose(), report.force.spring_W};
 }
@@ -64,7 +65,7 @@ std::vector<TracedCycle> trace(Session& session, const Paths& paths) {
 }
 
 std::vector<CycleCost> time_cycles(std::span<Session> sessions, const Paths& paths, std::size_t passes) {
-  const command::Stopwatch now_ns = command::stopwatch();
+  const timing::Stopwatch now_ns = timing::stopwatch();
   std::vector<std::vector<std::vector<double>>> times_ns(sessions.size());
   for (std::size_t pass = 0; pass < passes; ++pass) {
     for (std::size_t s = 0; s < sessions.size(); ++s) {

@@ -13,11 +13,12 @@ Example:
   godobject-query teapot.scene points.csv -o distances.csv
 
 POINTS.csv holds rows x,y,z in the still mesh's frame, in metres. OUT.csv gets x,y,z,distance,nx,ny,nz,known:
-known = 1 within the stored band, n the outward normal; known = 0 beyond it: distance is plus or minus the band, n is 0.
-Where the moving body is a ball the band lies about the surface at its radius: beyond it the distance is the radius
-plus or minus the band.
+known = 1 within the stored band; n is the outward normal. known = 0 beyond the band: distance is plus or minus the
+band, n is 0. If the moving body is a ball, the band lies around the surface at the ball's radius; beyond it, distance
+is the radius plus or minus the band.
 
-Exit codes: 0 done, 64 usage, 65 bad image or row, 66 an input is missing or may not be read, 74 cannot write, 77 no right to write.)";
+Exit codes: 0 done, 64 usage, 65 bad image or row, 66 an input is missing or cannot be read, 74 cannot write,
+77 no permission to write.)";
 
 }  // namespace
 
@@ -32,9 +33,9 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", output, "distances to write")->required()->type_name("OUT.csv");
   app.footer(kFooter);
   return command::run(app, argc, argv, [&] {
-    command::output_target(output);  // refused before anything is read
-    const command::SceneImage image = command::SceneImage::read(scene);
+    files::output_target(output);  // refused before anything is read
+    const files::SceneImage image = files::SceneImage::read(scene);
     command::Progress line;
-    scene_compiler::query_points(image.scene, points, output, [&line](double done) { line.show("points", done); });
+    query::query_points(image.scene, points, output, [&line](double done) { line.show("points", done); });
   });
 }

@@ -12,15 +12,15 @@
 #include "toolchain/files/csv_lines.h"
 #include "toolchain/scene_compiler/points/ball.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::query {
 namespace {
 
-/// Exactly three finite numbers parted by commas.
+/// Reads exactly three finite numbers separated by commas.
 bool read_point(std::string_view line, Vector3& point) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t comma = line.find(',');
     if ((comma == std::string_view::npos) != (axis == 2)) return false;
-    if (!command::read_number(command::trimmed(line.substr(0, comma)), point[axis])) return false;
+    if (!files::read_number(files::trimmed(line.substr(0, comma)), point[axis])) return false;
     if (!std::isfinite(point[axis])) return false;
     if (axis < 2) line.remove_prefix(comma + 1);
   }
@@ -42,20 +42,21 @@ void append_row(std::string& text, std::string_view point_text, const FieldSampl
 }  // namespace
 
 std::uint64_t query_points(const Scene& scene, const std::filesystem::path& points, const std::filesystem::path& output,
-                           const Progress& progress) {
-  command::CsvLines lines(points);
+                           const parallel::Progress& progress) {
+  files::CsvLines lines(points);
   std::error_code unknown;  // of a pipe: no progress is shown
   const std::uintmax_t size = std::filesystem::file_size(points, unknown);
-  command::AtomicFile file(output);
+  files::AtomicFile file(output);
   std::string text = "x,y,z,distance,nx,ny,nz,known\n";
-  const double dilation = ball_radius(scene);
+  const double dilation = scene_compiler::ball_radius(scene);
   std::uint64_t rows = 0;
   bool first = true;
   for (std::string_view row; lines.next(row); first = false) {
     if (first && names_columns(row)) continue;
     Vector3 point;
     if (!read_point(row, point)) {
-      lines.refuse(fmt::format("\"{}\" is not three finite numbers x,y,z; mend or drop the row", row.substr(0, 60)));
+      lines.refuse(
+          fmt::format("\"{}\" is not three finite numbers x,y,z; correct or remove the row", row.substr(0, 60)));
     }
     append_row(text, row, scene.voxelmap.sample(point), dilation);
     ++rows;
@@ -70,4 +71,4 @@ std::uint64_t query_points(const Scene& scene, const std::filesystem::path& poin
   return rows;
 }
 
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::query

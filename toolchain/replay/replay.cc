@@ -8,8 +8,8 @@
 
 #include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/command_line/failure.h"
-#include "toolchain/command_line/stopwatch.h"
 #include "toolchain/session/owned_god_object.h"
+#include "toolchain/timing/stopwatch.h"
 
 namespace godobject::replay {
 namespace {
@@ -33,7 +33,7 @@ const char* const kColumns =
     "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
     "solve_ns,status";
 
-Summary replay(const Scene& scene, Solver solver, bool friction, const command::PosePath& path,
+Summary replay(const Scene& scene, Solver solver, bool friction, const files::PosePath& path,
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
@@ -47,7 +47,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
   std::string row = std::string(kColumns) + "\n";
   write_row(row);
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
-    StepTimes times{.now_ns = command::stopwatch()};
+    StepTimes times{.now_ns = timing::stopwatch()};
     CycleReport report;
     std::feclearexcept(kWatched);
     const Status status = god_object->update({path.poses[i], Motion{}}, report, &times);
@@ -57,7 +57,7 @@ Summary replay(const Scene& scene, Solver solver, bool friction, const command::
     ++summary.by_outcome[static_cast<std::size_t>(report.outcome)];
     if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];
     const ProxyState& state = god_object.state();
-    // before the first good row there is no god object to measure
+    // before the first valid row there is no god object to measure
     const double depth =
         state.started ? -smallest_distance(scene.voxelmap, scene.pointshell, state.H_WS) : -scene.voxelmap.band();
     summary.deepest = std::max(summary.deepest, depth);

@@ -98,9 +98,9 @@ bool run_all(const Options& options) {
   const std::vector<Chapter> all = chapters(options);
   std::vector<const StudyCase*> cases = all_cases(all);
   if (!options.case_name.empty()) cases = {&find_case(all, options.case_name)};
-  godobject::command::make_output_folder(options.output);
-  godobject::command::make_output_folder(case_folder(options.output));
-  godobject::command::output_target(report_file(options.output));  // refused before the work
+  godobject::files::make_output_folder(options.output);
+  godobject::files::make_output_folder(case_folder(options.output));
+  godobject::files::output_target(report_file(options.output));  // refused before the work
   {
     godobject::command::Progress progress;
     run_cases(cases, {.folder = case_folder(options.output),

@@ -13,7 +13,7 @@
 namespace godobject::scene_compiler {
 namespace {
 
-using command::TomlTable;
+using files::TomlTable;
 using Range = TomlTable::Range;
 
 constexpr Range kScale{1e-9, 1e9};
@@ -31,7 +31,7 @@ SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path&
   } else if (surface == "shell") {
     mesh.surface = SurfaceKind::kShell;
   } else if (surface != "auto") {
-    table.complain("surface", fmt::format("= \"{}\" is not known; it must be auto, solid or shell", surface));
+    table.complain("surface", fmt::format("= \"{}\" is unknown; choose auto, solid or shell", surface));
   }
   return mesh;
 }
@@ -39,18 +39,17 @@ SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path&
 std::uint32_t read_solver(const TomlTable& contact) {
   const std::string name = contact.text("solver", "contact");
   const std::optional<format::Solver> solver = command::solver_of(name);
-  if (!solver)
-    contact.complain("solver", fmt::format("= \"{}\" is not known; it must be contact, corrected or paper", name));
+  if (!solver) contact.complain("solver", fmt::format("= \"{}\" is unknown; choose contact, corrected or paper", name));
   return static_cast<std::uint32_t>(*solver);
 }
 
-/// Which reads normals at points of the moving surface.
+/// Leaves out the solver `paper`, which reads normals at points of the moving surface.
 void leave_out_paper(const TomlTable& contact, format::Settings& settings) {
   constexpr auto kPaper = static_cast<std::uint32_t>(format::Solver::kPaper);
   settings.solvers &= ~(1u << kPaper);
   if (settings.default_solver == kPaper) {
     contact.complain("solver",
-                     "= \"paper\" needs points with normals, a ball has its centre alone; take contact or "
+                     "= \"paper\" needs points with normals, a ball has only its centre; choose contact or "
                      "corrected, or leave out moving.ball");
   }
 }
@@ -65,7 +64,7 @@ void read_friction(const TomlTable& friction, format::Settings& settings) {
   settings.friction_viscous = friction.number("viscous", {0.0, 1e6}, 0.0);
 }
 
-/// The paper's own coefficients: mu_r,s = 0.2, mu_r,k = 0.9 mu_r,s, mu_v = 0.01 mu_s.
+/// Reads the table [paper]. The defaults are the paper's: mu_r,s = 0.2, mu_r,k = 0.9 mu_r,s, mu_v = 0.01 mu_s.
 void read_paper(const TomlTable& paper, format::Settings& settings) {
   paper.allow({"rotation_static", "rotation_kinetic", "viscous"});
   settings.paper_rotation_static = paper.number("rotation_static", kRatio, 0.2);
@@ -83,8 +82,8 @@ std::optional<format::Workspace> read_workspace(const TomlTable& table) {
   format::Workspace workspace{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (low[axis] > high[axis]) {
-      table.complain("high", fmt::format("lies below low along {}, {:g} < {:g}; it must not along any axis: swap them",
-                                         "xyz"[axis], high[axis], low[axis]));
+      table.complain("high", fmt::format("lies below low along {}, {:g} < {:g}; swap these two numbers", "xyz"[axis],
+                                         high[axis], low[axis]));
     }
     workspace.low[axis] = low[axis];
     workspace.high[axis] = high[axis];
@@ -95,8 +94,8 @@ std::optional<format::Workspace> read_workspace(const TomlTable& table) {
 }  // namespace
 
 SceneConfig read_scene_config(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling", "workspace"});
+  const toml::table root = files::parse_toml_file(file);
+  files::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling", "workspace"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
   const std::filesystem::path folder = file.parent_path();
   SceneConfig config;
@@ -137,9 +136,9 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   const TomlTable coupling = table("coupling");
   coupling.allow({"stiffness", "damping", "rotational"});
-  settings.stiffness = coupling.number("stiffness", command::kStiffness, 2000.0);
+  settings.stiffness = coupling.number("stiffness", files::kStiffness, 2000.0);
   settings.damping = coupling.number("damping", {0.0, 1e6}, 20.0);
-  settings.coupling_translation = 1.0;  // the spring along the translation is k_D itself
+  settings.coupling_translation = 1.0;  // the translational spring is k_D itself
   settings.coupling_rotation = coupling.number("rotational", {1e-15, 1e9}, 0.025);
   config.workspace = read_workspace(table("workspace"));
   return config;

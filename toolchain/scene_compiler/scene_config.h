@@ -9,32 +9,33 @@
 
 namespace godobject::scene_compiler {
 
-/// A scene file, checked, with its defaults filled in. SI units.
+/// The settings of a scene file, checked, with defaults filled in. SI units.
 struct SceneConfig {
   struct Mesh {
-    std::filesystem::path file;  ///< as found from the working directory
+    std::filesystem::path file;  ///< relative to the working directory, or absolute
     std::string name;            ///< as written in the scene file
     double scale = 1.0;          ///< mesh unit -> metre
     SurfaceKind surface = SurfaceKind::kAuto;
   };
 
   Mesh still;
-  double voxel_size = 0.0;       ///< s [m]
-  double thickness = 0.0;        ///< of shells [m]
-  double field_tolerance = 0.0;  ///< depth of the stored surface in the still body; off it 5 times as much [voxels]
+  double voxel_size = 0.0;  ///< s [m]
+  double thickness = 0.0;   ///< of shells [m]
+  /// Largest depth of the stored surface inside the still body; outside it 5 times as much [voxels]
+  double field_tolerance = 0.0;
   Mesh moving;
   double body_voxel_size = 0.0;  ///< of the moving body's own field [m]
   bool ball = false;             ///< the moving mesh is a ball, to be rendered by its centre alone
-  std::uint32_t points = 0;      ///< not of a ball; nor what follows, but the settings
+  std::uint32_t points = 0;      ///< no meaning for a ball, like the next three members
   std::uint32_t levels = 0;
-  bool both_directions = true;                 ///< feature points of the still body against the moving body's field
-  double between_points = 0.0;                 ///< wanted bound of penetration that no point sees [m]
-  std::optional<format::Workspace> workspace;  ///< that the moving body's centre of mass does not leave, in W
+  bool both_directions = true;                 ///< also feature points of the still body in the moving body's field
+  double between_points = 0.0;                 ///< wanted bound of the penetration between points [m]
+  std::optional<format::Workspace> workspace;  ///< box that the moving body's centre of mass does not leave, in W
   format::Settings settings{};
 };
 
 /// Reads and checks a scene file. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line and key
-/// for unknown keys, missing keys, wrong types, values out of range.
+/// for an unknown key, a missing key, a wrong type or a value out of range.
 SceneConfig read_scene_config(const std::filesystem::path& file);
 
 }  // namespace godobject::scene_compiler

@@ -15,14 +15,17 @@
 #include "toolchain/files/work_folder.h"
 #include "toolchain/path/pose_file.h"
 #include "toolchain/precision/recommendation.h"
-#include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/image/build_traits.h"
+#include "toolchain/scene_compiler/image/image_json.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 
 namespace {
 
 using namespace godobject;
 using namespace godobject::command;
+using namespace godobject::files;
 using namespace godobject::scene_compiler;
 
 constexpr const char* kFooter = R"(
@@ -33,36 +36,37 @@ Examples:
   godobject-scenec teapot.toml -o teapot.scene --budget 20us --path over-the-spout.csv
   godobject-scenec --inspect teapot.scene
 
-A scene file (TOML; lengths in metres, values in brackets are defaults, s is voxel_size):
+A scene file (TOML; lengths in metres, defaults in brackets, s is voxel_size):
   [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s],
-              field_tolerance at the surface, in voxels [0.05; large: bricks are never refined]
+              field_tolerance at the surface, in voxels [0.05; a large one: bricks are never refined]
   [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s],
               ball [false]: render the mesh, a ball, by its centre alone, against a convex still body, without points
-              and second direction: no torque arises, with friction none either
+              and second direction; no torque arises, with friction none either
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
-              both_directions [true]: also points of the still body against the moving body's field,
-              between_points [s]: how deep bodies may meet where no point sees it; points are added for it
-              point_budget [0: none]: near points of either body that a sub-step looks up, nearest first;
-              with more of them the god object may lag, it crosses nothing
-  [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without the table no friction
+              both_directions [true]: also points of the still body in the moving body's field,
+              between_points [s]: largest depth of the bodies between their points; points are added until it holds,
+              point_budget [0: none]: near points of either body that a sub-step looks up, nearest first; beyond
+              the budget the god object may lag behind the device, but crosses nothing
+  [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without this table there is no friction
   [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
   [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
-  [workspace] low, high: [x, y, z] in metres in the still mesh's frame: the box that the moving body's centre of mass does
-              not leave; the device feels its faces, and what cannot be reached from it is left out of the image.
-              Without the table: everywhere
-Meshes are PLY, STL or OBJ, found relative to the scene file.
+  [workspace] low, high: [x, y, z] in metres in the still mesh's frame: the box that the moving body's centre of mass
+              does not leave. The device feels its faces. Data that no cycle reads from there is left out of the image.
+              Without this table the workspace has no limits
+Meshes are PLY, STL or OBJ. Their paths are relative to the scene file.
 
-Walls and gaps of the still mesh thinner than two voxels are reported. A wall of a solid is
+The report lists walls and gaps of the still mesh thinner than two voxels. A wall of a solid is
 {} (near-parallel: within 10 degrees).
 
---budget tries all solvers with the scene as it is written, and with voxel edge, points, refinement and directions changed one at
-a time; each is compiled and run on this machine, with the scene's friction, along --path, or along motions that it makes
-itself: the body is pressed on from four sides and slides. Of those whose 99th percentile of a cycle's time is within the
-budget it takes the one whose wrench is nearest to that of the solver `contact` on the exact meshes. It takes some ten times
-as long as to compile, wants an idle machine, and the image tells what was tried.
+--budget tries all solvers with the scene file as it is, and with voxel edge, points, refinement and directions changed
+one at a time. Each setting is compiled and run on this machine, with the scene's friction, along --path, or along
+generated motions that press the body from four sides and slide it. Among the settings whose 99th percentile of a
+cycle's time is within the budget, it chooses the one whose wrench is nearest to that of the solver `contact` on the
+exact meshes. It takes some ten times as long as compiling and needs an idle machine. The image records the settings
+that were tried.
 
-Exit codes: 0 done, 64 usage, 65 bad mesh or image, or nothing fits the budget, 66 an input is missing or may not be read, 74 cannot write, 77 no right to
-write, 78 bad scene file.)";
+Exit codes: 0 done, 64 usage, 65 bad mesh or image, or nothing fits the budget, 66 an input is missing or cannot be
+read, 74 cannot write, 77 no permission to write, 78 bad scene file.)";
 
 struct Options {
   std::string scene_file;
@@ -73,21 +77,21 @@ struct Options {
   std::string budget;
   std::string path;
   bool inspects = false;
-  std::string inspected;  ///< if it follows --inspect; SCENE otherwise
+  std::string inspected;  ///< the image, if it follows --inspect; otherwise it is in scene_file
 };
 
-/// Puts the settings that fit the budget best in place of the scene file's.
+/// Replaces the scene file's settings by the ones that fit the budget best.
 void choose_within_budget(const Options& options, CompileRequest& request) {
   const double budget_ns = precision::parse_budget_ns(options.budget);
   const SceneConfig config = read_scene_config(request.scene_file);
   if (config.ball) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget chooses points and directions, a ball has its centre "
-                                                    "alone; leave out moving.ball or --budget",
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget chooses points and directions, a ball has only its "
+                                                    "centre; leave out moving.ball or --budget",
                                                     options.scene_file));
   }
   if (config.workspace) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget looks at motions everywhere; leave out [workspace], "
-                                                    "and put it back for the settings that were found",
+    throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget tries motions outside the workspace; leave out "
+                                                    "[workspace], and put it back with the settings that were found",
                                                     options.scene_file));
   }
   precision::Paths paths;
@@ -115,7 +119,7 @@ void choose_within_budget(const Options& options, CompileRequest& request) {
   fmt::print("{}", precision::text(found, budget_ns));
   if (!found.chosen) {
     throw Failure(ExitCode::kBadData, fmt::format("--budget {}: none of the {} settings that were tried is that quick; "
-                                                  "allow more, or give a coarser mesh or a larger voxel_size",
+                                                  "give a larger budget, a coarser mesh or a larger voxel_size",
                                                   options.budget, found.tried.size()));
   }
   const precision::Setting& chosen = found.tried[*found.chosen].setting;
@@ -126,7 +130,8 @@ void choose_within_budget(const Options& options, CompileRequest& request) {
 
 void compile(const Options& options) {
   if (!options.path.empty() && options.budget.empty()) {
-    throw Failure(ExitCode::kUsage, "--path is for --budget: the motion that settings are tried on");
+    throw Failure(ExitCode::kUsage,
+                  "--path is for --budget, as the motion on which settings are tried; give --budget too");
   }
   CompileRequest request;
   request.times_left_out = !options.report.empty();
@@ -134,7 +139,7 @@ void compile(const Options& options) {
   request.output = options.output;
   if (!options.only_solver.empty()) request.only_solver = godobject::command::solver_of(options.only_solver);
   for (const std::string& output : {options.output, options.report, options.traits}) {
-    if (!output.empty()) output_target(output);  // refused before the work, not after it
+    if (!output.empty()) output_target(output);  // refused before the work
   }
   if (!options.budget.empty()) choose_within_budget(options, request);
   CompileReport report;
@@ -150,13 +155,13 @@ void compile(const Options& options) {
   }
   if (!options.traits.empty()) {
     AtomicFile file(options.traits);
-    file.write(traits_text(report.traits, options.scene_file));
+    file.write(traits_text(report.check.traits, options.scene_file));
     file.commit();
   }
   fmt::print("{}", report_text(report));
 }
 
-/// `--inspect X.scene`, or `X.scene --inspect`.
+/// Runs `--inspect X.scene` or `X.scene --inspect`.
 void inspect(const Options& options) {
   const std::string& image = options.inspected.empty() ? options.scene_file : options.inspected;
   if (image.empty()) throw Failure(ExitCode::kUsage, "--inspect X.scene: the image is missing; name one");
@@ -182,21 +187,21 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("SCENE.toml", options.scene_file, "scene file: meshes and settings")->type_name("");
   app.add_option("-o,--output", options.output, "scene image to write")->type_name("OUT.scene");
-  app.add_option("--report", options.report, "also write what was found and measured, and time what was left out")
+  app.add_option("--report", options.report, "also write all findings, with the time that left-out data saves")
       ->type_name("REPORT.json");
   app.add_option("--only-solver", options.only_solver,
-                 "contact, corrected or paper: leave out what others read; default: hold all")
+                 "contact, corrected or paper: leave out data of the others; default: all")
       ->check(CLI::IsMember(godobject::command::solver_names()))
       ->option_text("SOLVER");
   app.add_option("--traits", options.traits,
-                 "also write what a build for this scene alone needs: cmake -DGODOBJECT_SCENE=TRAITS.cmake")
+                 "also write the parts that a build for this scene needs: cmake -DGODOBJECT_SCENE=TRAITS.cmake")
       ->type_name("TRAITS.cmake");
   app.add_option("--budget", options.budget,
-                 "choose the settings: smallest error at no more time a cycle than this: 20us")
+                 "choose the settings with the smallest error within this time of a cycle: 20us")
       ->type_name("TIME");
-  app.add_option("--path", options.path, "of --budget: a motion, poses (CSV) or key frames (TOML)")->type_name("PATH");
+  app.add_option("--path", options.path, "for --budget: a motion, poses (CSV) or key frames (TOML)")->type_name("PATH");
   const CLI::Option* inspect =
-      app.add_option("--inspect", options.inspected, "print the facts of a compiled image as JSON, nothing else")
+      app.add_option("--inspect", options.inspected, "print the contents of a compiled image as JSON, and nothing else")
           ->expected(0, 1)
           ->type_name("X.scene");
   app.footer(fmt::format(kFooter, kRefusalRule));

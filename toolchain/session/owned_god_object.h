@@ -31,7 +31,7 @@ class OwnedGodObject {
   const ProxyState& state() const noexcept { return god_object_->session()->state(); }
 
  private:
-  std::optional<command::AlignedBytes> memory_;
+  std::optional<files::AlignedBytes> memory_;
   std::unique_ptr<GodObject> god_object_ = std::make_unique<GodObject>();
 };
 

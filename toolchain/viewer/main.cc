@@ -81,10 +81,10 @@ bool names_one_picture(const Options& options) { return fs::path(options.output)
 
 /// Creates the output folder. Refuses an output that cannot be written, before the work.
 void prepare_output(const Options& options) {
-  if (!names_one_picture(options)) return godobject::command::make_output_folder(options.output);
+  if (!names_one_picture(options)) return godobject::files::make_output_folder(options.output);
   if (options.moments.size() * options.replays.size() > 1)
     throw Failure(ExitCode::kUsage, "-o names one picture, but several replays or times are given; name a folder");
-  godobject::command::output_target(options.output);
+  godobject::files::output_target(options.output);
 }
 
 /// Returns the file of the picture of a replay at a moment.

@@ -8,7 +8,7 @@
 namespace godobject::viewer {
 
 void render(const std::string& pov_text, int width, int height, const std::filesystem::path& png) {
-  const command::WorkFolder folder(png);
+  const files::WorkFolder folder(png);
   const auto scene = folder.write("scene.pov", pov_text);
   const auto image = folder.path() / "image.png";
   // +A +AM2 +R2: anti-aliasing; +WT2: threads; +FN8: PNG of 8 bits per colour; -D -GA: no display, no console

@@ -77,7 +77,7 @@ TEST(BrickPacking, RefusesWhatDoesNotFit) {
   EXPECT_THROW(packed_bricks(field), command::Failure);
 }
 
-/// Rounding is far below what interpolation between the nodes leaves.
+/// Rounding is far below the error of interpolation between the nodes.
 TEST(BrickPacking, IsNothingBesideTheFieldsTolerance) {
   constexpr double kVoxel = 0.004;
   constexpr double kTolerance = 0.05;  // the scene file's default

@@ -47,7 +47,7 @@ SolidSurface surface_of(const Body& body, double s) {
 
 class ClearancesOf : public ::testing::TestWithParam<Body> {};
 
-/// What DistanceField promises: no surface within the clearance, and not much less clearance a little farther on.
+/// The contract of DistanceField: no surface within the clearance, and not much less clearance a little farther on.
 TEST_P(ClearancesOf, HoldAroundEveryPoint) {
   const SolidSurface surface = surface_of(GetParam(), 0.004);
   const DistanceGrid field = field_of(surface, 0.004, GetParam().refined);
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, ClearancesOf,
                            return name;
                          });
 
-/// In far positions every kernel says what single look-ups say, to rounding.
+/// In far positions every kernel gives the results of single look-ups, to rounding.
 TEST_P(ClearancesOf, AreToldByEveryKernel) {
   const SolidSurface surface = surface_of(GetParam(), 0.004);
   const DistanceGrid field = field_of(surface, 0.004, GetParam().refined);
@@ -186,7 +186,7 @@ TEST_P(ClearancesOf, AreToldByEveryKernel) {
   }
 }
 
-/// A seam jumps by many voxels; what is far from it must not pay for it.
+/// A seam jumps by many voxels. Places far from it must not lose clearance.
 TEST(ClearanceBounds, LeaveASeamToThoseAboutIt) {
   const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
                              SurfaceKind::kSolid, 0.004);
@@ -199,7 +199,7 @@ TEST(ClearanceBounds, LeaveASeamToThoseAboutIt) {
   EXPECT_LE(beside_seam, 0.003);
 }
 
-/// Twice is once: nothing is lost where the field is changed and bounded again.
+/// Bounding twice gives the same: nothing is lost if the field is changed and bounded again.
 TEST(ClearanceBounds, AreThoseOfTheFieldAsItIs) {
   const SolidSurface surface(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
                              SurfaceKind::kSolid, 0.008);

@@ -1,5 +1,5 @@
-#include "toolchain/scene_compiler/field/brick_packing.h"
 #include "toolchain/scene_compiler/field/distance_grid.h"
+#include "toolchain/scene_compiler/field/brick_packing.h"
 
 #include <algorithm>
 #include <random>
@@ -37,7 +37,7 @@ Field field_of(TriangleMesh mesh, double voxel_size, SurfaceKind kind = SurfaceK
   return Field(SolidSurface(std::move(mesh), kind, 2.0 * voxel_size), voxel_size);
 }
 
-/// No point of the ball may lie below what lower_bound says, the field clipped at the band as `sample` does.
+/// No point of the ball may have a distance below lower_bound. The field is clipped at the band as `sample` does.
 void expect_lower_bound_holds(const Field& field, int balls) {
   const format::Grid& g = field.grid.grid;
   std::mt19937_64 random(3);
@@ -145,7 +145,7 @@ TEST(DistanceGrid, LowerBoundHoldsForSealedSolids) {
 }
 
 TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
-  // a box without its lid, told to be solid: across the opening the sign jumps
+  // a box without its lid, declared solid: the sign jumps across the opening
   const Field open = field_of(box(Vector3d::Zero(), Vector3d::Constant(0.1), {true, true, true, true, true, false}),
                               0.004, SurfaceKind::kSolid);
   EXPECT_GT(open.grid.seams.cells, 0u);

@@ -23,8 +23,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTolerance = 0.05;             // voxels: into the body
-constexpr double kOff = kHeldOff * kTolerance;  // and off it
+constexpr double kTolerance = 0.05;             // voxels: depth inside the body
+constexpr double kOff = kHeldOff * kTolerance;  // and height outside it
 constexpr double kSteepest = 2.0 * 1.025;       // and rounded
 
 DistanceGrid& rounded(DistanceGrid& field) {
@@ -68,12 +68,12 @@ TriangleMesh wedge(double angle, double length, double width) {
   return mesh;
 }
 
-/// The largest miss to either side [m].
+/// The largest error to either side [m].
 struct Worst {
   double into = 0.0;
   double off = 0.0;
 
-  /// `depth` > 0: the stored surface is inside of the body there.
+  /// `depth` > 0: the stored surface lies inside the body.
   void add(double depth) { (depth > 0.0 ? into : off) = std::max(depth > 0.0 ? into : off, std::abs(depth)); }
 };
 
@@ -97,7 +97,7 @@ Worst worst_at_surface(const Voxelmap& field, const TriangleMesh& mesh, int per_
   return worst;
 }
 
-/// How far points of the stored zero level are from the mesh, by looking at every triangle.
+/// Returns the distances of points of the stored zero level from the mesh, by testing every triangle.
 Worst worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int points) {
   const BruteForce truth(mesh);
   std::mt19937_64 random(12);
@@ -118,15 +118,15 @@ Worst worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int p
       (sign * field.sample(middle).distance >= 0.0 ? from : to) = middle;
     }
     ++found;
-    const bool inside = std::abs(truth.winding_number(from)) > 0.5;  // whichever way the mesh winds
+    const bool inside = std::abs(truth.winding_number(from)) > 0.5;  // for either winding of the mesh
     worst.add(inside ? truth.distance(from) : -truth.distance(from));
   }
   EXPECT_GT(found, points / 20);
   return worst;
 }
 
-/// Nowhere in the stored bricks may the field jump: pairs of points a millionth of a voxel apart, most of them astride
-/// the faces, edges and corners of cells of all sizes.
+/// The field must not jump anywhere in the stored bricks. Tests pairs of points a millionth of a voxel apart, most of
+/// them on both sides of the faces, edges and corners of cells of all sizes.
 double largest_jump(const Field& field, int pairs) {
   const format::Grid& g = field.grid.grid;
   const double s = g.voxel_size;
@@ -161,7 +161,7 @@ double largest_jump(const Field& field, int pairs) {
   return largest;
 }
 
-/// Floats of a few voxels, and where in a cell a point is.
+/// Rounding of floats of a few voxels, and of the place of a point in its cell.
 constexpr double kFloatRounding = 3e-6;  // voxels
 
 void expect_true_surface(const TriangleMesh& mesh, double s, const char* what, int per_triangle = 400) {
@@ -173,7 +173,8 @@ void expect_true_surface(const TriangleMesh& mesh, double s, const char* what, i
   EXPECT_LE(at_surface.into, kTolerance * s) << what;
   EXPECT_LE(at_surface.off, kOff * s) << what;
   EXPECT_LE(zero_level.into, kTolerance * s) << what;
-  EXPECT_LE(zero_level.off, 1.5 * kOff * s) << what;  // in a re-entrant edge the distance grows slower than the way
+  /// In a re-entrant edge the distance grows more slowly than the distance travelled.
+  EXPECT_LE(zero_level.off, 1.5 * kOff * s) << what;
   EXPECT_LE(largest_jump(field, 40000), kFloatRounding * s) << what;
   EXPECT_LE(field.grid.grid.lipschitz, kSteepest) << what;
   std::printf(
@@ -216,7 +217,7 @@ TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
   EXPECT_LE(field.grid.grid.lipschitz_seam, std::max(kSteepest, field.coarse.grid.lipschitz_seam));
 }
 
-/// Where an edge counts in full the field is the surface's own distance, to double precision.
+/// Where an edge has full weight, the field is the surface's distance to double precision.
 TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
   std::mt19937_64 random(18);
   const double s = 0.002;
@@ -244,7 +245,7 @@ TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
   EXPECT_GT(looked_at, 8000);
 }
 
-/// Of whatever shape its bricks and edges are: no two points are further apart in distance than the constant says.
+/// For any shape of bricks and edges: the distances of two points differ by no more than the constant allows.
 TEST(Refinement, KeepsTheFieldAsSteepAsItSays) {
   std::mt19937_64 random(19);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -266,7 +267,7 @@ TEST(Refinement, KeepsTheFieldAsSteepAsItSays) {
       steepest = std::max(steepest, here.gradient.norm());
     }
     EXPECT_LE(steepest, field.grid.grid.lipschitz) << name;
-    EXPECT_GT(steepest, 1.2) << name;  // looked at where it matters
+    EXPECT_GT(steepest, 1.2) << name;  // the test covers steep places
   }
 }
 

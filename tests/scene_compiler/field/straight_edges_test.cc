@@ -22,7 +22,7 @@ using Vector3Map = Eigen::Map<const Vector3d>;
 constexpr double kVoxel = 0.002;
 constexpr double kLargestRadius = 2.4 * kVoxel;
 
-/// Each triangle in four, so that the straight edges are of many mesh edges.
+/// Divides each triangle into four, so straight edges consist of many mesh edges.
 TriangleMesh divided(const TriangleMesh& mesh) {
   TriangleMesh fine;
   std::map<std::array<double, 3>, std::uint32_t> numbers;
@@ -55,7 +55,8 @@ Vector3d anywhere_about(const format::Edge& edge, test::Random& random) {
   return Vector3Map(edge.point) + t * Vector3Map(edge.along) + random.between(0.0, edge.radius) * across;
 }
 
-/// Where an edge counts its wedge is the surface, no other edge counts, and cubes around are known to be reached.
+/// Where an edge has a weight, its wedge is the surface, no other edge has a weight, and reaches() is true for cubes
+/// around.
 std::size_t expect_exact(const SolidSurface& surface, const char* what) {
   const std::vector<format::Edge> edges = straight_edges(surface, kVoxel, kLargestRadius);
   test::Random random(3);
@@ -87,7 +88,7 @@ TEST(StraightEdges, AreTheTwelveOfABoxHoweverItIsMeshed) {
   }
 }
 
-/// As it comes out of a file, half a metre off.
+/// As read from a file, half a metre off.
 TriangleMesh rounded(TriangleMesh mesh) {
   for (Vector3d& vertex : mesh.vertices) {
     vertex = (vertex + Vector3d(0.5, -0.4, 0.3)).cast<float>().cast<double>();
@@ -133,10 +134,10 @@ TEST(StraightEdges, AreExactOrNotAtAllBesideThickShells) {
   }
 }
 
-/// No brick is halved for edges that cannot be told apart.
+/// No brick is halved for edges that cannot be separated.
 TEST(StraightEdges, OnOneLineAreApart) {
   TriangleMesh mesh = test::box_mesh({0.06, 0.08, 0.1});
-  mesh = test::joined(mesh, test::box_mesh({0.06, 0.08, 0.1}, {-0.03, -0.04, 0.05}));  // one on the other
+  mesh = test::joined(mesh, test::box_mesh({0.06, 0.08, 0.1}, {-0.03, -0.04, 0.05}));  // one on top of the other
   const auto edges = straight_edges(SolidSurface(mesh, SurfaceKind::kSolid, kVoxel), kVoxel, kLargestRadius);
   for (const format::Edge& one : edges) {
     for (const format::Edge& other : edges) {
@@ -161,7 +162,7 @@ TEST(StraightEdges, KeepTheirDistanceFromWhatElseIsNear) {
   for (const format::Edge& edge : straight_edges(surface, kVoxel, kLargestRadius)) {
     EXPECT_EQ(edge.side, 1.0);
     EXPECT_DOUBLE_EQ(edge.radius, kLargestRadius);
-    // the next face stands square on the end: R = kShare times the way there
+    // the next face is perpendicular to the end: R = kShare times the distance to it
     const double left_over = edge.begin - std::max(0.0, kEndRadius * kVoxel / kShare);
     EXPECT_GE(left_over, -1e-9);
     EXPECT_LE(left_over, 0.25 * kVoxel);

@@ -72,7 +72,7 @@ TEST(MassProperties, AxesAreSortedByMomentAndRightHanded) {
 
 TEST(MassProperties, EqualMomentsTakeTheMeshesOwnAxes) {
   EXPECT_TRUE(principal_axes(2.0 * Matrix3d::Identity()).rotation_MB.isIdentity(0.0));
-  // rounding must not decide: perturbed far below the threshold of 1e-5
+  // rounding must not decide; the perturbation is far below the threshold of 1e-5
   Matrix3d cube = 2.0 * Matrix3d::Identity();
   cube(0, 1) = cube(1, 0) = 1e-9;
   cube(2, 2) -= 2e-9;

@@ -20,7 +20,7 @@ std::string ascii_ply(const std::string& vertices, int vertex_count, const std::
          "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
 }
 
-/// Imports text as a file and returns what the import says is wrong.
+/// Imports text as a file. Returns the error message.
 std::pair<command::ExitCode, std::string> refusal(const std::string& name, const std::string& text) {
   const ScratchFolder folder;
   MeshReport report;
@@ -187,7 +187,7 @@ TEST(MeshImport, RefusesWhatIsNoMeshWithFileAndCure) {
   expect(refusal("inf.ply", ascii_ply("1e999 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1)), command::ExitCode::kBadData,
          "finite");
   expect(refusal("index.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 9\n", 1)), command::ExitCode::kBadData,
-         "names vertex 9");
+         "refers to vertex 9");
   expect(refusal("short.ply", ascii_ply(kTetrahedronVertices, 4, "3 0 1 2\n", 9)), command::ExitCode::kBadData,
          "ends before");
   expect(refusal("word.ply", ascii_ply("a b c\n", 1, "3 0 1 2\n", 1)), command::ExitCode::kBadData, "number");

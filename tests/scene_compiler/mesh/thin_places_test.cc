@@ -77,7 +77,7 @@ TEST(ThinPlaces, DoesNotTakeAnEdgeForAWall) {
   wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {0, 3, 5}, {0, 5, 2}, {1, 2, 5}, {1, 5, 4}};
   const ThinReport report = look(wedge, 0.001);
   EXPECT_GT(report.walls.samples, 0u);
-  // thinner than a voxel over the first 2.5 mm of its 50 mm: said, though not refused
+  // thinner than a voxel over the first 2.5 mm of its 50 mm: reported, but not refused
   EXPECT_NEAR(report.walls.lost_area, 0.0025 * 0.05, 0.1 * 0.0025 * 0.05);
   EXPECT_EQ(report.walls.lost_patch, 0.0);
   EXPECT_NO_THROW(require_walls_that_last(report, 0.001, "wedge"));

@@ -1,5 +1,5 @@
-#include "toolchain/scene_compiler/field/brick_packing.h"
 #include "toolchain/scene_compiler/points/ball.h"
+#include "toolchain/scene_compiler/field/brick_packing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,9 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/query/query_points.h"
-#include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -41,7 +42,7 @@ TriangleMesh rounded(TriangleMesh mesh) {
   return mesh;
 }
 
-/// With its first triangle out of the way.
+/// Removes the first triangle.
 TriangleMesh opened(TriangleMesh mesh) {
   mesh.triangles.erase(mesh.triangles.begin());
   return mesh;
@@ -143,7 +144,7 @@ std::string as_obj(const TriangleMesh& mesh) {
 /// A god object in a compiled scene.
 struct Rendered {
   explicit Rendered(const std::filesystem::path& file, Solver solver = Solver::kContact, bool friction = false)
-      : image(command::SceneImage::read(file)) {
+      : image(files::SceneImage::read(file)) {
     EXPECT_EQ(god_object.start(image.scene, solver, friction), Status::kOk);
   }
 
@@ -158,7 +159,7 @@ struct Rendered {
   }
   Vector3d center() const { return god_object->mesh_pose() * kCenter; }
 
-  command::SceneImage image;
+  files::SceneImage image;
   OwnedGodObject god_object;
 };
 
@@ -211,7 +212,7 @@ class BallScene : public testing::Test {
 TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   const CompileReport report = compile({});
   ASSERT_TRUE(report.ball);
-  const Scene& scene = command::SceneImage::read(folder_.file("out.scene")).scene;
+  const Scene& scene = files::SceneImage::read(folder_.file("out.scene")).scene;
   EXPECT_EQ(scene.pointshell.size, 1u);
   EXPECT_EQ(scene.pointshell.point(0), Vector3::Zero());
   EXPECT_LT((scene.H_MB.translation - kCenter).norm(), 1e-8);
@@ -220,16 +221,16 @@ TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   EXPECT_TRUE(scene.holds(format::Solver::kCorrected));
   EXPECT_NEAR(ball_radius(scene), kRadius, 1e-8);
   const std::string text = report_text(report);
-  EXPECT_NE(text.find("ball     of 10 mm radius, the mesh up to 0.00685"), std::string::npos) << text;
+  EXPECT_NE(text.find("ball     of 10 mm radius, the mesh at most 0.00685"), std::string::npos) << text;
   EXPECT_NE(text.find("points of the ball, which its centre stands for"), std::string::npos) << text;
-  EXPECT_EQ(text.find("friction, whose lever"), std::string::npos) << text;
+  EXPECT_EQ(text.find("from friction, whose lever"), std::string::npos) << text;
   EXPECT_EQ(verdict_text(report), "ready: the field is within its tolerance near the surface at the ball's radius");
   const CompileReport rough = compile({.more = "[friction]\nstatic = 0.2\n"});
-  EXPECT_NE(report_text(rough).find("friction, whose lever"), std::string::npos);
-  EXPECT_NE(verdict_text(rough).find("with limits: friction turns no ball"), std::string::npos);
+  EXPECT_NE(report_text(rough).find("from friction, whose lever"), std::string::npos);
+  EXPECT_NE(verdict_text(rough).find("with limits: friction cannot turn a ball"), std::string::npos);
 }
 
-/// The device 1 mm under the surface of the cube dilated by the ball, following a polygon outside: over faces, edges
+/// Moves the device 1 mm under the surface of the cube dilated by the ball, along a polygon outside: over faces, edges
 /// and corners. `at` gets the place on the cube and the outward direction.
 template <class At>
 void follow_cube(At&& at) {
@@ -270,7 +271,7 @@ TEST_P(BallOnCube, StandsWhereGeometryHasIt) {
     const CycleReport report = ball.update(on_cube + (kRadius - kDepth) * normal, rotation);
     EXPECT_LT(ball.god_object->mesh_pose().rotation.angularDistance(rotation), 1e-7);
     EXPECT_LT(report.force.spring_W.torque.norm(), 1e-9);
-    if (cycle < 20) return;  // it started inside and comes out
+    if (cycle < 20) return;  // it started inside and moves out
     EXPECT_LE(report.penetration, 0.0);
     const double gap = to_cube(ball.center()) - kRadius;
     lowest = std::min(lowest, gap);
@@ -292,7 +293,7 @@ TEST_P(BallOnCube, StandsWhereGeometryHasIt) {
 
 INSTANTIATE_TEST_SUITE_P(OfTolerance, BallOnCube, testing::Values(Tolerated{0.05, 1.0}, Tolerated{0.005, 0.5}));
 
-/// The same image by `contact_cycle`, which has the ball's centre as one point among any number.
+/// The same image with `contact_cycle`, for which the ball's centre is an ordinary point.
 TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
   compile({});
   Rendered ball(folder_.file("out.scene"));
@@ -324,7 +325,7 @@ TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
     damped_apart = std::max(damped_apart, (report.force.total_W.force - expected.force.total_W.force).norm());
   });
   fmt::print("{} cycles: {:.3g} m apart, {:.3g} N, {:.3g} N with damping\n", cycle, apart, force_apart, damped_apart);
-  // needs met up to the tolerance are met, and ContactRows keeps them in single precision
+  // required gap increases are met within the tolerance, and ContactRows stores them in single precision
   const double tolerance = 1.5 * ContactLengths::make(parameters).metric.tolerance;
   EXPECT_LT(apart, tolerance);
   EXPECT_LT(force_apart, kStiffness * tolerance);
@@ -337,12 +338,12 @@ TEST_F(BallScene, StandsOnFacesWhereManyPointsStand) {
       compile({.ball = false, .more = "[contact]\nboth_directions = false\n"}, "without.scene");
   Rendered ball(folder_.file("with.scene"));
   Rendered points(folder_.file("without.scene"));
-  // the mesh lies inside of the ball, its points up to `coverage` from a place of it
-  const double polyhedron = with.ball->deviation + std::pow(without.body.coverage, 2) / (2.0 * kRadius);
+  // the mesh lies inside the ball, and its points are up to `coverage` from a place of it
+  const double polyhedron = with.ball->deviation + std::pow(without.points.spread.coverage, 2) / (2.0 * kRadius);
   double apart = 0.0, force_apart = 0.0, torque = 0.0;
   int compared = 0;
   follow_cube([&](const Vector3d& on_cube, const Vector3d& normal) {
-    // beside an edge, which finds its way in between the points, the ball is lifted
+    // beside an edge, which can enter between the points, the ball is lifted
     const bool on_face = (on_cube.cwiseAbs().array() > kHalfCube - kRadius).count() == 1;
     const Vector3d device = on_cube + (kRadius + (on_face ? -kDepth : 5e-3)) * normal;
     const CycleReport one = ball.update(device, Quaternion::Identity());
@@ -410,9 +411,9 @@ TEST_F(BallScene, RubsWithoutALever) {
 
 TEST_F(BallScene, TellsDistancesFromTheMesh) {
   compile({});
-  const command::SceneImage image = command::SceneImage::read(folder_.file("out.scene"));
+  const files::SceneImage image = files::SceneImage::read(folder_.file("out.scene"));
   const auto points = folder_.write("p.csv", "0,0,0.061\n0,0.0585,0.01\n0,0,0\n0,0,1\n");
-  query_points(image.scene, points, folder_.file("d.csv"), {});
+  query::query_points(image.scene, points, folder_.file("d.csv"), {});
   std::ifstream rows(folder_.file("d.csv"));
   std::string row;
   std::getline(rows, row);
@@ -429,7 +430,7 @@ TEST_F(BallScene, TellsDistancesFromTheMesh) {
 
 TEST_F(BallScene, RefusesWhatItWouldRenderWrongly) {
   using command::ExitCode;
-  expect_refused({.moving = mesh_file("cube_100mm").string()}, ExitCode::kBadData, "is no ball");
+  expect_refused({.moving = mesh_file("cube_100mm").string()}, ExitCode::kBadData, "is not a ball");
   expect_refused({.still = mesh_file("bracket").string()}, ExitCode::kBadData, "is not one closed convex solid");
   expect_refused({.voxel_size = 0.011}, ExitCode::kBadData, "smaller than a voxel");
   expect_refused({.more = "[contact]\nsolver = \"paper\"\n"}, ExitCode::kBadConfig, "contact.solver");

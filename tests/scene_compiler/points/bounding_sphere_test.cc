@@ -51,8 +51,8 @@ TEST(BoundingSphere, OfCosphericalAndOfCollinearPointsIsFound) {
   EXPECT_NEAR(bounding_sphere(line).radius, 0.5 * std::sqrt(14.0), 1e-13);
 }
 
-/// An independent way to the minimum, slow but sure: step towards the furthest point, ever less (Badoiu and Clarkson);
-/// after n steps the center is within radius / sqrt(n).
+/// An independent method, slow but sure: step towards the farthest point by less and less (Badoiu and Clarkson). After
+/// n steps the centre is within radius / sqrt(n).
 double radius_by_small_steps(const std::vector<Vector3d>& points) {
   Vector3d center = points[0];
   double radius = 0.0;
@@ -81,7 +81,7 @@ TEST(BoundingSphere, IsNoLargerThanWhatSmallStepsFind) {
     for (const Vector3d& p : points) EXPECT_LE((p - sphere.center).norm(), sphere.radius);
     const double reference = radius_by_small_steps(points);
     EXPECT_LE(sphere.radius, reference * (1.0 + 1e-10)) << trial;
-    EXPECT_GE(sphere.radius, reference * (1.0 - 1e-3)) << trial;  // small steps have not arrived
+    EXPECT_GE(sphere.radius, reference * (1.0 - 1e-3)) << trial;  // the steps have not converged
   }
 }
 

@@ -29,9 +29,10 @@ using test::box_mesh;
 const Vector3d kEdges(0.06, 0.04, 0.03);
 constexpr double kBoxArea = 2.0 * (0.06 * 0.04 + 0.04 * 0.03 + 0.03 * 0.06);
 
-/// What the image holds, back in the mesh's frame M.
+/// The contents of the image in the mesh's frame M.
 struct Made {
   MovingBody moving;
+  PointSpread spread;
   std::vector<Vector3d> points;
   std::vector<Vector3d> normals;
 
@@ -57,7 +58,8 @@ Made make(const TriangleMesh& mesh, std::uint32_t points, std::uint32_t levels, 
           double thickness = 0.002) {
   const SolidSurface surface(mesh, kind, thickness);
   const OuterSurface outer(surface);
-  Made made{make_moving_body(outer, sample_moving_body(outer, points, levels, {})), {}, {}};
+  const MovingSampling sampling = sample_moving_body(outer, points, levels, {});
+  Made made{make_moving_body(outer, sampling), measure_spread(outer, sampling), {}, {}};
   const format::Body& body = made.moving.body;
   const Eigen::Quaterniond rotation(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]);
   const Vector3d translation(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);
@@ -74,7 +76,7 @@ SectionBytes section(format::SectionId id, std::span<const T> items) {
   return {id, {bytes.begin(), bytes.end()}};
 }
 
-/// The judge of the format: an image of the body beside some still ball, opened as the device does.
+/// Opens an image of the body beside a still ball, as the device does.
 void expect_opens(const MovingBody& moving) {
   test::SceneDescription still;
   still.distance = [](const Vector3& p) { return test::ball_distance(p, 0.02); };
@@ -92,7 +94,7 @@ void expect_opens(const MovingBody& moving) {
   sections.push_back(section(SectionId::kPoints, std::span<const float>(moving.points)));
   sections.push_back(section(SectionId::kNormals, std::span<const float>(moving.normals)));
   sections.push_back(section(SectionId::kNodes, std::span<const format::Node>(moving.nodes)));
-  EXPECT_NO_THROW(command::SceneImage(make_image(sections), "body"));
+  EXPECT_NO_THROW(files::SceneImage(make_image(sections), "body"));
 }
 
 double distance_to_nearest(const Vector3d& p, const std::vector<Vector3d>& points) {
@@ -143,10 +145,10 @@ TEST(MovingBody, OpensAsAnImageWhateverItsSize) {
     EXPECT_EQ(made.moving.body.point_count, size.points);
     EXPECT_EQ(made.moving.points.size(), 3u * size.points);
     EXPECT_EQ(made.moving.normals.size(), 3u * size.points);
-    EXPECT_EQ(made.moving.level_sizes.size(), size.levels);
-    EXPECT_EQ(made.moving.level_sizes.back(), size.points);
+    EXPECT_EQ(made.spread.level_sizes.size(), size.levels);
+    EXPECT_EQ(made.spread.level_sizes.back(), size.points);
     for (std::uint32_t k = 1; k <= size.levels; ++k)
-      EXPECT_EQ(made.level(k).size(), made.moving.level_sizes[k - 1]) << k;
+      EXPECT_EQ(made.level(k).size(), made.spread.level_sizes[k - 1]) << k;
     expect_opens(made.moving);
   }
 }
@@ -177,7 +179,7 @@ TEST(MovingBody, PointsKeepTheirDistance) {
   // random (a maximal Poisson disc set) 0.7 by construction; uniform random points have a minimum of about 0.01
   EXPECT_GE(distances.front(), 0.6 * densest);
   EXPECT_GE(distances[distances.size() / 2], 0.7 * densest);
-  EXPECT_NEAR(made.moving.spacing, distances[distances.size() / 2], 1e-6);
+  EXPECT_NEAR(made.spread.spacing, distances[distances.size() / 2], 1e-6);
 }
 
 TEST(MovingBody, EveryLevelCoversTheSurface) {
@@ -191,8 +193,8 @@ TEST(MovingBody, EveryLevelCoversTheSurface) {
       for (const Vector3d& p : made.points) gap = std::max(gap, distance_to_nearest(p, samples));
       EXPECT_LE(gap, 2.0 * distances[distances.size() / 2]) << "level " << k;
     }
-    EXPECT_LE(made.moving.coverage, 2.0 * made.moving.spacing);
-    EXPECT_GE(made.moving.coverage, 0.5 * made.moving.spacing);
+    EXPECT_LE(made.spread.coverage, 2.0 * made.spread.spacing);
+    EXPECT_GE(made.spread.coverage, 0.5 * made.spread.spacing);
   }
 }
 
@@ -212,7 +214,7 @@ TEST(MovingBody, SamplesHangOnTheNearestOneOfTheLevelBefore) {
     if (node.level == 0) continue;
     std::vector<Vector3d> siblings;
     for (const std::uint32_t i : made.level(node.level)) siblings.push_back(made.points[i]);
-    // the first points of the children (of a leaf: its points) are those that hang on the node
+    // a child's first point (of a leaf: all its points) belongs to the node
     std::vector<std::uint32_t> hanging;
     if (node.leaf) {
       for (std::uint32_t i = 0; i < node.point_count; ++i) hanging.push_back(node.first_point + i);
@@ -235,7 +237,7 @@ TEST(MovingBody, SpheresAreMinimal) {
   for (const format::Node& node : made.moving.nodes) {
     std::vector<Vector3d> points;
     for (std::uint32_t i = 0; i < node.point_count; ++i) points.push_back(at(made.moving.points, node.first_point + i));
-    const double smallest = bounding_sphere(points).radius;  // itself held against an oracle in its own test
+    const double smallest = bounding_sphere(points).radius;  // tested against an oracle in its own test
     // the center's rounding to float moves it by 3.5e-9 m at 0.06 m
     EXPECT_LE(static_cast<double>(node.radius), smallest * (1.0 + 3e-7) + 4e-9);
     EXPECT_GE(static_cast<double>(node.radius), smallest * (1.0 - 1e-9));
@@ -275,7 +277,7 @@ TEST(MovingBody, ABoxHasPointsAllAlongItsEdges) {
       ASSERT_GE(stations.size(), 2u);
       EXPECT_NEAR(stations.front(), 0.0, 1e-7);
       EXPECT_NEAR(stations.back(), length, 1e-7);
-      // a gap of twice the distance would hold another point that crowds nobody
+      // a gap of twice the distance would leave room for another point
       for (std::size_t i = 1; i < stations.size(); ++i) EXPECT_LT(stations[i] - stations[i - 1], 2.0 * spacing);
     }
   }
@@ -293,7 +295,7 @@ TEST(MovingBody, BuriedTrianglesCarryNoPoints) {
     const Vector3d in = p + 1e-5 * made.normals[i];
     EXPECT_LT(std::min(test::box_distance(in, 0.5 * flat), test::box_distance(in, 0.5 * upright)), 0.0);
   }
-  EXPECT_LE(made.moving.coverage, 2.0 * made.moving.spacing);
+  EXPECT_LE(made.spread.coverage, 2.0 * made.spread.spacing);
   expect_opens(made.moving);
 }
 
@@ -333,7 +335,7 @@ TEST(MovingBody, AShellHasPointsOnBothSidesAndOnItsRim) {
 }
 
 TEST(MovingBody, AThinPlateIsSampledOnEachSideAsIfAlone) {
-  // much thinner than the spacing: sides that crowded each other would leave holes of twice the spacing
+  // much thinner than the spacing: if the sides crowded each other, there would be holes of twice the spacing
   const Vector3d edges(0.1, 0.1, 0.0005);
   const Made made = make(box_mesh(edges), 800, 4);
   for (const double side : {-1.0, 1.0}) {
@@ -347,7 +349,7 @@ TEST(MovingBody, AThinPlateIsSampledOnEachSideAsIfAlone) {
         gap = std::max(gap, distance_to_nearest({0.1 * i / 40 - 0.05, 0.1 * j / 40 - 0.05, side * 0.00025}, points));
       }
     }
-    EXPECT_LT(gap, 2.0 * made.moving.spacing);
+    EXPECT_LT(gap, 2.0 * made.spread.spacing);
   }
 }
 
@@ -359,7 +361,7 @@ TEST(MovingBody, ANeedleIsSampledFromTipToBase) {
   for (const Vector3d& p : made.points) stations.push_back(p.x());
   std::sort(stations.begin(), stations.end());
   EXPECT_NEAR(stations.back(), 1.0, 1e-6);
-  // the tip has next to no area: equal areas would leave it bare for sqrt(1 / 200) of the length
+  // the tip has almost no area: equal areas would leave sqrt(1 / 200) of the length without points
   for (std::size_t i = 1; i < stations.size(); ++i) EXPECT_LT(stations[i] - stations[i - 1], 0.05) << stations[i];
   expect_opens(made.moving);
 }
@@ -372,7 +374,7 @@ TEST(MovingBody, ASingleTriangleIsAShell) {
 }
 
 TEST(MovingBody, AClosedPlateWithoutVolumeIsAShell) {
-  // both sides of the plate are one on the other: 8 corners at 4 places, welded as a mesh file's would be
+  // both sides of the plate coincide: 8 corners at 4 places, welded as in a mesh file
   const TriangleMesh mesh{{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}},
                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
   const Made made = make(mesh, 300, 3, SurfaceKind::kShell);
@@ -406,15 +408,17 @@ TEST(MovingBody, SaysWhatIsWrongAndTheCure) {
 
 TEST(MovingBody, IsTheSameEveryTime) {
   const TriangleMesh mesh = test::moved(box_mesh(kEdges), test::odd_motion());
-  const MovingBody first = make(mesh, 3000, 5).moving;
-  const MovingBody second = make(mesh, 3000, 5).moving;
+  const Made one = make(mesh, 3000, 5);
+  const Made other = make(mesh, 3000, 5);
+  const MovingBody& first = one.moving;
+  const MovingBody& second = other.moving;
   EXPECT_EQ(std::memcmp(&first.body, &second.body, sizeof(first.body)), 0);
   EXPECT_EQ(first.points, second.points);
   EXPECT_EQ(first.normals, second.normals);
   ASSERT_EQ(first.nodes.size(), second.nodes.size());
   EXPECT_EQ(std::memcmp(first.nodes.data(), second.nodes.data(), first.nodes.size() * sizeof(format::Node)), 0);
-  EXPECT_EQ(first.spacing, second.spacing);
-  EXPECT_EQ(first.coverage, second.coverage);
+  EXPECT_EQ(one.spread.spacing, other.spread.spacing);
+  EXPECT_EQ(one.spread.coverage, other.spread.coverage);
 }
 
 TEST(MovingBody, ProgressAscendsToOne) {

@@ -51,7 +51,7 @@ std::vector<Vector3d> points_of(const std::vector<SurfaceSample>& samples) {
   return points;
 }
 
-/// Points that move with a body against a surface that stands still; clearances are looked up as late as possible.
+/// Points that move with a body against a surface at rest. Clearances are looked up as late as possible.
 class Watched {
  public:
   Watched(std::vector<Vector3d> points, const SolidSurface& against)
@@ -64,7 +64,8 @@ class Watched {
     for (std::size_t i = 0; i < points_.size(); ++i) at_least_[i] = against_.signed_distance(motion * points_[i]);
   }
 
-  /// Smallest signed distance after `motion`, which moved every point by `travelled` since it was last asked.
+  /// Returns the smallest signed distance after `motion`, which moved every point by at most `travelled` since the last
+  /// call.
   double clearance(const Isometry3d& motion, double travelled, double smallest) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       at_least_[i] -= travelled;
@@ -82,7 +83,7 @@ class Watched {
   std::vector<double> at_least_;
 };
 
-/// Deepest of `dense` (moved) in `body`; `watched` stands for what is known not to be inside.
+/// Returns the depth of the deepest of `dense` (moved) in `body`. `watched`: points that are known not to be inside.
 double deepest(const std::vector<Vector3d>& dense, const Isometry3d& motion, const SolidSurface& body,
                const Watched* watched) {
   double least = 0.0;
@@ -97,7 +98,7 @@ double deepest(const std::vector<Vector3d>& dense, const Isometry3d& motion, con
   return -least;
 }
 
-/// Deepest of the edges of `outer` (moved) where they pierce triangles of `body`.
+/// Returns the largest depth of the edges of `outer` (moved) where they pierce triangles of `body`.
 double deepest_piercing(const OuterSurface& outer, const Isometry3d& motion, const SolidSurface& body) {
   constexpr int kLooks = 8;  // between two triangles
   const TriangleMesh& mesh = outer.body().mesh;
@@ -148,8 +149,8 @@ struct Bodies {
   BothDirections both;
 };
 
-/// Turns the moving body at random and brings it up from afar along random lines, until a sample point touches the
-/// still body or a feature point the moving one. `target` is where the lines lead: in the still body's box.
+/// Turns the moving body at random and moves it from afar along random lines, until a sample point touches the still
+/// body or a feature point the moving one. `target`: the lines lead to this place in the still body's box.
 double deepest_unseen(const Bodies& bodies, int poses, const Vector3d& target, double spread) {
   const Dense moving_dense(bodies.moving_outer);
   const Dense still_dense(bodies.still_outer);
@@ -181,7 +182,7 @@ double deepest_unseen(const Bodies& bodies, int poses, const Vector3d& target, d
       travelled += step;
       X_WM.pretranslate(-step * from);
     }
-    if (travelled >= 2.0 * far) continue;  // flew by
+    if (travelled >= 2.0 * far) continue;  // passed by
     worst = std::max(worst, deepest(moving_dense.points, X_WM, bodies.still, &samples));
     worst = std::max(worst, deepest(still_dense.points, X_WM.inverse(), bodies.moving, nullptr));
     worst = std::max(worst, deepest_piercing(bodies.moving_outer, X_WM, bodies.still));
@@ -216,7 +217,7 @@ TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndSheet) {
   EXPECT_LE(deepest_unseen(bodies, 1, Vector3d::Zero(), 0.05), bodies.both.between.bound);
 }
 
-/// Flat walls cannot enter anything but with their edges.
+/// Flat walls can enter other bodies only with their edges.
 TEST(SecondDirection, NeedsNoFeaturesOnFlatWalls) {
   Bodies bodies(test::box_mesh({0.06, 0.04, 0.05}), test::ball_mesh(0.015, 24));
   bodies.look(400, 0.001);
@@ -259,7 +260,7 @@ class Tools : public testing::TestWithParam<int> {
   }
 };
 
-/// Samples 3 mm apart, between which any of the tools would go in unseen.
+/// Samples 3 mm apart, between which each of the tools would enter undetected.
 TEST_P(Tools, EnterNoBoxDeeperThanTheBound) {
   Bodies bodies(tool(), test::box_mesh({0.03, 0.02, 0.025}));
   bodies.look(400, 0.0005);

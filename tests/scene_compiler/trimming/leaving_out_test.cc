@@ -14,7 +14,9 @@
 #include "toolchain/session/owned_god_object.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/report_json.h"
+#include "toolchain/scene_compiler/report_text.h"
 #include "toolchain/scene_compiler/trimming/tree_levels.h"
 #include "toolchain/scene_compiler/trimming/try_out.h"
 
@@ -56,7 +58,7 @@ class LeavesOut : public testing::Test {
     request.times_left_out = timed;
     return compile_scene(request);
   }
-  command::SceneImage image(const char* name) { return command::SceneImage::read(folder_.file(name)); }
+  files::SceneImage image(const char* name) { return files::SceneImage::read(folder_.file(name)); }
 
   ScratchFolder folder_;
 };
@@ -78,8 +80,8 @@ class Session {
   Pose H_BM_;
 };
 
-/// Devices that wander in the workspace and somewhat out of it, with all solvers: both give the same bits. Returns in
-/// how many cycles there was contact.
+/// Moves devices in the workspace and a little outside, with all solvers. Both scenes must give the same bits. Returns
+/// the number of cycles with contact.
 int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -112,7 +114,7 @@ int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uin
         EXPECT_EQ(x.force.total_W.force, y.force.total_W.force);
         EXPECT_EQ(x.force.total_W.torque, y.force.total_W.torque);
         EXPECT_EQ(x.contacts, y.contacts);
-        if (x.contacts > 0) {  // else it is a bound that the spheres give
+        if (x.contacts > 0) {  // otherwise it is a bound from the spheres
           EXPECT_EQ(x.penetration, y.penetration);
         }
         EXPECT_EQ(x.outcome, y.outcome);
@@ -124,7 +126,7 @@ int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uin
   return touching;
 }
 
-/// Item of the report.
+/// Returns the item of the report; null if there is none.
 const LeftOut* item(const CompileReport& report, const char* words) {
   for (const LeftOut& left_out : report.left_out) {
     if (left_out.what.find(words) != std::string::npos) return &left_out;
@@ -132,7 +134,7 @@ const LeftOut* item(const CompileReport& report, const char* words) {
   return nullptr;
 }
 
-/// The scene with everything, limited to the workspace.
+/// Returns the complete scene, limited to the workspace.
 Scene limited(const Scene& scene, const format::Workspace& workspace) {
   Scene all = scene;
   all.workspace.limited = true;
@@ -163,8 +165,8 @@ TEST_F(LeavesOut, NothingThatChangesAResultInTheWorkspace) {
     done = scene.bodies.still;
     const CompileReport report = compile(scene.bodies.text() + table(scene.workspace), "less.scene");
     ASSERT_FALSE(report.left_out.empty());
-    const command::SceneImage all = image("all.scene");
-    const command::SceneImage less = image("less.scene");
+    const files::SceneImage all = image("all.scene");
+    const files::SceneImage less = image("less.scene");
     EXPECT_LT(less.bytes.span().size(), all.bytes.span().size());
     EXPECT_EQ(less.scene.body.radius, all.scene.body.radius);
     const int touching = expect_same_bits(limited(all.scene, scene.workspace), less.scene, 6, seed++);
@@ -173,7 +175,7 @@ TEST_F(LeavesOut, NothingThatChangesAResultInTheWorkspace) {
   }
 }
 
-/// A peg upright above a cube: its ends and the cube's upper edges are what may touch.
+/// A peg upright above a cube: only its ends and the cube's upper edges can touch.
 TEST_F(LeavesOut, PointsThatTouchNothing) {
   const Limited scene = limited_scenes()[2];
   const CompileReport all = compile(scene.bodies.text(), "all.scene");
@@ -181,8 +183,8 @@ TEST_F(LeavesOut, PointsThatTouchNothing) {
   const LeftOut* const points = item(less, "points of the moving body");
   const LeftOut* const features = item(less, "feature points");
   ASSERT_TRUE(points != nullptr && features != nullptr && item(less, "brick positions") != nullptr);
-  EXPECT_LT(less.body.body.point_count, 0.9 * all.body.body.point_count);
-  EXPECT_EQ(points->count, all.body.body.point_count - less.body.body.point_count);
+  EXPECT_LT(less.points.body.point_count, 0.9 * all.points.body.point_count);
+  EXPECT_EQ(points->count, all.points.body.point_count - less.points.body.point_count);
   EXPECT_LT(less.second.features.point_count, 0.9 * all.second.features.point_count);
   EXPECT_GT(less.second.features.point_count, 0u);
   EXPECT_EQ(features->count, all.second.features.point_count - less.second.features.point_count);
@@ -196,8 +198,8 @@ std::string obj(const TriangleMesh& mesh) {
   return text;
 }
 
-/// A hollow cube before a cube that is no smaller than the hollow, and the other way round with a loose piece in the
-/// hollow: edges of the hollow itself are re-entrant, which gives no features.
+/// A hollow cube and a cube no smaller than the hollow, and the reverse with a loose piece in the hollow: edges of the
+/// hollow itself are re-entrant, so they have no features.
 TEST_F(LeavesOut, PointsInACavity) {
   using Eigen::Vector3d;
   const TriangleMesh hollow = joined(box(Vector3d::Constant(-0.05), Vector3d::Constant(0.05)),
@@ -213,7 +215,7 @@ TEST_F(LeavesOut, PointsInACavity) {
   const LeftOut* const of_moving = item(moving, "own walls");
   ASSERT_NE(of_moving, nullptr);
   EXPECT_GT(of_moving->count, 30u);
-  const command::SceneImage image_of_moving = image("moving.scene");
+  const files::SceneImage image_of_moving = image("moving.scene");
   const Pointshell& shell = image_of_moving.scene.pointshell;
   EXPECT_EQ(shell.size + of_moving->count, 1000u + moving.second.added_points);
   for (std::size_t i = 0; i < shell.size; ++i)
@@ -225,13 +227,13 @@ TEST_F(LeavesOut, PointsInACavity) {
   const LeftOut* const of_still = item(still, "still body's walls");
   ASSERT_NE(of_still, nullptr);
   EXPECT_EQ(still.second.features.point_count + of_still->count, still.second.found());
-  const command::SceneImage image_of_still = image("still.scene");
+  const files::SceneImage image_of_still = image("still.scene");
   const Pointshell& features = image_of_still.scene.features;
   for (std::size_t i = 0; i < features.size; ++i)
     ASSERT_NEAR((image_of_still.scene.features_origin + features.point(i)).cwiseAbs().maxCoeff(), 0.05, 1e-6);
 }
 
-/// The scene of an image with more points in a sphere about `center` (in M), as a leaf behind all others.
+/// The scene of an image with more points in a sphere about `center` (in M), as the last leaf.
 class WithMorePoints {
  public:
   WithMorePoints(const Scene& scene, std::span<const Vector3> more_M, const Vector3& center_M) : scene_(scene) {
@@ -271,8 +273,8 @@ class WithMorePoints {
   std::vector<format::Node> nodes_;
 };
 
-/// A hollow cube that is pressed on a cube as large, from all sides and with its own hollow where the other one is: it
-/// moves as if nothing had been left out.
+/// A hollow cube, pressed on a cube of the same size from all sides, also with the other cube in its hollow: it moves
+/// as if nothing had been left out.
 TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
   using Eigen::Vector3d;
   constexpr double kHollow = 0.015;
@@ -285,7 +287,7 @@ TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
                           mesh_file("cube_100mm").string(), hollow_file),
               "less.scene");
   ASSERT_NE(item(report, "own walls"), nullptr);
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage less = image("less.scene");
   std::mt19937 random(8);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
@@ -334,8 +336,8 @@ TEST_F(LeavesOut, TheSecondDirectionWhereNoFeatureIsMet) {
   compile(bodies.text(), "all.scene");
   const CompileReport report = compile(bodies.text() + table(workspace), "less.scene");
   EXPECT_GT(report.second.found(), 0u);
-  const command::SceneImage all = image("all.scene");
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage all = image("all.scene");
+  const files::SceneImage less = image("less.scene");
   EXPECT_TRUE(all.scene.has_features());
   EXPECT_FALSE(less.scene.has_features());
   EXPECT_GT(expect_same_bits(limited(all.scene, workspace), less.scene, 6, 9), 300);
@@ -347,8 +349,8 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
   const Limited scene = limited_scenes().front();
   compile(scene.bodies.text(), "all.scene");
   const CompileReport report = compile(scene.bodies.text() + table(scene.workspace), "less.scene");
-  const command::SceneImage all = image("all.scene");
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage all = image("all.scene");
+  const files::SceneImage less = image("less.scene");
   const LeftOut* const bricks = item(report, "positions that no look-up");
   ASSERT_NE(bricks, nullptr);
   EXPECT_GT(bricks->count, 10u);
@@ -373,7 +375,7 @@ TEST_F(LeavesOut, NoBrickThatALookUpMeets) {
     ASSERT_EQ(all.scene.voxelmap.lower_bound(p, 0.01), less.scene.voxelmap.lower_bound(p, 0.01));
     ASSERT_EQ(all.scene.voxelmap.layer(p).layer, less.scene.voxelmap.layer(p).layer);
     if (x.known) ++known;
-    // farther away: as it was, or held
+    // farther away: unchanged, or held
     const Vector3 q = at + 4.0 * radius * way;
     const FieldSample there = less.scene.voxelmap.sample(q);
     if (there.distance == all.scene.voxelmap.sample(q).distance) continue;
@@ -396,8 +398,8 @@ TEST_F(LeavesOut, NoBrickOfTheMovingBodyThatAFeatureMeets) {
   ASSERT_NE(bricks, nullptr);
   EXPECT_GT(bricks->count, 10u);
   EXPECT_GT(bricks->bytes, 10u * sizeof(format::Brick));
-  const command::SceneImage all = image("all.scene");
-  const command::SceneImage less = image("less.scene");
+  const files::SceneImage all = image("all.scene");
+  const files::SceneImage less = image("less.scene");
   const Pointshell& features = all.scene.features;
   std::mt19937 random(6);
   std::normal_distribution<double> normal;
@@ -407,7 +409,7 @@ TEST_F(LeavesOut, NoBrickOfTheMovingBodyThatAFeatureMeets) {
   for (int k = 0; k < 200000; ++k) {
     const Vector3 at = box.low + Vector3(share(random), share(random), share(random)).cwiseProduct(box.high - box.low);
     const Vector3 feature = all.scene.features_origin + features.point(random() % features.size);
-    // and up to a quarter of the longest reach, 1.5 voxels, nearer: somewhere on a way
+    // and up to a quarter of the longest search radius, 1.5 voxels, nearer: a place on a path
     const double radius = (feature - at).norm() - (k % 2 == 0 ? 0.0 : 0.25 * 1.5 * 0.004 * share(random));
     const Vector3 p = radius * Vector3(normal(random), normal(random), normal(random)).normalized();
     const FieldSample x = all.scene.body_map.sample(p);
@@ -427,10 +429,10 @@ TEST_F(LeavesOut, NothingWithoutAWorkspaceThatIsReachableEverywhere) {
   EXPECT_TRUE(image("less.scene").scene.workspace.limited);
 }
 
-/// Any level of either tree, and all.
+/// Leaves out any level of either tree, and all.
 TEST_F(LeavesOut, LevelsThatChangeNoResult) {
   compile(kBracket.text(), "all.scene");
-  const command::SceneImage whole = image("all.scene");
+  const files::SceneImage whole = image("all.scene");
   const Scene& all = whole.scene;
   const Scene limited_all = limited(all, {{-0.06, -0.06, -0.06}, {0.16, 0.12, 0.14}});
   const std::uint32_t deepest = deepest_level(all.pointshell.nodes);
@@ -454,11 +456,11 @@ TEST_F(LeavesOut, LevelsOnlyWhereNoMoreIsLookedUp) {
     const std::string more = fmt::format("[contact]\nsolver = \"{}\"\n", solver);
     bodies.more = more.c_str();
     compile(bodies.text(), "all.scene");
-    const command::SceneImage whole = image("all.scene");
+    const files::SceneImage whole = image("all.scene");
     const std::vector<Pose> poses = poses_along(whole.scene, try_out_motion(whole.scene));
     ASSERT_GT(poses.size(), 1000u);
     for (const Tree tree : {Tree::kSamples, Tree::kFeatures}) {
-      // the compiler left out what it found; a tree of one level more, with a node over each leaf, asks for more
+      // the compiler removed useless levels; a tree with one more level, a node over each leaf, needs more look-ups
       Scene scene = whole.scene;
       std::span<const format::Node>& nodes = tree == Tree::kSamples ? scene.pointshell.nodes : scene.features.nodes;
       EXPECT_EQ(lean_tree(scene, tree, poses).levels_left_out, 0u);
@@ -526,8 +528,8 @@ TEST_F(LeavesOut, AndTellsBytesAndTimesButKeepsTimesOutOfTheImage) {
   EXPECT_NE(report_text(timed).find("ns a cycle"), std::string::npos);
   EXPECT_NE(report_text(timed).find(" +- "), std::string::npos);
   EXPECT_EQ(report_text(plain).find(" +- "), std::string::npos);
-  const command::SceneImage a = image("plain.scene");
-  const command::SceneImage b = image("timed.scene");
+  const files::SceneImage a = image("plain.scene");
+  const files::SceneImage b = image("timed.scene");
   EXPECT_TRUE(std::ranges::equal(a.bytes.span(), b.bytes.span()));
 }
 

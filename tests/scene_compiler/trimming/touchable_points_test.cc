@@ -1,5 +1,5 @@
-#include "toolchain/scene_compiler/field/brick_packing.h"
 #include "toolchain/scene_compiler/trimming/touchable_points.h"
+#include "toolchain/scene_compiler/field/brick_packing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ TEST(NotSealedOff, LeavesACavityThatAThinWallClosesOrNone) {
   const std::vector<Vector3d> points = {{0.05, 0.0, 0.0}, {-0.01, 0.0, 0.0}};
   const std::vector<bool> all(2, true);
   EXPECT_EQ(not_sealed_off(hollow_cube({-0.01, -0.01, -0.01}, {0.045, 0.01, 0.01}), points, 0.004, 0.1), all);
-  // a way out through a slot
+  // open to the outside through a slot
   TriangleMesh slot = box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}, {true, true, true, true, true, false});
   EXPECT_EQ(not_sealed_off(SolidSurface(slot, SurfaceKind::kSolid, 0.0), points, 0.004, 0.1), all);
   EXPECT_EQ(not_sealed_off(SolidSurface(box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}), SurfaceKind::kSolid, 0.0),
@@ -59,7 +59,7 @@ DistanceGrid cube_field(double half, double voxel_size) {
   return field;
 }
 
-/// By brute force over poses: whoever came below the band stays, and who stays is not far from that.
+/// By brute force over poses: points that came below the band stay, and points that stay are not far from that.
 TEST(WithinReach, KeepsWhatComesNearAndLittleMore) {
   constexpr double kVoxel = 0.004;
   const DistanceGrid field = cube_field(0.03, kVoxel);
@@ -80,7 +80,7 @@ TEST(WithinReach, KeepsWhatComesNearAndLittleMore) {
     std::vector<Vector3d> points;
     for (int i = 0; i < 40; ++i) points.push_back(0.25 * share(random) * vector().normalized());
     const std::vector<bool> stays = within_reach_of_field(field, workspace, points);
-    // the mirror image: the field moves, the points stand about it
+    // the mirror image: the field moves, the points around it rest
     const std::vector<bool> features = within_reach_of_body(field, workspace, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       double least = field.grid.band;

@@ -36,8 +36,8 @@ void require_meshes(const std::vector<SceneSpec>& chosen, const std::filesystem:
   const bool reads =
       std::any_of(chosen.begin(), chosen.end(), [](const SceneSpec& scene) { return scene.body == BodyShape::kBunny; });
   if (reads) {
-    command::require_regular_input(folder / kBunnyMesh,
-                                   "name its folder with --meshes: toolchain/scenes/meshes of the sources has it");
+    files::require_regular_input(folder / kBunnyMesh,
+                                 "name its folder with --meshes: toolchain/scenes/meshes of the sources has it");
   }
 }
 
@@ -96,7 +96,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
     section.html = fmt::format(
         "<p>All solvers side by side as <a href=\"contact_summary.csv\">CSV</a>; each scene as <a "
         "href=\"contact_quality.csv\">CSV</a>.</p>\n<div class=\"wide\"><pre>{}</pre></div>\n<p>{}</p>\n",
-        command::html_text(text_table(measurements)), command::html_text(notes(measurements)));
+        files::html_text(text_table(measurements)), files::html_text(notes(measurements)));
   }
   section.findings = not_run(outcomes);
   for (const QuantitySpec& quantity : quantities()) {

@@ -18,7 +18,7 @@ scene_compiler::CompileReport compile_image(const std::string& name, const Scene
                                             const std::filesystem::path& folder) {
   const WorldSettings& q = scene.settings;
   write_ply(scene.still.mesh, still_file(name, folder));
-  command::AtomicFile toml(folder / (name + ".toml"));
+  files::AtomicFile toml(folder / (name + ".toml"));
   toml.write(fmt::format(
       "[still]\nmesh = \"{}\"\nscale = 1.0\nvoxel_size = {}\nsurface = \"{}\"\nthickness = {}\n"
       "[moving]\nmesh = \"{}\"\nscale = 1.0\npoints = {}\nlevels = {}\n"
@@ -37,9 +37,9 @@ scene_compiler::CompileReport compile_image(const std::string& name, const Scene
                                         .progress = {}});
 }
 
-command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder) {
+files::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder) {
   static_cast<void>(compile_image(name, scene, folder));
-  return command::SceneImage::read(folder / (name + ".scene"));
+  return files::SceneImage::read(folder / (name + ".scene"));
 }
 
 }  // namespace godobject::report

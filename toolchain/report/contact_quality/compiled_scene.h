@@ -48,6 +48,6 @@ scene_compiler::CompileReport compile_image(const std::string& name, const Scene
                                             const std::filesystem::path& folder);
 
 /// Writes mesh and scene file NAME to `folder`, compiles them and reads the image.
-command::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder);
+files::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder);
 
 }  // namespace godobject::report

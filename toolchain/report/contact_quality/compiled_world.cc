@@ -17,7 +17,7 @@ scene_compiler::SolidSurface read_surface(const std::filesystem::path& file, boo
 
 class CompiledWorld : public World {
  public:
-  CompiledWorld(command::SceneImage image, scene_compiler::SolidSurface surface)
+  CompiledWorld(files::SceneImage image, scene_compiler::SolidSurface surface)
       : image_(std::move(image)),
         surface_(std::move(surface)),
         H_BM_(image_.scene.H_MB.inverse()),
@@ -57,7 +57,7 @@ class CompiledWorld : public World {
   const std::vector<Vector3>& points_B() const override { return points_; }
 
  private:
-  command::SceneImage image_;
+  files::SceneImage image_;
   scene_compiler::SolidSurface surface_;
   Pose H_BM_;
   std::vector<Vector3> points_;
@@ -68,7 +68,7 @@ class CompiledWorld : public World {
 std::unique_ptr<World> make_compiled_world(const std::string& name, const CompiledStill& still, const Body& body,
                                            const WorldSettings& settings, const std::filesystem::path& folder) {
   const SceneText text{.still = still, .body = body.file, .points = body.points, .settings = settings};
-  command::SceneImage image = compile(name, text, folder);
+  files::SceneImage image = compile(name, text, folder);
   return std::make_unique<CompiledWorld>(
       std::move(image), read_surface(still_file(name, folder), still.shell, shell_thickness(settings)));
 }

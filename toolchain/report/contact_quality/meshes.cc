@@ -151,7 +151,7 @@ TriangleMesh moved(TriangleMesh mesh, const Pose& motion) {
 }
 
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
-  command::AtomicFile out(file);
+  files::AtomicFile out(file);
   out.write(
       fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
                   "property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",

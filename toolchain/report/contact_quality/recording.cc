@@ -1,6 +1,6 @@
 #include "toolchain/report/contact_quality/recording.h"
 
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 namespace godobject::report {
 std::vector<RecordedCycle> record(const World& world, Cycle cycle, const std::vector<Pose>& H_WD,
@@ -9,7 +9,7 @@ std::vector<RecordedCycle> record(const World& world, Cycle cycle, const std::ve
   cycles.reserve(H_WD.size());
   CycleReport report;
   for (const Pose& pose : H_WD) {
-    StepTimes times{.now_ns = command::stopwatch()};
+    StepTimes times{.now_ns = timing::stopwatch()};
     const Status status = cycle(pose, report, times);
     RecordedCycle row;
     row.H_WD = pose;

@@ -118,7 +118,7 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   section.html = cycles_html(gathered(outcomes, kCycles));
   const Sheet violations = gathered(outcomes, kViolations);
   if (violations.rows.empty()) return section;
-  command::make_output_folder(folder / "violations");
+  files::make_output_folder(folder / "violations");
   section.html += "<p>Violations (<code>godobject-report --replay FILE</code> runs one again):</p>\n<ul>\n";
   for (std::size_t i = 0; i < violations.rows.size(); ++i) {
     const std::string name = fmt::format("violations/{:04}.json", i);
@@ -176,7 +176,7 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
                            : 15.0);
   }
   const std::filesystem::path device = request.devices / "lwr.toml";
-  command::require_regular_input(device, "name the folder of the device files with --devices");
+  files::require_regular_input(device, "name the folder of the device files with --devices");
   for (std::size_t i = 0; i < kPlaceCount; ++i) {
     add(
         fmt::format("torque-{}", i + 1), fmt::format("{} device {}", inputs, file_digest(device)),
@@ -198,7 +198,7 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
 }
 
 bool replay(const std::filesystem::path& file) {
-  command::require_regular_input(file, "name a case file of the fuzzer");
+  files::require_regular_input(file, "name a case file of the fuzzer");
   std::ifstream stream(file);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   Setup setup;
@@ -209,7 +209,7 @@ bool replay(const std::filesystem::path& file) {
         command::ExitCode::kBadData,
         fmt::format("{}: not a case file ({}); name one that the fuzzer wrote", file.string(), error.what()));
   }
-  const command::WorkFolder work(std::filesystem::temp_directory_path() / "case");
+  const files::WorkFolder work(std::filesystem::temp_directory_path() / "case");
   const auto rig = make_rig(setup, work.path());
   const Violations found = run_setup(setup, *rig);
   fmt::print("{}: {} cycles, {} violations{}\n", file.string(), found.cycles, found.all(),

@@ -116,7 +116,7 @@ std::vector<LedCycle> lead(const LedArm& arm, std::span<const Pose> path) {
   const ControllerConfig::Workspace at_start = workspace(path.front());
   const Placement placement = place(at_start, *arm.device, arm.scene->H_MB.translation);
   const ArmModel& model = placement.device.model;
-  command::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(*arm.scene)));
+  files::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(*arm.scene)));
   CycleSetup setup;
   setup.scene = arm.scene;
   setup.solver = arm.solver;

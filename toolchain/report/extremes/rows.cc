@@ -85,7 +85,7 @@ CaseResult bad_meshes(bool quick, const std::filesystem::path& work) {
     const SceneText text = with_a_body(still, 0.002, folder);
     try {
       const auto told = compile_image(name, text, folder);
-      const auto image = command::SceneImage::read(folder / (name + ".scene"));
+      const auto image = files::SceneImage::read(folder / (name + ".scene"));
       const LookUps found = look_up(image.scene, half, look_ups, name == "open");
       note("look-ups that are not finite", static_cast<double>(found.not_finite), of_each);
       if (name != "flipped" && name != "open")

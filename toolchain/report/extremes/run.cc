@@ -268,7 +268,7 @@ class CompiledRig final : public Rig {
                          .friction_kinetic = setup.friction_kinetic}};
   }
 
-  command::SceneImage image_;
+  files::SceneImage image_;
   OwnedGodObject god_object_;
   Pose H_BM_;
   Status started_ = Status::kOk;

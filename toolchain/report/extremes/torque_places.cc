@@ -80,7 +80,7 @@ const char* const kPlaceNames[] = {"start inside",     "start beyond the band", 
                                    "outside the grid", "border of the grid",    "medial axis of a plate"};
 const std::size_t kPlaceCount = std::size(kPlaceNames);
 
-command::SceneImage place_scene(Place place, const std::filesystem::path& work) {
+files::SceneImage place_scene(Place place, const std::filesystem::path& work) {
   const double bottom = place == Place::kMedialAxis ? -kVoxel : -kDepth;
   const double top = place == Place::kMedialAxis ? kVoxel : 0.0;
   const Vector3 half_body = half_of_body(place);
@@ -180,7 +180,7 @@ TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device
 CaseResult torque_rate(Place place, const std::filesystem::path& device_file, std::int64_t cycles,
                        const std::filesystem::path& work) {
   const firmware::Device device = firmware::read_device_file(device_file);
-  command::SceneImage image = place_scene(place, work);
+  files::SceneImage image = place_scene(place, work);
   firmware::set_gains({.stiffness = 2000.0, .damping = 5.0, .rotational = 0.003}, image.scene);
   CaseResult result;
   Sheet sheet{.name = "extremes_torque",

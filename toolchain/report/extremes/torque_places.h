@@ -27,7 +27,7 @@ extern const char* const kPlaceNames[];
 extern const std::size_t kPlaceCount;
 
 /// Compiles the scene of a place in `work`.
-command::SceneImage place_scene(Place place, const std::filesystem::path& work);
+files::SceneImage place_scene(Place place, const std::filesystem::path& work);
 
 /// Returns a path to the place and back at less than 0.3 m/s: H_WM, one pose per millisecond. It depends on the seed.
 std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed);

@@ -133,7 +133,7 @@ Chapter fault_chapter(const std::filesystem::path& tests) {
       .conclude = conclude};
   for (const auto& [program, names] : programs()) {
     if (program != kVirtualMachine) {
-      command::require_regular_input(tests / program, "build it, and name its folder with --tests");
+      files::require_regular_input(tests / program, "build it, and name its folder with --tests");
     }
     chapter.cases.push_back({.name = "faults." + program,
                              .inputs = inputs_of(tests, program, names),

@@ -16,7 +16,7 @@
 namespace godobject::report {
 namespace {
 
-using command::html_text;
+using files::html_text;
 
 std::string one_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();

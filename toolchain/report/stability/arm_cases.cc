@@ -351,7 +351,7 @@ std::vector<StudyCase> arm_cases(const StabilityRequest& request) {
   std::vector<StudyCase> cases;
   for (const auto& [name, coupling] : kGains) {
     const std::filesystem::path file = request.devices / fmt::format("{}.toml", name);
-    command::require_regular_input(file, "name the folder of the device files with --devices");
+    files::require_regular_input(file, "name the folder of the device files with --devices");
     const std::string inputs = fmt::format("quick {} device {}", request.quick, file_digest(file));
     const auto add = [&](const char* what, std::function<CaseResult(const firmware::Device&)> run) {
       cases.push_back(

@@ -65,7 +65,7 @@ class Press {
     return file;
   }
 
-  command::SceneImage image_;
+  files::SceneImage image_;
 };
 
 /// A floating body under a constant downward force; its height and its tilt about y move, each in closed form.

@@ -34,7 +34,7 @@ std::string csv(const Sheet& sheet) {
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
-  command::AtomicFile out(file);
+  files::AtomicFile out(file);
   out.write(text);
   out.commit();
 }

@@ -25,10 +25,10 @@ bool is_known(const PageVerdict& verdict, const std::vector<KnownMiss>& known) {
 }  // namespace
 
 std::vector<KnownMiss> read_known_misses(const std::filesystem::path& file) {
-  const toml::table root = command::parse_toml_file(file);
-  command::allow_tables(root, file, {"missed"});
+  const toml::table root = files::parse_toml_file(file);
+  files::allow_tables(root, file, {"missed"});
   std::vector<KnownMiss> known;
-  for (const command::TomlTable& table : command::TomlTable::each(root, "missed", file)) {
+  for (const files::TomlTable& table : files::TomlTable::each(root, "missed", file)) {
     table.allow({"chapter", "row", "quantity", "measured"});
     constexpr double kMost = std::numeric_limits<double>::max();
     known.push_back({table.text("chapter"), table.text("row"), table.text("quantity"),

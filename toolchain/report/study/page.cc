@@ -11,7 +11,7 @@
 namespace godobject::report {
 namespace {
 
-using command::html_text;
+using files::html_text;
 
 const char* const kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">

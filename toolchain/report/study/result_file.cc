@@ -93,7 +93,7 @@ void write_result(const std::filesystem::path& file, const std::string& name, co
   for (const Sheet& sheet : stored.result.sheets) {
     all["sheets"].push_back({{"name", sheet.name}, {"columns", sheet.columns}, {"rows", sheet.rows}});
   }
-  command::AtomicFile out(file);
+  files::AtomicFile out(file);
   out.write(all.dump(1) + "\n");
   out.commit();
 }

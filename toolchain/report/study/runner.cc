@@ -23,7 +23,7 @@ bool is_done(const StudyCase& study_case, const std::filesystem::path& file) {
 }
 
 void run_case(const StudyCase& study_case, const std::filesystem::path& file) {
-  const command::WorkFolder work(file);
+  const files::WorkFolder work(file);
   const auto begin = std::chrono::steady_clock::now();
   StoredResult stored{digest(study_case.inputs), program_digest(), this_machine(), 0.0, study_case.run(work.path())};
   stored.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

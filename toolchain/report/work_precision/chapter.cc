@@ -141,7 +141,7 @@ std::string front_table(const Field& field) {
       const double measured = scale * value(row, column);
       return std::isnan(measured) ? std::string("-") : fmt::format("{:.3g}", measured);
     };
-    html += fmt::format("<tr><td>{}</td><td>{}</td>", letter(k), command::html_text(words(row)));
+    html += fmt::format("<tr><td>{}</td><td>{}</td>", letter(k), files::html_text(words(row)));
     for (const auto& [column, scale] :
          std::initializer_list<std::pair<const char*, double>>{{"p50_us", 1.0},
                                                                {"p99_us", 1.0},
@@ -178,12 +178,12 @@ void recommend(const Field& field, Section& section) {
   std::string html = fmt::format(
       "<p><b>{}: under a budget of {:g} us a cycle, use {}</b>: p99 {:.3g} us, wrench error {:.3g} % of the reference, "
       "deepest penetration {:.3g} mm.",
-      command::html_text(field.scene), kBudget_us, command::html_text(words(field.rows[*chosen])),
+      files::html_text(field.scene), kBudget_us, files::html_text(words(field.rows[*chosen])),
       field.trades[*chosen].cost, 100.0 * error, value(field.rows[*chosen], "penetration_deepest_mm"));
   if (const auto paper = field.best("paper", field.trades[*chosen].cost)) {
     const double of_paper = field.trades[*paper].error;
     html += fmt::format(" The paper's solver at no more than the same cost has {:.3g} %, {:.3g} times as much ({}).",
-                        100.0 * of_paper, of_paper / error, command::html_text(words(field.rows[*paper])));
+                        100.0 * of_paper, of_paper / error, files::html_text(words(field.rows[*paper])));
     section.findings.push_back({.row = field.scene,
                                 .what = "wrench error over that of paper at the same cost or less",
                                 .unit = "",
@@ -251,7 +251,7 @@ Chapter work_precision_chapter(const WorkPrecisionRequest& request) {
     const std::filesystem::path file = request.scenes / (scene.name + ".toml");
     const std::filesystem::path motion = request.scenes / "paths" / scene.path;
     for (const auto& input : {file, motion}) {
-      command::require_regular_input(input,
+      files::require_regular_input(input,
                                      "name the folder of the scenes with --scenes; the sources have toolchain/scenes");
     }
     const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(file);

@@ -20,7 +20,7 @@ using precision::TracedCycle;
 using Numbers = std::array<double, 13>;
 
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& key, const char* ending) {
-  command::make_output_folder(folder);
+  files::make_output_folder(folder);
   return folder / (digest(program_digest() + " " + key) + ending);
 }
 
@@ -43,21 +43,21 @@ TracedCycle cycle_of(const Numbers& n) {
 
 }  // namespace
 
-command::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
-                               const scene_compiler::SceneConfig& config) {
+files::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
+                             const scene_compiler::SceneConfig& config) {
   const std::filesystem::path file = file_of(folder, key, ".scene");
   make_once(file, [&] {
     scene_compiler::compile_scene(
         {.scene_file = {}, .config = config, .output = file, .only_solver = {}, .choice = {}, .progress = {}});
   });
-  return command::SceneImage::read(file);
+  return files::SceneImage::read(file);
 }
 
 std::vector<TracedCycle> kept_cycles(const std::filesystem::path& folder, const std::string& key,
                                      const std::function<std::vector<TracedCycle>()>& run) {
   const std::filesystem::path file = file_of(folder, key, ".cycles");
   make_once(file, [&] {
-    command::AtomicFile out(file);
+    files::AtomicFile out(file);
     for (const TracedCycle& cycle : run()) {
       const Numbers numbers = numbers_of(cycle);
       out.write(std::as_bytes(std::span(numbers)));

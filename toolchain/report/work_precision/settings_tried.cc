@@ -107,7 +107,7 @@ scene_compiler::SceneConfig scene_config(const ImageTrial& trial) {
   return scene_compiler::read_scene_config(trial.scenes / (trial.scene.name + ".toml"));
 }
 
-command::SceneImage image_of(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
+files::SceneImage image_of(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
   return kept_image(trial.kept, fmt::format("{} image {}", trial.inputs, trial.image.name),
                     precision::with(config, trial.image.setting));
 }
@@ -195,7 +195,7 @@ CaseResult image_errors(const ImageTrial& trial) {
 CaseResult image_costs(const ImageTrial& trial) {
   const scene_compiler::SceneConfig config = scene_config(trial);
   const std::vector<precision::Setting> tried = settings(trial, config);
-  const command::SceneImage image = image_of(trial, config);
+  const files::SceneImage image = image_of(trial, config);
   const precision::Paths paths{path::read_poses(path_file(trial))};
   const std::vector<precision::CycleCost> found = precision::costs_of(image.scene, tried, paths, trial.quick ? 3 : 5);
   double load = 0.0;

@@ -6,10 +6,10 @@
 
 namespace godobject::scene_compiler {
 
-/// format::Brick while a field is being made.
+/// A brick of a field under construction; format::Brick is its stored form.
 struct Brick {
   float value[format::kBrickValues];  ///< [m]
-  float lipschitz;                    ///< what format::decode_lipschitz gives
+  float lipschitz;                    ///< as format::decode_lipschitz returns it
   std::uint32_t edge;
   float deviation;  ///< [m]
 };

@@ -7,7 +7,7 @@ namespace godobject::scene_compiler {
 
 using BrickPosition = std::array<int, 3>;
 
-/// Positions of bricks in a box, numbered x fastest.
+/// The positions of bricks in a box, numbered x fastest.
 struct BrickLattice {
   BrickPosition size{};
 
@@ -32,7 +32,7 @@ struct BrickLattice {
 inline constexpr std::array<BrickPosition, 6> kFaceSteps = {
     {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
-/// The position `step` away from `from`.
+/// Returns the position `step` away from `from`.
 inline BrickPosition moved(const BrickPosition& from, const BrickPosition& step) noexcept {
   return {from[0] + step[0], from[1] + step[1], from[2] + step[2]};
 }

@@ -14,7 +14,7 @@ namespace {
 
 namespace index_entry = format::index_entry;
 
-/// How often each brick is halved.
+/// Returns the number of halvings of each brick.
 std::vector<int> levels_of(const DistanceGrid& field) {
   std::vector<int> levels(field.bricks.size(), 0);
   const auto walk = [&](const auto& self, std::uint32_t entry, int level) -> void {
@@ -60,24 +60,24 @@ std::vector<format::Brick> packed_bricks(const DistanceGrid& field) {
   if (!(quantum <= format::kLargestQuantum * field.grid.voxel_size)) {
     throw command::Failure(
         command::ExitCode::kBadData,
-        fmt::format("the band of {:.4g} m is too wide for voxels of {:.4g} m: distances could be kept "
-                    "in steps of {:.3g} m only; take a smaller safety_distance or a larger "
-                    "voxel_size",
+        fmt::format("the band of {:.4g} m is too wide for voxels of {:.4g} m: distances would be "
+                    "stored in steps of {:.3g} m; take a smaller safety_distance or a larger voxel_size",
                     field.grid.band, field.grid.voxel_size, quantum));
   }
   for (const Brick& brick : field.bricks) {
     if (fits(brick, quantum)) continue;
     throw command::Failure(
         command::ExitCode::kBadData,
-        fmt::format(
-            "a brick of the field does not fit the image: edge {} of {}, slope {:.3g} of {:.3g}, {:.3g} of "
-            "{:.3g} m off its own nodes; close the mesh, or take a smaller voxel_size or a larger field_tolerance",
-            brick.edge, format::kLargestUnsigned, brick.lipschitz, format::kLargestLipschitz, brick.deviation,
-            quantum * format::kLargestUnsigned));
+        fmt::format("a brick of the field exceeds a limit of the image: edge {} of {}, slope {:.3g} of {:.3g}, "
+                    "deviation {:.3g} "
+                    "of {:.3g} m; close the mesh, or take a smaller voxel_size or a larger field_tolerance",
+                    brick.edge, format::kLargestUnsigned, brick.lipschitz, format::kLargestLipschitz, brick.deviation,
+                    quantum * format::kLargestUnsigned));
   }
   const std::vector<int> levels = levels_of(field);
   std::vector<format::Brick> bricks(field.bricks.size());
-  parallel_for(bricks.size(), [&](std::size_t i) { bricks[i] = packed(field.bricks[i], quantum, levels[i]); });
+  parallel::for_each_index(bricks.size(),
+                           [&](std::size_t i) { bricks[i] = packed(field.bricks[i], quantum, levels[i]); });
   return bricks;
 }
 

@@ -6,8 +6,8 @@
 
 namespace godobject::scene_compiler {
 
-/// The bricks of a field that is rounded (BrickTree::round), as the image holds them. Throws Failure (kBadData) where a
-/// brick's number of an edge, its slope or its deviation does not fit, or the quantum is too large.
+/// Returns the bricks of a rounded field (BrickTree::round) in their stored form. Throws Failure (kBadData) if the
+/// number of a brick's edge, its slope or its deviation does not fit, or if the quantum is too large.
 std::vector<format::Brick> packed_bricks(const DistanceGrid& field);
 
 }  // namespace godobject::scene_compiler

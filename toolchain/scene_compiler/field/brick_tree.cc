@@ -25,7 +25,7 @@ int cell_units(int level) { return BrickTree::kUnits >> level; }
 
 int position_of(int unit) { return unit >= 0 ? unit / kPositionUnits : -1; }
 
-/// Of a brick of `level`, the octant that holds the unit cell.
+/// Returns the octant of a brick of `level` that contains the unit cell.
 std::uint8_t octant_at(const BrickTree::Units& unit_cell, int level) {
   const int half = brick_units(level + 1);
   unsigned octant = 0;
@@ -35,7 +35,7 @@ std::uint8_t octant_at(const BrickTree::Units& unit_cell, int level) {
 
 bool is_coarse(std::uint32_t child) { return (child & format::index_entry::kCoarse) != 0; }
 
-/// Appends what is new.
+/// Appends the octant if it is not among `octants` yet.
 void add(const BrickTree::Octant& octant, BrickTree::Octants& octants, std::size_t& count) {
   const auto end = octants.begin() + static_cast<std::ptrdiff_t>(count);
   if (std::find(octants.begin(), end, octant) == end) octants[count++] = octant;
@@ -83,7 +83,7 @@ BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>&
   }
 }
 
-/// Adds those of `among` that reach the brick.
+/// Adds the edges of `among` whose tube may meet the brick.
 void BrickTree::find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among) {
   const double half = 0.5 * kBrickCells * cell_edge(level(brick));
   const Vector3d center = low(brick) + Vector3d::Constant(half);
@@ -175,7 +175,7 @@ double BrickTree::interpolate_exact(const Leaf& leaf, const Vector3d& p) const {
 }
 
 std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p, Octants& octants) const {
-  constexpr double kTouching = 1e-6;  // cells
+  constexpr double kTouching = 1e-6;  // [cells]
   std::size_t count = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3d side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
@@ -250,7 +250,8 @@ void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array
   places_[brick].halved = static_cast<std::uint8_t>(places_[brick].halved | wanted);
 }
 
-/// Of the leaves that touch a node; a position that is not stored counts as coarse, with the values of `root`.
+/// Returns the coarsest leaf that touches a node. A position that is not stored counts as coarse, with the values of
+/// `root`.
 BrickTree::Leaf BrickTree::coarsest_about(const Units& node, std::uint32_t root) const {
   Leaf coarsest{kNone, format::kMaxRefinement + 1};
   for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -271,7 +272,7 @@ BrickTree::Units BrickTree::node_at(const Place& place, int node) const {
   return at;
 }
 
-/// Calls visit(node, at, leaf) for nodes of a brick that touch something coarser, with the coarsest.
+/// Calls visit(node, at, leaf) for each node of a brick that touches something coarser. `leaf` is the coarsest.
 template <class Visit>
 void BrickTree::visit_outer_nodes_on_coarser(std::uint32_t brick, const Visit& visit) const {
   const Place& place = places_[brick];
@@ -305,7 +306,7 @@ void BrickTree::join() {
     for (std::uint32_t b = 0; b < brick_count(); ++b) {
       if (places_[b].level == level) bricks.push_back(b);
     }
-    parallel_for(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
+    parallel::for_each_index(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
   }
 }
 
@@ -322,8 +323,9 @@ int BrickTree::factor(const Node& node) const {
   return found == factor_.end() ? 0 : found->second;
 }
 
-/// A node k levels finer than what it meets carries sum w c / 4^k of its corners c, w whole: in its own units, 2^k to
-/// one of theirs, sum w c / 2^k. Fine to coarse, as coarser ones may meet something coarser yet.
+/// A node k levels finer than the leaf that it touches has the value sum w c / 4^k of that leaf's corners c, with whole
+/// weights w. In its own units, of which 2^k make one of the corner's units, that is sum w c / 2^k. So the corners must
+/// be divisible by powers of two. Fine to coarse: a coarser leaf may touch one that is coarser yet.
 void BrickTree::find_factors() {
   for (int level = format::kMaxRefinement; level > 0; --level) {
     for (std::uint32_t b = 0; b < brick_count(); ++b) {
@@ -354,34 +356,35 @@ void BrickTree::round_nodes(const Place& place, Brick& brick) const {
 }
 
 void BrickTree::round(double slack) {
-  // a node is rounded off by half a factor; what is interpolated between such by as much, in finer units
+  // rounding moves a node by at most half a factor, and an interpolated one by as much in finer units
   constexpr int kFactor = 1 << format::kMaxRefinement;
   constexpr int kMostOff = kFactor / 2 * (kFactor + 1);
   const double most = field_.grid.band + format::kKeptBeyondBand * voxel_size_;
-  const auto kept = [&](float value) { return std::clamp(static_cast<double>(value) + slack, -most, most); };
+  const auto clamped = [&](float value) { return std::clamp(static_cast<double>(value) + slack, -most, most); };
   double largest = voxel_size_;
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
-    for (const float value : stored(b).value) largest = std::max(largest, std::ldexp(std::abs(kept(value)), level(b)));
+    for (const float value : stored(b).value)
+      largest = std::max(largest, std::ldexp(std::abs(clamped(value)), level(b)));
   }
   quantum_ = largest / (format::kLargestValue - kMostOff);
   find_factors();
-  const auto keep = [&](Brick& brick) {
-    for (float& value : brick.value) value = static_cast<float>(kept(value));
+  const auto clamp_all = [&](Brick& brick) {
+    for (float& value : brick.value) value = static_cast<float>(clamped(value));
   };
   std::vector<Brick> own = field_.bricks;
-  parallel_for(own.size(), [&](std::size_t b) {
-    keep(own[b]);
+  parallel::for_each_index(own.size(), [&](std::size_t b) {
+    clamp_all(own[b]);
     round_nodes(places_[b], own[b]);
   });
   own_ = std::move(own);
-  for (Fine& fine : fine_) keep(fine.exact);
+  for (Fine& fine : fine_) clamp_all(fine.exact);
   join();
 }
 
-/// A position's own nodes always are.
+/// A position's own nodes are always looked up.
 bool BrickTree::is_looked_up(std::uint32_t brick) const { return brick < field_.bricks.size() || whole(brick) != 0; }
 
-/// `number`: of each brick in the field.
+/// `number`: the number of each brick in the field.
 std::uint32_t BrickTree::write_entry(std::uint32_t entry, const std::vector<std::uint32_t>& number,
                                      std::vector<format::Refined>& refined) const {
   const auto edged = [this](std::uint32_t brick) {
@@ -421,7 +424,7 @@ void BrickTree::write(DistanceGrid& field) const {
 }
 
 void BrickTree::write_edges(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const {
-  std::vector<std::uint32_t> number(edges_.size());  // 1 + that in the field
+  std::vector<std::uint32_t> number(edges_.size());  // 1 + the number in the field
   field.edges.clear();
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
     if (brick_number[b] == format::kNoBrick) continue;

@@ -11,15 +11,15 @@
 
 namespace godobject::scene_compiler {
 
-/// The bricks of a field while octants of them are halved. Bricks are numbered: first those of the field, then octants
-/// in the order in which they were made. Octants that are not halved are looked up in the brick's own nodes: it stays
-/// a leaf there. Places are counted in cells of the finest level ("units") from the lattice's origin.
+/// The bricks of a field during refinement, which halves their octants. Bricks are numbered: first those of the field,
+/// then octants in the order of their creation. An octant that is not halved uses the nodes of its brick, which stays a
+/// leaf there. Places are counted in cells of the finest level ("units") from the lattice's origin.
 class BrickTree {
  public:
   static constexpr std::uint32_t kNone = ~0u;
-  static constexpr int kUnits = 1 << format::kMaxRefinement;  ///< along a voxel
+  static constexpr int kUnits = 1 << format::kMaxRefinement;  ///< units along a voxel
 
-  static constexpr std::size_t kMostAbout = 27;  ///< octants that touch a cell of the finest leaf about it
+  static constexpr std::size_t kMostAbout = 27;  ///< octants that touch a cell of the finest leaf around it
 
   using Units = std::array<int, 3>;
 
@@ -32,7 +32,8 @@ class BrickTree {
     std::uint8_t bit() const { return static_cast<std::uint8_t>(1u << number); }
   };
 
-  /// Where a cell is looked up: a brick, in an octant that is not halved; kNone at a position that is not stored.
+  /// The leaf that holds a cell: a brick, and an octant of it that is not halved. kNone at a position that is not
+  /// stored.
   struct Leaf {
     std::uint32_t brick = kNone;
     int level = 0;
@@ -43,63 +44,63 @@ class BrickTree {
 
   using Octants = std::array<Octant, kMostAbout>;
 
-  /// `field`, which must have no refinement yet, must outlive the tree and keep still until `write`; so must `edges`,
-  /// of the same surface.
+  /// Starts from a field without refinement. Stores references: `field` and `edges` must outlive the tree, and the
+  /// field must not change before `write`. The edges are those of the same surface.
   BrickTree(const DistanceGrid& field, const std::vector<format::Edge>& edges);
 
   std::uint32_t brick_count() const { return static_cast<std::uint32_t>(places_.size()); }
   int level(std::uint32_t brick) const { return places_[brick].level; }
   std::uint32_t root(std::uint32_t brick) const { return places_[brick].root; }
-  /// Octants that are not halved.
+  /// Returns the octants that are not halved, one bit each.
   std::uint8_t whole(std::uint32_t brick) const { return static_cast<std::uint8_t>(~places_[brick].halved); }
   Eigen::Vector3d low(std::uint32_t brick) const;
-  /// Its lowest node in units, and its level.
+  /// Returns the brick's lowest node in units, and its level.
   std::array<int, 4> place(std::uint32_t brick) const {
     const Place& p = places_[brick];
     return {p.low[0], p.low[1], p.low[2], p.level};
   }
   double cell_edge(int level) const { return voxel_size_ / (1 << level); }
 
-  /// Its nodes as they are, and as `join` made them.
+  /// Return the brick with the exact distances, and with those that `join` made.
   const Brick& exact(std::uint32_t brick) const;
   const Brick& stored(std::uint32_t brick) const;
 
   Units unit_cell(const Eigen::Vector3d& p) const;
   Leaf find(const Units& unit_cell) const;
 
-  /// The field at p [m], which `leaf` holds: with the stored and with the exact nodes.
+  /// Return the field at p [m], which `leaf` holds: with the stored and with the exact nodes.
   double interpolate(const Leaf& leaf, const Eigen::Vector3d& p) const;
   double interpolate_exact(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
-  /// All octants that hold p, that of `leaf` among them. Returns how many.
+  /// Finds all octants that hold p, the one of `leaf` included. Returns their number.
   std::size_t holding(const Leaf& leaf, const Eigen::Vector3d& p, Octants& octants) const;
 
-  /// Octants of coarser leaves than `leaf` that the nodes of its cell around p touch: `join` lets those nodes carry
-  /// their values.
+  /// Finds the octants of coarser leaves than `leaf` that touch the nodes of its cell around p. `join` gives their
+  /// values to those nodes. Returns their number.
   std::size_t coarser_about(const Leaf& leaf, const Eigen::Vector3d& p, Octants& octants) const;
 
-  /// Where the cells at the faces, edges and corners of a brick are looked up, outside of it: every octant of a coarser
-  /// leaf that touches the brick is one, since it is as large or larger.
+  /// Returns the leaves of the cells outside the brick at its faces, edges and corners. They include every octant of a
+  /// coarser leaf that touches the brick, because such an octant is at least as large.
   std::array<Leaf, 26> leaves_about(std::uint32_t brick) const;
 
-  /// Numbers of the edges of which some w > 0 may be in the brick.
+  /// Returns the numbers of the edges with w > 0 somewhere in the brick. May include others.
   const std::vector<std::uint32_t>& edges_of(std::uint32_t brick) const { return edges_of_[brick]; }
 
-  /// Adds the octants that are not halved of a brick, which names one edge at most.
+  /// Adds the slope of the octants that are not halved. The brick must name at most one edge.
   void add_slope(std::uint32_t brick, FieldSlope& slope) const;
 
-  /// Makes bricks of those of `wanted` that are not halved yet, with the nodes of `octants`.
+  /// Halves the `wanted` octants that are not halved yet: makes bricks of them with the nodes of `octants`.
   void halve(std::uint32_t brick, std::uint8_t wanted, const std::array<Brick, 8>& octants);
 
-  /// Makes the field continuous: nodes that touch something coarser take its value. Coarse to fine.
+  /// Makes the field continuous, coarse to fine: a node that touches a coarser leaf takes that leaf's value.
   void join();
 
-  /// Adds `slack` [m] to all distances, clamps and rounds them as format::Brick says, to the smallest quantum in which
-  /// they fit. To be called once, at the end: what `join` made stays continuous.
+  /// Adds `slack` [m] to all distances. Then clamps and rounds them as format::Brick requires, to the smallest quantum
+  /// in which they fit. Call it once, after the last `join`. The field stays continuous.
   void round(double slack);
 
-  /// Into the field that the tree was made of, once it is rounded; refinements numbered as the format wants them,
-  /// clearances anew.
+  /// Writes the rounded tree into the field from which it was made. Numbers the refinements as the format requires and
+  /// bounds the clearances again.
   void write(DistanceGrid& field) const;
 
  private:
@@ -107,7 +108,7 @@ class BrickTree {
     Units low;
     int level;
     std::uint32_t root;   ///< brick of the whole position
-    std::uint8_t halved;  ///< octants
+    std::uint8_t halved;  ///< octants, one bit each
   };
   struct Fine {
     Brick exact, stored;
@@ -141,12 +142,13 @@ class BrickTree {
   double voxel_size_;
   BrickLattice lattice_;
   std::vector<std::uint32_t> index_;
-  std::vector<format::Refined> refined_;  ///< with the numbers of bricks and refinements here
+  std::vector<format::Refined> refined_;  ///< with this tree's numbers of bricks and refinements
   std::vector<Place> places_;
-  std::vector<Fine> fine_;                         ///< of the octants
-  std::vector<Brick> own_;                         ///< of the positions, once they are rounded
-  double quantum_ = 0.0;                           ///< 0: not rounded yet [m]
-  std::unordered_map<std::uint64_t, int> factor_;  ///< by key(): powers of two that divide a node, where it is not 0
+  std::vector<Fine> fine_;  ///< the bricks of halved octants
+  std::vector<Brick> own_;  ///< the positions' own bricks after rounding
+  double quantum_ = 0.0;    ///< 0: not rounded yet [m]
+  /// By key(): power of two that divides a node's value, if it is not 0.
+  std::unordered_map<std::uint64_t, int> factor_;
   const std::vector<format::Edge>& edges_;
   std::vector<std::vector<std::uint32_t>> edges_of_;  ///< by brick
 };

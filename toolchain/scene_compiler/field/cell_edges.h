@@ -11,7 +11,7 @@
 
 namespace godobject::scene_compiler {
 
-/// Differences of the distance along the twelve edges of one cell of a brick [m].
+/// The differences of the distance along the twelve edges of one cell of a brick [m].
 struct CellEdges {
   std::array<std::array<double, 4>, 3>
       along{};                 ///< along[axis][a + 2 b]: a, b the corner in the next two axes (cyclic)
@@ -38,11 +38,12 @@ struct CellEdges {
     return largest;
   }
 
-  /// A distance changes along an edge by its length at most; the slack is rounding, of the values to float too.
+  /// True if the distance changes along an edge by more than the edge's length, which no distance does. The slack
+  /// covers rounding, also of the values to float.
   bool on_seam(double voxel_size) const { return largest_jump() > voxel_size * (1.0 + 1e-4) + 1e-6 * largest_value; }
 
-  /// Largest gradient of the trilinear field in the cell [1]. The squared norm is convex in each of x, y, z alone, so
-  /// its maximum stands at a corner, where each component is one edge's difference.
+  /// Returns the largest gradient of the trilinear field in the cell [1]. The squared norm is convex in each of x, y
+  /// and z alone. So its maximum is at a corner, where each component is the difference along one edge.
   double largest_gradient(double voxel_size) const {
     double largest = 0.0;
     for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -60,13 +61,13 @@ struct CellEdges {
 
 inline constexpr std::uint8_t kAllOctants = 0xff;
 
-/// Of a brick, the octant of a cell: x fastest.
+/// Returns the octant of a brick that contains a cell, x fastest.
 constexpr unsigned octant_of_cell(int x, int y, int z) {
   constexpr int kHalf = format::kBrickCells / 2;
   return static_cast<unsigned>(x / kHalf + 2 * (y / kHalf) + 4 * (z / kHalf));
 }
 
-/// Calls visit(edges, x, y, z) for every cell of those octants of a brick, a bit each.
+/// Calls visit(edges, x, y, z) for every cell of the given octants of a brick, one bit each.
 template <class Visit>
 void for_each_cell(const Brick& brick, std::uint8_t octants, Visit&& visit) {
   for (int z = 0; z < format::kBrickCells; ++z) {

@@ -20,18 +20,18 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 using format::kBrickNodes;
 
-constexpr double kHalfBrickEdge = 0.5 * kBrickCells;                           // voxels
-constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // voxels
+constexpr double kHalfBrickEdge = 0.5 * kBrickCells;                           // [voxels]
+constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // [voxels]
 
-/// The nodes that a brick position owns: those not on its upper faces.
+/// The nodes that a brick position owns: all but those on its upper faces.
 using Block = std::array<float, kBrickCells * kBrickCells * kBrickCells>;
 
 class GridBuilder {
  public:
   GridBuilder(const SolidSurface& surface, double voxel_size, double band);
 
-  void classify(const Progress& progress);
-  void evaluate(const Progress& progress);
+  void classify(const parallel::Progress& progress);
+  void evaluate(const parallel::Progress& progress);
   DistanceGrid assemble();
 
  private:
@@ -44,7 +44,7 @@ class GridBuilder {
   bool is_boundary(const BrickPosition& p) const;
   void require_free_boundary(bool inside, const BrickPosition& p) const;
   std::vector<std::size_t> first_bricks() const;
-  void add_blocks(const std::vector<std::size_t>& bricks, const Progress& progress);
+  void add_blocks(const std::vector<std::size_t>& bricks, const parallel::Progress& progress);
   void fill(Block& block, const BrickPosition& position) const;
   float value(const BrickPosition& brick, int x, int y, int z) const;
   bool face_disagrees(const BrickPosition& brick, const BrickPosition& step, bool inside) const;
@@ -60,7 +60,7 @@ class GridBuilder {
   BrickLattice bricks_;
   std::vector<float> center_;    // signed distance at each brick's centre
   std::vector<bool> evaluated_;  // all nodes are known
-  BrickLattice block_lattice_;   // one more than bricks_ a side: the outer nodes
+  BrickLattice block_lattice_;   // one more than bricks_ on each axis, for the outer nodes
   std::vector<std::uint32_t> block_of_;
   std::vector<Block> blocks_;
 };
@@ -77,8 +77,7 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
     }
   }
   const double edge = kBrickCells * voxel_size;
-  // the odd part keeps the nodes of a mesh that is aligned with the lattice off the band's edge, where rounding would
-  // decide
+  // The odd part moves the nodes of an aligned mesh off the band's edge, where rounding would decide.
   const double margin = band + edge + 0.15 * voxel_size;
   origin_ = low_.array() - margin;
   std::uint64_t positions = 1;
@@ -102,11 +101,11 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
   block_lattice_.size = moved(bricks_.size, {1, 1, 1});
 }
 
-void GridBuilder::classify(const Progress& progress) {
+void GridBuilder::classify(const parallel::Progress& progress) {
   center_.resize(bricks_.count());
   const auto rows = static_cast<std::size_t>(bricks_.size[1]) * static_cast<std::size_t>(bricks_.size[2]);
   const auto row_length = static_cast<std::size_t>(bricks_.size[0]);
-  parallel_for(
+  parallel::for_each_index(
       rows,
       [&](std::size_t row) {
         DistanceProbe probe(surface_);
@@ -125,22 +124,23 @@ bool GridBuilder::is_boundary(const BrickPosition& p) const {
   return false;
 }
 
-/// Outside of the grid is free space.
+/// Refuses an inside position at the boundary, because space outside the grid is free.
 void GridBuilder::require_free_boundary(bool inside, const BrickPosition& p) const {
   if (inside && is_boundary(p)) {
     throw command::Failure(command::ExitCode::kBadData,
-                           "the still mesh encloses space far beyond its own bounds (winding number above 1/2 there); "
-                           "mend its orientation or holes, or set surface = \"shell\"");
+                           "the still mesh encloses space far outside its own bounds (winding number above 1/2 there); "
+                           "repair its orientation or holes, or set surface = \"shell\"");
   }
 }
 
-/// Bricks that may hold a node within the band, and far ones beside a far one of the other sign: there the sign jumps.
+/// Returns the bricks that may contain a node within the band, and far ones beside a far one of the other sign, between
+/// which the sign jumps.
 std::vector<std::size_t> GridBuilder::first_bricks() const {
-  const double reach = (kHalfBrickDiagonal * voxel_size_ + band_) * (1.0 + 1e-6);
+  const double search_radius = (kHalfBrickDiagonal * voxel_size_ + band_) * (1.0 + 1e-6);
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < center_.size(); ++i) {
     const BrickPosition p = bricks_.position(i);
-    bool wanted = std::abs(static_cast<double>(center_[i])) <= reach;
+    bool wanted = std::abs(static_cast<double>(center_[i])) <= search_radius;
     if (!wanted) require_free_boundary(center_[i] < 0.0f, p);
     for (const BrickPosition& step : kFaceSteps) {
       const BrickPosition q = moved(p, step);
@@ -151,7 +151,7 @@ std::vector<std::size_t> GridBuilder::first_bricks() const {
   return first;
 }
 
-void GridBuilder::evaluate(const Progress& progress) {
+void GridBuilder::evaluate(const parallel::Progress& progress) {
   evaluated_.assign(bricks_.count(), false);
   block_of_.assign(block_lattice_.count(), kNone);
   std::vector<std::size_t> front = first_bricks();
@@ -181,7 +181,7 @@ void GridBuilder::evaluate(const Progress& progress) {
   }
 }
 
-void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progress& progress) {
+void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const parallel::Progress& progress) {
   std::vector<std::size_t> added;
   for (const std::size_t i : bricks) {
     for (int corner = 0; corner < 8; ++corner) {
@@ -194,7 +194,7 @@ void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const Progr
   }
   const std::size_t before = blocks_.size();
   blocks_.resize(before + added.size());
-  parallel_for(
+  parallel::for_each_index(
       added.size(), [&](std::size_t i) { fill(blocks_[before + i], block_lattice_.position(added[i])); }, progress);
 }
 
@@ -218,7 +218,7 @@ float GridBuilder::value(const BrickPosition& brick, int x, int y, int z) const 
   return blocks_[block_of_[block_lattice_.number(owner)]][static_cast<std::size_t>(local)];
 }
 
-/// Whether a node on the face that `brick` shares with its neighbour at `step` has another sign than the neighbour.
+/// True if a node on the face that `brick` shares with its neighbour at `step` has another sign than the neighbour.
 bool GridBuilder::face_disagrees(const BrickPosition& brick, const BrickPosition& step, bool inside) const {
   const auto range = [&](std::size_t axis) {
     const int low = step[axis] > 0 ? kBrickCells : 0;
@@ -274,7 +274,7 @@ DistanceGrid GridBuilder::assemble() {
     const bool stored = evaluated_[i] && is_stored(p);
     field.index[i] = stored ? static_cast<std::uint32_t>(field.bricks.size()) : format::index_entry::kFar;
     if (!stored) {
-      // evaluated or not: all nodes have one sign, that of the centre unless the sign jumps within
+      // evaluated or not, all nodes have one sign: that of the centre unless the sign jumps within the position
       const bool inside = evaluated_[i] ? value(p, 0, 0, 0) < 0.0f : center_[i] < 0.0f;
       require_free_boundary(inside, p);
       if (inside) field.index[i] |= format::index_entry::kInside;
@@ -294,7 +294,7 @@ DistanceGrid GridBuilder::assemble() {
       field.beside_seam[entry] = seams.touches(p);
     } else if ((entry & format::index_entry::kInside) == 0) {
       const double to_surface = std::abs(static_cast<double>(center_[i])) * (1.0 - 1e-6);
-      // what is apart from the position's box is half an edge farther from its centre
+      // a seam outside the position's box is half an edge farther from its centre
       const double to_seam = seams.clearance_of_bricks(p) + kHalfBrickEdge * voxel_size_;
       const double clearance = std::min(to_surface, to_seam) - kInterpolationError * voxel_size_;
       field.far_clearance[i] = std::max(0.0, clearance);
@@ -305,8 +305,8 @@ DistanceGrid GridBuilder::assemble() {
   for (int axis = 0; axis < 3; ++axis) {
     grid.origin[axis] = origin_[axis];
     grid.bricks[axis] = bricks_.size[static_cast<std::size_t>(axis)];
-    grid.surface_min[axis] =
-        low[axis];  // seams too: behind one the distance may be negative outside of the mesh's own box
+    // of seams too: behind one the distance may be negative outside the mesh's own box
+    grid.surface_min[axis] = low[axis];
     grid.surface_max[axis] = high[axis];
   }
   grid.brick_count = static_cast<std::uint32_t>(field.bricks.size());
@@ -321,7 +321,8 @@ double default_band(double voxel_size, double safety_distance) {
   return std::max(3.0 * voxel_size, safety_distance + 1.5 * voxel_size) + 0.25 * voxel_size;
 }
 
-DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band, const Progress& progress) {
+DistanceGrid make_distance_grid(const SolidSurface& surface, double voxel_size, double band,
+                                const parallel::Progress& progress) {
   constexpr double kClassifyShare = 0.25;  // of the time, roughly
   GridBuilder builder(surface, voxel_size, band);
   builder.classify([&](double done) {

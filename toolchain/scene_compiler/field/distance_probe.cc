@@ -4,7 +4,7 @@
 
 namespace godobject::scene_compiler {
 
-/// No triangle of a solid is met on the step, ends included.
+/// True if the step meets no triangle of a solid, ends included.
 bool DistanceProbe::keeps_side(const Eigen::Vector3d& p, double step) const {
   constexpr double kEnds = 1e-6;  // of the step
   if (step > path_left_) return false;

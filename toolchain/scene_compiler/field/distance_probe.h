@@ -4,9 +4,9 @@
 
 namespace godobject::scene_compiler {
 
-/// Signed distance along a walk: the last answer bounds the next search, and the winding number is summed again only
-/// after a step that crosses a triangle, or far from where it was known. Gives what SolidSurface::signed_distance
-/// gives. One walk a thread.
+/// Signed distance along a walk, equal to SolidSurface::signed_distance but faster. The last answer bounds the next
+/// search. The winding number is summed again only after a step that crosses a triangle, or far from the last sum. Use
+/// one probe for each thread.
 class DistanceProbe {
  public:
   explicit DistanceProbe(const SolidSurface& surface) : surface_(surface) {}

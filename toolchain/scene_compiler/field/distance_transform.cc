@@ -7,8 +7,8 @@ namespace {
 
 constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
-/// One line of the transform: the lower envelope of parabolas rooted at (i, line[i]) (Felzenszwalb and Huttenlocher
-/// 2012).
+/// One line of the transform: the lower envelope of parabolas with vertices at (i, line[i]) (Felzenszwalb and
+/// Huttenlocher 2012).
 class LineTransform {
  public:
   explicit LineTransform(std::size_t longest) : roots_(longest), starts_(longest + 1), heights_(longest) {}
@@ -38,7 +38,7 @@ class LineTransform {
   }
 
  private:
-  /// Where the parabola of j, j > i, falls below that of i.
+  /// Returns the place where the parabola of j, j > i, falls below that of i.
   double crossing(std::size_t i, std::size_t j) const {
     const auto x = static_cast<double>(i);
     const auto y = static_cast<double>(j);

@@ -6,7 +6,7 @@
 
 namespace godobject::scene_compiler {
 
-/// Squared distance of every position to the nearest one in `set`, in steps; exact. `set` must not be empty.
+/// Returns the exact squared distance of every position to the nearest one in `set`, in steps. `set` must not be empty.
 std::vector<float> squared_distance_transform(const BrickLattice& lattice, const std::vector<bool>& set);
 
 }  // namespace godobject::scene_compiler

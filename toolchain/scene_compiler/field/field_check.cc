@@ -19,20 +19,21 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 using format::kBrickNodes;
 
-constexpr double kSignSlack = 0.1;           // voxels
-constexpr double kNear = 0.5;                // voxels
-constexpr double kNodeError = 1e-5;          // [m]
-constexpr double kNodeErrorInVoxels = 1e-3;  // what binds below a voxel of a centimetre
-constexpr double kFloatRounding = 0x1p-24;   // of a value, relative
-constexpr double kOnSeam = 1e-6;             // |w - 1/2| below it: which sign is right is decided by rounding
+/// [voxels] of a point that counts as on the wrong side; nearer ones are a matter of resolution.
+constexpr double kSignSlack = 0.1;
+constexpr double kNear = 0.5;        // [voxels] of a point that counts as near the surface
+constexpr double kNodeError = 1e-5;  // [m] of a node; the error of an image in metres and single precision up to 100 m
+constexpr double kNodeErrorInVoxels = 1e-3;  // of a node; smaller than kNodeError for voxels below a centimetre
+constexpr double kFloatRounding = 0x1p-24;   // relative
+constexpr double kOnSeam = 1e-6;             // at |w - 1/2| below it rounding decides the sign
 
-/// A point in a stored position: cell of its own nodes and place within it.
+/// A point in a stored position, with its cell among the position's own nodes.
 struct Place {
   std::uint32_t entry;       // of the brick index
-  Vector3d position;         // its first node
-  std::array<int, 3> cell;   // within the brick
+  Vector3d position;         // first node of the position
+  std::array<int, 3> cell;   // within the position
   std::array<double, 3> at;  // within the cell, 0 .. 1
-  Vector3d low;              // the cell's first node
+  Vector3d low;              // first node of the cell
   Vector3d point;
 };
 
@@ -93,7 +94,7 @@ std::uint32_t own_brick(const DistanceGrid& grid, std::uint32_t entry) {
   return is_refined(entry) ? grid.refined[number].brick : number;
 }
 
-/// Nodes of the octant that holds the point; those within it are exact, those on its faces may not be.
+/// Adds the nodes of the octant that contains the point, without those on the octant's faces, which may not be exact.
 void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, const Place& place, DistanceProbe& probe,
                       PointError& error) {
   std::uint32_t entry = place.entry;
@@ -171,7 +172,7 @@ ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<P
 }  // namespace
 
 FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
-                       std::uint64_t points, const Progress& progress) {
+                       std::uint64_t points, const parallel::Progress& progress) {
   const Places places(grid);
   std::vector<Place> drawn;
   std::mt19937_64 random(20160902);
@@ -180,7 +181,7 @@ FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, co
     if (field.sample(place.point).known) drawn.push_back(place);
   }
   std::vector<PointError> errors(drawn.size());
-  parallel_for(
+  parallel::for_each_index(
       drawn.size(), [&](std::size_t i) { errors[i] = measure(surface, grid, field, drawn[i]); }, progress);
 
   FieldError total;
@@ -209,7 +210,7 @@ FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, co
 }
 
 LookUpTime time_look_ups(const DistanceGrid& grid, const Voxelmap& field) {
-  constexpr int kRounds = 20;
+  constexpr int kPasses = 20;
   constexpr std::size_t kPoints = 5000;
   const Places places(grid);
   std::array<std::vector<Vector3d>, 2> points;  // unrefined, refined
@@ -221,7 +222,7 @@ LookUpTime time_look_ups(const DistanceGrid& grid, const Voxelmap& field) {
   }
   std::array<double, 2> best{};
   for (std::size_t kind = 0; kind < 2; ++kind) {
-    for (int round = 0; round < kRounds && !points[kind].empty(); ++round) {
+    for (int round = 0; round < kPasses && !points[kind].empty(); ++round) {
       double sum = 0.0;
       const auto begin = std::chrono::steady_clock::now();
       for (const Vector3d& p : points[kind]) {
@@ -242,8 +243,8 @@ void require_exact_nodes(const FieldError& error, const format::Grid& grid) {
   if (error.largest_node_excess <= allowed) return;
   throw command::Failure(
       command::ExitCode::kInternal,
-      fmt::format("a stored distance is {:.3g} m off the exact one, more than {:.3g} m that rounding "
-                  "allows; please report this scene",
+      fmt::format("a stored distance differs from the exact one by {:.3g} m; rounding allows {:.3g} m; please "
+                  "report this scene",
                   error.largest_node_excess, allowed));
 }
 

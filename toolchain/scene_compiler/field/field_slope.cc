@@ -14,7 +14,7 @@ using format::kBrickNodes;
 
 Vector3d corner_offset(unsigned corner) { return Vector3d(corner & 1, corner >> 1 & 1, corner >> 2); }
 
-/// Trilinear interpolation of values at the corners of a cube, x fastest, at `at` in 0 .. 1.
+/// Returns the trilinear interpolation of values at the corners of a cube, x fastest, at `at` in 0 .. 1.
 double trilinear(const std::array<double, 8>& value, const Vector3d& at) {
   double sum = 0.0;
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -26,12 +26,12 @@ double trilinear(const std::array<double, 8>& value, const Vector3d& at) {
   return sum;
 }
 
-/// Bound of |g - I[phi]| on a cell, phi its nodes. side g is convex: in each part of the cell it is above its tangent
-/// plane at the part's middle and below its interpolation between the part's corners, and I[phi] less either is
-/// trilinear there, largest at a corner.
+/// Returns a bound of |g - I[phi]| on a cell, phi its nodes. The function side g is convex. In each part of the cell it
+/// lies above its tangent plane at the part's middle and below its interpolation between the part's corners. The
+/// difference of I[phi] and either is trilinear there, so it is largest at a corner.
 double largest_difference(const format::Edge& edge, const Vector3d& low, double cell_edge,
                           const std::array<double, 8>& nodes) {
-  constexpr int kParts = 3;
+  constexpr int kParts = 3;  // of a cell's edge, chosen: a tighter bound saves halvings, a looser one time
   double largest = 0.0;
   bool one_face = true;
   Vector3d normal;
@@ -41,7 +41,7 @@ double largest_difference(const format::Edge& edge, const Vector3d& low, double 
     if (corner == 0) normal = at.gradient;
     one_face = one_face && at.gradient == normal;
   }
-  // what one face is nearest to is convex: g is linear on a cell whose corners all are in it
+  // The region nearest to one face is convex. So g is linear on a cell with all corners in it.
   if (one_face) return largest;
   for (int part = 0; part < kParts * kParts * kParts; ++part) {
     const Vector3d first = Vector3d(part % kParts, part / kParts % kParts, part / (kParts * kParts)) / kParts;
@@ -58,7 +58,7 @@ double largest_difference(const format::Edge& edge, const Vector3d& low, double 
   return largest;
 }
 
-/// Of a cell, x fastest.
+/// Returns the nodes of a cell, x fastest.
 std::array<double, 8> nodes_of(const Brick& brick, int x, int y, int z) {
   std::array<double, 8> nodes{};
   for (unsigned c = 0; c < 8; ++c) {

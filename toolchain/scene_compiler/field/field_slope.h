@@ -12,11 +12,11 @@ namespace godobject::scene_compiler {
 /// Lipschitz constant of the stored field: its largest gradient, on seams and off them.
 class FieldSlope {
  public:
-  /// `rounded_apart`: what rounding may add to the step from a node to the next [m].
+  /// `rounded_apart`: largest amount by which rounding increases the difference of neighbouring nodes [m].
   explicit FieldSlope(double voxel_size, double rounded_apart = 0.0)
       : voxel_size_(voxel_size), rounded_apart_(rounded_apart) {}
 
-  /// `octants`: those of the brick that count, x fastest, a bit each.
+  /// Adds the given octants of a brick, x fastest, one bit each.
   void add(const Brick& brick, std::uint8_t octants) {
     for_each_cell(brick, octants, [this](const CellEdges& edges, int, int, int) {
       const double gradient = edges.largest_gradient(voxel_size_) * kRounding;
@@ -25,16 +25,17 @@ class FieldSlope {
     });
   }
 
-  /// A brick that names an edge, its first node at `low`: a bound of the gradient of format::Edge's field,
+  /// Adds a brick that names an edge, with its first node at `low`. Uses a bound of the gradient of format::Edge's
+  /// field:
   ///
-  ///   |grad phi| <= (1 - w) |grad I[phi]| + w + |g - I[g]| |grad w|.
+  ///     |grad phi| <= (1 - w) |grad I[phi]| + w + |g - I[g]| |grad w|.
   void add(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }
 
  private:
-  static constexpr double kRounding = 1.0 + 1e-5;  // who reads the field interpolates in single precision
+  static constexpr double kRounding = 1.0 + 1e-5;  // the core interpolates in single precision
 
   double voxel_size_;
   double rounded_apart_;
@@ -42,7 +43,8 @@ class FieldSlope {
   double seamed_ = 0.0;
 };
 
-/// Bound of |phi - I[phi]| in octants of a brick that names an edge (format::Edge), its first node at `low` [m].
+/// Returns a bound of |phi - I[phi]| in octants of a brick that names an edge (format::Edge), with its first node at
+/// `low` [m].
 double edge_deviation(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low,
                       double cell_edge);
 

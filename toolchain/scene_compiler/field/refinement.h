@@ -9,39 +9,43 @@ namespace godobject::scene_compiler {
 
 struct RefinementReport {
   std::array<std::uint64_t, format::kMaxRefinement + 1>
-      bricks{};               ///< in which octants are looked up that are not halved, by how often they were themselves
-  std::uint64_t refined = 0;  ///< bricks of which octants were halved
-  std::uint64_t finer = 0;    ///< bricks stored beside those of the positions
+      bricks{};               ///< leaf bricks by number of halvings, 0 .. kMaxRefinement
+  std::uint64_t refined = 0;  ///< bricks with halved octants
+  std::uint64_t finer = 0;    ///< bricks stored in addition to those of the positions
   std::uint64_t edges = 0;    ///< stretches of straight edges along which the field is exact
 
-  /// What they take in the image.
+  /// Returns the size of the finer bricks in the image.
   std::uint64_t bytes() const { return finer * sizeof(format::Brick) + refined * sizeof(format::Refined); }
 };
 
-/// Tolerances: how far outside of the surface the stored one may be.
+/// How far outside the surface the stored one may lie, in tolerances. Chosen: penetration is worse than a force that
+/// starts early, by 0.25 voxels at the default tolerance.
 inline constexpr double kHeldOff = 5.0;
 
-/// Makes `field` true to the surface of a solid, or the offset surface of a shell.
+/// Refines `field` until it represents the surface of a solid, or the offset surface of a shell, within `tolerance`
+/// [m].
 ///
-/// Straight edges of solids that trilinear interpolation misses are stored as such (format::Edge). For that bricks are
-/// halved until none names two of them, and where the way to an edge's exact distance would be too steep.
+/// Straight edges of solids that trilinear interpolation misses are stored as such (format::Edge). For that, bricks are
+/// halved until none names two edges, and where the transition to an edge's exact distance would be too steep.
 ///
-/// What is still missed is refined: octants of bricks are halved, down to format::kMaxRefinement times, where the field
-/// says free at more than `tolerance` [m] (convex edges and corners, thin walls, which a touching body would sink into)
-/// or solid at more than kHeldOff times as much (re-entrant edges, narrow gaps, where it would be held off). Judged on
-/// the surface itself, where the exact distance is 0, at all edges and vertices of the mesh and in between at a cell's
-/// spacing; that of a dilated body, which has no mesh, in the middle of all cells about it. A neighbour is halved only
-/// where its values on the common face spoil the finer brick's or are too steep for it. Left as they are: bricks that
-/// hold a seam, and those in which one would appear.
+/// Remaining errors are refined: octants of bricks are halved, up to format::kMaxRefinement times. That happens where
+/// the field says "free" more than `tolerance` inside the mesh (convex edges and corners, thin walls, into which a
+/// touching body would sink), or "solid" more than kHeldOff times as far outside (re-entrant edges, narrow gaps, which
+/// would hold a body off). The error is measured on the surface itself, where the exact distance is 0, at all edges and
+/// vertices of the mesh and in between at the spacing of a cell. A dilated body has no mesh of its surface; its error
+/// is measured in the middle of all cells about it. A neighbour is halved only if its values on the common face spoil
+/// the finer brick's or are too steep for it. Bricks that hold a seam stay as they are, and so do those in which one
+/// would appear.
 ///
-/// At last all distances are made larger by `slack` [m], the body smaller, and rounded to what the image can hold.
+/// At the end all distances are increased by `slack` [m], which makes the body smaller, and rounded as the image
+/// requires.
 ///
-/// Deterministic. Updates the constants of `field.grid` with it. Throws Failure (kBadData) naming the cure where the
-/// bricks would be more than kMaxBricks.
-RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance, const Progress& progress,
-                        double slack = 0.0);
+/// Updates the constants of `field.grid`. Deterministic. Throws Failure (kBadData) naming the cure if there would be
+/// more than kMaxBricks bricks.
+RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance,
+                        const parallel::Progress& progress, double slack = 0.0);
 
-/// The same of a field that is left as coarse as it is.
+/// Rounds a field without refining it.
 void round_distances(DistanceGrid& field);
 
 }  // namespace godobject::scene_compiler

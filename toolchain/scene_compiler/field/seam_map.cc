@@ -50,7 +50,7 @@ void SeamMap::add(const BrickPosition& position, const Brick& brick) {
   });
 }
 
-/// Two bricks that touch are 0 apart: the gap in bricks along an axis is max(|i - j| - 1, 0). Its least squared sum
+/// Bricks that touch are 0 apart: their gap along an axis is max(|i - j| - 1, 0) bricks. The least squared sum of gaps
 /// over all seam bricks j is the squared distance to the nearest brick within one step of a seam brick.
 void SeamMap::close() {
   if (boxes_.empty()) return;

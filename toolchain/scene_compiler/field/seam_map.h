@@ -9,7 +9,7 @@
 
 namespace godobject::scene_compiler {
 
-/// Where the stored field jumps, and how far every brick is from there. First add all stored bricks, then close.
+/// The seams of a field, and the distance of every brick to them. First add all stored bricks, then close.
 class SeamMap {
  public:
   SeamMap(const BrickLattice& bricks, const Eigen::Vector3d& origin, double voxel_size);
@@ -19,14 +19,15 @@ class SeamMap {
 
   const SeamReport& report() const { return report_; }
 
-  /// Bounding box of all seam cells; empty (+infinity, -infinity) if there is none.
+  /// Return the bounding box of all seam cells; empty (+infinity, -infinity) if there is none.
   const Eigen::Vector3d& low() const { return low_; }
   const Eigen::Vector3d& high() const { return high_; }
 
-  /// No seam cell is nearer to any point of the brick position [m], measured brick to brick; infinity if there is none.
+  /// Returns a lower bound of the distance between any point of the brick position and any seam cell [m], measured from
+  /// brick to brick; infinity if there is no seam.
   double clearance_of_bricks(const BrickPosition& position) const;
 
-  /// Whether a seam brick's box of seam cells touches the brick position.
+  /// True if the box of a brick's seam cells touches the brick position.
   bool touches(const BrickPosition& position) const;
 
  private:

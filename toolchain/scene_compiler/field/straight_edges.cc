@@ -21,26 +21,27 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kOffPlane = 1e-3;  // voxels: a vertex further off a plane is not of it
-constexpr double kGap = 0.5;        // voxels between stretches on one line: a finest brick is half of it
-constexpr double kShortest = 1.0;   // voxels
-constexpr double kTie = 1e-6;       // voxels: rounding must not decide between equals
-constexpr double kStep = 0.1;       // voxels: of the places along an edge at which its surroundings are measured
+constexpr double kOffPlane = 1e-3;  // [voxels] largest distance of a plane's vertex from the plane: half of kWrong
+constexpr double kGap = 0.5;        // [voxels] between stretches on one line: twice the edge of a finest brick
+constexpr double kShortest = 1.0;   // [voxels] least length of a stretch, chosen
+constexpr double kTie = 1e-6;       // [voxels] so that rounding does not decide between equals
+constexpr double kStep = 0.1;       // [voxels] between the places along an edge at which its surroundings are measured
+/// Slopes and radii, of the largest one, among which the widest tube is searched.
 constexpr std::array<double, 4> kSlopes = {0.2, 0.1, 0.05, 0.0};
-constexpr std::array<double, 8> kRadii = {1.0, 0.8, 0.6, 0.45, 0.3, 0.2, 0.15, 0.1};  // of the largest
+constexpr std::array<double, 8> kRadii = {1.0, 0.8, 0.6, 0.45, 0.3, 0.2, 0.15, 0.1};
 
 void store(const Vector3d& v, double (&out)[3]) { std::copy(v.data(), v.data() + 3, out); }
 
 Eigen::Map<const Vector3d> vector(const double (&v)[3]) { return Eigen::Map<const Vector3d>(v); }
 
-/// A mesh edge at which two solid triangles meet at a crease.
+/// A mesh edge at which two triangles of solids meet at a crease.
 struct CreasedEdge {
   std::array<Vector3d, 2> ends;
   std::array<Vector3d, 2> opposite;  ///< vertices of the two triangles
   std::array<Vector3d, 2> normals;   ///< unit, out of the body
   std::array<Vector3d, 2> faces;     ///< unit, in the triangles, across the edge
   std::array<double, 2> areas;
-  double side;  ///< as of format::Edge
+  double side;  ///< as in format::Edge
 };
 
 std::optional<CreasedEdge> creased(const BodyMesh& body, const MeshEdges::Edge& edge) {
@@ -49,13 +50,13 @@ std::optional<CreasedEdge> creased(const BodyMesh& body, const MeshEdges::Edge& 
   if (sides.size() != 2 || body.in_shell[sides[0].triangle] || sides[0].forward == sides[1].forward) return {};
   CreasedEdge made{};
   made.ends = {body.mesh.vertices[edge.low], body.mesh.vertices[edge.high]};
-  const Vector3d way = made.ends[1] - made.ends[0];
-  const Vector3d along = way.normalized();
+  const Vector3d span = made.ends[1] - made.ends[0];
+  const Vector3d along = span.normalized();
   for (std::size_t i = 0; i < 2; ++i) {
     made.opposite[i] = body.mesh.vertices[sides[i].opposite];
     const Vector3d across = made.opposite[i] - made.ends[0];
     const Vector3d face = across - across.dot(along) * along;
-    made.areas[i] = 0.5 * face.norm() * way.norm();
+    made.areas[i] = 0.5 * face.norm() * span.norm();
     if (made.areas[i] == 0.0) return {};
     made.faces[i] = face.normalized();
     made.normals[i] = (sides[i].forward ? 1.0 : -1.0) * along.cross(made.faces[i]).normalized();
@@ -66,7 +67,8 @@ std::optional<CreasedEdge> creased(const BodyMesh& body, const MeshEdges::Edge& 
   return made;
 }
 
-/// Whether the edge and the triangles of `other` lie in the planes of `one`, and how its faces are numbered there.
+/// The relation of two mesh edges: whether the edge and the triangles of `other` lie in the planes of `one`, and with
+/// which numbers of the faces.
 enum class Fit { kNot, kSame, kSwapped };
 
 Fit fit(const CreasedEdge& one, const CreasedEdge& other, double tolerance) {
@@ -85,13 +87,13 @@ Fit fit(const CreasedEdge& one, const CreasedEdge& other, double tolerance) {
   return swapped ? Fit::kSwapped : Fit::kSame;
 }
 
-/// A wedge and how far along its edge the mesh's edges go [m].
+/// A wedge, and the range of its edge that the mesh has [m].
 struct Crease {
   format::Edge wedge;
   double from, to;
 };
 
-/// Mesh edges that go on in one another, as one crease.
+/// Joins mesh edges that continue each other to creases.
 class Creases {
  public:
   Creases(const BodyMesh& body, double voxel_size) : tolerance_(kOffPlane * voxel_size) {
@@ -122,7 +124,8 @@ class Creases {
   }
 
  private:
-  /// The line through the chain's far ends, and the faces of its triangles by their area: single vertices are rounded.
+  /// Makes a crease of the line through the chain's far ends and the mean faces of its triangles, weighted by area.
+  /// Single vertices are rounded.
   Crease make(const std::vector<std::size_t>& chain) const {
     const CreasedEdge& first = edges_[chain.front()];
     const Vector3d direction = (first.ends[1] - first.ends[0]).normalized();
@@ -167,7 +170,7 @@ class Creases {
   std::vector<std::size_t> parent_;
 };
 
-/// What may stand beside an edge: all triangles, and the rims of holes as triangles without area.
+/// The surroundings of an edge: all triangles, and the rims of holes as triangles without area.
 class Surroundings {
  public:
   Surroundings(const SolidSurface& surface, const BodyMesh& body, double voxel_size)
@@ -185,7 +188,7 @@ class Surroundings {
     tree_ = TriangleTree(std::move(triangles));
   }
 
-  /// Distance from a point of the crease to what is of neither of its faces, `most` at most [m].
+  /// Returns the distance from a point of the crease to the nearest triangle of neither face, at most `most` [m].
   double distance(const Crease& crease, const Vector3d& p, double most) const {
     TriangleTree::Nearest nearest{most * most, Vector3d::Zero(), 0};
     tree_.nearest(
@@ -193,8 +196,8 @@ class Surroundings {
     return std::sqrt(nearest.squared_distance);
   }
 
-  /// Whether the wedge is the surface at `radius` about a point of its edge: there is more in space than triangles that
-  /// are near. Solids lie within solids, shells are thick, a hole makes the inside outside.
+  /// True if the wedge is the surface at `radius` about a point of its edge. Near triangles alone do not decide that:
+  /// solids lie within solids, shells are thick, and a hole makes the inside outside.
   bool is_surface(const format::Edge& wedge, const Vector3d& p, double radius) const {
     const Vector3d normal = vector(wedge.normal[0]);
     const Vector3d face = vector(wedge.face[0]);
@@ -232,7 +235,7 @@ class Surroundings {
   TriangleTree tree_;
 };
 
-/// The widest tube between two places: R at every sample at most what is allowed there.
+/// The widest tube between two places: R at every sample is at most the allowed one.
 struct Tube {
   double radius = 0.0;
   double slope = 0.0;
@@ -264,13 +267,13 @@ std::vector<format::Edge> stretches(const Surroundings& surroundings, const Crea
   const double step = kStep * voxel_size;
   std::vector<format::Edge> edges;
   if (crease.to - crease.from < kShortest * voxel_size) return edges;
-  const double reach = largest_radius / kShare + step;
+  const double search_radius = largest_radius / kShare + step;
   const auto count = static_cast<std::size_t>((crease.to - crease.from) / step + kTie) + 1;
-  std::vector<double> allowed(count);  // R, between this sample and the next as well
+  std::vector<double> allowed(count);  // largest R between this sample and the next
   for (std::size_t i = 0; i < count; ++i) {
     const double t = crease.from + step * static_cast<double>(i);
     const Vector3d p = vector(crease.wedge.point) + t * vector(crease.wedge.along);
-    allowed[i] = kShare * (surroundings.distance(crease, p, reach) - step);
+    allowed[i] = kShare * (surroundings.distance(crease, p, search_radius) - step);
     if (allowed[i] >= least && !surroundings.is_surface(crease.wedge, p, std::min(allowed[i], largest_radius))) {
       allowed[i] = 0.0;
     }
@@ -296,8 +299,8 @@ std::vector<format::Edge> stretches(const Surroundings& surroundings, const Crea
   return edges;
 }
 
-/// Shortens `edge` to what is apart from `other` where both run side by side, nearer than their radii. What is left may
-/// be nothing.
+/// Shortens `edge` to the part apart from `other`, if both run side by side nearer than their radii. Nothing may be
+/// left.
 void keep_apart(format::Edge& edge, const format::Edge& other, double gap) {
   constexpr double kParallel = 1.0 - 1e-6;
   const Vector3d along = vector(edge.along);
@@ -324,8 +327,9 @@ std::vector<format::Edge> straight_edges(const SolidSurface& surface, double vox
   if (creases.empty()) return {};
   const Surroundings surroundings(surface, body, voxel_size);
   std::vector<std::vector<format::Edge>> found(creases.size());
-  parallel_for(creases.size(),
-               [&](std::size_t i) { found[i] = stretches(surroundings, creases[i], voxel_size, largest_radius); });
+  parallel::for_each_index(creases.size(), [&](std::size_t i) {
+    found[i] = stretches(surroundings, creases[i], voxel_size, largest_radius);
+  });
   std::vector<format::Edge> edges;
   for (const auto& some : found) {
     for (format::Edge edge : some) {
@@ -340,11 +344,11 @@ bool reaches(const format::Edge& edge, const Vector3d& center, double half_edge)
   const Vector3d along = vector(edge.along);
   const Vector3d from = center - vector(edge.point);
   const double t = along.dot(from);
-  const double reach = half_edge * along.lpNorm<1>();
-  const double low = std::max(t - reach, edge.begin);
-  const double high = std::min(t + reach, edge.end);
+  const double half_length = half_edge * along.lpNorm<1>();
+  const double low = std::max(t - half_length, edge.begin);
+  const double high = std::min(t + half_length, edge.end);
   if (low >= high) return false;
-  const double widest = std::clamp(0.5 * (edge.begin + edge.end), low, high);  // R falls off to both ends
+  const double widest = std::clamp(0.5 * (edge.begin + edge.end), low, high);  // R decreases towards both ends
   const Vector3d across = from - t * along;
   const double r = across.norm();
   return r == 0.0 || r - half_edge * (across / r).lpNorm<1>() < edge_radius(edge, widest) * (1.0 + kTie);

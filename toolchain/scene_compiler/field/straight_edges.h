@@ -7,23 +7,25 @@
 
 namespace godobject::scene_compiler {
 
-/// Where the solids of a surface are nothing but two planes that meet at a crease, convex or re-entrant: the stretches
-/// of their straight edges about which format::Edge's g is the surface's distance wherever w > 0, to rounding of the
-/// mesh's vertices and kWrong voxels at most. That is looked at, at steps of a tenth of a voxel, all around: solids
-/// within solids and thick shells leave no stretch.
+/// Finds stretches of straight edges, convex or re-entrant, at which the solids of a surface are nothing but two planes
+/// that meet at a crease. On these stretches format::Edge's g is the distance of the surface wherever w > 0, within
+/// kWrong voxels and the rounding of the mesh's vertices. That is tested all around at steps of a tenth of a voxel. So
+/// solids within solids and thick shells leave no stretch.
 ///
-/// Mesh edges on one line between the same two planes are one. About each stretch nothing but the two planes is nearer
-/// than R / kShare, and stretches on one line are half a voxel apart, so that the tubes of different edges are. R stays
-/// below `largest_radius` [m]; where it would be less than kEndRadius voxels a stretch ends. A dilated surface is round
-/// and has none. Deterministic. Cost: as a
-/// look at all triangles about each edge, every tenth of a voxel.
+/// Mesh edges on one line between the same two planes are one edge. About each stretch, nothing but the two planes is
+/// nearer than R / kShare. Stretches on one line are half a voxel apart, so the tubes of different edges are apart too.
+/// R stays below `largest_radius` [m]. A stretch ends where R would be less than kEndRadius voxels. A dilated surface
+/// is round and has no such edges. Deterministic. Cost: a search among all triangles about each edge, every tenth of a
+/// voxel.
 std::vector<format::Edge> straight_edges(const SolidSurface& surface, double voxel_size, double largest_radius);
 
-inline constexpr double kShare = 0.25;      // of the way to what else is near
-inline constexpr double kEndRadius = 0.25;  // voxels
-inline constexpr double kWrong = 2e-3;      // voxels
+/// Largest R, of the distance from the edge to other parts of the surface. g is the surface's distance if R is at most
+/// half of it. A quarter leaves room for bricks between the tubes of two edges.
+inline constexpr double kShare = 0.25;
+inline constexpr double kEndRadius = 0.25;  ///< least R [voxels]: the edge of a finest brick
+inline constexpr double kWrong = 2e-3;      ///< error of g [voxels]: a 25th of the default field_tolerance
 
-/// Whether w of `edge` may be positive in the cube about `center` [m]; never wrongly false.
+/// True if w of `edge` may be positive in the cube about `center` [m]. Never wrongly false.
 bool reaches(const format::Edge& edge, const Eigen::Vector3d& center, double half_edge);
 
 }  // namespace godobject::scene_compiler

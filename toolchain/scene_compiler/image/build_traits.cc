@@ -24,7 +24,7 @@ std::string traits_text(const SceneTraits& traits, const std::string& scene_name
   if (traits.paper) solvers.push_back("paper");
   const auto on = [](bool trait) { return trait ? "ON" : "OFF"; };
   return fmt::format(
-      "# What {} needs of the core, for a build of its own: cmake -DGODOBJECT_SCENE=<this file>\n"
+      "# The parts of the core that {} needs, for a build of its own: cmake -DGODOBJECT_SCENE=<this file>\n"
       "set(GODOBJECT_SCENE_SOLVERS {})\n"
       "set(GODOBJECT_SCENE_FRICTION {})\n"
       "set(GODOBJECT_SCENE_FEATURES {})\n"

@@ -6,10 +6,11 @@
 
 namespace godobject::scene_compiler {
 
-/// What of the core the image can make use of.
+/// Returns the parts of the core that the image uses.
 SceneTraits traits_of(const Scene& scene) noexcept;
 
-/// As -DGODOBJECT_SCENE takes them (toolchain/cmake/scene_traits.cmake). `scene_name` is for people.
+/// Returns the traits as the file that -DGODOBJECT_SCENE reads (toolchain/cmake/scene_traits.cmake). `scene_name`
+/// appears in a comment.
 std::string traits_text(const SceneTraits& traits, const std::string& scene_name);
 
 }  // namespace godobject::scene_compiler

@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # cmake -D NM=... -D LIBRARY=... -D SOURCE=... -D <GROUP>=source,source ... -P code_bytes.cmake
-# Writes into SOURCE, for code_bytes.h, how many bytes of machine code the core's library holds for each part that a build for one scene may be
-# without: the symbols of the part's own sources, and of the pipelines by name.
+# Writes SOURCE for code_bytes.h: the size of the machine code in the core's library for each part that a build for one
+# scene may leave out. Counts the symbols of the part's own sources, and those of the pipelines by name.
 execute_process(COMMAND "${NM}" -S -t d --defined-only "${LIBRARY}" OUTPUT_VARIABLE symbols ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "${NM} cannot read ${LIBRARY}")
@@ -44,7 +44,7 @@ foreach(line IN LISTS symbols)
         string(REPLACE "_WITH_POINTS" "" group "${group}_WITH_FRICTION")
       endif()
     endif()
-    # constructors have two names
+    # a constructor has two names
     if(group AND NOT name IN_LIST seen)
       list(APPEND seen "${name}")
       math(EXPR bytes_${group} "${bytes_${group}} + ${bytes}")

@@ -4,16 +4,16 @@
 
 namespace godobject::scene_compiler {
 
-/// Machine code of the core's library, by the part that alone needs it, counted when this program was built
-/// (code_bytes.cmake). 0: this build is without.
+/// Size of the core library's machine code in bytes, for each part that a build may leave out, counted when this
+/// program was built (code_bytes.cmake). 0: this build is without the part.
 struct CodeBytes {
   std::uint64_t paper = 0;
-  std::uint64_t paper_with_friction = 0;  ///< only there, beyond `paper`
+  std::uint64_t paper_with_friction = 0;  ///< beyond `paper`
   std::uint64_t corrected = 0;
-  std::uint64_t corrected_with_friction = 0;
-  std::uint64_t closed_forms = 0;  ///< of either of the two
-  std::uint64_t contact = 0;              ///< of a ball by its centre
-  std::uint64_t contact_with_points = 0;  ///< beyond it, of any number of points
+  std::uint64_t corrected_with_friction = 0;  ///< beyond `corrected`
+  std::uint64_t closed_forms = 0;             ///< shared by paper and corrected
+  std::uint64_t contact = 0;                  ///< for a ball by its centre
+  std::uint64_t contact_with_points = 0;      ///< beyond `contact`, for any number of points
   std::uint64_t contact_with_friction = 0;
   std::uint64_t contact_features = 0;  ///< the second direction
 };

@@ -12,11 +12,11 @@ std::size_t padded(std::size_t bytes) {
 
 }  // namespace
 
-command::AlignedBytes make_image(const std::vector<SectionBytes>& sections) {
+files::AlignedBytes make_image(const std::vector<SectionBytes>& sections) {
   const std::size_t header_bytes = padded(sizeof(format::Header) + sections.size() * sizeof(format::Section));
   std::size_t total = header_bytes;
   for (const SectionBytes& section : sections) total += padded(section.bytes.size());
-  command::AlignedBytes image(total);
+  files::AlignedBytes image(total);
   std::byte* const data = image.span().data();
 
   std::size_t offset = header_bytes;

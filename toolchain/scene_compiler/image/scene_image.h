@@ -8,12 +8,13 @@
 
 namespace godobject::scene_compiler {
 
+/// One section of a scene image.
 struct SectionBytes {
   format::SectionId id;
   std::vector<std::byte> bytes;
 };
 
-/// Lays sections out as one image, with checksums.
-command::AlignedBytes make_image(const std::vector<SectionBytes>& sections);
+/// Returns the sections as one image, with checksums.
+files::AlignedBytes make_image(const std::vector<SectionBytes>& sections);
 
 }  // namespace godobject::scene_compiler

@@ -21,18 +21,14 @@ std::vector<std::byte> bytes_of_one(const T& value) {
 
 }  // namespace
 
-std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts& parts) {
+std::vector<SectionBytes> lay_out(const SceneParts& parts) {
   using format::SectionId;
   const DistanceGrid& field = parts.field;
-  const MovingBody& body = report.body;
-  format::Settings settings = report.config.settings;
-  if (report.only_solver) {
-    settings.solvers = 1u << static_cast<std::uint32_t>(*report.only_solver);
-    settings.default_solver = static_cast<std::uint32_t>(*report.only_solver);
-  }
+  const MovingBody& body = parts.body;
+  const bool holds_paper = (parts.settings.solvers >> static_cast<std::uint32_t>(format::Solver::kPaper) & 1u) != 0;
   std::vector<SectionBytes> sections;
-  sections.push_back({SectionId::kSettings, bytes_of_one(settings)});
-  if (report.config.workspace) sections.push_back({SectionId::kWorkspace, bytes_of_one(*report.config.workspace)});
+  sections.push_back({SectionId::kSettings, bytes_of_one(parts.settings)});
+  if (parts.workspace) sections.push_back({SectionId::kWorkspace, bytes_of_one(*parts.workspace)});
   sections.push_back({SectionId::kGrid, bytes_of_one(field.grid)});
   sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
   sections.push_back({SectionId::kBricks, bytes_of(packed_bricks(field))});
@@ -40,8 +36,7 @@ std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts&
   if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
-  if (!body.normals.empty() && report.only_solver.value_or(format::Solver::kPaper) == format::Solver::kPaper)
-    sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
+  if (!body.normals.empty() && holds_paper) sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
   sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
   if (parts.features.points.empty()) return sections;
   sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});

@@ -1,22 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "toolchain/scene_compiler/compile_scene.h"
+#include "core/scene/format.h"
 #include "toolchain/scene_compiler/field/distance_grid.h"
 #include "toolchain/scene_compiler/image/scene_image.h"
+#include "toolchain/scene_compiler/points/moving_body.h"
 #include "toolchain/scene_compiler/points/still_features.h"
 
 namespace godobject::scene_compiler {
 
-/// What goes into the image beside what a CompileReport holds, provenance left out.
+/// The contents of a scene image, without the provenance.
 struct SceneParts {
-  DistanceGrid field;
+  format::Settings settings{};
+  std::optional<format::Workspace> workspace;
+  DistanceGrid field;  ///< of the still body
+  MovingBody body;
   StillFeatures features;
-  DistanceGrid body_field;  ///< only with features
+  DistanceGrid body_field;  ///< of the moving body; stored only with features
 };
 
-/// All sections but the provenance.
-std::vector<SectionBytes> lay_out(const CompileReport& report, const SceneParts& parts);
+/// Returns all sections of the image but the provenance. Stores normals only for the solver `paper`, which reads them.
+std::vector<SectionBytes> lay_out(const SceneParts& parts);
 
 }  // namespace godobject::scene_compiler

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/mesh_normals.h"
 
 namespace godobject::scene_compiler {
@@ -27,13 +28,7 @@ BodyMesh::BodyMesh(const SolidSurface& surface)
   for (const std::uint32_t component : surface.component_of_triangle()) {
     in_shell.push_back(surface.components()[component].shell);
   }
-  Eigen::Vector3d low = mesh.vertices.front();
-  Eigen::Vector3d high = low;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  diagonal = (high - low).norm();
+  diagonal = Box::around(mesh.vertices).diagonal();
 }
 
 bool BodyMesh::encloses_volume() const {

@@ -7,19 +7,19 @@
 
 namespace godobject::scene_compiler {
 
-/// The triangles of a body with what belongs to each. Those of solid components run counter-clockwise seen from
-/// outside, also where the file has them inside out.
+/// The triangles of a body with their edges, normals and kinds. The triangles of solid components run counter-clockwise
+/// seen from outside, also if the file has them inside out.
 struct BodyMesh {
   explicit BodyMesh(const SolidSurface& surface);
 
   TriangleMesh mesh;
   MeshEdges edges;
   std::vector<Eigen::Vector3d> face_normals;  ///< unit; zero for a triangle without area
-  std::vector<bool> in_shell;                 ///< by triangle: of a thickened sheet, both of whose sides are outside
-  double half_thickness;                      ///< of shells [m]
-  double diagonal;                            ///< of the bounding box [m]
+  std::vector<bool> in_shell;  ///< by triangle: part of a thickened sheet, so both of its sides are outside
+  double half_thickness;       ///< of shells [m]
+  double diagonal;             ///< of the bounding box [m]
 
-  /// Closed and without shells.
+  /// True if the mesh is closed and has no shells.
   bool encloses_volume() const;
 };
 

@@ -7,7 +7,8 @@
 
 namespace godobject::scene_compiler {
 
-/// Triangles connected by shared vertices, numbered in the order of their first triangle.
+/// Sets of triangles that are connected by shared vertices. A set's number follows the order of the sets' first
+/// triangles.
 struct Components {
   std::uint32_t count = 0;
   std::vector<std::uint32_t> of_triangle;

@@ -6,21 +6,26 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/box.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastVolume = 1e-10;  // of the bounding box's diagonal cubed: below it rounding decides
-constexpr double kEqualMoments = 1e-5;  // of the largest: coordinates in single precision, some metres off the origin
+/// Of the bounding box's diagonal cubed. Chosen between the rounding of the sums, about 1e-15, and the thinnest body
+/// with a useful inertia.
+constexpr double kLeastVolume = 1e-10;
+/// Of the largest moment. Single-precision coordinates some metres off the origin change equal moments by as much.
+constexpr double kEqualMoments = 1e-5;
 
 Matrix3d inertia_of_covariance(const Matrix3d& covariance) {
   return covariance.trace() * Matrix3d::Identity() - covariance;
 }
 
 Vector3d with_positive_largest(const Vector3d& axis) {
-  // of components equal to rounding the first decides
+  // if components are equal up to rounding, the first decides
   int largest = 0;
   for (int i = 1; i < 3; ++i) {
     if (std::abs(axis[i]) > std::abs(axis[largest]) + 1e-9) largest = i;
@@ -28,7 +33,7 @@ Vector3d with_positive_largest(const Vector3d& axis) {
   return axis[largest] < 0.0 ? Vector3d(-axis) : axis;
 }
 
-/// The direction perpendicular to `axis` that is nearest to one of M's axes; of equally near ones the first.
+/// Returns the direction perpendicular to `axis` that is nearest to one of M's axes; the first of equally near ones.
 Vector3d nearest_frame_axis_across(const Vector3d& axis) {
   int least = 0;
   for (int i = 1; i < 3; ++i) {
@@ -42,20 +47,16 @@ Vector3d nearest_frame_axis_across(const Vector3d& axis) {
 MassMoments moments_of_volume(const TriangleMesh& closed_mesh) {
   MassMoments moments;
   if (closed_mesh.triangles.empty()) return moments;
-  Vector3d low = closed_mesh.vertices[closed_mesh.triangles[0][0]];
-  Vector3d high = low;
+  Box box;
   for (const auto& t : closed_mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      low = low.cwiseMin(closed_mesh.vertices[v]);
-      high = high.cwiseMax(closed_mesh.vertices[v]);
-    }
+    for (const std::uint32_t v : t) box.add(closed_mesh.vertices[v]);
   }
-  const Vector3d reference = 0.5 * (low + high);
+  const Vector3d reference = 0.5 * (box.low + box.high);
   Vector3d first = Vector3d::Zero();
   Matrix3d second = Matrix3d::Zero();
   double volume = 0.0;
   for (const auto& t : closed_mesh.triangles) {
-    // the tetrahedron from the reference to the triangle: integrals of 1, x and x x'
+    // integrals of 1, x and x x' over the tetrahedron from the reference to the triangle
     const Vector3d a = closed_mesh.vertices[t[0]] - reference;
     const Vector3d b = closed_mesh.vertices[t[1]] - reference;
     const Vector3d c = closed_mesh.vertices[t[2]] - reference;
@@ -65,7 +66,7 @@ MassMoments moments_of_volume(const TriangleMesh& closed_mesh) {
     first += part / 4.0 * sum;
     second += part / 20.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
-  if (!(volume > kLeastVolume * std::pow((high - low).norm(), 3))) return moments;
+  if (!(volume > kLeastVolume * std::pow(box.diagonal(), 3))) return moments;
   const Vector3d offset = first / volume;
   moments.volume = volume;
   moments.center = reference + offset;

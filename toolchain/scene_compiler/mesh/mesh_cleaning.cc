@@ -9,6 +9,7 @@
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/mesh/components.h"
+#include "toolchain/scene_compiler/mesh/mesh_edges.h"
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 namespace godobject::scene_compiler {
@@ -17,9 +18,10 @@ namespace {
 using Eigen::Vector3d;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double kWeldTolerance = 1e-6;  // of the bounding box's diagonal
+/// Of the bounding box's diagonal: 16 times the rounding of single-precision coordinates (6e-8).
+constexpr double kWeldTolerance = 1e-6;
 
-/// A triangle whose height is below this share of the weld tolerance has no normal worth the name.
+/// Least height of a triangle, of the weld tolerance. Rounding decides the normal of a lower one.
 constexpr double kThinnest = 1e-3;
 
 void measure_box(const std::vector<Vector3d>& vertices, const std::string& name, MeshReport& report) {
@@ -44,7 +46,7 @@ void measure_box(const std::vector<Vector3d>& vertices, const std::string& name,
   }
 }
 
-/// Index of the vertex that stands for each one: the first one met within `tolerance`.
+/// Returns, for each vertex, the index of the vertex that replaces it: the first one within `tolerance`.
 std::vector<std::uint32_t> weld(const std::vector<Vector3d>& vertices, double tolerance) {
   using Cell = std::array<std::int64_t, 3>;
   struct Hash {
@@ -54,8 +56,8 @@ std::vector<std::uint32_t> weld(const std::vector<Vector3d>& vertices, double to
       return hash;
     }
   };
-  // cells twice the tolerance wide: what lies within the tolerance of p lies in one of the 8 cells around p's nearest
-  // corner
+  // Cells are twice the tolerance wide. So all points within the tolerance of p lie in the 8 cells around p's nearest
+  // corner.
   const double width = 2.0 * tolerance;
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells;
   cells.reserve(vertices.size());
@@ -98,13 +100,13 @@ bool has_no_area(const std::vector<Vector3d>& vertices, const Triangle& t, doubl
   return e0.cross(e2).norm() <= longest * kThinnest * tolerance;
 }
 
-/// Of triangles on the same three corners one is kept, wound as the majority. Where both senses balance, one of each
-/// stays: a fold without volume, which leaves the winding number and the boundary as they are.
+/// Drops all but one of the triangles on the same three corners. The majority's winding stays. If both senses balance,
+/// one of each stays: a fold without volume, which changes neither the winding number nor the boundary.
 void drop_duplicates(std::vector<Triangle>& triangles, MeshReport& report) {
   struct Keyed {
     Triangle corners;  // ascending
     std::uint32_t index;
-    bool even;  // an even permutation of them
+    bool even;  // the corners are an even permutation of the ascending ones
     bool operator<(const Keyed& other) const {
       return corners != other.corners ? corners < other.corners : index < other.index;
     }
@@ -119,7 +121,7 @@ void drop_duplicates(std::vector<Triangle>& triangles, MeshReport& report) {
     sorted.push_back({corners, i, even});
   }
   std::sort(sorted.begin(), sorted.end());
-  std::vector<bool> kept(triangles.size());
+  std::vector<bool> stays(triangles.size());
   for (std::size_t begin = 0; begin < sorted.size();) {
     std::size_t end = begin;
     std::ptrdiff_t balance = 0;
@@ -128,14 +130,14 @@ void drop_duplicates(std::vector<Triangle>& triangles, MeshReport& report) {
       if (even ? balance < 0 : balance > 0) continue;
       const auto first = std::find_if(sorted.begin() + static_cast<std::ptrdiff_t>(begin), sorted.end(),
                                       [even](const Keyed& k) { return k.even == even; });
-      kept[first->index] = true;
+      stays[first->index] = true;
     }
     report.folded_triangles += balance == 0 ? 2 : 0;
     begin = end;
   }
   std::size_t count = 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (kept[i]) triangles[count++] = triangles[i];
+    if (stays[i]) triangles[count++] = triangles[i];
   }
   report.duplicate_triangles = triangles.size() - count;
   triangles.resize(count);
@@ -147,51 +149,30 @@ void drop_loose_vertices(TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) renumbered[v] = 0;
   }
-  std::uint32_t kept = 0;
+  std::uint32_t used = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (renumbered[i] == kUnused) continue;
-    renumbered[i] = kept;
-    mesh.vertices[kept++] = mesh.vertices[i];
+    renumbered[i] = used;
+    mesh.vertices[used++] = mesh.vertices[i];
   }
-  mesh.vertices.resize(kept);
+  mesh.vertices.resize(used);
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& v : t) v = renumbered[v];
   }
 }
 
 void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
-  struct Edge {
-    std::uint32_t low, high;
-    bool forward;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = t[i];
-      const std::uint32_t to = t[(i + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
-  std::int64_t distinct = 0;
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::size_t end = begin;
-    std::ptrdiff_t forward = 0;
-    while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) {
-      forward += edges[end++].forward ? 1 : 0;
-    }
-    const std::size_t count = end - begin;
-    if (count == 1) ++report.boundary_edges;
-    if (count > 2) ++report.nonmanifold_edges;
-    if (count == 2 && forward != 1) ++report.misoriented_edges;
-    ++distinct;
-    begin = end;
+  const MeshEdges edges(mesh);
+  for (const MeshEdges::Edge& edge : edges.all()) {
+    const auto sides = edges.sides(edge);
+    if (sides.size() == 1) ++report.boundary_edges;
+    if (sides.size() > 2) ++report.nonmanifold_edges;
+    if (sides.size() == 2 && sides[0].forward == sides[1].forward) ++report.misoriented_edges;
   }
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();
-  report.euler = static_cast<std::int64_t>(report.vertices) - distinct + static_cast<std::int64_t>(report.triangles);
+  report.euler = static_cast<std::int64_t>(report.vertices) - static_cast<std::int64_t>(edges.all().size()) +
+                 static_cast<std::int64_t>(report.triangles);
   report.components = connected_components(mesh).count;
 }
 
@@ -200,7 +181,7 @@ void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
 TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& report) {
   if (mesh.triangles.empty()) {
     throw command::Failure(command::ExitCode::kBadData,
-                           fmt::format("{}: holds no triangles; export a surface mesh, not points or lines", name));
+                           fmt::format("{}: contains no triangles; export a surface mesh, not points or lines", name));
   }
   if (mesh.triangles.size() > kMaxTriangles) {
     throw command::Failure(command::ExitCode::kBadData,
@@ -212,7 +193,8 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
       if (v >= mesh.vertices.size()) {
         throw command::Failure(
             command::ExitCode::kBadData,
-            fmt::format("{}: a face names vertex {} of {}; export the mesh again", name, v, mesh.vertices.size()));
+            fmt::format("{}: a face refers to vertex {}, but there are {} vertices; export the mesh again", name, v,
+                        mesh.vertices.size()));
       }
     }
   }

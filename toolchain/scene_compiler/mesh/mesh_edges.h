@@ -8,13 +8,13 @@
 
 namespace godobject::scene_compiler {
 
-/// The edges of a mesh with the triangles at each. Edges ascend by their vertices (low < high).
+/// The edges of a mesh, each with its triangles. Edges ascend by their vertices (low < high).
 class MeshEdges {
  public:
-  /// A triangle at an edge; `forward`: its counter-clockwise boundary runs from the edge's low vertex to its high one.
+  /// A triangle at an edge. `forward`: its counter-clockwise boundary runs from the edge's low vertex to its high one.
   struct Side {
     std::uint32_t triangle;
-    std::uint32_t opposite;  ///< the vertex that is not on the edge
+    std::uint32_t opposite;  ///< the vertex off the edge
     bool forward;
   };
   struct Edge {
@@ -27,7 +27,7 @@ class MeshEdges {
   const std::vector<Edge>& all() const { return edges_; }
   std::span<const Side> sides(const Edge& edge) const { return {sides_.data() + edge.first_side, edge.side_count}; }
 
-  /// Every edge has two triangles that run along it in opposite directions.
+  /// True if every edge has two triangles that run along it in opposite directions.
   bool closed() const;
 
  private:

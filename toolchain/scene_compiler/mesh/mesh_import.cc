@@ -27,9 +27,9 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
   if (extension != ".ply" && extension != ".stl" && extension != ".obj") {
     throw command::Failure(
         command::ExitCode::kBadData,
-        fmt::format("{}: not a PLY, STL or OBJ file by its name; export the mesh as one of them", file.string()));
+        fmt::format("{}: has no name of a PLY, STL or OBJ file; export the mesh as one of them", file.string()));
   }
-  command::require_regular_input(file, "check `mesh` in the scene file: it is found relative to that");
+  files::require_regular_input(file, "check `mesh` in the scene file: the path is relative to that file");
   std::ifstream stream(file, std::ios::binary);
   if (stream.peek() == std::ifstream::traits_type::eof()) {
     throw command::Failure(command::ExitCode::kBadData,
@@ -37,8 +37,8 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
   }
 }
 
-/// All meshes of the scene as one (the importer splits a file by material and group), polygons cut into triangles. The
-/// importer's own steps for that are not used: they crash on indices out of range, which it lets pass.
+/// Joins the meshes of the scene, which the importer splits by material and group, and cuts polygons into triangles.
+/// The importer's own steps for that crash on indices out of range, which it accepts.
 TriangleMesh gather(const aiScene& scene, MeshReport& report) {
   TriangleMesh all;
   std::vector<std::uint32_t> corners;
@@ -55,7 +55,7 @@ TriangleMesh gather(const aiScene& scene, MeshReport& report) {
       for (unsigned i = 0; i < face.mNumIndices; ++i) {
         if (face.mIndices[i] >= mesh.mNumVertices) {
           throw std::runtime_error(
-              fmt::format("face {} names vertex {} of {}", f, face.mIndices[i], mesh.mNumVertices));
+              fmt::format("face {} refers to vertex {}, but there are {}", f, face.mIndices[i], mesh.mNumVertices));
         }
         corners.push_back(first + face.mIndices[i]);
       }
@@ -83,7 +83,7 @@ TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshRe
   check_readable(file, extension);
   TriangleMesh mesh;
   try {
-    // assimp 5.2 misreads some binary PLY files without a word: those have a reader of their own
+    // assimp 5.2 silently misreads some binary PLY files, so they have a reader of their own
     mesh = extension == ".ply" ? read_ply(file, report) : read_with_assimp(file, report);
   } catch (const std::exception& error) {
     throw command::Failure(

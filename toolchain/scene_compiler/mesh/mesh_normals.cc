@@ -43,7 +43,7 @@ std::vector<std::array<Vector3d, 3>> corner_normals(const TriangleMesh& mesh,
                                                     const std::vector<Vector3d>& face_normals) {
   const VertexCorners around(mesh);
   std::vector<std::array<Vector3d, 3>> normals(mesh.triangles.size());
-  parallel_for(mesh.triangles.size(), [&](std::size_t t) {
+  parallel::for_each_index(mesh.triangles.size(), [&](std::size_t t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       Vector3d sum = Vector3d::Zero();
       for (const std::size_t other : around.of(mesh.triangles[t][corner])) {

@@ -8,10 +8,10 @@
 
 namespace godobject::scene_compiler {
 
-/// Edges along which the solid components' triangles do not cancel.
+/// The edges along which the triangles of the solid components do not cancel.
 struct OpenBoundary {
-  TriangleTree edges;   ///< as flat triangles
-  double length = 0.0;  ///< each edge as often as it is left over [m]
+  TriangleTree edges;   ///< as triangles without area
+  double length = 0.0;  ///< each edge counts as often as its sides do not cancel [m]
 };
 
 OpenBoundary open_boundary(const TriangleMesh& mesh, const std::vector<SolidSurface::Component>& components,

@@ -13,16 +13,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 1e-6;          // of the bounding box's diagonal: above rounding, below any wall
-constexpr double kMostNegative = 0.49;  // winding number outside; a flat open sheet has just -0.5 there and 0.5 inside
-constexpr double kLeastOuterPart = 4e-3;  // of the area; with less a mesh is taken for one without outside
-constexpr std::uint64_t kBlock = 1u << 16;
-constexpr std::size_t kRun = 256;  // samples that are asked for one after the other
-constexpr std::size_t kPieces = 64;
-constexpr double kLongestCell = 1.4;  // spacings
-constexpr double kLeastCell = 0.5;    // squared spacings; smaller ones get a draw in proportion to their area
+/// Of the bounding box's diagonal: above the rounding of vertices, below the thickness of walls.
+constexpr double kStep = 1e-6;
+/// Least winding number outside is minus this. A flat open sheet has exactly -0.5 there, and 0.5 inside.
+constexpr double kMostNegative = 0.49;
+constexpr double kLeastOuterPart = 4e-3;  // Chosen; of the area. A mesh with less outer surface counts as one without.
+constexpr std::uint64_t kBlock = 1u << 16;  // draws for each report of progress
+constexpr std::size_t kRun = 256;           // samples that one thread tests in a row
+constexpr std::size_t kPieces = 64;         // pieces of the surface that one thread samples in a row
+/// Spacings: sqrt(2), rounded down. Halving a longer side leaves at least 0.7 spacings.
+constexpr double kLongestCell = 1.4;
+/// Squared spacings: a quarter of the largest cell's area. Smaller cells get a draw in proportion to their area.
+constexpr double kLeastCell = 0.5;
 
-/// A number in 0 .. 1 for each (seed, index, dimension): a hash (splitmix64), so that draws can be made in any order.
+/// Returns a number in 0 .. 1 for each (seed, index, dimension). A hash (splitmix64) allows draws in any order.
 double uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
   std::uint64_t x = (seed << 48) + 3 * index + dimension + 1;
   x *= 0x9e3779b97f4a7c15u;
@@ -49,10 +53,11 @@ bool OuterSurface::is_outer(const SurfaceSample& sample, Known& known) const {
   if (surface_.solid_triangles().empty()) return true;
   if (sample.on_shell) return surface_.winding_number(sample.point) < 0.5;
   const Vector3d off = sample.point - step_ * sample.inward;
-  const Vector3d way = known.point - off;
+  const Vector3d path = known.point - off;
   TriangleTree::RayHit hit{};
-  if (way.norm() < known.reach && !surface_.solid_triangles().first_hit(off, way, 0.0, 1.0, hit)) return known.outer;
-  // through its triangle the winding number grows by one: it passes one half if it was within one half of zero
+  if (path.norm() < known.free_path && !surface_.solid_triangles().first_hit(off, path, 0.0, 1.0, hit))
+    return known.outer;
+  // through its own triangle the winding number grows by one. It passes one half if it was within one half of zero.
   const double outside = surface_.winding_number(off);
   const double margin = std::min(std::abs(outside - 0.5), std::abs(outside + kMostNegative));
   known = {off, surface_.constant_side_path(off, 0.5 - margin), outside > -kMostNegative && outside < 0.5};
@@ -61,12 +66,12 @@ bool OuterSurface::is_outer(const SurfaceSample& sample, Known& known) const {
 
 std::vector<std::uint8_t> OuterSurface::are_outer(std::span<const SurfaceSample> samples) const {
   std::vector<std::uint8_t> outer(samples.size());
-  parallel_chunks(samples.size(), kRun,
-                  [&](std::size_t begin, std::size_t end) {
-                    Known known;
-                    for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i], known) ? 1 : 0;
-                  },
-                  {});
+  parallel::for_each_chunk(samples.size(), kRun,
+                           [&](std::size_t begin, std::size_t end) {
+                             Known known;
+                             for (std::size_t i = begin; i < end; ++i) outer[i] = is_outer(samples[i], known) ? 1 : 0;
+                           },
+                           {});
   return outer;
 }
 
@@ -96,7 +101,7 @@ std::vector<SurfaceSample> OuterSurface::draw_near(double spacing, std::uint32_t
   const CellDraws draws{spacing, 2 * std::uint64_t{seed}, near};
   const std::size_t parts = patches_.size() / kPieces + 1;
   std::vector<std::vector<SurfaceSample>> samples(parts);
-  parallel_for(parts, [&](std::size_t part) {
+  parallel::for_each_index(parts, [&](std::size_t part) {
     const std::size_t end = std::min((part + 1) * kPieces, patches_.size());
     for (std::size_t piece = part * kPieces; piece < end; ++piece) {
       draw_cell({piece, 0.0, 0.0, 1.0, 1.0}, draws, samples[part]);
@@ -107,7 +112,7 @@ std::vector<SurfaceSample> OuterSurface::draw_near(double spacing, std::uint32_t
   return all;
 }
 
-/// Of pieces much smaller than the spacing only some get a draw.
+/// Draws in one cell. Of pieces much smaller than the spacing only some get a draw.
 void OuterSurface::draw_cell(const Cell& cell, const CellDraws& draws, std::vector<SurfaceSample>& samples) const {
   const auto point = [&](double u, double v) {
     return patches_.at(cell.piece, cell.u + u * cell.size_u, cell.v + v * cell.size_v).point;
@@ -136,7 +141,8 @@ void OuterSurface::draw_cell(const Cell& cell, const CellDraws& draws, std::vect
                                 cell.v + uniform(draws.seed, key, 2) * cell.size_v));
 }
 
-void OuterSurface::draw_outer(const Draws& draws, const Progress& progress, std::vector<SurfaceSample>& samples) const {
+void OuterSurface::draw_outer(const Draws& draws, const parallel::Progress& progress,
+                              std::vector<SurfaceSample>& samples) const {
   for (std::uint64_t begin = 0; begin < draws.count; begin += kBlock) {
     const std::uint64_t end = std::min(begin + kBlock, draws.count);
     append_outer(draw(draws, begin, end), samples);
@@ -144,7 +150,8 @@ void OuterSurface::draw_outer(const Draws& draws, const Progress& progress, std:
   }
 }
 
-OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed, const Progress& progress) const {
+OuterSurface::Spread OuterSurface::spread(std::uint32_t wanted, std::uint32_t seed,
+                                          const parallel::Progress& progress) const {
   Spread spread;
   std::uint64_t drawn = wanted;
   if (patches_.area() > 0.0) draw_outer({drawn, 2 * std::uint64_t{seed}}, progress, spread.samples);

@@ -112,7 +112,7 @@ PlyHeader read_header(std::string_view data) {
   throw std::runtime_error("no complete PLY header");
 }
 
-/// Numbers of the file's body, one after the other.
+/// Reads the numbers after the header, one after the other.
 class Body {
  public:
   Body(std::string_view data, Encoding encoding) : data_(data), encoding_(encoding) {}
@@ -135,7 +135,7 @@ class Body {
   std::uint64_t next_count(Number type) {
     const double value = next(type);
     if (!(value >= 0.0 && value <= static_cast<double>(data_.size()) && value == std::floor(value))) {
-      throw std::runtime_error(fmt::format("a list of {} entries", value));
+      throw std::runtime_error(fmt::format("a list with {} entries", value));
     }
     return static_cast<std::uint64_t>(value);
   }
@@ -163,15 +163,15 @@ class Body {
     if (error == std::errc::result_out_of_range) {
       value = std::numeric_limits<double>::infinity();
     } else if (error != std::errc() || (stop != end && std::isspace(static_cast<unsigned char>(*stop)) == 0)) {
-      throw std::runtime_error(fmt::format("\"{}\" where a number should stand",
-                                           data_.substr(at_, std::min<std::size_t>(20, data_.size() - at_))));
+      throw std::runtime_error(
+          fmt::format("\"{}\" instead of a number", data_.substr(at_, std::min<std::size_t>(20, data_.size() - at_))));
     }
     at_ = static_cast<std::size_t>(stop - data_.data());
     return value;
   }
 
   [[noreturn]] static void throw_short() {
-    throw std::runtime_error("it ends before the last element its header announces");
+    throw std::runtime_error("it ends before the last element that its header announces");
   }
 
   std::string_view data_;
@@ -189,7 +189,7 @@ void read_vertices(Body& body, const Element& element, TriangleMesh& mesh) {
   int found = 0;
   for (const Property& p : element.properties)
     found += std::count(std::begin(kAxes), std::end(kAxes), p.name) != 0 ? 1 : 0;
-  if (found != 3) throw std::runtime_error("its vertices lack x, y or z");
+  if (found != 3) throw std::runtime_error("vertices without x, y or z");
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Eigen::Vector3d vertex = Eigen::Vector3d::Zero();
     for (const Property& p : element.properties) {
@@ -217,7 +217,8 @@ void read_faces(Body& body, const Element& element, TriangleMesh& mesh, MeshRepo
       for (std::uint64_t k = 0; k < count; ++k) {
         const double corner = body.next(p.type);
         if (!(corner >= 0.0 && corner < static_cast<double>(mesh.vertices.size()))) {
-          throw std::runtime_error(fmt::format("face {} names vertex {} of {}", i, corner, mesh.vertices.size()));
+          throw std::runtime_error(
+              fmt::format("face {} refers to vertex {}, but there are {}", i, corner, mesh.vertices.size()));
         }
         corners.push_back(static_cast<std::uint32_t>(corner));
       }
@@ -238,7 +239,7 @@ TriangleMesh read_ply(const std::filesystem::path& file, MeshReport& report) {
   TriangleMesh mesh;
   for (const Element& element : header.elements) {
     if (element.count > 4 * kMaxTriangles) {
-      throw std::runtime_error(fmt::format("{} of element {} are more than the limit", element.count, element.name));
+      throw std::runtime_error(fmt::format("{} items of element {} exceed the limit", element.count, element.name));
     }
     if (element.name == "vertex") {
       read_vertices(body, element, mesh);

@@ -6,10 +6,10 @@
 
 namespace godobject::scene_compiler {
 
-/// Reads a PLY file, ASCII or binary of either byte order, in full double precision: the properties x, y, z of
-/// `vertex`, the list vertex_indices (or vertex_index) of `face`; everything else is skipped. Polygons are cut into
-/// triangles. Fills the file_, polygons and lines_and_points fields of `report`. Throws std::runtime_error saying what
-/// is wrong.
+/// Reads a PLY file, ASCII or binary of either byte order, in double precision. Reads the properties x, y, z of
+/// `vertex` and the list vertex_indices (or vertex_index) of `face`, and skips all others. Cuts polygons into
+/// triangles. Fills the members file_vertices, file_faces, polygons and lines_and_points of `report`. Throws
+/// std::runtime_error with the reason.
 TriangleMesh read_ply(const std::filesystem::path& file, MeshReport& report);
 
 }  // namespace godobject::scene_compiler

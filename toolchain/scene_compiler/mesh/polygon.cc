@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Twice the signed area of a, b, c seen against `normal`.
+/// Returns twice the signed area of a, b, c, projected along `normal`.
 double turn(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& normal) {
   return (b - a).cross(c - a).dot(normal);
 }
@@ -17,7 +17,7 @@ double turn(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vecto
 void triangulate(const std::vector<Vector3d>& vertices, std::span<const std::uint32_t> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::vector<std::uint32_t> left(corners.begin(), corners.end());
-  Vector3d normal = Vector3d::Zero();  // Newell: right for concave polygons too
+  Vector3d normal = Vector3d::Zero();  // Newell's normal: correct for concave polygons too
   for (std::size_t i = 1; i + 1 < left.size(); ++i) {
     normal += (vertices[left[i]] - vertices[left[0]]).cross(vertices[left[i + 1]] - vertices[left[0]]);
   }
@@ -39,7 +39,7 @@ void triangulate(const std::vector<Vector3d>& vertices, std::span<const std::uin
   while (left.size() > 3) {
     std::size_t ear = 0;
     while (ear < left.size() && !is_ear(ear)) ++ear;
-    if (ear == left.size()) ear = 0;  // it crosses itself or has no area: any cut is as good
+    if (ear == left.size()) ear = 0;  // the polygon crosses itself or has no area: any cut is as good
     const std::size_t n = left.size();
     triangles.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));

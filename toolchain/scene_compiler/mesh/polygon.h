@@ -9,8 +9,8 @@
 
 namespace godobject::scene_compiler {
 
-/// Cuts a simple polygon, flat or nearly so, convex or not, into corners.size() - 2 triangles of the same sense (ear
-/// clipping). `corners` index `vertices`; the triangles are appended.
+/// Cuts a simple polygon, (nearly) flat, convex or not, into corners.size() - 2 triangles of the same sense by ear
+/// clipping. `corners` index `vertices`. Appends the triangles.
 void triangulate(const std::vector<Eigen::Vector3d>& vertices, std::span<const std::uint32_t> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 

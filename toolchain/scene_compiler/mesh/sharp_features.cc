@@ -11,12 +11,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The sharp edges at one vertex.
+/// The sharp edges that meet at one vertex.
 struct Meeting {
   int edges = 0;
   std::array<Vector3d, 2> directions{Vector3d::Zero(),
                                      Vector3d::Zero()};  ///< along the first two, away from the vertex
-  Vector3d outward = Vector3d::Zero();                   ///< sum of theirs
+  Vector3d outward = Vector3d::Zero();                   ///< sum of the edges' outward directions
 
   bool corner() const { return edges > 2 || (edges == 2 && directions[0].dot(directions[1]) > -kCreaseCosine); }
 
@@ -27,7 +27,7 @@ struct Meeting {
   }
 };
 
-/// Outward direction of an edge, or zero if it is not sharp.
+/// Returns the outward direction of an edge; zero if it is not sharp.
 Vector3d outward_of_edge(const BodyMesh& body, const MeshEdges::Edge& edge) {
   const auto sides = body.edges.sides(edge);
   const bool in_shell = body.in_shell[sides[0].triangle];
@@ -42,7 +42,7 @@ Vector3d outward_of_edge(const BodyMesh& body, const MeshEdges::Edge& edge) {
   return in_shell || normals.dot(outward) > 0.0 ? outward : Vector3d::Zero();
 }
 
-/// Outward direction of a vertex without sharp edges if its faces are steep all around it, otherwise zero.
+/// Returns the outward direction of a vertex without sharp edges if its faces are steep all around it; otherwise zero.
 Vector3d outward_of_apex(const BodyMesh& body, std::span<const std::size_t> corners) {
   const TriangleMesh& mesh = body.mesh;
   const std::uint32_t vertex = mesh.triangles[corners[0] / 3][corners[0] % 3];

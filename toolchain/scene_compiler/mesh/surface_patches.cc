@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastAngle = 1e-6;  // [rad] creases below it need no round
+constexpr double kLeastAngle = 1e-6;  // flatter creases need no round [rad]
 
 }  // namespace
 

@@ -9,18 +9,18 @@
 
 namespace godobject::scene_compiler {
 
-/// The pieces a body's surface is made of, buried ones included: the triangles of solids; of shells both faces, half
-/// the thickness off each triangle, and the sectors of cylinders that round rims and creases. (The pieces of spheres
-/// around a shell's vertices are left out: their area is of the order of the thickness squared.)
+/// The pieces of a body's surface, buried ones included. Solids: the triangles. Shells: both faces, half the thickness
+/// off each triangle, and the sectors of cylinders that round rims and creases. The pieces of spheres around a shell's
+/// vertices are left out, because their area is of the order of the thickness squared.
 class SurfacePatches {
  public:
-  /// Reads `body` later on: it must stay alive.
+  /// Stores a reference: `body` must outlive this object.
   explicit SurfacePatches(const BodyMesh& body);
 
   double area() const { return cumulated_area_.empty() ? 0.0 : cumulated_area_.back(); }  ///< of all pieces [m^2]
 
-  /// The point at `at` (0 .. 1) of the area when the pieces are laid in a row, placed within its piece by u and v (0 ..
-  /// 1): uniform numbers give uniform points. Normals of faces are interpolated where they meet at less than the crease
+  /// Returns the point at the share `at` (0 .. 1) of the total area, pieces in order, at u and v (0 .. 1) within its
+  /// piece. Uniform numbers give uniform points. Normals are interpolated over faces that meet at less than the crease
   /// angle.
   SurfaceSample draw(double at, double u, double v) const;
 
@@ -29,7 +29,7 @@ class SurfacePatches {
     return cumulated_area_[piece] - (piece > 0 ? cumulated_area_[piece - 1] : 0.0);
   }
 
-  /// The point of a piece at u and v (0 .. 1): equal areas of the unit square are equal parts of the piece's.
+  /// Returns the point of a piece at u and v (0 .. 1). Equal areas of the unit square map to equal areas of the piece.
   SurfaceSample at(std::size_t piece, double u, double v) const;
 
  private:

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -8,7 +10,7 @@ namespace godobject::scene_compiler {
 
 /// A point on the surface of a body.
 struct SurfaceSample {
-  /// What it stands on; where samples crowd the sharper place wins.
+  /// The kind of feature on which the sample lies. Where samples crowd, the sharper one stays.
   enum class Place : std::uint8_t { kFace = 0, kEdge = 1, kVertex = 2 };
 
   Eigen::Vector3d point;
@@ -17,8 +19,15 @@ struct SurfaceSample {
   bool on_shell = false;  ///< half a thickness off the triangles of a sheet; otherwise on a triangle of a solid
 };
 
-/// Whether samples stand for the same side of the body. Where it is thinner than their distance those of the other side
-/// are near, but feel other contacts: they neither crowd each other nor stand in for each other.
+inline std::vector<Eigen::Vector3d> points_of(std::span<const SurfaceSample> samples) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(samples.size());
+  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
+  return points;
+}
+
+/// True if the samples lie on the same side of the body. Where the body is thinner than the spacing of the samples,
+/// samples of the opposite side are near but have other contacts. They neither crowd nor replace each other.
 inline bool same_side(const SurfaceSample& a, const SurfaceSample& b) { return a.inward.dot(b.inward) > -0.5; }
 
 }  // namespace godobject::scene_compiler

@@ -17,13 +17,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSpacing = 0.5;  // of samples, voxels
-constexpr double kMostSamples = 2e6;
-constexpr double kThin = 2.0;         // voxels
-constexpr double kLost = 1.0;         // voxels
-constexpr double kRounding = 1e-4;    // a plate of exactly two voxels is not thinner
-constexpr double kFacing = -0.9;      // cosine between the normals of two faces that make a wall
-constexpr double kParallel = -0.985;  // and of a wall that is no wedge: within 10 degrees
+constexpr double kSpacing = 0.5;      // of samples [voxels]: a patch of one voxel face has four samples on either side
+constexpr double kMostSamples = 2e6;  // chosen: bounds time and memory
+/// [voxels] reported: the field stores a depth of at most 0.6 voxels in a wall of two.
+constexpr double kThin = 2.0;
+constexpr double kLost = 1.0;       // [voxels] lost: a thinner wall may have no node of the grid inside
+constexpr double kRounding = 1e-4;  // relative: a plate of exactly two voxels is not thinner
+constexpr double kFacing = -0.9;    // cosine between the normals of two faces that make a wall: within 26 degrees
+/// Cosine between the normals of near-parallel faces: within 10 degrees; others are wedges.
+constexpr double kParallel = -0.985;
 
 struct Sample {
   Vector3d point;
@@ -39,11 +41,11 @@ struct Thin {
 
 struct Samples {
   std::vector<Sample> all;
-  double area = 0.0;  // of one sample
+  double area = 0.0;  // of each sample
 };
 
-/// Spread evenly by area: every stretch of `area` along the cumulated triangles gets one, at a place of its own within
-/// the triangle it falls in.
+/// Returns samples spread evenly by area. Every stretch of `area` along the cumulated triangles gets one, at its own
+/// place within the triangle.
 Samples sample(const SolidSurface& surface, double voxel_size) {
   const TriangleMesh& mesh = surface.mesh();
   double total = 0.0;
@@ -78,14 +80,15 @@ Samples sample(const SolidSurface& surface, double voxel_size) {
   return samples;
 }
 
-/// First facing triangle of a solid along `direction` behind which the side changes, within `reach`. `wall`: what lies
-/// between must be solid, else free.
-std::optional<Thin> look_through_solid(const SolidSurface& surface, const Sample& from, bool wall, double reach) {
-  const double step = 1e-4 * reach;
+/// Returns the first facing triangle of a solid along the sample's normal behind which the side changes, within the
+/// search radius. `wall` looks inward, through solid; otherwise outward, through free space.
+std::optional<Thin> look_through_solid(const SolidSurface& surface, const Sample& from, bool wall,
+                                       double search_radius) {
+  const double step = 1e-4 * search_radius;
   const auto is_inside = [&](const Vector3d& p) { return surface.winding_number(p) > 0.5; };
   const Vector3d direction = wall ? Vector3d(-from.normal) : from.normal;
   TriangleTree::RayHit hit{};
-  for (double begin = step; surface.solid_triangles().first_hit(from.point, direction, begin, reach, hit);
+  for (double begin = step; surface.solid_triangles().first_hit(from.point, direction, begin, search_radius, hit);
        begin = hit.t + step) {
     const double cosine = hit.normal.dot(from.normal);
     if (cosine > kFacing) continue;
@@ -97,17 +100,17 @@ std::optional<Thin> look_through_solid(const SolidSurface& surface, const Sample
   return std::nullopt;
 }
 
-/// The free space between a thickened sheet and what faces it on the side of `direction`.
+/// Returns the free space between a thickened sheet and the surface that faces it in `direction`.
 std::optional<Thin> look_from_shell(const SolidSurface& surface, const Sample& from, const Vector3d& direction,
-                                    double reach) {
+                                    double search_radius) {
   const double half = 0.5 * surface.thickness();
-  const double step = 1e-4 * reach;
+  const double step = 1e-4 * search_radius;
   std::optional<Thin> nearest;
   for (const bool other_is_shell : {true, false}) {
     const double covered = half + (other_is_shell ? half : 0.0);
     const TriangleTree& tree = other_is_shell ? surface.shell_triangles() : surface.solid_triangles();
     TriangleTree::RayHit hit{};
-    if (!tree.first_hit(from.point, direction, step, covered + reach, hit)) continue;
+    if (!tree.first_hit(from.point, direction, step, covered + search_radius, hit)) continue;
     if (std::abs(hit.normal.dot(direction)) < -kFacing || hit.t <= covered) continue;
     const double gap = hit.t - covered;
     if (!nearest || gap < nearest->thickness) nearest = Thin{gap, from.point + (half + 0.5 * gap) * direction, false};
@@ -115,7 +118,7 @@ std::optional<Thin> look_from_shell(const SolidSurface& surface, const Sample& f
   return nearest;
 }
 
-/// Largest set of lost places connected by steps of one and a half voxels.
+/// Measures the largest set of lost places that are connected by steps of one and a half voxels.
 void measure_lost(const std::vector<Thin>& lost, double area_each, double voxel_size, ThinPlaces& places) {
   using Cell = std::array<int, 3>;
   struct Hash {
@@ -181,23 +184,23 @@ ThinPlaces gather(const std::vector<std::optional<Thin>>& seen, double area_each
 
 }  // namespace
 
-ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const Progress& progress) {
+ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const parallel::Progress& progress) {
   const Samples samples = sample(surface, voxel_size);
-  const double reach = kThin * voxel_size * (1.0 - kRounding);
+  const double search_radius = kThin * voxel_size * (1.0 - kRounding);
   std::vector<std::optional<Thin>> walls(samples.all.size());
   std::vector<std::optional<Thin>> gaps(samples.all.size());
-  parallel_for(
+  parallel::for_each_index(
       samples.all.size(),
       [&](std::size_t i) {
         const Sample& from = samples.all[i];
         if (!from.shell) {
-          walls[i] = look_through_solid(surface, from, true, reach);
-          gaps[i] = look_through_solid(surface, from, false, reach);
+          walls[i] = look_through_solid(surface, from, true, search_radius);
+          gaps[i] = look_through_solid(surface, from, false, search_radius);
           return;
         }
-        if (surface.thickness() < reach) walls[i] = Thin{surface.thickness(), from.point, false};
-        const auto ahead = look_from_shell(surface, from, from.normal, reach);
-        const auto behind = look_from_shell(surface, from, -from.normal, reach);
+        if (surface.thickness() < search_radius) walls[i] = Thin{surface.thickness(), from.point, false};
+        const auto ahead = look_from_shell(surface, from, from.normal, search_radius);
+        const auto behind = look_from_shell(surface, from, -from.normal, search_radius);
         gaps[i] = !behind || (ahead && ahead->thickness < behind->thickness) ? ahead : behind;
       },
       progress);

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 Vector3d nearest_point_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                                    const Vector3d& c) noexcept {
-  // The Voronoi region of p decides, by the signs of barycentric terms (Ericson, Real-Time Collision Detection, 5.1.5).
+  // The signs of barycentric terms give the Voronoi region of p (Ericson, Real-Time Collision Detection, 5.1.5).
   const Vector3d ab = b - a;
   const Vector3d ac = c - a;
   const Vector3d ap = p - a;
@@ -42,7 +42,7 @@ double solid_angle(const Vector3d& p, const Vector3d& a, const Vector3d& b, cons
   const double lu = u.norm();
   const double lv = v.norm();
   const double lw = w.norm();
-  // van Oosterom and Strackee 1983; atan2 keeps the right quadrant close to the triangle
+  // van Oosterom and Strackee 1983. atan2 gives the right quadrant close to the triangle.
   const double numerator = u.dot(v.cross(w));
   const double denominator = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
   return 2.0 * std::atan2(numerator, denominator);

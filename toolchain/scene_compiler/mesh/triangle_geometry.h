@@ -4,11 +4,11 @@
 
 namespace godobject::scene_compiler {
 
-/// Nearest point of the triangle a, b, c to p.
+/// Returns the point of the triangle a, b, c nearest to p.
 Eigen::Vector3d nearest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c) noexcept;
 
-/// Solid angle of the triangle seen from p, positive where it shows its back (p inside). [sr]
+/// Returns the solid angle of the triangle seen from p, positive if p sees its back (p inside) [sr].
 double solid_angle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                    const Eigen::Vector3d& c) noexcept;
 

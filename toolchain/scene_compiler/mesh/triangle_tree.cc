@@ -8,38 +8,29 @@
 
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/box.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kLeafTriangles = 4;
-constexpr std::size_t kStack = 288;  // a split leaves a sixteenth to each side: 2^26 triangles go 258 + 16 deep at most
+constexpr std::uint32_t kLeafTriangles = 4;  // chosen
+constexpr std::uint32_t kMostUneven = 16;
+/// Depth of the stack of open nodes. Each split leaves more than 1 / kMostUneven of the triangles on either side. So
+/// 2^26 triangles, twice kMaxTriangles, need at most ln(2^26 / kLeafTriangles) / ln(16 / 15) = 258 levels.
+constexpr std::size_t kStack = 288;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double squared_distance_to_box(const Vector3d& p, const Vector3d& low, const Vector3d& high) noexcept {
   return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
 }
 
-double half_area(const Vector3d& low, const Vector3d& high) noexcept {
-  const Vector3d e = (high - low).cwiseMax(0.0);
+/// Half of the area of a box; 0 for an empty one.
+double half_area(const Box& box) noexcept {
+  const Vector3d e = (box.high - box.low).cwiseMax(0.0);
   return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
 }
-
-struct Box {
-  Vector3d low = Vector3d::Constant(kInfinity);
-  Vector3d high = Vector3d::Constant(-kInfinity);
-
-  void add(const Vector3d& p) noexcept {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  void add(const Box& other) noexcept {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-  double cost() const noexcept { return low.x() > high.x() ? 0.0 : half_area(low, high); }
-};
 
 Box box_of(const TriangleTree::Triangle& t) noexcept {
   Box box;
@@ -49,13 +40,13 @@ Box box_of(const TriangleTree::Triangle& t) noexcept {
   return box;
 }
 
-/// Range of t in which the ray is inside the box; false if it misses.
+/// True if the ray is inside the box for some t in the range.
 bool ray_meets_box(const Vector3d& origin, const Vector3d& inverse, const Vector3d& low, const Vector3d& high,
                    double t_min, double t_max) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const double t0 = (low[axis] - origin[axis]) * inverse[axis];
     const double t1 = (high[axis] - origin[axis]) * inverse[axis];
-    // fmin and fmax drop the NaN of 0 * infinity: the ray runs in the slab's plane
+    // fmin and fmax drop the NaN of 0 * infinity, which occurs if the ray lies in the slab's plane
     t_min = std::fmax(t_min, std::fmin(t0, t1));
     t_max = std::fmin(t_max, std::fmax(t0, t1));
   }
@@ -73,7 +64,7 @@ bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const
   const double u = from_a.dot(h) / determinant;
   const Vector3d q = from_a.cross(e1);
   const double v = direction.dot(q) / determinant;
-  constexpr double kEdge = 1e-9;  // a ray through an edge meets one of the two triangles at least
+  constexpr double kEdge = 1e-9;  // so that a ray through an edge meets at least one of its two triangles
   if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge) return false;
   t = e2.dot(q) / determinant;
   return true;
@@ -105,65 +96,66 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::v
   return index;
 }
 
-/// Binned surface-area heuristic; the median of the longest axis where bins cannot part the triangles or would part
-/// them so unevenly that the tree might grow deep.
+/// Splits triangles begin .. end by the binned surface-area heuristic, or else at the median of their centroids, along
+/// the longest axis of the box around the centroids. Returns the first triangle of the second part.
 std::uint32_t TriangleTree::split(std::uint32_t begin, std::uint32_t end, std::vector<Vector3d>& centroids) {
-  constexpr int kBins = 16;
-  Box spread;
-  for (std::uint32_t i = begin; i < end; ++i) spread.add(centroids[i]);
+  const Box spread = Box::around(std::span(centroids).subspan(begin, end - begin));
   int axis = 0;
-  const Vector3d extent = spread.high - spread.low;
-  extent.maxCoeff(&axis);
-  const double low = spread.low[axis];
-  const double scale = kBins / extent[axis] * (1.0 - 1e-12);
-  const auto bin_of = [&](std::uint32_t i) {
-    return std::clamp(static_cast<int>((centroids[i][axis] - low) * scale), 0, kBins - 1);
-  };
-  const auto swap = [&](std::uint32_t i, std::uint32_t j) {
-    std::swap(triangles_[i], triangles_[j]);
-    std::swap(centroids[i], centroids[j]);
-  };
+  (spread.high - spread.low).maxCoeff(&axis);
+  const std::uint32_t middle = split_by_bins(begin, end, {axis, spread.low[axis], spread.high[axis]}, centroids);
+  return middle != begin ? middle : split_at_median(begin, end, axis, centroids);
+}
 
-  if (extent[axis] > 0.0 && std::isfinite(scale)) {
-    std::array<Box, kBins> boxes;
-    std::array<std::uint32_t, kBins> counts{};
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const auto bin = static_cast<std::size_t>(bin_of(i));
-      boxes[bin].add(box_of(triangles_[i]));
-      ++counts[bin];
-    }
-    std::array<double, kBins> right_cost{};
-    Box right;
-    std::uint32_t right_count = 0;
-    for (std::size_t bin = kBins - 1; bin > 0; --bin) {
-      right.add(boxes[bin]);
-      right_count += counts[bin];
-      right_cost[bin] = right.cost() * right_count;
-    }
-    Box left;
-    std::uint32_t left_count = 0;
-    double best = kInfinity;
-    int best_bin = -1;
-    const std::uint32_t smallest = (end - begin) / 16;
-    for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
-      left.add(boxes[bin]);
-      left_count += counts[bin];
-      const double cost = left.cost() * left_count + right_cost[bin + 1];
-      const bool balanced = left_count > smallest && end - begin - left_count > smallest;
-      if (balanced && cost < best) {
-        best = cost;
-        best_bin = static_cast<int>(bin);
-      }
-    }
-    if (best_bin >= 0) {
-      std::uint32_t middle = begin;
-      for (std::uint32_t i = begin; i < end; ++i) {
-        if (bin_of(i) <= best_bin) swap(i, middle++);
-      }
-      return middle;
+/// Returns `begin` if the bins cannot separate the triangles, or only so unevenly that the tree might grow deep.
+std::uint32_t TriangleTree::split_by_bins(std::uint32_t begin, std::uint32_t end, const Extent& extent,
+                                          std::vector<Vector3d>& centroids) {
+  constexpr int kBins = 16;
+  const double scale = kBins / (extent.high - extent.low) * (1.0 - 1e-12);
+  if (!(extent.high > extent.low) || !std::isfinite(scale)) return begin;
+  const auto bin_of = [&](std::uint32_t i) {
+    return std::clamp(static_cast<int>((centroids[i][extent.axis] - extent.low) * scale), 0, kBins - 1);
+  };
+  std::array<Box, kBins> boxes;
+  std::array<std::uint32_t, kBins> counts{};
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const auto bin = static_cast<std::size_t>(bin_of(i));
+    boxes[bin].add(box_of(triangles_[i]));
+    ++counts[bin];
+  }
+  std::array<double, kBins> right_cost{};
+  Box right;
+  std::uint32_t right_count = 0;
+  for (std::size_t bin = kBins - 1; bin > 0; --bin) {
+    right.add(boxes[bin]);
+    right_count += counts[bin];
+    right_cost[bin] = half_area(right) * right_count;
+  }
+  Box left;
+  std::uint32_t left_count = 0;
+  double best = kInfinity;
+  int best_bin = -1;
+  const std::uint32_t smallest = (end - begin) / kMostUneven;
+  for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
+    left.add(boxes[bin]);
+    left_count += counts[bin];
+    const double cost = half_area(left) * left_count + right_cost[bin + 1];
+    const bool balanced = left_count > smallest && end - begin - left_count > smallest;
+    if (balanced && cost < best) {
+      best = cost;
+      best_bin = static_cast<int>(bin);
     }
   }
+  std::uint32_t middle = begin;
+  for (std::uint32_t i = begin; i < end && best_bin >= 0; ++i) {
+    if (bin_of(i) > best_bin) continue;
+    std::swap(triangles_[i], triangles_[middle]);
+    std::swap(centroids[i], centroids[middle++]);
+  }
+  return middle;
+}
 
+std::uint32_t TriangleTree::split_at_median(std::uint32_t begin, std::uint32_t end, int axis,
+                                            std::vector<Vector3d>& centroids) {
   std::vector<std::uint32_t> order(end - begin);
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = begin + i;
   const std::size_t half = order.size() / 2;
@@ -185,7 +177,7 @@ std::uint32_t TriangleTree::split(std::uint32_t begin, std::uint32_t end, std::v
 void TriangleTree::set_dipoles() {
   dipoles_.resize(nodes_.size());
   std::vector<double> areas(nodes_.size());
-  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children stand behind their parent
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children follow their parent
     const Node& node = nodes_[n];
     Dipole& dipole = dipoles_[n];
     Vector3d weighted = Vector3d::Zero();
@@ -303,8 +295,8 @@ double TriangleTree::winding_number(const Vector3d& p, double opening) const noe
     const Dipole& dipole = dipoles_[index];
     const Vector3d to_center = dipole.center - p;
     const double squared = to_center.squaredNorm();
-    const double reach = opening * dipole.radius;
-    if (squared > reach * reach) {
+    const double far = opening * dipole.radius;
+    if (squared > far * far) {
       sum += dipole.area.dot(to_center) / (squared * std::sqrt(squared));
       continue;
     }

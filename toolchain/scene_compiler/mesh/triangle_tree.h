@@ -11,13 +11,13 @@
 
 namespace godobject::scene_compiler {
 
-/// Bounding-volume hierarchy over triangles: nearest point, ray hits, generalised winding number. Double precision;
-/// const calls may run on many threads.
+/// Bounding-volume hierarchy over triangles: nearest point, ray hits, generalised winding number. Double precision.
+/// Const calls may run on many threads.
 class TriangleTree {
  public:
   struct Triangle {
     Eigen::Vector3d a, b, c;
-    std::uint32_t id;  ///< what queries return
+    std::uint32_t id;  ///< returned by queries
   };
 
   struct Nearest {
@@ -37,19 +37,19 @@ class TriangleTree {
 
   bool empty() const noexcept { return triangles_.empty(); }
 
-  /// Nearest point of all triangles with a squared distance below `bound_squared`; false where there is none.
+  /// Finds the nearest point of all triangles with a squared distance below `bound_squared`. False if there is none.
   bool nearest(const Eigen::Vector3d& p, double bound_squared, Nearest& nearest) const noexcept;
 
-  /// The same among the triangles whose id `counts` accepts.
+  /// The same among the triangles with counts(id).
   bool nearest(const Eigen::Vector3d& p, double bound_squared, const std::function<bool(std::uint32_t)>& counts,
                Nearest& nearest) const;
 
-  /// First triangle met at t_min < t < t_max on origin + t direction.
+  /// Finds the first triangle at t_min < t < t_max on origin + t direction.
   bool first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min, double t_max,
                  RayHit& hit) const noexcept;
 
-  /// Sum of solid angles over 4 pi. A subtree further away than `opening` times its radius counts as one dipole
-  /// (Barill et al. 2018); infinity gives the exact sum.
+  /// Returns the sum of solid angles over 4 pi. A subtree farther away than `opening` times its radius counts as one
+  /// dipole (Barill et al. 2018). An infinite opening gives the exact sum.
   double winding_number(const Eigen::Vector3d& p, double opening) const noexcept;
 
  private:
@@ -61,13 +61,21 @@ class TriangleTree {
   struct Dipole {
     Eigen::Vector3d center;  ///< centroid, weighted by area
     Eigen::Vector3d area;    ///< sum of the triangles' area vectors [m^2]
-    double radius;           ///< around all of the subtree's vertices
+    double radius;           ///< of a sphere around all of the subtree's vertices
   };
 
   template <class Counts>
   bool nearest_of(const Eigen::Vector3d& p, double bound_squared, const Counts& counts, Nearest& nearest) const;
   std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
+  struct Extent {
+    int axis;
+    double low, high;  ///< of the centroids along the axis
+  };
   std::uint32_t split(std::uint32_t begin, std::uint32_t end, std::vector<Eigen::Vector3d>& centroids);
+  std::uint32_t split_by_bins(std::uint32_t begin, std::uint32_t end, const Extent& extent,
+                              std::vector<Eigen::Vector3d>& centroids);
+  std::uint32_t split_at_median(std::uint32_t begin, std::uint32_t end, int axis,
+                                std::vector<Eigen::Vector3d>& centroids);
   void set_dipoles();
 
   std::vector<Triangle> triangles_;

@@ -19,15 +19,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFlat = 1e-5;              // of the bounding box's diagonal
-constexpr double kFloatRounding = 4e-7;     // of that too: of a face's corners, against each other
-constexpr double kLeastPointRadius = 1e-9;  // [m], of a body of one point
+/// Of the bounding box's diagonal: the rounding of coordinates some metres off the origin.
+constexpr double kFlat = 1e-5;
+/// Of the diagonal: rounding of a face's corners against each other, some 6 units of 6e-8.
+constexpr double kFloatRounding = 4e-7;
 
 bool is_one_solid(const SolidSurface& surface) {
   return surface.components().size() == 1 && !surface.components().front().shell && surface.sealed();
 }
 
-/// Plane of a face, outward, and how far above it a vertex of a convex mesh may stand.
+/// The outward plane of a face, and the height above it that a vertex of a convex mesh may have.
 struct FacePlane {
   Vector3d normal;
   double offset, allowed;
@@ -42,7 +43,7 @@ FacePlane plane_of(const SolidSurface& surface, std::size_t face, double diagona
   const Vector3d area = ab.cross(ac) * (surface.components().front().inside_out ? -1.0 : 1.0);
   const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
   const Vector3d normal = area.normalized();
-  const double height = area.norm() / longest;  // the least of the three
+  const double height = area.norm() / longest;  // the smallest of the three
   return {normal, normal.dot(a), diagonal * (kFlat + kFloatRounding * diagonal / height)};
 }
 
@@ -62,7 +63,7 @@ bool is_convex(const SolidSurface& surface) {
   const TriangleMesh& mesh = surface.mesh();
   const Sphere sphere = bounding_sphere(mesh.vertices);
   std::atomic<bool> convex = true;
-  parallel_for(mesh.triangles.size(), [&](std::size_t face) {
+  parallel::for_each_index(mesh.triangles.size(), [&](std::size_t face) {
     if (!convex.load(std::memory_order_relaxed)) return;
     const FacePlane plane = plane_of(surface, face, 2.0 * sphere.radius);
     for (const Vector3d& vertex : mesh.vertices) {
@@ -78,8 +79,8 @@ Ball require_ball(const SolidSurface& moving, const std::string& moving_name, co
   const auto refuse = [](const std::string& what) { throw command::Failure(command::ExitCode::kBadData, what); };
   if (!ball) {
     refuse(
-        fmt::format("{}: is no ball: that is one closed solid with all of its surface within {:g} % of a sphere; "
-                    "mend it, or leave out moving.ball",
+        fmt::format("{}: is not a ball; a ball is one closed solid with all of its surface within {:g} % of a sphere; "
+                    "repair the mesh, or leave out moving.ball",
                     moving_name, 100.0 * kBallTolerance));
   }
   if (ball->radius < voxel_size) {
@@ -89,10 +90,10 @@ Ball require_ball(const SolidSurface& moving, const std::string& moving_name, co
                     moving_name, ball->radius, voxel_size, 0.5 * ball->radius));
   }
   if (!is_convex(still)) {
-    refuse(
-        fmt::format("{}: is not one closed convex solid, and the centre of a ball would see only one of the walls that "
-                    "meet in a re-entrant edge; leave out moving.ball",
-                    still_name));
+    refuse(fmt::format(
+        "{}: is not one closed convex solid; in a re-entrant edge the centre of a ball would touch only one of "
+        "the walls; leave out moving.ball",
+        still_name));
   }
   return *ball;
 }
@@ -103,7 +104,6 @@ MovingBody make_ball_body(const Ball& ball) {
   MovingBody moving;
   moving.points = {0.0f, 0.0f, 0.0f};
   moving.nodes = tree.nodes;
-  moving.level_sizes = {1};
   format::Body& body = moving.body;
   body.rotation_MB[0] = 1.0;
   std::copy_n(ball.center.data(), 3, body.translation_MB);

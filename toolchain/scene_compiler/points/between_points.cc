@@ -16,20 +16,13 @@ using Place = SurfaceSample::Place;
 constexpr std::size_t kCandidates = 8;  // for a point, that are tried
 constexpr double kOverlap = 2.6;        // squared radii, that one of many overlapping discs covers alone
 
-std::vector<Vector3d> points_of(std::span<const SurfaceSample> samples) {
-  std::vector<Vector3d> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
-  return points;
-}
-
-/// Distance of `point` from the normal at place `i`.
+/// Returns the distance of `point` from the normal at place `i`.
 double aside(const Relief& relief, std::size_t i, const Vector3d& point) {
   const double depth = relief.depth_below(i, point);
   return std::sqrt(std::max(0.0, (point - relief.places()[i].point).squaredNorm() - depth * depth));
 }
 
-/// Whether `point` is on the side of place `i`, and no further below it than `fall`.
+/// True if `point` is on the side of place `i`, and at most `fall` below it.
 bool serves(const Relief& relief, std::size_t i, const SurfaceSample& point, double fall) {
   return same_side(relief.places()[i], point) && relief.depth_below(i, point.point) <= fall;
 }
@@ -43,13 +36,13 @@ class Points {
     return tree_.nearest(at, distance, [](std::uint32_t) { return true; }).index != PointTree::kNone;
   }
 
-  /// R of place `i`: infinity if beyond `limit`.
-  double reach(const Relief& relief, std::size_t i, double fall, double limit) const {
+  /// Returns R of place `i`; infinity beyond `limit`.
+  double nearest_aside(const Relief& relief, std::size_t i, double fall, double limit) const {
     const auto serving = [&](std::uint32_t j) { return serves(relief, i, points_[j], fall); };
     const PointTree::Nearest near = tree_.nearest(relief.places()[i].point, std::numbers::sqrt2 * limit, serving);
     if (near.index == PointTree::kNone) return std::numeric_limits<double>::infinity();
-    const double reach = aside(relief, i, points_[near.index].point);
-    return reach <= limit ? reach : std::numeric_limits<double>::infinity();
+    const double found = aside(relief, i, points_[near.index].point);
+    return found <= limit ? found : std::numeric_limits<double>::infinity();
   }
 
  private:
@@ -57,33 +50,33 @@ class Points {
   PointTree tree_;
 };
 
-/// `is_open(i, reach)` sets its second argument to R of what is held, where R matters.
+/// Collects the places with is_open(i, aside), which sets `aside` to R where the place is not open and R matters.
 template <class IsOpen>
 Open open_places(const Relief& relief, std::span<const std::uint8_t> among, const IsOpen& is_open) {
   const std::size_t count = relief.places().size();
   Open open;
   open.is_open.resize(count);
-  std::vector<double> reaches(count);
-  parallel_for(count, [&](std::size_t i) {
-    if (among.empty() || among[i] != 0) open.is_open[i] = is_open(i, reaches[i]) ? 1 : 0;
+  std::vector<double> asides(count);
+  parallel::for_each_index(count, [&](std::size_t i) {
+    if (among.empty() || among[i] != 0) open.is_open[i] = is_open(i, asides[i]) ? 1 : 0;
   });
   open.count = static_cast<std::size_t>(std::count(open.is_open.begin(), open.is_open.end(), 1));
-  for (const double reach : reaches) open.reach = std::max(open.reach, reach);
+  for (const double aside : asides) open.largest_aside = std::max(open.largest_aside, aside);
   return open;
 }
 
-/// How far from the normal of a place a point may be that serves it; infinity where none is needed.
+/// Returns the largest distance from the normal of a place at which a point serves it; infinity if it needs no point.
 double served_within(const Relief& relief, std::size_t i, const Demand& demand) {
   const Target& target = demand.target;
   if (demand.side == Side::kMoving) {
-    const double most = target.stretched(demand.reach);
+    const double most = target.stretched(demand.largest_aside);
     return target.unstretched(relief.level_radius(i, target.moving(), most));
   }
-  const double level = relief.level_radius(i, target.still(), demand.reach);
-  return level < demand.reach ? target.stretched(level) : std::numeric_limits<double>::infinity();
+  const double level = relief.level_radius(i, target.still(), demand.largest_aside);
+  return level < demand.largest_aside ? target.stretched(level) : std::numeric_limits<double>::infinity();
 }
 
-/// The open places, sharper ones first, and points of them that leave none.
+/// Chooses points from the open places, sharper ones first, until no place is open.
 class Cover {
  public:
   Cover(const Relief& relief, std::span<const std::uint8_t> open, const Demand& demand)
@@ -94,7 +87,7 @@ class Cover {
       if (open[i] != 0) open_.push_back(i);
     }
     radii_.resize(open_.size());
-    parallel_for(open_.size(), [&](std::size_t k) { radii_[k] = served_within(relief, open_[k], demand); });
+    parallel::for_each_index(open_.size(), [&](std::size_t k) { radii_[k] = served_within(relief, open_[k], demand); });
     std::vector<Vector3d> open_points;
     for (std::size_t k = 0; k < open_.size(); ++k) {
       open_points.push_back(place(k).point);
@@ -143,8 +136,8 @@ class Cover {
     });
   }
 
-  /// Of the open places of the same sharpness that cover the one at `k`, that which covers most: it stands off what is
-  /// covered already. A corner stands for itself.
+  /// Returns, among the open places of the same sharpness that cover the one at `k`, the one that covers most: it lies
+  /// away from places that are covered already. A corner covers itself.
   std::uint32_t best_for(std::uint32_t k, const std::vector<std::uint8_t>& covered) const {
     if (place(k).place == Place::kVertex) return k;
     std::vector<std::uint32_t> candidates;
@@ -179,22 +172,22 @@ class Cover {
 Open open_moving(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double limit,
                  std::span<const std::uint8_t> among) {
   const Points near(points);
-  return open_places(relief, among, [&](std::size_t i, double& reach) {
+  return open_places(relief, among, [&](std::size_t i, double& aside_of_nearest) {
     if (near.any_within(relief.places()[i].point, target.bound)) return false;
-    const double found = near.reach(relief, i, target.moving_fall, limit);
+    const double found = near.nearest_aside(relief, i, target.moving_fall, limit);
     if (!(found <= limit) || relief.falls(i, target.stretched(found), target.moving())) return true;
-    reach = found;
+    aside_of_nearest = found;
     return false;
   });
 }
 
-Open open_still(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double reach,
+Open open_still(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double largest_aside,
                 std::span<const std::uint8_t> among) {
   const Points near(points);
   return open_places(relief, among, [&](std::size_t i, double&) {
-    if (!relief.falls(i, reach, target.still())) return false;
+    if (!relief.falls(i, largest_aside, target.still())) return false;
     if (near.any_within(relief.places()[i].point, target.bound)) return false;
-    const double found = near.reach(relief, i, target.still_fall, target.stretched(reach));
+    const double found = near.nearest_aside(relief, i, target.still_fall, target.stretched(largest_aside));
     return !std::isfinite(found) || relief.falls(i, target.unstretched(found), target.still());
   });
 }
@@ -207,7 +200,7 @@ std::vector<SurfaceSample> points_to_add(const Relief& relief, std::span<const s
 double estimated_points(const Relief& relief, const Demand& demand, double dense, std::size_t stride) {
   const std::size_t count = relief.evenly_spread() / stride;
   std::vector<double> needed(count);
-  parallel_for(count, [&](std::size_t k) {
+  parallel::for_each_index(count, [&](std::size_t k) {
     const double radius = std::max(served_within(relief, k * stride, demand), demand.target.bound);
     needed[k] = std::max(0.0, 1.0 / (kOverlap * radius * radius) - dense);
   });

@@ -14,18 +14,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlack = 1e-10;      // of the radius: what counts as on the sphere
-constexpr double kFlat = 1e-24;       // squared relative area or volume below which points count as collinear, coplanar
-constexpr int kMostExchanges = 1000;  // never seen above 30
+/// Of the radius, for points on the sphere: far above double rounding, far below float's.
+constexpr double kSlack = 1e-10;
+/// Squared relative area or volume of collinear or coplanar points: 1e-12, the rounding of their products.
+constexpr double kFlat = 1e-24;
+constexpr int kMostExchanges = 1000;  // ends a loop that rounding might cause; never seen above 30
 
-/// Points that determine a sphere, at most four, and one more that lies outside of it.
+/// At most four points that determine a sphere, and one more outside it.
 struct Support {
   std::array<Vector3d, 5> points{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(),
                                  Vector3d::Zero()};
   std::size_t count = 0;
 };
 
-/// The smallest sphere with all of at most four points on it; false if they are (nearly) dependent.
+/// Finds the smallest sphere with all of at most four points on it. False if they are (nearly) dependent.
 bool sphere_through(const Support& support, Sphere& sphere) {
   const auto& points = support.points;
   const Vector3d& origin = points[0];
@@ -58,7 +60,7 @@ bool contains(const Sphere& sphere, const Support& support) {
   return true;
 }
 
-/// Those of the support's points whose bit is set, the last one always first.
+/// Returns the support's points with set bits, and first the last point.
 Support subset(const Support& support, unsigned chosen) {
   Support part;
   part.points[part.count++] = support.points[support.count - 1];
@@ -68,7 +70,8 @@ Support subset(const Support& support, unsigned chosen) {
   return part;
 }
 
-/// Smallest sphere around the support's points, the last of which is known to lie on it. Keeps those that determine it.
+/// Finds the smallest sphere around the support's points, the last of which lies on it. Keeps the points that determine
+/// it. False if only rounding is left.
 bool exchange(Support& support, Sphere& sphere) {
   Sphere best{Vector3d::Zero(), std::numeric_limits<double>::infinity()};
   unsigned best_chosen = 0;
@@ -88,9 +91,9 @@ bool exchange(Support& support, Sphere& sphere) {
 
 }  // namespace
 
-/// An exchange of basis as in the simplex method (the smallest sphere is an LP-type problem): the point furthest
-/// outside enters the set of at most four that determine the sphere, whose radius grows each time until nothing is
-/// outside.
+/// Exchanges the basis as in the simplex method, because the smallest sphere is an LP-type problem. The point farthest
+/// outside enters the set of at most four points that determine the sphere. The radius grows each time, until no point
+/// is outside.
 Sphere bounding_sphere(std::span<const Vector3d> points) {
   Sphere sphere{points.front(), 0.0};
   Support support;

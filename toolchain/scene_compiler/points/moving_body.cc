@@ -25,7 +25,6 @@ using Eigen::Vector3d;
 constexpr std::uint32_t kCandidatesPerPoint = 6;
 constexpr std::uint32_t kLeastCandidates = 1000;
 constexpr double kEdgeCandidates = 4.0;  // per distance between points
-constexpr double kLeastRadius = 1e-9;    // [m], of a body of one point
 constexpr std::uint32_t kCandidateSeed = 1;
 constexpr std::uint32_t kProbeSeed = 2;
 constexpr std::uint32_t kLeastProbes = 20000;
@@ -34,32 +33,27 @@ constexpr std::size_t kProbeBlock = 256;
 
 void check_arguments(std::uint32_t points, std::uint32_t levels) {
   if (points < 1 || points > format::kMaxPoints) {
-    throw command::Failure(command::ExitCode::kBadConfig,
-                           fmt::format("moving.points = {}: must be 1 .. {}", points, format::kMaxPoints));
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("moving.points = {} is out of range; set it to 1 .. {}", points, format::kMaxPoints));
   }
   if (levels < 1 || levels > format::kMaxLevels) {
-    throw command::Failure(command::ExitCode::kBadConfig,
-                           fmt::format("moving.levels = {}: must be 1 .. {}", levels, format::kMaxLevels));
+    throw command::Failure(
+        command::ExitCode::kBadConfig,
+        fmt::format("moving.levels = {} is out of range; set it to 1 .. {}", levels, format::kMaxLevels));
   }
   const std::uint32_t deepest = most_levels(points);
   if (levels > deepest) {
     throw command::Failure(
         command::ExitCode::kBadConfig,
-        fmt::format("moving.levels = {}: too many for {} points; set levels to {} or less, or points to {} or more",
+        fmt::format("moving.levels = {} is too large for {} points; set levels to {} or less, or points to {} or more",
                     levels, points, deepest, least_points(levels)));
   }
 }
 
-std::vector<Vector3d> points_of(std::span<const SurfaceSample> samples) {
-  std::vector<Vector3d> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
-  return points;
-}
-
 double median_neighbour_distance(const std::vector<SurfaceSample>& samples, const PointTree& tree) {
   std::vector<double> squared(samples.size());
-  parallel_for(samples.size(), [&](std::size_t i) {
+  parallel::for_each_index(samples.size(), [&](std::size_t i) {
     const auto other = [&](std::uint32_t j) { return j != i && same_side(samples[i], samples[j]); };
     squared[i] = tree.nearest(samples[i].point, other).squared_distance;
   });
@@ -70,7 +64,8 @@ double median_neighbour_distance(const std::vector<SurfaceSample>& samples, cons
   return std::sqrt(*middle);
 }
 
-/// Mass of the enclosed volume, or else of the points; fills the body's frame, inertia and volume.
+/// Sets the body's frame, inertia and volume from the mass of the enclosed volume, or else of the points. Returns the
+/// pose of the body frame.
 Eigen::Isometry3d set_mass(const BodyMesh& mesh, const std::vector<Vector3d>& points, format::Body& body) {
   MassMoments moments;
   if (mesh.encloses_volume()) moments = moments_of_volume(mesh.mesh);
@@ -102,10 +97,10 @@ Eigen::Isometry3d body_pose(const format::Body& body) {
 }
 
 MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t points, std::uint32_t levels,
-                                  const Progress& progress) {
+                                  const parallel::Progress& progress) {
   check_arguments(points, levels);
   OuterSurface::Spread spread = outer.spread(std::max(kCandidatesPerPoint * points, kLeastCandidates), kCandidateSeed,
-                                             part_of(progress, 0.0, 0.4));
+                                             parallel::part_of(progress, 0.0, 0.4));
   std::vector<SurfaceSample>& candidates = spread.samples;
   const auto most_sharp = static_cast<std::uint32_t>(candidates.size());
   const double distance = 2.0 * densest_disc_radius(spread.area, points);
@@ -113,21 +108,21 @@ MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t point
   candidates.insert(candidates.end(), sharp.begin(), sharp.end());
 
   MovingSampling sampling{{}, points, levels, spread.area};
-  for (const std::uint32_t i :
-       eliminate(candidates, all_indices(candidates.size()), spread.area, points, part_of(progress, 0.4, 1.0))) {
+  for (const std::uint32_t i : eliminate(candidates, all_indices(candidates.size()), spread.area, points,
+                                         parallel::part_of(progress, 0.4, 1.0))) {
     sampling.samples.push_back(candidates[i]);
   }
   if (progress) progress(1.0);
   return sampling;
 }
 
-/// Those furthest off are looked at first: the first one that is not buried decides.
+/// Tests the probes farthest from any sample first: the first one that is not buried decides.
 double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> samples) {
   const PointTree tree(points_of(samples));
   const auto count = std::clamp(static_cast<std::uint32_t>(4 * samples.size()), kLeastProbes, kMostProbes);
   const std::vector<SurfaceSample> probes = outer.draw_all(count, kProbeSeed);
   std::vector<std::pair<double, std::uint32_t>> far_first(probes.size());
-  parallel_for(probes.size(), [&](std::size_t i) {
+  parallel::for_each_index(probes.size(), [&](std::size_t i) {
     far_first[i] = {-tree.nearest(probes[i].point).squared_distance, static_cast<std::uint32_t>(i)};
   });
   std::sort(far_first.begin(), far_first.end());
@@ -146,20 +141,18 @@ double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> sam
 }
 
 MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling) {
-  MovingBody moving;
-  const std::vector<Vector3d> points_M = points_of(sampling.samples);
-  moving.level_sizes = level_sizes(sampling.points, sampling.levels);
   const std::span<const SurfaceSample> spread = std::span(sampling.samples).first(sampling.points);
-  std::vector<std::vector<std::uint32_t>> levels = nested_levels(spread, moving.level_sizes, sampling.area);
-  levels.back() = all_indices(points_M.size());
-  moving.level_sizes.back() = static_cast<std::uint32_t>(points_M.size());
+  std::vector<std::vector<std::uint32_t>> levels =
+      nested_levels(spread, level_sizes(sampling.points, sampling.levels), sampling.area);
+  levels.back() = all_indices(sampling.samples.size());
 
+  MovingBody moving;
   format::Body& body = moving.body;
-  // samples that were added crowd at edges: they carry no mass
+  // added samples crowd at edges, so they have no mass
   const Eigen::Isometry3d X_BM = set_mass(outer.body(), points_of(spread), body).inverse();
   std::vector<Eigen::Vector3f> points_B;
   std::vector<Eigen::Vector3f> normals_B;
-  double radius = kLeastRadius;
+  double radius = kLeastPointRadius;
   for (const SurfaceSample& sample : sampling.samples) {
     points_B.push_back((X_BM * sample.point).cast<float>());
     normals_B.push_back((X_BM.linear() * sample.inward).cast<float>());
@@ -176,15 +169,21 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   for (const Eigen::Vector3f& p : points_B) stored_B.push_back(p.cast<double>());
   const Sphere sphere = bounding_sphere(stored_B);
   std::copy_n(sphere.center.data(), 3, body.sphere_center);
-  // not so small that points of the still body seem to swing far about a few clustered samples
+  // The sphere must not be so small that points of the still body seem to swing far about a few clustered samples.
   body.sphere_radius = std::max(sphere.radius * kRoundedUp, kLeastSphere * body.radius);
-  body.point_count = moving.level_sizes.back();
+  body.point_count = static_cast<std::uint32_t>(sampling.samples.size());
   body.node_count = static_cast<std::uint32_t>(moving.nodes.size());
   body.level_count = sampling.levels;
-
-  moving.spacing = median_neighbour_distance(sampling.samples, PointTree(points_M));
-  moving.coverage = largest_gap(outer, sampling.samples);
   return moving;
+}
+
+PointSpread measure_spread(const OuterSurface& outer, const MovingSampling& sampling) {
+  PointSpread spread;
+  spread.level_sizes = level_sizes(sampling.points, sampling.levels);
+  spread.level_sizes.back() = static_cast<std::uint32_t>(sampling.samples.size());
+  spread.spacing = median_neighbour_distance(sampling.samples, PointTree(points_of(sampling.samples)));
+  spread.coverage = largest_gap(outer, sampling.samples);
+  return spread;
 }
 
 }  // namespace godobject::scene_compiler

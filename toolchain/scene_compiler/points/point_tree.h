@@ -10,20 +10,20 @@
 
 namespace godobject::scene_compiler {
 
-/// Balanced kd-tree over points: all within a radius, the nearest that is accepted. Const calls may run on many
+/// Balanced kd-tree over points: all points within a radius, or the nearest accepted one. Const calls may run on many
 /// threads.
 class PointTree {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   struct Nearest {
-    std::uint32_t index = kNone;  ///< into the points given; kNone: nothing accepted
+    std::uint32_t index = kNone;  ///< into the given points; kNone: none accepted
     double squared_distance = std::numeric_limits<double>::infinity();
   };
 
   explicit PointTree(std::span<const Eigen::Vector3d> points);
 
-  /// visit(index, squared distance) for every point not further than `radius` from p.
+  /// Calls visit(index, squared distance) for every point at most `radius` from p.
   template <class Visit>
   void within(const Eigen::Vector3d& p, double radius, const Visit& visit) const {
     const double bound = radius * radius;
@@ -34,14 +34,15 @@ class PointTree {
         });
   }
 
-  /// visit(index, squared distance) for every point not further than `radius` from p, but those in boxes with
+  /// Calls visit(index, squared distance) for every point at most `radius` from p, except points in boxes with
   /// skip(low, high).
   template <class Skip, class Visit>
   void within(const Eigen::Vector3d& p, double radius, const Skip& skip, const Visit& visit) const {
     if (size() > 0) descend_boxes(p, Range{0, 0, size()}, radius * radius, skip, visit);
   }
 
-  /// Of the points with accept(index) nearer than `radius`, the nearest; of equally near ones the first.
+  /// Returns the nearest of the points with accept(index) that are nearer than `radius`; of equally near ones the
+  /// first.
   template <class Accept>
   Nearest nearest(const Eigen::Vector3d& p, double radius, const Accept& accept) const {
     Nearest best;
@@ -72,7 +73,8 @@ class PointTree {
     Eigen::Vector3d point;
     std::uint32_t index;
   };
-  /// Where a range of more than kLeafSize entries is cut in halves; the children of node k are 2k + 1 and 2k + 2.
+  /// The place where a range of more than kLeafSize entries is cut in halves. The children of node k are 2k + 1 and 2k
+  /// + 2.
   struct Cut {
     double value = 0.0;
     int axis = 0;

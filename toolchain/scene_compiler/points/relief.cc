@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCoarsePerReach = 3.5;  // coarse places over the reach
-constexpr double kFineBelow = 1.75;      // coarse spacings: a fall over more is seen well enough by the coarse cloud
+constexpr double kCoarsePerRadius = 3.5;  // coarse places over the reach
+constexpr double kFineBelow = 1.75;       // coarse spacings: a fall over more is seen well enough by the coarse cloud
 constexpr double kLeastCoarse = 4000.0;
 constexpr double kMostCoarse = 1u << 18;
 constexpr double kSharpPart = 0.25;  // of the fine spacing, along edges
@@ -22,14 +22,15 @@ constexpr double kFaceCosine = 0.7;  // of a shell's sample with its triangle, i
 
 std::vector<SurfaceSample> outer_of(const OuterSurface& outer, const std::vector<SurfaceSample>& samples) {
   const std::vector<std::uint8_t> are_outer = outer.are_outer(samples);
-  std::vector<SurfaceSample> kept;
+  std::vector<SurfaceSample> outside;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (are_outer[i] != 0) kept.push_back(samples[i]);
+    if (are_outer[i] != 0) outside.push_back(samples[i]);
   }
-  return kept;
+  return outside;
 }
 
-/// Interpolated normals would hide how far a tessellated surface falls away from its facets' planes.
+/// Returns the inward normal of the sample's triangle. Interpolated normals would hide how far a tessellated surface
+/// falls away from the planes of its facets.
 Vector3d inward_at(const OuterSurface& outer, const SurfaceSample& sample) {
   const double hint = sample.on_shell ? 1.001 * outer.body().half_thickness : 1e-9 * outer.body().diagonal;
   const Vector3d& normal = outer.body().face_normals[outer.surface().closest(sample.point, hint).triangle];
@@ -40,9 +41,13 @@ Vector3d inward_at(const OuterSurface& outer, const SurfaceSample& sample) {
 
 }  // namespace
 
-Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed, const Progress& progress)
-    : fine_below_(kFineBelow / kCoarsePerReach * resolution.reach), fine_(resolution.fine), coarse_({}), all_({}) {
-  const double coarse = std::clamp(resolution.reach / kCoarsePerReach, std::sqrt(outer.area() / kMostCoarse),
+Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
+               const parallel::Progress& progress)
+    : fine_below_(kFineBelow / kCoarsePerRadius * resolution.search_radius),
+      fine_(resolution.fine),
+      coarse_({}),
+      all_({}) {
+  const double coarse = std::clamp(resolution.search_radius / kCoarsePerRadius, std::sqrt(outer.area() / kMostCoarse),
                                    std::sqrt(outer.area() / kLeastCoarse));
   const std::vector<SurfaceSample> drawn = outer.draw_near(coarse, seed, [](const Vector3d&, double) { return true; });
   std::vector<SurfaceSample> even = outer_of(outer, drawn);
@@ -52,14 +57,14 @@ Relief::Relief(const OuterSurface& outer, const Resolution& resolution, std::uin
   const std::vector<SurfaceSample> sharp = outer.sharp_samples(kSharpPart * resolution.fine, kMostSharp);
   even.insert(even.end(), sharp.begin(), sharp.end());
   coarse_ = add(outer, even);
-  all_ = add(outer, fine_places(outer, resolution, seed, part_of(progress, 0.3, 1.0)));
+  all_ = add(outer, fine_places(outer, resolution, seed, parallel::part_of(progress, 0.3, 1.0)));
 }
 
 PointTree Relief::add(const OuterSurface& outer, std::span<const SurfaceSample> samples) {
   const std::size_t first = places_.size();
   places_.insert(places_.end(), samples.begin(), samples.end());
   inward_.resize(places_.size());
-  parallel_for(samples.size(), [&](std::size_t i) { inward_[first + i] = inward_at(outer, samples[i]); });
+  parallel::for_each_index(samples.size(), [&](std::size_t i) { inward_[first + i] = inward_at(outer, samples[i]); });
   std::vector<Vector3d> points;
   points.reserve(places_.size());
   for (const SurfaceSample& place : places_) points.push_back(place.point);
@@ -67,9 +72,9 @@ PointTree Relief::add(const OuterSurface& outer, std::span<const SurfaceSample> 
 }
 
 std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const Resolution& resolution,
-                                               std::uint32_t seed, const Progress& progress) {
+                                               std::uint32_t seed, const parallel::Progress& progress) {
   std::vector<std::uint8_t> is_rough(places_.size());
-  parallel_for(places_.size(), [&](std::size_t i) {
+  parallel::for_each_index(places_.size(), [&](std::size_t i) {
     is_rough[i] = falls(i, fine_below_, {kRoughSlack * resolution.fall, resolution.fall + fine_below_}) ? 1 : 0;
   });
   std::vector<Vector3d> rough_points;
@@ -103,7 +108,7 @@ bool Relief::falls(std::size_t i, double radius, const Fall& fall) const {
     const auto skip = [&](const Vector3d& low, const Vector3d& high) {
       return found || lowest(i, low, high) <= fall.depth;
     };
-    // a steep wall is met on its way down: what lies far below the plane needs no look
+    // a search finds a steep wall on its way down: surface far below the plane is not looked up
     tree.within(place.point, std::hypot(within, fall.seen), skip, [&](std::uint32_t j, double squared_distance) {
       const double depth = depth_below(i, places_[j].point);
       if (found || depth <= fall.depth || squared_distance - depth * depth > within * within) return;

@@ -11,52 +11,56 @@
 
 namespace godobject::scene_compiler {
 
-/// An outer surface as a cloud of places, to see how it falls away below the plane through any of them: coarse all
-/// over (a quarter of the reach), fine where the surface does so soon, sharp vertices and edges always.
+/// An outer surface as a cloud of places. It tells how the surface falls away below the tangent plane of any place.
+/// Places are coarse (a third of the search radius) all over, fine where the surface falls soon, and always at sharp
+/// vertices and edges.
 class Relief {
  public:
   struct Resolution {
-    double reach;  ///< how far around a place the fall is asked for [m]
-    double fall;   ///< smallest fall that matters [m]
-    double fine;   ///< spacing where the surface falls by that much within three coarse spacings, and of edges [m]
+    double search_radius;  ///< radius around a place within which falls are looked up [m]
+    double fall;           ///< smallest fall that matters [m]
+    double fine;  ///< spacing on edges, and where the surface falls by that much within three coarse spacings [m]
   };
 
-  /// Deterministic; another `seed` gives other places. Cost: some 10 us a place.
-  Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed, const Progress& progress);
+  /// Deterministic. Another `seed` gives other places. Cost: some 10 us for each place.
+  Relief(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
+         const parallel::Progress& progress);
 
   std::span<const SurfaceSample> places() const { return places_; }
 
-  std::size_t evenly_spread() const { return evenly_spread_; }  ///< of the places: the first ones
+  /// The number of evenly spread places, which come first.
+  std::size_t evenly_spread() const { return evenly_spread_; }
 
-  /// Between places where the surface falls soon [m]: what was asked for, or more where that takes too many.
+  /// Returns the spacing of places where the surface falls soon [m]: the requested one, or a larger one if that takes
+  /// too many places.
   double fine() const { return fine_; }
 
   /// A fall below the plane of the triangle at a place, on the place's side of the body.
   struct Fall {
     double depth;  ///< more than this below the plane [m]
-    double seen;   ///< but hardly deeper than this: what lies there needs no look [m]
+    double seen;   ///< but hardly deeper than this: deeper surface is not looked up [m]
   };
 
-  /// Whether the surface falls so not further than `radius` from the plane's normal at the place [m].
+  /// True if the surface falls like this at most `radius` from the plane's normal at the place [m].
   bool falls(std::size_t place, double radius, const Fall& fall) const;
 
-  /// How far `point` lies below that plane, negative above it [m].
+  /// Returns the depth of `point` below that plane, negative above it [m].
   double depth_below(std::size_t place, const Eigen::Vector3d& point) const {
     return (point - places_[place].point).dot(inward_[place]);
   }
 
-  /// The largest radius, at most `limit`, within which it does not [m].
+  /// Returns the largest radius, at most `limit`, within which the surface does not fall like this [m].
   double level_radius(std::size_t place, const Fall& fall, double limit) const;
 
   double area() const { return area_; }  ///< of the outer surface [m^2]
 
  private:
-  /// Depth below the plane that nothing in the box exceeds.
+  /// Returns a depth below the plane that nothing in the box exceeds.
   double lowest(std::size_t place, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
 
   PointTree add(const OuterSurface& outer, std::span<const SurfaceSample> samples);
   std::vector<SurfaceSample> fine_places(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
-                                         const Progress& progress);
+                                         const parallel::Progress& progress);
 
   std::vector<SurfaceSample> places_;
   std::vector<Eigen::Vector3d> inward_;  ///< by place: normal of its triangle

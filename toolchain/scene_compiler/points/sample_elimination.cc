@@ -6,41 +6,44 @@
 #include <numeric>
 
 #include "toolchain/parallel/parallel.h"
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/points/point_tree.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
-// of the paper: how much pairs nearer than the final distance count alike, lest elimination wait for pairs that will go
-// anyway
+// Constants of the paper. They weight all pairs nearer than the final distance alike, so elimination does not wait for
+// pairs that disappear anyway.
 constexpr double kLimitFactor = 0.65;
 constexpr double kLimitExponent = 1.5;
-constexpr double kNothing = 1e-13;        // weight without neighbours, but for rounding
-constexpr double kCoarsest = 8.0;         // samples of level 1
-constexpr double kLeastRefinement = 1.5;  // from level to level
-constexpr double kWider = 1.5;            // growth of the radius once nobody has neighbours
+constexpr double kNothing = 1e-13;  // weight without neighbours: the rounding of sums of weights up to 1
+constexpr double kCoarsest = 8.0;   // samples of level 1, chosen
+/// Growth from level to level. The nodes, of all levels but the last, are fewer than (1 / 1.5) / (1 - 1 / 1.5) = 2
+/// times the points.
+constexpr double kLeastRefinement = 1.5;
+constexpr double kWider = 1.5;  // growth of the search radius once no sample has neighbours, chosen
 constexpr std::size_t kReportEvery = 1u << 16;
 
-/// Who crowds whom, and how much.
+/// The rule by which samples crowd each other.
 struct Crowding {
-  double reach;      ///< no more than this far [m]
-  double limit;      ///< as if no nearer than this [m]
-  bool across_body;  ///< also samples on opposite sides
+  double search_radius;  ///< largest distance of crowding samples [m]
+  double limit;          ///< nearer samples count as at this distance [m]
+  bool across_body;      ///< samples on opposite sides crowd each other too
 
-  /// Whether `sample` yields to `neighbour`.
+  /// True if `sample` yields to `neighbour`.
   bool yields(const SurfaceSample& sample, const SurfaceSample& neighbour) const {
     return neighbour.place >= sample.place && (across_body || same_side(sample, neighbour));
   }
 
   double weight(double squared_distance) const {
-    const double relative = std::max(std::sqrt(squared_distance), limit) / reach;
+    const double relative = std::max(std::sqrt(squared_distance), limit) / search_radius;
     const double nearness = std::max(0.0, 1.0 - relative);
     const double squared = nearness * nearness;
     return squared * squared * squared * squared;
   }
 };
 
-/// Samples in conflict with a reach, and the queue of who goes next.
+/// Samples that crowd each other, and the queue of their elimination.
 class Crowd {
  public:
   Crowd(std::span<const SurfaceSample> samples, const std::vector<std::uint32_t>& chosen, const Crowding& crowding)
@@ -50,19 +53,19 @@ class Crowd {
         tree_(points_of(samples, chosen)),
         alive_(chosen.size(), 1),
         weights_(chosen.size()) {
-    parallel_for(chosen.size(), [&](std::size_t i) { weights_[i] = weight_of(i); });
+    parallel::for_each_index(chosen.size(), [&](std::size_t i) { weights_[i] = weight_of(i); });
     for (std::uint32_t i = 0; i < chosen.size(); ++i) queue_.push_back({weights_[i], i});
     std::make_heap(queue_.begin(), queue_.end(), later);
   }
 
-  /// Takes out the most crowded sample; false if nobody has a neighbour left.
+  /// Removes the most crowded sample. False if no sample has a neighbour.
   bool eliminate_one() {
     for (;;) {
       std::pop_heap(queue_.begin(), queue_.end(), later);
       const Entry entry = queue_.back();
       queue_.pop_back();
       const double weight = weights_[entry.sample];
-      if (weight < entry.weight) {  // neighbours have gone since it was queued
+      if (weight < entry.weight) {  // neighbours were removed after it was queued
         queue_.push_back({weight, entry.sample});
         std::push_heap(queue_.begin(), queue_.end(), later);
         continue;
@@ -84,7 +87,7 @@ class Crowd {
 
  private:
   struct Entry {
-    double weight;  ///< not less than the sample's present one
+    double weight;  ///< at least the present weight of the sample
     std::uint32_t sample;
   };
 
@@ -104,15 +107,15 @@ class Crowd {
 
   double weight_of(std::size_t i) const {
     double sum = 0.0;
-    tree_.within(sample(i).point, crowding_.reach, [&](std::uint32_t j, double squared_distance) {
+    tree_.within(sample(i).point, crowding_.search_radius, [&](std::uint32_t j, double squared_distance) {
       if (j != i && crowding_.yields(sample(i), sample(j))) sum += crowding_.weight(squared_distance);
     });
     return sum;
   }
 
-  void release_neighbours(std::uint32_t gone) {
-    tree_.within(sample(gone).point, crowding_.reach, [&](std::uint32_t j, double squared_distance) {
-      if (alive_[j] && crowding_.yields(sample(j), sample(gone))) weights_[j] -= crowding_.weight(squared_distance);
+  void release_neighbours(std::uint32_t removed) {
+    tree_.within(sample(removed).point, crowding_.search_radius, [&](std::uint32_t j, double squared_distance) {
+      if (alive_[j] && crowding_.yields(sample(j), sample(removed))) weights_[j] -= crowding_.weight(squared_distance);
     });
   }
 
@@ -126,13 +129,9 @@ class Crowd {
 };
 
 double extent_of(std::span<const SurfaceSample> samples, const std::vector<std::uint32_t>& chosen) {
-  Eigen::Vector3d low = samples[chosen.front()].point;
-  Eigen::Vector3d high = low;
-  for (const std::uint32_t i : chosen) {
-    low = low.cwiseMin(samples[i].point);
-    high = high.cwiseMax(samples[i].point);
-  }
-  return (high - low).norm();
+  Box box;
+  for (const std::uint32_t i : chosen) box.add(samples[i].point);
+  return box.diagonal();
 }
 
 }  // namespace
@@ -142,20 +141,21 @@ double densest_disc_radius(double area, std::uint32_t count) {
 }
 
 std::vector<std::uint32_t> eliminate(std::span<const SurfaceSample> samples, std::vector<std::uint32_t> chosen,
-                                     double area, std::uint32_t count, const Progress& progress) {
+                                     double area, std::uint32_t count, const parallel::Progress& progress) {
   if (chosen.size() <= count) return chosen;
-  const std::size_t to_go = chosen.size() - count;
-  const double kept_part = static_cast<double>(count) / static_cast<double>(chosen.size());
-  const double limit_part = kLimitFactor * (1.0 - std::pow(kept_part, kLimitExponent));
-  std::size_t gone = 0;
+  const std::size_t to_remove = chosen.size() - count;
+  const double remaining_part = static_cast<double>(count) / static_cast<double>(chosen.size());
+  const double limit_part = kLimitFactor * (1.0 - std::pow(remaining_part, kLimitExponent));
+  std::size_t removed = 0;
   const double extent = extent_of(samples, chosen);
-  // the radius is right for a surface; samples along a needle, say, lie further apart, and if those left are few and
-  // all on sides of their own these must give up their independence
-  for (double reach = 2.0 * densest_disc_radius(area, count); gone < to_go; reach *= kWider) {
-    Crowd crowd(samples, chosen, {reach, limit_part * reach, reach > extent});
-    while (gone < to_go && crowd.eliminate_one()) {
-      ++gone;
-      if (progress && gone % kReportEvery == 0) progress(static_cast<double>(gone) / static_cast<double>(to_go));
+  // The first radius suits a surface. Samples along a needle, for example, lie farther apart. If only a few are left,
+  // all on different sides, the last radius makes them crowd each other.
+  for (double radius = 2.0 * densest_disc_radius(area, count); removed < to_remove; radius *= kWider) {
+    Crowd crowd(samples, chosen, {radius, limit_part * radius, radius > extent});
+    while (removed < to_remove && crowd.eliminate_one()) {
+      ++removed;
+      if (progress && removed % kReportEvery == 0)
+        progress(static_cast<double>(removed) / static_cast<double>(to_remove));
     }
     chosen = crowd.survivors();
   }

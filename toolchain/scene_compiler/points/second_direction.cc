@@ -19,8 +19,8 @@ constexpr double kSharp = 0.5;      // of the aim, between any place on an edge 
 constexpr double kFurthest = 1.1;   // coverages, that a point serves a place of the moving body
 constexpr double kFinePart = 0.5;   // of the aim, between places where the surface falls soon
 constexpr double kMostDense = 0.5;  // of what is wanted, between such places
-constexpr double kMovingRough =
-    0.5;  // of what is wanted: a smaller fall needs no dense places, before it is shared out
+/// Of what is wanted: a smaller fall needs no dense places, before it is shared out.
+constexpr double kMovingRough = 0.5;
 constexpr double kStillRough = 0.25;
 constexpr std::size_t kEstimates = 4000;  // places, for the number of points
 constexpr std::array kStillParts{0.04, 0.1, 0.2, 0.3,
@@ -34,7 +34,7 @@ void append(const std::vector<SurfaceSample>& more, std::vector<SurfaceSample>& 
 
 std::size_t stride_of(const Relief& relief) { return relief.evenly_spread() / kEstimates + 1; }
 
-/// Both bodies' places.
+/// The places of both bodies.
 struct Reliefs {
   Relief moving, still;
 };
@@ -49,7 +49,7 @@ class Search {
     target_.still_fall = kStillRough * wanted;
   }
 
-  /// Shares the bound out so that the fewest points will do.
+  /// Divides the bound between the bodies so that the fewest points suffice.
   void share_out(const Reliefs& reliefs) {
     double fewest = std::numeric_limits<double>::infinity();
     for (const double part : kStillParts) {
@@ -65,16 +65,16 @@ class Search {
     }
   }
 
-  /// Whether `target` holds at all places. Those where it hardly does are left open, too.
+  /// True if `target` holds at all places. Leaves places open at which it hardly holds.
   bool holds(const Reliefs& reliefs, const Target& target) {
     const Target strict = target.scaled(kStrict);
     const double limit = kFurthest * coverage_;
     moving_ = open_moving(reliefs.moving, sampling_.samples, strict, limit);
     const Open moving = open_moving(reliefs.moving, sampling_.samples, target, limit, moving_.is_open);
-    moving_.reach = std::max(moving_.reach, moving.reach);
-    still_ = open_still(reliefs.still, both_.features, strict, moving_.reach);
+    moving_.largest_aside = std::max(moving_.largest_aside, moving.largest_aside);
+    still_ = open_still(reliefs.still, both_.features, strict, moving_.largest_aside);
     return moving.count == 0 &&
-           open_still(reliefs.still, both_.features, target, moving_.reach, still_.is_open).count == 0;
+           open_still(reliefs.still, both_.features, target, moving_.largest_aside, still_.is_open).count == 0;
   }
 
   void add_first(const Reliefs& reliefs) {
@@ -88,7 +88,7 @@ class Search {
     add(reliefs);
   }
 
-  /// Points for the open places. Returns whether as many as were needed.
+  /// Adds points for the open places. False if a limit was met.
   bool add(const Reliefs& reliefs) {
     const std::size_t most =
         std::min<std::uint64_t>(std::uint64_t{kMostPointsForOne} * sampling_.points, format::kMaxPoints);
@@ -103,7 +103,7 @@ class Search {
 
   const Target& target() const { return target_; }
 
-  /// Of the places to look at.
+  /// Returns the resolution of the places to check.
   Relief::Resolution resolution(Side side) const {
     const double fall = side == Side::kMoving ? target_.moving_fall : target_.still_fall;
     return {coverage_, fall, kFinePart * kAim * target_.bound};
@@ -130,7 +130,7 @@ class Search {
 }  // namespace
 
 BothDirections see_both_directions(const OuterSurface& still, const OuterSurface& moving, double wanted,
-                                   MovingSampling& sampling, const Progress& progress) {
+                                   MovingSampling& sampling, const parallel::Progress& progress) {
   BothDirections both;
   const double coverage = largest_gap(moving, sampling.samples);
   Search search(wanted, sampling, both, coverage);
@@ -138,8 +138,8 @@ BothDirections see_both_directions(const OuterSurface& still, const OuterSurface
     const std::uint32_t seed = kFirstSeed + static_cast<std::uint32_t>(round);
     const auto share = [&](double part) { return (round + part) / (kRounds + 1); };
     const Reliefs reliefs{
-        Relief(moving, search.resolution(Side::kMoving), seed, part_of(progress, share(0.0), share(0.4))),
-        Relief(still, search.resolution(Side::kStill), seed, part_of(progress, share(0.4), share(0.8)))};
+        Relief(moving, search.resolution(Side::kMoving), seed, parallel::part_of(progress, share(0.0), share(0.4))),
+        Relief(still, search.resolution(Side::kStill), seed, parallel::part_of(progress, share(0.4), share(0.8)))};
     const double dense_for = std::max(reliefs.moving.fine(), reliefs.still.fine()) / kMostDense;
     both.area = reliefs.still.area();
     if (round == 0) {

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The children of a level's samples, sample by sample: those of the sample at place i of its level are
-/// samples[first[i]] .. samples[first[i + 1]], its own first.
+/// The children of a level's samples. Those of the sample at place i of its level are samples[first[i]] ..
+/// samples[first[i + 1]], its own first.
 struct Children {
   std::vector<std::size_t> first;
   std::vector<std::uint32_t> samples;
@@ -40,7 +40,7 @@ Children attach(std::span<const Eigen::Vector3f> points, std::span<const std::ui
                 std::span<const std::uint32_t> samples) {
   const PointTree tree(points_of(points, parents));
   std::vector<std::size_t> parent(samples.size());
-  parallel_for(samples.size(), [&](std::size_t i) {
+  parallel::for_each_index(samples.size(), [&](std::size_t i) {
     parent[i] = holds(parents, samples[i]) ? place_of(samples[i], parents)
                                            : tree.nearest(points[samples[i]].cast<double>()).index;
   });
@@ -55,7 +55,7 @@ Children attach(std::span<const Eigen::Vector3f> points, std::span<const std::ui
   return children;
 }
 
-/// Lays nodes and points out in pre-order.
+/// Lays out nodes and points in pre-order.
 class Layout {
  public:
   Layout(std::span<const Eigen::Vector3f> points, const std::vector<std::vector<std::uint32_t>>& levels)
@@ -75,7 +75,7 @@ class Layout {
   }
 
  private:
-  /// The node of `sample` at `level` (1 .. levels - 1) with its subtree.
+  /// Adds the node of `sample` at `level` (1 .. levels - 1) with its subtree.
   void add(std::uint32_t sample, std::size_t level) {
     const std::uint32_t node = open_node(level);
     const Children& children = children_[level - 1];
@@ -112,8 +112,8 @@ class Layout {
 
 }  // namespace
 
-/// Center and radius as floats; the radius grows by what the center's rounding moved it, then to the next float, so
-/// that the last bit of whoever computes a distance to the center does not matter.
+/// Stores centre and radius as floats. The radius grows by the rounding of the centre and then to the next float, so
+/// the last bit of a distance to the centre does not matter.
 void set_sphere(std::span<const Vector3d> points, format::Node& node) {
   const Eigen::Vector3f center = bounding_sphere(points).center.cast<float>();
   double radius = 0.0;
@@ -127,7 +127,7 @@ SphereTree build_sphere_tree(std::span<const Eigen::Vector3f> points,
                              const std::vector<std::vector<std::uint32_t>>& levels) {
   SphereTree tree = Layout(points, levels).make();
   const std::vector<Vector3d> ordered = points_of(points, tree.order);
-  parallel_for(tree.nodes.size(), [&](std::size_t i) {
+  parallel::for_each_index(tree.nodes.size(), [&](std::size_t i) {
     format::Node& node = tree.nodes[i];
     set_sphere(std::span(ordered).subspan(node.first_point, node.point_count), node);
   });

@@ -13,8 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Place = SurfaceSample::Place;
 
-constexpr double kGrowth = 3.0;        // of a level over the one before it
-constexpr double kLeastRadius = 1e-9;  // [m], of a single point
+constexpr double kGrowth = 3.0;  // of a level over the one before it
 
 std::uint32_t levels_for(std::uint32_t points) {
   const double levels = 1.0 + std::round(std::log(static_cast<double>(points)) / std::log(kGrowth)) - 2.0;
@@ -32,11 +31,10 @@ std::uint32_t count_on(std::span<const SurfaceSample> samples, Place place) {
 StillFeatures make_still_features(std::span<const SurfaceSample> chosen, double area) {
   StillFeatures features;
   if (chosen.empty()) return features;
-  std::vector<Vector3d> points_W;
-  for (const SurfaceSample& sample : chosen) points_W.push_back(sample.point);
+  const std::vector<Vector3d> points_W = points_of(chosen);
   const Vector3d origin = bounding_sphere(points_W).center;
   std::vector<Eigen::Vector3f> points_F;
-  double radius = kLeastRadius;
+  double radius = kLeastPointRadius;
   for (const Vector3d& point : points_W) {
     points_F.push_back((point - origin).cast<float>());
     radius = std::max(radius, points_F.back().cast<double>().norm());

@@ -3,7 +3,7 @@
 namespace godobject::scene_compiler {
 namespace {
 
-std::uint64_t total_bytes(const LeavingOut::Sections& sections) {
+std::uint64_t total_bytes(const std::vector<SectionBytes>& sections) {
   std::uint64_t sum = 0;
   for (const SectionBytes& section : sections) sum += section.bytes.size();
   return sum;
@@ -11,32 +11,31 @@ std::uint64_t total_bytes(const LeavingOut::Sections& sections) {
 
 }  // namespace
 
-void LeavingOut::step(const std::string& what, const std::function<std::uint64_t()>& work) {
-  const auto keep = [this](const Sections& sections) {
-    images_.emplace_back(make_image(sections), "what is left out");
-  };
+void TrimmingSteps::store_image(const std::vector<SectionBytes>& sections) {
+  images_.emplace_back(make_image(sections), "image under trimming");
+}
+
+void TrimmingSteps::step(const std::string& what, const SceneParts& parts, const std::function<std::uint64_t()>& work) {
   std::uint64_t before = 0;
   {
-    const Sections sections = lay_out_();
+    const std::vector<SectionBytes> sections = lay_out(parts);
     before = total_bytes(sections);
-    if (timed_ && images_.empty()) keep(sections);
+    if (timed_ && images_.empty()) store_image(sections);
   }
   const std::uint64_t count = work();
   if (count == 0) return;
-  const Sections sections = lay_out_();
+  const std::vector<SectionBytes> sections = lay_out(parts);
   items_.push_back({what, count, before - total_bytes(sections), {}});
-  if (timed_) keep(sections);
+  if (timed_) store_image(sections);
 }
 
-std::optional<double> LeavingOut::time(const Progress& progress) {
+std::optional<CycleTimes> TrimmingSteps::time(const parallel::Progress& progress) const {
   if (images_.size() < 2) return {};
   std::vector<const Scene*> scenes;
-  for (const command::SceneImage& image : images_) scenes.push_back(&image.scene);
+  for (const files::SceneImage& image : images_) scenes.push_back(&image.scene);
   const std::vector<Pose> motion = try_out_motion(*scenes.front());
   if (motion.empty()) return {};
-  const CycleTimes times = time_cycles(scenes, motion, progress);
-  for (std::size_t i = 0; i < items_.size(); ++i) items_[i].cycle = times.savings[i];
-  return times.ns;
+  return time_cycles(scenes, motion, progress);
 }
 
 }  // namespace godobject::scene_compiler

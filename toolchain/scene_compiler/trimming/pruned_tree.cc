@@ -13,14 +13,14 @@ namespace {
 
 using format::Node;
 
-void keep_values(const std::vector<bool>& stays, std::vector<float>& axes) {
+void remove_values(const std::vector<bool>& stays, std::vector<float>& axes) {
   if (axes.empty()) return;
   const std::size_t n = stays.size();
-  std::vector<float> kept;
+  std::vector<float> remaining;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (stays[i % n]) kept.push_back(axes[i]);
+    if (stays[i % n]) remaining.push_back(axes[i]);
   }
-  axes = std::move(kept);
+  axes = std::move(remaining);
 }
 
 class Pruning {
@@ -33,7 +33,7 @@ class Pruning {
     add(0, 0);
     return std::move(nodes_);
   }
-  /// Of the nodes that `make` gave, whether each holds less than it did.
+  /// Returns, for each node from `make`, whether it contains fewer points than before.
   const std::vector<bool>& smaller() const { return smaller_; }
 
  private:
@@ -59,7 +59,7 @@ class Pruning {
   }
 
   const std::vector<Node>& from_;
-  std::vector<std::uint32_t> before_;  // points that stay before this one
+  std::vector<std::uint32_t> before_;  // remaining points before this one
   std::vector<Node> nodes_;
   std::vector<bool> smaller_;
 };
@@ -69,15 +69,15 @@ class Pruning {
 std::uint32_t prune(const std::vector<bool>& stays, const TreeOfPoints& tree) {
   Pruning pruning(stays, tree.nodes);
   tree.nodes = pruning.make();
-  keep_values(stays, tree.points);
-  keep_values(stays, tree.normals);
+  remove_values(stays, tree.points);
+  remove_values(stays, tree.normals);
   const std::size_t n = tree.points.size() / 3;
   std::vector<Eigen::Vector3d> points(n);
   for (std::size_t i = 0; i < n; ++i)
     points[i] = Eigen::Vector3f(tree.points[i], tree.points[n + i], tree.points[2 * n + i]).cast<double>();
   std::uint16_t deepest = 0;
   for (const Node& node : tree.nodes) deepest = std::max(deepest, node.level);
-  parallel_for(tree.nodes.size(), [&](std::size_t i) {
+  parallel::for_each_index(tree.nodes.size(), [&](std::size_t i) {
     Node& node = tree.nodes[i];
     if (pruning.smaller()[i]) set_sphere(std::span(points).subspan(node.first_point, node.point_count), node);
   });

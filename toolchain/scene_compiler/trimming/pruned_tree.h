@@ -7,19 +7,21 @@
 
 namespace godobject::scene_compiler {
 
-/// Points that a scene image holds: x[n], y[n], z[n] in tree order, their normals likewise or none, their sphere tree.
+/// The points of a scene image: x[n], y[n], z[n] in tree order, their normals likewise (or none), and their sphere
+/// tree.
 struct TreeOfPoints {
   std::vector<float>& points;
   std::vector<float>& normals;
   std::vector<format::Node>& nodes;
 };
 
-/// As leave_out_points; returns how many levels there are, the points' own included.
+/// As leave_out_points. Returns the number of levels, the points' own included.
 std::uint32_t prune(const std::vector<bool>& stays, const TreeOfPoints& tree);
 
-/// Leaves out points with stays[i] false; one stays at least. The others keep their order and their bits, so that what
-/// is summed over them does. Nodes without a point go, and a node with one child only gives way to it: there are less
-/// than twice as many nodes as points. Spheres shrink to what they hold. `header`, a Body or Features, counts it.
+/// Leaves out points with stays[i] false; at least one must stay. The others keep their order and their bits, so sums
+/// over them do too. Nodes without points disappear, and a node with a single child is replaced by it: there are fewer
+/// than twice as many nodes as points. Spheres shrink to their contents. Updates the counts in `header`, a Body or
+/// Features.
 template <class Header>
 void leave_out_points(const std::vector<bool>& stays, const TreeOfPoints& tree, Header& header) {
   header.level_count = prune(stays, tree);

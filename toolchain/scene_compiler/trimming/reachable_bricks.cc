@@ -18,15 +18,12 @@ using Eigen::Vector3d;
 using format::kBrickCells;
 namespace index_entry = format::index_entry;
 
-/// Beyond the radius: a look-up in single precision may take the next position for the one that it is in. [voxels]
-constexpr double kSlack = 1.0;
-
-/// The entries that stay, renumbered in the order in which a walk meets them.
+/// The entries that stay, renumbered in the order of a walk through the index.
 class Selection {
  public:
   explicit Selection(DistanceGrid& field) : field_(field), keeps_(field.bricks.size(), true) {}
 
-  /// Of a stored position, with all that hangs on it.
+  /// Drops a stored position with all its octants.
   void drop(std::uint32_t entry, LeftOutBricks& left_out, std::size_t halvings = 0) {
     if ((entry & index_entry::kFar) != 0) return;
     const std::uint32_t number = entry & index_entry::kNumber;
@@ -38,7 +35,7 @@ class Selection {
     const format::Refined& refined = field_.refined[number];
     if (refined.brick != format::kNoBrick) keeps_[refined.brick] = false;
     ++left_out.refined;
-    bool looked_up = false;  // in its own nodes, too
+    bool looked_up = false;  // in its own nodes too
     for (const std::uint32_t child : refined.child) {
       looked_up |= (child & index_entry::kCoarse) != 0;
       drop(child, left_out, halvings + 1);
@@ -46,7 +43,7 @@ class Selection {
     if (looked_up) ++left_out.bricks[halvings];
   }
 
-  /// `field.index` names what stays and nothing else.
+  /// Renumbers the field. `field.index` must name exactly the entries that stay.
   void apply(LeftOutBricks& left_out) {
     number_bricks(left_out);
     number_edges(left_out);
@@ -120,8 +117,8 @@ double look_up_radius(const format::Body& body, const std::vector<format::Node>&
 
 namespace {
 
-/// Leaves out all positions for whose box, from `low` to `high`, is_met(low, high) does not hold. False, and nothing is
-/// changed, where none would stay.
+/// Leaves out all positions whose box, from `low` to `high`, does not satisfy is_met(low, high). False, without a
+/// change, if none would stay.
 template <class IsMet>
 bool leave_out_unmet(DistanceGrid& field, const IsMet& is_met, LeftOutBricks& left_out) {
   const format::Grid& grid = field.grid;
@@ -158,7 +155,7 @@ double distance_to(const format::Workspace& workspace, const Vector3d& p) {
 
 }  // namespace
 
-double least_look_up(const StillFeatures& features, const format::Workspace& workspace, double longest_way) {
+double least_look_up(const StillFeatures& features, const format::Workspace& workspace, double longest_path) {
   const Vector3d origin = Eigen::Map<const Vector3d>(features.header.origin);
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](const Eigen::Vector3f& p) {
@@ -167,16 +164,16 @@ double least_look_up(const StillFeatures& features, const format::Workspace& wor
   const std::size_t n = features.points.size() / 3;
   for (std::size_t i = 0; i < n; ++i) look({features.points[i], features.points[n + i], features.points[2 * n + i]});
   for (const format::Node& node : features.nodes) look(Eigen::Map<const Eigen::Vector3f>(node.center));
-  return least - 0.5 * longest_way;
+  return least - 0.5 * longest_path;
 }
 
 LeftOutBricks leave_out_unreachable_core(DistanceGrid& body_field, double least) {
-  const double kept_from = least - kSlack * body_field.grid.voxel_size;
+  const double stored_from = least - kLookUpSlack * body_field.grid.voxel_size;
   LeftOutBricks left_out;
   leave_out_unmet(
       body_field,
       [&](const Vector3d& low, const Vector3d& high) {
-        return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() >= kept_from;
+        return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() >= stored_from;
       },
       left_out);
   return left_out;
@@ -185,19 +182,19 @@ LeftOutBricks leave_out_unreachable_core(DistanceGrid& body_field, double least)
 LeftOutBricks leave_out_unreachable(DistanceGrid& field, const format::Workspace& workspace, double radius) {
   const Eigen::Map<const Vector3d> low(workspace.low);
   const Eigen::Map<const Vector3d> high(workspace.high);
-  const double reach = radius + kSlack * field.grid.voxel_size;
+  const double search_radius = radius + kLookUpSlack * field.grid.voxel_size;
   LeftOutBricks left_out;
   const bool any_stays = leave_out_unmet(
       field,
       [&](const Vector3d& from, const Vector3d& to) {
-        return (low - to).cwiseMax(from - high).cwiseMax(0.0).norm() <= reach;
+        return (low - to).cwiseMax(from - high).cwiseMax(0.0).norm() <= search_radius;
       },
       left_out);
   if (!any_stays) {
     throw command::Failure(
         command::ExitCode::kBadConfig,
-        "[workspace]: from nowhere in it the moving body reaches the still one; set low and high, in "
-        "metres in the still mesh's frame, to where its centre of mass is to move");
+        "[workspace]: the moving body touches the still one from no place in it; set low and high, in metres in the "
+        "still mesh's frame, to the box in which its centre of mass moves");
   }
   return left_out;
 }

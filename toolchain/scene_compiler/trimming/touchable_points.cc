@@ -8,7 +8,9 @@
 
 #include "toolchain/parallel/parallel.h"
 #include "toolchain/scene_compiler/field/brick_lattice.h"
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/components.h"
+#include "toolchain/scene_compiler/trimming/reachable_bricks.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -18,27 +20,12 @@ using format::kBrickCells;
 using format::kBrickNodes;
 namespace index_entry = format::index_entry;
 
-/// Of look-ups in single precision. [voxels]
-constexpr double kSlack = 1.0;
-
-struct Box {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = Vector3d::Constant(-std::numeric_limits<double>::infinity());
-
-  void add(const Vector3d& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  double nearest(const Box& other) const { return (low - other.high).cwiseMax(other.low - high).cwiseMax(0.0).norm(); }
-  double farthest(const Box& other) const { return (other.high - low).cwiseMax(high - other.low).norm(); }
-};
-
 Box box_of(const format::Workspace& workspace) {
   return {Vector3d(workspace.low[0], workspace.low[1], workspace.low[2]),
           Vector3d(workspace.high[0], workspace.high[1], workspace.high[2])};
 }
 
-/// Distances from the places of a box to those at which the field is felt, a little too small and too large.
+/// The range of distances between places of a box and places that the field affects, slightly widened.
 struct Range {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
@@ -46,7 +33,7 @@ struct Range {
   bool holds(double distance) const { return distance >= least && distance <= most; }
 };
 
-/// Calls visit(box) for the cells of a stored position in which the field may be below its band: it is nowhere lower
+/// Calls visit(box) for the cells of a stored position in which the field may be below its band. It is nowhere lower
 /// than the least of the cell's own nodes less Brick::deviation.
 template <class Visit>
 void visit_felt_cells(const DistanceGrid& field, std::uint32_t entry, const Vector3d& low, const Visit& visit) {
@@ -72,7 +59,7 @@ Range range_of(const DistanceGrid& field, const Box& box) {
   const format::Grid& grid = field.grid;
   const BrickLattice lattice{{grid.bricks[0], grid.bricks[1], grid.bricks[2]}};
   const double edge = kBrickCells * grid.voxel_size;
-  const double slack = kSlack * grid.voxel_size;
+  const double slack = kLookUpSlack * grid.voxel_size;
   Range range;
   const auto add = [&](const Box& felt) {
     range.least = std::min(range.least, felt.nearest(box) - slack);
@@ -92,11 +79,11 @@ Range range_of(const DistanceGrid& field, const Box& box) {
   return range;
 }
 
-/// Cells about a body, its walls, and the parts into which they cut the rest; part 0 is outside.
+/// The cells about a body: walls, and the parts into which walls separate the other cells. Part 0 is outside.
 class Cells {
  public:
   Cells(const SolidSurface& body, double deepest) {
-    for (const Vector3d& vertex : body.mesh().vertices) bounds_.add(vertex);
+    bounds_ = Box::around(body.mesh().vertices);
     edge_ = (bounds_.high - bounds_.low).maxCoeff() / kCavityCells;
     low_ = bounds_.low.array() - 1.5 * edge_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -106,10 +93,10 @@ class Cells {
     const double half_diagonal = 0.5 * std::sqrt(3.0) * edge_;
     const std::size_t count = lattice_.count();
     part_.resize(count);
-    parallel_for(count, [&](std::size_t i) {
+    parallel::for_each_index(count, [&](std::size_t i) {
       part_[i] = body.signed_distance(center(lattice_.position(i))) + half_diagonal < -deepest ? kWall : kOpen;
     });
-    for (std::size_t i = 0; i < count; ++i) {  // the first cell is outside, and so is all about the body
+    for (std::size_t i = 0; i < count; ++i) {  // the first cell is outside, and so are all cells about the body
       if (part_[i] == kOpen) flood(i);
     }
   }
@@ -123,7 +110,7 @@ class Cells {
     return part_[lattice_.number(cell)];
   }
   bool is_part(std::size_t part) const { return part < extent_.size(); }
-  double diagonal(std::size_t part) const { return (extent_[part].high - extent_[part].low).norm(); }
+  double diagonal(std::size_t part) const { return extent_[part].diagonal(); }
 
  private:
   static constexpr std::uint32_t kOpen = 0xffffffff;

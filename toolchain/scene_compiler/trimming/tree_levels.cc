@@ -51,7 +51,7 @@ class Rebuilding {
   std::vector<Node> nodes_;
 };
 
-/// A voxelmap that counts what it is asked. Batches by the kernel that every processor has, so that all count the same.
+/// A voxelmap that counts its look-ups. Batches use the kernel of every processor, so the count is the same everywhere.
 class CountingField {
  public:
   CountingField(const Voxelmap& map, double& cost) : map_(map), cost_(cost) {}
@@ -83,7 +83,7 @@ class CountingField {
 
 static_assert(DistanceField<CountingField>);
 
-/// Step #1 of `contact` in one direction, once a pose, for what a cycle that steady would look for.
+/// Step #1 of `contact` in one direction, once for each pose, with the search radius of a cycle that steady.
 template <class Direction>
 class NearWork {
  public:
@@ -124,7 +124,7 @@ class NearWork {
   Odometer odometer_;
 };
 
-/// Calls visit(pose) for each, which adds to `cost`.
+/// Calls visit(pose) for each pose, which adds to `cost`.
 template <class Visit>
 SearchWork work_of(std::span<const Pose> poses, const double& cost, const Visit& visit) {
   SearchWork work;

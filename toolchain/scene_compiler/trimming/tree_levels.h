@@ -10,15 +10,15 @@
 
 namespace godobject::scene_compiler {
 
-/// The depth of the deepest node.
+/// Returns the level of the deepest node.
 std::uint32_t deepest_level(std::span<const format::Node> nodes);
 
-/// The tree without its nodes at `level` >= 1: their children hang on the nodes above, which become leaves where all
-/// that was below them were leaves. A leaf beside nodes that have children stays. Points keep their order.
+/// Returns the tree without its nodes at `level` >= 1. Their children become children of the nodes above. A node above
+/// becomes a leaf if all nodes below it were leaves. A leaf beside nodes with children stays. Points keep their order.
 std::vector<format::Node> without_level(std::span<const format::Node> nodes, std::uint32_t level);
 
-/// What step #1 of the scene's own solver looks up in one tree along a motion. Counted, so that it is the same
-/// everywhere: a node or a point counts 1, a batch kBatch more, about what that costs.
+/// The number of look-ups of step #1 of the scene's own solver in one tree along a motion. Counting gives the same
+/// result on every machine. A node or a point counts 1, a batch kBatch more, which is about its cost.
 struct SearchWork {
   double mean = 0.0;  ///< of a cycle
   double most = 0.0;  ///< in one cycle
@@ -28,8 +28,8 @@ struct SearchWork {
 
 enum class Tree { kSamples, kFeatures };
 
-/// `poses_WB`: of the god object, a cycle apart. `contact` searches the tree with its memory; of `paper` and
-/// `corrected` every cycle begins anew.
+/// Counts the look-ups. `poses_WB`: poses of the god object, one for each cycle. `contact` searches the tree with its
+/// memory. `paper` and `corrected` start anew in every cycle.
 SearchWork search_work(const Scene& scene, Tree tree, std::span<const Pose> poses_WB);
 
 struct LeanTree {
@@ -37,9 +37,9 @@ struct LeanTree {
   std::uint32_t levels_left_out = 0;
 };
 
-/// The tree without levels that add nothing: one after the other, that first which helps the most, as long as step #1
-/// looks up no more without it in the mean, and in the worst cycle no more than kMostGrowth of what the whole tree
-/// asks.
+/// Returns the tree without levels that save nothing. Removes one level after the other, the most useless first, as
+/// long as step #1 needs no more look-ups on average, and in the worst cycle at most kMostGrowth times as many as with
+/// the whole tree.
 inline constexpr double kMostGrowth = 1.01;
 LeanTree lean_tree(const Scene& scene, Tree tree, std::span<const Pose> poses_WB);
 

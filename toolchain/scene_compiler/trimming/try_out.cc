@@ -5,18 +5,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <numbers>
 #include <random>
 
 #include <time.h>
 
-#include "toolchain/session/owned_god_object.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
+// Chosen: four presses touch different sides; a median needs five runs; the user waits at most some seconds.
 constexpr int kPresses = 4;
 constexpr int kMostTries = 60;
 constexpr int kRuns = 25;
@@ -28,14 +28,15 @@ class Session {
  public:
   explicit Session(const Scene& scene) {
     if (god_object_.start(scene, scene.default_solver(), scene.settings.friction != 0) != Status::kOk)
-      throw command::Failure(command::ExitCode::kInternal, "the image does not run its own solver; please report this");
+      throw command::Failure(command::ExitCode::kInternal,
+                             "the image cannot run its own solver; please report this scene");
   }
 
-  /// Whether it touches.
+  /// Runs one cycle. True if the body touches.
   bool update(const Pose& H_WM) {
     CycleReport report;
     if (god_object_->update({H_WM, Motion{}}, report) != Status::kOk)
-      throw command::Failure(command::ExitCode::kInternal, "a pose of the motion is none; please report this scene");
+      throw command::Failure(command::ExitCode::kInternal, "a generated pose is invalid; please report this scene");
     return report.contacts > 0 && report.penetration > -0.1 * god_object_.parameters().voxel_size;
   }
   void reset() { god_object_->reset(); }
@@ -45,7 +46,7 @@ class Session {
   OwnedGodObject god_object_;
 };
 
-/// That this thread has used.
+/// Returns the processor time that this thread has used.
 double processor_ns() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -58,8 +59,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Of normal values the median's standard error is sqrt(pi / 2) that of the mean, whose scatter is 1.4826 times the
-/// median deviation from the median, which strays do not move.
+/// Returns median and uncertainty of the savings. The standard error of a median of normal values is sqrt(pi / 2) times
+/// that of the mean. Their scatter is 1.4826 times the median deviation from the median, which outliers do not change.
 Saving saving_of(const std::vector<double>& saved) {
   constexpr double kScatter = 1.4826;
   const double ns = median(saved);
@@ -69,7 +70,7 @@ Saving saving_of(const std::vector<double>& saved) {
   return {ns, kScatter * median(deviations) * std::sqrt(0.5 * std::numbers::pi / runs)};
 }
 
-/// Draws places and directions.
+/// Draws random places and directions.
 class Draw {
  public:
   Vector3 direction() { return Vector3(normal_(random_), normal_(random_), normal_(random_)).normalized(); }
@@ -86,9 +87,10 @@ class Draw {
   std::uniform_real_distribution<double> share_{0.0, 1.0};
 };
 
-/// To where it touches and deeper, to and fro, and back. Places in voxels, along `into` and across it.
+/// Appends the motion from free space to the touch pose and deeper, to and fro, and back. Places in voxels, along
+/// `into` and across it.
 void press(const Pose& H_WB, const Vector3& into, const Vector3& along, double s, std::vector<Pose>& poses) {
-  constexpr int kCycles = 100;  // a leg
+  constexpr int kCycles = 100;  // of each leg
   struct Place {
     double deep, across;
   };
@@ -109,7 +111,7 @@ void press(const Pose& H_WB, const Vector3& into, const Vector3& along, double s
 }  // namespace
 
 std::vector<Pose> try_out_motion(const Scene& scene) {
-  constexpr double kStep = 0.25;  // voxels a cycle, on the way there
+  constexpr double kStep = 0.25;  // voxels for each cycle of the approach
   constexpr int kMostCycles = 4000;
   const double s = scene.grid.voxel_size;
   const Vector3 still_low(scene.grid.surface_min[0], scene.grid.surface_min[1], scene.grid.surface_min[2]);
@@ -156,8 +158,9 @@ std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion) 
   return poses;
 }
 
-CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion, const Progress& progress) {
-  std::vector<std::vector<double>> runs(scenes.size());  // [ns] a cycle
+CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion,
+                       const parallel::Progress& progress) {
+  std::vector<std::vector<double>> runs(scenes.size());  // mean time of a cycle [ns]
   const auto begin = std::chrono::steady_clock::now();
   for (int run = 0; run < kRuns; ++run) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -9,28 +9,29 @@
 
 namespace godobject::scene_compiler {
 
-/// A short motion for a scene of which nothing is known, as poses of the moving mesh a cycle apart: from several sides,
-/// turned at random (fixed seed), the body comes until the scene's own solver says that it touches, is pressed three
-/// voxels deep, slides to and fro by ten voxels and leaves. The body's centre starts in the workspace, where there is
-/// one. Where nothing is met in that way, it flies by; empty where it has no free place to begin.
+/// Returns a short motion for an unknown scene, as poses of the moving mesh, one for each cycle. From several sides and
+/// in random orientation (fixed seed) the body approaches until the scene's own solver reports contact. Then it is
+/// pressed three voxels deep, slides to and fro by ten voxels and leaves. The body's centre starts in the workspace, if
+/// there is one. If nothing is met, the motion flies by. Empty if the body has no free place to start.
 std::vector<Pose> try_out_motion(const Scene& scene);
 
-/// The god object's poses of frame B along the motion, by the scene's own solver.
+/// Returns the god object's poses of frame B along the motion, with the scene's own solver.
 std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion);
 
-/// What a cycle of one scene takes less than that of another, in processor time [ns].
+/// The processor time by which a cycle of one scene is shorter than that of another [ns].
 struct Saving {
-  double ns = 0.0;           ///< median over the runs; about zero it may be of either sign
-  double uncertainty = 0.0;  ///< of the median, one standard error
+  double ns = 0.0;           ///< median over the runs; near zero it may have either sign
+  double uncertainty = 0.0;  ///< standard error of the median
 };
 
 struct CycleTimes {
-  double ns = 0.0;              ///< of the first scene: median over the runs of the mean
-  std::vector<Saving> savings;  ///< of each scene after the first, over the one before it
+  double ns = 0.0;              ///< of the first scene: median over the runs of the mean cycle
+  std::vector<Saving> savings;  ///< of each scene after the first against the one before it
 };
 
-/// Times each scene's solver along the motion, with friction where the scene has it: runs in turns, of one after the
-/// other, for some seconds. `motion` is not empty. Of this machine now.
-CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion, const Progress& progress);
+/// Times each scene's solver along the motion, with friction if the scene has it. Runs take turns, for some seconds.
+/// `motion` must not be empty. The result holds for this machine at this time.
+CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion,
+                       const parallel::Progress& progress);
 
 }  // namespace godobject::scene_compiler

@@ -1,3 +1,5 @@
+#include "toolchain/scene_compiler/report_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -5,14 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/compile_phases.h"
+#include "toolchain/scene_compiler/report_json.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
 std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 
-std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFacts& facts) {
+std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const MeshFindings& facts) {
   const MeshReport& r = facts.report;
   const auto shells =
       std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.shell; });
@@ -26,7 +29,7 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
   const auto note = [&text](std::uint64_t count, const char* what) {
     if (count > 0) text += fmt::format("         {} {}\n", count, what);
   };
-  note(r.boundary_edges, "boundary edges: open, the side is told by the winding number");
+  note(r.boundary_edges, "boundary edges: the mesh is open, the winding number decides its side");
   note(r.nonmanifold_edges, "edges of more than two triangles");
   note(r.misoriented_edges, "edges between triangles of opposite sense");
   note(r.polygons, "polygons cut into triangles");
@@ -36,16 +39,16 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
   note(r.duplicate_triangles, "duplicate triangles dropped");
   note(r.folded_triangles, "triangles in folds without volume");
   note(r.unreferenced_vertices, "loose vertices dropped");
-  note(static_cast<std::uint64_t>(flipped), "component(s) inside out, turned");
+  note(static_cast<std::uint64_t>(flipped), "component(s) inside out, reversed");
   return text;
 }
 
-/// What is too thin for the lattice: `loss` says what comes of it.
+/// Returns the line on places thinner than a voxel. `loss` says what happens there.
 std::string lost_text(const ThinPlaces& p, const char* loss, double voxel_size) {
   if (p.lost_area <= 0.0) return {};
   const Eigen::Vector3d& at = p.lost_patch > 0.0 ? p.lost_at : p.at;
   return fmt::format(
-      "         of that thinner than one voxel: {:.3g} cm^2, {}; at ({:.4g}, {:.4g}, {:.4g}) m; largest patch between "
+      "         thinner than one voxel: {:.3g} cm^2, {}; at ({:.4g}, {:.4g}, {:.4g}) m; largest patch between "
       "near-parallel faces {:.1f} voxel faces\n",
       1e4 * p.lost_area, loss, at.x(), at.y(), at.z(), p.lost_patch / (voxel_size * voxel_size));
 }
@@ -53,8 +56,8 @@ std::string lost_text(const ThinPlaces& p, const char* loss, double voxel_size) 
 std::string thin_text(const char* what, const ThinPlaces& p) {
   if (p.samples == 0) return fmt::format("{:<8} none thinner than two voxels\n", what);
   return fmt::format(
-      "{:<8} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m: would need voxel_size "
-      "= {:.2g}\n",
+      "{:<8} thinner than two voxels over {:.3g} cm^2, down to {} at ({:.4g}, {:.4g}, {:.4g}) m; voxel_size = {:.2g} "
+      "resolves them\n",
       what, 1e4 * p.area, millimetres(p.smallest), p.at.x(), p.at.y(), p.at.z(), p.voxel_needed);
 }
 
@@ -62,14 +65,14 @@ const char* reason(Stopped stopped) {
   switch (stopped) {
     case Stopped::kReached: break;
     case Stopped::kPoints:
-      return "as many points as a body may have; set moving.points or contact.between_points higher";
-    case Stopped::kPlaces: return "the bodies are too large to look at so closely; set contact.between_points higher";
-    case Stopped::kRounds: return "places were left over; set moving.points or contact.between_points higher";
+      return "the largest number of points is reached; increase moving.points or contact.between_points";
+    case Stopped::kPlaces: return "the bodies are too large for places that dense; increase contact.between_points";
+    case Stopped::kRounds: return "some places are not covered; increase moving.points or contact.between_points";
   }
-  return "the field of the moving body takes too much; set moving.voxel_size lower, or contact.between_points higher";
+  return "the moving body's field takes too much of it; decrease moving.voxel_size or increase contact.between_points";
 }
 
-/// Points that touch nothing.
+/// Returns the note on left-out points.
 std::string without(std::uint32_t left_out) {
   return left_out == 0 ? "" : fmt::format(", {} of these left out", left_out);
 }
@@ -78,32 +81,33 @@ std::string points_text(const CompileReport& report) {
   if (report.ball) {
     const Ball& ball = *report.ball;
     return fmt::format(
-        "ball     of {} radius, the mesh up to {} within it: its centre is the one point, distances are less by the "
-        "radius\n"
+        "ball     of {} radius, the mesh at most {} inside it; its centre is the only point, distances are reduced by "
+        "the radius\n"
         "         it turns with the device: no torque arises at the centre{}\n",
         millimetres(ball.radius), millimetres(ball.deviation),
-        report.config.settings.friction != 0 ? ", nor that of friction, whose lever the radius is" : "");
+        report.config.settings.friction != 0 ? ", and none from friction, whose lever is the radius" : "");
   }
-  const format::Body& body = report.body.body;
-  const std::uint32_t asked = report.config.points;
+  const format::Body& body = report.points.body;
+  const std::uint32_t requested = report.config.points;
   const std::uint32_t added = report.second.added_points;
   return fmt::format(
-      "points   {} of the moving body in {} levels: {} asked for, {} added where it is sharp or bends{}; {} apart, no "
-      "place of the surface further than {} from one\n",
-      body.point_count, body.level_count, asked, added, without(asked + added - body.point_count),
-      millimetres(report.body.spacing), millimetres(report.body.coverage));
+      "points   {} of the moving body in {} levels: {} requested, {} added where it is sharp or bends{}; median "
+      "spacing "
+      "{}, the surface is at most {} from a point\n",
+      body.point_count, body.level_count, requested, added, without(requested + added - body.point_count),
+      millimetres(report.points.spread.spacing), millimetres(report.points.spread.coverage));
 }
 
 std::string second_direction_text(const CompileReport& report) {
   const SecondDirection& second = report.second;
   if (report.ball) return {};
-  if (!second.sought) return "between  the points: not looked at; the still body gives no features\n";
+  if (!second.sought) return "between  the points: not checked; the still body has no features\n";
   const BetweenPoints& between = second.between;
   std::string text;
   if (second.features.point_count > 0) {
     text += fmt::format(
-        "features {} points of the still body, looked up in the moving body's own field: {} at corners, {} on edges, "
-        "{} on bent faces{}\n         that field has {} bricks, finer ones included, voxels of {}\n",
+        "features {} points of the still body for the moving body's own field: {} at corners, {} on edges, {} on bent "
+        "faces{}\n         that field has {} bricks, finer ones included, with voxels of {}\n",
         second.features.point_count, second.corners, second.on_edges, second.on_faces,
         without(second.found() - second.features.point_count), second.grid.brick_count,
         millimetres(second.grid.voxel_size));
@@ -115,48 +119,46 @@ std::string second_direction_text(const CompileReport& report) {
   const double bound = between.bound + second.slack;
   if (std::isfinite(bound)) {
     text += fmt::format(
-        "between  the points, where none looks, bodies meet no deeper than {} ({} wanted): the moving surface gives "
-        "{}, "
-        "the still one {}, the moving body's field {}\n",
+        "between  the points bodies meet no deeper than {} ({} wanted): {} from the moving surface, {} from the still "
+        "one, {} from the moving body's field\n",
         millimetres(bound), millimetres(report.config.between_points), millimetres(between.moving_fall),
         millimetres(between.still_fall), millimetres(second.slack));
   } else {
     text += "between  the points no bound is known\n";
   }
-  if (bound > report.config.between_points) text += fmt::format("         missed: {}\n", reason(between.stopped));
+  if (bound > report.config.between_points) text += fmt::format("         not reached: {}\n", reason(between.stopped));
   return text;
 }
 
 std::string field_text(const CompileReport& report) {
-  const format::Grid& g = report.grid;
-  const std::uint64_t finer = report.refinement.finer;
+  const format::Grid& g = report.field.grid;
+  const std::uint64_t finer = report.field.refinement.finer;
   std::string text = fmt::format(
-      "field    {} x {} x {} voxels of {}, distances kept up to {} from the surface (the band): {} of {} positions "
-      "stored, "
-      "a brick of {} x {} x {} voxels each; {} finer bricks beside\n"
-      "         rounded to multiples of {}, half that where bricks are halved once, a quarter twice, ...\n",
+      "field    {} x {} x {} voxels of {}, distances stored up to {} from the surface (the band): {} of {} positions "
+      "stored as bricks of {} x {} x {} voxels; {} finer bricks in addition\n"
+      "         rounded to multiples of {}, half of that in bricks halved once, a quarter in those halved twice, ...\n",
       g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells,
-      millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.brick_positions,
+      millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.field.brick_positions,
       format::kBrickCells, format::kBrickCells, format::kBrickCells, finer, millimetres(g.quantum));
-  if (report.seams.cells > 0) {
+  if (report.field.seams.cells > 0) {
     text += fmt::format(
-        "         seams, where holes of the mesh leave the side open, in {} cells: the distance jumps by up to {}, at "
+        "         seams in {} cells, where holes of the mesh leave the side undefined: the distance jumps by up to {}, "
+        "at "
         "({:.4g}, {:.4g}, {:.4g}) m\n",
-        report.seams.cells, millimetres(report.seams.largest_jump), report.seams.at.x(), report.seams.at.y(),
-        report.seams.at.z());
+        report.field.seams.cells, millimetres(report.field.seams.largest_jump), report.field.seams.at.x(),
+        report.field.seams.at.y(), report.field.seams.at.z());
   }
   return text;
 }
 
 std::string error_text(const CompileReport& report) {
-  const FieldError& e = report.field_error;
+  const FieldError& e = report.check.field_error;
   const ErrorNorms& near = e.near;
   return fmt::format(
-      "error    of the stored distance against the mesh, at {} random points of the band: rms {}, largest {}\n"
-      "         the floor of trilinear interpolation, what these voxels leave without finer bricks: rms {}, largest "
-      "{}\n"
-      "         points on the wrong side by more than 0.1 voxel: {}, the floor has {}\n"
-      "         nearer than half a voxel to the surface, off seams, at {} points: rms {} (floor {}), largest {} (floor "
+      "error    of the stored distance against the mesh at {} random points of the band: rms {}, largest {}\n"
+      "         floor of trilinear interpolation, these voxels without finer bricks: rms {}, largest {}\n"
+      "         points on the wrong side by more than 0.1 voxel: {}, of the floor {}\n"
+      "         at {} points nearer than half a voxel to the surface, off seams: rms {} (floor {}), largest {} (floor "
       "{})\n",
       e.points, millimetres(e.rms), millimetres(e.largest), millimetres(e.floor_rms), millimetres(e.floor_largest),
       e.sign_errors, e.floor_sign_errors, near.points, millimetres(near.rms), millimetres(near.floor_rms),
@@ -166,41 +168,41 @@ std::string error_text(const CompileReport& report) {
 std::string refinement_text(const CompileReport& report) {
   double seconds = 0.0;
   for (const auto& [phase, time] : report.seconds) seconds += phase == kRefinementPhase ? time : 0.0;
-  std::string text = fmt::format(
-      "finer    bricks by how often they were halved, 0, 1, 2, ... times: {}; {:.1f} KiB, {:.2f} s\n",
-      fmt::join(report.refinement.bricks, ", "), static_cast<double>(report.refinement.bytes()) / 1024.0, seconds);
-  if (report.refinement.edges > 0) {
-    text += fmt::format("         {} stretches of straight edges stored as such: there the field is exact\n",
-                        report.refinement.edges);
+  std::string text = fmt::format("finer    bricks by number of halvings, 0, 1, 2, ...: {}; {:.1f} KiB, {:.2f} s\n",
+                                 fmt::join(report.field.refinement.bricks, ", "),
+                                 static_cast<double>(report.field.refinement.bytes()) / 1024.0, seconds);
+  if (report.field.refinement.edges > 0) {
+    text += fmt::format("         {} stretches of straight edges, along which the field is exact\n",
+                        report.field.refinement.edges);
   }
   const auto look_up_text = [](double time) {
     return time > 0.0 ? fmt::format("{:.0f} ns", time) : std::string("(none)");
   };
-  text += fmt::format("         a look-up takes {} in bricks that are not halved, {} in finer ones\n",
-                      look_up_text(report.look_up.unrefined), look_up_text(report.look_up.refined));
+  text += fmt::format("         a look-up takes {} in whole bricks, {} in finer ones\n",
+                      look_up_text(report.check.look_up.unrefined), look_up_text(report.check.look_up.refined));
   return text;
 }
 
-/// What a build for this scene alone would do without.
+/// Returns the line on the code that a build for this scene alone leaves out.
 std::string code_text(const CompileReport& report) {
   std::vector<std::string> parts;
   double total = 0.0;
-  const Json left_out = full_report_json(report)["left_out_code"];
+  const Json left_out = left_out_code_json(report.check.traits);
   for (const Json& item : left_out) {
     const double saved = item["bytes_saved"].get<double>() / 1024.0;
-    if (saved <= 0.0) continue;  // this build is one for a scene and without it itself
+    if (saved <= 0.0) continue;  // this build leaves it out itself
     total += saved;
     parts.push_back(fmt::format("{} {:.1f} KiB", item["what"].get<std::string>(), saved));
   }
   if (parts.empty()) return {};
-  return fmt::format("code     that a build with this scene's --traits leaves out: {}; {:.1f} KiB in all\n",
+  return fmt::format("code     left out by a build with this scene's --traits: {}; {:.1f} KiB in all\n",
                      fmt::join(parts, ", "), total);
 }
 
-/// Data, a line each. Times only of what was timed.
+/// Returns a table of the left-out data. Times appear only if they were measured.
 std::string left_out_text(const CompileReport& report) {
   const Json left_out = full_report_json(report)["left_out"];
-  std::string text = fmt::format("left out {:<64}{:>10}{:>12}{:>18}\n", "", "how many", "bytes", "ns a cycle");
+  std::string text = fmt::format("left out {:<64}{:>10}{:>12}{:>18}\n", "", "count", "bytes", "ns a cycle");
   for (const Json& item : left_out) {
     const auto cell = [&item](const char* key, const char* form) {
       const bool known = item.contains(key) && !item[key].is_null();
@@ -208,45 +210,44 @@ std::string left_out_text(const CompileReport& report) {
     };
     const std::string time = cell("nanoseconds_saved", "{:.1f}");
     const std::string scatter = time == "-" ? "" : " +- " + cell("nanoseconds_uncertainty", "{:.1f}");
-    // a small grid may take more than a dense one would
+    // may be negative: a small sparse grid can take more than a dense one
     text += fmt::format("         {:<64}{:>10}{:>12}{:>18}\n", item["what"].get<std::string>(), cell("count", "{:.0f}"),
                         cell("bytes_saved", "{:.0f}"), time + scatter);
   }
   if (report.cycle_ns) {
     text += fmt::format(
-        "         times of the processor by a short motion in contact on this machine, of {:.0f} ns a cycle with all "
-        "of "
-        "it\n",
+        "         processor times along a short motion in contact on this machine; a cycle with all data takes {:.0f} "
+        "ns\n",
         *report.cycle_ns);
   }
   return text;
 }
 
-/// Walls or gaps.
+/// Returns the limit on walls or gaps; empty if there is none.
 std::string thin_limit(const ThinPlaces& places, const char* what, const char* loss) {
   if (places.lost_area > 0.0) return fmt::format("{} thinner than a voxel, {}", what, loss);
   return places.samples > 0 ? fmt::format("{} thinner than two voxels", what) : std::string();
 }
 
-/// What of the image is not as wished.
+/// Returns the properties of the image that miss the scene's settings.
 std::vector<std::string> limits(const CompileReport& report) {
   const SceneConfig& config = report.config;
-  const ErrorNorms& near = report.field_error.near;
-  const double s = report.grid.voxel_size;
-  const double off = kHeldOff * config.field_tolerance;  // what refinement may leave on either side
+  const ErrorNorms& near = report.check.field_error.near;
+  const double s = report.field.grid.voxel_size;
+  const double off = kHeldOff * config.field_tolerance;  // largest error that refinement allows
   std::vector<std::string> found;
   if (near.largest > off * s)
     found.push_back(
         fmt::format("the field is up to {:.2f} voxels off near the surface ({:.2f} wanted)", near.largest / s, off));
   found.push_back(thin_limit(report.thin.walls, "walls", "which bodies may pass"));
   found.push_back(thin_limit(report.thin.gaps, "gaps", "which may be closed"));
-  if (report.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
+  if (report.field.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
   const SecondDirection& second = report.second;
   const double bound = second.between.bound + second.slack;
   if (report.ball) {
-    if (config.settings.friction != 0) found.push_back("friction turns no ball that is met by its centre");
+    if (config.settings.friction != 0) found.push_back("friction cannot turn a ball that is rendered by its centre");
   } else if (!second.sought) {
-    found.push_back("nobody looks between the points");
+    found.push_back("the depth between the points is not bounded");
   } else if (bound > config.between_points) {
     found.push_back(std::isfinite(bound) ? fmt::format("bodies may meet {} deep between the points ({} wanted)",
                                                        millimetres(bound), millimetres(config.between_points))
@@ -270,14 +271,14 @@ std::string verdict_text(const CompileReport& report) {
 }
 
 std::string report_text(const CompileReport& report) {
-  const double voxel_size = report.grid.voxel_size;
+  const double voxel_size = report.field.grid.voxel_size;
   std::string text = mesh_text("still", report.config.still, report.still);
   text += mesh_text("moving", report.config.moving, report.moving);
   text += report.ball ? "" : thin_text("walls", report.thin.walls);
-  text += lost_text(report.thin.walls, "too thin for the field to hold, bodies may pass there", voxel_size);
+  text += lost_text(report.thin.walls, "the field cannot hold them, bodies may pass there", voxel_size);
   if (report.thin.walls.lost_area > 0.0) text += fmt::format("         a wall is {}\n", kRefusalRule);
   text += report.ball ? "" : thin_text("gaps", report.thin.gaps);
-  text += lost_text(report.thin.gaps, "too thin for the field to hold, solid may stand there", voxel_size);
+  text += lost_text(report.thin.gaps, "the field cannot hold them, they may be closed", voxel_size);
   text += field_text(report);
   text += error_text(report);
   text += refinement_text(report);

@@ -1,4 +1,4 @@
-#include "toolchain/scene_compiler/compile_report.h"
+#include "toolchain/scene_compiler/report_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,43 +6,13 @@
 #include <fmt/format.h>
 
 #include "godobject/version.h"
-#include "toolchain/scene_compiler/image/build_traits.h"
 #include "toolchain/scene_compiler/image/code_bytes.h"
+#include "toolchain/scene_compiler/image/image_json.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
-const char* name_of(format::SectionId id) {
-  switch (id) {
-    case format::SectionId::kSettings: return "settings";
-    case format::SectionId::kGrid: return "grid";
-    case format::SectionId::kBrickIndex: return "brick_index";
-    case format::SectionId::kBricks: return "bricks";
-    case format::SectionId::kBody: return "body";
-    case format::SectionId::kPoints: return "points";
-    case format::SectionId::kNormals: return "normals";
-    case format::SectionId::kNodes: return "nodes";
-    case format::SectionId::kProvenance: return "provenance";
-    case format::SectionId::kRefined: return "refined";
-    case format::SectionId::kBodyGrid: return "body_grid";
-    case format::SectionId::kBodyBrickIndex: return "body_brick_index";
-    case format::SectionId::kBodyBricks: return "body_bricks";
-    case format::SectionId::kBodyRefined: return "body_refined";
-    case format::SectionId::kFeatures: return "features";
-    case format::SectionId::kFeaturePoints: return "feature_points";
-    case format::SectionId::kFeatureNodes: return "feature_nodes";
-    case format::SectionId::kEdges: return "edges";
-    case format::SectionId::kBodyEdges: return "body_edges";
-    case format::SectionId::kWorkspace: return "workspace";
-  }
-  return "unknown";
-}
-
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json array_json(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
-
-Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFacts& facts, double thickness) {
+Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFindings& facts, double thickness) {
   const MeshReport& r = facts.report;
   Json components = Json::array();
   constexpr std::size_t kListed = 100;
@@ -79,8 +49,8 @@ Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFacts& facts, double thi
           {"shell_thickness", thickness}};
 }
 
-/// Of walls or gaps; "at" is the middle of the thinnest, "patch_at" of the thinnest in the largest patch that lies
-/// between near-parallel faces.
+/// Returns the JSON of walls or gaps. "at" is the middle of the thinnest place. "patch_at" is that of the thinnest one
+/// in the largest patch between near-parallel faces.
 Json thin_json(const ThinPlaces& places) {
   Json json = {{"found", places.samples > 0}};
   if (places.samples == 0) return json;
@@ -97,71 +67,6 @@ Json thin_json(const ThinPlaces& places) {
   return json;
 }
 
-Json settings_json(const format::Settings& s) {
-  Json solvers = Json::array();
-  for (std::uint32_t i = 0; i < format::kSolverCount; ++i) {
-    if ((s.solvers >> i & 1u) != 0) solvers.push_back(format::kSolverNames[i]);
-  }
-  Json json = {{"solver", format::kSolverNames[s.default_solver]},
-               {"solvers_held", solvers},
-               {"safety_distance", s.safety_distance},
-               {"point_budget", s.point_budget},
-               {"margin", s.margin},
-               {"stiffness", s.stiffness},
-               {"damping", s.damping},
-               {"coupling_translation", s.coupling_translation},
-               {"coupling_rotational", s.coupling_rotation},
-               {"friction", nullptr},
-               {"paper",
-                {{"rotation_static", s.paper_rotation_static},
-                 {"rotation_kinetic", s.paper_rotation_kinetic},
-                 {"viscous", s.paper_viscous}}}};
-  if (s.friction != 0) {
-    json["friction"] = {
-        {"static", s.friction_static}, {"kinetic", s.friction_kinetic}, {"viscous", s.friction_viscous}};
-  }
-  return json;
-}
-
-Json workspace_json(const std::optional<format::Workspace>& workspace) {
-  if (!workspace) return nullptr;
-  return {{"low", array_json(workspace->low)}, {"high", array_json(workspace->high)}};
-}
-
-Json traits_json(const SceneTraits& traits) {
-  return {{"paper", traits.paper},       {"corrected", traits.corrected}, {"contact", traits.contact},
-          {"friction", traits.friction}, {"features", traits.features},   {"points", traits.points}};
-}
-
-Json grid_json(const format::Grid& g) {
-  return {{"voxel_size", g.voxel_size},
-          {"band", g.band},
-          {"origin", array_json(g.origin)},
-          {"bricks", {g.bricks[0], g.bricks[1], g.bricks[2]}},
-          {"voxels",
-           {g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells}},
-          {"bricks_stored", g.brick_count},
-          {"quantum", g.quantum},
-          {"surface_low", array_json(g.surface_min)},
-          {"surface_high", array_json(g.surface_max)},
-          {"lipschitz", g.lipschitz},
-          {"lipschitz_with_seams", g.lipschitz_seam},
-          {"outside_loss", g.outside_loss}};
-}
-
-Json body_json(const format::Body& b) {
-  return {{"points", b.point_count},
-          {"levels", b.level_count},
-          {"nodes", b.node_count},
-          {"center_of_mass", array_json(b.translation_MB)},
-          {"principal_axes_wxyz", {b.rotation_MB[0], b.rotation_MB[1], b.rotation_MB[2], b.rotation_MB[3]}},
-          {"inertia_per_mass", array_json(b.inertia)},
-          {"inertia_from_points", b.inertia_from_points != 0},
-          {"radius", b.radius},
-          {"sphere", {{"center", array_json(b.sphere_center)}, {"radius", b.sphere_radius}}},
-          {"volume", b.volume}};
-}
-
 Json error_json(const FieldError& e, double voxel_size) {
   return {{"points", e.points},
           {"rms", e.rms},
@@ -176,11 +81,11 @@ Json error_json(const FieldError& e, double voxel_size) {
 }
 
 Json refinement_json(const CompileReport& report) {
-  const ErrorNorms& near = report.field_error.near;
+  const ErrorNorms& near = report.check.field_error.near;
   return {{"tolerance_in_voxels", report.config.field_tolerance},
-          {"bricks_by_halvings", report.refinement.bricks},
-          {"straight_edges", report.refinement.edges},
-          {"bytes", report.refinement.bytes()},
+          {"bricks_by_halvings", report.field.refinement.bricks},
+          {"straight_edges", report.field.refinement.edges},
+          {"bytes", report.field.refinement.bytes()},
           {"nearer_than_half_a_voxel",
            {{"points", near.points},
             {"rms", near.rms},
@@ -228,7 +133,7 @@ Json ball_json(const std::optional<Ball>& ball) {
 }
 
 Json left_out_json(const CompileReport& report) {
-  const format::Grid& g = report.grid;
+  const format::Grid& g = report.field.grid;
   std::uint64_t nodes = 1;
   for (const std::int32_t bricks : g.bricks) nodes *= static_cast<std::uint64_t>(bricks) * format::kBrickCells + 1;
   const std::uint64_t dense = nodes * sizeof(float);
@@ -243,7 +148,7 @@ Json left_out_json(const CompileReport& report) {
                   {"bytes_saved", static_cast<std::int64_t>(dense) - static_cast<std::int64_t>(sparse)}});
   if (!report.ball && section_bytes(report, format::SectionId::kNormals) == 0) {
     list.push_back({{"what", "normals, which only the paper's solver reads"},
-                    {"count", report.body.body.point_count},
+                    {"count", report.points.body.point_count},
                     {"bytes_saved", section_bytes(report, format::SectionId::kPoints)}});
   }
   if (report.config.settings.friction == 0) {
@@ -262,12 +167,52 @@ Json left_out_json(const CompileReport& report) {
                             : report.second.sought          ? "no feature point is needed"
                             : report.config.both_directions ? "only contact reads it"
                                                             : "contact.both_directions = false";
-    list.push_back({{"what", std::string("the second direction: ") + why}, {"bytes_saved", nullptr}});  // never made
+    // Never made, so its size is unknown.
+    list.push_back({{"what", std::string("the second direction: ") + why}, {"bytes_saved", nullptr}});
   }
   return list;
 }
 
-/// Of the core's code, by a build with these traits.
+}  // namespace
+
+Json report_json(const CompileReport& report) {
+  const SceneConfig& config = report.config;
+  Json settings = settings_json(config.settings);
+  if (report.only_solver)
+    settings["solvers_held"] = Json::array({format::kSolverNames[static_cast<std::size_t>(*report.only_solver)]});
+  if (report.only_solver) settings["solver"] = format::kSolverNames[static_cast<std::size_t>(*report.only_solver)];
+  Json sections;
+  for (const auto& [id, bytes] : report.sections) sections[section_name(id)] = bytes;
+  Json body = body_json(report.points.body);
+  body["level_sizes"] = report.points.spread.level_sizes;
+  body["point_spacing"] = report.points.spread.spacing;
+  body["largest_distance_of_the_surface_from_a_point"] = report.points.spread.coverage;
+  Json json = {{"compiler", "godobject-scenec " GODOBJECT_VERSION},
+               {"settings", settings},
+               {"workspace", workspace_json(config.workspace)},
+               {"still", mesh_json(config.still, report.still, config.thickness)},
+               {"moving", mesh_json(config.moving, report.moving, config.thickness)},
+               {"walls", thin_json(report.thin.walls)},
+               {"walls_rule", kRefusalRule},
+               {"gaps", thin_json(report.thin.gaps)},
+               {"wall_sample_spacing", report.thin.sample_spacing},
+               {"grid", grid_json(report.field.grid)},
+               {"seams",
+                {{"cells", report.field.seams.cells},
+                 {"largest_jump", report.field.seams.largest_jump},
+                 {"at", vector_json(report.field.seams.at)}}},
+               {"distance_error", error_json(report.check.field_error, report.field.grid.voxel_size)},
+               {"refinement", refinement_json(report)},
+               {"ball", ball_json(report.ball)},
+               {"body", body},
+               {"between_points", second_direction_json(report)},
+               {"section_bytes", sections},
+               {"build_traits", traits_json(report.check.traits)},
+               {"left_out", left_out_json(report)}};
+  if (!report.choice.is_null()) json["budget"] = report.choice;
+  return json;
+}
+
 Json left_out_code_json(const SceneTraits& traits) {
   const CodeBytes& code = kCodeBytes;
   Json list = Json::array();
@@ -276,7 +221,7 @@ Json left_out_code_json(const SceneTraits& traits) {
   };
   if (!traits.paper) leave_out("the solver paper", code.paper + code.paper_with_friction);
   if (!traits.corrected) leave_out("the solver corrected", code.corrected + code.corrected_with_friction);
-  if (!traits.paper && !traits.corrected) leave_out("what these two share", code.closed_forms);
+  if (!traits.paper && !traits.corrected) leave_out("code shared by paper and corrected", code.closed_forms);
   if (!traits.contact) {
     leave_out("the solver contact",
               code.contact + code.contact_with_points + code.contact_with_friction + code.contact_features);
@@ -292,50 +237,10 @@ Json left_out_code_json(const SceneTraits& traits) {
   return list;
 }
 
-}  // namespace
-
-Json report_json(const CompileReport& report) {
-  const SceneConfig& config = report.config;
-  Json settings = settings_json(config.settings);
-  if (report.only_solver)
-    settings["solvers_held"] = Json::array({format::kSolverNames[static_cast<std::size_t>(*report.only_solver)]});
-  if (report.only_solver) settings["solver"] = format::kSolverNames[static_cast<std::size_t>(*report.only_solver)];
-  Json sections;
-  for (const auto& [id, bytes] : report.sections) sections[name_of(id)] = bytes;
-  Json body = body_json(report.body.body);
-  body["level_sizes"] = report.body.level_sizes;
-  body["point_spacing"] = report.body.spacing;
-  body["largest_distance_of_the_surface_from_a_point"] = report.body.coverage;
-  Json json = {{"compiler", "godobject-scenec " GODOBJECT_VERSION},
-               {"settings", settings},
-               {"workspace", workspace_json(config.workspace)},
-               {"still", mesh_json(config.still, report.still, config.thickness)},
-               {"moving", mesh_json(config.moving, report.moving, config.thickness)},
-               {"walls", thin_json(report.thin.walls)},
-               {"walls_rule", kRefusalRule},
-               {"gaps", thin_json(report.thin.gaps)},
-               {"wall_sample_spacing", report.thin.sample_spacing},
-               {"grid", grid_json(report.grid)},
-               {"seams",
-                {{"cells", report.seams.cells},
-                 {"largest_jump", report.seams.largest_jump},
-                 {"at", vector_json(report.seams.at)}}},
-               {"distance_error", error_json(report.field_error, report.grid.voxel_size)},
-               {"refinement", refinement_json(report)},
-               {"ball", ball_json(report.ball)},
-               {"body", body},
-               {"between_points", second_direction_json(report)},
-               {"section_bytes", sections},
-               {"build_traits", traits_json(report.traits)},
-               {"left_out", left_out_json(report)}};
-  if (!report.choice.is_null()) json["budget"] = report.choice;
-  return json;
-}
-
 Json full_report_json(const CompileReport& report) {
   Json json = report_json(report);
   json["image_bytes"] = report.image_bytes;
-  for (std::size_t i = 0; i < report.left_out.size(); ++i) {  // they come first
+  for (std::size_t i = 0; i < report.left_out.size(); ++i) {  // they are the first entries of the list
     const std::optional<Saving>& cycle = report.left_out[i].cycle;
     if (!cycle) continue;
     json["left_out"][i]["nanoseconds_saved"] = cycle->ns;
@@ -350,36 +255,10 @@ Json full_report_json(const CompileReport& report) {
   }
   seconds["total"] = total;
   json["seconds"] = seconds;
-  json["left_out_code"] = left_out_code_json(report.traits);
-  json["look_up_nanoseconds"] = {{"unrefined", report.look_up.unrefined}, {"refined", report.look_up.refined}};
+  json["left_out_code"] = left_out_code_json(report.check.traits);
+  json["look_up_nanoseconds"] = {{"unrefined", report.check.look_up.unrefined},
+                                 {"refined", report.check.look_up.refined}};
   return json;
-}
-
-Json inspect_json(const command::SceneImage& image) {
-  const Scene& scene = image.scene;
-  format::Header header{};
-  std::copy_n(image.bytes.span().data(), sizeof(header), reinterpret_cast<std::byte*>(&header));
-  Json sections;
-  for (std::uint32_t i = 0; i < header.section_count; ++i) {
-    format::Section section{};
-    std::copy_n(image.bytes.span().data() + sizeof(header) + i * sizeof(section), sizeof(section),
-                reinterpret_cast<std::byte*>(&section));
-    sections[name_of(section.id)] = {{"offset", section.offset}, {"bytes", section.bytes}};
-  }
-  const std::string text(reinterpret_cast<const char*>(scene.provenance.data()), scene.provenance.size());
-  const Json provenance = Json::parse(text, nullptr, false);
-  Json workspace;
-  if (scene.workspace.limited)
-    workspace = {{"low", vector_json(scene.workspace.low)}, {"high", vector_json(scene.workspace.high)}};
-  return {{"version", header.version},
-          {"bytes", header.total_bytes},
-          {"settings", settings_json(scene.settings)},
-          {"workspace", workspace},
-          {"grid", grid_json(scene.grid)},
-          {"body", body_json(scene.body)},
-          {"sections", sections},
-          {"build_traits", traits_json(traits_of(scene))},
-          {"provenance", provenance.is_discarded() ? Json(nullptr) : provenance}};
 }
 
 }  // namespace godobject::scene_compiler

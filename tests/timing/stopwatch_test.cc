@@ -1,10 +1,10 @@
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 #include <chrono>
 
 #include <gtest/gtest.h>
 
-namespace godobject::command {
+namespace godobject::timing {
 namespace {
 
 TEST(Stopwatch, NeverRunsBackwards) {
@@ -24,12 +24,12 @@ TEST(Stopwatch, RunsAsFastAsTheSystemsClock) {
   const std::int64_t begin_ns = now();
   while (Clock::now() - begin < std::chrono::milliseconds(50)) {
   }
-  const double way = static_cast<double>(now() - begin_ns);
+  const double elapsed = static_cast<double>(now() - begin_ns);
   const double system =
       static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count());
-  // being put aside between the two readings makes the system's way longer, never shorter
-  EXPECT_LT(way, 1.01 * system);
+  // if the process is suspended between the two readings, the system's time is longer, never shorter
+  EXPECT_LT(elapsed, 1.01 * system);
 }
 
 }  // namespace
-}  // namespace godobject::command
+}  // namespace godobject::timing

@@ -1,4 +1,4 @@
-#include "toolchain/command_line/stopwatch.h"
+#include "toolchain/timing/stopwatch.h"
 
 #include <ctime>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <x86intrin.h>
 #endif
 
-namespace godobject::command {
+namespace godobject::timing {
 namespace {
 
 std::int64_t monotonic_ns() noexcept {
@@ -25,7 +25,7 @@ std::int64_t counter_ns() noexcept {
   return static_cast<std::int64_t>(ns_per_tick * static_cast<double>(__rdtsc() - first_tick));
 }
 
-/// Linux times by the counter only where it has found it to be even.
+/// True if Linux itself uses the counter as its clock, which it does only if the counter runs evenly.
 bool is_even() {
   std::string name;
   std::ifstream("/sys/devices/system/clocksource/clocksource0/current_clocksource") >> name;
@@ -37,9 +37,9 @@ Stopwatch choose() {
   if (!is_even()) return &monotonic_ns;
   const std::int64_t begin_ns = monotonic_ns();
   first_tick = __rdtsc();
-  std::int64_t way_ns = 0;
-  while (way_ns < kCompared_ns) way_ns = monotonic_ns() - begin_ns;
-  ns_per_tick = static_cast<double>(way_ns) / static_cast<double>(__rdtsc() - first_tick);
+  std::int64_t elapsed_ns = 0;
+  while (elapsed_ns < kCompared_ns) elapsed_ns = monotonic_ns() - begin_ns;
+  ns_per_tick = static_cast<double>(elapsed_ns) / static_cast<double>(__rdtsc() - first_tick);
   return &counter_ns;
 }
 #else
@@ -53,4 +53,4 @@ Stopwatch stopwatch() {
   return chosen;
 }
 
-}  // namespace godobject::command
+}  // namespace godobject::timing

@@ -1,0 +1,224 @@
+#include "toolchain/scene_compiler/compile_phases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/image/build_traits.h"
+#include "toolchain/scene_compiler/mesh/outer_surface.h"
+#include "toolchain/scene_compiler/points/second_direction.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+constexpr std::uint64_t kCheckedPoints = 20000;  // chosen: errors of one point in a thousand appear some 20 times
+
+SolidSurface read_body(const SceneConfig::Mesh& mesh, double thickness, MeshFindings& findings) {
+  SolidSurface body(import_mesh(mesh.file, mesh.scale, findings.report), mesh.surface, thickness);
+  findings.components = body.components();
+  return body;
+}
+
+bool has_inside(const DistanceGrid& field) {
+  return std::any_of(field.bricks.begin(), field.bricks.end(), [](const Brick& brick) {
+    return *std::min_element(std::begin(brick.value), std::end(brick.value)) < 0.0f;
+  });
+}
+
+/// Refuses a body without any node inside: it would be no obstacle.
+void require_some_inside(const DistanceGrid& field, const std::string& mesh_name) {
+  if (has_inside(field)) return;
+  throw command::Failure(
+      command::ExitCode::kBadData,
+      fmt::format("{}: no node of the grid is inside the mesh, which encloses nothing or is smaller than a voxel; "
+                  "set surface = \"shell\", or a smaller voxel_size",
+                  mesh_name));
+}
+
+/// Runs `work` on the moving mesh. Puts the name of the mesh before its errors.
+template <class Work>
+auto naming_moving_mesh(const SceneConfig& config, Work&& work) {
+  try {
+    return work();
+  } catch (const command::Failure&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: {}", config.moving.file.string(), error.what()));
+  }
+}
+
+/// True if the scene asks for the second direction and the solver of the image reads it.
+bool wants_features(const CompileTarget& target) {
+  return target.config.both_directions &&
+         target.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
+}
+
+/// Returns the moving mesh in its body frame.
+SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body, const SceneConfig& config) {
+  const Eigen::Isometry3d X_BM = body_pose(body).inverse();
+  TriangleMesh mesh = moving.mesh();
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = X_BM * vertex;
+  return SolidSurface(std::move(mesh), config.moving.surface, config.thickness);
+}
+
+/// Returns the slack by which the moving body is smaller in its field [voxels]: as much as refinement may hold bodies
+/// off at its edges (kHeldOff tolerances). Otherwise an edge of the still body in the plane of a touching face would
+/// catch on that difference.
+double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
+
+struct FeaturePhase {
+  StillFeatures features;
+  SecondDirection second;
+};
+
+/// Chooses features of the still body, and adds points of the moving one to `sampling` where its own are too few.
+FeaturePhase find_features(const SceneConfig& config, const SolidSurface& still, const OuterSurface& moving,
+                           MovingSampling& sampling, const parallel::Progress& progress) {
+  FeaturePhase phase;
+  SecondDirection& second = phase.second;
+  second.slack = slack_of(config.field_tolerance) * config.body_voxel_size;
+  const double wanted = std::max(config.between_points - second.slack, 0.5 * config.between_points);
+  const OuterSurface outer(still);
+  const BothDirections both = see_both_directions(outer, moving, wanted, sampling, progress);
+  phase.features = make_still_features(both.features, both.area);
+  second.sought = true;
+  second.between = both.between;
+  second.added_points = both.added_points;
+  second.corners = phase.features.corners;
+  second.on_edges = phase.features.on_edges;
+  second.on_faces = phase.features.on_faces;
+  if (both.features.empty()) second.slack = 0.0;  // nothing is looked up in the field
+  return phase;
+}
+
+DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body, double slack,
+                             const parallel::Progress& progress) {
+  const double band = default_band(config.body_voxel_size, config.settings.safety_distance);
+  DistanceGrid field = make_distance_grid(body, config.body_voxel_size, band, parallel::part_of(progress, 0.0, 0.5));
+  refine(field, body, config.field_tolerance * config.body_voxel_size, parallel::part_of(progress, 0.5, 1.0), slack);
+  return field;
+}
+
+}  // namespace
+
+Bodies read_bodies(const SceneConfig& config, PhaseClock& clock) {
+  MeshFindings still_findings;
+  MeshFindings moving_findings;
+  SolidSurface still =
+      clock.run("still mesh", [&](const auto&) { return read_body(config.still, config.thickness, still_findings); });
+  SolidSurface moving = clock.run(
+      "moving mesh", [&](const auto&) { return read_body(config.moving, config.thickness, moving_findings); });
+  return {std::move(still), std::move(moving), std::move(still_findings), std::move(moving_findings)};
+}
+
+Obstacle make_obstacle(const SceneConfig& config, const Bodies& bodies, PhaseClock& clock) {
+  const std::string still_name = config.still.file.string();
+  Obstacle obstacle;
+  if (config.ball) {
+    obstacle.ball = clock.run("ball", [&](const auto&) {
+      return require_ball(bodies.moving, config.moving.file.string(), bodies.still, still_name, config.voxel_size);
+    });
+    obstacle.dilated.emplace(bodies.still.mesh(), config.still.surface, config.thickness, obstacle.ball->radius);
+  } else {
+    obstacle.thin = clock.run("walls and gaps", [&](const auto& progress) {
+      return find_thin_places(bodies.still, config.voxel_size, progress);
+    });
+    require_walls_that_last(obstacle.thin, config.voxel_size, still_name);
+  }
+  return obstacle;
+}
+
+FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, PhaseClock& clock) {
+  const double band = default_band(config.voxel_size, config.settings.safety_distance);
+  FieldPhase phase;
+  phase.field = clock.run("distances", [&](const auto& progress) {
+    return make_distance_grid(obstacle, config.voxel_size, band, progress);
+  });
+  require_some_inside(phase.field, config.still.file.string());
+  phase.refinement = clock.run(kRefinementPhase, [&](const auto& progress) {
+    return refine(phase.field, obstacle, config.field_tolerance * config.voxel_size, progress);
+  });
+  return phase;
+}
+
+PointPhase make_points(const CompileTarget& target, const Bodies& bodies, const std::optional<Ball>& ball,
+                       PhaseClock& clock) {
+  const SceneConfig& config = target.config;
+  PointPhase phase;
+  PointParts& parts = phase.parts;
+  if (ball) {
+    parts.body = make_ball_body(*ball);
+    phase.spread.level_sizes = {1};
+    return phase;
+  }
+  const OuterSurface outer(bodies.moving);
+  MovingSampling sampling = clock.run("points", [&](const auto& progress) {
+    return naming_moving_mesh(config,
+                              [&] { return sample_moving_body(outer, config.points, config.levels, progress); });
+  });
+  if (wants_features(target)) {
+    FeaturePhase found = clock.run("between points", [&](const auto& progress) {
+      return find_features(config, bodies.still, outer, sampling, progress);
+    });
+    parts.features = std::move(found.features);
+    phase.second = found.second;
+  }
+  parts.body = clock.run("body", [&](const auto&) {
+    phase.spread = measure_spread(outer, sampling);
+    return make_moving_body(outer, sampling);
+  });
+  if (parts.features.points.empty()) return phase;
+  parts.body_field = clock.run("body distances", [&](const auto& progress) {
+    return make_body_field(config, in_body_frame(bodies.moving, parts.body.body, config), phase.second.slack, progress);
+  });
+  return phase;
+}
+
+SceneParts join_parts(const CompileTarget& target, DistanceGrid field, PointParts points) {
+  SceneParts parts{.settings = target.config.settings,
+                   .workspace = target.config.workspace,
+                   .field = std::move(field),
+                   .body = std::move(points.body),
+                   .features = std::move(points.features),
+                   .body_field = std::move(points.body_field)};
+  if (target.only_solver) {
+    parts.settings.solvers = 1u << static_cast<std::uint32_t>(*target.only_solver);
+    parts.settings.default_solver = static_cast<std::uint32_t>(*target.only_solver);
+  }
+  return parts;
+}
+
+Trimmed trim(SceneParts parts, const CompileTarget& target, const Bodies& bodies, const SecondDirection& second,
+             bool timed, PhaseClock& clock) {
+  const SceneConfig& config = target.config;
+  std::optional<double> deepest;
+  if (second.sought && std::isfinite(second.between.bound)) {
+    // plus one voxel for the errors of the fields
+    deepest = second.between.bound + second.slack + std::max(config.voxel_size, config.body_voxel_size);
+  }
+  return clock.run("unneeded data", [&](const auto&) {
+    return leave_out_unneeded(std::move(parts), {bodies.still, bodies.moving, config.ball, deepest, timed});
+  });
+}
+
+CheckFindings check_image(const std::vector<SectionBytes>& sections, const DistanceGrid& field,
+                          const SolidSurface& obstacle, const std::string& name, PhaseClock& clock) {
+  CheckFindings findings = clock.run("check", [&](const auto& progress) {
+    const files::SceneImage image(make_image(sections), name);
+    CheckFindings found;
+    found.traits = traits_of(image.scene);
+    found.look_up = time_look_ups(field, image.scene.voxelmap);
+    found.field_error = check_field(obstacle, field, image.scene.voxelmap, kCheckedPoints, progress);
+    return found;
+  });
+  require_exact_nodes(findings.field_error, field.grid);
+  return findings;
+}
+
+}  // namespace godobject::scene_compiler

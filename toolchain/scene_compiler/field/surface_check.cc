@@ -1,0 +1,216 @@
+#include "toolchain/scene_compiler/field/surface_check.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include <Eigen/Geometry>
+
+#include "toolchain/scene_compiler/field/cell_edges.h"
+#include "toolchain/scene_compiler/field/distance_probe.h"
+#include "toolchain/scene_compiler/field/refinement.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+using format::kBrickCells;
+
+constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is blended with an edge
+constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
+constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
+constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
+constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
+
+/// Finds places at which the stored field misses the surface although refinement could improve it.
+class SurfaceCheck {
+ public:
+  /// `barred` bricks are never halved.
+  SurfaceCheck(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred, double tolerance)
+      : surface_(surface), tree_(tree), barred_(barred), tolerance_(tolerance), marked_(tree.brick_count()) {}
+
+  Misses run(const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
+    const bool dilated = surface_.dilation() > 0.0;
+    std::vector<char> missed(triangles.size(), dilated ? 1 : 0);
+    if (dilated) {
+      parallel::for_each_index(
+          tree_.brick_count(), [&](std::size_t i) { check_brick(static_cast<std::uint32_t>(i)); }, progress);
+    } else {
+      parallel::for_each_index(
+          triangles.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i]) ? 1 : 0; }, progress);
+    }
+    Misses misses;
+    for (std::uint32_t b = 0; b < marked_.size(); ++b) {
+      const std::uint8_t octants = marked_[b].load(std::memory_order_relaxed);
+      if (octants != 0) misses.wanted.emplace_hint(misses.wanted.end(), b, octants);
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      if (missed[i] != 0) misses.triangles.push_back(triangles[i]);
+    }
+    return misses;
+  }
+
+ private:
+  using Corners = std::array<Vector3d, 3>;
+
+  /// Probes on both sides of one triangle.
+  struct Sides {
+    Vector3d normal;
+    DistanceProbe above, below;
+  };
+
+  bool check_triangle(std::size_t number) {
+    const auto& triangle = surface_.mesh().triangles[number];
+    const SolidSurface::Component& component = surface_.components()[surface_.component_of_triangle()[number]];
+    Corners corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = surface_.mesh().vertices[triangle[i]];
+    const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    Sides sides{normal, DistanceProbe(surface_), DistanceProbe(surface_)};
+    if (!component.shell) return check_piece(corners, sides);
+    bool missed = false;
+    for (const double side : {-0.5, 0.5}) {
+      Corners raised = corners;
+      for (Vector3d& corner : raised) corner += side * surface_.thickness() * sides.normal;
+      missed = check_piece(raised, sides) || missed;
+    }
+    return missed;
+  }
+
+  bool check_piece(const Corners& corners, Sides& sides) {
+    bool missed = divide(corners, sides);
+    const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
+    for (std::size_t i = 0; i < 3; ++i) missed = walk(corners[i], corners[(i + 1) % 3], center, sides) || missed;
+    return missed;
+  }
+
+  /// Checks points of an edge, from end to end. True if one of them is missed.
+  bool walk(const Vector3d& from, const Vector3d& to, const Vector3d& center, Sides& sides) {
+    const double length = (to - from).norm();
+    bool missed = false;
+    for (double at = 0.0; at < length;) {
+      const Vector3d p = from + at / length * (to - from);
+      const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(p));
+      missed = check_point(p, leaf, center, sides) || missed;
+      at += kEdgeSpacing * tree_.cell_edge(leaf.level);
+    }
+    return check_point(to, tree_.find(tree_.unit_cell(to)), center, sides) || missed;
+  }
+
+  /// Checks a triangle. Divides it across the longest edge, so slivers take few steps, until the pieces are as small as
+  /// the cells of their bricks.
+  bool divide(const Corners& corners, Sides& sides) {
+    const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
+    const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(center));
+    std::size_t longest = 0;
+    std::array<double, 3> squared{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      squared[i] = (corners[(i + 1) % 3] - corners[i]).squaredNorm();
+      if (squared[i] > squared[longest]) longest = i;
+    }
+    if (std::sqrt(squared[longest]) <= kFaceSpacing * tree_.cell_edge(leaf.level)) {
+      return check_point(center, leaf, center, sides);
+    }
+    Corners one = corners;
+    Corners other = corners;
+    one[longest] = other[(longest + 1) % 3] = 0.5 * (corners[longest] + corners[(longest + 1) % 3]);
+    const bool missed = divide(one, sides);
+    return divide(other, sides) || missed;
+  }
+
+  /// Checks a dilated surface, which has no triangles, against the exact distance in the cells about it. Trilinear
+  /// interpolation misses a convex function most in the middle of a cell. The points between middle and corners are
+  /// checked too, because the curvature may begin within the cell.
+  void check_brick(std::uint32_t brick) {
+    const std::uint8_t whole = tree_.whole(brick);
+    if (whole == 0) return;
+    const double edge = tree_.cell_edge(tree_.level(brick));
+    const Brick& nodes = tree_.exact(brick);
+    const auto [low, high] = std::minmax_element(std::begin(nodes.value), std::end(nodes.value));
+    if (static_cast<double>(*low) > kCellDiagonal * edge || static_cast<double>(*high) < -kCellDiagonal * edge) return;
+    DistanceProbe probe(surface_);
+    for (int z = 0; z < kBrickCells; ++z) {
+      for (int y = 0; y < kBrickCells; ++y) {
+        for (int x = 0; x < kBrickCells; ++x) {
+          const unsigned octant = octant_of_cell(x, y, z);
+          if ((whole >> octant & 1) == 0) continue;
+          const BrickTree::Leaf leaf{brick, tree_.level(brick), static_cast<std::uint8_t>(octant)};
+          const Vector3d middle = tree_.low(brick) + edge * Vector3d(x + 0.5, y + 0.5, z + 0.5);
+          const double exact = probe.signed_distance(middle);
+          if (std::abs(exact) >= 0.5 * kCellDiagonal * edge) continue;
+          bool missed = check_value(middle, leaf, exact, [] { return true; });
+          for (int corner = 0; corner < 8 && !missed; ++corner) {
+            const Vector3d side((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);
+            const Vector3d p = middle + 0.5 * edge * side;
+            missed = check_value(p, leaf, probe.signed_distance(p), [] { return true; });
+          }
+        }
+      }
+    }
+  }
+
+  /// True if an error of the field on the surface is within the tolerance of the leaf.
+  bool good(const BrickTree::Leaf& leaf, double error) const {
+    const double tolerance = tree_.edges_of(leaf.brick).empty() ? tolerance_ : kBlendSlack * tolerance_;
+    return error <= tolerance && error >= -kHeldOff * tolerance;
+  }
+
+  /// Checks p in `leaf`. `center` is a point of the same triangle off its rim.
+  bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
+    if (leaf.brick == BrickTree::kNone) return false;
+    return check_value(p, leaf, 0.0, [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); });
+  }
+
+  /// Checks p in `leaf`. `exact` is the distance there. A miss counts only if matters().
+  template <class Matters>
+  bool check_value(const Vector3d& p, const BrickTree::Leaf& leaf, double exact, Matters&& matters) {
+    if (good(leaf, tree_.interpolate(leaf, p) - exact)) return false;
+    BrickTree::Octants about{};
+    const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p) - exact) ? tree_.coarser_about(leaf, p, about)
+                                                                                   : tree_.holding(leaf, p, about);
+    bool possible = false;
+    bool known = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!can_be_halved(about[i])) continue;
+      possible = true;
+      known = known && (marked_[about[i].brick].load(std::memory_order_relaxed) & about[i].bit()) != 0;
+    }
+    if (!possible) return false;
+    if (known) return true;
+    if (!matters()) return false;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (can_be_halved(about[i])) marked_[about[i].brick].fetch_or(about[i].bit(), std::memory_order_relaxed);
+    }
+    return true;
+  }
+
+  bool can_be_halved(const BrickTree::Octant& octant) const {
+    return !barred_[octant.brick] && tree_.level(octant.brick) < format::kMaxRefinement;
+  }
+
+  /// False where the triangle lies inside the body or another component.
+  static bool bounds_the_body(const Vector3d& p, const Vector3d& center, double cell_edge, Sides& sides) {
+    const Vector3d inward = center - p;
+    const double length = inward.norm();
+    const Vector3d beside = length > 0.0 ? Vector3d(p + inward * std::min(1.0, 0.5 * cell_edge / length)) : p;
+    const Vector3d step = kStepOff * cell_edge * sides.normal;
+    return (sides.above.signed_distance(beside + step) < 0.0) != (sides.below.signed_distance(beside - step) < 0.0);
+  }
+
+  const SolidSurface& surface_;
+  const BrickTree& tree_;
+  const std::vector<bool>& barred_;
+  double tolerance_;
+  std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants to be halved, by brick
+};
+
+}  // namespace
+
+Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
+                   double tolerance, const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
+  return SurfaceCheck(surface, tree, barred, tolerance).run(triangles, progress);
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "toolchain/parallel/parallel.h"
+#include "toolchain/scene_compiler/field/brick_tree.h"
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
+
+namespace godobject::scene_compiler {
+
+/// Octants of bricks to be halved: by brick, one bit for each octant.
+using Wanted = std::map<std::uint32_t, std::uint8_t>;
+
+inline void want(Wanted& wanted, std::uint32_t brick, std::uint8_t octants) {
+  std::uint8_t& of_brick = wanted[brick];
+  of_brick = static_cast<std::uint8_t>(of_brick | octants);
+}
+
+/// Places at which the stored field misses the surface by more than the tolerance.
+struct Misses {
+  Wanted wanted;                         ///< octants that would reduce the error
+  std::vector<std::uint32_t> triangles;  ///< with such places
+};
+
+/// Compares the stored field with the surface on `triangles`: at points of their edges, half a cell apart, and of their
+/// faces, a cell apart. A dilated surface, which has no mesh, is compared in all cells about it. The error must lie
+/// between -kHeldOff * `tolerance` and `tolerance` [m]. `barred` bricks cannot be halved.
+Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
+                   double tolerance, const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress);
+
+}  // namespace godobject::scene_compiler
