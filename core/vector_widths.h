@@ -1,8 +1,8 @@
 #pragma once
 
-/// Of a function: one version for each width of the processor's vectors, chosen when the program is loaded. Its source
-/// takes no fused products (CMakeLists.txt), so all versions give the same bits. (By a feature: "arch=" would be chosen
-/// on processors of that make only.)
+/// Attribute of a function: the compiler makes one version for each width of the processor's vectors, and the loader
+/// chooses one. The source is compiled without fused products (CMakeLists.txt), so all versions give the same bits.
+/// (The attribute names a feature: "arch=" would match only processors of that manufacturer.)
 #if defined(__x86_64__) && defined(__gnu_linux__)
 #define GODOBJECT_VECTOR_WIDTHS __attribute__((target_clones("avx2", "default")))
 #else

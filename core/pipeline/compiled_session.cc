@@ -5,10 +5,10 @@
 namespace godobject {
 namespace {
 
-/// Refuses a pose that is none; makes its rotation exactly unit.
+/// Normalises the rotation. Refuses an invalid pose.
 Status make_unit(Pose& H_WM) noexcept {
-  constexpr double kUnit = 1e-3;
-  constexpr double kFarthest_m = 1e7;  // the largest coordinate of a scene image
+  constexpr double kUnit = 1e-3;       // chosen: a quaternion of three decimals passes
+  constexpr double kFarthest_m = 1e7;  // the largest coordinate of a scene image (valid_grid, valid_body)
   if (!H_WM.is_finite()) return Status::kNotFinite;
   const double length = H_WM.rotation.norm();
   if (!(length > 1.0 - kUnit && length < 1.0 + kUnit)) return Status::kNotUnit;
@@ -17,7 +17,7 @@ Status make_unit(Pose& H_WM) noexcept {
   return Status::kOk;
 }
 
-/// The second direction of the scene, as far as this build has it.
+/// Returns the second direction of the scene; none where the image or this build leaves it out.
 template <DistanceField BodyField>
 FeatureContacts<BodyField> feature_contacts(const Scene& scene, const Vector3& sphere_center) noexcept {
   FeatureContacts<BodyField> features;

@@ -11,18 +11,20 @@
 
 namespace godobject {
 
-/// A session on a compiled scene, in the moving mesh's frame: what GodObject keeps in its caller's memory.
+/// A session on a compiled scene, with poses of the moving mesh's frame M: the object that GodObject creates in its
+/// caller's memory. Documented at GodObject.
 class CompiledSession {
  public:
   using BodyField = std::conditional_t<kSceneTraits.features, Voxelmap, NoBodyField>;
   using Core = Session<Voxelmap, BodyField>;
 
-  /// Words of the search's memory behind the session.
+  /// Returns the size of the search's memory, which lies behind the session [32-bit words].
   static std::size_t search_words(const Scene& scene) noexcept {
     return Core::search_words(scene.pointshell, scene.features);
   }
 
-  /// The solver, and friction if asked for, are in the image and in this build.
+  /// Starts the session. The image and this build must have the solver, and friction if requested (missing_part).
+  /// `words`: search_words(scene) of them, or none.
   void start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept;
 
   void reset() noexcept { core_.reset(); }

@@ -21,20 +21,20 @@
 
 namespace godobject {
 
-/// One solver at work on one pair of bodies: constants of the session, the state that is carried from cycle to cycle, and
-/// the workspace. `Field` is the still body's field (a Voxelmap, or an analytic world), `BodyField` the moving body's.
-/// Poses are those of frame B. Lies in static storage or on the heap: its size is most of a mebibyte.
+/// One solver on one pair of bodies: the constants of the session, the state carried from cycle to cycle, and the
+/// workspace. `Field` is the still body's field (a Voxelmap, or an analytic world), `BodyField` the moving body's.
+/// Poses are those of the body frame B. Put it into static storage or on the heap: its size is most of a mebibyte.
 template <DistanceField Field, DistanceField BodyField>
 class Session {
  public:
-  /// Words of memory for the search of `contact`.
+  /// Returns the size of the memory for the search of `contact` [32-bit words].
   static std::size_t search_words(const Pointshell& shell, const Pointshell& features) noexcept {
     return kHasSearch ? ContactSearch::memory(shell, features) : 0;
   }
 
-  /// Starts anew with a solver that this build has (missing_part). All references outlive the session. `words`: at least
-  /// search_words(...) of them, this session's alone; with none, results are the same, and `contact` looks at all nodes
-  /// in every cycle.
+  /// Starts the session anew with a solver that this build has (missing_part). All references must outlive the session.
+  /// `words`: at least search_words(...) of them, for this session alone. With none the results are the same, but
+  /// `contact` visits the sphere trees from their roots in every cycle.
   void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>& features,
              const Parameters& parameters, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept {
     field_ = &field;
@@ -46,7 +46,7 @@ class Session {
     reset();
   }
 
-  /// As `start`, for a ball without friction (is_ball) by `contact`.
+  /// Starts the session anew with `contact` for a ball without friction (is_ball).
   void start_ball(const Field& field, const Pointshell& shell, const Parameters& parameters) noexcept {
     static_assert(std::is_same_v<Field, Voxelmap>);
     field_ = &field;
@@ -64,14 +64,14 @@ class Session {
     if constexpr (kHasSearch) contact_.reset();
   }
 
-  /// Forgets the god object and puts it at a pose without a look at the scene.
+  /// Forgets the god object and moves it to a pose without a look-up.
   void place(const Pose& H_WS) noexcept {
     reset();
     state_.H_WS = H_WS;
   }
 
-  /// One cycle, steps #1-#7. The first one puts the god object at the device pose and judges whether it penetrates.
-  /// Statuses as those of `commit`; if not kOk, nothing that is carried on changed. Real-time safe.
+  /// Runs one cycle, steps #1-#7. The first cycle begins with the god object at the device pose and tests whether it
+  /// penetrates. Statuses as those of `commit`; if not kOk, the carried state is unchanged. Real-time safe.
   Status update(const CycleInput& input, CycleReport& report, StepTimes* times = nullptr) noexcept {
     if (state_.started) return cycle_(*this, input, state_, report, times);
     ProxyState first;

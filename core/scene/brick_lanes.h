@@ -4,12 +4,12 @@
 
 #include "core/scene/format.h"
 
-/// How the kernels' loops read format::Brick: 16 bits and the next 16 are gathered together. Included by those that are
-/// included once by a source for each kind of vectors, as clearance_kernel_lanes.h.
+/// Access of the kernels to format::Brick: they gather a 16-bit word together with the next one, as a pair. Only for
+/// the headers that each vector type's source file includes once, as clearance_kernel_lanes.h.
 namespace godobject::detail {
 namespace {
 
-/// Of a pair, with its sign.
+/// Returns the first (second) word of a pair, with its sign.
 template <class Ints>
 Ints first_of(Ints pair) noexcept {
   return (pair << 16) >> 16;
@@ -19,7 +19,7 @@ Ints second_of(Ints pair) noexcept {
   return pair >> 16;
 }
 
-/// format::decode_lipschitz of the pair's first.
+/// Returns format::decode_lipschitz of the pair's first word.
 template <class Vectors>
 typename Vectors::Floats decode_lipschitz(typename Vectors::Ints pair) noexcept {
   const typename Vectors::Ints code = pair & 0xffff;
@@ -27,7 +27,7 @@ typename Vectors::Floats decode_lipschitz(typename Vectors::Ints pair) noexcept 
                                                     static_cast<std::int32_t>(format::kLipschitzOne));
 }
 
-/// Of two neighbours of 16 bits without a sign, the second.
+/// Returns the pair's second word as an unsigned number.
 template <class Vectors>
 typename Vectors::Floats second_unsigned(typename Vectors::Ints pair) noexcept {
   return __builtin_convertvector((pair >> 16) & 0xffff, typename Vectors::Floats);

@@ -8,31 +8,31 @@
 #include "core/scene/format.h"
 #include "core/scene/sample_kernel.h"
 
-/// The cells of the grid in which a vector's points lie. Included once by a source for each kind of vectors, as
-/// clearance_kernel_lanes.h. `Vectors` have `kLanes` elements of 32 bits (`Floats`, `Ints`); of 64 bits (`Doubles`,
-/// `Longs`) two vectors make as many, the low and the high half.
+/// The grid cells of a vector of points. Each vector type's source file includes it once, as clearance_kernel_lanes.h.
+/// `Vectors` have `kLanes` elements of 32 bits (`Floats`, `Ints`). Elements of 64 bits (`Doubles`, `Longs`) fill two
+/// vectors, the low and the high half.
 namespace godobject::detail {
 namespace {
 
-/// One component of the points' positions, in single precision as far as they lie within a cell.
+/// One component of the points' positions: the cell, and in single precision the position within it.
 template <class Vectors>
 struct CellAxis {
   using Floats = typename Vectors::Floats;
   using Ints = typename Vectors::Ints;
   using Doubles = typename Vectors::Doubles;
 
-  Ints within;  ///< -1 or 0, 0 for NaN
-  Ints cell;    ///< of the grid, 0 where it is not within
-  Floats at;    ///< in the cell
+  Ints within;  ///< -1 inside of the grid; 0 outside and for NaN
+  Ints cell;    ///< of the grid; 0 outside
+  Floats at;    ///< position in the cell, 0 .. 1
 
-  /// From the component in voxels of a grid of so many `cells`.
+  /// Splits the component, given in voxels from the origin of a grid of `cells` cells.
   [[gnu::always_inline]] CellAxis(Doubles low, Doubles high, double cells) noexcept
       : within(Vectors::mask((low >= 0.0) & (low < cells), (high >= 0.0) & (high < cells))),
         cell(Vectors::truncated(low, high) & within),
         at(Vectors::narrowed(low - Vectors::low(cell), high - Vectors::high(cell))) {}
 };
 
-/// One component in cells of a brick that is halved again and again: Voxelmap::descend.
+/// One component of the position in a refined brick [cells], halved once for each level: as Voxelmap::descend.
 template <class Vectors>
 struct HalvedAxis {
   using Floats = typename Vectors::Floats;
@@ -45,16 +45,16 @@ struct HalvedAxis {
   [[gnu::always_inline]] HalvedAxis(Ints cell, Floats at) noexcept
       : low(Vectors::low(cell) + Vectors::low(at)), high(Vectors::high(cell) + Vectors::high(at)) {}
 
-  /// Which halves hold the points; -1: the upper.
+  /// Returns the half that contains each point; -1: the upper.
   Ints upper() const noexcept { return Vectors::mask(low >= kMiddle, high >= kMiddle); }
 
-  /// Those of `refined` go there.
+  /// Moves the points of `refined` to the coordinates of their half.
   void halve(Ints refined) noexcept {
     halve(low, Vectors::low_mask(refined));
     halve(high, Vectors::high_mask(refined));
   }
 
-  /// Cell and position in it of the points that were `refined`.
+  /// Sets cell and position in it of the points of `refined`.
   void locate(Ints refined, Ints& cell, Floats& at) const noexcept {
     constexpr int kLast = format::kBrickCells - 1;
     const Ints truncated = Vectors::truncated(low, high);
@@ -70,8 +70,7 @@ struct HalvedAxis {
   static void halve(Doubles& x, Longs refined) noexcept { x = refined ? 2.0 * (x >= kMiddle ? x - kMiddle : x) : x; }
 };
 
-/// The cells' nodes: where the points' positions lead through the brick index and its refinements, as
-/// Voxelmap::sample.
+/// The cells' nodes, found through the brick index and its refinements as in Voxelmap::sample.
 template <class Vectors>
 struct CellLanes {
   using Floats = typename Vectors::Floats;
@@ -80,10 +79,10 @@ struct CellLanes {
   static constexpr int kY = format::kBrickNodes;
   static constexpr int kZ = format::kBrickNodes * format::kBrickNodes;
 
-  Ints stored;       ///< nodes hold all that there is: -1; 0: outside the grid, far, or in a brick with an edge
-  Ints brick;        ///< its first word
-  Ints node;         ///< the cell's first
-  Floats at[3];      ///< in the cell
+  Ints stored;       ///< -1: the nodes define the field; 0: outside of the grid, far, or in a brick with an edge
+  Ints brick;        ///< index of the brick's first word
+  Ints node;         ///< index of the cell's first node
+  Floats at[3];      ///< position in the cell, 0 .. 1
   Floats cell_edge;  ///< [voxels]
 
   [[gnu::always_inline]] CellLanes(const FieldOfNodes& f, const CellAxis<Vectors>& x, const CellAxis<Vectors>& y,
@@ -106,7 +105,7 @@ struct CellLanes {
     node = brick + cell[0] + kY * cell[1] + kZ * cell[2];
   }
 
-  /// The brick's bound of the gradient.
+  /// Returns the brick's bound of the gradient [1].
   Floats lipschitz(const FieldOfNodes& f) const noexcept {
     constexpr int kLipschitz = offsetof(format::Brick, lipschitz) / sizeof(std::int16_t);
     return decode_lipschitz<Vectors>(Vectors::gather_pair(f.bricks + kLipschitz, brick));
@@ -117,7 +116,7 @@ struct CellLanes {
     return (entry >= 0) & ((entry & static_cast<int>(format::index_entry::kRefined)) != 0);
   }
 
-  /// Voxelmap::descend.
+  /// Descends the refinements as Voxelmap::descend.
   void descend(const FieldOfNodes& f, Ints refined, Ints& entry, Ints (&cell)[3]) noexcept {
     namespace entry_of = format::index_entry;
     constexpr int kRefinedWords = sizeof(format::Refined) / sizeof(std::uint32_t);
@@ -150,14 +149,14 @@ struct CellLanes {
   }
 };
 
-/// What the cells' eight nodes hold, in quanta.
+/// The distances at the cells' eight nodes [quanta].
 template <class Vectors>
 struct NodeLanes {
   using Floats = typename Vectors::Floats;
   using Ints = typename Vectors::Ints;
 
-  Floats v000, v010, v001, v011;  ///< at the lower x; in the name x, y, z
-  Floats d00, d10, d01, d11;      ///< from there to the upper; y, z
+  Floats v000, v010, v001, v011;  ///< at the lower x; the digits are x, y, z
+  Floats d00, d10, d01, d11;      ///< difference from the lower to the upper x; the digits are y, z
 
   [[gnu::always_inline]] NodeLanes(const FieldOfNodes& f, const CellLanes<Vectors>& cell) noexcept {
     constexpr int kY = CellLanes<Vectors>::kY;

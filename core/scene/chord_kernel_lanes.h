@@ -5,13 +5,13 @@
 #include "core/scene/cell_lanes.h"
 #include "core/scene/sample_kernel.h"
 
-/// Included once by a source for each kind of vectors, as clearance_kernel_lanes.h.
+/// Each vector type's source file includes it once, as clearance_kernel_lanes.h.
 namespace godobject::detail {
 namespace {
 
-/// Whether the field of a cell stays above `least` [quanta] all along a straight way, and its value at the end. Along
-/// it the trilinear field is a cubic, which does not leave the range of its Bernstein coefficients; those are averages
-/// of the field at the corners of the box whose diagonal the way is (the cubic's blossom).
+/// Tells whether the field of a cell is proved above `least` [quanta] along a straight line, and computes its value at
+/// the `end`. Along a line the trilinear field is a cubic, which stays within the range of its Bernstein coefficients.
+/// These are averages of the field at the corners of the box whose diagonal is the line (the cubic's blossom).
 template <class Vectors>
 [[gnu::always_inline]] inline typename Vectors::Ints stays_above(const NodeLanes<Vectors>& n,
                                                                  const typename Vectors::Floats (&from)[3],
@@ -20,7 +20,7 @@ template <class Vectors>
                                                                  typename Vectors::Floats& end) noexcept {
   using Floats = typename Vectors::Floats;
   constexpr float kThird = 1.0f / 3.0f;
-  // the corners' x, y, z: of `from` (0) or of `to` (1)
+  // the digits are the corners' x, y, z: of `from` (0) or of `to` (1)
   struct Between {
     Floats at_from, at_to;
     Between(Floats value, Floats slope, const Floats (&from)[3], const Floats (&to)[3], int axis) noexcept
@@ -40,6 +40,7 @@ template <class Vectors>
   return (z00.at_from > least) & (second > least) & (third > least) & (end > least);
 }
 
+/// FindFreeChords for one vector of points.
 template <class Vectors>
 std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const SampleBatch& batch,
                           std::uint32_t first) noexcept {
@@ -47,9 +48,9 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   using Ints = typename Vectors::Ints;
   using Doubles = typename Vectors::Doubles;
   constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
-  constexpr int kCells = 4;            // gone through, at most
-  constexpr float kRounding = 2e-5f;   // of distances and positions, where slope and length are about 1 [voxels]
-  constexpr float kShortest = 1e-12f;  // divided by [voxels]
+  constexpr int kCells = 4;            // most cells of a chord, chosen: a chord of a voxel crosses at most four
+  constexpr float kRounding = 2e-5f;   // of distances and positions at a slope and a length of 1 [voxels]
+  constexpr float kShortest = 1e-12f;  // least divisor, chosen far below kRounding [voxels]
   const Floats zero = {};
 
   const Floats px = *reinterpret_cast<const Floats*>(batch.x + first);
@@ -60,15 +61,15 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   const auto mapped = [](const double(&m)[4], const Doubles(&p)[3]) noexcept {
     return m[0] * p[0] + (m[1] * p[1] + m[2] * p[2]) + m[3];
   };
-  Doubles low[3], high[3];  // the chord's beginning
-  Floats way[3];
+  Doubles low[3], high[3];  // start of the chord
+  Floats chord[3];
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] = (mapped(f.to_field[axis], low_p) - f.origin[axis]) * f.per_voxel;
     high[axis] = (mapped(f.to_field[axis], high_p) - f.origin[axis]) * f.per_voxel;
-    way[axis] = Vectors::narrowed(mapped(ends.change[axis], low_p) * f.per_voxel,
-                                  mapped(ends.change[axis], high_p) * f.per_voxel);
+    chord[axis] = Vectors::narrowed(mapped(ends.change[axis], low_p) * f.per_voxel,
+                                    mapped(ends.change[axis], high_p) * f.per_voxel);
   }
-  const Floats length = Vectors::root(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+  const Floats length = Vectors::root(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
   const Floats per_length = 1.0f / (length > kShortest ? length : zero + kShortest);
   const Floats rounding = kRounding * (1.0f + length);
   // [voxels]
@@ -77,25 +78,25 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
                                            *reinterpret_cast<const Doubles*>(of + first + kHalf) * f.per_voxel);
     return Vectors::larger(found - rounding, zero);
   };
-  const Floats needed = length - clearance(batch.clearance);
+  const Floats length_to_cover = length - clearance(batch.clearance);
   Floats covered = clearance(batch.from_clearance);
-  Ints free = covered > needed;
+  Ints free = covered > length_to_cover;
   Ints searched = ~free;
   const auto quantum = static_cast<float>(f.quantum_per_voxel);
   const auto near_band = static_cast<float>(f.near_band * f.per_voxel);
   for (int cells = 0; cells < kCells && Vectors::bits(searched) != 0; ++cells) {
-    const Floats share = Vectors::smaller(covered * per_length, zero + 1.0f);  // of those that arrived, too
+    const Floats share = Vectors::smaller(covered * per_length, zero + 1.0f);  // also where the chord is done
     const auto axis_at = [&](int axis) noexcept {
-      const Floats gone = share * way[axis];
-      return CellAxis<Vectors>(low[axis] + Vectors::low(gone), high[axis] + Vectors::high(gone), f.cells[axis]);
+      const Floats done = share * chord[axis];
+      return CellAxis<Vectors>(low[axis] + Vectors::low(done), high[axis] + Vectors::high(done), f.cells[axis]);
     };
     const CellLanes<Vectors> cell(f, axis_at(0), axis_at(1), axis_at(2));
     searched &= cell.stored;
-    // as far as the cell goes
-    Floats step = Vectors::larger(needed - covered, zero);  // of those that arrived, too
+    // to the face of the cell
+    Floats step = Vectors::larger(length_to_cover - covered, zero);  // also where the chord is done
     Floats direction[3];
     for (int axis = 0; axis < 3; ++axis) {
-      direction[axis] = way[axis] * per_length / cell.cell_edge;
+      direction[axis] = chord[axis] * per_length / cell.cell_edge;
       const Floats room = direction[axis] > 0.0f ? 1.0f - cell.at[axis] : cell.at[axis];
       const Floats speed = Vectors::larger(direction[axis], -direction[axis]);
       const Ints moves = speed > kShortest;
@@ -108,13 +109,13 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
     const Floats lipschitz = cell.lipschitz(f);
     Floats end;
     searched &= stays_above<Vectors>(NodeLanes<Vectors>(f, cell), cell.at, to, rounding * lipschitz / unit, end);
-    // and about where it ends
+    // and the free ball at the end of the step
     const Floats distance = unit * end;
     const Floats ball = (distance < near_band ? distance : zero + near_band) / lipschitz - rounding;
     covered += step + (ball > 0.0f ? ball : zero);
-    const Ints arrived = searched & (covered >= needed);
-    free |= arrived;
-    searched &= ~arrived;
+    const Ints done = searched & (covered >= length_to_cover);
+    free |= done;
+    searched &= ~done;
   }
   return Vectors::bits(free);
 }

@@ -18,7 +18,7 @@ constexpr detail::ClearanceKernel kKernels[] = {
     {"scalar", 1, &detail::look_up_clearances},
 };
 
-/// How many of them are too wide for this processor.
+/// Returns how many of the kernels are too wide for this processor.
 std::size_t too_wide() noexcept {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return 0;
@@ -28,11 +28,11 @@ std::size_t too_wide() noexcept {
 #endif
 }
 
-/// Chosen when the program is loaded.
+/// The widest kernel of this processor, chosen when the program is loaded.
 const detail::ClearanceKernel kKernel = kKernels[too_wide()];
 
 constexpr std::uint32_t kNoRefinement = 0;
-constexpr float kRoundedUp = 1.0f + 1e-6f;
+constexpr float kRoundedUp = 1.0f + 1e-6f;  // derived: more than the rounding to single precision, 6e-8
 
 }  // namespace
 

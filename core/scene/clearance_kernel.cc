@@ -10,7 +10,7 @@ using format::kBrickCells;
 using format::kBrickNodes;
 namespace index_entry = format::index_entry;
 
-/// Of the distance from the surface's box.
+/// Returns the clearance of a point outside of the grid, from its distance to the surface's box [m]. g: point [cells].
 float clearance_outside(const FieldOfCells& f, const float (&g)[3]) noexcept {
   float squared = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
@@ -20,6 +20,7 @@ float clearance_outside(const FieldOfCells& f, const float (&g)[3]) noexcept {
   return std::max(f.assured, f.cell_edge * (std::sqrt(squared) - f.outside_off));
 }
 
+/// Returns the clearance of a point in the grid [m]. g: point [cells].
 float clearance_within(const FieldOfCells& f, const float (&g)[3]) noexcept {
   const std::int32_t i[3] = {static_cast<std::int32_t>(g[0]), static_cast<std::int32_t>(g[1]),
                              static_cast<std::int32_t>(g[2])};
@@ -32,7 +33,7 @@ float clearance_within(const FieldOfCells& f, const float (&g)[3]) noexcept {
       const float from_center = g[axis] - (static_cast<float>(i[axis] & ~(kBrickCells - 1)) + kBrickCenter);
       squared += from_center * from_center;
     }
-    return std::max(f.assured, index_entry::far_clearance(entry) - kWayRoundedUp * f.cell_edge * std::sqrt(squared));
+    return std::max(f.assured, index_entry::far_clearance(entry) - kLengthRoundedUp * f.cell_edge * std::sqrt(squared));
   }
   std::uint32_t number = entry & index_entry::kNumber;
   if ((entry & index_entry::kRefined) != 0) number = f.refined[kRefinedWords * number];

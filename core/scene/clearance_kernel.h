@@ -7,8 +7,8 @@
 
 #include "core/scene/format.h"
 
-/// The inner loop of Voxelmap::clearances, once for each kind of vectors; with nothing that other sources share, so
-/// that what is compiled for wider ones cannot be linked into the rest.
+/// The kernels of Voxelmap::clearances, one for each vector type. The header includes nothing that other sources share,
+/// so that the linker cannot use code for wider vectors elsewhere.
 namespace godobject::detail {
 
 inline constexpr int kBrickWords = sizeof(format::Brick) / sizeof(std::int16_t);
@@ -19,41 +19,45 @@ static_assert(offsetof(format::Refined, brick) == 0);
 inline constexpr int kBrickShift = std::countr_zero(static_cast<unsigned>(format::kBrickCells));
 static_assert(1 << kBrickShift == format::kBrickCells);
 
-/// A voxelmap as the kernel reads it. Cells are those of its grid, from its origin.
+/// The parts of a voxelmap that a kernel reads. Positions in cells are relative to the grid's origin.
 struct FieldOfCells {
-  const std::uint32_t* index;
-  const std::int16_t* bricks;
-  const std::uint32_t* refined;          ///< at least one word
+  const std::uint32_t* index;            ///< brick index
+  const std::int16_t* bricks;            ///< format::Brick[] as words
+  const std::uint32_t* refined;          ///< format::Refined[] as words, at least one
   std::int32_t stride_y, stride_z;       ///< of the index
-  float to_cells[3][4];                  ///< from the points' frame; the last column is the translation
-  float cells[3];                        ///< of the grid
+  float to_cells[3][4];                  ///< from the points' frame [m] to cells; the last column is the translation
+  float cells[3];                        ///< number of cells of the grid
   float surface_min[3], surface_max[3];  ///< [cells]
   float cell_edge;                       ///< [m]
-  float quantum;                         ///< of the nodes [m]
+  float quantum;                         ///< unit of the nodes [m]
   float near_band, assured;              ///< [m]
-  float outside_off;                     ///< of the distance to the surface's box, as clearance [cells]
+  float outside_off;                     ///< distance to the surface's box minus clearance [cells]
   float offset;                          ///< sum of |translation| [cells]
 };
 
 inline constexpr float kBrickCenter = 0.5f * format::kBrickCells;  ///< [cells]
-/// Of a distance in single precision.
-inline constexpr float kWayRoundedUp = 1.0f + 1e-6f;
-/// A transformed point is a sum of four rounded products of rounded factors: this much of them all, with room to spare.
+/// Factor against the rounding of a length in single precision. Derived: some roundings of 6e-8 each.
+inline constexpr float kLengthRoundedUp = 1.0f + 1e-6f;
+/// Rounding of a transformed point over the sum of its terms. Derived: four rounded products of rounded factors and
+/// their sum, at most nine roundings of 6e-8, and room to spare.
 inline constexpr float kPointRounding = 1e-6f;
 
-/// Clearances of `count` points. A kernel of several lanes takes a multiple of them, in arrays aligned to its vectors.
+/// Looks up the clearances [m] of `count` points, a multiple of the kernel's lanes, as Voxelmap::clearances. x, y, z:
+/// in the points' frame [m]; arrays aligned to the kernel's vectors. Real-time safe.
 using LookUpClearances = void(const FieldOfCells& field, const float* x, const float* y, const float* z,
                               float* clearance, std::uint32_t count) noexcept;
 
+/// A kernel for one vector type.
 struct ClearanceKernel {
-  const char* name;
+  const char* name;     ///< of the vectors
   std::uint32_t lanes;  ///< a divisor of PointBatch::kCapacity
   LookUpClearances* look_up;
 };
 
-/// Those that this processor can run, the widest first.
+/// Returns the kernels that this processor can run, the widest first, the scalar one last.
 std::span<const ClearanceKernel> clearance_kernels() noexcept;
 
+/// Scalar; any processor.
 void look_up_clearances(const FieldOfCells& field, const float* x, const float* y, const float* z, float* clearance,
                         std::uint32_t count) noexcept;
 

@@ -3,28 +3,31 @@
 #include "core/scene/brick_lanes.h"
 #include "core/scene/clearance_kernel.h"
 
-/// Included once by a source for each kind of vectors, which is compiled for them: what is here must be that source's
-/// own, so that none of it is linked into what runs elsewhere.
+/// The kernel of Voxelmap::clearances for any vector type. Each vector type's source file includes it once and is
+/// compiled for these vectors. All names are local to that source (unnamed namespace), so that the linker cannot use
+/// them elsewhere.
 namespace godobject::detail {
 namespace {
 
 using format::kBrickNodes;
 namespace index_entry = format::index_entry;
 
+/// Returns the linear interpolation at 0 <= `at` <= 1.
 template <class F>
 F between(F low, F high, F at) noexcept {
   return low + at * (high - low);
 }
 
+/// One component of the points' positions.
 template <class Vectors>
 struct Axis {
   using Floats = typename Vectors::Floats;
   using Ints = typename Vectors::Ints;
 
-  Floats cells;  ///< from the grid's origin
-  Ints within;   ///< -1 or 0, 0 for NaN
-  Ints cell;     ///< of it, 0 where it is not within
-  Floats at;     ///< in the cell
+  Floats cells;  ///< from the grid's origin [cells]
+  Ints within;   ///< -1 inside of the grid; 0 outside and for NaN
+  Ints cell;     ///< of the grid; 0 outside
+  Floats at;     ///< position in the cell, 0 .. 1
 
   Axis(const FieldOfCells& f, int axis, Floats x, Floats y, Floats z) noexcept {
     const float(&m)[4] = f.to_cells[axis];
@@ -34,11 +37,13 @@ struct Axis {
     at = cells - __builtin_convertvector(cell, Floats);
   }
 
+  /// Returns the squared component of the distance to the surface's box.
   Floats squared_away(const FieldOfCells& f, int axis) const noexcept {
     const Floats away =
         Vectors::larger(Vectors::larger(f.surface_min[axis] - cells, cells - f.surface_max[axis]), Floats{});
     return away * away;
   }
+  /// Returns the squared component of the distance to the centre of the brick's position.
   Floats squared_from_center() const noexcept {
     const Floats from_center =
         cells - (__builtin_convertvector(cell & ~(format::kBrickCells - 1), Floats) + kBrickCenter);
@@ -47,10 +52,10 @@ struct Axis {
   Floats absolute() const noexcept { return reinterpret_cast<Floats>(reinterpret_cast<Ints>(cells) & 0x7fffffff); }
 };
 
-/// `Vectors` are `Floats` and `Ints` of `kLanes` elements of 32 bits, for which the compiler knows arithmetic,
-/// comparisons (-1 or 0) and selections, and what it has no operator for: gather, gather_pair (a 16-bit word and, in
-/// the upper half, the next), truncated, root, larger, smaller. `count`: a multiple of kLanes; the arrays are aligned
-/// to the vectors.
+/// LookUpClearances for any vector type. `Vectors` has `Floats` and `Ints` of `kLanes` elements of 32 bits, for which
+/// the compiler has arithmetic, comparisons (-1 or 0) and selections, and the functions gather, gather_pair (a 16-bit
+/// word and, in the upper half, the next), truncated, root, larger and smaller. `count`: a multiple of kLanes; the
+/// arrays are aligned to the vectors.
 template <class Vectors>
 void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, const float* zs, float* clearance,
                    std::uint32_t count) noexcept {
@@ -92,7 +97,7 @@ void look_up_lanes(const FieldOfCells& f, const float* xs, const float* ys, cons
     const Floats squared_away = x.squared_away(f, 0) + y.squared_away(f, 1) + z.squared_away(f, 2);
     const Floats away = Vectors::root(within ? from_center : squared_away);
     const Floats of_center = reinterpret_cast<Floats>((entry & far & static_cast<int>(index_entry::kLow)) << 1);
-    const Floats free = Vectors::larger(of_center - kWayRoundedUp * f.cell_edge * away, zero + f.assured);
+    const Floats free = Vectors::larger(of_center - kLengthRoundedUp * f.cell_edge * away, zero + f.assured);
     const Ints inside = (entry & static_cast<int>(index_entry::kInside)) != 0;
     const Floats outside = Vectors::larger(f.cell_edge * (away - f.outside_off), zero + f.assured);
     const Floats bound = within ? (far ? (inside ? zero : free) : stored) : outside;

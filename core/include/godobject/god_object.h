@@ -14,8 +14,11 @@ class CompiledSession;
 
 /// The god object of a scene: one `update` a millisecond, from the device's pose to the force on the device.
 ///
-/// Poses are those of the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
-/// No allocation, no exceptions, no locks: it works in memory that the caller gives, most of a mebibyte.
+/// Poses of this interface are H_WM: the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
+/// Forces are in W about the moving body's centre of mass. Lengths are in m, forces in N, torques in Nm.
+///
+/// The class allocates nothing, throws nothing and takes no lock. It works in memory that the caller provides, most of
+/// a mebibyte. One god object belongs to one thread at a time.
 ///
 /// ```cpp
 /// GodObject god_object;
@@ -27,54 +30,72 @@ class CompiledSession;
 /// ```
 class GodObject {
  public:
-  /// The device's pose, as the moving mesh's, and its velocity at the body's centre of mass, for the damping.
+  /// The device's pose and velocity in one cycle.
   struct Input {
-    Pose H_WM;          ///< a rotation within 1e-3 of unit length is normalised
-    Motion velocity_W;  ///< of the body's centre of mass [m/s], and angular [rad/s]
+    Pose H_WM;          ///< the moving mesh as the device holds it; a rotation within 1e-3 of unit length is normalised
+    Motion velocity_W;  ///< of the body's centre of mass [m/s], and angular [rad/s]; only the damping uses it
   };
 
-  /// Bytes of memory with which `contact` remembers from cycle to cycle where nothing can be near.
+  /// Returns the memory that `start` needs to run at full speed in `scene` [bytes]. With it `contact` remembers from
+  /// cycle to cycle which parts of the bodies are too far apart to touch.
   static std::size_t memory_size(const CompiledScene& scene) noexcept;
-  /// Bytes without which `start` refuses. With fewer than memory_size(scene) results are the same, but `contact` looks at
-  /// all nodes of the sphere trees in every cycle.
+  /// Returns the least memory that `start` accepts [bytes]. With less than memory_size(scene) the results are the same,
+  /// but `contact` visits the sphere trees from their roots in every cycle.
   static std::size_t least_memory_size() noexcept;
-  /// The memory must begin at a multiple of this [bytes].
+  /// Returns the alignment of the memory [bytes]: it must begin at a multiple of this.
   static std::size_t memory_alignment() noexcept;
 
   GodObject() noexcept = default;
   GodObject(const GodObject&) = delete;
   GodObject& operator=(const GodObject&) = delete;
 
-  /// Starts a session in `memory`, which is this god object's alone and outlives it, as the scene's image does. The scene
-  /// itself may go. Cost: some 10 ns per byte of memory. May be called again.
-  /// kNotInImage: the image was compiled without that solver, or without friction. kNotInBuild: this build of the library
-  /// is without it. kMemory: too few bytes, or not aligned. Then nothing changed.
+  /// Starts a session of `scene` with `solver`, with or without friction. May be called again, for any scene.
+  ///
+  /// `memory` belongs to this god object alone and must outlive it. So must the bytes of the scene's image; the object
+  /// `scene` itself need not.
+  ///
+  /// kNotInImage: the image was compiled without that solver or without friction, or `scene` was never opened.
+  /// kNotInBuild: this build of the library leaves out the solver, friction, or a part that the scene needs.
+  /// kMemory: `memory` is smaller than least_memory_size() or not aligned. After a refusal the god object is unchanged.
+  ///
+  /// Cost: some 10 ns per byte of memory. Not for the real-time loop.
   Status start(const CompiledScene& scene, Solver solver, bool friction, std::span<std::byte> memory) noexcept;
 
-  /// Forgets the god object: the next update starts with it at the device pose.
+  /// Forgets the god object: the next `update` starts with it at the device pose. Cost: 0.1 us. Real-time safe.
   void reset() noexcept;
 
-  /// Renders nothing: puts the god object at the device pose, without a look at the scene. The report is that of a free
-  /// cycle. Statuses as those of `update`, for the pose alone. Cost: 0.1 us. Real-time safe.
+  /// Moves the god object to the device pose H_WM and renders no force; the scene is not looked at. The next `update`
+  /// starts anew, as after `reset`. `report` is that of a free cycle.
+  ///
+  /// kNotStarted: `start` has not succeeded; `report` is unchanged. kNotFinite, kNotUnit, kOutOfRange: H_WM is not a
+  /// valid pose; the god object stays, and the report's outcome is kBadInput. Cost: 0.1 us. Real-time safe.
   Status follow(const Pose& H_WM, CycleReport& report) noexcept;
 
-  /// One cycle, steps #1-#7 of the paper. The first one after `start` or `reset` puts the god object at the device pose.
-  /// If that penetrates, the outcome is kStartInside until the god object has come out: by a share of its depth a cycle
-  /// where the field has a gradient, with the device where it has none.
-  /// kNotStarted: `start` did not succeed. kNotFinite, kNotUnit, kOutOfRange: the input is no pose, or would have led to a
-  /// NaN. Then the god object is held, the force is zero, and the report's outcome is kBadInput.
-  /// Cost: step #1's look-ups, up to 60 ns each, and 0.3 us for the rest (`paper` and `corrected` 0.5 us), with friction
-  /// 1-2 us; more where many contacts begin to hold at once. Real-time safe.
+  /// Runs one cycle, steps #1-#7 of the paper: from `input` to pose, force and outcome in `report`.
   ///
-  /// In a scene with a workspace box the god object follows the device only within it. The device feels the box's faces,
-  /// as stiff as the coupling. Until the device has been in the box for the first time nothing is rendered, as by
-  /// `follow`. `report.outside` tells both.
+  /// The first cycle after `start`, `reset` or `follow` begins with the god object at the device pose. If that pose
+  /// penetrates, the outcome is kStartInside until the god object has come out. It moves out by a share of its depth in
+  /// each cycle where the field has a gradient, and follows the device where it has none.
+  ///
+  /// In a scene with a workspace box the god object follows the device only within the box, and the device feels the
+  /// box's faces as stiff as the coupling. Until the device has been inside for the first time, nothing is rendered, as
+  /// by `follow`. `report.outside` tells both cases.
+  ///
+  /// `times`, if not null, receives how long the steps took.
+  ///
+  /// kNotStarted: `start` has not succeeded; `report` is unchanged. kNotFinite, kNotUnit, kOutOfRange: the input is not
+  /// a valid pose and velocity, or would have led to a NaN or Inf. Then the god object stays where it is, the force is
+  /// zero and the report's outcome is kBadInput.
+  ///
+  /// Cost: the look-ups of step #1, up to 60 ns each, and 0.3 us for the other steps (`paper` and `corrected` 0.5 us),
+  /// with friction 1-2 us; more in a cycle in which many contacts begin at once. Real-time safe.
   Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
 
-  /// The god object as a pose of the moving mesh's frame in W. Only after `start`.
+  /// Returns the god object's pose H_WM. Call it only after `start` has succeeded. Real-time safe.
   Pose mesh_pose() const noexcept;
 
-  /// For this project's own tools and tests; its type is no part of the library's interface. Null before `start`.
+  /// Returns the session, or null before `start`. For this project's own tools and tests: its type is not part of the
+  /// library's interface.
   const CompiledSession* session() const noexcept { return session_; }
 
  private:

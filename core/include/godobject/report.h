@@ -6,50 +6,54 @@
 
 namespace godobject {
 
-/// What step #7 would have the device display, in W about the moving body's centre of mass. [N, Nm]
+/// The force of step #7 for the device to display, in W about the moving body's centre of mass. [N, Nm]
 struct DeviceForce {
-  Wrench spring_W;  ///< k_D f_VC, k_D t_VC
-  Wrench total_W;   ///< with the damping b_D
+  Wrench spring_W;  ///< the virtual coupling's spring: k_D f_VC, k_D t_VC
+  Wrench total_W;   ///< spring and damping b_D: the force to display
 };
 
-/// How a cycle went; one word a row of a replay.
+/// The outcome of a cycle. Of several that apply, the later one in the order kFree, kContact, kCut, kOverflow,
+/// kInfeasible, kStartInside is reported.
 enum class Outcome : std::uint8_t {
-  kFree,         ///< no contact: the god object is the device pose
-  kContact,      ///< constrained
-  kStartInside,  ///< the first pose penetrated, and the god object is still on its way out
-  kCut,          ///< a motion was shortened so as not to jump over the surface
-  kOverflow,     ///< more near points than a workspace holds or the budget allows (contact solver)
-  kBadInput,     ///< the device pose was no pose; the god object was held
-  kInfeasible,   ///< constraints without a solution (contact solver)
+  kFree,         ///< no contact holds the god object; with `contact` it is at the device pose
+  kContact,      ///< contacts constrain the god object
+  kStartInside,  ///< the first pose penetrated, and the god object has not come out yet
+  kCut,         ///< the motion was shortened so as not to jump over the surface; the remainder waits for the next cycle
+  kOverflow,    ///< `contact`: more near points than the workspace holds or the point budget allows
+  kBadInput,    ///< the input was refused; the god object stayed and the force is zero
+  kInfeasible,  ///< `contact`: the constraints had no common solution; no gap was allowed to shrink
 };
 
-/// `free contact start_inside cut overflow bad_input infeasible`
+/// Returns the outcome as one word: `free contact start_inside cut overflow bad_input infeasible`. Never null.
 const char* name(Outcome outcome) noexcept;
 
-/// What a cycle leaves for others to look at.
+/// The result of one cycle.
 struct CycleReport {
-  Pose H_WS;          ///< god object after the cycle, frame B
-  DeviceForce force;  ///< for the device, in W about the centre of mass
-  /// p = p_d - d of step #1, before the cycle's motion [m]; `contact`: minus the smallest stored distance,
-  /// known as far as it is below an eighth of a voxel
+  Pose H_WS;          ///< the god object after the cycle: body frame B (centre of mass, principal axes) in W
+  DeviceForce force;  ///< for the device
+  /// `paper`, `corrected`: p = p_d - d of step #1, before the last sub-step's motion [m]. `contact`: minus the smallest
+  /// stored distance of a near point at the start of the last sub-step [m]; distances above an eighth of a voxel count
+  /// as that. 0 after `follow` and after a refusal.
   double penetration = 0.0;
-  std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force, two of one point are two
-  std::uint32_t dropped = 0;   ///< `contact`: near points for which rows or the budget did not suffice, last sub-step
-  std::uint32_t substeps = 0;  ///< `contact`: with something near; 1 where nothing was
-  bool unconverged = false;    ///< contact: friction is not Coulomb's to the tolerance; gaps are kept all the same
-  bool outside = false;        ///< the device is outside of the workspace: it is pushed back, once it has been inside
+  std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force (one point may have two)
+  std::uint32_t dropped = 0;   ///< `contact`: near points that found no row or exceeded the budget, last sub-step
+  std::uint32_t substeps = 0;  ///< of this cycle; `contact`: those with a near point, 1 if there was none
+  bool unconverged = false;    ///< `contact`: friction is not Coulomb's to the tolerance; the gaps hold all the same
+  bool outside = false;        ///< the device is outside of the workspace; its faces push back once it has been inside
   Outcome outcome = Outcome::kFree;  ///< how the cycle went
 };
 
-/// Optional stopwatch: how long step #1 and steps #2-#7 of one cycle took, all its sub-steps and attempts together
-/// (`contact`: the look-ups of the certificate count as step #1). The core has no clock of its own. Each stretch of
-/// time holds one reading of the clock: one of step #1 and one of the rest in `paper`; one of both a sub-step in
-/// `corrected`; in `contact` one of both a sub-step and one of both for each of its attempts at a motion.
+/// An optional stopwatch: the times of step #1 and of steps #2-#7 in one cycle, all sub-steps and attempts summed. The
+/// core has no clock of its own: set `now_ns`. `update` writes the other members anew in each cycle that it runs.
+///
+/// With `contact` the look-ups of the certificate count as step #1. Each interval contains one reading of the clock:
+/// one interval of step #1 and one of the other steps in `paper`; one of each a sub-step in `corrected`; in `contact`
+/// one of each a sub-step and one of each for every attempt at a motion.
 struct StepTimes {
-  std::int64_t (*now_ns)() noexcept = nullptr;  ///< the caller's monotonic clock
-  std::int64_t step1_ns = 0;                    ///< time of step #1
-  std::int64_t solve_ns = 0;                    ///< time of steps #2-#7
-  std::int64_t since_ns = 0;                    ///< begin of the stretch that runs
+  std::int64_t (*now_ns)() noexcept = nullptr;  ///< returns the time on a monotonic clock [ns]; not null
+  std::int64_t step1_ns = 0;                    ///< time in step #1 [ns]
+  std::int64_t solve_ns = 0;                    ///< time in steps #2-#7 [ns]
+  std::int64_t since_ns = 0;                    ///< begin of the current interval; for the core's own use [ns]
 };
 
 }  // namespace godobject

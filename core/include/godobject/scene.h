@@ -11,32 +11,34 @@ namespace godobject {
 
 struct Scene;
 
-/// The three ways to compute the god object's motion; `contact` is the one to use, the others are there to compare with.
+/// The three solvers for the god object's motion. Use `contact`; the others are there for comparison.
 enum class Solver : std::uint32_t {
   kPaper = 0,      ///< the printed heuristic of Sagardia and Hulin
   kCorrected = 1,  ///< one projection in closed form; exact for a single contact
-  kContact = 2,    ///< all contact points; no penetration, friction
+  kContact = 2,    ///< constraints at all contact points; no penetration, Coulomb friction
 };
 
-/// Stiffness and damping that the device displays.
+/// The stiffness and damping that the device displays.
 struct Gains {
   double stiffness = 0.0;   ///< k_D [N/m]
   double damping = 0.0;     ///< b_D [Ns/m]
   double rotational = 0.0;  ///< k_VC,r: rotational over translational stiffness [m^2]
 };
 
-/// The still body's surface as seen from a point.
+/// The distance from a point to the still body's surface.
 struct SurfaceDistance {
-  double distance = 0.0;               ///< signed, positive outside [m]; the band's edge where `known` is false
-  Vector3 normal_W = Vector3::Zero();  ///< unit, away from the body; zero where `known` is false
+  double distance = 0.0;  ///< signed, positive outside [m]; plus or minus the band where `known` is false
+  Vector3 normal_W =
+      Vector3::Zero();  ///< unit, out of the body, in W; zero where `known` is false or nothing is nearest
   bool known = false;                  ///< the point lies within the stored band around the surface
 };
 
-/// A scene image that `godobject-scenec` compiled: both bodies, solver data and settings. A view of the image's bytes,
-/// which stay with the caller. Copies are cheap and see the same bytes.
+/// A scene image that `godobject-scenec` compiled: both bodies, solver data and settings. The object is a view of the
+/// image's bytes, which the caller owns. Copies cost 2 KiB and view the same bytes. A scene that was never opened holds
+/// no solver.
 class CompiledScene {
  public:
-  /// The image must begin at a multiple of this [bytes].
+  /// Alignment of the image [bytes]: it must begin at a multiple of this.
   static constexpr std::size_t kImageAlignment = 64;
 
   CompiledScene() noexcept;
@@ -44,26 +46,32 @@ class CompiledScene {
   CompiledScene& operator=(const CompiledScene& other) noexcept;
 
   /// Checks the whole image once (checksums, layout, every index and every number) and makes `scene` a view of it. The
-  /// bytes must stay where they are, unchanged, as long as the scene or a god object in it is used.
-  /// kImageTruncated, kImageForeign, kImageVersion, kImageChecksum, kImageLayout, kImageValue: the image is refused;
-  /// `scene` is unchanged. Cost: one pass over the bytes, about 1 ms per MiB; no allocation.
+  /// bytes must stay in place, unchanged, as long as the scene, a copy of it or a god object in it is used.
+  ///
+  /// kImageLayout: `image` is not aligned, or a section is missing or misplaced. kImageTruncated, kImageForeign,
+  /// kImageVersion, kImageChecksum, kImageValue: see Status. After a refusal `scene` is unchanged.
+  ///
+  /// Cost: one pass over the bytes, about 1 ms per MiB; no allocation. Not for the real-time loop.
   static Status open(std::span<const std::byte> image, CompiledScene& scene) noexcept;
 
-  Solver default_solver() const noexcept;     ///< of the scene file
-  bool holds(Solver solver) const noexcept;   ///< the image holds the data that this solver reads
-  bool has_friction() const noexcept;         ///< the scene file has a friction table
-  double voxel_size() const noexcept;         ///< [m]
-  Vector3 center_of_mass_M() const noexcept;  ///< of the moving body, in its mesh frame M [m]
+  Solver default_solver() const noexcept;     ///< the scene file's solver
+  bool holds(Solver solver) const noexcept;   ///< whether the image holds the data that this solver reads
+  bool has_friction() const noexcept;         ///< whether the scene file has a friction table
+  double voxel_size() const noexcept;         ///< voxel edge of the still body's field [m]
+  Vector3 center_of_mass_M() const noexcept;  ///< centre of mass of the moving body, in its mesh frame M [m]
 
-  /// The signed distance from a point of W to the still body. Cost: one look-up, some 60 ns. Real-time safe.
+  /// Returns the signed distance from a point p_W, in W [m], to the still body. Cost: one look-up, some 60 ns.
+  /// Real-time safe.
   SurfaceDistance distance(const Vector3& p_W) const noexcept;
 
+  /// Returns the gains with which god objects start in this scene.
   Gains gains() const noexcept;
-  /// For god objects that are started from now on. kOutOfRange: a gain is not finite, or stiffness or rotational is not
-  /// positive, or damping is negative; nothing changed.
+  /// Sets the gains of god objects that are started from now on, in this object and later copies of it; the image and
+  /// running sessions do not change. kOutOfRange: a gain is not finite, stiffness or rotational is not positive, or
+  /// damping is negative; nothing changed.
   Status set_gains(const Gains& gains) noexcept;
 
-  /// For this project's own tools: the parts of the image. Their types are no part of the library's interface.
+  /// The parts of the image, for this project's own tools: their types are not part of the library's interface.
   const Scene& view() const noexcept;
   static CompiledScene of(const Scene& view) noexcept;
 

@@ -9,18 +9,20 @@
 
 namespace godobject::detail {
 
-/// The surface at the points that hold the god object back, after a motion.
+/// The state of the holding contacts at the end of a motion.
 struct Arrival {
-  bool opened = false;     ///< a point has left the surface: it came round an edge, where its row holds no longer
-  double overshoot = 0.0;  ///< see `arrive`
+  bool opened = false;     ///< a holding point left the surface: it passed an edge, beyond which its row is not valid
+  double overshoot = 0.0;  ///< rise of the coupling's energy at the end over its fall at the start, see `arrive` [1]
 };
 
-/// Looks at the holding points after the motion v = step.motion from H0 to H1.
+/// Looks up the holding points at the end of the motion v = step.motion from H0 to H1.
 ///
-/// Overshoot: along v the energy of the coupling falls at first by |v|^2 per unit of the motion. Where the contact forces
-/// at the end, whose multipliers lambda the rows know, point backwards, it rises there by
-///     -sum of lambda (n_1 - n_0) . (p_1 - p_0) = overshoot |v|^2,
-/// and by the secant it is least at 1 / (1 + overshoot) of the motion. Cost: a look-up for each force, at most six.
+/// Overshoot: at the start of v the energy of the coupling falls by |v|^2 per unit of the motion. Where the contact
+/// forces at the end (the multipliers lambda of the rows times the normals n_1 there) point backwards, it rises there
+/// by
+///     -sum of lambda (n_1 - n_0) . (p_1 - p_0) = overshoot |v|^2.
+/// By the secant the energy is least at 1 / (1 + overshoot) of the motion. Cost: one look-up for each force, at most
+/// six. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>
 Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
                const ConstrainedStep& step) noexcept {

@@ -9,14 +9,14 @@
 
 namespace godobject {
 
-/// One cycle of `contact` without friction for a ball (is_ball), in three dimensions and in W: `contact_cycle` for its one
-/// point, with the same gap law, second looks and certificate, but without search and rotation. The god object turns with
-/// the device; there is no torque.
+/// Runs one cycle of `contact` without friction for a ball (is_ball), in three dimensions and in W. It is
+/// `contact_cycle` for the ball's centre, with the same gap law, second looks and certificate, but without search and
+/// rotation. The god object turns with the device; there is no torque.
 ///
-/// Guarantee: a centre whose stored distance is positive keeps it so, whatever the device does.
+/// Guarantee: a centre whose stored distance is positive never gets one <= 0, whatever the device does.
 ///
-/// Cost: at most kMaxSubsteps sub-steps of kMostAttempts attempts, each a look-up and the certificate's; in steady contact
-/// one sub-step of two look-ups. Real-time safe. Statuses as those of `commit`.
+/// Statuses as those of `commit`. Cost: at most kMaxSubsteps sub-steps of kMostAttempts attempts, each with one look-up
+/// and those of the certificate; in steady contact one sub-step of two look-ups. Real-time safe.
 Status ball_cycle(const Voxelmap& field, const Parameters& parameters, const ContactLengths& lengths,
                   const CycleInput& input, ProxyState& state, CycleReport& report, StepTimes* times) noexcept;
 

@@ -10,31 +10,32 @@
 #include "core/scene/field.h"
 #include "core/scene/sample_bits.h"
 
-/// The certificate of `contact`: a motion is accepted only if the chord of every near point, from the old pose to the new
-/// one, meets no stored surface, and no gap shrinks below the least margin. Points that are not near need no look: the
-/// motion is kept so short that their clearance covers it (`Surroundings::left_out`). So a point whose stored distance is
-/// positive keeps it so.
+/// The certificate of `contact`. It accepts a motion only if the chord of every near point, from the old pose to the
+/// new one, meets no stored surface, and no gap shrinks below the least margin. Other points need no look-up: the
+/// motion is short enough that their clearance covers it (`Surroundings::free_displacement`). So a point whose stored
+/// distance is positive never gets one <= 0.
 ///
-/// A chord is free if its two end balls (radius: FieldSample::clearance) cover it; or if a kernel proves it cell by cell
-/// (DistanceField::free_chords); or if further free balls along it do.
+/// A chord is free if the balls at its two ends (radius: FieldSample::clearance) cover it, if a kernel proves it cell
+/// by cell (DistanceField::free_chords), or if further free balls along the chord cover it.
 namespace godobject::detail {
 
-/// The first point for which a motion was found not to be free.
+/// The first near point whose chord was not proved free.
 struct Obstacle {
   static constexpr std::uint32_t kNone = ~0u;
-  std::uint32_t near = kNone;  ///< number of the near point for which the last motion was not free
-  double share = 1.0;          ///< share of its chord at which the look-up `sample` was made
-  bool exhausted = false;      ///< no surface was met up to `share`, but no more balls were left
-  FieldSample sample;          ///< at `share`
+  std::uint32_t near = kNone;  ///< number of the near point; kNone: no motion has failed yet
+  double share = 1.0;          ///< share of its chord at which `sample` was looked up [1]
+  bool exhausted = false;      ///< the chord is free up to `share`, but the look-ups were used up
+  FieldSample sample;          ///< the field at `share`
 };
 
-/// Look-ups for free balls that a cycle has left.
+/// The remaining look-ups for free balls in a cycle.
 struct Budget {
   int balls = kMostBallsOfCycle;
 };
 
-/// Whether free balls along the chord p0 p1, whose ends have the clearances c0 and c1, cover it. If not, the obstacle
-/// says where. At most kMostBallsOfChord look-ups.
+/// Tells whether free balls cover the chord from p0 to p1, in the field's frame [m]; c0 and c1 are the clearances at
+/// its ends [m]. If they do not, `obstacle` receives the place. Cost: at most kMostBallsOfChord look-ups. Real-time
+/// safe.
 template <DistanceField Field>
 bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vector3& p1, double c1, Budget& budget,
                    Obstacle& obstacle) noexcept {
@@ -54,11 +55,11 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
   return false;
 }
 
-/// The certificate of one direction for the motion from pose H0 to H1 of its shell in the field's frame.
+/// The certificate of one direction for a motion of the shell from pose H0 to H1 in the field's frame.
 template <DistanceField Field>
 class Certificate {
  public:
-  /// `least_gap`: no gap may shrink below it [m].
+  /// `least_gap`: no gap may shrink below it [m]. `rounding`: of stored distances [m].
   Certificate(const Field& field, const Pose& H0, const Pose& H1, double least_gap, double rounding,
               const NearPoints& near, Budget& budget, Obstacle& obstacle) noexcept
       : field_(field),
@@ -71,8 +72,8 @@ class Certificate {
         budget_(budget),
         obstacle_(obstacle) {}
 
-  /// Whether all chords are free. Points that started inside are let out. The point of `obstacle` is looked at first,
-  /// since it is the likeliest to fail again.
+  /// Tells whether all chords are free. Points that start inside may move freely. The point of `obstacle` is tested
+  /// first, since it is the most likely to fail again.
   bool holds() noexcept {
     const Matrix3 turn = H1_.rotation.toRotationMatrix() - R0_;
     const Vector3 shift = H1_.translation - H0_.translation;
@@ -94,7 +95,7 @@ class Certificate {
   }
 
  private:
-  /// Of 64 near points from `first` on those whose own ball does not cover the chord, a bit each.
+  /// Returns a bit mask of the 64 near points from `first` on: those whose own ball does not cover the chord.
   std::uint64_t leaving(std::uint32_t first, const Matrix3& turn, const Vector3& shift) const noexcept {
     return near_.leave_their_ball(first, turn, shift, least_gap_);
   }
@@ -109,7 +110,7 @@ class Certificate {
     ends_.from_distance[at] = near_.distance[k];
   }
 
-  /// Looks up the ends of the chords in the batch and empties it; true where one is not proved free.
+  /// Looks up the ends of the chords in the batch and empties it. True: a chord was not proved free.
   bool any_fails() noexcept {
     for (std::uint32_t i = ends_.count; i % SampleBatch::kAtOnce != 0; ++i) ends_.from_distance[i] = 0.0;
     field_.samples(H1_, ends_);
@@ -150,6 +151,8 @@ class Certificate {
   std::array<std::uint32_t, SampleBatch::kCapacity> number_;
 };
 
+/// Tells whether the certificate holds for the motion of one direction from H0 to H1. If not, `obstacle` receives the
+/// first chord that failed. Real-time safe.
 template <DistanceField Field>
 bool motion_is_free(const Field& field, const Pose& H0, const Pose& H1, double least_gap,
                     const ContactLengths& lengths, const NearPoints& near, Budget& budget,

@@ -10,21 +10,23 @@
 
 namespace godobject {
 
-/// One cycle of `contact`: the least-constraint motion over the contact points, in certified sub-steps; no filter.
+/// Runs one cycle of `contact`: the least-constraint motion over the contact points, in certified sub-steps; no filter.
 ///
-/// Guarantee: a point whose stored distance is positive keeps it so, whatever the device does (certificate.h). It does not
-/// hold before the first pose's penetration has ended.
+/// Guarantee: a point whose stored distance is positive never gets one <= 0, whatever the device does (certificate.h).
+/// After a first pose that penetrates, the guarantee begins when the god object has come out.
 ///
-/// A motion that was shortened continues in the next sub-step, and so does one that brought a contact round an edge. A
-/// motion that would pass the bottom of a valley of the field ends there. Points that the point budget leaves without a
-/// look-up limit the motion to their bound: the god object may lag, which is counted, but crosses nothing.
+/// The remainder of a shortened motion becomes the next sub-step. A motion that took a contact past an edge is followed
+/// by another sub-step. A motion that would pass the bottom of a valley of the field ends there. Points that the point
+/// budget leaves without a look-up limit the motion to the bound of their clearance: the god object may lag, which is
+/// counted, but crosses nothing.
 ///
 /// A first pose that penetrates is left along the gradients. Where these contradict each other, or the field has none
 /// (deeper than the band), the god object follows the device, without force, until it is free.
 ///
-/// Cost: at most kMaxSubsteps sub-steps; each at most kMostAttempts look-ups of a near point and 1 + kMostSecondLooks
-/// solves; kMostBallsOfCycle further look-ups a cycle. Real-time safe. Statuses as those of `commit`; if not kOk, nothing
-/// that is carried to the next cycle changed. `times`: step #1 holds every look-up, the certificate's as well.
+/// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged.
+/// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps sub-steps; each
+/// with at most kMostAttempts look-ups of a near point and 1 + kMostSecondLooks solves; kMostBallsOfCycle further
+/// look-ups a cycle. Real-time safe.
 template <bool kFriction, DistanceField Field, DistanceField BodyField>
 Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInput& input, ContactMemory& memory,
                      ProxyState& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
@@ -32,13 +34,13 @@ Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInp
   detail::ContactSubsteps<kFriction, Field, BodyField> substeps(scene, input, state, memory, times);
   do {
     substeps.begin();                              // #3 (32), (33)
-    if (substeps.is_known_free()) break;           //    no look-up: the device is reached
+    if (substeps.is_known_free()) break;           //    without a look-up: at the device
     substeps.find_surroundings();                  // #1, in place of (1), (2)
-    if (substeps.is_free()) break;                 //    nothing near: the device is reached
+    if (substeps.is_free()) break;                 //    no near point: at the device
     substeps.constrain();                          // #4, in place of (5)-(31), (36)-(42)
     if (substeps.is_lost()) break;                 //    deep inside: follow the device
     substeps.certify();                            //    the motion that meets no surface
-    substeps.advance();                            //    by that motion
+    substeps.advance();                            //    to the end of that motion
   } while (substeps.remain());
   const Status status = substeps.finish(state, report);  // #6, #7 (44)-(46)
   detail::end(times, &StepTimes::solve_ns);

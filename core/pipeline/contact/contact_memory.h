@@ -13,29 +13,31 @@
 
 namespace godobject {
 
-/// Memory of one cycle of `contact`; nothing in it survives the cycle. A cycle touches only what its contacts need.
+/// The workspace of one cycle of `contact`; its contents end with the cycle. A cycle touches only as much as it has
+/// contacts.
 struct ContactWorkspace {
   ContactRows rows;
   ConstrainedStep step;
   NearPoints samples;
   NearPoints features;
-  std::array<float, 2 * NearPoints::kCapacity> distances;  ///< to select rows by
+  std::array<float, 2 * NearPoints::kCapacity> distances;  ///< of all near points, for the selection of rows [m]
 };
 static_assert(sizeof(ContactWorkspace) < 768 * 1024);
 
-/// Step #1 of `contact` in both directions, with its memory of where no point can be near yet. Results do not depend on
-/// that memory.
+/// Step #1 of `contact` in both directions, with the memory of how far each node and point is from being near. The
+/// results do not depend on that memory.
 struct ContactSearch {
   Odometer odometer;
   NearSearch samples;
   NearSearch features;
 
-  /// Words of memory for these shells.
+  /// Returns the size of the memory for these shells [32-bit words].
   static std::size_t memory(const Pointshell& shell, const Pointshell& features) noexcept {
     return NearSearch::memory(shell) + NearSearch::memory(features);
   }
 
-  /// Starts anew. `words`: memory(...) words that outlive the search, or none: then each cycle looks at all nodes.
+  /// Starts anew. `words`: memory(...) words that outlive the search. With none, each cycle visits the trees from their
+  /// roots.
   template <DistanceField Field, DistanceField BodyField>
   void start(const ContactScene<Field, BodyField>& scene, std::span<std::uint32_t> words) noexcept {
     odometer.reset();
@@ -49,22 +51,22 @@ struct ContactSearch {
     }
   }
 
-  /// The last search knows that in a motion from here that displaces points by `displacement` at most, no clearance falls
-  /// below `clearance`, which is at most the longest search radius [m].
+  /// Tells whether the last search proves that no clearance falls below `clearance` [m] in a motion from here that
+  /// displaces points by at most `displacement` [m]. `clearance` is at most the longest search radius.
   bool is_free(double displacement, double clearance) const noexcept {
     const double travelled = odometer.travelled() + displacement;
     return samples.is_free(travelled, clearance) && features.is_free(travelled, clearance);
   }
 };
 
-/// All that `contact` needs beside ProxyState: what it carries from cycle to cycle, and its workspace.
+/// The memory of `contact` beside ProxyState: the state that it carries from cycle to cycle, and its workspace.
 struct ContactMemory {
   ContactSearch search;
-  ConstrainedStep last_step;  ///< the last cycle's motion, and the forces that held it
+  ConstrainedStep last_step;  ///< the last cycle's motion and contact forces
   Pose H_WD_last;             ///< the last cycle's device pose
   ContactWorkspace workspace;
 
-  /// Forgets the last cycle; the search keeps its memory.
+  /// Forgets the last cycle; the search's memory stays valid.
   void reset() noexcept {
     last_step = ConstrainedStep{};
     H_WD_last = Pose{};

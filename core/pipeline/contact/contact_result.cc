@@ -12,15 +12,16 @@
 namespace godobject::detail {
 namespace {
 
-/// The damping b_D on the device's velocity along the active normals, in W. `k` = k_D k_VC,x.
+/// Returns the damping force b_D on the device's velocity along the active normals, in W about the centre of mass [N,
+/// Nm]. `k`: k_D k_VC,x [N/m].
 Wrench damping_of(const ConstrainedStep& step, const Pose& H_WS, const Motion& velocity_W, double gyration, double k,
                   double damping_over_stiffness) noexcept {
   Wrench out;
   const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
-  Vector6 asked;  // (b_D / k_D) v
-  asked << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
-  asked *= damping_over_stiffness;
-  if (asked.isZero(0.0)) return out;
+  Vector6 damping;  // (b_D / k_D) v, in the coupling's metric [m]
+  damping << R_WS.transpose() * velocity_W.translation, gyration * (R_WS.transpose() * velocity_W.rotation);
+  damping *= damping_over_stiffness;
+  if (damping.isZero(0.0)) return out;
   std::array<Vector6, 6> rows;
   Vector6 load = Vector6::Zero();
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
@@ -28,7 +29,7 @@ Wrench damping_of(const ConstrainedStep& step, const Pose& H_WS, const Motion& v
     rows[j] << force.normal, force.point.cross(force.normal) / gyration;
     load += force.multiplier * rows[j];
   }
-  const Vector6 change = damping_change(rows.data(), step.force_count, load, asked);
+  const Vector6 change = damping_change(rows.data(), step.force_count, load, damping);
   out.force = k * (R_WS * change.head<3>());
   out.torque = k * gyration * (R_WS * change.tail<3>());
   return out;

@@ -14,21 +14,22 @@ namespace godobject::detail {
 /// The result of the sub-steps of one cycle.
 struct ContactResult {
   Pose H_WS;                   ///< the god object
-  double smallest = 0.0;       ///< stored distance of the near points at the last sub-step's start [m]
+  double smallest = 0.0;       ///< smallest stored distance of the near points at the last sub-step's start [m]
   std::uint32_t substeps = 0;  ///< sub-steps with a near point
   std::uint32_t dropped = 0;   ///< near points without a row or without a look-up, in the last sub-step
   bool cut = false;            ///< the last motion was shortened so as not to jump over the surface
-  bool inside = false;         ///< the god object still penetrates after a start inside
+  bool inside = false;         ///< the god object has not come out yet after a start inside
 };
 
-/// Flags that `outcome_of` orders: the most severe one is the cycle's outcome.
+/// The flags of a cycle, as in ContactResult.
 struct OutcomeFlags {
-  bool held = false;  ///< a contact force holds the god object back
+  bool held = false;  ///< a contact force acts on the god object
   bool cut = false;
   bool dropped = false;
-  bool infeasible = false;
+  bool infeasible = false;  ///< the rows had no common solution
   bool inside = false;
 };
+/// Returns the outcome of the most severe flag.
 constexpr Outcome outcome_of(const OutcomeFlags& flags) noexcept {
   if (flags.inside) return Outcome::kStartInside;
   if (flags.infeasible) return Outcome::kInfeasible;
@@ -37,8 +38,9 @@ constexpr Outcome outcome_of(const OutcomeFlags& flags) noexcept {
   return flags.held ? Outcome::kContact : Outcome::kFree;
 }
 
-/// Steps #6 and #7 of `contact`, and `commit`; then `memory` carries `step`, the cycle's motion and forces, on.
-/// Statuses as those of `commit`; if not kOk, `memory` is unchanged too. Real-time safe.
+/// Ends a cycle of `contact`: steps #6 and #7, `commit`, and the report. Then stores `step`, the cycle's motion and
+/// forces, in `memory` for the next cycle. Statuses as those of `commit`; if not kOk, `memory` is unchanged too.
+/// Real-time safe.
 Status finish_contact(const CycleInput& input, const ContactResult& result, const ConstrainedStep& step,
                       const Parameters& parameters, ContactMemory& memory, ProxyState& state,
                       CycleReport& report) noexcept;

@@ -10,17 +10,17 @@
 
 namespace godobject {
 
-/// Constants of a session of `contact`: the two bodies, and all lengths that depend on them only.
+/// The constants of a session of `contact`: the two bodies, and the lengths that depend only on them.
 template <DistanceField Field, DistanceField BodyField>
 struct ContactScene {
-  const Field* field = nullptr;         ///< of the still body, in W
-  const Pointshell* shell = nullptr;    ///< of the moving body, in S
-  FeatureContacts<BodyField> features;  ///< of the still body
+  const Field* field = nullptr;         ///< the still body's, in W
+  const Pointshell* shell = nullptr;    ///< the moving body's sample points, in S
+  FeatureContacts<BodyField> features;  ///< the second direction
   const Parameters* parameters = nullptr;
   ContactLengths lengths;
   ContactFriction friction;
   detail::FeatureDirection feature_direction;
-  double longest_search_radius = 0.0;  ///< displacement in a sub-step beyond which no field tells near from far [m]
+  double longest_search_radius = 0.0;  ///< up to this displacement both fields tell near points from others [m]
   double free_clearance = 0.0;         ///< a motion along which every clearance stays above this is free [m]
 
   ContactScene() noexcept = default;
@@ -43,7 +43,7 @@ struct ContactScene {
             std::min(longest_search_radius, features.map->assured_clearance() / feature_direction.most_stretch());
       }
     }
-    // beyond it a gap does not hold a motion back that it is free for, and is not reported
+    // larger gaps do not constrain a motion that stays clear of them, and the report does not contain them
     free_clearance = std::min(std::max(lengths.margin, lengths.shortest_search_radius), longest_search_radius);
   }
 

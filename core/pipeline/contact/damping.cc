@@ -2,12 +2,12 @@
 
 namespace godobject::detail {
 
-Vector6 damping_change(const Vector6* rows, std::uint32_t count, const Vector6& load, const Vector6& asked) noexcept {
+Vector6 damping_change(const Vector6* rows, std::uint32_t count, const Vector6& load, const Vector6& damping) noexcept {
   struct NoTag {};
   using Cone = DualActiveSet<NoTag>;
   Cone cone;
-  cone.start(asked - load);
-  const double tolerance = 1e-12 * (asked.norm() + load.norm());
+  cone.start(damping - load);
+  const double tolerance = 1e-12 * (damping.norm() + load.norm());  // derived: rounding of sums of such vectors
   for (int round = 0; round < 4 * Cone::kCapacity; ++round) {
     Cone::Inequality worst;
     double violation = tolerance;
@@ -19,12 +19,12 @@ Vector6 damping_change(const Vector6* rows, std::uint32_t count, const Vector6& 
     }
     if (!(violation > tolerance) || !cone.add(worst)) break;
   }
-  // The loads alone are projected on 0, and the residuals of two projections are no farther apart than the two points.
-  // Rows that contradict each other but for their rounding carry loads whose sum is rounding only; a projection from
-  // there is none.
-  constexpr double kRoundedUp = 1.0 + 1e-9;
-  const Vector6 change = cone.z() - asked;
-  if (!(change.norm() <= kRoundedUp * asked.norm())) return Vector6::Zero();
+  // -load projects to 0, and the residuals of two projections are no farther apart than the two points: so the change
+  // is at most `damping`. Rows that contradict each other up to rounding carry loads whose sum is only rounding; there
+  // the projection is not valid.
+  constexpr double kRoundedUp = 1.0 + 1e-9;  // derived: more than the projection's rounding
+  const Vector6 change = cone.z() - damping;
+  if (!(change.norm() <= kRoundedUp * damping.norm())) return Vector6::Zero();
   return change;
 }
 

@@ -9,21 +9,23 @@
 #include "core/pipeline/contact/qp/contact_rows.h"
 #include "core/pipeline/contact/search/near_points.h"
 
-/// A second look: the surface as it is at an obstacle becomes one more row of the point that met it. Where two faces of
-/// the field meet in a valley, the gradient at the start of the motion knows only one of them.
+/// The second look: the surface at an obstacle becomes one more row of the point that met it. Where two faces of the
+/// field meet in a valley, the gradient at the start of the motion describes only one of them.
 namespace godobject::detail {
 
-/// Required gap increase of the new row [m]. `displacement`: from the start of the chord to the obstacle, in the field's
-/// frame. The row asks for no more than the point's row at the start, so that resting stays possible.
+/// Returns the required gap increase of the new row [m]. `displacement`: from the start of the chord to the obstacle,
+/// in the field's frame [m]; `start_distance`: stored distance at the start [m]; `steepness`: length of the gradient at
+/// the obstacle [1]. The row requires no more than the point's row at the start, so that rest remains feasible.
 inline double second_look_gain(const ContactLengths& lengths, const FieldSample& at_obstacle,
                                const Vector3& displacement, double start_distance, double steepness) noexcept {
-  // back at the start the distance differs by the gradient times the displacement
+  // extrapolated to the start, the distance differs by the gradient times the displacement
   const double gain =
       (lengths.margin - at_obstacle.distance + at_obstacle.gradient.dot(displacement)) / steepness;
   return std::min(gain, std::max(0.0, kRecovery * (lengths.margin - start_distance)));
 }
 
-/// Adds the row. False: there is no room, or the field has no gradient at the obstacle.
+/// Adds the row of an obstacle in a motion from H0 to H1. False: there is no room for a row, or the field has no
+/// gradient at the obstacle. Real-time safe.
 template <class Direction>
 bool push_obstacle(const Pose& H0, const Pose& H1, const ContactLengths& lengths, const NearPoints& near,
                    const Obstacle& obstacle, ContactRows& rows) noexcept {

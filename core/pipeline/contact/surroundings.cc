@@ -15,7 +15,7 @@ Selection select_rows(ContactWorkspace& workspace) noexcept {
   if (count <= ContactRows::kCapacity) return {std::numeric_limits<double>::infinity(), 1};
   float* const begin = workspace.distances.data();
   std::nth_element(begin, begin + kDeepest, begin + count);
-  // strictly below: equal distances, as on a flat face, are spread
+  // strictly below: equal distances, as on a flat face, are taken by stride
   const double deepest = static_cast<double>(std::nextafter(begin[kDeepest], -std::numeric_limits<float>::infinity()));
   const std::uint32_t room = ContactRows::kCapacity - kDeepest;
   return {deepest, (count + room - 1) / room};

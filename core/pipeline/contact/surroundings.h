@@ -12,19 +12,21 @@
 #include "core/pipeline/contact/contact_memory.h"
 #include "core/scene/sample_bits.h"
 
-/// Step #1 of `contact`: near points of one direction, and their rows.
+/// Step #1 of `contact`: the near points of one direction, and their rows.
 namespace godobject::detail {
 
-/// Knowledge of one sub-step about the surface around its start.
+/// The surface around the start of one sub-step.
 struct Surroundings {
-  double left_out;  ///< displacement up to which all points are free that are not in the lists of near points [m]
-  double smallest = std::numeric_limits<double>::infinity();  ///< stored distance of the near points [m]
+  double free_displacement;  ///< up to this displacement all points outside of the lists of near points are free [m]
+  double smallest = std::numeric_limits<double>::infinity();  ///< smallest stored distance of the near points [m]
   bool swallowed = false;     ///< a point lies inside, where the field has no gradient
-  std::uint32_t dropped = 0;  ///< near points without room as rows
+  std::uint32_t dropped = 0;  ///< near points that found no row
   std::uint32_t unseen = 0;   ///< points that the point budget left without a look-up
 };
 
-/// Turns the chosen points of a batch that have a gradient into rows while there is room; returns how many found none.
+/// Appends rows for the chosen points of a batch that have a gradient, while there is room. Returns how many found
+/// none. `index`: the points' numbers in the shell; `chosen`: a bit mask; `R`: rotation from the shell's to the field's
+/// frame.
 template <class Direction>
 std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, std::uint64_t chosen, const Matrix3& R,
                         const ContactLengths& lengths, ContactRows& rows) noexcept {
@@ -46,24 +48,25 @@ std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, st
   return rows.push(contacts, Direction::from_S(R), lengths.gap_law());
 }
 
-/// Finds all points of one direction with a clearance below `search_radius` and turns those with a gradient into rows
-/// while there is room. `near` is empty before. `travelled`: the odometer's reading at H.
+/// Finds all points of one direction with a clearance below `search_radius` [m], and appends rows for those with a
+/// gradient while there is room. `H`: pose of the shell in the field's frame; `travelled`: the odometer's reading there
+/// [m]; `near` must be empty. Adds to `rows` and `around`. Cost: NearSearch::find. Real-time safe.
 template <class Direction, DistanceField Field>
 void find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
                const Pose& H, double travelled, double search_radius, const ContactLengths& lengths, NearPoints& near,
                ContactRows& rows, Surroundings& around) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
-  const auto leave_out = [&](double clearance) noexcept {
-    around.left_out = std::min(around.left_out, clearance / direction.most_stretch());
+  const auto limit_displacement = [&](double clearance) noexcept {
+    around.free_displacement = std::min(around.free_displacement, clearance / direction.most_stretch());
   };
   search.find(
       direction, field, shell, H, travelled, search_radius, PointBudget{lengths.point_budget, lengths.margin},
       [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
         const std::uint64_t stored = near.push(index.data(), batch, found);
         for_each_bit(found & ~stored, [&](std::uint32_t k) noexcept {
-          leave_out(batch.clearance[k]);
+          limit_displacement(batch.clearance[k]);
           around.smallest = std::min(around.smallest, batch.distance[k]);
-          around.swallowed |= batch.distance[k] <= 0.0;  // without a row nothing brings it out
+          around.swallowed |= batch.distance[k] <= 0.0;  // no row moves it out
           ++around.dropped;
         });
         for_each_bit(found & ~batch.known,
@@ -71,22 +74,23 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
         around.dropped += push_rows<Direction>(batch, index.data(), stored, R, lengths, rows);
       },
       [&](double clearance) noexcept {
-        leave_out(clearance);
+        limit_displacement(clearance);
         ++around.unseen;
       });
   around.smallest = std::min(around.smallest, near.least_distance());
   near.pad();
 }
 
-/// A choice among too many near points.
+/// The choice among more near points than rows.
 struct Selection {
   double deepest;        ///< points up to this distance become rows: half of the capacity [m]
   std::uint32_t stride;  ///< every stride-th of the others becomes a row: the other half
 };
+/// Returns the choice among the near points of both directions. Cost: linear in their number. Real-time safe.
 Selection select_rows(ContactWorkspace& workspace) noexcept;
 
-/// Pushes the selected near points of one direction as rows. In the tree's order every k-th point is spread over the
-/// surface.
+/// Appends rows for the selected near points of one direction; H is the pose of the shell in the field's frame. In the
+/// tree's order every k-th point is spread over the surface. Real-time safe.
 template <class Direction, DistanceField Field>
 void push_selected(const Field& field, const Pose& H, const Selection& selection, const ContactLengths& lengths,
                    const NearPoints& near, ContactRows& rows) noexcept {

@@ -14,9 +14,11 @@
 
 namespace godobject {
 
-/// One cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter. A motion that
-/// was cut continues in the next sub-step: up to kMaxSubsteps times d/2 a cycle, 12 m/s at d = 3 mm. `memory` is carried
-/// from cycle to cycle. kNotFinite: as `paper_cycle`; `memory` is unchanged too. Real-time safe.
+/// Runs one cycle of `corrected`: step #1 on the stored distances, one projection in place of #2-#4, no filter.
+///
+/// The remainder of a motion that was cut becomes the next sub-step: at most kMaxSubsteps times d/2 a cycle, 12 m/s at
+/// d = 3 mm. `memory` is carried from cycle to cycle. Statuses as those of `commit`; if not kOk, `memory` is unchanged
+/// too. Real-time safe.
 template <bool kFriction, DistanceField Field>
 Status corrected_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                        ProjectionState& memory, ProxyState& state, CycleReport& report,
@@ -43,9 +45,8 @@ Status corrected_cycle(const Field& field, const Pointshell& shell, const Parame
       step = project(free, result.contacts, q.safety_distance, q.correction_gain, q.mass,
                      kFriction ? &friction : nullptr, step.next);  // #2-#4
     }
-    const bool follows = !step.cut && result.contacts.depth <= 0.0;  // the device pose itself, without rounding
-    result.H_WS =
-        follows ? input.H_WD : kept_within(q.workspace, result.H_WS, result.H_WS * set_matrix(step.motion));
+    const bool follows = !step.cut && result.contacts.depth <= 0.0;  // exactly the device pose, without rounding
+    result.H_WS = follows ? input.H_WD : clipped_to(q.workspace, result.H_WS, result.H_WS * set_matrix(step.motion));
   } while (step.cut && ++substeps < kMaxSubsteps);
   result.cut = step.cut;
   result.substeps = std::min(substeps + 1, kMaxSubsteps);

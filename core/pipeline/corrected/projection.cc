@@ -8,7 +8,7 @@
 namespace godobject {
 namespace {
 
-/// A wrench row (f, t) and the motion it causes per unit of multiplier, M^-1 w, with M = diag(1, Jh).
+/// A wrench row w = (f, t) and its motion per unit of multiplier, M^-1 w, with M = diag(1, Jh).
 struct Row {
   Vector3 force;
   Vector3 torque;
@@ -27,7 +27,7 @@ struct Row {
 
 constexpr double kLayerShare = 0.5;  // of d that a motion may use up at once
 
-/// Shortens xi so that no point of the body moves farther than `room`.
+/// Shortens xi so that no point of the body is displaced by more than `room` [m]. Tells whether it had to.
 bool shorten(double room, double radius, Motion& xi) noexcept {
   const double travel = xi.translation.norm() + radius * xi.rotation.norm();
   if (travel <= room) return false;
@@ -37,12 +37,12 @@ bool shorten(double room, double radius, Motion& xi) noexcept {
   return true;
 }
 
-/// What the single contact asks for.
+/// The constraint of the single contact: w xi + g >= 0.
 struct Contact {
-  Row normal;
-  Vector3 u;
-  Vector3 tau;
-  double g;
+  Row normal;   ///< w = (u, tau)
+  Vector3 u;    ///< unit direction of the force
+  Vector3 tau;  ///< torque per force [m]
+  double g;     ///< -eta p, or -p where p < 0 [m]
 
   Contact(const PenaltyContacts& contacts, double safety_distance, double gain, const MassModel& mass) noexcept
       : normal(contacts.wrench_S.force.normalized(), contacts.wrench_S.torque / contacts.wrench_S.force.norm(), mass),
@@ -53,11 +53,11 @@ struct Contact {
     g = p > 0.0 ? -gain * p : -p;
   }
 
-  /// How much the row is violated by xi; positive if it is.
+  /// Returns by how much xi violates the row [m]; positive if it does.
   double violation(const Motion& xi) const noexcept { return -(normal.along(xi) + g); }
 };
 
-/// Region C, or a contact without direction: as far as the layer allows.
+/// Returns the motion in region C, or at contacts without a direction: as far as the safety layer allows.
 Projection follow(const Motion& unconstrained, const PenaltyContacts& contacts, double safety_distance,
                   const MassModel& mass) noexcept {
   constexpr double kCreep = 0.01;  // of d, where opposing contacts leave no direction
@@ -70,7 +70,8 @@ Projection follow(const Motion& unconstrained, const PenaltyContacts& contacts, 
   return out;
 }
 
-/// Normal and both tangents at rest at once; false if the force lies outside the cone of `mu`.
+/// Changes xi so that the normal and both tangents are at rest. False, with xi unchanged: that force lies outside the
+/// cone of `mu`.
 bool stick(const Contact& contact, const Row& tangent1, const Row& tangent2, double mu, Motion& xi) noexcept {
   const Row& normal = contact.normal;
   Matrix3 A;  // inverse effective mass at the contact, positive definite
@@ -85,14 +86,15 @@ bool stick(const Contact& contact, const Row& tangent1, const Row& tangent2, dou
   return true;
 }
 
-/// |l| = mu_k nu + viscous_step * slip, against the slip; normal and tangents in turn.
+/// Changes xi by the forces of a slipping contact: the friction force |l| = mu_k nu + viscous_step * slip opposes the
+/// slip. Iterates over normal and tangents in turn.
 void slip(const Contact& contact, const Row& tangent1, const Row& tangent2, const ProjectionFriction& friction,
           Motion& xi) noexcept {
   constexpr int kRounds = 30;           // enough but for slender bodies on long levers: there the ratio may be off
   constexpr double kConverged = 1e-12;  // relative to the multipliers
   const Row& normal = contact.normal;
   const double a_n = normal.mobility(normal);
-  // bounds the tangents' block, so that a round cannot overshoot
+  // an upper bound of the tangents' block, so that a round cannot overshoot
   const double a_t =
       std::max(tangent1.mobility(tangent1), tangent2.mobility(tangent2)) + std::fabs(tangent1.mobility(tangent2));
   const double viscous = friction.viscous_step * a_t;
@@ -114,14 +116,16 @@ void slip(const Contact& contact, const Row& tangent1, const Row& tangent2, cons
     l2 = share * wanted2;
     if (change <= kConverged * nu) break;
   }
-  normal.push(std::max(-nu, contact.violation(xi) / a_n), xi);  // the normal has the last word
+  normal.push(std::max(-nu, contact.violation(xi) / a_n), xi);  // ends with the normal's constraint met
 }
 
+/// Returns the product of two motions in the metric of the mass [m^2].
 double energy(const Motion& a, const Motion& b, const MassModel& mass) noexcept {
   return a.translation.dot(b.translation) + a.rotation.dot(mass.inertia.cwiseProduct(b.rotation));
 }
 
-/// The share of the wanted motion to take, from whether it reverses the last one.
+/// Returns the share of the wanted motion to take: less if it reverses the last one, otherwise more than the last
+/// share.
 double relaxed(const Motion& wanted, const ProjectionState& before, double safety_distance,
                const MassModel& mass) noexcept {
   constexpr double kShrink = 0.5;

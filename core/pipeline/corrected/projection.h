@@ -5,48 +5,51 @@
 
 namespace godobject {
 
-/// What the projection carries from cycle to cycle.
+/// The state that the projection carries from cycle to cycle.
 struct ProjectionState {
-  bool slipping = false;    ///< the contact slid
-  double relaxation = 1.0;  ///< share of the constrained motion that is taken, see `project`
-  Motion wanted;            ///< the constrained motion before that share, in S; zero without contact
+  bool slipping = false;    ///< the contact slipped
+  double relaxation = 1.0;  ///< share of the constrained motion that was taken, see `project` [1]
+  Motion wanted;            ///< the constrained motion before relaxation, in S; zero without contact
 };
 
-/// How far `corrected` lets the god object follow.
+/// The result of `project`.
 struct Projection {
-  Motion motion;         ///< in S
-  bool cut = false;      ///< it was shortened so as not to jump over the surface
+  Motion motion;         ///< of the god object, in S [m, rad]
+  bool cut = false;      ///< the motion was shortened so as not to jump over the surface
   ProjectionState next;  ///< for the next cycle
 };
 
-/// Friction of `project`. viscous_step is mu_v / (k_D k_VC,x T) [1].
+/// The friction coefficients of `project`.
 struct ProjectionFriction {
-  double static_ratio = 0.0;
-  double kinetic_ratio = 0.0;
-  double viscous_step = 0.0;
+  double static_ratio = 0.0;   ///< mu_s [1]
+  double kinetic_ratio = 0.0;  ///< mu_k [1]
+  double viscous_step = 0.0;   ///< mu_v / (k_D k_VC,x T) [1]
 };
 
-/// Steps #2-#4 of `corrected` in one closed-form projection, from f_P, t_P, p_d and d alone; `friction` null: none.
+/// Returns the constrained motion of `corrected`: steps #2-#4 in one closed-form projection, from f_P, t_P, p_d and d
+/// alone. `unconstrained`: in S; `safety_distance`: d [m]; `gain`: eta [1]; `friction` null: none; `before`: the state
+/// of the last sub-step. Real-time safe.
 ///
-/// With u = f/|f|, tau = t/|f| and the row w = (u, tau), the motion xi = (x, r) nearest to the unconstrained one in the
-/// metric of the body's mass that keeps w xi >= eta p (region A) or w xi >= p (region B, p < 0 is the way left):
+/// With u = f/|f|, tau = t/|f| and the row w = (u, tau), the result is the motion xi = (x, r) that is nearest to the
+/// unconstrained one in the metric of the body's mass and satisfies w xi >= eta p (region A) or w xi >= p (region B,
+/// where -p > 0 is the remaining distance):
 ///     nu = max(0, -(w xi + g)) / a,  a = 1 + tau' Jh^-1 tau,  g = p > 0 ? -eta p : -p,  xi += nu (u, Jh^-1 tau)
-/// It replaces eq (7)-(42): it removes exactly p, whatever the lever, a central contact included, and needs no
-/// ellipsoid.
+/// The projection replaces eq (7)-(42). With eta = 1 it removes exactly p for every lever, also for a central contact.
+/// It needs no ellipsoid.
 ///
 /// Friction, Coulomb and viscous, acts at rc = u x tau, the point of the force line nearest to the centre of mass.
-/// Stick is tested exactly (normal and both tangents at once, 3 x 3); if the force lies outside the cone of mu_s (mu_k
-/// if the contact was slipping), it slides with mu_k, by a bounded iteration.
+/// Stick is tested exactly (normal and both tangents at once, 3 x 3). If the force lies outside the cone of mu_s (mu_k
+/// if the contact was slipping), the contact slips with mu_k; a bounded iteration finds that motion.
 ///
-/// Two things keep the linear row honest. *Relaxation*: u and tau move with the body, and a body pressed deeper than
-/// J / (shift of the contact point per radian) would swing from side to side for ever; so when the wanted motion
-/// reverses, half of the share taken last is taken, and the share grows back slowly otherwise. *Room*: no point moves
-/// farther at once than d/2 and the way to the safety layer (region C); the caller goes on from there. Both scale the
-/// motion as a whole, so a contact that sticks goes on sticking; the normal row is then restored by a translation along
-/// u.
+/// Two measures account for the linearisation of the row. *Relaxation*: u and tau move with the body. A body pressed
+/// deeper than J / (shift of the contact point per radian) would swing from side to side without end. So when the
+/// wanted motion reverses, the share that is taken is halved; otherwise it grows back slowly. *Room*: no point is
+/// displaced by more than d/2, in region C by more than d/2 plus the distance to the safety layer; the caller continues
+/// from there. Both scale the whole motion, so a sticking contact still sticks. A translation along u then restores the
+/// normal row.
 ///
-/// Contacts that oppose each other may leave no force to constrain by: then the motion is shortened to half of what is
-/// left of the safety layer, but not below a hundredth of the layer, or the body could never leave.
+/// Contacts that oppose each other may leave no direction to constrain. Then the motion is shortened to half of the
+/// remaining safety layer, but not below a hundredth of the layer; otherwise the body could never leave.
 Projection project(const Motion& unconstrained, const PenaltyContacts& contacts, double safety_distance, double gain,
                    const MassModel& mass, const ProjectionFriction* friction, const ProjectionState& before) noexcept;
 

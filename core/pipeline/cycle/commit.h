@@ -6,9 +6,9 @@
 
 namespace godobject {
 
-/// Ends a cycle of any solver: adds the push of the workspace's faces to `force`, checks that all numbers are finite, and
-/// writes `state` and the report's pose and force. `inside`: the god object still penetrates after a start inside.
-/// kNotFinite: a NaN or Inf would have left the cycle; `state` and `report` are unchanged. Real-time safe.
+/// Ends a cycle of any solver: adds the push of the workspace's faces to `force`, checks that all numbers are finite,
+/// and writes `state` and the report's pose and force. `inside`: the god object still penetrates after a start inside.
+/// kNotFinite: the pose or the force is NaN or Inf; `state` and `report` are unchanged. Real-time safe.
 inline Status commit(const CycleInput& input, const Pose& H_WS, DeviceForce force, bool inside, ProxyState& state,
                      CycleReport& report) noexcept {
   if (input.outside) {

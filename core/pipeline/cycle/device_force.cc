@@ -5,9 +5,9 @@
 namespace godobject {
 namespace {
 
-/// spring + damping along the spring's own direction, never reversed.
+/// Returns spring and damping along the spring's direction, never reversed.
 Vector3 damped(const Vector3& spring, const Vector3& velocity, double damping) noexcept {
-  constexpr double kNoForce = 1e-12;
+  constexpr double kNoForce = 1e-12;  // [N, Nm] derived: rounding of stretches of a metre at 2000 N/m, 4e-13
   const double magnitude = spring.norm();
   if (magnitude < kNoForce) return Vector3::Zero();
   const Vector3 direction = spring / magnitude;

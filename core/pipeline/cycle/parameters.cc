@@ -6,10 +6,11 @@
 namespace godobject {
 
 MassModel MassModel::make(const Vector3& principal_inertia, double radius, double length) noexcept {
-  // A needle's spin inertia is next to nothing: u_r = J^-1 u_t would turn every torque into spin about its axis.
+  // Chosen: a needle's spin inertia is nearly zero, and u_r = J^-1 u_t would turn every torque into spin about its
+  // axis. A hundredth is the spin inertia of a round rod twelve times as long as thick.
   constexpr double kInertiaFloor = 1e-2;
-  constexpr double kExtentFloor = 1e-3;     // of `length`: points and lines without any inertia
-  constexpr double kEllipsoidFloor = 1e-6;  // of the largest a_i^2
+  constexpr double kExtentFloor = 1e-3;     // of `length`, chosen: gives points and lines an inertia above zero
+  constexpr double kEllipsoidFloor = 1e-6;  // of the largest a_i^2, chosen: a flat body's axis is a thousandth of it
   const double smallest =
       std::max(kInertiaFloor * principal_inertia.maxCoeff(), kExtentFloor * length * kExtentFloor * length);
 

@@ -4,17 +4,18 @@
 
 namespace godobject {
 
-/// What a build of the core can do: everything, but for what a build for one scene leaves out because that scene does
-/// not need it (core/CMakeLists.txt defines GODOBJECT_NO_...). What is left out is not compiled at all.
+/// The parts of the pipelines that a build contains. A build for one scene leaves out the parts that this scene does
+/// not need (core/CMakeLists.txt defines GODOBJECT_NO_...); they are not compiled.
 struct SceneTraits {
   bool paper = true;
   bool corrected = true;
   bool contact = true;
   bool friction = true;
   bool features = true;  ///< the second direction of `contact`
-  bool points = true;    ///< any number of points for `contact`; without, a ball by its centre, frictionless (is_ball)
+  bool points = true;    ///< `contact` for any number of points; false: only for a frictionless ball (is_ball)
 };
 
+/// The parts of this build.
 inline constexpr SceneTraits kSceneTraits{
 #ifdef GODOBJECT_NO_PAPER
     .paper = false,
@@ -36,11 +37,11 @@ inline constexpr SceneTraits kSceneTraits{
 #endif
 };
 
-/// A part of the pipelines that a build may be without.
+/// A part that a build may leave out.
 enum class Part : std::uint8_t { kNone, kPaper, kCorrected, kContact, kFriction, kFeatures, kPoints };
 
-/// The first part that the pipeline needs on this scene and that a build with `traits` is without; kNone: it can run.
-/// `ball`: as is_ball.
+/// Returns the first part that a pipeline needs and a build with `traits` leaves out; kNone: the pipeline can run.
+/// `has_features`: the scene has the second direction. `ball`: the scene is a ball (is_ball).
 constexpr Part missing_part(const SceneTraits& traits, format::Solver solver, bool friction, bool has_features,
                             bool ball = false) noexcept {
   switch (solver) {
@@ -59,13 +60,13 @@ constexpr Part missing_part(const SceneTraits& traits, format::Solver solver, bo
   return friction && !traits.friction ? Part::kFriction : Part::kNone;
 }
 
-/// Whether the moving body is a ball that is met by its centre: its one sample point is the centre of mass, and the
-/// still body's distances are less by the radius.
+/// Tells whether the moving body is a ball that is represented by its centre: its one sample point is the centre of
+/// mass, and the still body's distances are reduced by the radius.
 inline bool is_ball(const Scene& scene) noexcept {
   return scene.pointshell.size == 1 && scene.pointshell.point(0).isZero(0.0) && !scene.has_features();
 }
 
-/// Of this build.
+/// Returns the first part that a pipeline needs on `scene` and this build leaves out.
 inline Part missing_part(const Scene& scene, format::Solver solver, bool friction) noexcept {
   return missing_part(kSceneTraits, solver, friction, scene.has_features(), is_ball(scene));
 }

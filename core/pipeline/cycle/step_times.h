@@ -6,13 +6,14 @@
 
 namespace godobject::detail {
 
+/// Starts the stopwatch of a cycle; `times` may be null.
 inline void begin(StepTimes* times) noexcept {
   if (times == nullptr) return;
   times->step1_ns = times->solve_ns = 0;
   times->since_ns = times->now_ns();
 }
 
-/// Ends a stretch of time and begins the next.
+/// Ends an interval, adds it to the member `spent`, and begins the next interval; `times` may be null.
 inline void end(StepTimes* times, std::int64_t StepTimes::*spent) noexcept {
   if (times == nullptr) return;
   const std::int64_t now_ns = times->now_ns();

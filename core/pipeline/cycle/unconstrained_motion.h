@@ -4,7 +4,8 @@
 
 namespace godobject {
 
-/// Step #3: the unconstrained motion from a pose of the god object to the device, (x_u, r_u) of eq (32) and (33), in S.
+/// Returns the unconstrained motion (x_u, r_u) from the god object to the device, in S [m, rad]. Step #3, eq (32),
+/// (33).
 inline Motion unconstrained_motion(const Pose& H_WS, const Pose& H_WD) noexcept {
   return get_motion(H_WS.inverse() * H_WD);
 }

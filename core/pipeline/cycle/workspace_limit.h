@@ -7,44 +7,49 @@
 #include "core/scene/workspace_box.h"
 #include "godobject/pose.h"
 
-/// How a scene's workspace (WorkspaceBox) is kept.
+/// Enforcement of a scene's workspace (WorkspaceBox).
 ///
-/// **The origin of B never leaves the box.** By induction over the god object's poses: the first is the device's, which
-/// is not taken before it is within the box. From there on the pose that the cycle follows is the device's with its
-/// origin moved to the nearest point of the box (GodObject), and every pose that a cycle goes to is one of: the pose
-/// before; the one that it follows; `kept_within` of another; or, in `contact` and the cycle of the ball, another whose
-/// origin was moved to `nearest`, and which the certificate has seen as such. The box is convex and a motion takes the
-/// origin straight, so it stays inside between two such poses, too. What moves with the body is therefore within R_max
-/// of the box at every look-up, the certificate's chords included: the points within R_max of the box are a convex set.
+/// **The origin of B never leaves the box.** Proof by induction over the god object's poses. The first pose is the
+/// device's; GodObject renders nothing until that is within the box. From then on the cycle follows the device pose
+/// with its origin moved to the nearest point of the box (GodObject). Every pose that a cycle ends at is one of these:
+/// the pose before; the followed pose; `clipped_to` of another pose; or, in `contact` and the cycle of the ball, a pose
+/// whose origin was moved to `nearest` before the certificate checked it. The box is convex and a motion moves the
+/// origin along a straight line, so the origin is inside between two such poses, too. Every point of the body is
+/// therefore within R_max of the box at every look-up, also on the certificate's chords: the points within R_max of the
+/// box are a convex set.
 namespace godobject {
 
-/// Faces of the box at the device, which is outside of it by `back_W`, the way to the nearest point of the box: along
-/// each axis the coupling's spring, (46) and #7, and the damping b_D, which never turns the push into a pull.
-/// `velocity_W`: of D's origin [m/s].
+/// Returns the force of the box's faces on a device that is outside of the box [N]: along each axis the coupling's
+/// spring, (46) and #7, and the damping b_D, which never turns the push into a pull. `back_W`: vector from D's origin
+/// to the nearest point of the box [m]. `velocity_W`: of D's origin [m/s]. Real-time safe.
 DeviceForce workspace_push(const Vector3& back_W, const Vector3& velocity_W, const Parameters& parameters) noexcept;
 
-/// As much of the motion from H0, whose origin is in the box, to H1 as leaves it there.
-inline Pose kept_within(const WorkspaceBox& box, const Pose& H0, const Pose& H1) noexcept {
+/// Returns the end of the motion from H0 to H1, shortened so that the origin stays in the box. The origin of H0 must be
+/// in the box. Real-time safe.
+inline Pose clipped_to(const WorkspaceBox& box, const Pose& H0, const Pose& H1) noexcept {
   if (!box.limited || box.contains(H1.translation)) return H1;
-  const Vector3 way = H1.translation - H0.translation;
+  const Vector3 displacement = H1.translation - H0.translation;
   const Vector3 room = box.nearest(H1.translation) - H0.translation;
   double share = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::fabs(room[axis]) < share * std::fabs(way[axis])) share = room[axis] / way[axis];
+    if (std::fabs(room[axis]) < share * std::fabs(displacement[axis])) share = room[axis] / displacement[axis];
   }
   Motion motion = get_motion(H0.inverse() * H1);
   motion.translation *= share;
   motion.rotation *= share;
-  Pose kept = H0 * set_matrix(motion);
-  kept.translation = box.nearest(kept.translation);  // rounding
-  return kept;
+  Pose end = H0 * set_matrix(motion);
+  end.translation = box.nearest(end.translation);  // rounding
+  return end;
 }
 
-/// The faces of the box as constraints of a motion that other constraints have pushed out of it, without friction:
-/// `end_of(push_W)` is where the origin ends if it does not want to go where it did but `push_W` less far. By
-/// duality a push along a face's normal that brings the end onto the face is that face's force. The end yields to
-/// the push along an axis by a share of 0 to 1 that stays the same while the same constraints hold: so the secant finds
-/// it in two steps. What is left over after a few is for the caller to cut off.
+/// Adds the faces of the box, without friction, to the constraints of a motion that other constraints push out of the
+/// box.
+///
+/// `end_of(push_W)` solves for the motion whose target is reduced by `push_W` [m] and returns the end of the origin, in
+/// W [m]. By duality a push along a face's normal that brings the end onto the face is that face's force. Along an axis
+/// the end moves by 0 to 1 times the push, and this ratio is constant while the same constraints are active. So the
+/// secant method finds the push in two steps. It stops within `tolerance` [m]; the caller cuts off the remainder. Cost:
+/// at most 1 + kRounds calls of `end_of`.
 template <class EndOf>
 void push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noexcept {
   constexpr int kRounds = 6;

@@ -7,7 +7,7 @@ namespace godobject {
 Vector3 constrained_motion(const Vector3& unconstrained, const Vector3& u, double delta, double penetration) noexcept {
   const SplitMotion motion = split(unconstrained, u);  // (34), (35)
   const double along = unconstrained.dot(u);
-  if (along >= 0.0) return motion.perpendicular + motion.parallel;  // (37), (38), (39): it leaves
+  if (along >= 0.0) return motion.perpendicular + motion.parallel;  // (37), (38), (39): away from the surface
   if (penetration >= 0.0) return motion.perpendicular;              // (38): region A
   return motion.perpendicular - std::min(-along, delta) * u;        // (39): region B
 }
@@ -18,7 +18,7 @@ Vector3 paper_friction(const Vector3& restricted, const Vector3& perpendicular, 
   const double tangential = perpendicular.norm();
   if (!(normal > 0.0)) return Vector3::Zero();                              // line 3
   if (tangential < mu_static * normal) return -perpendicular;               // line 6
-  if (!(tangential > 0.0)) return Vector3::Zero();                          // mu_s = 0 and nothing moves
+  if (!(tangential > 0.0)) return Vector3::Zero();                          // mu_s = 0 at rest
   return -(mu_kinetic * normal / tangential + mu_viscous) * perpendicular;  // lines 9 and 11
 }
 

@@ -6,26 +6,27 @@
 
 namespace godobject {
 
-/// A motion split along a constrained direction u, eq (34) and (35); u is a unit vector or zero.
+/// A translation [m] or rotation [rad] split along a constrained direction u, eq (34) and (35).
 struct SplitMotion {
   Vector3 parallel = Vector3::Zero();  ///< along u
-  Vector3 perpendicular = Vector3::Zero();
+  Vector3 perpendicular = Vector3::Zero();  ///< across u
 };
 
+/// Returns the parts of `motion` along and across u, a unit vector or zero.
 inline SplitMotion split(const Vector3& motion, const Vector3& u) noexcept {
   const Vector3 parallel = motion.dot(u) * u;
   return {parallel, motion - parallel};
 }
 
-/// Step #4 of `paper` for translations or rotations alone, equations (36)-(40), (47): the motion left of
-/// `unconstrained` [m or rad] when u is the constrained direction and `delta` [m or rad] the step that would reach
-/// contact, eq (7). Region A: `penetration` >= 0, region B otherwise. (38) treats translation and rotation apart, as
-/// printed.
+/// Returns the constrained part of the motion `unconstrained` [m or rad]. Step #4 of `paper` for translations or
+/// rotations alone, equations (36)-(40), (47). u: the constrained direction; `delta`: the step that would reach
+/// contact, eq (7) [m or rad]; `penetration`: p of eq (6) [m], region A if >= 0, region B otherwise. (38) treats
+/// translation and rotation separately, as printed.
 Vector3 constrained_motion(const Vector3& unconstrained, const Vector3& u, double delta, double penetration) noexcept;
 
-/// Algorithm 1: what friction takes off a motion, x_fr of eq (48); add it to the constrained motion.
-/// `restricted` is x_r,|| of eq (40), `perpendicular` x_u,perp of eq (35); the ratios are mu_s, mu_k, mu_v [1].
-/// Without a slip state, as printed: it saw-tooths between mu_k and mu_s.
+/// Returns the motion x_fr of eq (48) by Algorithm 1: add it to the constrained motion. `restricted` is x_r,|| of eq
+/// (40) and `perpendicular` x_u,perp of eq (35) [m or rad]; the ratios are mu_s, mu_k, mu_v [1]. There is no slip
+/// state, as printed: the force saw-tooths between mu_k and mu_s.
 Vector3 paper_friction(const Vector3& restricted, const Vector3& perpendicular, double mu_static, double mu_kinetic,
                        double mu_viscous) noexcept;
 

@@ -15,8 +15,8 @@ namespace godobject {
 
 // clang-format off: equation numbers stand in a column of their own
 
-/// One cycle of `paper`: equations (1)-(48) as printed except for the corrections that core/README.md lists. Step #8 is
-/// the caller's. kNotFinite: a NaN or Inf would have left the cycle; state and report are unchanged. Real-time safe.
+/// Runs one cycle of `paper`: equations (1)-(48) as printed, with the corrections that core/README.md lists. Step #8 is
+/// the caller's. Statuses as those of `commit`; if not kOk, state and report are unchanged. Real-time safe.
 template <bool kFriction, DistanceField Field>
 Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                    ProxyState& state, CycleReport& report, StepTimes* times = nullptr) noexcept {
@@ -50,8 +50,8 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
           paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
     }                                                       //    (47), (48)
     const Pose H_WS_unfiltered = H_WSc * set_matrix(step);  //    (41), (42)
-    result.H_WS = kept_within(q.workspace, state.H_WS,
-                              filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period));  // #5 (43)
+    result.H_WS = clipped_to(q.workspace, state.H_WS,
+                             filter_proxy(state.H_WS, H_WS_unfiltered, input.H_WD, q.period));  // #5 (43)
   }
   const Status status = finish_closed_form(input, result, q, state, report);  // #6, #7 (44)-(46)
   detail::end(times, &StepTimes::solve_ns);

@@ -7,8 +7,9 @@
 namespace godobject {
 namespace {
 
-/// A god object that started inside counts as outside once it is less than this deep: corrections approach the surface
-/// and do not reach it. [voxels] Chosen: a tenth of the size below which the stored field is not exact.
+/// A god object that started inside counts as outside once it is less than this deep [voxels]: corrections remove a
+/// share of the depth in each cycle and never all of it. Chosen: the depth to which `corrected` holds a single contact
+/// (test Corrected.StaysOutOfAFloorWithinATenthOfAVoxel).
 constexpr double kOutside = 0.1;
 
 }  // namespace
@@ -20,7 +21,7 @@ Status finish_closed_form(const CycleInput& input, const ClosedFormResult& resul
       constraint_force(stretch, parameters.coupling_translation, parameters.coupling_rotation);  // (46)
   const DeviceForce force = device_force(coupling, input.H_WD, input.velocity_W, parameters);    // #7
   const double penetration = result.contacts.depth - parameters.safety_distance;
-  // a first pose that penetrates is reported as such, however little it does
+  // a first pose that penetrates is reported even if it does so by less
   const bool came_out = state.started && penetration <= kOutside * parameters.voxel_size;
   const bool inside = state.inside && !came_out;
   if (const Status status = commit(input, result.H_WS, force, inside, state, report); status != Status::kOk) {

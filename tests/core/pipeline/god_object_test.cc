@@ -365,7 +365,7 @@ TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
       if (count == 0) {
         // beyond the band, which is all that stored distances tell, a bound may tell more
         const bool known = smallest < scene_.voxelmap.band();
-        const double bound = Penetration::reach(d, scene_.voxelmap.voxel_size()) - exact;
+        const double bound = Penetration::contact_distance(d, scene_.voxelmap.voxel_size()) - exact;
         ASSERT_GE(fast.depth, known ? depth : std::min(depth, bound));
       }
       touching += count;

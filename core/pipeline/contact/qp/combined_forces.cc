@@ -7,18 +7,18 @@
 namespace godobject::detail {
 namespace {
 
-/// Of up to two active sets.
+/// The forces of up to two active sets.
 struct Forces {
   std::array<ContactForce, 2 * ActiveSet::kCapacity> force;
   std::size_t count = 0;
 };
 
-/// The point nearest to minus the sum among those that no generator violates, c . z >= 0, is zero, and its multipliers
-/// give the sum.
+/// Replaces the forces of the step by at most six of `all` with the same sum. Among the points z with c . z >= 0 for
+/// all generators c, the one nearest to minus the sum is zero, and its multipliers give the sum.
 void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept {
   using Basis = DualActiveSet<std::size_t>;
   constexpr int kMostAdditions = 4 * Basis::kCapacity;
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-12;  // derived: rounding of a sum of twelve vectors, with room to spare
   std::array<Vector6, 2 * ActiveSet::kCapacity> c;
   Vector6 sum = Vector6::Zero();
   for (std::size_t i = 0; i < all.count; ++i) {

@@ -5,9 +5,9 @@
 
 namespace godobject::detail {
 
-/// The forces of the set's half spaces come to those of the step. More than six are replaced by six or fewer of the
-/// same sum: a vector in the cone of generators in six dimensions is a combination of six that are independent
-/// (Caratheodory).
+/// Adds the forces of the set's half spaces to those of the step. More than six forces are replaced by at most six of
+/// the same sum: a vector in the cone of generators in six dimensions is a combination of six independent ones
+/// (Caratheodory). Real-time safe.
 void add_forces(const ContactSet& set, ConstrainedStep& step) noexcept;
 
 }  // namespace godobject::detail

@@ -5,13 +5,14 @@
 
 namespace godobject::detail {
 
-/// The force of the half space.
+/// Returns the force of a half space of the active set.
 ContactForce force_of(const ContactSet& set, int half_space) noexcept;
 
-/// Two rows of one point, seen from two sides, are two.
+/// Sets the step's number of contacts: the different rows among its forces. Two rows of one point with different
+/// normals are two contacts.
 void count_contacts(ConstrainedStep& step) noexcept;
 
-/// The forces of the set's half spaces are those of the step, and their points its contacts.
+/// Makes the forces of the set's half spaces those of the step, and counts the contacts.
 void take_forces(const ContactSet& set, ConstrainedStep& step) noexcept;
 
 }  // namespace godobject::detail

@@ -15,17 +15,19 @@ using Lanes __attribute__((vector_size(kLanes * sizeof(float)))) = float;
 using Ids __attribute__((vector_size(kLanes * sizeof(float)))) = std::uint32_t;
 using Found __attribute__((vector_size(kLanes * sizeof(float)))) = std::int32_t;
 
+/// The largest violation in a scan.
 struct Largest {
-  float violation;
-  std::uint32_t block;  ///< first row of those among which it is
+  float violation;      ///< [m]
+  std::uint32_t block;  ///< first row of the block that contains it
 };
 
+/// Returns the violation of row `i` [m]; m: the motion (x, r).
 float violation(const ContactRows& rows, std::uint32_t i, const float (&m)[6]) noexcept {
   return rows.required_gain[i] - (m[0] * rows.normal_x[i] + m[1] * rows.normal_y[i] + m[2] * rows.normal_z[i] +
                          m[3] * rows.torque_x[i] + m[4] * rows.torque_y[i] + m[5] * rows.torque_z[i]);
 }
 
-/// Over the first `count` rows, a multiple of kLanes.
+/// Returns the largest violation of the first `count` rows, a multiple of kLanes.
 GODOBJECT_VECTOR_WIDTHS
 Largest largest_violation(const ContactRows& rows, std::uint32_t count, const float (&m)[6]) noexcept {
   Largest found{-FLT_MAX, 0};
@@ -33,7 +35,7 @@ Largest largest_violation(const ContactRows& rows, std::uint32_t count, const fl
     const std::uint32_t end = begin + kBlock < count ? begin + kBlock : count;
     Lanes most = {-FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX};
     for (std::uint32_t i = begin; i < end; i += kLanes) {
-      // in one expression: no vector is passed to or from a function, whose way of passing it may differ
+      // one expression: versions of a function may pass vectors differently, so none is passed to or from a function
 #define GODOBJECT_AT(component) (*reinterpret_cast<const Lanes*>(rows.component + i))
       const Lanes here = GODOBJECT_AT(required_gain) - (m[0] * GODOBJECT_AT(normal_x) + m[1] * GODOBJECT_AT(normal_y) +
                                                m[2] * GODOBJECT_AT(normal_z) + m[3] * GODOBJECT_AT(torque_x) +
@@ -48,12 +50,12 @@ Largest largest_violation(const ContactRows& rows, std::uint32_t count, const fl
   return found;
 }
 
-constexpr std::uint32_t kContacts = 4;  // at a time
+constexpr std::uint32_t kContacts = 4;  // that are appended together
 using Doubles __attribute__((vector_size(kContacts * sizeof(double)))) = double;
 using Narrow __attribute__((vector_size(kContacts * sizeof(float)))) = float;
 
-/// The batch's contacts as rows from `at` on, and up to kContacts - 1 that mean nothing. `m`: from the batch's
-/// gradients to S, row by row.
+/// Writes the batch's contacts as rows from `at` on, and up to kContacts - 1 meaningless ones behind them. `m`: matrix
+/// from the batch's gradients to S, row by row.
 GODOBJECT_VECTOR_WIDTHS
 void append(const ContactRows::Batch& batch, std::uint32_t count, const double (&m)[9], const GapLaw& gap,
             ContactRows& rows, std::uint32_t at) noexcept {
@@ -93,7 +95,8 @@ void append(const ContactRows::Batch& batch, std::uint32_t count, const double (
   }
 }
 
-/// The first block of kBlock rows, from `begin` on, in which an id is `point_id`; or where the last full one ends.
+/// Returns the first row of the first block of kBlock rows from `begin` on that contains the id; if there is none, the
+/// end of the last full block.
 GODOBJECT_VECTOR_WIDTHS
 std::uint32_t block_of(const ContactRows& rows, std::uint32_t point_id, std::uint32_t begin) noexcept {
   for (; begin + kBlock <= rows.count; begin += kBlock) {

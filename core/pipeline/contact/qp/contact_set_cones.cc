@@ -2,7 +2,7 @@
 
 #include "core/pipeline/contact/qp/contact_set.h"
 
-// What only friction asks of the set: contacts, and half spaces of their cones.
+// The functions of the set that only friction uses: contacts, and half spaces of their cones.
 namespace godobject::detail {
 
 double ContactSet::ratio_of(const Contact& contact) const noexcept {
@@ -21,7 +21,7 @@ ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vecto
 int ContactSet::open(std::uint32_t row) noexcept {
   Contact& c = contact(contact_count_);
   c = {.row = row,
-       .normal = rows_.normal(row).normalized(),  // single precision would let a slip of nanometres lean
+       .normal = rows_.normal(row).normalized(),  // a normal in single precision would tilt a slip of nanometres
        .point = rows_.point(row),
        .required_gain = static_cast<double>(rows_.required_gain[row])};
   c.ratio = ratio_of(c);
@@ -30,22 +30,22 @@ int ContactSet::open(std::uint32_t row) noexcept {
 }
 
 void ContactSet::close_idle() noexcept {
-  int kept = 0;
+  int count = 0;
   for (int k = 0; k < contact_count_; ++k) {
     const Contact c = contact(k);
     bool used = false;
     for (int j = 0; j < active_.size(); ++j) {
       if (active_[j].tag.contact != k) continue;
       used = true;
-      active_.at(j).tag.contact = kept;
+      active_.at(j).tag.contact = count;
     }
     if (used) {
-      contact(kept++) = c;
+      contact(count++) = c;
     } else {
       rows_.required_gain[c.row] = static_cast<float>(c.required_gain);
     }
   }
-  contact_count_ = kept;
+  contact_count_ = count;
 }
 
 void ContactSet::close_all() noexcept {
@@ -76,9 +76,9 @@ void ContactSet::restart() noexcept {
 
 void ContactSet::restart_from_motion() noexcept {
   close_all();
-  const Vector6 reached = plain_motion();
+  const Vector6 current = plain_motion();
   space_.reset();
-  active_.start(reached);
+  active_.start(current);
 }
 
 ContactSet::Saved ContactSet::save() const noexcept { return {active_, contacts_, contact_count_}; }

@@ -10,29 +10,31 @@ namespace {
 
 constexpr int kPatience = 2;  // steps for the directions of slip to fit, before a pull is taken for one
 
+/// The result of one step.
 enum class Newton : std::uint8_t {
   kConverged,
-  kSettled,  // the motion is found, the directions of slip are not
-  kOn,
-  kFailed,
+  kSettled,  ///< the motion has converged, the directions of slip have not
+  kContinue,
+  kFailed,  ///< the equations are singular
 };
 
-/// The equations of one step. Unknowns: the multipliers of the half spaces, then for each slipping contact the force
-/// tau across its slip, with tau = -(mu lambda / |slip|) (slip across).
+/// The equations of one step. The unknowns are the multipliers of the half spaces, then for each slipping contact the
+/// force tau across its slip, with tau = -(mu lambda / |slip|) (slip across).
 struct NewtonSystem {
   static constexpr std::size_t kMost = 2 * ActiveSet::kCapacity;
   SmallSystem<kMost> equations;
-  std::array<Vector6, kMost> force;  // of unit size, one an unknown
+  std::array<Vector6, kMost> force;  ///< change of z per unit of each unknown
 
   int size() const noexcept { return equations.size; }
   const Vector6& force_of(int unknown) const noexcept { return force[static_cast<std::size_t>(unknown)]; }
 };
 
+/// Writes the equations of one step from `target`.
 void assemble(const ContactSet& set, const Vector6& target, NewtonSystem& system) noexcept {
   const ActiveSet& active = set.active();
   SmallSystem<NewtonSystem::kMost>& equations = system.equations;
   std::array<Vector6, ActiveSet::kCapacity> row;
-  std::array<int, ActiveSet::kCapacity> across{};  // unknown that is tau, or -1
+  std::array<int, ActiveSet::kCapacity> across{};  // number of the unknown tau, or -1
   std::array<double, ActiveSet::kCapacity> compliance{};
   const int n = active.size();
   equations.size = n;
@@ -63,9 +65,9 @@ void assemble(const ContactSet& set, const Vector6& target, NewtonSystem& system
   }
 }
 
-/// Viscous friction as part of the metric: H = I + mu_v sum of w_i T_i' T_i, w_i the contact's share of the load, T_i
-/// the slip of the contact.
-void follow_viscous(ContactSet& set) noexcept {
+/// Sets the metric with viscous friction: H = I + mu_v sum of w_i T_i' T_i, where w_i is the contact's share of the
+/// load and T_i maps the motion to the contact's slip.
+void set_viscous_metric(ContactSet& set) noexcept {
   const ActiveSet& active = set.active();
   double load = 0.0;
   for (int j = 0; j < active.size(); ++j) load += active[j].multiplier;
@@ -86,17 +88,17 @@ void follow_viscous(ContactSet& set) noexcept {
   set.space().set_metric(H);
 }
 
-/// Turns the half space `j` of a slipping contact against the slip that the motion `m` has. True if it turned by more
-/// than the tolerance, or stands otherwise than the slip.
+/// Turns half space `j` of a slipping contact against the slip of the motion `m`. True: it turned by more than the
+/// tolerance, or differs from the slip by more than that.
 bool follow_slip(const Motion& m, int j, ContactSet& set) noexcept {
   ActiveSet::Inequality& half_space = set.active().at(j);
   Contact& c = set.contact_of(j);
   const Slip slip = set.slip_of(c, m);
-  // where the force of this step pointed: near rest it is known far better than the slip
+  // direction of this step's force: near rest it is much more precise than the slip
   const Vector3 old = half_space.tag.slip;
   const double along = slip.speed * slip.direction.dot(old);
   Vector3 pull = c.speed * old + (slip.speed * slip.direction - along * old);
-  pull -= c.normal.dot(pull) * c.normal;  // rounding grows where the slip is much larger than the speed it had
+  pull -= c.normal.dot(pull) * c.normal;  // rounding grows where the slip is much larger than the last one
   const Vector3 direction = pull.normalized();
   const double friction = c.ratio * half_space.multiplier;
   const double tolerance = set.metric().tolerance;
@@ -109,17 +111,18 @@ bool follow_slip(const Motion& m, int j, ContactSet& set) noexcept {
   return turned;
 }
 
+/// Returns the squared distance of two motions in the coupling's metric [m^2].
 double squared_distance(const Motion& a, const Motion& b, double gyration) noexcept {
   return (a.translation - b.translation).squaredNorm() + (gyration * (a.rotation - b.rotation)).squaredNorm();
 }
 
-/// From the motion `m` to the next. `fits`: a pull means that a contact is not there; not so while the directions of
-/// slip do not fit yet.
-Newton newton_step(bool fits, Motion& m, ContactSet& set) noexcept {
+/// Runs one step from the motion `m` to the next. `trusted`: the directions of slip are close enough that a pulling
+/// force means an open contact.
+Newton newton_step(bool trusted, Motion& m, ContactSet& set) noexcept {
   ActiveSet& active = set.active();
   const CouplingMetric& metric = set.metric();
   const bool viscous = set.friction()->viscous_step > 0.0;
-  if (viscous) follow_viscous(set);
+  if (viscous) set_viscous_metric(set);
   const Vector6 target = set.target();
   NewtonSystem system;
   assemble(set, target, system);
@@ -129,31 +132,31 @@ Newton newton_step(bool fits, Motion& m, ContactSet& set) noexcept {
   z = set.space().plain(z);
   const double* const multiplier = system.equations.rhs;
   if (!z.allFinite()) return Newton::kFailed;
-  if (fits && drop_first_to_vanish(multiplier, set)) return Newton::kOn;
-  // a motion that stands still is found, whatever direction a slip of nanometres may have
+  if (trusted && drop_first_to_vanish(multiplier, set)) return Newton::kContinue;
+  // a motion that does not change has converged, whatever the direction of a slip of nanometres
   const bool settled =
       (z.head<3>() - m.translation).squaredNorm() + (z.tail<3>() - metric.gyration * m.rotation).squaredNorm() <=
       metric.tolerance * metric.tolerance;
   m = set.space().motion(z);
-  // the shares of viscous friction are those of the step before
-  Newton result = settled || !viscous ? Newton::kConverged : Newton::kOn;
+  // viscous friction uses the shares of the step before
+  Newton result = settled || !viscous ? Newton::kConverged : Newton::kContinue;
   for (int j = 0; j < active.size(); ++j) {
     const double changed = std::fabs(multiplier[j] - active[j].multiplier);
-    if (viscous && changed > metric.tolerance) result = Newton::kOn;
+    if (viscous && changed > metric.tolerance) result = Newton::kContinue;
     active.at(j).multiplier = multiplier[j];
     const double speed = set.slip_of(set.contact_of(j), m).speed;
     if (!set.contact_of(j).slips) {
-      if (speed > metric.still && !settled) result = Newton::kOn;
+      if (speed > metric.still && !settled) result = Newton::kContinue;
     } else if (follow_slip(m, j, set) && !(settled && speed <= metric.tolerance)) {
-      result = settled ? Newton::kSettled : Newton::kOn;
+      result = settled ? Newton::kSettled : Newton::kContinue;
     }
   }
-  if (hold_or_release(set)) return Newton::kOn;
-  if (result != Newton::kOn && drop_first_to_vanish(multiplier, set)) return Newton::kOn;
+  if (hold_or_release(set)) return Newton::kContinue;
+  if (result != Newton::kContinue && drop_first_to_vanish(multiplier, set)) return Newton::kContinue;
   return result;
 }
 
-/// Whether the half spaces with the shifts that belong to `m` give the motion `m` again.
+/// Tells whether the half spaces with the shifts of the motion `m` reproduce `m`.
 bool confirm(const Motion& m, ContactSet& set) noexcept {
   const int size = set.active().size();
   for (int k = 0; k < set.contact_count(); ++k) {
@@ -166,16 +169,16 @@ bool confirm(const Motion& m, ContactSet& set) noexcept {
          squared_distance(set.motion(), m, set.metric().gyration) <= tolerance * tolerance;
 }
 
-/// From the set's motion; the set is meant for `restore` where it fails.
+/// Iterates from the set's motion. False: it failed, and the caller must restore the set.
 bool iterate(ContactSet& set) noexcept {
   Motion m = set.motion();
-  bool fits = false;
+  bool trusted = false;
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     begin_to_slip(m, set);
-    const Newton result = newton_step(fits || step >= kPatience, m, set);
+    const Newton result = newton_step(trusted || step >= kPatience, m, set);
     if (result == Newton::kFailed) return false;
-    fits = result != Newton::kOn;
-    if (result == Newton::kOn) continue;
+    trusted = result != Newton::kContinue;
+    if (result == Newton::kContinue) continue;
     const ContactRows::Violated worst = set.most_violated(m);
     if (worst.row != ContactRows::kNone) {
       if (!set.enter(worst.row, m)) return false;

@@ -12,12 +12,13 @@ constexpr int kReversals = 2;
 
 /// The half spaces of one contact and their force, load (normal - ratio pull / load).
 struct ContactLoad {
-  std::array<int, ActiveSet::kCapacity> half_space{};
+  std::array<int, ActiveSet::kCapacity> half_space{};  ///< numbers in the active set
   std::size_t count = 0;
-  double load = 0.0;
-  Vector3 pull = Vector3::Zero();
+  double load = 0.0;               ///< sum of the multipliers [m]
+  Vector3 pull = Vector3::Zero();  ///< sum of multiplier times direction of slip [m]
 };
 
+/// Returns the load of a contact.
 ContactLoad load_on(const ActiveSet& active, int contact) noexcept {
   ContactLoad carried;
   for (int j = 0; j < active.size(); ++j) {
@@ -29,12 +30,12 @@ ContactLoad load_on(const ActiveSet& active, int contact) noexcept {
   return carried;
 }
 
-/// Leaves the first `kept` half spaces of the contact.
-void erase_from(std::size_t kept, const ContactLoad& carried, ActiveSet& active) noexcept {
-  for (std::size_t i = carried.count; i-- > kept;) active.erase(carried.half_space[i]);
+/// Erases the contact's half spaces from number `first` on.
+void erase_from(std::size_t first, const ContactLoad& carried, ActiveSet& active) noexcept {
+  for (std::size_t i = carried.count; i-- > first;) active.erase(carried.half_space[i]);
 }
 
-/// Holds a slipping contact by three half spaces, its force the same; false if there is no room.
+/// Makes a slipping contact stick by three half spaces, with the same force. False: there is no room.
 bool hold(int contact, ContactSet& set) noexcept {
   ActiveSet& active = set.active();
   if (active.size() + 2 > ActiveSet::kCapacity) return false;
@@ -55,8 +56,8 @@ bool hold(int contact, ContactSet& set) noexcept {
   return true;
 }
 
-/// The force of a contact that is held by three half spaces: where it lies in the cone, as three pushes about it; else
-/// the contact begins to slip or, if it would have to pull, loses its half spaces, and the answer is true.
+/// Updates a contact that three half spaces hold. If its force lies in the cone, it is split into three pushes around
+/// it. True: the force lies outside, and the contact begins to slip or, if it would pull, loses its half spaces.
 bool release(int contact, ContactSet& set) noexcept {
   constexpr std::size_t kHolding = 3;
   constexpr std::array<double, kHolding> kCosine = {1.0, -0.5, -0.5};
@@ -117,7 +118,7 @@ void begin_to_slip(const Motion& m, ContactSet& set) noexcept {
 bool drop_first_to_vanish(const double* multiplier, ContactSet& set) noexcept {
   ActiveSet& active = set.active();
   int first = -1;
-  double way = 1.0;
+  double share = 1.0;  // of the change of the multipliers, until the first vanishes
   for (int j = 0; j < active.size(); ++j) {
     double from = active[j].multiplier;
     double to = multiplier[j];
@@ -132,15 +133,15 @@ bool drop_first_to_vanish(const double* multiplier, ContactSet& set) noexcept {
     if (!(to < 0.0)) continue;
     from = std::max(0.0, from);
     const double vanishes = from / (from - to);
-    if (first < 0 || vanishes < way) {
+    if (first < 0 || vanishes < share) {
       first = j;
-      way = vanishes;
+      share = vanishes;
     }
   }
   if (first < 0) return false;
   for (int j = 0; j < active.size(); ++j) {
     const double from = std::max(0.0, active[j].multiplier);
-    active.at(j).multiplier = std::max(0.0, from + way * (multiplier[j] - from));
+    active.at(j).multiplier = std::max(0.0, from + share * (multiplier[j] - from));
   }
   const int contact = active[first].tag.contact;
   const bool whole = set.contact(contact).is_held;

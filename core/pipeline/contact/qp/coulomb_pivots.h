@@ -2,20 +2,22 @@
 
 #include "core/pipeline/contact/qp/contact_set.h"
 
-/// Changes of state between the steps of Newton's method on Coulomb's law: a contact opens, slips or sticks.
+/// The changes of state between steps of Newton's method on Coulomb's law: a contact opens, slips or sticks.
 namespace godobject::detail {
 
-/// Contacts that slip in motion `m` and were not known to begin to: one half space and the kinetic ratio for each. Its
-/// direction is against the force that the half spaces gave, which near rest is known far better than the slip.
+/// Lets the contacts that slip in the motion `m`, but are marked as sticking, slip: each gets one half space and the
+/// kinetic ratio. Its direction is that of the friction force so far, which near rest is much more precise than the
+/// slip.
 void begin_to_slip(const Motion& m, ContactSet& set) noexcept;
 
-/// On the way from the forces of the set to the new `multiplier`s, one a half space, stops where the first of them
-/// vanishes and lets it go. False, without a change, if none does. A contact that is held has one force, the sum of its
-/// half spaces'.
+/// Moves the forces of the set towards the new `multiplier`s, one a half space, until the first one vanishes, and
+/// releases that half space. False, without a change: none vanishes. The forces of a held contact count as one, their
+/// sum.
 bool drop_first_to_vanish(const double* multiplier, ContactSet& set) noexcept;
 
-/// A contact whose slip went with its force instead of against it twice in a row sticks: three half spaces hold it. One
-/// that is held by a force outside of the cone begins to slip; by a pull, it opens. True if any has happened.
+/// Makes a contact stick by three half spaces if its slip had the direction of its force in consecutive steps. Makes a
+/// held contact slip if its force lies outside of the cone, or opens it if the force would pull. True: a contact has
+/// changed.
 bool hold_or_release(ContactSet& set) noexcept;
 
 }  // namespace godobject::detail

@@ -8,15 +8,16 @@
 
 namespace godobject::detail {
 
-/// The six coordinates in which the coupling's metric is Euclidean: z = (x, rho r) [m], or L' z where viscous friction
-/// has made the metric H = L L'.
+/// The six coordinates in which the metric is Euclidean: z = (x, rho r) [m] for the coupling's metric, or L' z where
+/// viscous friction has changed it to H = L L'.
 class CouplingSpace {
  public:
+  /// `gyration`: rho [m].
   explicit CouplingSpace(double gyration) noexcept : gyration_(gyration) {}
 
-  /// The metric is |x|^2 + rho^2 |r|^2 again.
+  /// Sets the metric |x|^2 + rho^2 |r|^2.
   void reset() noexcept { whitened_ = false; }
-  /// H in the coordinates (x, rho r), positive definite.
+  /// Sets the metric H, in the coordinates (x, rho r), positive definite.
   void set_metric(const Matrix6& H) noexcept {
     whiten_ = Eigen::LLT<Matrix6>(H).matrixL().solve(Matrix6::Identity());
     whitened_ = true;
@@ -24,17 +25,18 @@ class CouplingSpace {
 
   double gyration() const noexcept { return gyration_; }
 
-  /// Gradient of push . (x + r x point): also the change of z by a force `push` at `point`.
+  /// Returns the gradient of push . (x + r x point), which is also the change of z by a force `push` at `point`, in S.
   Vector6 gradient(const Vector3& push, const Vector3& point) const noexcept {
     Vector6 c;
     c << push, point.cross(push) / gyration_;
     return whitened_ ? Vector6(whiten_ * c) : c;
   }
-  /// A target given as a force H (x, rho r).
+  /// Returns the target z of a force H (x, rho r).
   Vector6 target(const Vector6& load) const noexcept { return whitened_ ? Vector6(whiten_ * load) : load; }
-  /// (x, rho r)
+  /// Returns (x, rho r) of z [m].
   Vector6 plain(const Vector6& z) const noexcept { return whitened_ ? Vector6(whiten_.transpose() * z) : z; }
 
+  /// Returns the motion (x, r) of (x, rho r).
   Motion motion(const Vector6& plain) const noexcept { return {plain.head<3>(), plain.tail<3>() / gyration_}; }
 
  private:

@@ -10,19 +10,22 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// The point z nearest to a target in six dimensions that satisfies the inequalities c . z >= rhs added so far, by the
-/// dual active set method of Goldfarb and Idnani (Mathematical Programming 27, 1983) for the identity as Hessian.
+/// dual active set method of Goldfarb and Idnani (Mathematical Programming 27, 1983) with the identity as Hessian.
 ///
-/// Holds at most six inequalities, linearly independent, all met with equality, with multipliers >= 0:
+/// The active set has at most six inequalities. They are linearly independent, met with equality, and their multipliers
+/// are >= 0:
 ///     z = target + sum of multiplier_i c_i
-/// kept as C = Q R by Gram and Schmidt, twice: parallel, duplicated and redundant inequalities are no special case.
-/// `Tag` says what an inequality belongs to. No allocation; an addition costs about 50 ns and at most 7 exchanges.
+/// The matrix C of their gradients is stored as C = Q R, by Gram-Schmidt with reorthogonalisation: parallel, duplicated
+/// and redundant inequalities are not special cases. `Tag` is the caller's data of an inequality. An addition costs
+/// about 50 ns and at most 7 exchanges. Real-time safe.
 template <class Tag>
 class DualActiveSet {
  public:
   static constexpr int kCapacity = 6;
 
+  /// The inequality gradient . z >= rhs.
   struct Inequality {
-    // element by element: a loop would become a string instruction, which is slow for so few
+    // element by element: a loop would become a string instruction, which is slow for six elements
     Inequality() noexcept { gradient << 0.0, 0.0, 0.0, 0.0, 0.0, 0.0; }
     Inequality(const Vector6& c, double b, double lambda, const Tag& of) noexcept
         : gradient(c), rhs(b), multiplier(lambda), tag(of) {}
@@ -33,39 +36,43 @@ class DualActiveSet {
     Tag tag{};
   };
 
+  /// Starts with an empty active set at the target.
   void start(const Vector6& target) noexcept {
     target_ = target;
     z_ = target;
     size_ = 0;
   }
 
+  /// Returns the nearest point.
   const Vector6& z() const noexcept { return z_; }
+  /// Returns the number of active inequalities.
   int size() const noexcept { return size_; }
   const Inequality& operator[](int i) const noexcept { return active_[i]; }
-  /// To change gradients and right-hand sides before `resolve`.
+  /// Returns inequality `i` for changes; `resolve` must follow.
   Inequality& at(int i) noexcept { return active_[i]; }
 
-  /// Puts an inequality into the set before `resolve`, as a guess that it will be active. False when full.
+  /// Puts an inequality into the set as a guess that it will be active; `resolve` must follow. False: the set is full.
   bool guess(const Inequality& inequality) noexcept {
     if (size_ == kCapacity) return false;
     active_[size_++] = inequality;
     return true;
   }
 
-  /// Takes one out before `resolve`.
+  /// Takes inequality `i` out; `resolve` must follow.
   void erase(int i) noexcept {
     for (--size_; i < size_; ++i) active_[i] = active_[i + 1];
   }
 
-  /// Solves again with all inequalities of the set as equalities; leaves out those that depend on others, then, one by
+  /// Solves again with the inequalities of the set as equalities. Removes those that depend on others, then, one by
   /// one, those with a negative multiplier.
   void resolve() noexcept { resolve(target_); }
 
+  /// The same for another target.
   void resolve(const Vector6& target) noexcept {
     target_ = target;
-    const int wanted = size_;
+    const int guessed = size_;
     size_ = 0;
-    for (int i = 0; i < wanted; ++i) {
+    for (int i = 0; i < guessed; ++i) {
       if (size_ != i) active_[size_] = active_[i];
       if (orthogonalise(size_, active_[size_].gradient)) ++size_;
     }
@@ -73,13 +80,13 @@ class DualActiveSet {
     }
   }
 
-  /// Adds an inequality that z violates, and drops those that its multiplier drives out. False: no z satisfies it
-  /// together with the others; the set is left as it was.
+  /// Adds an inequality that z violates and removes those whose multipliers it reduces to zero. False: no z satisfies
+  /// it together with the others; the set is unchanged.
   bool add(const Inequality& inequality) noexcept {
     const Inequality saved[kCapacity] = {active_[0], active_[1], active_[2], active_[3], active_[4], active_[5]};
     const int saved_size = size_;
     const double square = inequality.gradient.squaredNorm();
-    double gained = 0.0;  // multiplier of the new inequality
+    double added = 0.0;  // multiplier of the new inequality
     for (int exchange = 0; exchange <= kCapacity; ++exchange) {
       Eigen::Matrix<double, kCapacity, 1> along;
       Vector6 step = inequality.gradient;
@@ -104,11 +111,11 @@ class DualActiveSet {
       const bool full = !dependent && (leaves < 0 || primal_step <= dual_step);
       const double length = full ? primal_step : dual_step;
       for (int j = 0; j < size_; ++j) active_[j].multiplier -= length * decrease[j];
-      gained += length;
+      added += length;
       if (!dependent) z_ += length * step;
       if (full) {
         active_[size_] = inequality;
-        active_[size_].multiplier = gained;
+        active_[size_].multiplier = added;
         if (orthogonalise(size_, inequality.gradient)) ++size_;
         for (int j = 0; j < size_; ++j)
           active_[j].multiplier = active_[j].multiplier > 0.0 ? active_[j].multiplier : 0.0;
@@ -125,7 +132,7 @@ class DualActiveSet {
  private:
   static constexpr double kDependent = 1e-12;  // squared sine of the angle to the span of the others
 
-  /// `v` minus its part in the span; `along` = Q' v.
+  /// Subtracts from `v` its part in the span of the set; `along` receives Q' v.
   void project_out(Vector6& v, Eigen::Matrix<double, kCapacity, 1>& along) const noexcept {
     for (int j = 0; j < size_; ++j) along[j] = 0.0;
     for (int pass = 0; pass < 2; ++pass) {
@@ -137,7 +144,7 @@ class DualActiveSet {
     }
   }
 
-  /// Column `k` of Q and R from the gradient; false if it depends on the columns before it.
+  /// Computes column `k` of Q and R from the gradient. False: it depends on the columns before it.
   bool orthogonalise(int k, const Vector6& gradient) noexcept {
     Vector6 v = gradient;
     Eigen::Matrix<double, kCapacity, 1> along;
@@ -151,7 +158,7 @@ class DualActiveSet {
     return true;
   }
 
-  /// x = R^-1 y
+  /// Computes x = R^-1 y.
   void back_substitute(const Eigen::Matrix<double, kCapacity, 1>& y,
                        Eigen::Matrix<double, kCapacity, 1>& x) const noexcept {
     for (int i = size_ - 1; i >= 0; --i) {
@@ -161,6 +168,7 @@ class DualActiveSet {
     }
   }
 
+  /// Removes inequality `k` and updates Q and R.
   void remove(int k) noexcept {
     for (int i = k; i + 1 < size_; ++i) active_[i] = active_[i + 1];
     --size_;
@@ -168,7 +176,7 @@ class DualActiveSet {
     for (size_ = k; size_ < after; ++size_) orthogonalise(size_, active_[size_].gradient);
   }
 
-  /// R' R multiplier = rhs - C' target; drops the most negative multiplier and returns false if there is one.
+  /// Solves R' R multiplier = rhs - C' target. False: a multiplier was negative, and the most negative one was removed.
   bool solve_equalities() noexcept {
     Eigen::Matrix<double, kCapacity, 1> y, multiplier;
     z_ = target_;

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kRounds = 5;
 
-// rest, Newton's method once and in each round, the rounds' cones; then the last word (more than coming to rest takes),
-// rest again, the rows alone
+// additions for: rest; Newton's method at first and in each round; the cones of each round; then the rows after a
+// failure (more than coming to rest takes), rest again, the rows without friction
 static_assert(2 * kMostConeAdditions + (1 + kRounds) * kMostNewtonSteps + kRounds * kMostConeAdditions +
                   2 * kMostRowAdditions ==
               kMostFrictionAdditions);
 
-/// The contact of the row, opened with the shift of the last motion if it is not yet.
+/// Returns the contact of the row; opens it with the shift of the last motion if needed.
 int contact_of_row(std::uint32_t row, ContactSet& set) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
     if (set.contact(k).row == row) return k;
@@ -27,7 +27,8 @@ int contact_of_row(std::uint32_t row, ContactSet& set) noexcept {
   return k;
 }
 
-/// Shifts for the convex problem to go on with where Newton's method failed: none at first, then towards the slip.
+/// Sets the shifts with which the convex problem continues after Newton's method failed: none at first, then halfway
+/// towards the slip.
 void follow_shifts(bool first, ContactSet& set) noexcept {
   const Motion m = set.motion();
   for (int k = 0; k < set.contact_count(); ++k) {
@@ -37,12 +38,12 @@ void follow_shifts(bool first, ContactSet& set) noexcept {
   set.resolve();
 }
 
-/// Coulomb's law to the tolerance; false after the last round. The steps 1 to 3 of `least_constraint`.
+/// Solves Coulomb's law to the tolerance: steps 1 to 3 of `least_constraint`. False: the rounds did not suffice.
 bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
   if (crawls(set, last) && sticks(set)) return true;
   for (int round = 0; round <= kRounds; ++round) {
-    // from the second on a start for Newton's method, however it ends: cones with too small shifts may contradict each
-    // other where the rows do not
+    // later rounds start Newton's method from the convex problem, whatever its result: cones with too small shifts may
+    // contradict each other where the rows do not
     if (round > 0) meet_cones(Shift::kSlip, set);
     if (solve_coulomb(set)) return true;
     follow_shifts(round == 0, set);
@@ -50,7 +51,7 @@ bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
   return false;
 }
 
-/// The set's motion is Coulomb's.
+/// Ends with the set's motion, which satisfies Coulomb's law.
 void conclude(ContactSet& set, ConstrainedStep& step) noexcept {
   take_forces(set, step);
   step.follows = step.force_count == 0;
@@ -59,7 +60,7 @@ void conclude(ContactSet& set, ConstrainedStep& step) noexcept {
   set.close_all();
 }
 
-/// It is not: the normals have the last word. False: infeasible.
+/// Ends with the nearest motion that meets all rows, since Coulomb's law was not solved. False: infeasible.
 bool conclude_with_rows(ContactSet& set, ConstrainedStep& step) noexcept {
   take_forces(set, step);
   step.follows = false;
@@ -71,7 +72,7 @@ bool conclude_with_rows(ContactSet& set, ConstrainedStep& step) noexcept {
   return feasible;
 }
 
-/// The motion without friction, after conclude_with_rows. False: infeasible.
+/// Ends with the motion without friction, after conclude_with_rows. False: infeasible.
 bool conclude_without_friction(ContactSet& set, ConstrainedStep& step) noexcept {
   set.restart();
   const bool feasible = meet_rows(set) != Additions::kContradictory;
@@ -80,8 +81,8 @@ bool conclude_without_friction(ContactSet& set, ConstrainedStep& step) noexcept 
   return feasible;
 }
 
-/// The motion found ends farther from the wanted one than rest does, by more than what lost gaps need. In the plain
-/// metric.
+/// Tells whether the current motion is farther from the wanted one than rest is, by more than lost gaps require. In the
+/// metric without viscous friction.
 bool leads_away(const ContactSet& set) noexcept {
   constexpr double kNeeds = 1.001;  // of squares
   const Vector6 wanted = set.target();
@@ -107,8 +108,8 @@ bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
   const ContactSet::Saved found = set.save();
   const bool feasible = conclude_with_rows(set, step);
   if (!feasible || !leads_away(set)) return feasible;
-  // Shifts that are not the slip's own allow forces of any size. Without them the cones may hold at rest; if not,
-  // without friction no motion that meets all rows is nearer.
+  // Shifts that differ from the slip allow forces of any size. Without shifts the cones may hold the body at rest. If
+  // they do not, the motion without friction is the nearest one that meets all rows.
   set.restore(found);
   if (!sticks(set)) return conclude_without_friction(set, step);
   conclude(set, step);

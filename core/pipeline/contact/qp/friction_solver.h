@@ -7,10 +7,11 @@
 
 namespace godobject::detail {
 
-/// Puts the half space of the row's cone that the force stands for into the active set, as a guess.
+/// Puts the half space of the row's cone that belongs to `force` into the active set, as a guess.
 void guess_cone(std::uint32_t row, const ContactForce& force, ContactSet& set) noexcept;
 
-/// `least_constraint` with friction, from a set that is warm: motion and forces of the step. False: infeasible.
+/// Solves `least_constraint` with friction from a warm-started set: sets the motion and forces of `step`. False: the
+/// rows are infeasible. Real-time safe.
 bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept;
 
 }  // namespace godobject::detail

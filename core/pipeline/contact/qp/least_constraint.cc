@@ -16,8 +16,8 @@ using detail::ContactSet;
 
 static_assert(detail::kMostRowAdditions == kMostAdditions);
 
-/// The row of the force's point; of several, which a second look at an obstacle gives it, the one whose normal fits
-/// best.
+/// Returns the row of the force's point. A second look may give the point several rows; then the one whose normal is
+/// closest.
 std::uint32_t row_of(const ContactForce& force, const ContactRows& rows) noexcept {
   std::uint32_t best = ContactRows::kNone;
   double best_fit = 0.0;
@@ -30,7 +30,7 @@ std::uint32_t row_of(const ContactForce& force, const ContactRows& rows) noexcep
   return best;
 }
 
-/// The forces of the last step as a guess, as far as their points still have rows.
+/// Guesses the forces of the last step, where their points still have rows.
 void warm_start(const ConstrainedStep& step, ContactSet& set) noexcept {
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
     const ContactForce& force = step.forces[i];
@@ -50,7 +50,7 @@ void warm_start(const ConstrainedStep& step, ContactSet& set) noexcept {
   }
 }
 
-/// False: infeasible.
+/// Solves the problem without friction. False: infeasible.
 bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
   const bool feasible = detail::meet_rows(set) != Additions::kContradictory;
   detail::take_forces(set, step);
@@ -59,7 +59,7 @@ bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
   return feasible;
 }
 
-/// False: infeasible.
+/// Solves the problem with or without friction. False: infeasible.
 bool solve(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric, const ContactFriction* friction,
            const Motion& last, ConstrainedStep& step) noexcept {
   ContactSet set(rows, wanted, metric, friction, last);
@@ -88,7 +88,7 @@ void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMet
     return;
   }
   if (solve(rows, wanted, metric, friction, last, step)) return;
-  // what nobody can meet together need not be gained; the motion zero is then one that meets all rows
+  // infeasible rows drop their required gap increase; then the zero motion meets all rows
   for (std::uint32_t i = 0; i < rows.count; ++i) rows.required_gain[i] = std::min(rows.required_gain[i], 0.0f);
   step.force_count = 0;
   solve(rows, wanted, metric, friction, last, step);

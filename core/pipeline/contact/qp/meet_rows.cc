@@ -15,7 +15,7 @@ bool is_active(const ActiveSet& active, std::uint32_t row) noexcept {
 Additions meet_rows(ContactSet& set) noexcept {
   for (int i = 0; i < kMostRowAdditions; ++i) {
     const ContactRows::Violated worst = set.most_violated(set.motion());
-    // one that is active is violated by rounding only
+    // an active row is violated only by rounding
     if (worst.row == ContactRows::kNone || is_active(set.active(), worst.row)) return Additions::kMet;
     if (!set.add(set.row_half_space(worst.row))) return Additions::kContradictory;
   }

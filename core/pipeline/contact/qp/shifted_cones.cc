@@ -6,6 +6,7 @@ namespace {
 constexpr double kConeTolerance = 0.01;  // of the rows': cones are in double precision, and rest is exact
 constexpr double kCrawl = 0.02;
 
+/// Tells whether no contact slips in the motion `m`.
 bool is_slip_free(const ContactSet& set, const Motion& m) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
     if (set.slip_of(set.contact(k), m).speed > set.metric().still) return false;
@@ -13,12 +14,13 @@ bool is_slip_free(const ContactSet& set, const Motion& m) noexcept {
   return true;
 }
 
-/// The cone that a motion violates most.
+/// The contact whose cone a motion violates most.
 struct ViolatedCone {
   int contact = -1;  // -1: none by more than the limit
   Slip slip;
 };
 
+/// Returns the cone that `m` violates most, if by more than `limit` [m].
 ViolatedCone most_violated_cone(const ContactSet& set, const Motion& m, double limit) noexcept {
   ViolatedCone worst;
   for (int k = 0; k < set.contact_count(); ++k) {
@@ -33,7 +35,7 @@ ViolatedCone most_violated_cone(const ContactSet& set, const Motion& m, double l
   return worst;
 }
 
-/// All rows and cones, to the rows' tolerance.
+/// Tells whether `m` meets all rows and cones to the rows' tolerance.
 bool is_met(const ContactSet& set, const Motion& m) noexcept {
   return set.most_violated(m).row == ContactRows::kNone &&
          most_violated_cone(set, m, set.metric().tolerance).contact < 0;

@@ -7,28 +7,31 @@
 
 namespace godobject::detail {
 
-/// What the cone of a contact that becomes one is shifted by.
+/// The shift of a contact that enters: none, or its slip in the current motion.
 enum class Shift : std::uint8_t { kNone, kSlip };
 
-/// With friction, the shifts of the contacts held: adds half spaces until all rows and all cones
-///     n . v - need + mu (shift - |slip|) >= 0
-/// are met. A row that is violated becomes a contact, a cone gets the half space of the slip that violates it.
+/// Adds half spaces, with friction and fixed shifts, until all rows and all cones
+///     n . v - required gain + mu (shift - |slip|) >= 0
+/// are met. A violated row becomes a contact; a violated cone gets the half space of the current slip. Cost: at most
+/// kMostConeAdditions additions. Real-time safe.
 inline constexpr int kMostConeAdditions = 24;
 Additions meet_cones(Shift entering, ContactSet& set) noexcept;
 
-/// Whether what carried the load in the last step slipped by next to nothing of what friction held back, so that it may
-/// come to rest now.
+/// Tells whether the loaded points of the last step hardly slipped, compared with the motion that friction prevented,
+/// so that they may come to rest now.
 bool crawls(const ContactSet& set, const ConstrainedStep& step) noexcept;
 
-/// Whether forces inside the cones can hold all that carries load at rest; if so they are the set. Without shifts the
-/// convex problem says so for certain, redundant contacts or not; Coulomb's law may have solutions that slip beside it,
-/// and rest is the one to take. At most kMostConeAdditions.
+/// Tells whether forces inside the cones can hold all loaded points at rest; then they are the set. Without shifts the
+/// convex problem decides this exactly, also with redundant contacts. Coulomb's law may have other solutions that slip;
+/// rest is chosen. At most kMostConeAdditions.
 bool sticks(ContactSet& set) noexcept;
 
-/// All contacts stick, and the tolerances explain what is left of the motion: then it is none, or rest would creep.
+/// Tells whether all contacts stick and the motion is within the tolerance. The caller must then return the zero
+/// motion; otherwise the body would creep.
 bool rests(const ContactSet& set) noexcept;
 
-/// A motion that the tolerances may explain ends, if forces inside the cones can hold it. At most kMostConeAdditions.
+/// Brings a motion within the tolerance to rest, if forces inside the cones can hold the body. At most
+/// kMostConeAdditions.
 void come_to_rest(ContactSet& set) noexcept;
 
 }  // namespace godobject::detail

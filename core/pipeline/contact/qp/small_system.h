@@ -7,15 +7,16 @@
 
 namespace godobject {
 
-/// A few linear equations, solved in place by Gauss' elimination with row pivoting. About size^3 / 3 multiplications.
+/// A small system of linear equations, solved in place by Gaussian elimination with row pivoting. Cost: about size^3 /
+/// 3 multiplications. Real-time safe.
 template <std::size_t kMost>
 struct SmallSystem {
   int size = 0;
   double matrix[kMost][kMost];
-  double rhs[kMost];  // then the solution
+  double rhs[kMost];  ///< after `solve` the solution
 
-  /// False if singular: a column depends on those before it but for a part of 1e-14 of its own largest element, so the
-  /// units of the unknowns do not matter. The solution then means nothing.
+  /// Solves the system. False: it is singular, and the solution is undefined. A column counts as dependent if all but
+  /// 1e-14 of its largest element depends on the columns before it, so the units of the unknowns do not matter.
   bool solve() noexcept {
     constexpr double kSingular = 1e-14;
     double largest[kMost];

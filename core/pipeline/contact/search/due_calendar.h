@@ -12,27 +12,29 @@
 
 namespace godobject {
 
-/// Which nodes and points of a shell have to be looked at next. Items are nodes, then points. Those that are filed are
-/// the *front*: every point is filed itself or marked, or one node above it is filed. Each stands in a list of those
-/// that come due within one tick of the odometer, so that filing and taking cost the same however many there are (a
-/// hashed timing wheel: Varghese and Lauck, SOSP 1987). Points may be marked instead of filed. Real-time safe but for
-/// `start`.
+/// A calendar of the nodes and points of a shell, by the tick of the odometer at which each one is due for a look-up.
+///
+/// Items are the nodes, then the points. The filed items are the *front*: every point is filed or marked, or a node
+/// above it is filed. Each filed item is in the list of one tick, so filing and taking cost the same for any number of
+/// items (a hashed timing wheel: Varghese and Lauck, SOSP 1987). Points may be marked instead of filed. Real-time safe
+/// except `start`.
 class DueCalendar {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  /// Words that `start` needs.
+  /// Returns the size of the memory for `start` [32-bit words].
   static std::size_t memory(const Pointshell& shell) noexcept {
     if (shell.size == 0) return 0;
     return kWords - 1 + kWords * (shell.nodes.size() + shell.size) + mark_words(shell.size) +
            mark_words(mark_words(shell.size));
   }
 
-  /// Files the root, due at once. `memory`: memory(shell) words that outlive the calendar. Cost: all items.
+  /// Starts with the root filed and due at once. `memory`: memory(shell) words that outlive the calendar. Cost: linear
+  /// in the number of items.
   void start(std::span<std::uint32_t> memory, const Pointshell& shell) noexcept {
     const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
     const std::size_t items = nodes + shell.size;
-    // no item lies in two lines of the cache
+    // aligned so that no item lies in two cache lines
     const std::size_t before = -(reinterpret_cast<std::uintptr_t>(memory.data()) / sizeof(std::uint32_t)) % kWords;
     words_ = memory.subspan(before, kWords * items);
     marks_ = memory.subspan(before + kWords * items, mark_words(shell.size));
@@ -48,14 +50,14 @@ class DueCalendar {
     for (std::uint32_t n = 0; n < nodes; ++n) {
       for_each_child(shell, n, [&](std::uint32_t child) { parent(child) = n; });
       const format::Node& node = shell.nodes[n];
-      constexpr double kRoundedUp = 1.0 + 1e-6;
+      constexpr double kRoundedUp = 1.0 + 1e-6;  // derived: more than the rounding to single precision, 6e-8
       set_sphere(n, {node.center[0], node.center[1], node.center[2], static_cast<float>(kRoundedUp * radius_of(node))});
     }
     for (std::uint32_t i = 0; i < shell.size; ++i) set_sphere(nodes + i, {shell.x[i], shell.y[i], shell.z[i], 0.0f});
     if (nodes > 0) file(0, 0);
   }
 
-  /// Calls visit(item) for the children of a node: nodes, or where it is a leaf points.
+  /// Calls visit(item) for the children of a node: nodes, or points if it is a leaf.
   template <class Visit>
   static void for_each_child(const Pointshell& shell, std::uint32_t n, Visit&& visit) noexcept {
     const format::Node& node = shell.nodes[n];
@@ -67,39 +69,42 @@ class DueCalendar {
     }
   }
 
+  /// Tells whether the item is filed.
   bool is_filed(std::uint32_t item) const noexcept { return words_[kWords * item + kPrev] < kChained; }
+  /// Returns the node above the item; kNone for the root.
   std::uint32_t parent_of(std::uint32_t item) const noexcept { return words_[kWords * item + kParent]; }
 
-  /// Around all points of an item, in the shell's frame [m]. It lies beside what the calendar reads of the item.
+  /// A sphere around all points of an item, in the shell's frame [m]. It is stored beside the item's other words.
   struct Sphere {
     float x, y, z, radius;
   };
+  /// Returns the item's sphere.
   Sphere sphere_of(std::uint32_t item) const noexcept {
     const std::uint32_t* const words = words_.data() + kWords * item;
     return {std::bit_cast<float>(words[kX]), std::bit_cast<float>(words[kY]), std::bit_cast<float>(words[kZ]),
             std::bit_cast<float>(words[kRadius])};
   }
 
-  /// An item that is not filed: due once the tick `due` is reached.
+  /// Files an item that is not filed: it is due at the tick `due`.
   void file(std::uint32_t item, std::uint64_t due) noexcept {
     const std::uint64_t tick = std::min(due, hand_ + kMostAhead);
     words_of(item)[kTick] = static_cast<std::uint32_t>(tick);
     link(item, tick > hand_ ? std::min(tick, hand_ + kSlots - 1) % kSlots : kCurrent);
   }
 
-  /// An item that is filed.
+  /// Takes a filed item out.
   void take(std::uint32_t item) noexcept { unlink(item); }
 
-  /// Takes out all items due at `now` or before, which may lie before the last, and calls visit(item) for each; what is
-  /// filed meanwhile stays.
+  /// Takes out all items due at the tick `now` or before, and calls visit(item) for each. `now` may be before the `now`
+  /// of the last call. Items that `visit` files stay.
   template <class Visit>
   void take_due(std::uint64_t now, Visit&& visit) noexcept {
     const std::uint64_t last = hand_;
     hand_ = now;
-    // after so long a way 32 bits do not tell what is due
+    // after more ticks 32 bits do not tell which items are due: all are taken
     const std::int32_t most = now > last + kMostAhead ? std::numeric_limits<std::int32_t>::max() : 0;
     visit_chain(detach(kCurrent), now, most, visit);
-    if (now <= last) return;  // what is due later went from the current list into its own
+    if (now <= last) return;  // items due later moved from the current list to their own
     const std::uint64_t slots = std::min<std::uint64_t>(now - last, kSlots);
     for (std::uint64_t k = 1; k <= slots; ++k) {
       const std::uint64_t from = (last + k) % kSlots;
@@ -109,7 +114,7 @@ class DueCalendar {
     }
   }
 
-  /// No item is due before this tick.
+  /// Returns a tick before which no item is due.
   std::uint64_t certain() const noexcept {
     if (marked_ > 0 || head_[kCurrent] != kNone) return 0;
     for (std::uint64_t ahead = 1; ahead < kSlots;) {
@@ -121,13 +126,15 @@ class DueCalendar {
     return hand_ + kSlots - 1;
   }
 
-  /// Chains of items that are not filed; `first` is the chain, kNone if empty. Nothing happens to an item in a chain.
+  /// Pushes an item that is not filed to the chain `first`, which is kNone if empty. No change if the item is in a
+  /// chain.
   void push(std::uint32_t& first, std::uint32_t item) noexcept {
     if (words_[kWords * item + kPrev] == kChained) return;
     words_[kWords * item + kPrev] = kChained;
     next(item) = first;
     first = item;
   }
+  /// Pops an item from a chain that is not empty.
   std::uint32_t pop(std::uint32_t& first) noexcept {
     const std::uint32_t item = first;
     first = next(item);
@@ -135,7 +142,7 @@ class DueCalendar {
     return item;
   }
 
-  /// A mark instead of a list is for points that are due in cycle after cycle: at any tick, until it is taken off.
+  /// Marks a point: it is due in every cycle until it is unmarked.
   void mark(std::uint32_t point) noexcept {
     const std::uint32_t bit = 1u << point % 32;
     if ((marks_[point / 32] & bit) != 0) return;
@@ -143,15 +150,16 @@ class DueCalendar {
     marked_words_[point / 1024] |= 1u << point / 32 % 32;
     ++marked_;
   }
-  /// A point that is marked.
+  /// Unmarks a marked point.
   void unmark(std::uint32_t point) noexcept {
     marks_[point / 32] &= ~(1u << point % 32);
     if (marks_[point / 32] == 0) marked_words_[point / 1024] &= ~(1u << point / 32 % 32);
     --marked_;
   }
+  /// Returns the number of marked points.
   std::uint32_t marked() const noexcept { return marked_; }
 
-  /// Calls visit(point) for all that are marked, ascending; it may unmark the point.
+  /// Calls visit(point) for all marked points, ascending. `visit` may unmark its point.
   template <class Visit>
   void for_each_marked(Visit&& visit) const noexcept {
     for (std::uint32_t w = 0; w < marked_words_.size(); ++w) {
@@ -166,11 +174,11 @@ class DueCalendar {
 
  private:
   static constexpr std::uint64_t kSlots = 2048;          ///< ticks ahead that have a list each; a power of two
-  static constexpr std::uint64_t kCurrent = kSlots;      ///< the list of what is due at the hand or before
-  static constexpr std::uint64_t kMostAhead = 1u << 30;  ///< ticks that an item is filed ahead: 32 bits tell them apart
-  static constexpr std::uint32_t kHead = 1u << 31;       ///< in the link back: a list's head
-  static constexpr std::uint32_t kChained = 0xfffffffe;  ///< in the link back: in a chain, not filed
-  /// Of an item; the tick's low 32 bits.
+  static constexpr std::uint64_t kCurrent = kSlots;      ///< the list of items due at the hand or before
+  static constexpr std::uint64_t kMostAhead = 1u << 30;  ///< most ticks ahead; derived: 32 bits tell differences apart
+  static constexpr std::uint32_t kHead = 1u << 31;       ///< in the back link: the head of a list
+  static constexpr std::uint32_t kChained = 0xfffffffe;  ///< in the back link: in a chain, not filed
+  /// The words of an item. kTick: the low 32 bits of its tick.
   enum Word : std::size_t { kTick, kNext, kPrev, kParent, kX, kY, kZ, kRadius, kWords };
 
   static constexpr std::size_t mark_words(std::size_t bits) noexcept { return (bits + 31) / 32; }
@@ -221,7 +229,7 @@ class DueCalendar {
     return first;
   }
 
-  /// Items more than `most` ticks ahead of `now` are filed again.
+  /// Visits a chain's items; files items more than `most` ticks ahead of `now` again.
   template <class Visit>
   void visit_chain(std::uint32_t chain, std::uint64_t now, std::int32_t most, Visit& visit) noexcept {
     while (chain != kNone) {
@@ -237,11 +245,11 @@ class DueCalendar {
 
   std::span<std::uint32_t> words_;
   std::span<std::uint32_t> marks_;         ///< a bit a point
-  std::span<std::uint32_t> marked_words_;  ///< a bit a word of them
+  std::span<std::uint32_t> marked_words_;  ///< a bit a word of `marks_`
   std::uint32_t marked_ = 0;
   std::array<std::uint32_t, kSlots + 1> head_{};
   std::array<std::uint64_t, kSlots / 64 + 1> filled_{};  ///< lists that are not empty
-  std::uint64_t hand_ = 0;                               ///< the last tick up to which lists were taken
+  std::uint64_t hand_ = 0;                               ///< the tick of the last `take_due`
 };
 
 }  // namespace godobject

@@ -15,22 +15,23 @@ using Doubles __attribute__((vector_size(8 * kPointsAtOnce))) = double;
 using Longs __attribute__((vector_size(8 * kPointsAtOnce))) = std::int64_t;
 constexpr Longs kFirstPoints = {1, 2, 4, 8};
 
-/// `change`: the turn, row by row, the last column the shift [m].
+/// NearPoints::leave_their_ball for the points from `begin` to `end`. `change`: the turn, row by row; the last column
+/// is the shift [m].
 GODOBJECT_VECTOR_WIDTHS
 std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t end, const double (&change)[3][4],
-                      double kept) noexcept {
+                      double gap) noexcept {
   Longs bits = {};
   Longs here = kFirstPoints;
   for (std::uint32_t i = begin; i < end; i += kPointsAtOnce, here <<= kPointsAtOnce) {
-    // no vector is passed to or from a function, whose way of passing it may differ
+    // versions of a function may pass vectors differently, so none is passed to or from a function
     const Doubles x = __builtin_convertvector(*reinterpret_cast<const Floats*>(near.x + i), Doubles);
     const Doubles y = __builtin_convertvector(*reinterpret_cast<const Floats*>(near.y + i), Doubles);
     const Doubles z = __builtin_convertvector(*reinterpret_cast<const Floats*>(near.z + i), Doubles);
-    const Doubles way_x = change[0][0] * x + change[0][1] * y + change[0][2] * z + change[0][3];
-    const Doubles way_y = change[1][0] * x + change[1][1] * y + change[1][2] * z + change[1][3];
-    const Doubles way_z = change[2][0] * x + change[2][1] * y + change[2][2] * z + change[2][3];
-    const Doubles squared = way_x * way_x + way_y * way_y + way_z * way_z;
-    const Doubles room = *reinterpret_cast<const Doubles*>(near.clearance + i) - kept;
+    const Doubles dx = change[0][0] * x + change[0][1] * y + change[0][2] * z + change[0][3];
+    const Doubles dy = change[1][0] * x + change[1][1] * y + change[1][2] * z + change[1][3];
+    const Doubles dz = change[2][0] * x + change[2][1] * y + change[2][2] * z + change[2][3];
+    const Doubles squared = dx * dx + dy * dy + dz * dz;
+    const Doubles room = *reinterpret_cast<const Doubles*>(near.clearance + i) - gap;
     const Longs held = (room >= 0.0) & (squared <= room * room);
     const Longs inside = *reinterpret_cast<const Doubles*>(near.distance + i) <= 0.0;
     bits |= ~inside & ~held & here;
@@ -38,7 +39,7 @@ std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t
   return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
 }
 
-/// Over the first `count` points, a multiple of kPointsAtOnce.
+/// Returns the smallest distance of the first `count` points, a multiple of kPointsAtOnce.
 GODOBJECT_VECTOR_WIDTHS
 double least_distance_of(const NearPoints& near, std::uint32_t count) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -60,14 +61,14 @@ double NearPoints::least_distance() const noexcept {
 }
 
 std::uint64_t NearPoints::leave_their_ball(std::uint32_t first, const Matrix3& turn, const Vector3& shift,
-                                           double kept) const noexcept {
+                                           double gap) const noexcept {
   double change[3][4];
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) change[row][column] = turn(row, column);
     change[row][3] = shift[row];
   }
   const std::uint32_t end = std::min(count, first + 64);
-  return leaving(*this, first, end, change, kept) & first_bits(end - first);
+  return leaving(*this, first, end, change, gap) & first_bits(end - first);
 }
 
 }  // namespace godobject

@@ -19,30 +19,31 @@
 
 namespace godobject {
 
-/// Step #1 of `contact`: finds the points of a shell whose clearance in a field is below a search radius. With memory of
-/// its own it looks at a node of the sphere tree, or at a point, only when the motion since the last look could have
-/// brought it that near. So a cycle costs as much as there is near; the result does not depend on the memory.
+/// Step #1 of `contact`: finds the near points of a shell, those whose clearance in a field is below a search radius.
+/// With memory it looks up a node of the sphere tree, or a point, only when the motion since the last look-up could
+/// have made it near. So the cost of a cycle depends on the number of near items; the result does not depend on the
+/// memory.
 ///
-/// **Bound.** Let C = clearance(c) and |x - c| <= r + t for a point x that was within r of c when the body had travelled
-/// t less. The field promises (DistanceField) that
+/// **Bound.** Let C = clearance(c), and let x be a point that was within r of c before the body travelled by t; then
+/// |x - c| <= r + t. The field guarantees (DistanceField) that
 ///     clearance(x) >= min((C - r - t) / L, A),   L = lipschitz(), A = assured_clearance().
-/// So for any search radius R <= A, x is not near while travelled + L R, with the odometer's reading `travelled`, has not
-/// exceeded
-///     travelled + C - r   as it was there,
-/// and neither node nor point is looked at again before. Where x may move by f >= 1 times the odometer's difference,
-/// C - r is divided by f, since L R >= L R / f.
+/// So for any search radius R <= A, x is not near while the present travelled + L R is at most
+///     travelled + C - r   at the time of the look-up,
+/// where `travelled` is the odometer's reading. Until then neither the node nor the point is looked up again. Where x
+/// may be displaced by f >= 1 times the odometer's difference, C - r is divided by f, since L R >= L R / f.
 ///
-/// Items that come due are looked up in batches (DistanceField::clearances, which returns C as the bound needs it). A node
-/// that may be near gives way to its children, and takes their place again once they are far. Points that may be near are
-/// looked up exactly (DistanceField::samples) as far as the point budget allows, and again in every cycle as long as they
-/// would come due at once.
+/// Due items are looked up in batches (DistanceField::clearances, which returns C as the bound requires). A node that
+/// may be near is replaced by its children, and replaces them once they are far. Points that may be near are looked up
+/// exactly (DistanceField::samples) within the point budget, and again in every cycle as long as they would be due at
+/// once.
 class NearSearch {
  public:
-  /// Words of memory for a search of this shell.
+  /// Returns the size of the memory for this shell [32-bit words].
   static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
-  /// Starts anew. `words`: memory(shell) words that outlive the search, or none; then every cycle looks at all nodes.
-  /// `slope`: the field's lipschitz(); `longest`: largest search radius, at most the field's assured clearance [m].
+  /// Starts anew. `words`: memory(shell) words that outlive the search; with none, every cycle visits the tree from its
+  /// root. `slope`: the field's lipschitz(); `longest`: largest search radius, at most the field's assured clearance
+  /// [m].
   void start(std::span<std::uint32_t> words, const Pointshell& shell, double slope, double longest) noexcept {
     slope_ = slope;
     tick_ = longest / kTicks;
@@ -54,37 +55,40 @@ class NearSearch {
     bounds_ = words_.subspan(of_calendar, shell.size);
   }
 
-  /// There is no shell: nothing ever comes near.
+  /// Starts without a shell: no point is ever near.
   void start_without_shell() noexcept {
     words_ = {};
     certain_ = kNever;
   }
 
-  /// The last `find` knows that up to this reading of the odometer no clearance falls below `clearance`, which is at most
-  /// the longest search radius [m].
+  /// Tells whether the last `find` proves that no clearance falls below `clearance` [m] up to the odometer's reading
+  /// `travelled` [m]. `clearance` is at most the longest search radius.
   bool is_free(double travelled, double clearance) const noexcept {
     return travelled + slope_ * clearance < certain_;
   }
 
-  /// Calls visit(batch, index, near) for batches of points that were looked up: `index` holds their numbers in the shell,
-  /// `near` a bit for each with a clearance below `radius` <= `longest`. All points that are so near are visited, in
-  /// ascending order. The shell is at H in the field's frame; `travelled` is the odometer's reading there. Cost: a share
-  /// of a batch for each node and point that comes due, a look-up for each point that may be near; at most all nodes and
-  /// points. Real-time safe.
+  /// Finds the near points of the shell at pose H in the field's frame: calls visit(batch, index, near) for batches of
+  /// points that were looked up. `index` contains their numbers in the shell; `near` is a bit mask of those with a
+  /// clearance below `radius` <= `longest` [m]. All near points are visited, in ascending order. `travelled`: the
+  /// odometer's reading at H [m].
   ///
-  /// With memory the budget is kept, and leave_out(clearance) is called for each point that may be near but is not looked
-  /// up, with a bound of its clearance that is above `budget.always`.
+  /// With memory the search observes `budget`. It calls leave_out(clearance) for each point that may be near but is not
+  /// looked up, with a lower bound of its clearance that is above `budget.always` [m].
   ///
-  /// `Direction::stretch(lever)`: a point of the shell that stays within `lever` [m] of the centre of the moving body's
-  /// sphere moves in the field's frame by at most this times the odometer's difference; 1 or more. `lever(q)`: that
-  /// distance for a point in the field's frame. Both are used only with `Direction::kStretches`; it is 1 otherwise.
+  /// `Direction::stretch(lever)` >= 1: a point of the shell that stays within `lever` [m] of the centre of the moving
+  /// body's sphere is displaced in the field's frame by at most this times the odometer's difference.
+  /// `Direction::lever(q)`: that distance for a point q in the field's frame. Both are used only with
+  /// `Direction::kStretches`; otherwise the stretch is 1.
+  ///
+  /// Cost: a share of a batch for each due node and point, a look-up for each point that may be near; at most all nodes
+  /// and points. Real-time safe.
   template <class Direction, DistanceField Field, class Visit, class LeaveOut>
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
             double radius, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
     const Look<Direction, Field> look{direction, field,     shell,  H,
                                       H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius, radius};
     if (words_.empty()) {
-      certain_ = look_everywhere(look, visit);
+      certain_ = search_from_root(look, visit);
     } else {
       DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out);
       certain_ = tick_ * static_cast<double>(calendar_.certain());
@@ -100,9 +104,9 @@ class NearSearch {
   static constexpr double kLeave = 3.0;   ///< once children are this many of its radii away, their parent replaces them
   static constexpr double kMostTicks = 1e18;
 
-  using Indices = std::array<std::uint32_t, SampleBatch::kCapacity>;  ///< of a batch's points
+  using Indices = std::array<std::uint32_t, SampleBatch::kCapacity>;  ///< numbers of a batch's points
 
-  /// One search: where, and how far.
+  /// The arguments of one search.
   template <class Direction, DistanceField Field>
   struct Look {
     const Direction& direction;
@@ -111,13 +115,14 @@ class NearSearch {
     const Pose& H;
     const Matrix3 R;
     double travelled;
-    double needed;  ///< an item that is free until less than this may be near
+    double horizon;  ///< travelled + L radius: items that are free until less than this may be near [m]
     double radius;
 
+    /// Returns the rounding of stored distances [m].
     double rounding() const noexcept { return kFieldRounding * field.voxel_size(); }
 
-    /// The odometer's reading until which no point within `item_radius` of `center` (of the shell) is near, from the
-    /// clearance there.
+    /// Returns the odometer's reading until which no point within `item_radius` of `center` (in the shell's frame) is
+    /// near, from the clearance there [m].
     double free_until(double clearance, const Vector3& center, double item_radius) const noexcept {
       const double room = clearance - item_radius - rounding();
       if constexpr (Direction::kStretches) {
@@ -128,7 +133,7 @@ class NearSearch {
       }
     }
 
-    /// Visits the near points of a batch; a bit for each.
+    /// Visits the near points of a batch; returns their bit mask.
     template <class Visit>
     std::uint64_t visit_near(const SampleBatch& batch, const Indices& index, Visit& visit) const noexcept {
       const std::uint64_t near = clearance_below(batch, radius) & first_bits(batch.count);
@@ -137,9 +142,9 @@ class NearSearch {
     }
   };
 
-  /// Without memory. Returns until when all other points are free.
+  /// Searches without memory. Returns the odometer's reading until which all points stay free.
   template <class Direction, DistanceField Field, class Visit>
-  static double look_everywhere(const Look<Direction, Field>& look, Visit& visit) noexcept {
+  static double search_from_root(const Look<Direction, Field>& look, Visit& visit) noexcept {
     const Pointshell& shell = look.shell;
     double least = kNever;
     SampleBatch samples;
@@ -159,7 +164,7 @@ class NearSearch {
       const Vector3 center = center_of(node);
       const double clearance = look.field.sample(look.R * center + look.H.translation).clearance;
       const double until = look.free_until(clearance, center, radius_of(node));
-      if (until >= look.needed) {
+      if (until >= look.horizon) {
         least = std::min(least, until);
         n = node.skip;
       } else if (node.leaf != 0) {
@@ -180,7 +185,7 @@ class NearSearch {
     return least;
   }
 
-  /// One search with memory: items that are due, then points that may be near, then nodes that replace their children.
+  /// One search with memory: due items, then points that may be near, then nodes that replace their children.
   template <class Direction, DistanceField Field>
   class DuePass {
    public:
@@ -200,17 +205,18 @@ class NearSearch {
     }
 
    private:
-    // Rounded down: due a little early. By way of a signed number, which the processor converts to.
+    // Rounded down, so that items are due slightly early. Converted as a signed number, which takes one instruction.
     std::uint64_t tick_of(double until) const noexcept {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(until * per_tick_, 0.0, kMostTicks)));
     }
 
+    /// Files item `i`, which is free until this reading of the odometer.
     void file(std::uint32_t i, double until) noexcept {
       calendar_.file(i, tick_of(until));
       const std::uint32_t parent = calendar_.parent_of(i);
       if (parent == DueCalendar::kNone) return;
       const double enough = kLeave * static_cast<double>(calendar_.sphere_of(parent).radius);
-      if (until - look_.needed > enough && leaving_ != parent) calendar_.push(leaving_, parent);
+      if (until - look_.horizon > enough && replacing_ != parent) calendar_.push(replacing_, parent);
     }
 
     /// Adds an item to the batch of bounds.
@@ -226,19 +232,20 @@ class NearSearch {
       if (batch_.count == PointBatch::kCapacity) flush();
     }
 
+    /// Returns the reading until which item `k` of the batch is free.
     double until_of(std::uint32_t k) const noexcept {
       const Vector3 center(static_cast<double>(batch_.x[k]), static_cast<double>(batch_.y[k]),
                            static_cast<double>(batch_.z[k]));
       return look_.free_until(static_cast<double>(batch_.clearance[k]), center, static_cast<double>(radius_[k]));
     }
 
-    /// Bounds the batch's items: files those that are far, opens the other nodes, marks the other points.
+    /// Looks up the batch's bounds: files the far items, opens the other nodes, marks the other points.
     void flush() noexcept {
       look_.field.clearances(look_.H, batch_);
       for (std::uint32_t k = 0; k < batch_.count; ++k) {
         const std::uint32_t i = item_[k];
         const double until = until_of(k);
-        if (until >= look_.needed + kOpen * static_cast<double>(radius_[k])) {
+        if (until >= look_.horizon + kOpen * static_cast<double>(radius_[k])) {
           file(i, until);
         } else if (i < node_count_) {
           calendar_.push(opened_, i);
@@ -252,9 +259,10 @@ class NearSearch {
 
     void look_at_due() noexcept {
       const auto adder = [this](std::uint32_t i) noexcept { add(i); };
-      // with nothing near, items that come due soon are looked at early: then most cycles of free flight look at nothing
+      // without marked points, items that are due soon are looked up early: then most cycles of free motion need no
+      // look-up
       const double ahead = calendar_.marked() == 0 ? kAhead * search_.tick_ : 0.0;
-      calendar_.take_due(tick_of(look_.needed + ahead), adder);
+      calendar_.take_due(tick_of(look_.horizon + ahead), adder);
       while (batch_.count > 0 || opened_ != DueCalendar::kNone) {
         if (opened_ == DueCalendar::kNone) {
           flush();
@@ -264,7 +272,7 @@ class NearSearch {
       }
     }
 
-    /// A budget needs bounds at this pose for the points that were marked before, too.
+    /// Looks up bounds at this pose for all marked points: the budget compares them.
     void bound_marked() noexcept {
       std::uint32_t again = DueCalendar::kNone;
       calendar_.for_each_marked([&](std::uint32_t i) noexcept {
@@ -311,29 +319,29 @@ class NearSearch {
       if (samples_.count > 0) sample(visit);
     }
 
-    /// Looks up the batch of points that may be near. Those that are far are filed again; those that are not near, but
-    /// would be due again at once, stay marked.
+    /// Looks up the batch of points that may be near. Far points are filed again; points that are not near, but would
+    /// be due again at once, stay marked.
     template <class Visit>
     void sample(Visit& visit) noexcept {
       look_.field.samples(look_.H, samples_);
-      // of a point whose chords do not stretch
-      const double room_needed = look_.needed - look_.travelled + look_.rounding();
-      const std::uint64_t stays = look_.visit_near(samples_, item_, visit) | clearance_below(samples_, room_needed);
+      // for a stretch of 1
+      const double due_below = look_.horizon - look_.travelled + look_.rounding();
+      const std::uint64_t stays = look_.visit_near(samples_, item_, visit) | clearance_below(samples_, due_below);
       for_each_bit(first_bits(samples_.count) & ~stays, [&](std::uint32_t k) noexcept {
         const Vector3 p(static_cast<double>(samples_.x[k]), static_cast<double>(samples_.y[k]),
                         static_cast<double>(samples_.z[k]));
         const double until = look_.free_until(samples_.clearance[k], p, 0.0);
-        if (until < look_.needed) return;
+        if (until < look_.horizon) return;
         calendar_.unmark(item_[k]);
         file(node_count_ + item_[k], until);
       });
       samples_.count = 0;
     }
 
-    /// A node whose children are all filed and far takes their place.
+    /// Replaces children that are all filed and far by their node.
     void replace_children() noexcept {
-      while (leaving_ != DueCalendar::kNone) {
-        const std::uint32_t n = calendar_.pop(leaving_);
+      while (replacing_ != DueCalendar::kNone) {
+        const std::uint32_t n = calendar_.pop(replacing_);
         bool all = !calendar_.is_filed(n);
         DueCalendar::for_each_child(look_.shell, n,
                                     [&](std::uint32_t child) noexcept { all &= calendar_.is_filed(child); });
@@ -342,7 +350,7 @@ class NearSearch {
         look_.field.clearances(look_.H, batch_);
         batch_.count = 0;
         const double until = until_of(0);
-        if (until - look_.needed <= static_cast<double>(radius_[0])) continue;
+        if (until - look_.horizon <= static_cast<double>(radius_[0])) continue;
         DueCalendar::for_each_child(look_.shell, n, [&](std::uint32_t child) noexcept { calendar_.take(child); });
         file(n, until);
       }
@@ -356,17 +364,17 @@ class NearSearch {
     PointBatch batch_;
     Indices item_;
     std::array<float, PointBatch::kCapacity> radius_;
-    std::uint32_t opened_ = DueCalendar::kNone;   ///< nodes whose children are to be looked at
-    std::uint32_t leaving_ = DueCalendar::kNone;  ///< nodes that may take their children's place again
+    std::uint32_t opened_ = DueCalendar::kNone;     ///< nodes whose children need a look-up
+    std::uint32_t replacing_ = DueCalendar::kNone;  ///< nodes that may replace their children again
     SampleBatch samples_;
   };
 
   std::span<std::uint32_t> words_;
   DueCalendar calendar_;
-  std::span<std::uint32_t> bounds_;  ///< of a marked point's clearance, a float a point [m]
+  std::span<std::uint32_t> bounds_;  ///< lower bounds of the marked points' clearances, a float a point [m]
   double slope_ = 1.0;               ///< the field's lipschitz()
-  double tick_ = 1.0;                ///< of the calendar [m]
-  double certain_ = kNever;          ///< until when no clearance falls below the longest search radius [m]
+  double tick_ = 1.0;                ///< the calendar's tick [m]
+  double certain_ = kNever;          ///< reading of the odometer until which the last search proves points free [m]
 };
 
 }  // namespace godobject

@@ -5,13 +5,14 @@
 
 namespace godobject {
 
-/// An upper bound on the distance that any point of the moving body has travelled in a session.
+/// An upper bound of the distance that any point of the moving body has travelled in a session. Real-time safe.
 class Odometer {
  public:
+  /// Resets the reading to 0.
   void reset() noexcept { *this = Odometer{}; }
 
-  /// The body is at H_WS now; all its points lie in `sphere`, which is the same in every call. Only the poses that are
-  /// given here count, whatever path lies between them.
+  /// Adds the displacement from the last pose to H_WS. All points of the body lie in `sphere` (in S), which must be the
+  /// same in every call. Only the given poses count, not the path between them.
   void move_to(const Pose& H_WS, const BoundingSphere& sphere) noexcept {
     const Vector3 center = H_WS * sphere.center;
     if (started_) travelled_ += farthest_way(sphere, H_, center_, H_WS, center);
@@ -20,12 +21,12 @@ class Odometer {
     started_ = true;
   }
 
-  /// [m]
+  /// Returns the reading [m].
   double travelled() const noexcept { return travelled_; }
 
  private:
   Pose H_;
-  Vector3 center_ = Vector3::Zero();  ///< of the sphere [m]
+  Vector3 center_ = Vector3::Zero();  ///< of the sphere at H_ [m]
   double travelled_ = 0.0;            ///< [m]
   bool started_ = false;
 };
