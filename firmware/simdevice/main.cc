@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <csignal>
 #include <ctime>
 #include <memory>
 #include <optional>
@@ -12,10 +11,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/can_buses.h"
 #include "firmware/configuration/controller_file.h"
-#include "firmware/scene_file.h"
-#include "firmware/simulated_arm.h"
+#include "firmware/configuration/scene_file.h"
+#include "firmware/drives/cia402/can_buses.h"
+#include "firmware/machine/signals.h"
+#include "firmware/simulation/simulated_arm.h"
 #include "hal/cia402/bus_plan.h"
 #include "hal/linux/monotonic_clock.h"
 #include "sim/can_bridge.h"
@@ -49,15 +49,6 @@ struct Options {
   double enable_after = 3.0;
   std::optional<double> duration;
 };
-
-std::atomic<bool> ended{false};
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { ended.store(true, std::memory_order_relaxed); };
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::sigaction(signal, &action, nullptr);
-}
 
 /// Until a frame has come, or for so long.
 void wait_for_frames(const firmware::CanBuses& wires, std::int64_t ns) {
@@ -104,7 +95,8 @@ void simulate(const Options& options) {
   const auto device = std::make_unique<sim::CanDevice>(arm->plant(), layout, arm->hardware(), script);
   const auto bridge = std::make_unique<sim::CanBridge>(*device, layout, hal::plan_buses(layout).timing, wires.buses());
 
-  catch_signals();
+  firmware::catch_end_signals();
+  const std::atomic<bool>& ended = firmware::signal_requests().end;
   hal::MonotonicClock clock;
   const std::int64_t end_ns =
       options.duration ? clock.now_ns() + static_cast<std::int64_t>(1e9 * *options.duration) : sim::kNever;

@@ -10,7 +10,7 @@
 #include "core/device/dynamics.h"
 #include "core/device/kinematics.h"
 #include "core/device/stability.h"
-#include "firmware/gain_check.h"
+#include "firmware/configuration/gain_check.h"
 #include "tests/closed_loop/simulated_run.h"
 #include "tests/support/small_scenes.h"
 

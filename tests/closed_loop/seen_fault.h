@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/control_cycle.h"
+#include "firmware/cycle/control_cycle.h"
 #include "tests/support/fault_record.h"
 
 namespace godobject::firmware {

@@ -9,8 +9,8 @@
 
 #include "core/scene/scene.h"
 #include "firmware/configuration/controller_file.h"
-#include "firmware/control_cycle.h"
-#include "firmware/controller_run.h"
+#include "firmware/cycle/control_cycle.h"
+#include "firmware/loop/controller_run.h"
 #include "sim/direct_drives.h"
 #include "tests/support/scene_image_builder.h"
 

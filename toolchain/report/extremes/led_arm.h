@@ -6,7 +6,7 @@
 
 #include "core/pipeline/god_object.h"
 #include "firmware/configuration/controller_file.h"
-#include "firmware/control_cycle.h"
+#include "firmware/cycle/control_cycle.h"
 
 namespace godobject::report {
 

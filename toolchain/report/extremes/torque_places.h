@@ -7,7 +7,7 @@
 
 #include "core/pipeline/god_object.h"
 #include "firmware/configuration/device_file.h"
-#include "firmware/torque_limiter.h"
+#include "firmware/cycle/torque_limiter.h"
 #include "godobject/pose.h"
 #include "toolchain/files/scene_image.h"
 #include "toolchain/report/study/case.h"
