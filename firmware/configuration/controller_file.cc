@@ -160,8 +160,8 @@ void set_gains(const ControllerConfig::Gains& gains, Scene& scene) noexcept {
 
 Placement place(const ControllerConfig::Workspace& workspace, const Device& device, const Vector3& p_MB) {
   Placement placement{{}, {}, device};
-  const Pose H_RT = forward_kinematics(device.model, workspace.posture).H_WM;
-  // the scene's rotation is R_WR R_RT R_TM
+  const Pose H_RT = forward_kinematics(device.model, workspace.posture).H_RM;  // the device file's M is T here
+  // solves R_WR R_RT R_TM = R_WM at the start
   placement.H_TM.rotation = (workspace.turn * H_RT.rotation).conjugate() * workspace.start.rotation;
   placement.H_TM.rotation.normalize();
   placement.H_TM.translation = -placement.H_TM.rotation._transformVector(p_MB) / workspace.scale;

@@ -194,8 +194,8 @@ Device read_device_file(const std::filesystem::path& file) {
   const TomlTable arm(root, "arm", file);
   arm.allow({"name", "base", "gravity"});
   device.name = arm.text("name");
-  device.model.H_WA = read_pose(arm, "base");
-  device.model.gravity_W = read_vector(arm, "gravity", {-100.0, 100.0});
+  device.model.H_RA = read_pose(arm, "base");
+  device.model.gravity_R = read_vector(arm, "gravity", {-100.0, 100.0});
 
   const std::vector<TomlTable> joints = TomlTable::each(root, "joint", file);
   if (joints.empty() || joints.size() > kMaxJoints) {
@@ -225,13 +225,14 @@ Device read_device_file(const std::filesystem::path& file) {
   return device;
 }
 
-void regrip(const Pose& H_MG, Device& device) {
-  const Pose H_GM = H_MG.inverse();
-  const Matrix3 R_GM = H_GM.rotation.toRotationMatrix();
+void regrip(const Pose& H_TM, Device& device) {
+  const Pose H_MT = H_TM.inverse();
+  const Matrix3 R_MT = H_MT.rotation.toRotationMatrix();
   LinkMass& payload = device.model.payload;
-  payload.com = H_GM * payload.com;
-  payload.inertia = R_GM * payload.inertia * R_GM.transpose();
-  device.model.H_FM = device.model.H_FM * H_MG;
+  payload.com = H_MT * payload.com;
+  payload.inertia = R_MT * payload.inertia * R_MT.transpose();
+  const Pose H_FT = device.model.H_FM;
+  device.model.H_FM = H_FT * H_TM;
 }
 
 }  // namespace godobject::firmware

@@ -20,8 +20,8 @@ struct Device {
 /// Throws command::Failure: kNoInput if the file cannot be read, kBadConfig naming file, line and key.
 Device read_device_file(const std::filesystem::path& file);
 
-/// The device with the moving mesh held otherwise: `H_MG` is the mesh's frame in what the file calls M, which it
-/// replaces. The payload stays where it is.
-void regrip(const Pose& H_MG, Device& device);
+/// Makes the mesh's frame M the device's tool frame. Before the call `model.H_FM` is the pose of T, the tool frame of
+/// the device file; `H_TM` is the mesh in it. The payload stays where it is.
+void regrip(const Pose& H_TM, Device& device);
 
 }  // namespace godobject::firmware

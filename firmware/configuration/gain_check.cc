@@ -46,7 +46,7 @@ ArmLoop loop_at(const ArmModel& arm, const JointVector& q, const Vector3& p_MB, 
   loop.joint_count = arm.joint_count;
   loop.mass = mass_matrix(arm, kinematics);
   for (int i = 0; i < arm.joint_count; ++i) loop.damping[i] = arm.joints[static_cast<std::size_t>(i)].damping;
-  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM * p_MB);
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_RM * p_MB);
   loop.stiffness = felt.stiffness;
   loop.rotation_stiffness = felt.rotation_stiffness;
   loop.tool_damping = felt.damping;

@@ -32,19 +32,19 @@ void ControlCycle::run_once(const LoopEvents& events) noexcept {
   sends_failed_ = sent ? 0 : sends_failed_ + 1;
   record_.torque = torque;
   record_.status = status;
-  record_.H_RM = kinematics.H_WM;
+  record_.H_RM = kinematics.H_RM;
   keep(decision);
   count(events);
 }
 
-/// What is read next is taken as it is, and the joints as at rest: what was read before may have been none.
+/// Takes the next reading as it is, with the joints at rest: readings before it may not have been positions at all.
 void ControlCycle::begin_positions_anew() noexcept {
   position_check_.restart();
   velocity_.reset();
   last_q_ = reading_.position;
 }
 
-/// Before anything is rendered there is no account.
+/// Counts the energy of rendered torques only.
 void ControlCycle::observe_energy() noexcept {
   if (!supervisor_.renders()) {
     observer_.reset();
@@ -53,7 +53,7 @@ void ControlCycle::observe_energy() noexcept {
   if (positions_.finite) observer_.observe(positions_.q);
 }
 
-/// Periods without a cycle are filled with positions in between, since the estimator wants one a period.
+/// Interpolates positions for periods without a cycle, since the estimator needs one a period.
 Status ControlCycle::estimate_velocity(std::uint32_t skipped) noexcept {
   if (!positions_.finite) return Status::kNotFinite;
   if (skipped >= VelocityEstimator::kMaxWindow) {
@@ -69,8 +69,8 @@ Status ControlCycle::estimate_velocity(std::uint32_t skipped) noexcept {
   return velocity_.update(positions_.q, qd_);
 }
 
-/// While the hand leans on something the clutch stays closed: what it leans on does not give way under it, and nothing
-/// pushes it when the clutch closes again. Before the joints' positions are known the mesh does not rest anywhere.
+/// The clutch stays closed while the hand leans on something: otherwise the contact would give way under the hand, and
+/// push it when the clutch closes again. It stays closed, too, before the joints' positions are known.
 bool ControlCycle::opens_clutch() noexcept {
   const bool leans = contact_force() >= setup_.supervisor.engage_force || report_.outcome == Outcome::kStartInside;
   const bool may_open = supervisor_.follows_positions() && (clutch_is_open_ || !leans);
@@ -78,25 +78,25 @@ bool ControlCycle::opens_clutch() noexcept {
   return clutch_is_open_;
 }
 
-/// At the hand, torques counted by the rotation length [N].
+/// Size of the wrench at the hand; torques count as forces at the rotation length [N].
 double ControlCycle::contact_force() const noexcept {
-  return at_hand_.wrench_R.force.norm() + at_hand_.wrench_R.torque.norm() / setup_.joint_torque->rotation_length;
+  return at_hand_.F_G_R.force.norm() + at_hand_.F_G_R.torque.norm() / setup_.joint_torque->rotation_length;
 }
 
-/// From the tool's pose to the wrench that the hand is to feel. G has M's axes at the centre of mass, by which the
-/// hand holds the mesh. It is what is mapped, not M: else, once the clutch has turned the mesh against the tool, forces
-/// would act on the hand with other levers than in the scene and give it energy.
+/// From the tool's pose to the wrench at the hand. The mapping maps the grip G and not M: otherwise, after the clutch
+/// has rotated the mesh against the tool, forces would act on the hand with other levers than in the scene and give it
+/// energy.
 Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
-  const Pose& H_RM = kinematics.H_WM;  // the arm's world is the room
+  const Pose& H_RM = kinematics.H_RM;
   const Vector3& p_MB = setup_.scene->H_MB.translation;
-  lever_R_ = H_RM.rotation._transformVector(p_MB) / setup_.mapping.scale;
-  const Pose H_RG{H_RM.rotation, H_RM.translation + lever_R_};
+  p_MG_R_ = H_RM.rotation._transformVector(p_MB) / setup_.mapping.scale;
+  const Pose H_RG{H_RM.rotation, H_RM.translation + p_MG_R_};
   if (!mapping_) mapping_.emplace(setup_.mapping, H_RG);
   if (const Status status = mapping_->update(H_RG, !opens_clutch(), kPeriod); status != Status::kOk) return status;
   const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RG.translation), qd_);
 
   const Pose& H_WG = mapping_->scene_pose();
-  H_WM_ = {H_WG.rotation, H_WG.translation - H_WG.rotation._transformVector(p_MB)};
+  H_WM_ = {H_WG.rotation, H_WG.translation - H_WG.rotation._transformVector(p_MB)};  // G's origin is B's
   if (!supervisor_.renders()) {
     at_hand_ = limit_at_hand(setup_.hand, {}, velocity_R);
     return god_object_.follow(H_WM_, report_);
@@ -104,9 +104,9 @@ Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   const Motion velocity_W = mapping_->velocity_in_scene(velocity_R);
   if (const Status status = god_object_.update({H_WM_, velocity_W}, report_); status != Status::kOk) return status;
 
-  const Wrench wrench_R =
-      passivity_.apply(observer_.absorbed(), mapping_->wrench_at_hand(report_.force.total_W), velocity_R);
-  at_hand_ = limit_at_hand(setup_.hand, wrench_R, velocity_R);
+  const Wrench& F_G_W = report_.force.total_W;  // about the centre of mass
+  const Wrench F_G_R = passivity_.apply(observer_.absorbed(), mapping_->wrench_at_hand(F_G_W), velocity_R);
+  at_hand_ = limit_at_hand(setup_.hand, F_G_R, velocity_R);
   return Status::kOk;
 }
 
@@ -115,9 +115,10 @@ Status ControlCycle::compute_torque(const ArmKinematics& kinematics) noexcept {
   request.q = positions_.q;
   request.qd = qd_;
   request.kinematics = kinematics;
-  request.F_W = at_hand_.wrench_R;
-  request.F_W.torque += lever_R_.cross(request.F_W.force);  // about M's origin
-  request.p_W = kinematics.H_WM.translation;
+  const Wrench& F_G_R = at_hand_.F_G_R;
+  const Wrench F_M_R{F_G_R.force, F_G_R.torque + p_MG_R_.cross(F_G_R.force)};
+  request.F_P_R = F_M_R;
+  request.p_RP = kinematics.H_RM.translation;
   const Status status = joint_torque(*setup_.arm, *setup_.joint_torque, request, joint_torque_);
   computed_.holding = joint_torque_.gravity;
   computed_.rendered = joint_torque_.torque - joint_torque_.gravity;
@@ -164,11 +165,11 @@ void ControlCycle::keep(const Decision& decision) noexcept {
   record_.absorbed = observer_.absorbed();
   record_.injected_damping = passivity_.damping();
   if (!decision.of_last) {
-    const Wrench& rendered = joint_torque_.rendered_W;  // about M's origin
-    granted_R_ = {decision.share * rendered.force, decision.share * (rendered.torque - lever_R_.cross(rendered.force))};
+    const Wrench& F_M_R = joint_torque_.rendered_P_R;  // P is M's origin
+    rendered_G_R_ = {decision.share * F_M_R.force, decision.share * (F_M_R.torque - p_MG_R_.cross(F_M_R.force))};
   }
   const double share = decision.of_last ? decision.share : 1.0;
-  record_.wrench_R = {share * granted_R_.force, share * granted_R_.torque};
+  record_.F_G_R = {share * rendered_G_R_.force, share * rendered_G_R_.torque};
   record_.penetration = report_.penetration;
   record_.contacts = report_.contacts;
   record_.lost = positions_.lost;
@@ -180,7 +181,7 @@ void ControlCycle::count(const LoopEvents& events) noexcept {
   const auto add = [](bool happened) -> std::uint64_t { return happened ? 1 : 0; };
   const bool rendering = record_.share > 0.0;
   counters_.cycles += 1;
-  counters_.lost += add(positions_.lost > 0 && record_.mode != Mode::kBoot);  // before, none was expected
+  counters_.lost += add(positions_.lost > 0 && record_.mode != Mode::kBoot);  // in kBoot none is expected
   counters_.jumps += add(positions_.jumps > 0);
   counters_.overruns += add(events.overrun_ns > 0);
   counters_.skipped += events.skipped;

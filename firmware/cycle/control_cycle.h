@@ -17,30 +17,30 @@
 
 namespace godobject::firmware {
 
-/// What the loop around the cycle knows of it.
+/// Events that the loop reports to the cycle.
 struct LoopEvents {
-  std::int64_t overrun_ns = 0;  ///< by how much the cycle before was late to end
-  std::uint32_t skipped = 0;    ///< periods without a position since the last cycle
+  std::int64_t overrun_ns = 0;  ///< time by which the previous cycle ended late
+  std::uint32_t skipped = 0;    ///< periods without a cycle since the previous one
   bool end_requested = false;
   bool reset_requested = false;
 };
 
-/// How often it had to be gone on with less than all.
+/// Counts of cycles with a disturbance or an active limit.
 struct CycleCounters {
   std::uint64_t cycles = 0;
-  std::uint64_t lost = 0;   ///< cycles without a fresh position of some joint
-  std::uint64_t jumps = 0;  ///< cycles with a position that cannot be
+  std::uint64_t lost = 0;   ///< cycles in which a joint had no fresh position
+  std::uint64_t jumps = 0;  ///< cycles with an impossible position
   std::uint64_t overruns = 0;
-  std::uint64_t skipped = 0;  ///< periods
-  std::uint64_t sends_failed = 0;
+  std::uint64_t skipped = 0;       ///< periods without a cycle
+  std::uint64_t sends_failed = 0;  ///< cycles in which torques could not be handed over
   std::uint64_t clipped = 0;       ///< cycles with a force or torque at the hand beyond its limit
-  std::uint64_t slowed = 0;        ///< with a hand that was too fast
-  std::uint64_t scaled = 0;        ///< in which the joints could not give all of the wrench
-  std::uint64_t rate_limited = 0;  ///< in which a torque changed by the most that it may
-  std::uint64_t unconverged = 0;   ///< in which friction was not found
+  std::uint64_t slowed = 0;        ///< cycles with a hand above its speed limit
+  std::uint64_t scaled = 0;        ///< cycles in which the joints could not give the whole wrench
+  std::uint64_t rate_limited = 0;  ///< cycles in which a torque changed at the rate limit
+  std::uint64_t unconverged = 0;   ///< cycles in which the friction solver did not converge
 };
 
-/// What a cycle leaves for others to look at.
+/// The results of a cycle for telemetry and report.
 struct CycleRecord {
   Mode mode = Mode::kBoot;
   Fault fault = Fault::kNone;
@@ -51,21 +51,21 @@ struct CycleRecord {
   JointVector qd = JointVector::Zero();      ///< [rad/s]
   JointVector torque = JointVector::Zero();  ///< sent [Nm]
   Pose H_RM;                                 ///< the tool in the room
-  Pose H_WM;                                 ///< the moving mesh as the device holds it
-  Pose god_object_W;                         ///< the moving mesh as the god object holds it
-  Wrench wrench_R;                           ///< on the hand, at the centre of mass, share included [N, Nm]
-  double share = 0.0;                        ///< of what is rendered
-  /// Taken from arm and hand by what was pushed since rendering began; below zero: given to them [J]
+  Pose H_WM;                                 ///< the moving mesh at the device pose
+  Pose god_object_W;                         ///< the moving mesh at the god object's pose
+  Wrench F_G_R;                              ///< rendered on the hand, with the share [N, Nm]
+  double share = 0.0;                        ///< share of the computed wrench that is rendered [0, 1]
+  /// Energy that the rendered torques have taken from arm and hand since rendering began; below zero: given [J]
   double absorbed = 0.0;
-  double injected_damping = 0.0;  ///< of the passivity controller, along the wrench at the hand [Ns/m]
-  double penetration = 0.0;       ///< as CycleReport [m]
+  double injected_damping = 0.0;  ///< damping of the passivity controller along the wrench [Ns/m]
+  double penetration = 0.0;       ///< as in CycleReport [m]
   std::uint32_t contacts = 0;
-  std::uint32_t lost = 0;
+  std::uint32_t lost = 0;       ///< cycles in a row without a fresh position, of the worst joint
   bool clutch_is_open = false;  ///< the tool moves, the mesh rests
   Outcome outcome = Outcome::kFree;
 };
 
-/// Constants of a session; scene, arm and torque parameters are validated and outlive the cycle.
+/// Constants of a session. Scene, arm and torque parameters are validated and outlive the cycle.
 struct CycleSetup {
   const Scene* scene = nullptr;
   Solver solver = Solver::kContact;
@@ -75,32 +75,33 @@ struct CycleSetup {
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;
   int velocity_window = 4;
-  double stuck_torque = 0.005;  ///< as PositionCheck
+  double stuck_torque = 0.005;  ///< as in PositionCheck
   PassivityController::Parameters passivity;
   HandLimits hand;
   TorqueLimits torque;
   Supervisor::Parameters supervisor;
 };
 
-/// One millisecond of the controller: from the drives' positions to their torques. The clutch opens once the contact
-/// force is below `supervisor.engage_force`; until then the operator's wish waits. The same lines run in virtual time
-/// and in the real-time thread. About 600 KiB: static storage. No allocation, no exceptions, no locks.
+/// One millisecond of the controller: from the drives' positions to their torques. The same code runs in virtual time
+/// and on the real-time thread. A request to open the clutch is deferred until the contact force is below
+/// `supervisor.engage_force`. Large: static storage, or the heap before the loop. No allocation, no exceptions, no
+/// locks.
 class ControlCycle {
  public:
-  static constexpr double kPeriod = 1e-3;  ///< T [s], the core's
+  static constexpr double kPeriod = 1e-3;  ///< T [s], as in the core
 
   /// `setup` and `drives` outlive the cycle.
   ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept;
 
-  /// kNotInImage: the scene was compiled without that solver, or without friction; kNotInBuild: this build is without.
-  /// Before the first `run_once`.
+  /// Starts the god object, before the first `run_once`. kNotInImage: the scene was compiled without this solver, or
+  /// without friction; kNotInBuild: this build is.
   Status start() noexcept { return god_object_.start(*setup_.scene, setup_.solver, setup_.friction, setup_.search); }
 
-  /// Begins a cycle: the joints are asked for their positions, which `run_once` takes `collect_ns` later.
+  /// Begins a cycle: requests the joints' positions, which `run_once` takes `collect_ns` later.
   void request() noexcept { drives_.request(); }
   std::int64_t collect_ns() const noexcept { return drives_.collect_ns(); }
 
-  /// The rest of the cycle. Cost: that of GodObject::update and about 10 us. Real-time safe.
+  /// The rest of the cycle. Cost: GodObject::update and about 10 us. Real-time safe.
   void run_once(const LoopEvents& events) noexcept;
 
   const CycleRecord& record() const noexcept { return record_; }
@@ -125,7 +126,7 @@ class ControlCycle {
   VelocityEstimator velocity_;
   Supervisor supervisor_;
   TorqueLimiter limiter_;
-  std::optional<WorkspaceMapping> mapping_;  // from the first posture on
+  std::optional<WorkspaceMapping> mapping_;  // made at the first posture
   GodObject god_object_;
 
   hal::JointReading reading_;
@@ -133,11 +134,11 @@ class ControlCycle {
   JointVector qd_ = JointVector::Zero();
   JointVector last_q_ = JointVector::Zero();
   CycleReport report_;
-  Pose H_WM_;                          // the moving mesh as the device holds it
-  Vector3 lever_R_ = Vector3::Zero();  // from M's origin to the hand, the body's centre of mass [m]
+  Pose H_WM_;                         // the moving mesh at the device pose
+  Vector3 p_MG_R_ = Vector3::Zero();  // from M's origin to the grip, the body's centre of mass [m]
   LimitedWrench at_hand_;
   bool clutch_is_open_ = false;
-  Wrench granted_R_;  // at the hand, in the last cycle that was none of a FADE
+  Wrench rendered_G_R_;  // on the hand, of the last cycle before a FADE
   PassivityObserver observer_;
   PassivityController passivity_;
   JointTorque joint_torque_;

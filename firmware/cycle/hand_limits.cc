@@ -11,7 +11,7 @@ struct Bounds {
   double stop;
 };
 
-/// Of a force and a velocity, or of a torque and an angular velocity.
+/// Limits a force by a velocity, or a torque by an angular velocity.
 Vector3 limit(const Bounds& bounds, Vector3 force, const Vector3& velocity, LimitedWrench& report) noexcept {
   const double speed = velocity.norm();
   if (speed > bounds.speed) {
@@ -31,12 +31,12 @@ Vector3 limit(const Bounds& bounds, Vector3 force, const Vector3& velocity, Limi
 
 }  // namespace
 
-LimitedWrench limit_at_hand(const HandLimits& limits, const Wrench& wrench_R, const Motion& velocity_R) noexcept {
+LimitedWrench limit_at_hand(const HandLimits& limits, const Wrench& F_G_R, const Motion& velocity_R) noexcept {
   LimitedWrench limited;
-  limited.wrench_R.force =
-      limit({limits.force, limits.speed, limits.speed_stop}, wrench_R.force, velocity_R.translation, limited);
-  limited.wrench_R.torque =
-      limit({limits.torque, limits.turn, limits.turn_stop}, wrench_R.torque, velocity_R.rotation, limited);
+  limited.F_G_R.force =
+      limit({limits.force, limits.speed, limits.speed_stop}, F_G_R.force, velocity_R.translation, limited);
+  limited.F_G_R.torque =
+      limit({limits.torque, limits.turn, limits.turn_stop}, F_G_R.torque, velocity_R.rotation, limited);
   return limited;
 }
 

@@ -4,7 +4,7 @@
 
 namespace godobject::firmware {
 
-/// What the hand may be given, in the room.
+/// Limits of force, torque and speed at the hand.
 struct HandLimits {
   double force = 30.0;      ///< [N]
   double torque = 3.0;      ///< [Nm]
@@ -15,16 +15,16 @@ struct HandLimits {
 };
 
 struct LimitedWrench {
-  Wrench wrench_R;        ///< within the limits
-  bool clipped = false;   ///< force or torque was larger
-  bool slowed = false;    ///< hand faster than `speed` or `turn`
-  bool too_fast = false;  ///< beyond `speed_stop` or `turn_stop`: a fault
+  Wrench F_G_R;           ///< within the limits
+  bool clipped = false;   ///< force or torque was above its limit
+  bool slowed = false;    ///< the hand is faster than `speed` or `turn`
+  bool too_fast = false;  ///< the hand is faster than `speed_stop` or `turn_stop`: a fault
 };
 
-/// Force and torque apart. Beyond `speed` what pushes along the motion fades out, to nothing at `speed_stop`, and a
-/// damping against it grows from zero to `force` there; then the length is cut to `force`. Both take energy from the
-/// hand only, and neither jumps. `velocity_R`: of the point that the wrench is about [m/s, rad/s].
-/// Cost: 50 ns. Real-time safe.
-LimitedWrench limit_at_hand(const HandLimits& limits, const Wrench& wrench_R, const Motion& velocity_R) noexcept;
+/// Limits the wrench F_G_R on the hand, force and torque separately. Above `speed` the force along the motion fades
+/// out, to zero at `speed_stop`, and a damping against the motion rises from zero to `force` there. Then the length is
+/// limited to `force`. Both steps only take energy from the hand, and neither jumps. `velocity_R`: of G's origin, and
+/// angular [m/s, rad/s]. Cost: 50 ns. Real-time safe.
+LimitedWrench limit_at_hand(const HandLimits& limits, const Wrench& F_G_R, const Motion& velocity_R) noexcept;
 
 }  // namespace godobject::firmware

@@ -19,11 +19,11 @@ void watch(const CycleRecord& record, RunReport& report) noexcept {
   report.standing.store(standing, std::memory_order_relaxed);
   ++report.in_mode[static_cast<std::size_t>(record.mode)];
   if (!(record.share > 0.0)) return;
-  const double force = record.wrench_R.force.norm();
+  const double force = record.F_G_R.force.norm();
   ++report.rendering;
   if (force > 0.0) ++report.in_contact;
   report.largest_force = std::max(report.largest_force, force);
-  report.largest_torque = std::max(report.largest_torque, record.wrench_R.torque.norm());
+  report.largest_torque = std::max(report.largest_torque, record.F_G_R.torque.norm());
   report.deepest = std::max(report.deepest, record.penetration);
 }
 

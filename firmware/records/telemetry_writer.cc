@@ -42,8 +42,8 @@ void append(std::string& text, const TelemetryRecord& record, int joint_count) {
   append(text, cycle.torque, joint_count);
   append(text, cycle.H_WM);
   append(text, cycle.god_object_W);
-  const Vector3& f = cycle.wrench_R.force;
-  const Vector3& t = cycle.wrench_R.torque;
+  const Vector3& f = cycle.F_G_R.force;
+  const Vector3& t = cycle.F_G_R.torque;
   fmt::format_to(std::back_inserter(text), ",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.x(),
                  f.y(), f.z(), t.x(), t.y(), t.z(), cycle.penetration, cycle.absorbed, cycle.injected_damping);
 }

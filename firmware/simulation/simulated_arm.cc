@@ -48,7 +48,7 @@ std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
 }
 
 std::vector<Pose> read_path(const ControllerConfig& config, const Placement& placement) {
-  const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_WM;
+  const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_RM;
   if (config.simulation.path.empty()) return {rest};
   std::vector<Pose> path = command::read_pose_path(config.simulation.path).poses;
   for (Pose& pose : path) {

@@ -23,7 +23,7 @@ constexpr std::int64_t kMs = 1'000'000;
 
 ArmModel joints(int count, double inertia) {
   ArmModel model = test::one_joint(inertia, 0.0);
-  model.gravity_W.setZero();
+  model.gravity_R.setZero();
   model.joint_count = count;
   for (int i = 1; i < count; ++i) model.joints.at(static_cast<std::size_t>(i)) = model.joints[0];
   return model;

@@ -32,27 +32,27 @@ std::array<JointHardwareParameters, kMaxJoints> ideal_hardware() {
   return hardware;
 }
 
-/// The virtual wall: a spring and damper on both sides along one direction of W through the place where the tool was.
+/// The virtual wall: a spring and damper on both sides along one direction of R through the place where the tool was.
 class Wall {
  public:
   Wall(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness, double damping)
       : model_(model), direction_(direction), stiffness_(stiffness), damping_(damping) {
-    origin_ = forward_kinematics(model, q).H_WM.translation;
+    origin_ = forward_kinematics(model, q).H_RM.translation;
   }
   void shift(double distance) { origin_ += distance * direction_; }
 
   double depth(const JointVector& q) const {
-    return direction_.dot(forward_kinematics(model_, q).H_WM.translation - origin_);
+    return direction_.dot(forward_kinematics(model_, q).H_RM.translation - origin_);
   }
 
   /// Joint torques, from positions as they are read.
   JointVector torque(const JointVector& q) {
     const ArmKinematics kinematics = forward_kinematics(model_, q);
-    const double x = direction_.dot(kinematics.H_WM.translation - origin_);
+    const double x = direction_.dot(kinematics.H_RM.translation - origin_);
     const double v = started_ ? (x - x_before_) / kPeriod : 0.0;
     started_ = true;
     x_before_ = x;
-    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     return J.topRows<3>().transpose() * (-(stiffness_ * x + damping_ * v) * direction_);
   }
 
@@ -82,7 +82,7 @@ struct Loop {
 };
 
 ArmModel weightless(ArmModel model) {
-  model.gravity_W.setZero();  // its compensation would be sampled and delayed as well
+  model.gravity_R.setZero();  // its compensation would be sampled and delayed as well
   return model;
 }
 
@@ -100,7 +100,7 @@ double measured_delay(const ArmModel& model, const JointVector& q, const Vector3
   std::vector<Pose> script(4 * kSine);
   for (std::size_t i = 0; i < script.size(); ++i) {
     const double time = kPeriod * static_cast<double>(i);
-    script[i] = forward_kinematics(model, q).H_WM;
+    script[i] = forward_kinematics(model, q).H_RM;
     script[i].translation += std::min(time, 1.0) * kAmplitude * std::sin(w * time) * direction;
   }
   Plant plant(model, q, JointVector::Zero(), OperatorHand(parameters, script));
@@ -312,7 +312,7 @@ TEST(ExactStability, ArmDecaysBelowAndGrowsAboveInThreeDirections) {
       for (int i = 0; i < model.joint_count; ++i) {
         arm.damping[i] = model.joints.at(static_cast<std::size_t>(i)).damping;
       }
-      arm.jacobian.row(axis) = geometric_jacobian(kinematics, kinematics.H_WM.translation).row(axis);
+      arm.jacobian.row(axis) = geometric_jacobian(kinematics, kinematics.H_RM.translation).row(axis);
       arm.stiffness = 1000.0;
       arm.tool_damping = damping;
       arm.timing.delay = 1.3e-3;

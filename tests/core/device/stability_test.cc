@@ -139,7 +139,7 @@ ArmLoop arm_loop(const Arm& arm, const JointVector& q) {
   for (int i = 0; i < arm.model.joint_count; ++i) {
     loop.damping[i] = arm.model.joints.at(static_cast<std::size_t>(i)).damping;
   }
-  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   loop.stiffness = 1000.0;
   loop.rotation_stiffness = 10.0;
   loop.tool_damping = 2.0;

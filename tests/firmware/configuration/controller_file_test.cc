@@ -134,8 +134,8 @@ TEST_F(ControllerFileTest, PlacesTheMeshAtItsStartInThePosture) {
                                        "start = [0.1, -0.2, 0.3, 0.0, 0.6, 0.8, 0.0]\n");
   const Vector3 p_MB(0.02, -0.04, 0.06);
   const Placement placement = place(config.workspace, config.device, p_MB);
-  const Pose H_RT = forward_kinematics(config.device.model, config.workspace.posture).H_WM;
-  const Pose H_RM = forward_kinematics(placement.device.model, config.workspace.posture).H_WM;
+  const Pose H_RT = forward_kinematics(config.device.model, config.workspace.posture).H_RM;
+  const Pose H_RM = forward_kinematics(placement.device.model, config.workspace.posture).H_RM;
   WorkspaceMapping mapping(placement.mapping, H_RM);
   EXPECT_LT((mapping.scene_pose().translation - Vector3(0.1, -0.2, 0.3)).norm(), 1e-12);
   EXPECT_LT(mapping.scene_pose().rotation.angularDistance(Quaternion(0.0, 0.6, 0.8, 0.0)), 1e-7);

@@ -163,13 +163,13 @@ TEST_F(DeviceFileTest, HoldsAnotherMeshFrameWithTheSameMechanics) {
   Device device = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
   device.model.payload.com = Vector3(0.01, 0.02, -0.03);
   const Device before = device;
-  const Pose H_MG = set_matrix(random.motion(0.1, 3.0));
-  regrip(H_MG, device);
+  const Pose H_TM = set_matrix(random.motion(0.1, 3.0));
+  regrip(H_TM, device);
   const JointVector q = test::random_positions(random, device.model);
   const ArmKinematics kinematics = forward_kinematics(device.model, q);
   const ArmKinematics kinematics_before = forward_kinematics(before.model, q);
-  const Pose H_WG = kinematics_before.H_WM * H_MG;
-  EXPECT_LT((kinematics.H_WM.translation - H_WG.translation).norm(), 1e-12);
+  const Pose H_RM = kinematics_before.H_RM * H_TM;  // the M before is T
+  EXPECT_LT((kinematics.H_RM.translation - H_RM.translation).norm(), 1e-12);
   EXPECT_LT((gravity_torque(device.model, kinematics) - gravity_torque(before.model, kinematics_before)).norm(), 1e-12);
   EXPECT_LT((mass_matrix(device.model, kinematics) - mass_matrix(before.model, kinematics_before)).norm(), 1e-12);
 }

@@ -96,7 +96,7 @@ TEST_F(GainCheckTest, FindsTheExactBoundaryAtItsWorstPosture) {
   loop.joint_count = 7;
   loop.mass = mass_matrix(arm_.model, kinematics);
   for (int i = 0; i < 7; ++i) loop.damping[i] = arm_.model.joints[static_cast<std::size_t>(i)].damping;
-  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   loop.tool_damping = 5.0;
   loop.rotation_tool_damping = 5.0 * 0.003;
   loop.timing = timing_;

@@ -38,7 +38,7 @@ class ControlCycleTest : public testing::Test {
     setup_.joint_torque = &arm_.parameters;
     setup_.supervisor.sign_test = false;
     setup_.supervisor.engage_cycles = 20;
-    const Pose H_RM = forward_kinematics(arm_.model, q0_).H_WM;
+    const Pose H_RM = forward_kinematics(arm_.model, q0_).H_RM;
     setup_.mapping.H_WR.translation = Vector3(0.0, 0.0, 0.06) - H_RM.translation;
     drives_.reading.position = q0_;
   }
@@ -73,13 +73,13 @@ class ControlCycleTest : public testing::Test {
   /// Joint positions with the tool moved by `offset` in the room, found with the transposed Jacobian's inverse.
   JointVector moved(const Vector3& offset) const {
     JointVector q = q0_;
-    const Pose start = forward_kinematics(arm_.model, q0_).H_WM;
+    const Pose start = forward_kinematics(arm_.model, q0_).H_RM;
     for (int i = 0; i < 20; ++i) {
       const ArmKinematics kinematics = forward_kinematics(arm_.model, q);
       Eigen::Matrix<double, 6, 1> error;
-      error << start.translation + offset - kinematics.H_WM.translation,
-          log_rotation(start.rotation * kinematics.H_WM.rotation.conjugate());
-      const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+      error << start.translation + offset - kinematics.H_RM.translation,
+          log_rotation(start.rotation * kinematics.H_RM.rotation.conjugate());
+      const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
       q += J.transpose() * (J * J.transpose()).inverse() * error;
     }
     return q;
@@ -119,12 +119,12 @@ TEST_F(ControlCycleTest, RendersTheSpringOfAPressInJointTorques) {
   press(0.033);  // the ball's surface touches at 30 mm; 3 mm more
   const CycleRecord& record = cycle_->record();
   EXPECT_EQ(record.outcome, Outcome::kContact);
-  EXPECT_NEAR(record.wrench_R.force.z(), 2000.0 * 0.003, 0.1);
-  EXPECT_NEAR(record.wrench_R.force.head<2>().norm(), 0.0, 0.05);
+  EXPECT_NEAR(record.F_G_R.force.z(), 2000.0 * 0.003, 0.1);
+  EXPECT_NEAR(record.F_G_R.force.head<2>().norm(), 0.0, 0.05);
   const ArmKinematics kinematics = forward_kinematics(arm_.model, drives_.reading.position);
-  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   Eigen::Matrix<double, 6, 1> F;
-  F << record.wrench_R.force, record.wrench_R.torque;
+  F << record.F_G_R.force, record.F_G_R.torque;
   const JointVector expected = gravity_torque(arm_.model, kinematics) + J.transpose() * F;
   EXPECT_LT((drives_.sent.torque - expected).norm(), 1e-6);
   EXPECT_NEAR(record.god_object_W.translation.z(), 0.03, 1e-4);
@@ -136,13 +136,13 @@ TEST_F(ControlCycleTest, HasTheHandAtTheCentreOfMassAndDrivesTheToolsOrigin) {
   run_to(Mode::kRunning);
   press(0.033);
   const CycleRecord& record = cycle_->record();
-  ASSERT_GT(record.wrench_R.force.norm(), 1.0);
-  EXPECT_LT(record.wrench_R.torque.norm(), 0.02);
+  ASSERT_GT(record.F_G_R.force.norm(), 1.0);
+  EXPECT_LT(record.F_G_R.torque.norm(), 0.02);
   const ArmKinematics kinematics = forward_kinematics(arm_.model, drives_.reading.position);
-  const Vector3 hand = kinematics.H_WM * scene_.H_MB.translation;
+  const Vector3 hand = kinematics.H_RM * scene_.H_MB.translation;
   const Jacobian J = geometric_jacobian(kinematics, hand);
   Eigen::Matrix<double, 6, 1> F;
-  F << record.wrench_R.force, record.wrench_R.torque;
+  F << record.F_G_R.force, record.F_G_R.torque;
   const JointVector expected = gravity_torque(arm_.model, kinematics) + J.transpose() * F;
   EXPECT_LT((drives_.sent.torque - expected).norm(), 1e-6);
 }
@@ -152,18 +152,18 @@ TEST_F(ControlCycleTest, KeepsForceAndTorqueAtTheHandWithinTheirLimits) {
   make();
   run_to(Mode::kRunning);
   press(0.040);
-  EXPECT_NEAR(cycle_->record().wrench_R.force.norm(), 4.0, 1e-9);
+  EXPECT_NEAR(cycle_->record().F_G_R.force.norm(), 4.0, 1e-9);
   EXPECT_GT(cycle_->counters().clipped, 0u);
 }
 
 TEST_F(ControlCycleTest, FeelsTheSquareOfTheScaleAsStiffness) {
   setup_.mapping.scale = 0.5;
-  const Pose H_RM = forward_kinematics(arm_.model, q0_).H_WM;
+  const Pose H_RM = forward_kinematics(arm_.model, q0_).H_RM;
   setup_.mapping.H_WR.translation = Vector3(0.0, 0.0, 0.06) - 0.5 * H_RM.translation;
   make();
   run_to(Mode::kRunning);
   press(0.064);  // 60 mm until it touches, 4 mm more
-  EXPECT_NEAR(cycle_->record().wrench_R.force.z(), 0.25 * 2000.0 * 0.004, 0.05);
+  EXPECT_NEAR(cycle_->record().F_G_R.force.z(), 0.25 * 2000.0 * 0.004, 0.05);
 }
 
 TEST_F(ControlCycleTest, ArmsInContactOnlyOnceTheToolIsWithdrawn) {
@@ -214,7 +214,7 @@ TEST_F(ControlCycleTest, ClutchThatTurnsTheMeshGivesNoWorkOnAClosedPath) {
   go(turned, 300);
   ASSERT_EQ(cycle_->record().mode, Mode::kRunning) << describe(cycle_->record().fault);
   const auto hand = [&] {
-    return forward_kinematics(arm_.model, drives_.reading.position).H_WM * scene_.H_MB.translation;
+    return forward_kinematics(arm_.model, drives_.reading.position).H_RM * scene_.H_MB.translation;
   };
   const auto centre = [&] { return cycle_->record().H_WM * scene_.H_MB.translation; };
   const Vector3 away = centre() - hand();
@@ -224,7 +224,7 @@ TEST_F(ControlCycleTest, ClutchThatTurnsTheMeshGivesNoWorkOnAClosedPath) {
   const auto lowered = [&](JointVector q, double height) {
     for (int i = 0; i < 20; ++i) {
       const ArmKinematics kinematics = forward_kinematics(arm_.model, q);
-      const Vector3 at = kinematics.H_WM * scene_.H_MB.translation;
+      const Vector3 at = kinematics.H_RM * scene_.H_MB.translation;
       const Jacobian J = geometric_jacobian(kinematics, at);
       q += J.row(2).transpose() * (height - (at + away).z()) / J.row(2).squaredNorm();
     }
@@ -276,7 +276,7 @@ TEST_F(ControlCycleTest, TellsTheEnergyThatTheDelayGivesAndPaysItBack) {
       acts = sent;
       sent = drives_.sent.torque - gravity_torque(arm_.model, forward_kinematics(arm_.model, next));
       ASSERT_NEAR(cycle_->record().absorbed, -work, 1e-12) << i;
-      ASSERT_GE(cycle_->record().wrench_R.force.z(), 0.0) << "it pulls";
+      ASSERT_GE(cycle_->record().F_G_R.force.z(), 0.0) << "it pulls";
       injected = std::max(injected, cycle_->record().injected_damping);
     }
     ASSERT_EQ(cycle_->record().mode, Mode::kRunning) << describe(cycle_->record().fault);

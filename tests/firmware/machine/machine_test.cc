@@ -133,7 +133,7 @@ TEST(RealTimeSetup, SaysWhatItMayNotDoAndTheLoopNeedsNoPageAfterIt) {
   setup.joint_torque = &arm.parameters;
   setup.supervisor.sign_test = false;
   setup.mapping.H_WR.translation =
-      Vector3(0.0, 0.0, 0.031) - forward_kinematics(arm.model, drives.reading.position).H_WM.translation;
+      Vector3(0.0, 0.0, 0.031) - forward_kinematics(arm.model, drives.reading.position).H_RM.translation;
   auto cycle = std::make_unique<ControlCycle>(setup, drives);
   ASSERT_EQ(cycle->start(), Status::kOk);
 

@@ -26,7 +26,7 @@ struct LedCycle {
   /// What a controller that renders everything from the first cycle on would compute and send [Nm].
   JointVector computed_at_once = JointVector::Zero();
   JointVector sent_at_once = JointVector::Zero();
-  Wrench wrench_W;                   ///< of the solver in that case, before any limit
+  Wrench F_B_W;                      ///< of the solver in that case, before any limit
   Outcome outcome = Outcome::kFree;  ///< the same
   std::uint32_t contacts = 0;        ///< the same
 };

@@ -165,7 +165,7 @@ TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device
     raise(found.sent, largest_step(device.model, cycle.sent, before.sent));
     raise(found.sent_at_once, largest_step(device.model, cycle.sent_at_once, before.sent_at_once));
     raise(found.computed, largest_step(device.model, cycle.computed_at_once, before.computed_at_once));
-    raise(found.force, (cycle.wrench_W.force - before.wrench_W.force).norm());
+    raise(found.force, (cycle.F_B_W.force - before.F_B_W.force).norm());
     if (is_there(place, scene, cycle)) ++found.there;
     if (cycle.record.share == 1.0) ++found.rendered;
     before = cycle;
