@@ -16,7 +16,7 @@
 namespace godobject::firmware {
 namespace {
 
-/// Halton's sequence: element `index` in base `base`, in (0, 1).
+/// Element `index` of Halton's sequence in base `base`, in (0, 1).
 double halton(int index, int base) noexcept {
   double share = 1.0;
   double value = 0.0;
@@ -55,7 +55,8 @@ ArmLoop loop_at(const ArmModel& arm, const JointVector& q, const Vector3& p_MB, 
   return loop;
 }
 
-/// The exact boundary takes twenty times as long as the radius at one stiffness, which finds the worst posture.
+/// The posture with the largest spectral radius at kProbe times the stiffness. The exact boundary of each posture would
+/// take twenty times as long.
 JointVector worst_posture(const ArmModel& arm, const JointVector& posture, const Vector3& p_MB,
                           const FeltCoupling& felt, const LoopTiming& timing) {
   double largest = -1.0;
@@ -93,7 +94,7 @@ GainReport check_gains(const Scene& scene, const ArmModel& arm, const JointVecto
                        const LoopTiming& timing) {
   const Parameters parameters = Parameters::make(scene);
   const FeltCoupling felt = FeltCoupling::of(scene, scale);
-  const Vector3 p_MB = scene.H_MB.translation / scale;  // as the hand has it
+  const Vector3 p_MB = scene.H_MB.translation / scale;  // in the room's scale
   GainReport report;
   report.joint_count = arm.joint_count;
   report.passivity_excess = std::numeric_limits<double>::infinity();
@@ -125,8 +126,8 @@ void require_stable_joints(const ArmModel& arm, const JointTorqueParameters& con
     const auto refuse = [&](const char* key, double value, double boundary, const char* unit) {
       throw command::Failure(
           command::ExitCode::kBadConfig,
-          fmt::format("device: joint {} has {} of {:.4g} {}, with {:.3g} kg m^2 and this delay it is "
-                      "stable below {:.4g} only: lower it",
+          fmt::format("device: joint {} has {} of {:.4g} {}; with {:.3g} kg m^2 and this delay it is "
+                      "stable only below {:.4g}: lower it",
                       k + 1, key, value, unit, inertia[k], boundary));
     };
     if (const double most = damping_boundary(axis); axis.virtual_damping > 0.0 && !(axis.virtual_damping < most)) {
@@ -158,10 +159,9 @@ void require_stable_injection(const Scene& scene, const ArmModel& arm, const Joi
   }
   throw command::Failure(
       command::ExitCode::kBadConfig,
-      fmt::format(
-          "passivity.damping = {:g} Ns/m beside {:.4g} Ns/m of gains.damping leaves less than gains.margin = {:g} "
-          "to the stability boundary: at most {:.3g} Ns/m, or lower gains.stiffness",
-          injected.most, felt.damping, least, low));
+      fmt::format("passivity.damping = {:g} Ns/m and {:.4g} Ns/m of gains.damping leave less than gains.margin = {:g} "
+                  "to the stability boundary: set it to at most {:.3g} Ns/m, or lower gains.stiffness",
+                  injected.most, felt.damping, least, low));
 }
 
 std::vector<std::string> judge_gains(const GainReport& report, const FeltCoupling& felt, double least) {
@@ -176,13 +176,13 @@ std::vector<std::string> judge_gains(const GainReport& report, const FeltCouplin
                     felt.damping, felt.rotation_damping, where));
   }
   if (!(report.margin >= least)) {
-    constexpr double kAdvised = 0.98;  // with another stiffness the worst posture is another one, too
+    constexpr double kAdvised = 0.98;  // reserve, chosen: with another stiffness another posture is the worst
     throw command::Failure(
         command::ExitCode::kBadConfig,
         fmt::format(
             "gains: the hand would feel {:.4g} N/m and {:.4g} Nm/rad; the stability boundary is {:.4g} N/m and "
-            "{:.4g} Nm/rad {}, a factor of {:.3g} where gains.margin asks for {:g}: lower gains.stiffness to {:.2f} of "
-            "what it is, or gains.rotational or workspace.scale",
+            "{:.4g} Nm/rad {}, a factor of {:.3g}, and gains.margin is {:g}: lower gains.stiffness to {:.2f} of its "
+            "value, or lower gains.rotational or workspace.scale",
             felt.stiffness, felt.rotation_stiffness, report.margin * felt.stiffness,
             report.margin * felt.rotation_stiffness, where, report.margin, least,
             std::floor(100.0 * kAdvised * report.margin / least) / 100.0));
@@ -197,7 +197,7 @@ std::vector<std::string> judge_gains(const GainReport& report, const FeltCouplin
   if (ratio < 0.5 || ratio > 2.0) {
     warnings.push_back(
         fmt::format("gains.rotational counts a radian as {:.3g} m, the moving body's radius of "
-                    "gyration is {:.3g} m: rotations yield too {} beside translations",
+                    "gyration is {:.3g} m: rotations yield too {} compared with translations",
                     report.coupling_gyration, report.gyration, ratio > 1.0 ? "little" : "much"));
   }
   return warnings;

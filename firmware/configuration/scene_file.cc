@@ -19,7 +19,7 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-/// Closes what it holds.
+/// A file descriptor, closed by the destructor.
 struct Descriptor {
   int number;
   ~Descriptor() {
@@ -31,7 +31,8 @@ struct Descriptor {
   switch (error) {
     case EACCES:
     case EPERM:
-      throw Failure(ExitCode::kNoPermission, fmt::format("{}: may not be read; check its permissions", file.string()));
+      throw Failure(ExitCode::kNoPermission,
+                    fmt::format("{}: no right to read it; check its permissions", file.string()));
     case ELOOP:
       throw Failure(ExitCode::kNoInput,
                     fmt::format("{}: is a symbolic link; name the scene image itself", file.string()));
@@ -50,7 +51,7 @@ struct Descriptor {
 }  // namespace
 
 SceneFile::SceneFile(const std::filesystem::path& file) {
-  // O_NONBLOCK: a named pipe would keep us waiting
+  // O_NONBLOCK: a named pipe would block
   const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK)};
   if (descriptor.number < 0) cannot_open(file, errno);
   struct stat status {};
@@ -59,7 +60,7 @@ SceneFile::SceneFile(const std::filesystem::path& file) {
     throw Failure(ExitCode::kNoInput, fmt::format("{}: is not a regular file; name a scene image", file.string()));
   }
   size_ = static_cast<std::size_t>(status.st_size);
-  if (size_ > kLargest) refuse(file, "larger than any scene image may be here (1 GiB)");
+  if (size_ > kLargest) refuse(file, "is larger than 1 GiB");
   format::Header header{};
   const bool whole = ::pread(descriptor.number, &header, sizeof header, 0) == static_cast<ssize_t>(sizeof header);
   if (!whole || std::memcmp(header.magic, format::kMagic, sizeof header.magic) != 0)
@@ -67,7 +68,7 @@ SceneFile::SceneFile(const std::filesystem::path& file) {
   if (header.total_bytes != size_) refuse(file, describe(Status::kImageTruncated));
 
   void* memory = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) refuse(file, "there is not enough memory for it");
+  if (memory == MAP_FAILED) refuse(file, "does not fit into the memory");
   bytes_ = static_cast<std::byte*>(memory);
   try {
     read(descriptor.number, file);
@@ -81,7 +82,7 @@ void SceneFile::read(int descriptor, const std::filesystem::path& file) {
   for (std::size_t done = 0; done < size_;) {
     const ssize_t got = ::pread(descriptor, bytes_ + done, size_ - done, static_cast<off_t>(done));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw Failure(ExitCode::kIo, fmt::format("{}: reading it failed; check the disk", file.string()));
+    if (got <= 0) throw Failure(ExitCode::kIo, fmt::format("{}: cannot be read; check the disk", file.string()));
     done += static_cast<std::size_t>(got);
   }
   const Status status = Scene::open({bytes_, size_}, scene_);

@@ -8,15 +8,16 @@
 
 namespace godobject::firmware {
 
-/// A scene image in memory of its own: what becomes of the file later has no effect. Locked against paging where that
-/// is permitted, and read-only once it is validated.
+/// A scene image in memory of its own, so later changes of the file have no effect. The memory is locked against paging
+/// if that is permitted, and read-only after validation.
 class SceneFile {
  public:
-  static constexpr std::size_t kLargest = std::size_t{1} << 30;  ///< bytes
+  /// Largest image [bytes]. Chosen: 40 times the largest of the demo, and small enough to be locked in memory.
+  static constexpr std::size_t kLargest = std::size_t{1} << 30;
 
   /// Throws command::Failure: kNoInput if there is no regular file of that name (symbolic links are not followed),
   /// kNoPermission if it may not be read, kBadData if it is no valid image or too large, kIo if reading fails.
-  /// Header and size are looked at before memory is taken. Cost: one pass over the bytes, about 1 ms per MiB.
+  /// Checks header and size before it takes memory. Cost: one pass over the bytes, about 1 ms per MiB.
   explicit SceneFile(const std::filesystem::path& file);
   ~SceneFile();
   SceneFile(const SceneFile&) = delete;

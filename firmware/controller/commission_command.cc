@@ -19,25 +19,25 @@ using command::Failure;
 
 const char* const kFooter = R"(Examples:
   godobject-controller commission firmware/controllers/lwr.toml --bus can0,can1,can2
-  godobject-controller commission firmware/controllers/lwr.toml          # on the simulated drives
+  godobject-controller commission firmware/controllers/lwr.toml          # on simulated drives
 
-Starts the drives and gives none of them power. Each is set to no mode and back, which its TPDO2 must tell at once. Then the torque
-frames (RPDO) of one joint after the other are left out: the drive must say, by emergency message 8250 or by a fault, that its
-deadline has run out. Prints a line a joint: what its drive says of itself,
-its sign and zero as the device file has them and the position that follows, and what was seen.
+Starts the drives without giving them power. Sets each drive to no mode and back: its TPDO2 must show both changes at once. Then
+omits the torque frames (RPDO) of one joint after the other: the drive must report by emergency message 8250, or by a fault, that
+its deadline has expired. Prints one line a joint: identity of the drive, sign and zero of the device file and the position that
+follows from them, and the observed reaction.
 
-A drive that watches its deadline in operation enabled only shows nothing here; firmware/README.md says how it is tried then.
+A drive that watches its deadline in the state operation enabled only shows no reaction here. firmware/README.md describes the
+test for such a drive.
 
-Exit codes: 0 modes and deadlines of all joints were seen in time, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 drives or
-bus not available, or a mode or deadline that was not seen, 77 not permitted, 78 bad configuration.)";
+Exit codes: 0 all joints showed mode and deadline in time, 64 usage, 66 CONTROLLER.toml is missing or cannot be read, 69 drives or
+bus not available, or a joint showed no mode or deadline in time, 77 no right, 78 bad configuration.)";
 
 }  // namespace
 
 CommissionCommand::CommissionCommand(CLI::App& app, std::string& transport)
     : transport_(transport),
       command_(app.add_subcommand(
-          "commission",
-          "tries, without power, whether each drive tells of its mode and notices that its torques stay away")) {
+          "commission", "tests, without power, that each drive reports its mode and stops without torque frames")) {
   command_->footer(kFooter);
   command_->add_option("CONTROLLER.toml", file_, "controller file")->required()->type_name("");
   command_->add_option("--bus", transport_, "sim, or CAN interfaces such as can0,can1; default: sim")->type_name("BUS");

@@ -16,20 +16,20 @@ namespace {
 const char* const kFooter = R"(Example:
   godobject-controller doctor firmware/controllers/lwr.toml --bus can0,can1,can2
 
-A line each: ok, or LACK with its cure. CONTROLLER.toml is looked at for loop.cpu, loop.priority and the device's buses: their bit
-rates, and what each carries in a cycle.
+Prints one line a check: ok, or LACK with its cure. CONTROLLER.toml gives loop.cpu, loop.priority and the buses of the device:
+their bit rates are compared with the interfaces, and the time plan of a cycle is printed.
 
-Exit codes: 0 done, 64 usage, 66 CONTROLLER.toml is missing or may not be read, 69 something is lacking without which there is no
-real-time work: kernel, rtprio, memlock or a working CAN interface, 78 bad configuration.)";
+Exit codes: 0 done, 64 usage, 66 CONTROLLER.toml is missing or cannot be read, 69 real-time work is impossible: kernel, rtprio,
+memlock or a working CAN interface is lacking, 78 bad configuration.)";
 
 }  // namespace
 
 DoctorCommand::DoctorCommand(CLI::App& app, std::string& transport)
     : transport_(transport),
-      command_(app.add_subcommand("doctor", "says what this machine lacks for real-time work, each with its cure")) {
+      command_(app.add_subcommand("doctor", "checks this machine for real-time work and prints a cure for each lack")) {
   command_->footer(kFooter);
-  command_->add_option("CONTROLLER.toml", file_, "controller file, for loop and buses")->type_name("");
-  command_->add_option("--bus", transport_, "CAN interfaces to look at, such as can0,can1")->type_name("BUS");
+  command_->add_option("CONTROLLER.toml", file_, "controller file with loop and buses")->type_name("");
+  command_->add_option("--bus", transport_, "CAN interfaces to check, such as can0,can1")->type_name("BUS");
 }
 
 void DoctorCommand::run() const {

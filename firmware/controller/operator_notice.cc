@@ -15,7 +15,7 @@
 namespace godobject::firmware {
 namespace {
 
-constexpr std::uint32_t kMoment = 3000;  // cycles
+constexpr std::uint32_t kMoment = 3000;  // cycles; chosen: 3 s, longer than an operator needs who knows what to do
 
 std::string why(const Standing& standing) {
   if (standing.fault != Fault::kAlarm) return describe(standing.fault);
@@ -31,7 +31,7 @@ void OperatorNotice::look() {
   if (waits && !said_waiting_) {
     warn(standing.mode == Mode::kIdle
              ? "waits for the enable switch: release it, then hold it"
-             : "waits with the arm held: the moving body is in the still one, or leans on it; move the tool away");
+             : "waits with the arm held: the moving body touches or penetrates the still body; move the tool away");
   }
   said_waiting_ = waits;
   const bool stopped = standing.mode == Mode::kStopped && !refuses_to_start(standing.fault);

@@ -41,7 +41,7 @@ Session::Session(const ControllerConfig& config, const std::string& transport)
   family->require_plan();
   check_gains_at_start(config_, scene_, placement_.device, family->delay());
   if (!config_.start.sign_test) {
-    warn("start.sign_test = false: a motor or encoder that is connected the wrong way round will not be found");
+    warn("start.sign_test = false: wrong polarities of motors and encoders will not be found");
   }
   link_ = family->connect({.transport = transport,
                            .config = &config_,
@@ -62,7 +62,7 @@ void Session::start_cycle() {
   if (status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "
-                              "table, or change scene.solver, scene.friction",
+                              "table, or change scene.solver or scene.friction",
                               config_.scene.image.string(), describe(status)));
   }
 }
@@ -78,7 +78,7 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
     fmt::print("{}", run_summary(report_, cycle_->counters(), link_->statistics(), page_faults_));
     fmt::print("{}", records.summary());
   } else {
-    warn("ended before the drives were started; none was enabled");
+    warn("ended before the drives were started; no drive was enabled");
   }
   return describe_stop();
 }

@@ -19,9 +19,8 @@ void check_gains_at_start(const ControllerConfig& config, const Scene& scene, co
   for (const std::string& line : judge_gains(report, felt, config.gains.margin)) warn(line);
   require_stable_injection(scene, device.model, config.workspace.posture, scale, timing,
                            {config.passivity.damping, device.torque.rotation_length}, config.gains.margin);
-  fmt::print(
-      "{}: {:.4g} N/m and {:.4g} Nm/rad at the hand, stable up to {:.3g} times as much with {:.3g} ms of delay\n",
-      device.name, felt.stiffness, felt.rotation_stiffness, report.margin, 1e3 * delay);
+  fmt::print("{}: {:.4g} N/m and {:.4g} Nm/rad at the hand, stable up to {:.3g} times that at a delay of {:.3g} ms\n",
+             device.name, felt.stiffness, felt.rotation_stiffness, report.margin, 1e3 * delay);
 }
 
 }  // namespace godobject::firmware

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -147,5 +148,6 @@ class ControlCycle {
   CycleRecord record_;
   CycleCounters counters_;
 };
+static_assert(sizeof(ControlCycle) < (std::size_t{1} << 20), "1 MiB; most of it is the god object's workspace");
 
 }  // namespace godobject::firmware

@@ -6,14 +6,18 @@
 
 namespace godobject::firmware {
 
-/// Whether a loop overruns more often than can be gone on with: three times in a row, more than one cycle in a hundred
-/// over the last second, or once by more than 5 ms.
+/// Detects too many overruns of the loop: kInRow in a row, more than one cycle in a hundred over the last second, or
+/// one longer than kLong_ns.
 class OverrunWatch {
  public:
+  /// Chosen, as for lost positions: the drives hold the last torque for two cycles. With 5 the arm no longer stops
+  /// within the 8 cycles of the fault table, with 2 a single disturbance of two cycles stops it.
   static constexpr std::uint32_t kInRow = 3;
+  /// Derived: a period longer than the default deadline of torques, 4 ms (BusLayout::command_deadline), after which the
+  /// drives have stopped by themselves.
   static constexpr std::int64_t kLong_ns = 5'000'000;
 
-  /// One cycle: by how much the cycle before was late to end; 0 if it was not. True: too often, or too long.
+  /// Takes the overrun of one cycle; 0: none. True: too often, or too long.
   bool update(std::int64_t overrun_ns) noexcept {
     const bool overrun = overrun_ns > 0;
     in_row_ = overrun ? in_row_ + 1 : 0;

@@ -23,7 +23,7 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     const auto joint = static_cast<std::size_t>(i);
     const double position = reading.position[i];
     checked.finite = checked.finite && std::isfinite(position) && std::isfinite(reading.torque[i]);
-    // late by the same each time is as bad as missing; an age may also tell of cycles that were skipped
+    // a constant lateness is as bad as a missing position; an age also counts skipped cycles
     lost_[joint] = reading.age[joint] == 0 ? 0 : lost_[joint] + 1;
     checked.lost = std::max({checked.lost, lost_[joint], reading.age[joint]});
     if (!started_) {
@@ -34,7 +34,7 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     }
     periods_[joint] += periods;
     const bool fresh = reading.age[joint] == 0;
-    // false for what is not a number
+    // false for a NaN
     const bool possible = std::fabs(position - accepted_[i]) <= largest_step_[i] * periods_[joint];
     if (fresh && possible) {
       accepted_[i] = q_[i] = position;

@@ -13,7 +13,7 @@ SignTest::SignTest(const ArmModel& arm, const Parameters& parameters) noexcept
 
 void SignTest::restart() noexcept {
   result_ = Result::kRunning;
-  joint_ = attempt_ = first_way_ = 0;
+  joint_ = attempt_ = first_response_ = 0;
   direction_ = 1.0;
   cycle_ = waits_ = 0;
 }
@@ -27,7 +27,7 @@ SignTest::Result SignTest::update(const JointVector& q, JointVector& torque) noe
   const double deviation = direction_ * (position - begin_ - slope_ * cycle_);
   ++cycle_;
   if (cycle_ <= kStillCycles) return result_;
-  // what springs back from the push before is on no straight line: it is waited for, a steady drift is not
+  // a joint that springs back from the push before is on no straight line: wait for it, but not for a steady drift
   if (cycle_ == kStillCycles + 1 && std::fabs(position - begin_) > kAtRest * motion_ && ++waits_ < kWaits) {
     cycle_ = 0;
     return result_;
@@ -42,21 +42,21 @@ SignTest::Result SignTest::update(const JointVector& q, JointVector& torque) noe
   return result_;
 }
 
-void SignTest::finish_push(int way) noexcept {
+void SignTest::finish_push(int response) noexcept {
   cycle_ = waits_ = 0;
   if (direction_ > 0.0) {
-    first_way_ = way;
+    first_response_ = response;
     direction_ = -1.0;
     return;
   }
   direction_ = 1.0;
-  if (first_way_ == 1 && way == 1) {
+  if (first_response_ == 1 && response == 1) {
     attempt_ = 0;
     if (++joint_ == joint_count_) {
       joint_ = joint_count_ - 1;
       result_ = Result::kPassed;
     }
-  } else if (first_way_ == -1 && way == -1) {
+  } else if (first_response_ == -1 && response == -1) {
     result_ = Result::kWrong;
   } else if (++attempt_ == kAttempts) {
     result_ = Result::kUndecided;

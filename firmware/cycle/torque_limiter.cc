@@ -16,7 +16,7 @@ bool TorqueLimiter::too_fast(const JointVector& qd) const noexcept {
   return (qd.cwiseAbs().array() > limits_.joint_speed_stop * speed_limit_.array()).any();
 }
 
-/// What pushes a fast joint on fades out.
+/// Fades out the torque along the motion of a fast joint.
 JointVector TorqueLimiter::slowed(JointVector rendered, const JointVector& qd) const noexcept {
   for (int i = 0; i < kMaxJoints; ++i) {
     const double begin = limits_.joint_speed * speed_limit_[i];
@@ -39,7 +39,7 @@ JointVector TorqueLimiter::apply(const Decision& decision, const ComputedTorque&
     wanted += decision.test_torque;
     if (decision.share > 0.0) wanted += decision.share * slowed(computed.rendered, qd);
   }
-  if (!wanted.allFinite()) wanted = holding;  // before a clamp makes a number of it
+  if (!wanted.allFinite()) wanted = holding;  // before the clamp, which would turn a NaN into a number
   JointVector torque = wanted.cwiseMax(-torque_limit_).cwiseMin(torque_limit_);
   rate_limited_ = false;
   if (decision.rate_limited) {

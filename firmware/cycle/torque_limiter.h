@@ -5,33 +5,40 @@
 
 namespace godobject::firmware {
 
+/// Limits of the torque limiter. The defaults are those of the controller file, whose ranges stand in
+/// firmware/configuration/controller_file.cc.
 struct TorqueLimits {
-  double rate = 0.05;             ///< largest change in a cycle, share of a joint's torque limit
-  double joint_speed = 0.8;       ///< share of a joint's speed limit from which on pushing along the motion fades out
-  double joint_speed_stop = 1.0;  ///< share at which nothing pushes along; beyond it is a fault
+  /// Largest change in a cycle: share of a joint's torque limit. Chosen: the full torque in 20 cycles, below the cycles
+  /// of `prepare_cycles`; it is also the largest value of the controller file.
+  double rate = 0.05;
+  double joint_speed = 0.8;       ///< share of a joint's speed limit above which torque along the motion fades out
+  double joint_speed_stop = 1.0;  ///< share at which that torque is zero, and above which a joint is too fast: a fault
 };
 
-/// Torques of a cycle that were computed; what of them is sent is the supervisor's decision.
+/// The computed torques of a cycle. The supervisor decides which of them are sent.
 struct ComputedTorque {
-  JointVector holding = JointVector::Zero();   ///< holds the arm [Nm]
-  JointVector rendered = JointVector::Zero();  ///< on top of it [Nm]
+  JointVector holding = JointVector::Zero();   ///< torques that hold the arm [Nm]
+  JointVector rendered = JointVector::Zero();  ///< torques in addition to them [Nm]
 };
 
-/// Last in the cycle, whatever produced the torques: what is granted, then speed, limit, rate, and the finite check.
+/// The last step of a cycle, whatever produced the torques: granted share, joint speed, torque limit, rate, finite
+/// check.
 class TorqueLimiter {
  public:
   TorqueLimiter(const ArmModel& arm, const TorqueLimits& limits) noexcept;
 
-  /// The torques to send [Nm]: finite, within the joints' limits, and where the decision says so no further from the
-  /// last ones than the rate. If what was computed is not finite the arm is held by the last torque that held it.
-  /// `qd`: joint velocities [rad/s]. Cost: 50 ns. Real-time safe.
+  /// The torques to send [Nm]: finite, within the joints' limits and, if the decision is rate-limited, within `rate` of
+  /// the last ones. If a computed torque is not finite the last finite holding torque holds the arm. `qd`: joint
+  /// velocities [rad/s]. Cost: 50 ns. Real-time safe.
   JointVector apply(const Decision& decision, const ComputedTorque& computed, const JointVector& qd) noexcept;
 
-  /// A joint is faster than it may be: a fault.
+  /// Whether a joint is above its stop speed: a fault.
   bool too_fast(const JointVector& qd) const noexcept;
 
-  const JointVector& pushed() const noexcept { return pushed_; }  ///< sent last, without what holds the arm [Nm]
-  bool rate_limited() const noexcept { return rate_limited_; }    ///< in the last cycle
+  const JointVector& pushed() const noexcept {
+    return pushed_;
+  }  ///< last sent torques without those that hold the arm [Nm]
+  bool rate_limited() const noexcept { return rate_limited_; }  ///< in the last cycle
 
  private:
   JointVector slowed(JointVector rendered, const JointVector& qd) const noexcept;
@@ -42,7 +49,7 @@ class TorqueLimiter {
   JointVector sent_ = JointVector::Zero();
   JointVector pushed_ = JointVector::Zero();
   JointVector holding_ = JointVector::Zero();
-  JointVector faded_ = JointVector::Zero();  // what a FADE begins with
+  JointVector faded_ = JointVector::Zero();  // torques at the beginning of a FADE
   bool rate_limited_ = false;
 };
 

@@ -12,45 +12,45 @@
 
 namespace godobject::firmware {
 
+/// Settings of `run_controller`.
 struct RunSetup {
-  std::uint64_t cycles = 0;  ///< after which it ends by itself; 0: never
+  std::uint64_t cycles = 0;  ///< cycles until the run ends; 0: no limit
   std::uint32_t every = 1;   ///< cycles a telemetry record
-  /// Of the machine, for the time that computing takes; in virtual time it takes none.
+  /// The machine's clock, to measure computing time; the loop's own clock stands still meanwhile in virtual time.
   hal::Clock* stopwatch = nullptr;
-  std::int64_t compute_ns = 0;  ///< that computing may take by the bus plan
+  std::int64_t compute_ns = 0;  ///< computing time in the bus plan
 };
 
-/// How a run stands in a cycle, for who tells the operator.
+/// The state of a run for the thread that informs the operator.
 struct Standing {
   Mode mode = Mode::kBoot;
   Fault fault = Fault::kNone;
   hal::Alarm alarm = hal::Alarm::kNone;
-  std::int8_t alarm_joint = -1;  ///< whose alarm; -1: nobody's alone
+  std::int8_t alarm_joint = -1;  ///< joint of the alarm; -1: no single joint
 };
 static_assert(std::atomic<Standing>::is_always_lock_free);
 
-/// What a run leaves beside its records.
+/// The figures of a run for its summary.
 struct RunReport {
   LoopStatistics loop;
-  DurationHistogram computing;    ///< of a cycle, by the stopwatch
-  DurationHistogram round_trip;   ///< end of SYNC to the end of the last sample; for a reader that knows it
-  std::uint64_t beyond_plan = 0;  ///< cycles in which it took longer than the bus plan gives it
-  double largest_force = 0.0;     ///< rendered at the hand [N]
-  double largest_torque = 0.0;    ///< [Nm]
-  double deepest = 0.0;           ///< of the god object while something was rendered [m]
-  std::uint64_t rendering = 0;    ///< cycles with something granted
-  std::uint64_t in_contact = 0;   ///< of those, with a force
-  std::array<std::uint64_t, kModeCount> in_mode{};  ///< cycles
-  /// Cycles in a row that it has waited for the operator, in kIdle or kArmed; another thread may look at it.
-  std::atomic<std::uint32_t> waiting{0};
-  std::atomic<Standing> standing{};  ///< another thread may look at it
+  DurationHistogram computing;                      ///< computing time of a cycle, by the stopwatch
+  DurationHistogram round_trip;                     ///< from the request to the last sample; filled by the reader
+  std::uint64_t beyond_plan = 0;                    ///< cycles that computed for longer than `compute_ns`
+  double largest_force = 0.0;                       ///< largest rendered force at the hand [N]
+  double largest_torque = 0.0;                      ///< largest rendered torque at the hand [Nm]
+  double deepest = 0.0;                             ///< largest penetration of the god object while rendering [m]
+  std::uint64_t rendering = 0;                      ///< cycles with a rendered share above 0
+  std::uint64_t in_contact = 0;                     ///< of those, cycles with a force
+  std::array<std::uint64_t, kModeCount> in_mode{};  ///< cycles in each mode
+  std::atomic<std::uint32_t> waiting{0};            ///< cycles in a row in kIdle or kArmed; other threads may read it
+  std::atomic<Standing> standing{};                 ///< of the last cycle; other threads may read it
 };
 
-/// A fault in it ends the run: what was found wrong before anything was rendered will not mend itself.
+/// Whether the fault ends the run: a fault that was found before rendering does not go away by a reset.
 bool refuses_to_start(Fault fault) noexcept;
 
-/// The loop, until the supervisor has ended it, or has refused to start. Every record goes to `ring`, from which
-/// `reader()` is called once a cycle: in virtual time it is what another thread does else. Real-time safe if `reader`
+/// Runs the loop until the supervisor has ended it or has refused to start. Every record goes to `ring`. `reader()` is
+/// called once a cycle after that: in virtual time it does the work of the other threads. Real-time safe if `reader`
 /// is.
 template <class Reader>
 void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycle, RunRequests& requests,

@@ -8,8 +8,8 @@
 
 namespace godobject::firmware {
 
-/// How often durations of which length occurred: buckets 1/16 of an octave wide, exact below 16 ns; of fixed size.
-/// Negative durations count as zero. Cost of `add`: 2 ns. Real-time safe.
+/// A histogram of durations with a fixed size: buckets are 1/16 of an octave wide, and exact below 16 ns. Negative
+/// durations count as zero. Cost of `add`: 2 ns. Real-time safe.
 class DurationHistogram {
  public:
   void add(std::int64_t duration_ns) noexcept {
@@ -22,8 +22,7 @@ class DurationHistogram {
   std::uint64_t count() const noexcept { return count_; }
   std::int64_t largest_ns() const noexcept { return largest_; }
 
-  /// The smallest length that a share of all, 0 .. 1, does not exceed, rounded up to its bucket's end; 0 if there are
-  /// none.
+  /// The quantile of `share`, 0 .. 1, rounded up to the end of its bucket [ns]; 0 without durations.
   std::int64_t quantile_ns(double share) const noexcept {
     const double wanted = share * static_cast<double>(count_);
     std::uint64_t seen = 0;
@@ -35,7 +34,7 @@ class DurationHistogram {
   }
 
  private:
-  static constexpr int kBits = 4;  // of an octave
+  static constexpr int kBits = 4;  // 2^kBits buckets an octave: a bucket's end is at most 1/16 above its beginning
   static constexpr std::size_t kBuckets = (64 - kBits + 1) << kBits;
 
   static std::size_t bucket(std::uint64_t ns) noexcept {

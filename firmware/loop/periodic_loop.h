@@ -9,12 +9,12 @@
 
 namespace godobject::firmware {
 
-/// When a cycle woke and how long it took: the scheduler's fault, and ours.
+/// Times of one cycle: lateness, which is the scheduler's, and computing time, which is the controller's.
 struct CycleTimes {
-  std::int64_t deadline_ns = 0;      ///< at which it should have woken
-  std::int64_t late_ns = 0;          ///< by which it woke later
-  std::int64_t collect_late_ns = 0;  ///< by which it woke later for the samples it had asked for
-  std::int64_t compute_ns = 0;
+  std::int64_t deadline_ns = 0;      ///< planned time of waking
+  std::int64_t late_ns = 0;          ///< lateness of waking
+  std::int64_t collect_late_ns = 0;  ///< lateness of waking for the samples
+  std::int64_t compute_ns = 0;       ///< duration of `body`
 };
 
 struct LoopStatistics {
@@ -23,15 +23,14 @@ struct LoopStatistics {
   DurationHistogram compute;
 };
 
-/// Calls `request()` and, `collect_ns` later, `body(events)` once a period, at absolute deadlines so that errors do not
-/// add up, until `body` returns false.
-/// `after(times)` follows each call, once the next deadline is known: it is for records and does not count as
-/// computing.
+/// Calls `request()` and, `collect_ns` later, `body(events)` once a period until `body` returns false. Deadlines are
+/// absolute, so errors do not accumulate. `after(times)` follows each `body`, after the next deadline is known: it is
+/// for records, and its duration is not computing time.
 ///
-/// Overruns: a cycle that ends after the next one should have begun, or wakes a period late. Deadlines that have passed
-/// by then are left out, never made up for in a burst. A cycle is told of its own late waking and of what the cycle
-/// before took too long, each once, and how many periods went by without a call since the last one: counted from waking
-/// to waking, since that is when positions are taken. Real-time safe if `body` and `after` are.
+/// Overruns: a cycle ends after the next one should have begun, or wakes a period late. Deadlines that have passed by
+/// then are skipped, never made up for in a burst. `events` reports to a cycle, each once, its own late waking and the
+/// time by which the previous cycle ended late. It also reports the periods without a call since the previous one,
+/// counted from waking to waking, which is when positions are sampled. Real-time safe if `body` and `after` are.
 template <class Request, class Body, class After>
 void run_periodically(hal::Clock& clock, std::int64_t period_ns, std::int64_t collect_ns, LoopStatistics& statistics,
                       Request&& request, Body&& body, After&& after) noexcept {

@@ -1,5 +1,6 @@
 #include "firmware/machine/can_interfaces.h"
 
+#include <linux/can.h>
 #include <linux/can/netlink.h>
 #include <linux/if.h>
 #include <linux/if_arp.h>
@@ -17,12 +18,14 @@
 namespace godobject::firmware {
 namespace {
 
-constexpr int kFdMtu = 72;
-constexpr int kTransmitQueue = 1000;  // [frames]; the kernel's 10 is full after one cycle
+constexpr int kFdMtu = CANFD_MTU;
+/// Length of the transmit queue [frames]. Chosen: 1000 is the default of other network interfaces. The default of CAN,
+/// 10, is full after one cycle of seven joints on a bus (SYNC, heartbeat, SDO, RPDOs) if the bus stalls.
+constexpr int kTransmitQueue = 1000;
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// The beginning of `bytes` as a T; zeros if there is less.
+/// The first bytes as a T; zeros if there are too few.
 template <class T>
 T read(Bytes bytes) {
   T value{};
@@ -35,7 +38,7 @@ std::string read_text(Bytes bytes) {
   return text.substr(0, text.find('\0'));
 }
 
-/// Calls `use(type, payload)` for each attribute of a list; a broken list ends where it breaks.
+/// Calls `use(type, payload)` for each attribute of a list, up to the first broken one.
 template <class Use>
 void for_attributes(Bytes list, Use&& use) {
   while (list.size() >= sizeof(rtattr)) {
@@ -76,7 +79,7 @@ void read_kind(Bytes list, CanInterface& interface) {
   if (interface.kind == "can") read_controller(data, interface);
 }
 
-/// How `ip` sets the interface up as the layout wants it.
+/// The `ip` command that sets the interface up for the layout.
 std::string setting_up(const std::string& name, const hal::BusLayout& layout) {
   const std::string fd = layout.fd ? fmt::format(" dbitrate {:.0f} fd on", layout.data_rate) : "";
   return fmt::format("ip link set {0} down; ip link set {0} up txqueuelen {1} type can bitrate {2:.0f}{3} restart-ms 0",
@@ -85,19 +88,20 @@ std::string setting_up(const std::string& name, const hal::BusLayout& layout) {
 
 Finding good(const std::string& what) { return {.good = true, .what = what, .cure = "", .needed = false}; }
 
-/// What a bus does not work without.
+/// A lack without whose cure the bus does not work.
 Finding missing(const std::string& what, const std::string& cure) {
   return {.good = false, .what = what, .cure = cure, .needed = true};
 }
 
-/// What it does work without, for a while.
+/// A lack with which the bus works for now.
 Finding doubtful(const std::string& what, const std::string& cure) {
   return {.good = false, .what = what, .cure = cure, .needed = false};
 }
 
+/// Equal to a thousandth: CAN controllers divide their clock and do not reach every rate exactly.
 bool is_rate(std::uint32_t have, double wanted) { return std::abs(have - wanted) <= 0.001 * wanted; }
 
-/// What only an interface with a controller can lack.
+/// Checks of an interface with a controller.
 void examine_controller(const CanInterface& interface, const hal::BusLayout& layout, std::vector<Finding>& findings) {
   const std::string& name = interface.name;
   if (!is_rate(interface.bit_rate, layout.bit_rate)) {
@@ -111,8 +115,8 @@ void examine_controller(const CanInterface& interface, const hal::BusLayout& lay
                                setting_up(name, layout)));
   }
   if (!interface.echoes) {
-    findings.push_back(missing(name + ": its driver does not tell when a frame has been on the wire",
-                               "use an adapter whose driver has IFF_ECHO; slcan of old kernels has not"));
+    findings.push_back(missing(name + ": its driver does not report when a frame was on the wire",
+                               "use an adapter whose driver has IFF_ECHO; slcan of old kernels does not"));
   }
   if (interface.listen_only) {
     findings.push_back(missing(name + ": listens only",
@@ -120,27 +124,26 @@ void examine_controller(const CanInterface& interface, const hal::BusLayout& lay
   }
   if (interface.bus_off) {
     findings.push_back(
-        missing(name + ": its controller has left the bus after errors",
+        missing(name + ": its controller is bus-off after errors",
                 "check wires, termination (120 ohm at both ends) and bit rate; then " + setting_up(name, layout)));
   }
   if (interface.passive) {
     findings.push_back(
-        doubtful(name + ": its controller's error counters are high",
+        doubtful(name + ": its controller is error-passive",
                  "check wires, termination (120 ohm at both ends) and bit rate, and that a drive is switched on"));
   }
   if (interface.transmit_queue < kTransmitQueue) {
     findings.push_back(
-        doubtful(fmt::format("{}: txqueuelen {}; a burst may find it full", name, interface.transmit_queue),
+        doubtful(fmt::format("{}: txqueuelen {} is short; a burst may fill it", name, interface.transmit_queue),
                  fmt::format("ip link set {} txqueuelen {}", name, kTransmitQueue)));
   }
   if (interface.restart_ms != 0) {
-    findings.push_back(missing(
-        fmt::format("{}: comes back {} ms after it has left the bus, with nobody asked", name, interface.restart_ms),
-        setting_up(name, layout)));
+    findings.push_back(missing(fmt::format("{}: restarts by itself {} ms after bus-off", name, interface.restart_ms),
+                               setting_up(name, layout)));
   }
 }
 
-/// A socket that is closed in the end.
+/// An rtnetlink socket, closed by the destructor.
 class NetlinkSocket {
  public:
   NetlinkSocket() : descriptor_(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE)) {}
@@ -207,7 +210,7 @@ std::optional<CanInterface> read_can_interface(const std::string& name) {
 
 std::vector<Finding> examine_can_interface(const CanInterface& interface, const hal::BusLayout& layout) {
   const std::string& name = interface.name;
-  if (!interface.can) return {missing(name + ": not a CAN interface", "ip link show type can shows those")};
+  if (!interface.can) return {missing(name + ": not a CAN interface", "ip link show type can lists CAN interfaces")};
   const bool simulated = interface.kind != "can";
   std::vector<Finding> findings;
   if (!interface.up) {
@@ -232,9 +235,10 @@ std::vector<Finding> examine_can_interfaces(std::span<const std::string> names, 
   for (const std::string& name : names) {
     const std::optional<CanInterface> interface = read_can_interface(name);
     if (!interface) {
-      findings.push_back(missing(
-          name + ": no such interface",
-          "ip link show type can shows those that are there; a simulated one: ip link add dev " + name + " type vcan"));
+      findings.push_back(
+          missing(name + ": no such interface",
+                  "ip link show type can lists the existing ones; for a simulated one: ip link add dev " + name +
+                      " type vcan"));
       continue;
     }
     for (Finding& finding : examine_can_interface(*interface, layout)) findings.push_back(std::move(finding));

@@ -15,7 +15,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The file's first line; nothing if it cannot be read.
+/// The first line of a file; none if it cannot be read.
 std::optional<std::string> first_line(const Path& file) {
   std::ifstream stream(file);
   std::string line;
@@ -23,7 +23,7 @@ std::optional<std::string> first_line(const Path& file) {
   return line;
 }
 
-/// Whether a list such as 1-3,6 has it.
+/// Whether a list such as 1-3,6 contains the number.
 bool has_number(const std::string& list, int number) {
   std::istringstream parts(list);
   std::string part;
@@ -55,7 +55,7 @@ Finding kernel(const Path& root) {
   return {false, fmt::format("kernel: {}", found), fmt::format("apt-get install {} and boot it", package), true};
 }
 
-/// Of this process, as capabilities(7) numbers them.
+/// Whether this process has a capability, by its number in capabilities(7).
 bool has_capability(const Path& root, int number) {
   std::ifstream stream(root / "proc/self/status");
   for (std::string line; std::getline(stream, line);) {
@@ -66,8 +66,8 @@ bool has_capability(const Path& root, int number) {
 }
 
 struct Right {
-  const char* limit;       // as limits.conf names it
-  const char* capability;  // that makes the limit meaningless
+  const char* limit;       // its name in limits.conf
+  const char* capability;  // grants the right whatever the limit
   bool by_capability;
   bool by_limit;
   rlim_t have;
@@ -133,7 +133,8 @@ Finding clock_source(const Path& root) {
   const Path file = root / "sys/devices/system/clocksource/clocksource0/current_clocksource";
   const std::string name = first_line(file).value_or("unknown");
   if (name == "tsc" || name == "arch_sys_counter" || name == "kvm-clock") return {true, "clock source: " + name, ""};
-  return {false, "clock source: " + name + ", slow to read", "boot with tsc=reliable if the processor's counter is"};
+  return {false, "clock source: " + name + ", which is slow to read",
+          "boot with tsc=reliable if the processor's counter is"};
 }
 
 Finding throttling(const Path& root) {
@@ -143,7 +144,7 @@ Finding throttling(const Path& root) {
   if (!runtime) return {false, fmt::format("real-time throttling: {} cannot be read", file.string()), "mount /proc"};
   if (*runtime == "-1") return {true, "real-time throttling: off", ""};
   if (*runtime == "0") {
-    return {false, "real-time throttling: real-time threads get no time at all",
+    return {false, "real-time throttling: real-time threads get no time",
             fmt::format("echo 950000 > {}", file.string()), true};
   }
   return {

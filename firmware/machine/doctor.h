@@ -7,9 +7,9 @@
 
 namespace godobject::firmware {
 
-/// What the machine has of a real-time kernel, rights (by limits or by capabilities: being root is not enough), an
-/// isolated processor, full clock rate, a quick clock source, unthrottled real-time threads and CAN. `cpu`: that the
-/// loop is to be bound to, -1 for none; `priority` is the loop's. `root`: where /proc and /sys are.
+/// Checks this machine for real-time work: real-time kernel, rights (by limits or by capabilities; being root is not
+/// enough), isolated processor, full clock rate, fast clock source, unthrottled real-time threads, CAN. `cpu`: the
+/// loop's processor, -1: none; `priority`: of the loop. `root`: the folder with /proc and /sys.
 std::vector<Finding> examine_machine(int cpu, int priority, const std::filesystem::path& root = "/");
 
 }  // namespace godobject::firmware

@@ -6,19 +6,19 @@
 namespace godobject::firmware {
 
 struct RealTimeSettings {
-  int cpu = -1;       ///< that the thread is bound to; -1: none
-  int priority = 80;  ///< SCHED_FIFO
+  int cpu = -1;       ///< processor of the thread; -1: any
+  int priority = 80;  ///< of SCHED_FIFO
 };
 
-/// Makes the calling thread a real-time one: memory locked, present and to come; the stack touched so that it needs no
-/// page later; bound to its processor; SCHED_FIFO. Returns what was not permitted, one line each with its cure; empty
-/// if nothing is missing.
+/// Makes the calling thread a real-time thread: locks present and future memory, touches the stack so that it causes no
+/// page fault later, binds the thread to its processor, sets SCHED_FIFO. Returns one line with the cure for each right
+/// that is missing.
 std::vector<std::string> set_up_real_time(const RealTimeSettings& settings);
 
-/// Page faults of the calling thread so far.
+/// Number of page faults of the calling thread so far.
 long page_faults() noexcept;
 
-/// One line: kernel, processors, load. For figures, which mean nothing without.
+/// Kernel, processors and load as one line: figures of a run mean nothing without them.
 std::string describe_machine();
 
 }  // namespace godobject::firmware

@@ -1,5 +1,7 @@
 #include "firmware/records/bus_log_writer.h"
 
+#include <linux/can.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -10,16 +12,17 @@
 namespace godobject::firmware {
 namespace {
 
-constexpr std::uint64_t kFramesAtOnce = 256;
+constexpr std::uint64_t kFramesAtOnce = 256;  // frames a write call; chosen: some 10 KiB of text
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-// of pcap
+// the pcap format, and struct can_frame and canfd_frame of linux/can.h
 constexpr std::uint32_t kMagicOfNanoseconds = 0xA1B23C4D;
 constexpr std::uint16_t kMajorVersion = 2;
 constexpr std::uint16_t kMinorVersion = 4;
 constexpr std::uint32_t kLinkTypeCanSocketcan = 227;
 constexpr std::uint32_t kFrameBytes = 16;
 constexpr std::uint32_t kFdFrameBytes = 72;
+static_assert(kFrameBytes == sizeof(can_frame) && kFdFrameBytes == sizeof(canfd_frame));
 constexpr std::uint8_t kFdHigherRate = 0x01;  // CANFD_BRS
 constexpr std::uint8_t kFdFormat = 0x04;      // CANFD_FDF
 
@@ -48,7 +51,7 @@ std::string pcap_header() {
   append_number(kMinorVersion, bytes);
   append_number(std::uint32_t{0}, bytes);  // time zone
   append_number(std::uint32_t{0}, bytes);  // accuracy
-  append_number(kFdFrameBytes, bytes);     // longest packet
+  append_number(kFdFrameBytes, bytes);     // length of the longest packet
   append_number(kLinkTypeCanSocketcan, bytes);
   return bytes;
 }

@@ -17,7 +17,7 @@ LogFile::LogFile(const std::filesystem::path& file) : path_(file) {
   const std::filesystem::path folder = file.parent_path();
   std::error_code error;
   if (std::filesystem::create_directories(folder, error); error) {
-    throw command::Failure(command::ExitCode::kIo, fmt::format("{}: no folder can be made there ({}); name another one",
+    throw command::Failure(command::ExitCode::kIo, fmt::format("{}: cannot make this folder ({}); name another one",
                                                                folder.string(), error.message()));
   }
   descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);

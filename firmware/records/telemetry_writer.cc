@@ -7,14 +7,14 @@
 namespace godobject::firmware {
 namespace {
 
-constexpr std::uint64_t kRowsAtOnce = 64;
+constexpr std::uint64_t kRowsAtOnce = 64;  // rows a write call; chosen: some 40 KiB of text
 
 std::string header(int joint_count) {
   std::string text = "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost";
   for (const char* column : {"q{}_rad", "qd{}_rad_s", "torque{}_Nm"}) {
     for (int i = 1; i <= joint_count; ++i) text += ',' + fmt::format(fmt::runtime(column), i);
   }
-  for (const char* frame : {"d", "g"}) {  // device pose and god object, as godobject-replay names them
+  for (const char* frame : {"d", "g"}) {  // device pose and god object, with the column names of godobject-replay
     text += fmt::format(",{0}px_m,{0}py_m,{0}pz_m,{0}qw,{0}qx,{0}qy,{0}qz", frame);
   }
   return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m\n";

@@ -15,7 +15,7 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-/// Poses of the mesh in the scene -> of the tool's frame T in the room, where the simulated hand would have it.
+/// Turns poses H_WM of the mesh in the scene into poses H_RT of the tool frame in the room.
 std::vector<Pose> in_room(const std::vector<Pose>& path, const Placement& placement) {
   const Pose& H_WR = placement.mapping.H_WR;
   const Pose H_MT = placement.H_TM.inverse();
@@ -23,15 +23,15 @@ std::vector<Pose> in_room(const std::vector<Pose>& path, const Placement& placem
   room.reserve(path.size());
   for (const Pose& H_WM : path) {
     Pose H_RM;
-    const Vector3 p_R_W = H_WM.translation - H_WR.translation;
-    H_RM.translation = H_WR.rotation.conjugate()._transformVector(p_R_W) / placement.mapping.scale;
+    const Vector3 p_RM_W = H_WM.translation - H_WR.translation;
+    H_RM.translation = H_WR.rotation.conjugate()._transformVector(p_RM_W) / placement.mapping.scale;
     H_RM.rotation = (H_WR.rotation.conjugate() * H_WM.rotation).normalized();
     room.push_back(H_RM * H_MT);
   }
   return room;
 }
 
-/// The same way in `slower` times the time, at 1 ms a pose.
+/// The path in `slower` times its duration, still 1 ms a pose.
 std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
   const auto rows = static_cast<std::size_t>(slower * static_cast<double>(path.size() - 1)) + 1;
   std::vector<Pose> longer;
@@ -53,11 +53,13 @@ std::vector<Pose> read_path(const ControllerConfig& config, const Placement& pla
   std::vector<Pose> path = command::read_pose_path(config.simulation.path).poses;
   for (Pose& pose : path) {
     if (!pose.is_finite() || !(pose.rotation.norm() > 0.999 && pose.rotation.norm() < 1.001)) {
-      throw Failure(ExitCode::kBadData, fmt::format("{}: has a row that is no pose", config.simulation.path.string()));
+      throw Failure(ExitCode::kBadData, fmt::format("{}: has a row with an invalid pose; check its quaternions",
+                                                    config.simulation.path.string()));
     }
     pose.rotation.normalize();
   }
   path = in_room(path, placement);
+  // tolerances chosen: across them the hand's spring (300 N/m, 3 Nm/rad) pulls with 3 N and 0.15 Nm
   const double gap = (path.front().translation - rest.translation).norm();
   if (gap > 0.01 || path.front().rotation.angularDistance(rest.rotation) > 0.05) {
     throw Failure(

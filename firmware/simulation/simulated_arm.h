@@ -11,12 +11,12 @@
 
 namespace godobject::firmware {
 
-/// The simulated arm of a controller file, at the workspace's posture, and a hand that follows its path in the room, or
-/// holds the tool where it is. What drives it is somebody else's: nothing moves by itself.
+/// The simulated arm of a controller file at the workspace's posture, and a hand that follows simulation.path or holds
+/// the tool at rest. Drives, which are not part of it, move it in time.
 class SimulatedArm {
  public:
-  /// Reads simulation.path if there is one. Throws command::Failure: kNoInput or kBadData if it cannot be read or has a
-  /// row that is no pose, kBadConfig if it begins elsewhere than the tool.
+  /// Reads simulation.path if there is one. Throws command::Failure: kNoInput or kBadData if it cannot be read or has
+  /// an invalid pose, kBadConfig if its first pose is not the tool's.
   SimulatedArm(const ControllerConfig& config, const Placement& placement);
 
   SimulatedArm(const SimulatedArm&) = delete;
@@ -28,10 +28,10 @@ class SimulatedArm {
   int joint_count() const noexcept { return plant_.joint_count(); }
   std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
   double path_seconds() const noexcept { return 1e-3 * static_cast<double>(path_.size()); }
-  double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< on the tool, since the start [J]
+  double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< work on the tool since the start [J]
 
  private:
-  std::vector<Pose> path_;  // of the tool's frame T in the room, 1 ms apart
+  std::vector<Pose> path_;  // H_RT of the tool frame of the device file, 1 ms apart
   std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
   sim::Plant plant_;
 };

@@ -48,14 +48,14 @@ std::string explain(const hal::BringUpResult& result, const std::vector<std::str
     case hal::BringUpStatus::kSecondMaster: more = fmt::format("COB-ID {:03X}", result.found); break;
     case hal::BringUpStatus::kRefused: more = fmt::format("abort code {:08X}", result.found); break;
     case hal::BringUpStatus::kWrongSize:
-      more = fmt::format("{} bytes in place of {}", result.found, result.expected);
+      more = fmt::format("{} bytes instead of {}", result.found, result.expected);
       break;
     case hal::BringUpStatus::kWrongValue:
-      more = fmt::format("0x{:X} in place of 0x{:X}", result.found, result.expected);
+      more = fmt::format("0x{:X} instead of 0x{:X}", result.found, result.expected);
       break;
     case hal::BringUpStatus::kTooLow: more = fmt::format("{}, at least {}", result.found, result.expected); break;
     case hal::BringUpStatus::kWrongRatio:
-      more = fmt::format("{:.9g} in place of {:.9g}", result.ratio_found, result.ratio_expected);
+      more = fmt::format("{:.9g} instead of {:.9g}", result.ratio_found, result.ratio_expected);
       break;
     default: break;
   }
@@ -70,15 +70,16 @@ std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std
   if (alarm.id != 0) append(more, fmt::format("COB-ID {:03X}", alarm.id));
   if (alarm.alarm == hal::Alarm::kDriveError) append(more, fmt::format("error code {:04X}", alarm.found));
   if (alarm.alarm == hal::Alarm::kDriveError && alarm.found == hal::canopen::kRpdoTimeout) {
-    append(more,
-           "torques stayed away for longer than bus.command_deadline: the loop was late, or the bus lost them; run "
-           "godobject-controller doctor");
+    append(
+        more,
+        "torque frames were missing for longer than bus.command_deadline: the loop was late, or the bus lost them; run "
+        "godobject-controller doctor");
   }
   if (alarm.alarm == hal::Alarm::kWrongMode && alarm.index != 0) {
-    append(more, fmt::format("mode {} in place of {}", static_cast<std::int32_t>(alarm.found), alarm.expected));
+    append(more, fmt::format("mode {} instead of {}", static_cast<std::int32_t>(alarm.found), alarm.expected));
   }
   if (alarm.alarm == hal::Alarm::kParameterChanged) {
-    append(more, fmt::format("0x{:X} in place of 0x{:X}", alarm.found, alarm.expected));
+    append(more, fmt::format("0x{:X} instead of 0x{:X}", alarm.found, alarm.expected));
   }
   return at(where, describe(alarm.alarm), more);
 }

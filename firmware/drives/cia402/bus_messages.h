@@ -9,14 +9,14 @@
 
 namespace godobject::firmware {
 
-/// Why the nodes could not be started, as one clause: interface, node, joint, object, numbers, cure. `interfaces`: the
-/// buses' names in their order.
+/// The reason of a failed start as one clause: interface, node, joint, object, numbers, cure. `interfaces`: names of
+/// the buses, bus 0 first.
 std::string explain(const hal::BringUpResult& result, const std::vector<std::string>& interfaces);
 
-/// The same of an alarm in mid-run.
+/// The reason of an alarm as one clause, in the same form.
 std::string explain(const hal::cia402::AlarmDetail& alarm, const std::vector<std::string>& interfaces);
 
-/// Two lines of what went over the buses.
+/// Figures of the buses as two lines.
 std::string bus_summary(const hal::CanStatistics& statistics, int joint_count);
 
 }  // namespace godobject::firmware

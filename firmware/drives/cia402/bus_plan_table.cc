@@ -10,8 +10,9 @@
 namespace godobject::firmware {
 namespace {
 
-constexpr double kFastest = 1e6;    // [bit/s] of the bits that arbitrate
-constexpr double kHandLever = 0.5;  // [m], to give a torque step as a force at the hand
+constexpr double kFastest = 1e6;  // largest bit rate of the arbitration, ISO 11898-1 [bit/s]
+constexpr double kHandLever =
+    0.5;  // lever with which a torque step is shown as a force; chosen, half an arm's reach [m]
 
 double us(std::int64_t ns) { return 1e-3 * static_cast<double>(ns); }
 
@@ -49,8 +50,9 @@ std::string bus_plan_objection(const hal::BusLayout& layout, const hal::BusPlan&
     const hal::BusLoad& load = plan.buses[bus];
     if (load.fits) continue;
     return fmt::format(
-        "bus {}: a cycle needs {:.0f} us of {:.0f} with {} joint{}{}; put fewer on it, {}lower what the controller may "
-        "compute ({:.0f} us) or use CAN FD",
+        "bus {}: a cycle needs {:.0f} us of {:.0f} with {} joint{}{}; put fewer on it, {}lower loop.compute ({:.0f} "
+        "us) or "
+        "use CAN FD",
         bus, us(std::max(load.end_ns, load.slot_ns)), 1e6 * layout.period, load.joints, load.joints == 1 ? "" : "s",
         load.panel ? " and the panel" : "", layout.bit_rate < kFastest ? "raise bus.bit_rate, " : "",
         1e6 * layout.compute);

@@ -6,11 +6,11 @@
 
 namespace godobject::firmware {
 
-/// The plan for the user's eye: a line a bus with its worst case in microseconds, then collection, delay and each
-/// joint's torque step. Each line ends with a line feed.
+/// The plan as a table for the user: one line a bus with its worst case in microseconds, then collection time, delay
+/// and each joint's torque step. Each line ends with a line feed.
 std::string bus_plan_table(const hal::BusLayout& layout, const hal::BusPlan& plan);
 
-/// Which bus does not fit, by how much, and what helps, as one line without its end; empty if all fit.
+/// The first bus that does not fit, the excess and the cure, as one line without a line feed; empty if all buses fit.
 std::string bus_plan_objection(const hal::BusLayout& layout, const hal::BusPlan& plan);
 
 }  // namespace godobject::firmware

@@ -16,7 +16,9 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-constexpr int kEnoughReceiveBuffer = 1 << 18;  // [bytes]; 50 cycles of seven joints on one bus
+/// Receive buffer without a warning [bytes]. Derived: at some 800 bytes a frame, as the kernel counts them
+/// (SocketCanOptions), and 18 frames a cycle of seven joints on one bus it holds 18 cycles.
+constexpr int kEnoughReceiveBuffer = 1 << 18;
 
 }  // namespace
 
@@ -32,12 +34,13 @@ std::vector<std::string> split_names(const std::string& names) {
 
 CanBuses::CanBuses(const std::vector<std::string>& interfaces, const hal::BusLayout& layout) {
   if (static_cast<int>(interfaces.size()) != layout.bus_count) {
-    throw Failure(ExitCode::kBadConfig,
-                  fmt::format("--bus names {} CAN interfaces, the device has {} buses; name one each, bus 0 first",
-                              interfaces.size(), layout.bus_count));
+    throw Failure(
+        ExitCode::kBadConfig,
+        fmt::format("--bus names {} CAN interfaces, the device has {} buses; name one for each bus, bus 0 first",
+                    interfaces.size(), layout.bus_count));
   }
   if (std::set<std::string>(interfaces.begin(), interfaces.end()).size() != interfaces.size()) {
-    throw Failure(ExitCode::kBadConfig, "--bus names an interface twice; name another one for each bus");
+    throw Failure(ExitCode::kBadConfig, "--bus names an interface twice; name a different one for each bus");
   }
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const std::string& name = interfaces[i];
@@ -51,7 +54,7 @@ CanBuses::CanBuses(const std::vector<std::string>& interfaces, const hal::BusLay
                     fmt::format("--bus {}: {}{}", name, describe(result.status), system));
     }
     if (result.receive_buffer < kEnoughReceiveBuffer) {
-      warnings_.push_back(fmt::format("{}: {} bytes for received frames; sysctl -w net.core.rmem_max={}", name,
+      warnings_.push_back(fmt::format("{}: the receive buffer has only {} bytes; sysctl -w net.core.rmem_max={}", name,
                                       result.receive_buffer, kEnoughReceiveBuffer));
     }
     buses_.push_back(socket.get());

@@ -10,22 +10,22 @@
 
 namespace godobject::firmware {
 
-/// "can0,can1" -> its parts; empty ones stay.
+/// Splits "can0,can1" at its commas; empty parts stay.
 std::vector<std::string> split_names(const std::string& names);
 
-/// The CAN interfaces that a layout's buses are, opened, each with a kernel filter for what its nodes and a master may
-/// send.
+/// The opened CAN interfaces for the buses of a layout. A kernel filter on each passes the frames that its nodes and a
+/// master may send.
 class CanBuses {
  public:
-  /// Throws command::Failure: kBadConfig if their number is not the layout's or one is named twice, kUnavailable naming
-  /// the interface and the cure if one cannot be opened or has another bit rate, kNoPermission if that is not
-  /// permitted.
+  /// Throws command::Failure: kBadConfig if their number is not the layout's or a name occurs twice, kUnavailable
+  /// naming the interface and the cure if it cannot be opened or has another bit rate, kNoPermission if a right is
+  /// missing.
   CanBuses(const std::vector<std::string>& interfaces, const hal::BusLayout& layout);
 
   const std::vector<hal::CanBus*>& buses() const { return buses_; }
   const hal::SocketCan& socket(std::size_t i) const { return *sockets_[i]; }
 
-  /// What is not as it should be, though it may go on: a line each.
+  /// One line for each finding that does not forbid a run.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:

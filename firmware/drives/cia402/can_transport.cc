@@ -72,7 +72,7 @@ std::unique_ptr<CanTransport> open_can_transport(const LinkRequest& request, con
   if (request.transport == kSimulatedTransport) return std::make_unique<SimulatedBuses>(request, layout);
   if (layout.panel.bus < 0) {
     throw Failure(ExitCode::kBadConfig, fmt::format("{}: bus.panel_bus is missing; without a panel there is no "
-                                                    "emergency stop, and only --bus sim may be driven",
+                                                    "emergency stop: add one, or use --bus sim",
                                                     request.config->device.name));
   }
   return std::make_unique<MachineBuses>(request, layout);

@@ -14,8 +14,7 @@ Cia402Link::Cia402Link(const LinkRequest& request, const hal::BusLayout& layout,
   const bool real = transport_->simulated_arm() == nullptr;
   if (real && !(layout_.drive_delay > 0.0)) {
     warnings_.emplace_back(
-        "bus.drive_delay = 0: what the drives take to act on a torque is not in the delay that gains are checked with; "
-        "take it from their manual");
+        "bus.drive_delay = 0: the gain check does not count the drives' own delay; take it from their manual");
   }
 }
 

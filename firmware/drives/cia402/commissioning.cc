@@ -21,12 +21,14 @@ using command::ExitCode;
 using command::Failure;
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
-constexpr int kSettle = 200;    // cycles until all drives answer
-constexpr int kRecover = 1000;  // cycles in which a drive must have come out of its fault
-constexpr int kSeenAfter = 2;   // cycles in which what a drive has sent is taken
+/// Cycles until all drives must answer. Chosen: 25 times the 8 cycles of the probe after a start (CanDrives).
+constexpr int kSettle = 200;
+/// Cycles until a drive must have left its fault. Chosen: half of them with a reset, which takes some 16 cycles
+/// (JointChannel), half for the drive's own transitions.
+constexpr int kRecover = 1000;
 
-/// Writes a mode. Milliseconds until the write was confirmed and TPDO2 told the mode; nothing: it did not within half a
-/// second, or the write was refused.
+/// Writes a mode. Returns the milliseconds until the write was confirmed and TPDO2 showed the mode. None: not within
+/// half a second, or the write was refused.
 std::optional<int> set_mode(hal::CanBus& bus, hal::Clock& clock, int node, std::int8_t mode, bool& refused) {
   using namespace hal::canopen;
   constexpr int kWait_ms = 500;
@@ -58,7 +60,7 @@ void try_mode(hal::CanBus& bus, hal::Clock& clock, int node, JointTrial& trial) 
   if (away && back) trial.mode_after_ms = std::max(*away, *back);
 }
 
-/// Cycles without power.
+/// Runs cycles without power.
 class IdleCycles {
  public:
   IdleCycles(hal::CanDrives& drives, hal::Clock& clock, const std::atomic<bool>& end)
@@ -66,7 +68,7 @@ class IdleCycles {
 
   const hal::JointReading& run(hal::PowerRequest power) {
     if (end_.load(std::memory_order_relaxed)) {
-      throw Failure(ExitCode::kUnavailable, "ended before the deadlines of all joints were tried; none is proven");
+      throw Failure(ExitCode::kUnavailable, "ended before all joints were tested; run it again");
     }
     next_ns_ += kPeriod_ns;
     if (clock_.now_ns() > next_ns_ + kPeriod_ns) next_ns_ = clock_.now_ns();
@@ -90,7 +92,7 @@ class IdleCycles {
   throw Failure(ExitCode::kUnavailable, explain(drives.alarm_detail(), names));
 }
 
-/// All drives answer, none has an alarm.
+/// Waits until all drives answer; then none may have an alarm.
 void settle(IdleCycles& cycles, const hal::CanDrives& drives, const std::vector<std::string>& names) {
   const hal::JointReading* reading = nullptr;
   for (int k = 0; k < kSettle; ++k) reading = &cycles.run(hal::PowerRequest::kOff);
@@ -98,7 +100,7 @@ void settle(IdleCycles& cycles, const hal::CanDrives& drives, const std::vector<
   for (int i = 0; i < drives.joint_count(); ++i) {
     if (reading->state[static_cast<std::size_t>(i)] == hal::DriveState::kOff) continue;
     throw Failure(ExitCode::kUnavailable,
-                  fmt::format("joint {}: is not off before the trial; reset the drive with its own tool", i + 1));
+                  fmt::format("joint {}: the drive is not off before the test; reset it with its own tool", i + 1));
   }
 }
 
@@ -207,15 +209,16 @@ std::string trial_objection(std::span<const JointTrial> trials) {
   if (!late.empty()) {
     text = fmt::format(
         "joint {}: neither emergency 8250 nor a fault in time after the last RPDO; a drive that watches 1400:5 in "
-        "operation enabled only must be tried there, see commissioning in firmware/README.md, before anybody holds the "
-        "arm",
+        "operation enabled only must be tested there, before a person holds the arm: see Commissioning in "
+        "firmware/README.md",
         late);
   }
   if (!untold.empty()) {
     if (!text.empty()) text += "; ";
     text += fmt::format(
-        "joint {}: TPDO2 does not tell a change of mode at once, so that it would be seen within a second only; this "
-        "drive cannot be used",
+        "joint {}: TPDO2 does not show a change of mode at once, so the controller would notice it only within a "
+        "second; "
+        "this drive cannot be used",
         untold);
   }
   return text;

@@ -86,7 +86,7 @@ TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
   EXPECT_EQ(std::count(words_.begin(), words_.end(), '\n'), 1) << words_;
   write_controller("[limits]\nforce = 10000.0\n");
   EXPECT_EQ(run("c.toml"), 78);
-  EXPECT_TRUE(says("limits.force = 10000 N protects nobody")) << words_;
+  EXPECT_TRUE(says("limits.force = 10000 N does not protect the hand of a person")) << words_;
   write_path();
   write_controller("[simulation]\npath = \"path.csv\"\n");
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0.2,0,0.06,1,0,0,0\n";
@@ -114,7 +114,7 @@ TEST_F(ControllerCommandTest, UnitOfSystemdDrivesBuses) {
 
 TEST_F(ControllerCommandTest, NamesTheFolderOfALogThatCannotBeMade) {
   EXPECT_EQ(run("c.toml --duration 0.1 --log c.toml/logs"), 74);
-  EXPECT_TRUE(says("c.toml/logs: no folder can be made there (Not a directory)")) << words_;
+  EXPECT_TRUE(says("c.toml/logs: cannot make this folder (Not a directory)")) << words_;
 }
 
 TEST_F(ControllerCommandTest, SaysWhereItsTimeWentAndThatNothingRendersFromInside) {
