@@ -8,21 +8,21 @@ namespace godobject::hal {
 
 /// Result of handing a frame to a bus.
 enum class SendResult : std::uint8_t {
-  kSent,  ///< handed over; it comes back as an own frame once it has been on the wire
-  kFull,  ///< no room in the queue: lost
+  kSent,  ///< handed over; it returns as an own frame after it was on the wire
+  kFull,  ///< the queue was full: the frame is lost
   kDown,  ///< the interface is down or gone
 };
 
-/// What is known of a bus beside its frames.
+/// State of a bus.
 struct BusHealth {
-  bool down = false;             ///< the interface is down or gone, or has been
-  bool bus_off = false;          ///< the controller has left the bus; nothing starts it again by itself
-  bool passive = false;          ///< the controller's error counters are high
-  std::uint64_t dropped = 0;     ///< received frames that the socket had no room for
-  std::uint64_t errors = 0;      ///< error frames
-  std::uint32_t unreturned = 0;  ///< frames handed over since the last own one came back: beyond what a few cycles
-                                 ///< send, nobody acknowledges
-  std::uint64_t malformed = 0;   ///< frames that are none of CANopen's: extended, remote, impossible lengths
+  bool down = false;          ///< the interface is, or was, down or gone
+  bool bus_off = false;       ///< the controller is bus-off and does not restart by itself
+  bool passive = false;       ///< the controller is error-passive
+  std::uint64_t dropped = 0;  ///< received frames for which the socket had no room
+  std::uint64_t errors = 0;   ///< error frames
+  /// Frames handed over since the last own frame returned. More than a few cycles send: no node acknowledges.
+  std::uint32_t unreturned = 0;
+  std::uint64_t malformed = 0;  ///< frames that CANopen does not have: extended, remote, impossible lengths
 };
 
 /// One CAN bus. `send` and `receive` never block, allocate or throw.
@@ -33,10 +33,10 @@ class CanBus {
   /// Hands a frame over for sending.
   virtual SendResult send(const CanFrame& frame) noexcept = 0;
 
-  /// The oldest frame that has come, own ones included, in the order of the wire. False: there is none.
+  /// Takes the oldest received frame, own ones included, in the order of the wire. False: there is none.
   virtual bool receive(ReceivedFrame& received) noexcept = 0;
 
-  /// As far as `receive` has come.
+  /// The state after the frames that `receive` has taken.
   virtual BusHealth health() const noexcept = 0;
 
  protected:

@@ -13,11 +13,11 @@ struct CanFrame {
   std::array<std::uint8_t, 64> data{};  ///< `length` bytes are valid
 };
 
-/// A frame as it came from the bus.
+/// A received frame.
 struct ReceivedFrame {
   CanFrame frame;            ///< identifier and data
-  std::int64_t time_ns = 0;  ///< of its end on the bus, by a clock that may be set: for logs, never for decisions
-  bool own = false;          ///< sent by this very bus object: it has been on the wire now
+  std::int64_t time_ns = 0;  ///< end of the frame on the bus, by a clock that may be set: for logs and figures only
+  bool own = false;          ///< sent by this bus object, and now on the wire
 };
 
 }  // namespace godobject::hal

@@ -4,7 +4,7 @@
 
 namespace godobject::hal {
 
-/// Time that only goes forward, and waiting for it: the machine's monotonic clock, or virtual time.
+/// Monotonic time and waiting: the machine's clock, or virtual time.
 class Clock {
  public:
   virtual ~Clock() = default;
@@ -12,7 +12,7 @@ class Clock {
   /// Returns the present time [ns].
   virtual std::int64_t now_ns() noexcept = 0;
 
-  /// Returns at `ns` or later, at once if it has passed.
+  /// Waits until `ns`; returns at once if that has passed.
   virtual void sleep_until(std::int64_t ns) noexcept = 0;
 
  protected:

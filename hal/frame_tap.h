@@ -4,8 +4,8 @@
 
 namespace godobject::hal {
 
-/// Is shown every frame that comes from a bus, own ones included, in their order on that bus: for logs. `on_frame` runs
-/// in the cycle: it never blocks, allocates or throws.
+/// Observer, called for every received frame, own ones included, in the order of each bus: for logs. `on_frame` runs in
+/// the cycle: it never blocks, allocates or throws.
 class FrameTap {
  public:
   virtual ~FrameTap() = default;

@@ -7,14 +7,14 @@
 
 namespace godobject::hal {
 
-/// From the loop to one slower thread, without waiting on either side: where the reader does not keep up, the newest
-/// records are lost and counted. One pushes, one pops. Large: static storage.
+/// Lock-free queue from the loop to one slower thread: neither side waits. If the reader is too slow, the newest
+/// records are lost and counted. One thread pushes, one pops. Large: static storage, or the heap before the loop.
 template <class Record, std::size_t kRecords>
 class RecordRing {
  public:
   static constexpr std::size_t kCapacity = kRecords;
 
-  /// The loop's side. Cost: a copy, 100 ns. Real-time safe.
+  /// The loop's side: adds a record, or counts it as lost. Cost: a copy, 100 ns. Real-time safe.
   void push(const Record& record) noexcept {
     const std::size_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_.load(std::memory_order_acquire) == kCapacity) {
@@ -25,7 +25,7 @@ class RecordRing {
     end_.store(end + 1, std::memory_order_release);
   }
 
-  /// The reader's side. False: there is none.
+  /// The reader's side: takes the oldest record. False: there is none.
   bool pop(Record& record) noexcept {
     const std::size_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_.load(std::memory_order_acquire)) return false;
@@ -38,7 +38,7 @@ class RecordRing {
 
  private:
   static_assert(std::atomic<std::size_t>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
-  static_assert((kRecords & (kRecords - 1)) == 0, "so that the places go on where the counters wrap");
+  static_assert((kRecords & (kRecords - 1)) == 0, "a power of two: the index stays continuous where the counters wrap");
 
   std::array<Record, kCapacity> records_;
   alignas(64) std::atomic<std::size_t> begin_{0};

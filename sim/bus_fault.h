@@ -7,25 +7,25 @@
 namespace godobject::sim {
 
 enum class BusFaultKind : std::uint8_t {
-  kFrameDropped,      ///< frames with `id` reach nobody; the controller's own come back to it
-  kFrameDelayed,      ///< they arrive `value` cycles late; it is told from a fresh one if it comes before the next SYNC
-  kFrameDuplicated,   ///< they arrive twice
-  kFrameReordered,    ///< they arrive after the next frame on the bus
-  kFrameLength,       ///< they arrive with `value` bytes
-  kFrameReplaced,     ///< they arrive with the data and the length of `frame`
-  kForeignFrame,      ///< somebody else sends `frame`, `value` times in each cycle as far as the bus has room
-  kEmergency,         ///< `node` sends an emergency message with the code `value`
-  kNodeReset,         ///< `node` starts anew by itself
-  kHeartbeatStops,    ///< `node` sends no heartbeat
-  kSdoRefused,        ///< `node` aborts each SDO transfer with the code `value`
-  kParameterChanged,  ///< object `index`:`sub` of `node` becomes `value`
-  kBusOff,            ///< the controller leaves the bus, and stays away
-  kInterfaceDown,     ///< the controller's interface is down in these cycles
-  kTransmitQueueFull,  ///< the controller's queue takes nothing in these cycles
+  kFrameDropped,       ///< frames with `id` reach no node; the controller's own ones return to it
+  kFrameDelayed,       ///< frames with `id` arrive `value` cycles late
+  kFrameDuplicated,    ///< frames with `id` arrive twice
+  kFrameReordered,     ///< frames with `id` arrive after the next frame on the bus
+  kFrameLength,        ///< frames with `id` arrive with `value` bytes
+  kFrameReplaced,      ///< frames with `id` arrive with the data and the length of `frame`
+  kForeignFrame,       ///< another node sends `frame` `value` times in each cycle, as far as the bus has room
+  kEmergency,          ///< `node` sends an emergency message with the code `value`
+  kNodeReset,          ///< `node` restarts by itself
+  kHeartbeatStops,     ///< `node` sends no heartbeat
+  kSdoRefused,         ///< `node` aborts each SDO transfer with the code `value`
+  kParameterChanged,   ///< object `index`:`sub` of `node` becomes `value`
+  kBusOff,             ///< the controller becomes and stays bus-off
+  kInterfaceDown,      ///< the controller's interface is down in these cycles
+  kTransmitQueueFull,  ///< the controller's transmit queue takes no frame in these cycles
 };
 
-/// What goes wrong on a bus, in which cycles: those from `first_cycle` on, counted from time zero, `cycles` of them.
-/// A drive or panel that boots late or never is one whose supply is lost at first, see DriveFault.
+/// A fault on a bus: it lasts `cycles` cycles from `first_cycle` on, counted from time zero. A drive or panel that
+/// boots late or never is one that has lost its supply at the start, see DriveFault.
 struct BusFault {
   BusFaultKind kind = BusFaultKind::kFrameDropped;
   int bus = 0;
@@ -40,6 +40,7 @@ struct BusFault {
 
   bool is_on(std::int64_t cycle) const noexcept { return cycle >= first_cycle && cycle - first_cycle < cycles; }
   bool begins(std::int64_t cycle) const noexcept { return cycle == first_cycle; }
+  bool ends(std::int64_t cycle) const noexcept { return cycle == first_cycle + cycles; }
 };
 
 }  // namespace godobject::sim

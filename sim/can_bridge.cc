@@ -9,10 +9,10 @@
 namespace godobject::sim {
 namespace {
 
-/// PDOs, SDO responses, emergencies and heartbeats of drives, whoever sent them; no node takes them.
+/// Frames that drives send: PDOs, SDO responses, emergencies and heartbeats. No node takes them, whoever sent them.
 bool is_of_node(std::uint16_t id) noexcept {
   using namespace hal::canopen;
-  constexpr int kMaxNode = 0x7F;  // the controller's own
+  constexpr int kMaxNode = 0x7F;  // the controller's node number
   const int node = id & kMaxNode;
   switch (id - node) {
     case kCobEmergency: return node != 0;
@@ -46,7 +46,7 @@ bool CanBridge::Side::torque_waits() const noexcept {
   return count > 0 && inbox[first].id > hal::canopen::kCobRpdo1 && inbox[first].id < hal::canopen::kCobRpdo1 + 0x80;
 }
 
-/// The oldest frame of a bus goes to the device. A full queue loses it, as a node that is too slow does.
+/// Passes the oldest frame of a bus to the device. If the device's queue is full the frame is lost, as in a slow node.
 void CanBridge::hand_over(int bus) noexcept {
   Side& side = sides_[static_cast<std::size_t>(bus)];
   if (side.torque_waits()) ++side.torques;
@@ -70,7 +70,7 @@ void CanBridge::read() noexcept {
   }
 }
 
-/// Frames that follow SYNC without a torque before them: they have been waiting since it went out.
+/// Passes frames that follow SYNC before any torque: the controller handed them over right after SYNC.
 void CanBridge::pass_on_behind_sync() noexcept {
   for (int i = 0; i < bus_count_; ++i) {
     const Side& side = sides_[static_cast<std::size_t>(i)];
@@ -78,7 +78,8 @@ void CanBridge::pass_on_behind_sync() noexcept {
   }
 }
 
-/// What does not begin a cycle. A SYNC that comes after its cycle was begun without it belongs to that.
+/// Passes frames that do not begin a cycle. A SYNC that arrives after its cycle has begun without it belongs to that
+/// cycle.
 void CanBridge::pass_on(std::int64_t now_ns) noexcept {
   if (in_step_) {
     if (device_.now_ns() < begin_ns_ + collect_ns_) pass_on_behind_sync();
@@ -100,7 +101,7 @@ void CanBridge::pass_on(std::int64_t now_ns) noexcept {
   }
 }
 
-/// Whether the next cycle may begin: all buses have its SYNC, or the missing ones have had their time.
+/// True if the next cycle may begin: all buses have its SYNC, or the time for the missing ones is over.
 bool CanBridge::sync_is_there(std::int64_t now_ns) noexcept {
   const auto waits = [](const Side& side) { return side.sync_waits(); };
   const auto all = sides();
@@ -133,7 +134,7 @@ void CanBridge::begin_cycle() noexcept {
   }
 }
 
-/// From the samples to the time at which the controller takes them.
+/// Advances from the samples to the time at which the controller takes them.
 void CanBridge::collect() noexcept {
   if (device_.now_ns() >= begin_ns_ + collect_ns_) return;
   device_.advance_to(begin_ns_ + collect_ns_);
@@ -145,7 +146,7 @@ bool CanBridge::has_all_torques() const noexcept {
                      [](const Side& side) { return side.torques >= side.joints; });
 }
 
-void CanBridge::go_by_clock(std::int64_t now_ns) noexcept {
+void CanBridge::follow_clock(std::int64_t now_ns) noexcept {
   if (in_step_ && now_ns - begin_clock_ns_ <= 2 * period_ns_) return;
   if (in_step_) ++counters_.left_alone;
   in_step_ = false;
@@ -153,7 +154,7 @@ void CanBridge::go_by_clock(std::int64_t now_ns) noexcept {
   drain();
 }
 
-/// What comes to the device's own ends was sent on when the nodes handed it over.
+/// Empties the device's own ends: their frames were passed on when the nodes handed them over.
 void CanBridge::drain() noexcept {
   hal::ReceivedFrame received;
   for (int i = 0; i < bus_count_; ++i) {
@@ -179,22 +180,22 @@ std::int64_t CanBridge::poll(std::int64_t now_ns) noexcept {
     begin_clock_ns_ = now_ns / period_ns_ * period_ns_;
   }
   read();
-  read();  // what was sent on one bus before a SYNC on another is there now
+  read();  // now also frames that were sent on one bus before a SYNC on another
   const bool begins =
       std::any_of(sides_.begin(), sides_.begin() + bus_count_, [](const Side& side) { return side.sync_waits(); });
-  if (!in_step_ && !begins) go_by_clock(now_ns);
+  if (!in_step_ && !begins) follow_clock(now_ns);
   pass_on(now_ns);
   if (sync_is_there(now_ns)) {
     begin_cycle();
-    return now_ns;  // for what has come meanwhile
+    return now_ns;  // frames may have arrived meanwhile
   }
   if (in_step_) {
     collect();
     if (has_all_torques()) device_.advance_to(begin_ns_ + period_ns_);
   }
-  go_by_clock(now_ns);
+  follow_clock(now_ns);
   if (!in_step_) {
-    // shortly before the times at which SYNC may come, so that there is little left to run through then
+    // to shortly before the next possible SYNC, so that little time is left to simulate then
     const std::int64_t fifth_ns = period_ns_ / 5;
     const std::int64_t since_ns = now_ns - begin_clock_ns_ + fifth_ns / 2;
     return now_ns + fifth_ns - since_ns % fifth_ns;

@@ -27,50 +27,61 @@ CanopenNode* CanDevice::find_node(int bus, int node) noexcept {
   return nullptr;
 }
 
-/// The faults that are no single frame's.
+/// Applies the faults that are not of a single frame.
 void CanDevice::begin_cycle() noexcept {
   if (!faults_.empty()) nodes_.settle();
-  const std::int64_t cycle = nodes_.cycle();
   for (const BusFault& fault : faults_) {
-    LoopbackEnd& end = *ends_[at(fault.bus)];
-    const bool begins = fault.begins(cycle);
-    const bool ends = cycle == fault.first_cycle + fault.cycles;
+    apply_to_wire(fault);
     CanopenNode* node = find_node(fault.bus, fault.node);
-    switch (fault.kind) {
-      case BusFaultKind::kForeignFrame:
-        for (int i = 0; fault.is_on(cycle) && i < static_cast<int>(fault.value); ++i) {
-          if (!wires_[at(fault.bus)]->hand_over(kForeign, fault.frame, now_ns())) break;
-        }
-        break;
-      case BusFaultKind::kEmergency:
-        if (begins && node != nullptr) node->send_emergency(static_cast<std::uint16_t>(fault.value), kGenericError);
-        break;
-      case BusFaultKind::kNodeReset:
-        if (begins && node != nullptr) node->restart(now_ns());
-        break;
-      case BusFaultKind::kHeartbeatStops:
-        if ((begins || ends) && node != nullptr) node->mute_heartbeat(begins);
-        break;
-      case BusFaultKind::kSdoRefused:
-        if ((begins || ends) && node != nullptr) {
-          node->refuse_sdo(begins ? static_cast<SdoAbort>(static_cast<std::uint32_t>(fault.value)) : SdoAbort::kNone);
-        }
-        break;
-      case BusFaultKind::kParameterChanged:
-        if (begins && node != nullptr)
-          node->objects().set(fault.index, fault.sub, static_cast<std::uint32_t>(fault.value));
-        break;
-      case BusFaultKind::kBusOff:
-        if (begins) end.set_bus_off();
-        break;
-      case BusFaultKind::kInterfaceDown:
-        if (begins || ends) end.set_down(begins);
-        break;
-      case BusFaultKind::kTransmitQueueFull:
-        if (begins || ends) end.set_full(begins);
-        break;
-      default: break;
-    }
+    if (node != nullptr) apply_to_node(fault, *node);
+  }
+}
+
+void CanDevice::apply_to_wire(const BusFault& fault) noexcept {
+  const std::int64_t cycle = nodes_.cycle();
+  LoopbackEnd& end = *ends_[at(fault.bus)];
+  const bool begins = fault.begins(cycle);
+  const bool changes = begins || fault.ends(cycle);
+  switch (fault.kind) {
+    case BusFaultKind::kForeignFrame:
+      for (int i = 0; fault.is_on(cycle) && i < static_cast<int>(fault.value); ++i) {
+        if (!wires_[at(fault.bus)]->hand_over(kForeign, fault.frame, now_ns())) break;
+      }
+      break;
+    case BusFaultKind::kBusOff:
+      if (begins) end.set_bus_off();
+      break;
+    case BusFaultKind::kInterfaceDown:
+      if (changes) end.set_down(begins);
+      break;
+    case BusFaultKind::kTransmitQueueFull:
+      if (changes) end.set_full(begins);
+      break;
+    default: break;
+  }
+}
+
+void CanDevice::apply_to_node(const BusFault& fault, CanopenNode& node) noexcept {
+  const bool begins = fault.begins(nodes_.cycle());
+  const bool changes = begins || fault.ends(nodes_.cycle());
+  const auto value = static_cast<std::uint32_t>(fault.value);
+  switch (fault.kind) {
+    case BusFaultKind::kEmergency:
+      if (begins) node.send_emergency(static_cast<std::uint16_t>(value), kGenericError);
+      break;
+    case BusFaultKind::kNodeReset:
+      if (begins) node.restart(now_ns());
+      break;
+    case BusFaultKind::kHeartbeatStops:
+      if (changes) node.mute_heartbeat(begins);
+      break;
+    case BusFaultKind::kSdoRefused:
+      if (changes) node.refuse_sdo(begins ? static_cast<SdoAbort>(value) : SdoAbort::kNone);
+      break;
+    case BusFaultKind::kParameterChanged:
+      if (begins) node.objects().set(fault.index, fault.sub, value);
+      break;
+    default: break;
   }
 }
 
@@ -83,13 +94,13 @@ void CanDevice::hold(const Held& held) noexcept {
   }
 }
 
-/// A frame whose time has come reaches everybody, as if it had ended now.
+/// Delivers a frame to all nodes and the controller, as if it had ended now.
 void CanDevice::arrive(int bus, const WireFrame& ended) noexcept {
   ends_[at(bus)]->deliver(ended);
   nodes_.receive(bus, ended.frame, ended.end - 1);
 }
 
-/// A frame at the end of its way, with what the script does to it.
+/// Delivers a frame that has ended on the wire, with the faults of the script.
 void CanDevice::spoil(int bus, WireFrame& ended) noexcept {
   bool twice = false;
   for (const BusFault& fault : faults_) {
@@ -132,12 +143,12 @@ void CanDevice::release_due() noexcept {
   }
 }
 
-/// All that nodes have to say goes to their queues.
+/// Moves the frames of the nodes to their queues.
 void CanDevice::take_frames() noexcept {
   hal::CanFrame frame;
   for (int i = 0; i < nodes_.node_count(); ++i) {
     const int bus = nodes_.bus_of(i);
-    // a queue that is full keeps what it has: the node is as silent as one that nobody acknowledges
+    // a full queue keeps its frames: the node is silent, as one without acknowledgement
     while (nodes_.node(i).take_frame(frame)) {
       const bool taken = wires_[at(bus)]->hand_over(1 + i, frame, now_ns());
       if (taken && tap_ != nullptr) tap_->on_frame(bus, {frame, now_ns(), false});

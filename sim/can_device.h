@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,17 +15,17 @@
 
 namespace godobject::sim {
 
-/// A simulated arm behind CAN, in the same process and in virtual time: plant, drives and panel on the wires of a
-/// layout, whose other ends are the controller's. Nothing moves but while `advance_to` runs: frames end, timers run out
-/// and torques act at their own nanosecond, and the plant is integrated up to each frame that is not a node's own, each
-/// timer and the end of `advance_to`.
+/// A simulated arm behind CAN in the same process and in virtual time: plant, drives and panel on the wires of a
+/// layout. The controller has the other ends of the wires. Time passes only in `advance_to`: frames end, timers expire
+/// and torques act at their own nanosecond. The plant is integrated up to each frame that is not a node's own, to each
+/// timer and to the end of `advance_to`.
 ///
-/// Nodes answer SYNC the layout's `answer` after it; a frame takes as long as its stuffing may make it, see
-/// LoopbackBus. What the controller has computed goes on the wire `layout.compute` after it is sent, see LoopbackEnd.
-/// About 900 KiB. Real-time safe.
+/// Nodes answer SYNC the layout's `answer` after it. A frame has its longest duration by stuffing, see LoopbackBus.
+/// Torques of the controller go on the wire `layout.compute` after they are sent, see LoopbackEnd. Large: the heap, or
+/// static storage. Real-time safe.
 class CanDevice final : public World {
  public:
-  /// As CanNodes; `faults` outlive this, too.
+  /// As CanNodes. `faults` outlive this, too.
   CanDevice(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
             const CanScript& script = {}, std::span<const BusFault> faults = {}) noexcept;
 
@@ -35,22 +36,22 @@ class CanDevice final : public World {
   std::int64_t now_ns() const noexcept override { return nodes_.now_ns(); }
   void advance_to(std::int64_t ns) noexcept override;
 
-  /// To the next thing that happens, at most to `ns`, which is ahead. The plant may stay behind it.
+  /// Advances to the next event, at most to `ns`, which is in the future. The plant may stay behind.
   void advance_to_event(std::int64_t ns) noexcept;
 
-  /// Is shown each frame of a node when it is handed over to the wire, and each of the controller when it has ended
-  /// there. It outlives this.
+  /// Sets an observer: it is called for each frame of a node when the frame is handed over to the wire, and for each
+  /// frame of the controller when the frame has ended there. It outlives this.
   void set_tap(hal::FrameTap* tap) noexcept { tap_ = tap; }
 
   CanNodes& nodes() noexcept { return nodes_; }
   const CanNodes& nodes() const noexcept { return nodes_; }
 
  private:
-  static constexpr int kController = 0;  ///< its end on each wire; node i has end 1 + i
+  static constexpr int kController = 0;  ///< the controller's end on each wire; node i has end 1 + i
   static constexpr int kForeign = LoopbackBus::kEnds - 1;
   static constexpr std::size_t kHeld = 32;
 
-  /// A frame that a fault keeps from arriving; it waits for a time, or for the next frame on its bus.
+  /// A frame that a fault holds back until a time, or until the next frame on its bus.
   struct Held {
     bool used = false;
     bool until_next = false;
@@ -62,6 +63,8 @@ class CanDevice final : public World {
   void take_frames() noexcept;
   void end_frames() noexcept;
   void begin_cycle() noexcept;
+  void apply_to_wire(const BusFault& fault) noexcept;
+  void apply_to_node(const BusFault& fault, CanopenNode& node) noexcept;
   CanopenNode* find_node(int bus, int node) noexcept;
   void arrive(int bus, const WireFrame& ended) noexcept;
   void spoil(int bus, WireFrame& ended) noexcept;
@@ -76,5 +79,6 @@ class CanDevice final : public World {
   std::array<Held, kHeld> held_{};
   hal::FrameTap* tap_ = nullptr;
 };
+static_assert(sizeof(CanDevice) < (std::size_t{1} << 20), "1 MiB; most of it is the queues of the wires");
 
 }  // namespace godobject::sim

@@ -106,7 +106,7 @@ void CanNodes::settle() noexcept {
 void CanNodes::receive(int bus, const hal::CanFrame& frame, int sender) noexcept {
   const bool of_node = sender >= 0 && sender < node_count();
   if (!of_node && plant_.now_ns() < now_ns()) settle();
-  update_panel();  // its switches are read when SYNC ends
+  update_panel();  // the panel reads its switches at the end of SYNC
   for (int i = 0; i < node_count(); ++i) {
     if (i != sender && bus_of(i) == bus) node(i).receive(frame, now_ns());
   }

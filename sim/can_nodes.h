@@ -14,19 +14,19 @@
 
 namespace godobject::sim {
 
-/// What the operator does at the panel, and what goes wrong in the drives.
+/// The operator's actions at the panel, and faults of the drives.
 struct CanScript {
-  std::int64_t hold_from_ns = 0;  ///< the enable switch is released before, held from then on
-  /// All kinds but those of readings and commands on their way, which are faults of a bus, and kEncoderNotFinite.
+  std::int64_t hold_from_ns = 0;  ///< the enable switch is released before this time, and held from then on
+  /// All kinds but kEncoderNotFinite and those of lost or late readings and commands, which are faults of a bus here.
   std::span<const DriveFault> faults;
 };
 
-/// The plant with a CiA 402 drive for each joint and the operator's panel: all that is on the buses of a layout but the
-/// controller. Frames and time are passed in. Real-time safe.
+/// All nodes on the buses of a layout but the controller: a CiA 402 drive for each joint of the plant, and the
+/// operator's panel. The caller passes frames and time. Real-time safe.
 class CanNodes {
  public:
-  /// The plant is at time zero; plant, layout and script outlive this. All nodes have supply and boot; they begin as if
-  /// switched on at time zero. Steps of encoders and torques are the layout's, see Cia402Slave.
+  /// The plant is at time zero; plant, layout and script outlive this. All nodes have supply and boot, as if switched
+  /// on at time zero. Steps of encoders and torques are the layout's, see Cia402Slave.
   CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
            const CanScript& script = {}) noexcept;
 
@@ -35,22 +35,22 @@ class CanNodes {
   std::int64_t period_ns() const noexcept { return period_ns_; }
   int node_count() const noexcept { return joint_count_ + (panel_ ? 1 : 0); }
 
-  /// Time goes on to `ns`, at most to the next cycle; no timer may be due before. The plant may stay behind until
+  /// Advances time to `ns`, at most to the next cycle; no timer may be due before. The plant may stay behind until
   /// something can act on it or read it.
   void pass_to(std::int64_t ns) noexcept;
 
-  /// Plant and drives' loops up to now, in equal steps of at most `Plant::kStep_ns`.
+  /// Advances plant and drives' loops to now, in equal steps of at most `Plant::kStep_ns`.
   void settle() noexcept;
 
-  /// A frame that has ended now, to all nodes of a bus but the one that sent it; -1, or beyond the nodes: none of
-  /// them. What a node sends moves no drive; before all other frames the plant settles.
+  /// Passes a frame that has ended now to all nodes of a bus but its sender; a sender of -1, or beyond the nodes, is no
+  /// node. Before frames of other senders the plant settles; a node's frame moves no drive.
   void receive(int bus, const hal::CanFrame& frame, int sender) noexcept;
 
-  /// What is due now, once all frames that have ended now were received.
+  /// Runs the timers that are due now, after all frames that have ended now.
   void run_timers() noexcept;
   std::int64_t next_timer_ns() const noexcept;
 
-  /// A node is numbered by its joint; the panel comes last.
+  /// Nodes are numbered by joint; the panel is last.
   CanopenNode& node(int i) noexcept;
   const CanopenNode& node(int i) const noexcept;
   int bus_of(int i) const noexcept;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kInvalid = 1u << 31;
 constexpr std::uint32_t kExtended = 1u << 29;
-constexpr std::uint8_t kEventDriven = 254;  // and 255: the device's profile decides
+constexpr std::uint8_t kEventDriven = 254;  // and 255: event-driven, by manufacturer or device profile
 constexpr int kMaxMapped = 8;
 constexpr std::int64_t kMs_ns = 1'000'000;
 
@@ -31,7 +31,7 @@ void set(hal::CanFrame& frame, int from, int bytes, std::uint32_t value) noexcep
 
 constexpr std::uint16_t cob(std::uint32_t entry) noexcept { return static_cast<std::uint16_t>(entry & 0x7FF); }
 
-/// An entry of a mapping: index, sub-index, length in bits.
+/// A mapping entry: index, sub-index, length in bits.
 struct Mapped {
   std::uint16_t index;
   std::uint8_t sub;
@@ -107,7 +107,7 @@ CanopenNode::CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpd
 }
 
 void CanopenNode::put(const hal::CanFrame& frame) noexcept {
-  if (count_ == kOutbox) return;  // as a controller whose mailboxes are taken
+  if (count_ == kOutbox) return;  // all mailboxes are full: the frame is lost
   outbox_[(first_ + count_++) % kOutbox] = frame;
 }
 
@@ -248,7 +248,7 @@ void CanopenNode::apply_rpdo(std::int64_t now_ns) noexcept {
   }
 }
 
-/// False: there is no such TPDO.
+/// Samples a TPDO into a frame. False: the TPDO is invalid.
 bool CanopenNode::sample_tpdo(const Tpdo& tpdo, hal::CanFrame& frame) noexcept {
   const std::uint32_t id = objects_.value(tpdo.communication, 1);
   if ((id & kInvalid) != 0) return false;
@@ -295,7 +295,7 @@ void CanopenNode::run_timers(std::int64_t now_ns) noexcept {
     boot_at_ns_ = kNever;
     stage_ = Stage::kUp;
     nmt_ = kNmtPreOperationalState;
-    put(frame_of(static_cast<std::uint16_t>(kCobHeartbeat + number_), 1));  // its data is 0: boot-up
+    put(frame_of(static_cast<std::uint16_t>(kCobHeartbeat + number_), 1));  // data 0: boot-up
   }
   if (heartbeat_at_ns_ <= now_ns) {
     heartbeat_at_ns_ += objects_.value(kProducerHeartbeat) * kMs_ns;
@@ -312,7 +312,7 @@ void CanopenNode::run_timers(std::int64_t now_ns) noexcept {
     if (is_operational()) connection_lost(kHeartbeatError, now_ns);
   }
   if (command_at_ns_ <= now_ns) {
-    command_at_ns_ = kNever;  // armed again by the next one
+    command_at_ns_ = kNever;  // the next RPDO arms it again
     send_emergency(kPdoTimeout, kGenericError | kCommunicationError);
     connection_lost(kPdoTimeout, now_ns);
   }

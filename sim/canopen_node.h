@@ -9,11 +9,11 @@
 
 namespace godobject::sim {
 
-/// Abort codes of CiA 301 that a node answers with.
+/// SDO abort codes of CiA 301 that a node uses.
 enum class SdoAbort : std::uint32_t {
   kNone = 0,
-  kCommand = 0x0504'0001,            ///< no expedited transfer, or none at all
-  kUnsupportedAccess = 0x0601'0000,  ///< a mapping while its PDO is valid, or its count is not 0
+  kCommand = 0x0504'0001,            ///< no expedited transfer
+  kUnsupportedAccess = 0x0601'0000,  ///< a mapping is written while its PDO is valid or its count is not 0
   kWriteOnly = 0x0601'0001,
   kReadOnly = 0x0601'0002,
   kNoObject = 0x0602'0000,
@@ -33,43 +33,44 @@ enum EmergencyCode : std::uint16_t {
   kPdoTimeout = 0x8250,
 };
 
-/// Bits of 1001.
+/// Bits of the error register 1001.
 inline constexpr std::uint8_t kGenericError = 1u << 0;
 inline constexpr std::uint8_t kCommunicationError = 1u << 4;
 
-/// A CANopen node after CiA 301: NMT states, boot-up, heartbeat both ways, emergency messages, a server of expedited
-/// SDO, one RPDO and two TPDOs that are mapped over SDO. Frames go in by `receive` and come out of `take_frame`, time
-/// is passed in; what the device does is behind the private virtuals. Real-time safe.
+/// A CANopen node by CiA 301: NMT states, boot-up, heartbeats in both directions, emergency messages, an expedited SDO
+/// server, one RPDO and two TPDOs with mapping over SDO. `receive` takes frames, `take_frame` returns them, and the
+/// caller passes the time. The device behind the node implements the private virtual functions. Real-time safe.
 ///
-/// An RPDO of type 254 or 255 acts at once, any other at the next SYNC; its event timer (:5) is a deadline that its
-/// first reception arms. A TPDO of type 1 to 240 is sampled at the end of every n-th SYNC and handed over to the wire
-/// `set_answer` later, one of type 254 or 255 goes when the node becomes operational, by its event timer, and when the
-/// device says that an object in it has changed. Whenever a node that was operational leaves that state, or a deadline
-/// or heartbeat is missed, the device is told that the connection is lost.
+/// An RPDO of type 254 or 255 acts at once, others act at the next SYNC. Its event timer (:5) is a deadline, armed by
+/// the first reception. A TPDO of type 1 to 240 is sampled at the end of every n-th SYNC and handed over to the wire
+/// the time of `set_answer` later. One of type 254 or 255 is sent when the node becomes operational, by its event
+/// timer, and when the device reports a change of an object in it. The device is told that the connection is lost
+/// whenever the node leaves the operational state, or a deadline or heartbeat is missed.
 class CanopenNode {
  public:
-  static constexpr std::int64_t kBoot_ns = 50'000'000;               ///< from supply to boot-up
-  static constexpr std::int64_t kReset_ns = 10'000'000;              ///< from NMT reset node to boot-up
-  static constexpr std::int64_t kResetCommunication_ns = 1'000'000;  ///< from NMT reset communication to boot-up
+  // Times to the boot-up message, chosen: long against a cycle, short against a test.
+  static constexpr std::int64_t kBoot_ns = 50'000'000;               ///< from supply
+  static constexpr std::int64_t kReset_ns = 10'000'000;              ///< from NMT reset node
+  static constexpr std::int64_t kResetCommunication_ns = 1'000'000;  ///< from NMT reset communication
 
   CanopenNode(const CanopenNode&) = delete;
   CanopenNode& operator=(const CanopenNode&) = delete;
   virtual ~CanopenNode() = default;
 
-  /// A node begins without supply; with it, it boots and says so `boot_ns` later.
+  /// Switches the supply, which is off at first. A node with supply boots and sends its boot-up `boot_ns` later.
   void set_supply(bool on, std::int64_t now_ns, std::int64_t boot_ns = kBoot_ns) noexcept;
   bool has_supply() const noexcept { return stage_ != Stage::kNoSupply; }
 
-  /// As by NMT reset node, but on its own.
+  /// Restarts the node, as NMT reset node does.
   void restart(std::int64_t now_ns) noexcept;
 
   void receive(const hal::CanFrame& frame, std::int64_t now_ns) noexcept;
 
-  /// What is due by `now_ns`; call it after frames that end at the same time.
+  /// Runs the timers that are due by `now_ns`, after all frames that end at the same time.
   void run_timers(std::int64_t now_ns) noexcept;
   std::int64_t next_timer_ns() const noexcept;
 
-  /// The oldest frame that is to be sent. False: none.
+  /// Takes the oldest frame to send. False: there is none.
   bool take_frame(hal::CanFrame& frame) noexcept;
 
   int number() const noexcept { return number_; }
@@ -82,45 +83,47 @@ class CanopenNode {
   /// Sends an emergency message and sets 1001 to `error_register`.
   void send_emergency(std::uint16_t code, std::uint8_t error_register) noexcept;
 
-  /// How long it takes from the end of a SYNC until the TPDOs that answer it are handed over; 0 at first.
+  /// Time from the end of a SYNC until the TPDOs that answer it are handed over; 0 at first.
   void set_answer(std::int64_t answer_ns) noexcept { answer_ns_ = answer_ns; }
 
-  /// For scripts of what goes wrong.
+  /// For scripts of faults.
   void mute_heartbeat(bool muted) noexcept { heartbeat_muted_ = muted; }
-  void ignore_deadline() noexcept { deadline_ignored_ = true; }  ///< of the RPDO, whatever its object says
-  void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }   ///< every request from now on; kNone: none
+  void ignore_deadline() noexcept {
+    deadline_ignored_ = true;
+  }  ///< the RPDO has no deadline, whatever its object contains
+  void refuse_sdo(SdoAbort with) noexcept { refusal_ = with; }  ///< aborts every request from now on; kNone: none
 
  protected:
-  /// `fd`: PDOs go as FD frames. The device adds its objects beyond 1FFF in its own constructor.
+  /// `fd`: PDOs are FD frames. The device adds its objects beyond 1FFF in its own constructor.
   CanopenNode(int number, std::uint32_t device_type, std::uint8_t tpdo_type, bool fd) noexcept;
 
-  /// An object of the device has another value: TPDOs of type 254 or 255 that hold it are sent.
+  /// Reports a change of an object: TPDOs of type 254 or 255 with this object are sent.
   void changed(std::uint16_t index) noexcept;
 
  private:
   static constexpr std::size_t kTpdos = 2;
 
-  /// A TPDO by its objects, 1800 and 1A00 on, and when it is due.
+  /// A TPDO: its objects, from 1800 and 1A00 on, and its times.
   struct Tpdo {
     std::uint16_t communication;
     std::uint16_t mapping;
     std::int64_t event_at_ns;
-    std::int64_t answer_at_ns;  ///< of what it was sampled for
+    std::int64_t answer_at_ns;  ///< time at which `answer` is handed over
     hal::CanFrame answer{};
     std::uint32_t syncs = 0;
   };
 
   enum class Stage : std::uint8_t { kNoSupply, kBooting, kUp };
 
-  /// Puts present values into the dictionary, before they are read.
+  /// Puts present values into the dictionary before they are read.
   virtual void sample() noexcept = 0;
-  /// Of an object beyond 1FFF: whether it may have this value.
+  /// True if an object beyond 1FFF may have this value.
   virtual SdoAbort check(const ObjectEntry& entry, std::uint32_t value) const noexcept = 0;
-  /// An object beyond 1FFF has been written; `now_ns` is when.
+  /// An object beyond 1FFF has been written at `now_ns`.
   virtual void written(const ObjectEntry& entry, std::int64_t now_ns) noexcept = 0;
-  /// `code`: of the emergency message that tells of it; kNoError: it was asked to leave the state operational.
+  /// `code`: of the emergency message about it; kNoError: the node was told to leave the operational state.
   virtual void connection_lost(std::uint16_t code, std::int64_t now_ns) noexcept = 0;
-  /// Everything as after switching on; without supply nothing works.
+  /// Resets the device as by switching it on; without supply it is off.
   virtual void reset_device(bool supply, std::int64_t now_ns) noexcept = 0;
 
   void boot(std::int64_t now_ns, std::int64_t boot_ns, bool all_objects) noexcept;
@@ -150,11 +153,11 @@ class CanopenNode {
   hal::canopen::NmtState nmt_ = hal::canopen::kNmtBoot;
   std::int64_t boot_at_ns_;
   std::int64_t heartbeat_at_ns_;
-  std::int64_t consumer_at_ns_;  ///< by when the next heartbeat must have come
-  std::int64_t command_at_ns_;   ///< by when the next RPDO must have come
+  std::int64_t consumer_at_ns_;  ///< deadline of the next heartbeat of the controller
+  std::int64_t command_at_ns_;   ///< deadline of the next RPDO
   std::array<Tpdo, kTpdos> tpdos_;
   std::int64_t answer_ns_ = 0;
-  bool command_waits_ = false;  ///< for the next SYNC
+  bool command_waits_ = false;  ///< an RPDO waits for the next SYNC
   hal::CanFrame command_;
   bool heartbeat_muted_ = false;
   bool deadline_ignored_ = false;

@@ -7,13 +7,12 @@
 
 namespace godobject::sim {
 
-/// The operator's panel: a module of eight digital inputs after CiA 401, 6000:1, turned round by 6002:1. Real-time
-/// safe.
+/// The operator's panel: a CiA 401 module with eight digital inputs, 6000:1, inverted by 6002:1. Real-time safe.
 class Cia401Panel final : public CanopenNode {
  public:
   Cia401Panel(const hal::PanelConfig& config, bool fd) noexcept;
 
-  /// Bits kPanel... of object_numbers.h.
+  /// `inputs`: bits kPanel... of object_numbers.h.
   void set_inputs(std::uint8_t inputs) noexcept { inputs_ = inputs; }
 
  private:

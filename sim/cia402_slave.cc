@@ -9,7 +9,7 @@ using namespace hal::canopen;
 
 namespace {
 
-/// The encoder and torque steps of the drive, on the joint's side of the gear.
+/// Parameters with the drive's own encoder and torque steps, at the joint's side of the gear.
 JointHardwareParameters with_steps(JointHardwareParameters joint, const hal::DriveConfig& config) noexcept {
   joint.encoder_step = 2.0 * M_PI / (config.counts * config.gear);
   joint.torque_step = 1e-3 * config.gear * config.rated_torque;
@@ -17,7 +17,7 @@ JointHardwareParameters with_steps(JointHardwareParameters joint, const hal::Dri
   return joint;
 }
 
-/// Of 6085: the drive's own loop brings the joint to rest, this number stands for no ramp of it.
+/// Value of 6085. It only must not be zero: the drive's own loop brings the joint to rest, without a ramp.
 constexpr std::uint32_t kQuickStopCounts = 1'000'000;
 
 std::uint32_t rounded(double value) noexcept { return static_cast<std::uint32_t>(std::llround(value)); }
@@ -42,7 +42,7 @@ Cia402Slave::Cia402Slave(const hal::DriveConfig& config, const JointHardwarePara
     : CanopenNode(config.node, kServoDrive, 255, fd), config_(config), motor_(with_steps(joint, config)) {
   using enum ObjectType;
   using enum ObjectAccess;
-  const double torque_unit = 1e-3 * config.gear * config.rated_torque;  // of a permille [Nm]
+  const double torque_unit = 1e-3 * config.gear * config.rated_torque;  // torque of a permille [Nm]
   const double most = std::min(joint.torque_limit / torque_unit, 65535.0);
   objects().set_initial(kRpdo1Mapping, 0, 1);
   objects().set_initial(kRpdo1Mapping, 1, 0x6040'0010);
@@ -161,7 +161,7 @@ void Cia402Slave::enter(PowerState state, std::int64_t now_ns) noexcept {
   if (!stops && state != PowerState::kEnabled) motor_.cut(now_ns);
 }
 
-/// The transitions that the controlword asks for, by the standard's figure; 3 and 4 come about in `update`.
+/// Makes the transition that the controlword requests; numbers of the standard. `update` makes 3 and 4.
 void Cia402Slave::obey(std::uint16_t controlword, std::int64_t now_ns) noexcept {
   constexpr std::uint16_t kFaultReset = 1u << 7;
   ++commands_;
@@ -266,7 +266,7 @@ void Cia402Slave::run_stop(PowerState end, std::int64_t now_ns) noexcept {
     case Stopping::kRunsAway:
       if (state_ == PowerState::kFaultReaction) return enter(PowerState::kFault, now_ns);
       trip(kRunsAway, now_ns);
-      return enter(PowerState::kFault, now_ns);  // the loop is what went wrong: it is not asked to stop once more
+      return enter(PowerState::kFault, now_ns);  // the loop itself failed: no second stop
   }
 }
 

@@ -20,31 +20,31 @@ enum class PowerState : std::uint8_t {
   kFault,
 };
 
-/// One or two words.
+/// The state as one or two words. Never null.
 const char* name(PowerState state) noexcept;
 
-/// Error codes of 603F that the drive itself trips with.
+/// Error codes of 603F for the drive's own faults.
 inline constexpr std::uint16_t kOverCurrent = 0x2310;
 inline constexpr std::uint16_t kRunsAway = 0x8400;
 
-/// Writes an error code of 603F into the drive, which trips with it: for tests from outside.
+/// A written value makes the drive trip with this error code: for tests over the bus.
 inline constexpr std::uint16_t kTripObject = 0x2000;
 
-/// A servo drive after CiA 402, profile torque only in the mode 10, cyclic synchronous torque, on a joint's motor,
-/// brake and encoder. Real-time safe.
+/// A CiA 402 servo drive with one mode, 10, cyclic synchronous torque, on a joint's motor, brake and encoder. Real-time
+/// safe.
 ///
-/// Transitions 3 and 4 take the times of `JointHardwareParameters`: the power stage, then the brake; until then the
-/// statusword shows the state before. 5 and 8 cut the torque at once, the brake closes behind it, as 9 and 10 do. 11
-/// stops by 605A: 0 cuts, 1 and 2 bring the joint to rest by the drive's own loop, close the brake and end in switch on
-/// disabled. 13 and 14 do the same by 605E. A lost connection is answered by 6007: 0 nothing, 1 fault, 2 disable
-/// voltage, 3 quick stop. The command deadline is the RPDO's, 1400:5.
+/// Transitions 3 and 4 take the times of `JointHardwareParameters` for power stage and brake; until then the statusword
+/// shows the state before. Transitions 5, 8, 9 and 10 cut the torque at once, and the brake closes after it. Transition
+/// 11 stops by 605A: 0 cuts; 1 and 2 bring the joint to rest by the drive's own loop, close the brake and end in
+/// switch-on disabled. Transitions 13 and 14 do the same by 605E. Reaction to a lost connection by 6007: 0 none, 1
+/// fault, 2 disable voltage, 3 quick stop. The command deadline is that of the RPDO, 1400:5.
 class Cia402Slave final : public CanopenNode {
  public:
-  /// Steps of encoder and torque are the drive's own, from `config`; of `joint` the rest counts.
+  /// Steps of encoder and torque are those of `config`; all other parameters those of `joint`.
   Cia402Slave(const hal::DriveConfig& config, const JointHardwareParameters& joint, bool fd) noexcept;
 
-  /// Moves states on to `now_ns` and finds the torque from there on; position and velocity are the joint's [rad,
-  /// rad/s]. Called at each step of the plant, before frames that come at this time are received and again after them.
+  /// Advances the states to `now_ns` and computes the torque from then on. Position and velocity are the joint's [rad,
+  /// rad/s]. Called at each step of the plant, before frames that end at this time and again after them.
   void update(std::int64_t now_ns, double position, double velocity) noexcept;
 
   PowerState state() const noexcept { return state_; }
@@ -52,16 +52,17 @@ class Cia402Slave final : public CanopenNode {
   double brake_torque() const noexcept { return motor_.brake_torque(); }
   std::uint16_t statusword() const noexcept;
 
-  std::uint64_t commands() const noexcept { return commands_; }  ///< controlwords that have come
-  std::uint64_t trips() const noexcept { return trips_; }        ///< faults, and connections that were lost under power
+  std::uint64_t commands() const noexcept { return commands_; }  ///< received controlwords
+  std::uint64_t trips() const noexcept { return trips_; }  ///< faults, and connections lost while the drive had power
 
   void trip(std::uint16_t code, std::int64_t now_ns) noexcept;  ///< a fault of the drive's own
-  void disable(std::int64_t now_ns) noexcept;                   ///< it goes off although nobody asked for it
+  void disable(std::int64_t now_ns) noexcept;                   ///< the drive switches off without a request
 
-  /// It shows another mode in 6061 and follows no torque, though bit 12 of the statusword stays; kModeTorque: no more.
+  /// The drive shows another mode in 6061 and ignores the torque, while bit 12 of the statusword stays. kModeTorque
+  /// ends it.
   void slip_mode(std::int8_t mode) noexcept;
 
-  /// What the encoder reads in place of the position: `jump` [rad] more, and while `stuck` always the same.
+  /// Encoder faults: the reading is `jump` [rad] too large, and constant while `stuck`.
   void set_encoder_fault(double jump, bool stuck) noexcept;
 
  private:
@@ -92,7 +93,7 @@ class Cia402Slave final : public CanopenNode {
   std::int64_t command_since_ns_ = 0;
   std::uint64_t commands_ = 0;
   std::uint64_t trips_ = 0;
-  bool limited_ = false;  ///< the torque asked for is beyond 6072
+  bool limited_ = false;  ///< the commanded torque is above 6072
   double position_ = 0.0;
   double velocity_ = 0.0;
   double encoder_jump_ = 0.0;

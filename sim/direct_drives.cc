@@ -42,8 +42,8 @@ const DriveFault* DirectDrives::fault(FaultKind kind, int joint) const noexcept 
   return find_fault(script_, kind, joint, cycle());
 }
 
-/// As a driver follows a counter: by differences, which a wrap does not disturb. A count stands for the beginning of
-/// its step, as it does behind a bus.
+/// The position by differences of the counter, which a wrap does not disturb. A count is the beginning of its step, as
+/// behind a bus.
 double DirectDrives::read_position(int i) noexcept {
   const JointHardware& joint = hardware_[at(i)];
   const double q = plant_.positions()[i];
@@ -113,7 +113,7 @@ void DirectDrives::receive(hal::JointReading& reading) noexcept {
 
 bool DirectDrives::send(const hal::JointCommand& command) noexcept {
   ++counters_.commands;
-  // a controller that sends more often than the drives take in replaces what it sent last
+  // a full history: the new command replaces the newest one
   const bool full = end_pending_ - first_pending_ == kHistory;
   Pending& pending = pending_[at((full ? end_pending_ - 1 : end_pending_) % kHistory)];
   if (!full) ++end_pending_;
@@ -152,7 +152,7 @@ void DirectDrives::apply_commands() noexcept {
   }
 }
 
-/// When the next command arrives or the next joint is sampled.
+/// Time of the next event: a command arrives, or a joint is sampled.
 std::int64_t DirectDrives::next_event_ns() const noexcept {
   std::int64_t next_ns = std::numeric_limits<std::int64_t>::max();
   for (int i = 0; i < joint_count(); ++i) {
@@ -166,7 +166,7 @@ std::int64_t DirectDrives::next_event_ns() const noexcept {
   return next_ns;
 }
 
-/// To `ns`, in equal steps of the plant; nothing is due before.
+/// Advances the plant to `ns` in equal steps; no event is due before.
 void DirectDrives::run_to(std::int64_t ns) noexcept {
   const std::int64_t begin_ns = now_ns();
   const std::int64_t steps = (ns - begin_ns + Plant::kStep_ns - 1) / Plant::kStep_ns;

@@ -5,26 +5,27 @@
 
 namespace godobject::sim {
 
+/// Faults of drives and panel.
 enum class FaultKind : std::uint8_t {
-  kEncoderJump,       ///< `value` [rad] is added to the position read
+  kEncoderJump,       ///< the position read is `value` [rad] too large
   kEncoderNotFinite,  ///< the position read is NaN
-  kEncoderStuck,      ///< the position read stays what it was when the fault began
-  kReadingLost,       ///< what the joint sends in these cycles never comes
-  kReadingLate,       ///< what comes is `value` cycles old, 15 at most
-  kDriveTrips,        ///< kFault
-  kDriveDisabled,     ///< the drive goes off without being asked
-  kModeSlips,         ///< it shows the mode `value` and follows no torque, its statusword as before; CAN drives only
-  kSendFails,         ///< `send` returns false; the joint's command goes nowhere
-  kCommandLost,       ///< `send` returns true; the joint's command goes nowhere
-  kSupplyLost,        ///< no power: the joint is limp until its brake has closed, and does not answer
-  kEmergencyStop,     ///< pressed
-  kEnableReleased,    ///< the operator lets go of the enable switch
-  kClutchOpen,        ///< the operator opens the clutch: no fault, but a thing that happens
+  kEncoderStuck,      ///< the position read stays that of the first cycle
+  kReadingLost,       ///< the joint's samples of these cycles never arrive
+  kReadingLate,       ///< the joint's samples arrive `value` cycles late, 15 at most
+  kDriveTrips,        ///< the drive trips: kFault
+  kDriveDisabled,     ///< the drive switches off without a request
+  kModeSlips,      ///< the drive reports mode `value` and ignores the torque, with the same statusword; CAN drives only
+  kSendFails,      ///< `send` returns false; the joint's command is lost
+  kCommandLost,    ///< `send` returns true; the joint's command is lost
+  kSupplyLost,     ///< the drive has no supply: no torque until its brake has closed, no answer
+  kEmergencyStop,  ///< the emergency stop is pressed
+  kEnableReleased,  ///< the operator releases the enable switch
+  kClutchOpen,      ///< the operator opens the clutch (no fault)
 };
 
 inline constexpr int kAllJoints = -1;
 
-/// What goes wrong, in which cycles: those from `first_cycle` on, counted from time zero, `cycles` of them.
+/// A fault: it lasts `cycles` cycles from `first_cycle` on, counted from time zero.
 struct DriveFault {
   FaultKind kind = FaultKind::kEncoderJump;
   int joint = kAllJoints;

@@ -8,7 +8,7 @@
 namespace godobject::sim {
 
 std::array<JointHardwareParameters, kMaxJoints> usual_hardware(const ArmModel& model) noexcept {
-  constexpr double kBandwidth = 100.0;  // [rad/s]
+  constexpr double kBandwidth = 100.0;  // of the velocity loops, chosen [rad/s]
   const ArmDynamics arm(model);
   ArmPosture posture;
   JointVector q = JointVector::Zero();

@@ -67,7 +67,7 @@ bool LoopbackBus::take(std::int64_t now_ns, WireFrame& ended) noexcept {
 hal::SendResult LoopbackEnd::send(const hal::CanFrame& frame) noexcept {
   if (health_.down) return hal::SendResult::kDown;
   if (full_) return hal::SendResult::kFull;
-  if (health_.bus_off) return hal::SendResult::kSent;  // taken, and never on the wire
+  if (health_.bus_off) return hal::SendResult::kSent;  // handed over, but never on the wire
   const bool computed = frame.id > hal::canopen::kCobRpdo1 && frame.id < hal::canopen::kCobTpdo2;
   const std::int64_t ready_ns = now_ns_ + (computed ? compute_ns_ : 0);
   return bus_.hand_over(end_, frame, ready_ns) ? hal::SendResult::kSent : hal::SendResult::kFull;

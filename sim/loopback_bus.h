@@ -9,50 +9,50 @@
 
 namespace godobject::sim {
 
-/// How long a frame of n data bytes holds the wire at most, the 3 bits after it included [ns].
+/// Longest time that a frame of n data bytes occupies the wire, with the 3 bits after it [ns]. Derived, in a second way
+/// beside hal::longest_frame_ns:
 ///
-/// Classical, 11 bit identifier: 34 bits from the start of the frame to the checksum's end are stuffed, and the data:
-/// at worst every fourth bit after the first, floor((34 + 8 n - 1) / 4); 13 more are not. 55 + 10 n bits. FD: 17 bits
-/// from the start to the switch of the rate and floor(16 / 4) stuffed ones, 13 after the checksum: 34 at the nominal
-/// rate. At the data rate the 5 bits before the data and the data, of them every fourth stuffed, 4 bits that count
-/// these, a checksum of 17 bits, beyond 16 bytes of 21, and a fixed stuffed bit in each four of the last two: 33 + 10 n
-/// bits, beyond 16 bytes 38 + 10 n.
+/// Classical, 11 bit identifier: 34 bits from the start of frame to the end of the checksum, and the data, are stuffed:
+/// at worst every fourth bit after the first, floor((34 + 8 n - 1) / 4). 13 more bits are not. Sum: 55 + 10 n bits. FD,
+/// at the nominal rate: 17 bits up to the switch of the rate, floor(16 / 4) stuff bits, 13 bits after the checksum: 34
+/// bits. At the data rate: 5 bits before the data and the data, every fourth stuffed; 4 bits that count the stuff bits;
+/// a checksum of 17 bits (21 beyond 16 bytes); a fixed stuff bit in each four of these last two. Sum: 33 + 10 n bits,
+/// beyond 16 bytes 38 + 10 n.
 std::int64_t frame_ns(const hal::BusLayout& layout, const hal::CanFrame& frame) noexcept;
 
-/// What is on the wire, or has been.
+/// A frame on the wire, or one that has ended.
 struct WireFrame {
   hal::CanFrame frame;
-  int end = -1;             ///< that sent it
-  std::int64_t end_ns = 0;  ///< when the last of it, and the 3 bits after it, have gone by
+  int end = -1;             ///< the end that sent it
+  std::int64_t end_ns = 0;  ///< end of the frame and the 3 bits after it
 };
 
-/// One CAN wire in virtual time with several ends: one frame at a time; when it is idle the lowest identifier among the
-/// frames at the heads of the ends' queues goes, of equal ones the lowest end's. Nothing is lost on it, and every frame
-/// takes the longest time that its stuffing may take. Static storage; real-time safe.
+/// One CAN wire in virtual time with several ends. It carries one frame at a time. When it is idle, the lowest
+/// identifier among the heads of the ends' queues is sent next; of equal ones that of the lowest end. No frame is lost,
+/// and every frame has its longest duration by stuffing. Real-time safe.
 class LoopbackBus {
  public:
-  static constexpr int kEnds = 12;
-  static constexpr int kQueue = 128;
+  static constexpr int kEnds = 12;    ///< derived: controller, 7 drives, panel, foreign sender: 10
+  static constexpr int kQueue = 128;  ///< frames an end; chosen: more than a millisecond of a full wire, 21 frames
 
-  /// Only the rates of the layout count; it must outlive the bus.
+  /// Uses the rates of `layout`, which outlives the bus.
   explicit LoopbackBus(const hal::BusLayout& layout) noexcept : layout_(layout) {}
 
-  /// Into the queue of an end, ready to be sent from `ready_ns` on. False: no room, nothing is done.
+  /// Puts a frame into the queue of an end, to be sent from `ready_ns` on. False: the queue is full.
   bool hand_over(int end, const hal::CanFrame& frame, std::int64_t ready_ns) noexcept;
   int queued(int end) const noexcept { return queues_[static_cast<std::size_t>(end)].count; }
-  void clear(int end) noexcept;  ///< its queue; a frame on the wire goes on
+  void clear(int end) noexcept;  ///< clears its queue; a frame on the wire continues
 
-  /// Starts the next frame if the wire is idle and one is ready. Call it once all that happens at `now_ns` has
-  /// happened.
+  /// Starts the next frame if the wire is idle and one is ready. Call it after all other events of `now_ns`.
   void arbitrate(std::int64_t now_ns) noexcept;
 
-  /// When something happens next by itself: the frame on the wire ends, or the next one is ready.
+  /// Time of the next event on the wire: a frame ends, or the next one is ready.
   std::int64_t next_ns() const noexcept;
 
-  /// The frame that has ended by `now_ns`. False: none has.
+  /// Takes the frame that has ended by `now_ns`. False: there is none.
   bool take(std::int64_t now_ns, WireFrame& ended) noexcept;
 
-  std::int64_t busy_ns() const noexcept { return busy_ns_; }  ///< for how long there were frames on it
+  std::int64_t busy_ns() const noexcept { return busy_ns_; }  ///< total duration of frames
 
  private:
   struct Queued {
@@ -73,12 +73,12 @@ class LoopbackBus {
   std::int64_t busy_ns_ = 0;
 };
 
-/// The controller's interface to a loopback bus, as a socket of Linux is one: bounded queues, own frames come back.
-/// What arrives is put into it by `deliver`. RPDOs are put on the wire `compute_ns` after they are sent, since in
-/// virtual time computing takes no time by itself, every other frame at once.
+/// The controller's interface to a loopback bus, with the behaviour of a SocketCAN socket: bounded queues, own frames
+/// return. `deliver` puts a received frame into it. RPDOs go on the wire `compute_ns` after they are sent, since
+/// computing takes no virtual time; all other frames at once.
 class LoopbackEnd final : public hal::CanBus {
  public:
-  static constexpr int kReceiveQueue = 512;
+  static constexpr int kReceiveQueue = 512;  ///< frames; chosen: 24 ms of a full wire
 
   LoopbackEnd(LoopbackBus& bus, int end, std::int64_t compute_ns) noexcept
       : bus_(bus), end_(end), compute_ns_(compute_ns) {}
@@ -90,8 +90,8 @@ class LoopbackEnd final : public hal::CanBus {
   void set_now(std::int64_t now_ns) noexcept { now_ns_ = now_ns; }
   void deliver(const WireFrame& ended) noexcept;
   void set_down(bool down) noexcept;
-  void set_bus_off() noexcept;                         ///< until it is taken down and up again
-  void set_full(bool full) noexcept { full_ = full; }  ///< as if the queue for sending never emptied
+  void set_bus_off() noexcept;                         ///< until the interface is taken down and up again
+  void set_full(bool full) noexcept { full_ = full; }  ///< the transmit queue is full while true
   void count_malformed() noexcept { ++health_.malformed; }
 
  private:

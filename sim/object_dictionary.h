@@ -6,12 +6,12 @@
 
 namespace godobject::sim {
 
-/// Numbers of CiA 301, which an EDS writes too.
+/// Data types with their numbers of CiA 301, as in an EDS.
 enum class ObjectType : std::uint8_t { kI8 = 2, kI16 = 3, kI32 = 4, kU8 = 5, kU16 = 6, kU32 = 7 };
 
 enum class ObjectAccess : std::uint8_t { kConst, kReadOnly, kReadWrite, kWriteOnly };
 
-/// Whether an object may be in a PDO.
+/// Direction of the PDOs that may contain an object.
 enum class Mapping : std::uint8_t { kNo, kToNetwork, kFromNetwork };
 
 constexpr int size_of(ObjectType type) noexcept {
@@ -26,41 +26,42 @@ constexpr int size_of(ObjectType type) noexcept {
   return 4;
 }
 
+/// An object, or a sub-object, with its value.
 struct ObjectEntry {
   std::uint16_t index = 0;
   std::uint8_t sub = 0;
   ObjectType type = ObjectType::kU32;
   ObjectAccess access = ObjectAccess::kReadOnly;
   Mapping mapping = Mapping::kNo;
-  std::uint32_t initial = 0;  ///< after a reset
-  std::uint32_t value = 0;    ///< of signed types their two's complement
+  std::uint32_t initial = 0;  ///< value after a reset
+  std::uint32_t value = 0;    ///< two's complement for signed types
 
   bool readable() const noexcept { return access != ObjectAccess::kWriteOnly; }
   bool writable() const noexcept { return access == ObjectAccess::kReadWrite || access == ObjectAccess::kWriteOnly; }
   std::int32_t as_signed() const noexcept;
 };
 
-/// The objects of a node, at most 4 bytes each. Real-time safe.
+/// The object dictionary of a node with objects of at most 4 bytes. Real-time safe.
 class ObjectDictionary {
  public:
-  static constexpr std::size_t kCapacity = 112;
+  static constexpr std::size_t kCapacity = 112;  ///< entries; asserted in `add`
 
-  /// Ascending by index and sub-index; its value is its initial one.
+  /// Adds an entry with its initial value. Entries are added in ascending order of index and sub-index.
   void add(const ObjectEntry& entry) noexcept;
 
-  ObjectEntry* find(std::uint16_t index, std::uint8_t sub) noexcept;  ///< null: there is none
+  ObjectEntry* find(std::uint16_t index, std::uint8_t sub) noexcept;  ///< null: no such entry
   bool has(std::uint16_t index) const noexcept;
   std::span<const ObjectEntry> entries() const noexcept { return {entries_.data(), count_}; }
 
-  /// Of an entry that there is.
+  /// Values of an existing entry.
   std::uint32_t value(std::uint16_t index, std::uint8_t sub = 0) const noexcept;
   std::int32_t signed_value(std::uint16_t index, std::uint8_t sub = 0) const noexcept;
   void set(std::uint16_t index, std::uint8_t sub, std::uint32_t value) noexcept;
 
-  /// What it has from now on and after each reset.
+  /// Sets the value, now and after each reset.
   void set_initial(std::uint16_t index, std::uint8_t sub, std::uint32_t value) noexcept;
 
-  /// Initial values from one index to another, both included.
+  /// Restores the initial values of all entries with an index from `first` to `last`.
   void restore(std::uint16_t first, std::uint16_t last) noexcept;
 
  private:
@@ -71,7 +72,8 @@ class ObjectDictionary {
 
   std::array<ObjectEntry, kCapacity> entries_{};
   std::size_t count_ = 0;
-  std::array<std::uint8_t, kSlots> slots_{};  ///< 1 + place of the entry; of equal hashes the next free ones; 0: none
+  std::array<std::uint8_t, kSlots>
+      slots_{};  ///< hash table: 1 + position of the entry; equal hashes use the next free slot; 0: empty
 };
 
 }  // namespace godobject::sim

@@ -6,14 +6,14 @@
 namespace godobject::sim {
 namespace {
 
-constexpr double kRow = 1e-3;  // between the rows of a script [s]
+constexpr double kRow = 1e-3;  // period of a script's rows [s]
 
-/// What turns a into b, on the axes of W.
+/// The rotation vector from a to b, on the axes of R.
 Vector3 rotation_between(const Pose& a, const Pose& b) noexcept {
   return log_rotation(b.rotation * a.rotation.conjugate());
 }
 
-/// Spring and damper that pull `body` to `to`.
+/// Wrench of a spring and damper from `body` to `to`, on `body`.
 Wrench pull(const BodyState& to, const BodyState& body, double stiffness, double damping, double rotation_stiffness,
             double rotation_damping) noexcept {
   return {stiffness * (to.pose.translation - body.pose.translation) +
@@ -22,6 +22,7 @@ Wrench pull(const BodyState& to, const BodyState& body, double stiffness, double
               rotation_damping * (to.velocity.rotation - body.velocity.rotation)};
 }
 
+/// Energy of the springs between two poses [J].
 double stored(const Pose& a, const Pose& b, double stiffness, double rotation_stiffness) noexcept {
   return 0.5 * stiffness * (a.translation - b.translation).squaredNorm() +
          0.5 * rotation_stiffness * rotation_between(a, b).squaredNorm();
@@ -48,7 +49,7 @@ BodyState OperatorHand::target(double time) const noexcept {
   };
   const Pose& here = pose(row);
   const Pose& next = pose(row + 1);
-  // motion from `here`, a row's time as unit; slopes are those between the neighbours, zero at both ends
+  // motion from `here`, in rows; slopes are central differences, zero at both ends of the script
   const Motion step = {next.translation - here.translation, rotation_between(here, next)};
   const auto slope = [&](std::ptrdiff_t i) -> Motion {
     if (i == 0 || i == last) return {};
@@ -78,13 +79,13 @@ HandWrenches OperatorHand::wrenches(const BodyState& target, const BodyState& ha
   const BodyState& held = p.grip == Grip::kRigid ? tool : hand;
   HandWrenches result;
   if (script_.empty()) {
-    result.on_hand = {-p.damping * held.velocity.translation, -p.rotation_damping * held.velocity.rotation};
+    result.F_H_R = {-p.damping * held.velocity.translation, -p.rotation_damping * held.velocity.rotation};
   } else {
-    result.on_hand = pull(target, held, p.stiffness, p.damping, p.rotation_stiffness, p.rotation_damping);
+    result.F_H_R = pull(target, held, p.stiffness, p.damping, p.rotation_stiffness, p.rotation_damping);
   }
-  result.on_tool = p.grip == Grip::kRigid ? result.on_hand
-                                          : pull(hand, tool, p.grip_stiffness, p.grip_damping,
-                                                 p.grip_rotation_stiffness, p.grip_rotation_damping);
+  result.F_M_R = p.grip == Grip::kRigid ? result.F_H_R
+                                        : pull(hand, tool, p.grip_stiffness, p.grip_damping, p.grip_rotation_stiffness,
+                                               p.grip_rotation_damping);
   return result;
 }
 

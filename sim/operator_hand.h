@@ -8,59 +8,61 @@
 namespace godobject::sim {
 
 enum class Grip : std::uint8_t {
-  kNone,    ///< nobody holds the tool
-  kSpring,  ///< the hand holds it through a spring and damper
+  kNone,    ///< no hand is on the tool
+  kSpring,  ///< a spring and damper connect hand and tool
   kRigid,   ///< hand and tool are one body
 };
 
-/// The defaults are an arm and hand that work with a handle, loosely.
+/// Parameters of an operator's arm and hand. Defaults, chosen: a loose grip on a handle, with a natural frequency of
+/// sqrt(300 / 0.5) / 2 pi = 3.9 Hz and a damping ratio of 15 / (2 sqrt(300 * 0.5)) = 0.61.
 struct HandParameters {
   Grip grip = Grip::kNone;
   double mass = 0.5;                ///< [kg]
-  double inertia = 1e-3;            ///< the same about all axes [kg m^2]
-  double stiffness = 300.0;         ///< from the target to the hand [N/m]
+  double inertia = 1e-3;            ///< about each axis [kg m^2]
+  double stiffness = 300.0;         ///< between target and hand [N/m]
   double damping = 15.0;            ///< [Ns/m]
   double rotation_stiffness = 3.0;  ///< [Nm/rad]
   double rotation_damping = 0.05;   ///< [Nms/rad]
-  double grip_stiffness = 2e4;      ///< from the hand to the tool; `kSpring` only
+  double grip_stiffness = 2e4;      ///< between hand and tool, as `stiffness`; `kSpring` only
   double grip_damping = 50.0;
   double grip_rotation_stiffness = 50.0;
   double grip_rotation_damping = 0.2;
 };
 
-/// A rigid body that moves: the pose of a frame and its velocity, in W.
+/// A moving rigid body: pose and velocity of its frame in the room R.
 struct BodyState {
   Pose pose;
-  Motion velocity;  ///< of the frame's origin [m/s] and angular [rad/s]
+  Motion velocity;  ///< velocity of the origin [m/s] and angular velocity [rad/s], on the axes of R
 };
 
-/// Wrenches in W, each about the origin of the frame of the body that it acts on.
+/// Wrenches of the operator. M: frame of the tool, H: frame of the hand.
 struct HandWrenches {
-  Wrench on_tool;  ///< of the hand, or with a rigid grip of the target, on the tool
-  Wrench on_hand;  ///< of the target on the hand
+  Wrench F_M_R;  ///< on the tool, by the hand; with a rigid grip by the target
+  Wrench F_H_R;  ///< on the hand, by the target
 };
 
-/// An operator's hand H: mass, spring and damper between a scripted pose and the tool M; H is where M is when the grip
-/// is at rest. Its springs store the energy that they should: torque = stiffness times rotation vector.
+/// An operator's hand H: a mass with springs and dampers between a scripted pose and the tool M. H coincides with M
+/// when the grip is at rest. The springs are conservative: torque = stiffness times rotation vector.
 class OperatorHand {
  public:
   OperatorHand() = default;
 
-  /// `script`: where the hand would have the tool, H_WM, 1 ms apart, the first at time `start_ns`; it must outlive the
-  /// hand. Before and after it the first and the last pose hold. Without one the hand is passive: mass, damped against
-  /// the world.
+  /// `script`: target poses H_RM of the tool, 1 ms apart, the first at time `start_ns`; outlives the hand. The first
+  /// pose holds before the script, the last one after it. Without a script the hand is passive: a mass, damped against
+  /// the room.
   explicit OperatorHand(const HandParameters& parameters, std::span<const Pose> script = {},
                         std::int64_t start_ns = 0) noexcept;
 
   const HandParameters& parameters() const noexcept { return parameters_; }
 
-  /// The script between its rows: cubic Hermite, continuous in velocity. At rest at the origin if there is none.
+  /// The target at `time` [s]: the script, interpolated by cubic Hermite splines with continuous velocity. At rest at
+  /// the origin without a script.
   BodyState target(double time) const noexcept;
 
-  /// With a rigid grip the hand is where the tool is.
+  /// Wrenches of springs and dampers. With a rigid grip the tool's state replaces the hand's.
   HandWrenches wrenches(const BodyState& target, const BodyState& hand, const BodyState& tool) const noexcept;
 
-  /// What its springs hold and its mass carries [J]; with a rigid grip the arm carries its mass.
+  /// Energy of springs and mass [J]; with a rigid grip without the mass, which is the arm's.
   double energy(const BodyState& target, const BodyState& hand, const BodyState& tool) const noexcept;
 
  private:

@@ -8,11 +8,12 @@ namespace {
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-double product(const Wrench& wrench, const Motion& way) noexcept {
-  return wrench.force.dot(way.translation) + wrench.torque.dot(way.rotation);
+/// Work of a wrench along a small displacement [J].
+double work_of(const Wrench& F_M_R, const Motion& displacement) noexcept {
+  return F_M_R.force.dot(displacement.translation) + F_M_R.torque.dot(displacement.rotation);
 }
 
-/// The hand is one body with the tool: its mass goes with the payload.
+/// The model with a rigidly gripped hand: its mass is added to the payload.
 ArmModel with_hand(ArmModel model, const HandParameters& hand) noexcept {
   if (hand.grip != Grip::kRigid) return model;
   LinkMass& payload = model.payload;
@@ -26,8 +27,8 @@ ArmModel with_hand(ArmModel model, const HandParameters& hand) noexcept {
   return model;
 }
 
-/// The pose a time `seconds` on; angles within a step are so small that a rotation vector may be integrated like a
-/// position (its error is of the order of the step's third power).
+/// The pose after `seconds`. Integrates the rotation vector like a position: angles within a step are small, and the
+/// error is of the order of the step's third power.
 Pose moved(const Pose& start, double seconds, const Motion& velocity) noexcept {
   return {exp_rotation(seconds * velocity.rotation) * start.rotation,
           start.translation + seconds * velocity.translation};
@@ -43,7 +44,7 @@ Plant::Plant(const ArmModel& model, const JointVector& q, const JointVector& dry
              const OperatorHand& hand) noexcept
     : arm_(with_hand(model, hand.parameters())), hand_(hand), dry_friction_(dry_friction), q_(q) {
   for (int i = 0; i < model.joint_count; ++i) damping_[i] = model.joints[at(i)].damping;
-  if (hand.parameters().grip == Grip::kRigid) carried_W_.force = -hand.parameters().mass * model.gravity_W;
+  if (hand.parameters().grip == Grip::kRigid) carried_R_.force = -hand.parameters().mass * model.gravity_R;
   hand_state_ = tool();
 }
 
@@ -61,7 +62,7 @@ BodyState Plant::tool(const ArmPosture& posture, const JointVector& qd) const no
 
 JointVector Plant::gravity_torque() const noexcept {
   const ArmPosture here = posture();
-  return arm_.bias_torque(here, JointVector::Zero()) - arm_.tool_torque(here, carried_W_);
+  return arm_.bias_torque(here, JointVector::Zero()) - arm_.tool_torque(here, carried_R_);
 }
 
 double Plant::arm_energy() const noexcept {
@@ -79,18 +80,18 @@ Plant::Forces Plant::forces(const JointVector& qd, const BodyState& hand_state, 
   Forces forces;
   forces.viscous = -damping_.cwiseProduct(qd);
   forces.applied = motor + forces.viscous - arm_.bias_torque(posture_, qd);
-  Wrench on_tool = tool_load_W_;
+  Wrench F_M_R = tool_load_R_;
   if (hand.grip != Grip::kNone) {
     forces.hand = hand_.wrenches(target, hand_state, tool(posture_, qd));
-    forces.hand.on_tool.force += carried_W_.force;
-    on_tool.force += forces.hand.on_tool.force;
-    on_tool.torque += forces.hand.on_tool.torque;
+    forces.hand.F_M_R.force += carried_R_.force;
+    F_M_R.force += forces.hand.F_M_R.force;
+    F_M_R.torque += forces.hand.F_M_R.torque;
   }
   if (hand.grip == Grip::kSpring) {
-    forces.hand_acceleration.translation = (forces.hand.on_hand.force - forces.hand.on_tool.force) / hand.mass;
-    forces.hand_acceleration.rotation = (forces.hand.on_hand.torque - forces.hand.on_tool.torque) / hand.inertia;
+    forces.hand_acceleration.translation = (forces.hand.F_H_R.force - forces.hand.F_M_R.force) / hand.mass;
+    forces.hand_acceleration.rotation = (forces.hand.F_H_R.torque - forces.hand.F_M_R.torque) / hand.inertia;
   }
-  forces.applied += arm_.tool_torque(posture_, on_tool);
+  forces.applied += arm_.tool_torque(posture_, F_M_R);
   return forces;
 }
 
@@ -99,10 +100,10 @@ JointVector Plant::accelerations(const JointVector& applied, const Stick& stick)
   return stick.acceleration + moving_.solve(applied + stick.slip_torque - posture_.mass * stick.acceleration);
 }
 
-/// Coulomb's law for a step as a linear complementarity problem with bounds: each joint gets the acceleration that
-/// brings it to rest by the end of the step, or, where the torque that this takes is out of reach, the greatest one
-/// towards it. Found by exchange, from what held in the step before: the joint that is overcharged most slips, one that
-/// its friction would drive beyond rest sticks.
+/// Coulomb's law for a step, a linear complementarity problem with bounds: each joint gets the acceleration that brings
+/// it to rest by the end of the step or, if that takes more than the friction torque, the largest acceleration towards
+/// rest. Solved by exchange from the solution of the step before: the joint that exceeds its friction most begins to
+/// slip, and a joint that friction would drive beyond rest begins to stick.
 Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const JointVector& capacity,
                                JointVector& qdd) noexcept {
   const int n = joint_count();
@@ -118,7 +119,7 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
       stick.slip_torque[i] = std::copysign(capacity[i], last_slip_torque_[i]);
     }
   }
-  // one round as a rule, a few where a joint comes to rest or breaks away; the bound keeps the time of a step
+  // usually one round, a few when a joint comes to rest or breaks away; 4 n bounds the time of a step
   for (int round = 0;; ++round) {
     moving_.factor(posture_.mass, n, stick.held);
     qdd = accelerations(applied, stick);
@@ -146,31 +147,31 @@ Plant::Stick Plant::find_stick(double seconds, const JointVector& applied, const
 }
 
 double Plant::dry_work(const JointVector& applied, const Stick& stick, const JointVector& qdd,
-                       const JointVector& way) const noexcept {
+                       const JointVector& displacement) const noexcept {
   if (!stick.is_dry) return 0.0;
   double work = 0.0;
   for (int i = 0; i < joint_count(); ++i) {
-    if (way[i] == 0.0) continue;
+    if (displacement[i] == 0.0) continue;
     const double torque = stick.held[at(i)] ? posture_.mass.row(i).dot(qdd) - applied[i] : stick.slip_torque[i];
-    work += torque * way[i];
+    work += torque * displacement[i];
   }
   return work;
 }
 
-void Plant::add_work(const Forces& forces, const JointVector& motor, const JointVector& way,
-                     const Motion& hand_way) noexcept {
-  const Motion tool_way = arm_.tool_velocity(posture_, way);
-  work_.motor += motor.cwiseProduct(way);
-  work_.friction += forces.viscous.dot(way);
-  work_.load += product(tool_load_W_, tool_way);
+void Plant::add_work(const Forces& forces, const JointVector& motor, const JointVector& displacement,
+                     const Motion& hand_displacement) noexcept {
+  const Motion tool_displacement = arm_.tool_velocity(posture_, displacement);
+  work_.motor += motor.cwiseProduct(displacement);
+  work_.friction += forces.viscous.dot(displacement);
+  work_.load += work_of(tool_load_R_, tool_displacement);
   if (hand_.parameters().grip == Grip::kNone) return;
-  const Wrench& on_tool = forces.hand.on_tool;
-  const Vector3 along = on_tool.force.cwiseProduct(tool_way.translation);
-  const Vector3 about = on_tool.torque.cwiseProduct(tool_way.rotation);
+  const Wrench& F_M_R = forces.hand.F_M_R;
+  const Vector3 along = F_M_R.force.cwiseProduct(tool_displacement.translation);
+  const Vector3 about = F_M_R.torque.cwiseProduct(tool_displacement.rotation);
   work_.hand.head<3>() += along;
   work_.hand.tail<3>() += about;
   const bool spring = hand_.parameters().grip == Grip::kSpring;
-  work_.operator_arm += spring ? product(forces.hand.on_hand, hand_way) : along.sum() + about.sum();
+  work_.operator_arm += spring ? work_of(forces.hand.F_H_R, hand_displacement) : along.sum() + about.sum();
 }
 
 void Plant::step(std::int64_t duration_ns, const JointLoad& load) noexcept {
@@ -191,14 +192,14 @@ void Plant::step(std::int64_t duration_ns, const JointLoad& load) noexcept {
   const Forces middle = forces(qd_ + 0.5 * h * qdd, hand, target, motor);
   qdd = accelerations(middle.applied, stick);
 
-  const JointVector way = h * qd_ + 0.5 * h * h * qdd;
+  const JointVector displacement = h * qd_ + 0.5 * h * h * qdd;
   const Motion hand_mean = sum(hand_state_.velocity, 0.5 * h, middle.hand_acceleration);
-  add_work(middle, motor, way, {h * hand_mean.translation, h * hand_mean.rotation});
-  work_.friction += dry_work(middle.applied, stick, qdd, way);
-  q_ += way;
+  add_work(middle, motor, displacement, {h * hand_mean.translation, h * hand_mean.rotation});
+  work_.friction += dry_work(middle.applied, stick, qdd, displacement);
+  q_ += displacement;
   qd_ += h * qdd;
   for (int i = 0; i < joint_count(); ++i) {
-    // at rest to the last bit; and friction never drives a joint
+    // a held joint is exactly at rest, and friction never drives a joint
     if (stick.held[at(i)] || qd_[i] * stick.slip_torque[i] > 0.0) qd_[i] = 0.0;
   }
   hand_state_.pose = moved(hand_state_.pose, h, hand_mean);

@@ -8,50 +8,51 @@
 
 namespace godobject::sim {
 
-/// Work since the start [J].
+/// Work of each part since the start [J].
 struct PlantWork {
-  JointVector motor = JointVector::Zero();  ///< of each motor on its joint
-  /// Of the hand on the tool, split by the axes of W: forces along x, y, z, then torques about them.
+  JointVector motor = JointVector::Zero();  ///< of the motors on their joints
+  /// Of the hand on the tool, by axes of R: forces along x, y, z, then torques about them.
   Eigen::Matrix<double, 6, 1> hand = Eigen::Matrix<double, 6, 1>::Zero();
-  /// Of the operator's arm on the hand: the target's spring and damper. With a rigid grip the hand is part of the tool,
-  /// this is the sum of `hand`, and what carries the hand's weight is in both.
+  /// Of the operator's arm on the hand, through the target's spring and damper. With a rigid grip the hand is part of
+  /// the tool: then this is the sum of `hand`, and both contain the work that carries the hand's weight.
   double operator_arm = 0.0;
-  double load = 0.0;      ///< of the load on the tool
-  double friction = 0.0;  ///< of viscous and dry friction and of brakes; what they take is negative
+  double load = 0.0;      ///< of `set_tool_load` on the tool
+  double friction = 0.0;  ///< of viscous friction, dry friction and brakes; negative
 };
 
-/// What is put on the joints from outside for the length of a step [Nm].
+/// Joint torques from outside, constant for a step [Nm].
 struct JointLoad {
   JointVector motor = JointVector::Zero();
-  JointVector brake = JointVector::Zero();  ///< largest torque that a brake holds or slows its joint with
+  JointVector brake = JointVector::Zero();  ///< largest torque of the brakes
 };
 
-/// Arm and hand, integrated by the position Verlet rule: positions drift to the middle of the step, the forces there,
-/// with velocities predicted by those at its begin, act for the whole of it, positions drift on. Of second order; it
-/// neither gains nor loses energy in the long run, and takes one mass matrix a step. Work is force times way: what
-/// changes the kinetic energy to the last digits. Viscous friction is the arm model's.
+/// The simulated arm and hand. Integration: position Verlet. Positions drift to the middle of the step; the forces
+/// there, with velocities predicted from those at the beginning, act for the whole step; positions drift on. The method
+/// is of second order, does not gain or lose energy in the long run, and takes one mass matrix a step. Work is force
+/// times displacement, which equals the change of kinetic energy to the last digits. Viscous friction is the arm
+/// model's.
 ///
-/// Dry friction and brakes are Coulomb's law, exact in stick: within a step a joint either slips one way the whole
-/// step, or it is brought to rest by the end of it and stays there as long as the torque that this takes is within
-/// reach. So it neither creeps nor chatters. Everything is real-time safe and allocates nothing.
+/// Dry friction and brakes follow Coulomb's law, exactly in stick: within a step a joint either slips in one direction,
+/// or friction brings it to rest by the end of the step and holds it there as long as the needed torque is within its
+/// limit. So a joint neither creeps nor chatters. All functions are real-time safe and do not allocate.
 class Plant {
  public:
-  /// Longest step; the springs of a grip and a hand's mass are stable with it.
+  /// Longest step. Chosen, far below the bound 2 / omega of position Verlet: the stiffest default spring alone, a grip
+  /// of 50 Nm/rad on a hand of 1e-3 kg m^2, has omega = 224 rad/s and a bound of 8.9 ms.
   static constexpr std::int64_t kStep_ns = 100'000;
 
-  /// At rest at q, the hand where the tool is, time zero. `dry_friction` [Nm].
+  /// The arm at rest at q [rad], the hand at the tool, time zero. `dry_friction`: of the joints [Nm].
   Plant(const ArmModel& model, const JointVector& q, const JointVector& dry_friction = JointVector::Zero(),
         const OperatorHand& hand = {}) noexcept;
 
   int joint_count() const noexcept { return arm_.joint_count(); }
   std::int64_t now_ns() const noexcept { return now_ns_; }
 
-  /// One step of the integration, 1 ns to `kStep_ns`. Cost: 15,000 instructions for seven joints with
-  /// a hand.
+  /// One step of the integration, 1 ns to `kStep_ns`. Cost: 15,000 instructions for seven joints with a hand.
   void step(std::int64_t duration_ns, const JointLoad& load) noexcept;
 
-  /// A wrench on the tool about M's origin, in W, until it is set anew.
-  void set_tool_load(const Wrench& wrench_W) noexcept { tool_load_W_ = wrench_W; }
+  /// Puts a wrench on the tool, until the next call.
+  void set_tool_load(const Wrench& F_M_R) noexcept { tool_load_R_ = F_M_R; }
   void set_velocity(const JointVector& qd) noexcept { qd_ = qd; }
 
   const JointVector& positions() const noexcept { return q_; }
@@ -59,30 +60,30 @@ class Plant {
   const ArmDynamics& arm() const noexcept { return arm_; }
   ArmPosture posture() const noexcept;
   BodyState tool() const noexcept { return tool(posture(), qd_); }
-  BodyState hand() const noexcept;  ///< unless a spring is between them, where the tool is
+  BodyState hand() const noexcept;  ///< without a spring grip the tool's state
   const PlantWork& work() const noexcept { return work_; }
 
-  /// Torques that would hold the arm, without the hand, against gravity [Nm].
+  /// Torques that hold the arm without the hand against gravity [Nm].
   JointVector gravity_torque() const noexcept;
 
-  /// Kinetic and potential [J]; with a rigid grip the hand's mass is in it.
+  /// Kinetic and potential energy of the arm [J]; with a rigid grip including the hand's mass.
   double arm_energy() const noexcept;
 
-  /// Of the hand's springs and, unless the grip is rigid, of its mass [J].
+  /// Energy of the hand's springs and, unless the grip is rigid, of its mass [J].
   double hand_energy() const noexcept;
 
  private:
-  /// Joints that are at rest, or come to it by the end of the step.
+  /// Joints that are at rest or reach it by the end of the step.
   struct Stick {
-    bool is_dry = false;  ///< there is dry friction at all
+    bool is_dry = false;  ///< a joint has dry friction or a brake
     std::array<bool, kMaxJoints> held{};
-    JointVector acceleration = JointVector::Zero();  ///< of the held joints
-    JointVector slip_torque = JointVector::Zero();   ///< of dry friction on the others
+    JointVector acceleration = JointVector::Zero();  ///< acceleration of the held joints
+    JointVector slip_torque = JointVector::Zero();   ///< dry friction on the other joints
   };
   struct Forces {
-    JointVector applied;  ///< on the joints: all but dry friction's, inertial ones included
-    JointVector viscous;  ///< friction's part of it
-    HandWrenches hand;    ///< with what carries its weight
+    JointVector applied;  ///< torques on the joints, with inertial ones, without dry friction
+    JointVector viscous;  ///< viscous friction's part of them
+    HandWrenches hand;    ///< with the force that carries the hand's weight
     Motion hand_acceleration;
   };
 
@@ -92,16 +93,16 @@ class Plant {
   Stick find_stick(double seconds, const JointVector& applied, const JointVector& capacity, JointVector& qdd) noexcept;
   JointVector accelerations(const JointVector& applied, const Stick& stick) const noexcept;
   double dry_work(const JointVector& applied, const Stick& stick, const JointVector& qdd,
-                  const JointVector& way) const noexcept;
-  void add_work(const Forces& forces, const JointVector& motor, const JointVector& way,
-                const Motion& hand_way) noexcept;
+                  const JointVector& displacement) const noexcept;
+  void add_work(const Forces& forces, const JointVector& motor, const JointVector& displacement,
+                const Motion& hand_displacement) noexcept;
 
   ArmDynamics arm_;
   OperatorHand hand_;
   JointVector damping_ = JointVector::Zero();
   JointVector dry_friction_;
-  Wrench tool_load_W_;
-  Wrench carried_W_;  ///< with a rigid grip: the hand's weight, which its own arm carries
+  Wrench tool_load_R_;
+  Wrench carried_R_;  ///< with a rigid grip: the hand's weight, which the operator's arm carries
 
   std::int64_t now_ns_ = 0;
   JointVector q_;

@@ -9,17 +9,17 @@
 
 namespace godobject::sim {
 
-/// A time that does not come [ns].
+/// A time that is never reached [ns].
 inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-/// What happens while virtual time passes.
+/// A simulated world that virtual time advances.
 class World {
  public:
   virtual ~World() = default;
 
   virtual std::int64_t now_ns() const noexcept = 0;
 
-  /// Lets the world run on until `ns`; does nothing if that has passed.
+  /// Advances the world to `ns`; does nothing if that has passed.
   virtual void advance_to(std::int64_t ns) noexcept = 0;
 
  protected:
@@ -28,14 +28,14 @@ class World {
   World& operator=(const World&) = default;
 };
 
-/// Someone waits too long: the first `sleep_until` for `ns` or later returns `late_ns` after what it was asked for.
+/// A late wake-up: the first `sleep_until` for `ns` or later returns `late_ns` too late.
 struct LateWake {
   std::int64_t ns = 0;
   std::int64_t late_ns = 0;
 };
 
-/// Virtual time: it passes only while somebody sleeps, and the world runs in it. So computing takes no time, unless
-/// `spend` says so. `late` in order of time; it must outlive the clock.
+/// Virtual time: it passes only in `sleep_until`, which advances the world, and in `spend`. Computing takes no time.
+/// `late`: in order of time; outlives the clock.
 class VirtualClock final : public hal::Clock {
  public:
   explicit VirtualClock(World& world, std::span<const LateWake> late = {}) noexcept : world_(world), late_(late) {}
@@ -51,7 +51,7 @@ class VirtualClock final : public hal::Clock {
     world_.advance_to(wake_ns);
   }
 
-  /// Computing takes this long.
+  /// Lets time pass, for computing.
   void spend(std::int64_t duration_ns) noexcept { world_.advance_to(world_.now_ns() + duration_ns); }
 
  private:

@@ -24,7 +24,7 @@ bool is_positive_semidefinite(const Matrix3& matrix, double tolerance) noexcept 
          matrix.determinant() >= -tolerance * tolerance * tolerance;
 }
 
-/// Both conditions in one: the second moments of the mass, trace(I)/2 - I, are positive semidefinite.
+/// The second moments of the mass, trace(I)/2 - I, are positive semidefinite. This implies both conditions on I.
 bool is_inertia(const Matrix3& inertia) noexcept {
   const double size = inertia.cwiseAbs().maxCoeff();
   const double tolerance = 1e-6 * size;
@@ -37,10 +37,10 @@ bool is_inertia(const Matrix3& inertia) noexcept {
 
 Status validate(const ArmModel& model) noexcept {
   if (model.joint_count < 1 || model.joint_count > kMaxJoints) return Status::kArmShape;
-  if (!model.H_WA.is_finite() || !model.H_FM.is_finite() || !model.gravity_W.allFinite() || !is_finite(model.payload)) {
+  if (!model.H_RA.is_finite() || !model.H_FM.is_finite() || !model.gravity_R.allFinite() || !is_finite(model.payload)) {
     return Status::kNotFinite;
   }
-  if (!is_unit(model.H_WA.rotation) || !is_unit(model.H_FM.rotation)) return Status::kArmShape;
+  if (!is_unit(model.H_RA.rotation) || !is_unit(model.H_FM.rotation)) return Status::kArmShape;
   if (model.payload.mass < 0.0 || !is_inertia(model.payload.inertia)) return Status::kArmMass;
   for (int i = 0; i < model.joint_count; ++i) {
     const ArmJoint& joint = model.joints[static_cast<std::size_t>(i)];

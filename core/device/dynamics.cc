@@ -3,28 +3,30 @@
 namespace godobject {
 namespace {
 
-/// A rigid body, or several that move as one: centre of mass and inertia about it, on the axes of W.
+/// One rigid body or several that move as one: mass, centre of mass and the inertia about it, on the axes of R.
 struct Composite {
   double mass = 0.0;
-  Vector3 com_W = Vector3::Zero();
-  Matrix3 inertia_W = Matrix3::Zero();
+  Vector3 com_R = Vector3::Zero();
+  Matrix3 inertia_R = Matrix3::Zero();
 };
 
-Composite in_world(const LinkMass& body, const Pose& H_WB) noexcept {
-  const Matrix3 R_WB = H_WB.rotation.toRotationMatrix();
-  return {body.mass, H_WB * body.com, R_WB * body.inertia * R_WB.transpose()};
+/// `H_RX`: pose of the body's own frame X.
+Composite in_room(const LinkMass& body, const Pose& H_RX) noexcept {
+  const Matrix3 R_RX = H_RX.rotation.toRotationMatrix();
+  return {body.mass, H_RX * body.com, R_RX * body.inertia * R_RX.transpose()};
 }
 
-/// The inertia stays about the common centre of mass: no digits are lost to an arm that stands far from W's origin.
+/// The sum of two bodies. Its inertia is about the common centre of mass, so an arm far from R's origin loses no
+/// digits.
 Composite join(const Composite& a, const Composite& b) noexcept {
   const double mass = a.mass + b.mass;
-  if (!(mass > 0.0)) return {0.0, a.com_W, a.inertia_W + b.inertia_W};
-  const Vector3 between = b.com_W - a.com_W;
+  if (!(mass > 0.0)) return {0.0, a.com_R, a.inertia_R + b.inertia_R};
+  const Vector3 between = b.com_R - a.com_R;
   const double reduced_mass = a.mass * b.mass / mass;
   Composite sum;
   sum.mass = mass;
-  sum.com_W = a.com_W + (b.mass / mass) * between;
-  sum.inertia_W = a.inertia_W + b.inertia_W +
+  sum.com_R = a.com_R + (b.mass / mass) * between;
+  sum.inertia_R = a.inertia_R + b.inertia_R +
                   reduced_mass * (between.squaredNorm() * Matrix3::Identity() - between * between.transpose());
   return sum;
 }
@@ -34,32 +36,32 @@ Composite join(const Composite& a, const Composite& b) noexcept {
 JointVector gravity_torque(const ArmModel& model, const ArmKinematics& kinematics) noexcept {
   JointVector torque = JointVector::Zero();
   double mass = model.payload.mass;
-  Vector3 moment_W = mass * (kinematics.H_WM * model.payload.com);  // sum of mass times position
+  Vector3 moment_R = mass * (kinematics.H_RM * model.payload.com);  // sum of mass times position
   for (int i = model.joint_count - 1; i >= 0; --i) {
     const auto k = static_cast<std::size_t>(i);
     const LinkMass& link = model.joints[k].link;
     mass += link.mass;
-    moment_W += link.mass * (kinematics.H_WL[k] * link.com);
-    const Vector3 arm_W = moment_W - mass * kinematics.H_WL[k].translation;
-    torque[i] = -kinematics.axis_W[k].dot(arm_W.cross(model.gravity_W));
+    moment_R += link.mass * (kinematics.H_RL[k] * link.com);
+    const Vector3 arm_R = moment_R - mass * kinematics.H_RL[k].translation;
+    torque[i] = -kinematics.axis_R[k].dot(arm_R.cross(model.gravity_R));
   }
   return torque;
 }
 
 JointMatrix mass_matrix(const ArmModel& model, const ArmKinematics& kinematics) noexcept {
   JointMatrix matrix = JointMatrix::Zero();
-  Composite beyond = in_world(model.payload, kinematics.H_WM);
+  Composite beyond = in_room(model.payload, kinematics.H_RM);
   for (int j = model.joint_count - 1; j >= 0; --j) {
     const auto k = static_cast<std::size_t>(j);
-    beyond = join(in_world(model.joints[k].link, kinematics.H_WL[k]), beyond);
-    // momentum of all beyond joint j at unit speed of it alone, and what of it each joint before feels
-    const Vector3& axis_W = kinematics.axis_W[k];
-    const Vector3 momentum_W = beyond.mass * axis_W.cross(beyond.com_W - kinematics.H_WL[k].translation);
-    const Vector3 spin_W = beyond.inertia_W * axis_W;
+    beyond = join(in_room(model.joints[k].link, kinematics.H_RL[k]), beyond);
+    // momentum of the bodies beyond joint j at unit speed of joint j alone; its moment about each joint i before it
+    const Vector3& axis_R = kinematics.axis_R[k];
+    const Vector3 momentum_R = beyond.mass * axis_R.cross(beyond.com_R - kinematics.H_RL[k].translation);
+    const Vector3 spin_R = beyond.inertia_R * axis_R;
     for (int i = 0; i <= j; ++i) {
       const auto l = static_cast<std::size_t>(i);
-      const Vector3 arm_W = beyond.com_W - kinematics.H_WL[l].translation;
-      matrix(i, j) = kinematics.axis_W[l].dot(spin_W + arm_W.cross(momentum_W));
+      const Vector3 arm_R = beyond.com_R - kinematics.H_RL[l].translation;
+      matrix(i, j) = kinematics.axis_R[l].dot(spin_R + arm_R.cross(momentum_R));
       matrix(j, i) = matrix(i, j);
     }
     matrix(j, j) += model.joints[k].rotor;

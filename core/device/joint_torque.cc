@@ -12,7 +12,9 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// What comes first takes no more than this of what it finds, so that what comes after fades and does not jump to zero.
+/// Largest share of the remaining torque that springs and damping take. The rest is left to the wrench, which so fades
+/// towards a limit and never jumps to zero. Chosen: every value in 0 .. 1 fades; 0.9 leaves most of the torque to the
+/// springs, and the wrench a tenth.
 constexpr double kLargestShare = 0.9;
 
 /// 0 up to a, 1 from b on, with continuous slope.
@@ -27,12 +29,12 @@ JointVector torque_limits(const ArmModel& model) noexcept {
   return limits;
 }
 
-/// The weighted Jacobian W J, taken apart.
+/// Singular value decomposition of the weighted Jacobian Z J = U S V^T.
 struct SingularDirections {
   Jacobian weighted;
   Matrix6 directions;     // U
-  Vector6 share;          // f
-  Vector6 inverse_share;  // f / s^2
+  Vector6 share;          // f(s)
+  Vector6 inverse_share;  // f(s) / s^2
 };
 
 bool find_singular_directions(const JointTorqueParameters& parameters, const Jacobian& jacobian,
@@ -52,7 +54,7 @@ bool find_singular_directions(const JointTorqueParameters& parameters, const Jac
   return true;
 }
 
-/// P x
+/// P x: the part of joint motion x that leaves the tool at rest.
 JointVector project_on_null_space(const SingularDirections& singular, const JointVector& x) noexcept {
   const Vector6 along = singular.directions.transpose() * (singular.weighted * x);
   return x - singular.weighted.transpose() * (singular.directions * singular.inverse_share.cwiseProduct(along));
@@ -60,7 +62,8 @@ JointVector project_on_null_space(const SingularDirections& singular, const Join
 
 struct LimitSprings {
   JointVector torque = JointVector::Zero();
-  JointVector down_share = JointVector::Ones();  // of what pushes towards either limit, from 1 to 0 at it
+  // share of the torque towards the lower and the upper limit: 1 outside the band, 0 at the limit
+  JointVector down_share = JointVector::Ones();
   JointVector up_share = JointVector::Ones();
 };
 
@@ -70,7 +73,7 @@ LimitSprings limit_springs(const ArmModel& model, const JointTorqueParameters& p
   const double band = parameters.limit_band;
   for (int i = 0; i < model.joint_count; ++i) {
     const ArmJoint& joint = model.joints[static_cast<std::size_t>(i)];
-    // depth in the band before a limit and speed towards it -> torque away from it
+    // torque away from a limit, for the depth in its band and the speed towards it
     const auto push = [&](double depth, double speed, double& share) {
       if (!(depth > 0.0)) return 0.0;
       const double towards_limit = std::min(1.0, depth / band);
@@ -83,7 +86,7 @@ LimitSprings limit_springs(const ArmModel& model, const JointTorqueParameters& p
   return springs;
 }
 
-/// How far each joint's torque may still go down and up.
+/// Torque that each joint has left in both directions [Nm].
 struct Room {
   JointVector down;
   JointVector up;
@@ -95,7 +98,7 @@ struct Room {
     return torque.cwiseMax(-share * down).cwiseMin(share * up);
   }
 
-  /// The largest factor up to 1 that brings all of `torque` into this share of the room.
+  /// The largest factor up to 1 with which all of `torque` is within this share of the room.
   double factor(const JointVector& torque, double share) const noexcept {
     double smallest = 1.0;
     for (int i = 0; i < kMaxJoints; ++i) {
@@ -106,15 +109,15 @@ struct Room {
   }
 };
 
-/// Takes from the room of joints that are near a limit. `springs`: as applied; `most`: what a wrench of this size could
-/// give at each joint, in whatever direction. The share of that, not of the torque limit, fades: so it begins with the
-/// band, as gently as it can. A tenth less than the spring always remains, or the least push would take all of a
-/// wrench.
+/// Reduces the room of joints that are near a limit. `springs`: their applied torques. `most`: the largest torque that
+/// a wrench of this size could give at each joint, over all directions. The fade is a share of `most` and not of the
+/// torque limit, so that it begins gently where the band begins. At least kLargestShare of the spring remains as room:
+/// otherwise the smallest push towards the limit would scale the whole wrench to nothing.
 void fade_towards_limits(const LimitSprings& limits, const JointVector& springs, const JointVector& most,
                          Room& room) noexcept {
-  const auto fade = [](double share, double spring, double largest, double& way) {
+  const auto fade = [](double share, double spring, double largest, double& left) {
     if (share < 1.0)
-      way = std::min(way, std::max(share * std::min(largest, way), kLargestShare * std::max(0.0, spring)));
+      left = std::min(left, std::max(share * std::min(largest, left), kLargestShare * std::max(0.0, spring)));
   };
   for (int i = 0; i < kMaxJoints; ++i) {
     fade(limits.down_share[i], springs[i], most[i], room.down[i]);
@@ -124,7 +127,7 @@ void fade_towards_limits(const LimitSprings& limits, const JointVector& springs,
 
 bool is_finite(const TorqueRequest& request, int joint_count) noexcept {
   return request.q.head(joint_count).allFinite() && request.qd.head(joint_count).allFinite() &&
-         request.F_W.force.allFinite() && request.F_W.torque.allFinite() && request.p_W.allFinite();
+         request.F_P_R.force.allFinite() && request.F_P_R.torque.allFinite() && request.p_RP.allFinite();
 }
 
 }  // namespace
@@ -160,7 +163,7 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   result.torque = result.gravity;
   SingularDirections singular;
   if (!is_finite(request, model.joint_count) ||
-      !find_singular_directions(parameters, geometric_jacobian(request.kinematics, request.p_W), singular)) {
+      !find_singular_directions(parameters, geometric_jacobian(request.kinematics, request.p_RP), singular)) {
     return Status::kNotFinite;
   }
 
@@ -176,8 +179,8 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   const Room beside_springs(limits, torque);
   torque += beside_springs.factor(damping, kLargestShare) * damping;
 
-  Vector6 wanted;  // W^-1 F
-  wanted << request.F_W.force, request.F_W.torque / parameters.rotation_length;
+  Vector6 wanted;  // Z^-1 F
+  wanted << request.F_P_R.force, request.F_P_R.torque / parameters.rotation_length;
   const Vector6 along = singular.directions.transpose() * wanted;
   const Vector6 shown = singular.directions * singular.share.cwiseProduct(along);
   const JointVector rendered = singular.weighted.transpose() * shown;
@@ -189,8 +192,8 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   torque += scale * rendered;
   if (!torque.allFinite() || !std::isfinite(scale) || !shown.allFinite()) return Status::kNotFinite;
 
-  result.torque = torque.cwiseMax(-limits).cwiseMin(limits);  // takes away only what rounding put on top
-  result.rendered_W = {scale * shown.head<3>(), scale * parameters.rotation_length * shown.tail<3>()};
+  result.torque = torque.cwiseMax(-limits).cwiseMin(limits);  // removes rounding errors only
+  result.rendered_P_R = {scale * shown.head<3>(), scale * parameters.rotation_length * shown.tail<3>()};
   result.scale = scale;
   const double wanted_length = wanted.stableNorm();
   result.left_out = wanted_length > 0.0 ? std::min(1.0, (wanted - shown).stableNorm() / wanted_length) : 0.0;

@@ -23,23 +23,23 @@ Pose link_pose(const ArmJoint& joint, double q) noexcept {
 ArmKinematics forward_kinematics(const ArmModel& model, const JointVector& q) noexcept {
   ArmKinematics kinematics;
   kinematics.joint_count = model.joint_count;
-  Pose H_WL = model.H_WA;
+  Pose H_RL = model.H_RA;
   for (int i = 0; i < model.joint_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    H_WL = H_WL * link_pose(model.joints[k], q[i]);
-    kinematics.H_WL[k] = H_WL;
-    kinematics.axis_W[k] = H_WL.rotation._transformVector(Vector3::UnitZ());
+    H_RL = H_RL * link_pose(model.joints[k], q[i]);
+    kinematics.H_RL[k] = H_RL;
+    kinematics.axis_R[k] = H_RL.rotation._transformVector(Vector3::UnitZ());
   }
-  kinematics.H_WM = H_WL * model.H_FM;
+  kinematics.H_RM = H_RL * model.H_FM;
   return kinematics;
 }
 
-Jacobian geometric_jacobian(const ArmKinematics& kinematics, const Vector3& p_W) noexcept {
+Jacobian geometric_jacobian(const ArmKinematics& kinematics, const Vector3& p_RP) noexcept {
   Jacobian jacobian = Jacobian::Zero();
   for (int i = 0; i < kinematics.joint_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    jacobian.col(i).head<3>() = kinematics.axis_W[k].cross(p_W - kinematics.H_WL[k].translation);
-    jacobian.col(i).tail<3>() = kinematics.axis_W[k];
+    jacobian.col(i).head<3>() = kinematics.axis_R[k].cross(p_RP - kinematics.H_RL[k].translation);
+    jacobian.col(i).tail<3>() = kinematics.axis_R[k];
   }
   return jacobian;
 }

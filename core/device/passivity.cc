@@ -47,7 +47,7 @@ Wrench PassivityController::apply(double absorbed, const Wrench& F, const Motion
   if (unloaded_ == kForget) forgotten_ = std::max(forgotten_, absorbed);
   const double debt = forgotten_ - absorbed;
   if (!(debt > 0.0 && square > 0.0) || power == 0.0) return F;
-  // bounded before it is divided by what may be next to nothing
+  // compared before the division, whose divisor may be close to zero
   const double pays_all = debt * square;
   const double square_power = parameters_.period * power * power;
   damping_ = pays_all < parameters_.most_damping * square_power ? pays_all / square_power : parameters_.most_damping;

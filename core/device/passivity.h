@@ -7,26 +7,29 @@
 
 namespace godobject {
 
-/// The energy that sampled, delayed torques have taken from the arm and the hand on it, in the time domain (passivity
-/// observer: Hannaford and Ryu, IEEE Transactions on Robotics and Automation 18(1), 2002).
+/// Measures the energy that sampled, delayed torques take from the arm and the hand on it (passivity observer:
+/// Hannaford and Ryu, IEEE Transactions on Robotics and Automation 18(1), 2002).
 ///
-/// What is sent at sample k acts t_d = (D + s) T later, 0 <= s < 1, and is held for T. So from sample k-1 to sample k
+/// A torque that is sent at sample k acts t_d = (D + s) T later, 0 <= s < 1, and is held for T. So from sample k-1 to
+/// sample k
 ///     E += -(s tau_(k-2-D) + (1 - s) tau_(k-1-D)) . (q_k - q_(k-1)),
-/// exact for a joint that moves evenly between samples. Below zero torques have given energy: held force and delay are
-/// not passive where K (T/2 + t_d) is more than the damping. Cost: 20 ns. Real-time safe.
+/// which is exact for a joint that moves evenly between samples. A negative E means that torques have given energy: a
+/// sampled, delayed spring is not passive where K (T/2 + t_d) exceeds the damping. Cost: 20 ns. Real-time safe.
 class PassivityObserver {
  public:
+  /// Longest delay in periods. Chosen: a ring of 16 torques then holds all that may still act. The longest delay of a
+  /// device file is 6: a bus plan ends within one period and `bus.drive_delay` within five.
   static constexpr int kMostDelay = 14;
 
-  /// `delay_in_periods` t_d / T is brought into 0 .. kMostDelay.
+  /// `delay_in_periods`: t_d / T, clamped to 0 .. kMostDelay.
   explicit PassivityObserver(double delay_in_periods) noexcept;
 
-  /// Nothing has been sent, and no energy taken.
+  /// Forgets all torques and the energy.
   void reset() noexcept;
 
-  /// Once a period, before `send`: where the joints are [rad]. The first time after `reset` there is no way yet.
+  /// Takes the joint positions [rad] of this period, before `send`. The first call after `reset` adds no energy.
   void observe(const JointVector& q) noexcept;
-  /// What is sent now [Nm].
+  /// Takes the torques that are sent in this period [Nm].
   void send(const JointVector& torque) noexcept;
 
   double absorbed() const noexcept { return absorbed_; }  ///< E [J]
@@ -47,39 +50,41 @@ class PassivityObserver {
   int newest_ = 0;
 };
 
-/// Pays back with damping what the observer finds to have been given away (passivity controller: the same source, there
-/// for one axis). The damper lies along the wrench that is rendered, lengths as in the virtual coupling: with
-/// F = (f, t/L), V = (v, L w) and P = F . V the wrench becomes
-///     (1 - b P / |F|^2) F,   b = min(b_max, debt |F|^2 / (T P^2)), never below 0.
-/// So it pays no more than the debt in a period and no more than a damper b_max takes, keeps the wrench's direction
-/// (that of a friction cone, too) and turns no push into a pull. A wrench of zero stays zero.
+/// Damps the rendered wrench until the energy that it has given is absorbed again (passivity controller: the same
+/// source, there for one axis). The damper acts along the rendered wrench, with lengths as in the virtual coupling.
+/// With F = (f, t/L), V = (v, L w) and P = F . V the wrench becomes
+///     (1 - b P / |F|^2) F,   b = min(b_max, debt |F|^2 / (T P^2)), never below 0,
+/// where the debt is the energy given so far. The damper absorbs at most the debt in a period, and at most as much as a
+/// damper b_max. It keeps the wrench's direction, also that of a friction cone, and turns no push into a pull. A wrench
+/// of zero stays zero.
 ///
-/// Energy that was taken while nothing is rendered any more cannot be meant to come back: a surplus is forgotten after
-/// kForget periods without a wrench, a debt is not. Cost: 20 ns. Real-time safe.
+/// A surplus, energy taken, must not be given back to a later contact: it is forgotten after kForget periods without a
+/// wrench. A debt is not forgotten. Cost: 20 ns. Real-time safe.
 class PassivityController {
  public:
   struct Parameters {
-    double most_damping = 0.0;     ///< b_max [Ns/m]; 0: the wrench is left as it is
+    double most_damping = 0.0;     ///< b_max [Ns/m]; 0: the wrench does not change
     double period = 1e-3;          ///< T [s]
     double rotation_length = 0.1;  ///< L [m]
   };
 
-  static constexpr int kForget = PassivityObserver::kMostDelay + 2;  ///< longer than anything sent still acts
+  /// Periods until a surplus is forgotten. Derived: a torque acts for at most kMostDelay + 1 periods after it was sent.
+  static constexpr int kForget = PassivityObserver::kMostDelay + 2;
 
   explicit PassivityController(const Parameters& parameters) noexcept : parameters_(parameters) {}
 
-  /// No debt and no surplus; the observer begins anew, too.
+  /// Forgets debt and surplus. The caller resets the observer, too.
   void reset() noexcept;
 
-  /// The wrench to render in place of `F` on a hand that moves with `V` [N, Nm; m/s, rad/s], both about the same point
-  /// in the same frame, where the observer has seen `absorbed` [J].
+  /// The wrench to render in place of `F` [N, Nm] on a hand with the velocity `V` [m/s, rad/s]. Both are about the same
+  /// point on the same axes. `absorbed`: the observer's energy [J].
   Wrench apply(double absorbed, const Wrench& F, const Motion& V) noexcept;
 
   double damping() const noexcept { return damping_; }  ///< b of the last call [Ns/m]
 
  private:
   Parameters parameters_;
-  double forgotten_ = 0.0;  // of the observer's energy [J]
+  double forgotten_ = 0.0;  // the observer's energy from which debts count [J]
   int unloaded_ = 0;        // periods without a wrench, in a row
   double damping_ = 0.0;
 };

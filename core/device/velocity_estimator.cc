@@ -15,7 +15,7 @@ Status VelocityEstimator::update(const JointVector& q, JointVector& qd) noexcept
   qd.setZero();
   if (count_ < 2) return Status::kOk;
 
-  // the weights sum to zero, so positions may count from the newest: no digits are lost far from zero
+  // the weights sum to zero, so differences to the newest position will do: no digits are lost far from zero
   const double n = count_;
   for (int age = 1; age < count_; ++age) {
     const auto slot = static_cast<std::size_t>((newest_ - age + window_) % window_);

@@ -19,12 +19,11 @@ Status make_unit(Pose& H_WM) noexcept {
 
 /// Returns the second direction of the scene; none where the image or this build leaves it out.
 template <DistanceField BodyField>
-FeatureContacts<BodyField> feature_contacts(const Scene& scene, const Vector3& sphere_center) noexcept {
+FeatureContacts<BodyField> feature_contacts(const SceneView& scene, const Vector3& sphere_center) noexcept {
   FeatureContacts<BodyField> features;
   if constexpr (kHasSecondDirection<BodyField>) {
     if (scene.has_features()) {
-      features = {&scene.body_map, scene.features, scene.features_origin,
-                  scene.body_map.surface_radius(sphere_center)};
+      features = {&scene.body_map, scene.features, scene.features_origin, scene.body_map.surface_radius(sphere_center)};
     }
   }
   return features;
@@ -32,7 +31,7 @@ FeatureContacts<BodyField> feature_contacts(const Scene& scene, const Vector3& s
 
 }  // namespace
 
-void CompiledSession::start(const Scene& scene, Solver solver, bool friction,
+void CompiledSession::start(const SceneView& scene, Solver solver, bool friction,
                             std::span<std::uint32_t> words) noexcept {
   scene_ = scene;
   H_MB_ = scene.H_MB;

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "core/pipeline/session.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/god_object.h"
 
 namespace godobject {
@@ -19,13 +19,13 @@ class CompiledSession {
   using Core = Session<Voxelmap, BodyField>;
 
   /// Returns the size of the search's memory, which lies behind the session [32-bit words].
-  static std::size_t search_words(const Scene& scene) noexcept {
+  static std::size_t search_words(const SceneView& scene) noexcept {
     return Core::search_words(scene.pointshell, scene.features);
   }
 
   /// Starts the session. The image and this build must have the solver, and friction if requested (missing_part).
   /// `words`: search_words(scene) of them, or none.
-  void start(const Scene& scene, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept;
+  void start(const SceneView& scene, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept;
 
   void reset() noexcept { core_.reset(); }
   Status follow(const Pose& H_WM, CycleReport& report) noexcept;
@@ -38,7 +38,7 @@ class CompiledSession {
  private:
   Status refuse(Status status, CycleReport& report) const noexcept;
 
-  Scene scene_;
+  SceneView scene_;
   Pose H_MB_;
   Pose H_BM_;
   Core core_;

@@ -18,7 +18,7 @@ static_assert(sizeof(CompiledSession) < 1024 * 1024);
 
 }  // namespace
 
-std::size_t GodObject::memory_size(const CompiledScene& scene) noexcept {
+std::size_t GodObject::memory_size(const Scene& scene) noexcept {
   return sizeof(CompiledSession) + sizeof(std::uint32_t) * CompiledSession::search_words(scene.view());
 }
 
@@ -26,9 +26,8 @@ std::size_t GodObject::least_memory_size() noexcept { return sizeof(CompiledSess
 
 std::size_t GodObject::memory_alignment() noexcept { return kAlignment; }
 
-Status GodObject::start(const CompiledScene& scene, Solver solver, bool friction,
-                        std::span<std::byte> memory) noexcept {
-  const Scene& view = scene.view();
+Status GodObject::start(const Scene& scene, Solver solver, bool friction, std::span<std::byte> memory) noexcept {
+  const SceneView& view = scene.view();
   if (!view.holds(solver) || (friction && view.settings.friction == 0)) return Status::kNotInImage;
   if (missing_part(view, solver, friction) != Part::kNone) return Status::kNotInBuild;
   const bool is_aligned = reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment == 0;

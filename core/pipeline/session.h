@@ -32,9 +32,9 @@ class Session {
     return kHasSearch ? ContactSearch::memory(shell, features) : 0;
   }
 
-  /// Starts the session anew with a solver that this build has (missing_part). All references must outlive the session.
-  /// `words`: at least search_words(...) of them, for this session alone. With none the results are the same, but
-  /// `contact` visits the sphere trees from their roots in every cycle.
+  /// Starts the session from the beginning, with a solver that this build has (missing_part). All references must
+  /// outlive the session. `words`: at least search_words(...) of them, for this session alone. With none the results
+  /// are the same, but `contact` visits the sphere trees from their roots in every cycle.
   void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>& features,
              const Parameters& parameters, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept {
     field_ = &field;
@@ -46,7 +46,7 @@ class Session {
     reset();
   }
 
-  /// Starts the session anew with `contact` for a ball without friction (is_ball).
+  /// Starts the session from the beginning, with `contact` for a ball without friction (is_ball).
   void start_ball(const Field& field, const Pointshell& shell, const Parameters& parameters) noexcept {
     static_assert(std::is_same_v<Field, Voxelmap>);
     field_ = &field;

@@ -82,7 +82,7 @@ using Solver = godobject::Solver;
 inline constexpr std::uint32_t kSolverCount = 3;
 inline constexpr const char* kSolverNames[kSolverCount] = {"paper", "corrected", "contact"};
 
-/// What the scene file decides for the pipeline. SI units.
+/// Settings of the scene file for the pipeline. SI units.
 struct Settings {
   std::uint32_t default_solver;   ///< format::Solver
   std::uint32_t solvers;          ///< bit (1 << Solver) set: this image holds what that solver reads
@@ -104,9 +104,9 @@ struct Settings {
 static_assert(sizeof(Settings) == 112);
 
 /// The box that the origin of B, the moving body's centre of mass, does not leave, along the axes of W [m]; low <=
-/// high. What cannot be reached from it may be missing in the image: a brick position that no look-up of a cycle meets
-/// is far and inside, whatever it was (so a point that did come there would count as inside), and points that can touch
-/// nothing are left out.
+/// high. The image may leave out data that no pose in the box needs. A brick position that no look-up of a cycle meets
+/// is stored as far and inside, so a point that came there would count as inside. Points that can touch nothing are
+/// left out.
 struct Workspace {
   double low[3];
   double high[3];

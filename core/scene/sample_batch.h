@@ -7,7 +7,7 @@ namespace godobject {
 /// Points whose distances and gradients are looked up together.
 struct SampleBatch {
   static constexpr std::uint32_t kCapacity = 64;
-  static constexpr std::uint32_t kAtOnce = 4;  ///< what was found is finite up to a multiple of it
+  static constexpr std::uint32_t kAtOnce = 4;  ///< the results are finite up to the next multiple of it
 
   alignas(64) float x[kCapacity];  ///< in the points' own frame [m]
   alignas(64) float y[kCapacity];
@@ -18,7 +18,7 @@ struct SampleBatch {
   alignas(64) double from_clearance[kCapacity];  ///< [m]
   alignas(64) double from_distance[kCapacity];   ///< [m]
 
-  // what is found, as in FieldSample; where `known` is 0 without a gradient
+  // the results, as in FieldSample; where `known` is 0 without a gradient
   alignas(64) double field_x[kCapacity];  ///< in the field's frame [m]
   alignas(64) double field_y[kCapacity];
   alignas(64) double field_z[kCapacity];

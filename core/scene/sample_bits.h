@@ -5,7 +5,7 @@
 
 #include "core/scene/sample_batch.h"
 
-/// What holds of the points of a batch, a bit each. Real-time safe; some instructions a point.
+/// Properties of the points of a batch, a bit each. Real-time safe; some instructions a point.
 namespace godobject {
 
 /// Calls visit(i) for every bit that is set, ascending.

@@ -31,7 +31,7 @@ using LookUpSamples = std::uint32_t(const FieldOfNodes& field, SampleBatch& batc
 
 /// From where points are (FieldOfNodes::to_field) to where their chords end.
 struct ChordEnds {
-  double change[3][4];  ///< what is added to to_field; the last column [m]
+  double change[3][4];  ///< the change of to_field; the last column [m]
 };
 
 /// Of points `first` to `first + lanes` of a batch that was looked up where their chords end, a bit a lane: those whose

@@ -1,456 +1,67 @@
-#include "core/scene/scene.h"
-
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
+#include <new>
+#include <type_traits>
+
+#include "core/scene/scene_view.h"
+#include "godobject/scene.h"
 
 namespace godobject {
-namespace {
 
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-constexpr bool kLooksAtChecksums = false;  // a fuzzer does not guess them, and is to see what lies behind
-#else
-constexpr bool kLooksAtChecksums = true;
-#endif
-
-using format::SectionId;
-
-/// The sections of one image, by id; empty where absent.
-struct Sections {
-  std::array<std::span<const std::byte>, format::kMaxSections> of{};
-
-  std::span<const std::byte> operator[](SectionId id) const noexcept { return of[static_cast<std::size_t>(id)]; }
-};
-
-template <class T>
-bool read_one(std::span<const std::byte> bytes, T& value) noexcept {
-  if (bytes.size() != sizeof(T)) return false;
-  std::memcpy(&value, bytes.data(), sizeof(T));
-  return true;
+Scene::Scene() noexcept {
+  static_assert(sizeof(SceneView) <= kBytes && alignof(SceneView) <= 64);
+  static_assert(std::is_trivially_destructible_v<SceneView>);
+  new (storage_) SceneView();
 }
 
-bool in_range(double value, double low, double high) noexcept { return value >= low && value <= high; }
+Scene::Scene(const Scene& other) noexcept { new (storage_) SceneView(other.view()); }
 
-bool all_finite(const float* values, std::size_t count, float limit) noexcept {
-  bool fine = true;
-  for (std::size_t i = 0; i < count; ++i) fine &= std::fabs(values[i]) <= limit;  // false for NaN
-  return fine;
+Scene& Scene::operator=(const Scene& other) noexcept {
+  view() = other.view();
+  return *this;
 }
-
-Status read_header(std::span<const std::byte> image, format::Header& header) noexcept {
-  if (image.size() < sizeof(format::Header)) return Status::kImageTruncated;
-  std::memcpy(&header, image.data(), sizeof(header));
-  if (std::memcmp(header.magic, format::kMagic, sizeof(header.magic)) != 0) return Status::kImageForeign;
-  if (header.byte_order != format::kByteOrder) return Status::kImageForeign;
-  if (header.version != format::kVersion) return Status::kImageVersion;
-  if (header.total_bytes != image.size()) return Status::kImageTruncated;
-  if (header.section_count == 0 || header.section_count >= format::kMaxSections) return Status::kImageLayout;
-  const std::size_t table_end = sizeof(format::Header) + header.section_count * sizeof(format::Section);
-  const std::size_t expected = (table_end + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
-  if (header.header_bytes != expected) return Status::kImageLayout;
-  if (image.size() < expected) return Status::kImageTruncated;
-
-  format::Header cleared = header;
-  cleared.checksum = 0;
-  std::array<std::byte, sizeof(format::Header)> head{};
-  std::memcpy(head.data(), &cleared, sizeof(cleared));
-  const std::uint64_t sum = format::checksum(image.data() + sizeof(format::Header), expected - sizeof(format::Header),
-                                             format::checksum(head.data(), head.size()));
-  if (kLooksAtChecksums && sum != header.checksum) return Status::kImageChecksum;
-  for (const std::uint64_t word : header.reserved) {
-    if (word != 0) return Status::kImageLayout;
-  }
-  return Status::kOk;
-}
-
-Status read_sections(std::span<const std::byte> image, const format::Header& header, Sections& sections) noexcept {
-  std::uint64_t next = header.header_bytes;
-  for (std::uint32_t i = 0; i < header.section_count; ++i) {
-    format::Section section{};
-    std::memcpy(&section, image.data() + sizeof(format::Header) + i * sizeof(format::Section), sizeof(section));
-    const auto id = static_cast<std::size_t>(section.id);
-    if (id == 0 || id >= format::kMaxSections || section.reserved != 0) return Status::kImageLayout;
-    if (sections.of[id].data() != nullptr) return Status::kImageLayout;
-    if (section.offset != next) return Status::kImageLayout;
-    if (section.bytes > image.size() - section.offset) return Status::kImageLayout;
-    const std::uint64_t padded = (section.bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
-    if (padded > image.size() - section.offset) return Status::kImageLayout;
-    if (kLooksAtChecksums && format::checksum(image.data() + section.offset, padded) != section.checksum) {
-      return Status::kImageChecksum;
-    }
-    sections.of[id] = image.subspan(section.offset, section.bytes);
-    next = section.offset + padded;
-  }
-  return next == image.size() ? Status::kOk : Status::kImageLayout;
-}
-
-bool valid_settings(const format::Settings& s) noexcept {
-  constexpr double kLarge = 1e9;
-  return s.default_solver < format::kSolverCount && s.solvers < (1u << format::kSolverCount) &&
-         ((s.solvers >> s.default_solver) & 1u) != 0 && s.friction <= 1 && in_range(s.safety_distance, 1e-12, kLarge) &&
-         in_range(s.margin, 1e-12, kLarge) && in_range(s.stiffness, 1e-12, kLarge) &&
-         in_range(s.damping, 0.0, kLarge) && in_range(s.coupling_translation, 1e-12, kLarge) &&
-         in_range(s.coupling_rotation, 1e-18, kLarge) && in_range(s.friction_static, 0.0, 10.0) &&
-         in_range(s.friction_kinetic, 0.0, s.friction_static) && in_range(s.friction_viscous, 0.0, kLarge) &&
-         in_range(s.paper_rotation_static, 0.0, 10.0) &&
-         in_range(s.paper_rotation_kinetic, 0.0, s.paper_rotation_static) && in_range(s.paper_viscous, 0.0, 10.0);
-}
-
-bool valid_grid(const format::Grid& g) noexcept {
-  constexpr double kLarge = 1e7;
-  if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, 1e6 * g.voxel_size)) return false;
-  // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
-  // bricks are refined up to 2, then rounded: a finest cell's nodes apart by as much as coarse ones are off
-  constexpr double kRoundingSlope =
-      2.0 * format::kMostRoundedOff * format::kLargestQuantum * (1 << format::kMaxRefinement);
-  if (!in_range(g.lipschitz, 0.0, 2.0 + kRoundingSlope) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
-  if (!in_range(g.clearance_slope, 1.0, 1e6) || !in_range(g.outside_loss, 0.0, kLarge)) return false;
-  if (!in_range(g.quantum, 1e-15, format::kLargestQuantum * g.voxel_size)) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (g.bricks[axis] < 1 || g.bricks[axis] > format::kMaxBricksPerAxis) return false;
-    const double low = g.origin[axis];
-    const double high = low + g.voxel_size * format::kBrickCells * g.bricks[axis];
-    if (!in_range(low, -kLarge, kLarge)) return false;
-    if (!in_range(g.surface_min[axis], low, high) || !in_range(g.surface_max[axis], g.surface_min[axis], high))
-      return false;
-  }
-  return true;
-}
-
-bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
-  for (const std::uint32_t entry : index) {
-    if ((entry & format::index_entry::kFar) != 0 && !(format::index_entry::far_clearance(entry) <= 1e8f)) return false;
-  }
-  return true;
-}
-
-/// The brick that an entry or a refinement names: whether there is one, and whether it knows its edge.
-bool valid_brick_name(std::uint32_t number, bool edged, std::span<const format::Brick> bricks) noexcept {
-  return number < bricks.size() && edged == (bricks[number].edge != 0);
-}
-
-/// Of a refinement's own nodes: named where they are read.
-bool valid_own_nodes(const format::Refined& refined, bool of_position, std::span<const format::Brick> bricks) noexcept {
-  std::uint32_t coarse = 0;  // those that are must all say the same of an edge
-  bool any = false;
-  for (const std::uint32_t child : refined.child) {
-    if ((child & format::index_entry::kFar) == 0) continue;
-    if ((child & ~format::index_entry::kEdged) != format::index_entry::kCoarse || (any && child != coarse))
-      return false;
-    any = true;
-    coarse = child;
-  }
-  if (!any && !of_position) return refined.brick == format::kNoBrick;
-  return valid_brick_name(refined.brick, (coarse & format::index_entry::kEdged) != 0, bricks);
-}
-
-/// Walks all refinements in the order that the format prescribes. Each is met once, at the number that is next: so none
-/// is out of reach, shared or contained in itself, and the walk is as long as index and refinements. It names as many
-/// bricks as there are.
-bool valid_entries(std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
-                   std::span<const format::Refined> refined) noexcept {
-  struct Open {
-    const format::Refined* refined;
-    std::size_t next_child;
-  };
-  std::array<Open, format::kMaxRefinement> open{};
-  std::size_t next = 0;
-  std::size_t named = 0;
-  for (const std::uint32_t position : index) {
-    if ((position & format::index_entry::kFar) != 0) continue;
-    std::uint32_t entry = position;
-    std::size_t depth = 0;
-    while (true) {
-      const bool coarse = (entry & format::index_entry::kFar) != 0;  // valid_own_nodes has seen it
-      if (!coarse) {
-        if ((entry & format::index_entry::kInside) != 0) return false;
-        const std::uint32_t number = entry & format::index_entry::kNumber;
-        if ((entry & format::index_entry::kRefined) == 0) {
-          ++named;
-          if (!valid_brick_name(number, (entry & format::index_entry::kEdged) != 0, bricks)) return false;
-        } else {
-          if (number != next || next >= refined.size() || depth == open.size()) return false;
-          if ((entry & format::index_entry::kEdged) != 0 || !valid_own_nodes(refined[next], depth == 0, bricks))
-            return false;
-          if (refined[next].brick != format::kNoBrick) ++named;
-          open[depth++] = {&refined[next++], 0};
-        }
-      }
-      while (depth > 0 && open[depth - 1].next_child == std::size(open[depth - 1].refined->child)) --depth;
-      if (depth == 0) break;
-      Open& parent = open[depth - 1];
-      entry = parent.refined->child[parent.next_child++];
-    }
-  }
-  return next == refined.size() && named == bricks.size();
-}
-
-bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count) noexcept {
-  for (const format::Brick& brick : bricks) {
-    if (brick.edge > edge_count) return false;
-  }
-  return true;
-}
-
-bool valid_edges(std::span<const format::Edge> edges) noexcept {
-  constexpr double kSlack = 1e-9;  // of products of unit vectors
-  constexpr double kFarthest = 1e8;
-  const auto dot = [](const double(&a)[3], const double(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto unit = [&](const double(&a)[3]) { return in_range(dot(a, a), 1.0 - kSlack, 1.0 + kSlack); };
-  const auto square = [&](const double(&a)[3], const double(&b)[3]) { return in_range(dot(a, b), -kSlack, kSlack); };
-  for (const format::Edge& edge : edges) {
-    for (const double x : edge.point) {
-      if (!in_range(x, -kFarthest, kFarthest)) return false;
-    }
-    if (!unit(edge.along)) return false;
-    for (int i = 0; i < 2; ++i) {
-      if (!unit(edge.normal[i]) || !unit(edge.face[i]) || !square(edge.normal[i], edge.face[i]) ||
-          !square(edge.normal[i], edge.along) || !square(edge.face[i], edge.along)) {
-        return false;
-      }
-    }
-    if (!(edge.side == 1.0 || edge.side == -1.0) || !in_range(edge.offset, -kFarthest, kFarthest)) return false;
-    if (!in_range(edge.begin, -kFarthest, kFarthest) || !in_range(edge.end, edge.begin, kFarthest)) return false;
-    if (!in_range(edge.ramp, 1e-12, kFarthest) || !in_range(edge.end_radius, 1e-12, kFarthest) ||
-        !in_range(edge.radius, edge.end_radius, kFarthest) || !in_range(edge.slope, 0.0, 1.0)) {
-      return false;
-    }
-    for (const double x : edge.reserved) {
-      if (x != 0.0) return false;
-    }
-  }
-  return true;
-}
-
-bool valid_body(const format::Body& b) noexcept {
-  double norm_squared = 0.0;
-  for (const double q : b.rotation_MB) norm_squared += q * q;
-  if (!in_range(norm_squared, 1.0 - 1e-6, 1.0 + 1e-6)) return false;
-  for (const double t : b.translation_MB) {
-    if (!in_range(t, -1e7, 1e7)) return false;
-  }
-  if (!in_range(b.inertia[0], 0.0, 1e12) || !in_range(b.inertia[1], b.inertia[0], 1e12) ||
-      !in_range(b.inertia[2], b.inertia[1], 1e12)) {
-    return false;
-  }
-  for (const double c : b.sphere_center) {
-    if (!in_range(c, -1e6, 1e6)) return false;
-  }
-  return in_range(b.sphere_radius, 1e-12, 1e6) && in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1;
-}
-
-/// How far a body moves is bounded by it.
-bool contains(const BoundingSphere& sphere, const Pointshell& shell) noexcept {
-  for (std::size_t i = 0; i < shell.size; ++i) {
-    if (!((shell.point(i) - sphere.center).norm() <= sphere.radius)) return false;
-  }
-  return true;
-}
-
-/// How many points, nodes and levels a tree has, and how far its points reach.
-struct TreeSize {
-  std::uint32_t point_count;
-  std::uint32_t node_count;
-  std::uint32_t level_count;
-  double radius;
-
-  bool valid() const noexcept {
-    return in_range(radius, 1e-12, 1e6) && point_count >= 1 && point_count <= format::kMaxPoints && node_count >= 1 &&
-           node_count <= 2 * point_count && level_count >= 1 && level_count <= format::kMaxLevels;
-  }
-};
-
-/// Structure of the tree: pre-order, depth bounded by level_count, children partition their parent's points in order.
-bool valid_nodes(std::span<const format::Node> nodes, const TreeSize& size) noexcept {
-  struct Open {
-    std::uint32_t skip;        // where the subtree ends
-    std::uint32_t point_end;   // and its points
-    std::uint32_t next_point;  // first point that the next child must have
-  };
-  std::array<Open, format::kMaxLevels + 1> open{};
-  std::uint32_t depth = 0;
-  const auto count = static_cast<std::uint32_t>(nodes.size());
-  if (nodes[0].skip != count || nodes[0].first_point != 0 || nodes[0].point_count != size.point_count) return false;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    while (depth > 0 && open[depth - 1].skip == i) {
-      --depth;
-      if (open[depth].next_point != open[depth].point_end) return false;
-    }
-    const format::Node& node = nodes[i];
-    if (!(node.radius >= 0.0f && node.radius <= 1e7f) || !all_finite(node.center, 3, 1e7f)) return false;
-    if (node.level != depth || node.leaf > 1 || depth >= size.level_count) return false;
-    if (node.skip <= i || node.skip > count || node.point_count == 0) return false;
-    if (node.leaf == (node.skip == i + 1 ? 0 : 1)) return false;
-    if (i > 0) {
-      if (depth == 0) return false;  // a second root
-      Open& parent = open[depth - 1];
-      if (node.skip > parent.skip || node.first_point != parent.next_point) return false;
-      if (node.point_count > parent.point_end - parent.next_point) return false;
-      parent.next_point += node.point_count;
-    }
-    if (node.leaf == 0) open[depth++] = {node.skip, node.first_point + node.point_count, node.first_point};
-  }
-  while (depth > 0) {
-    --depth;
-    if (open[depth].skip != count || open[depth].next_point != open[depth].point_end) return false;
-  }
-  return true;
-}
-
-bool valid_points(const Pointshell& shell, double radius) noexcept {
-  constexpr double kSlack = 1.0 + 1e-6;  // single precision; Voxelmap::lower_bound allows for it
-  for (std::size_t i = 0; i < shell.size; ++i) {
-    if (!(shell.point(i).norm() <= radius * kSlack)) return false;
-    if (shell.normal_x != nullptr && !in_range(shell.normal(i).squaredNorm(), 0.998, 1.002)) return false;
-  }
-  // the tree is worth nothing if a point stands outside of its spheres
-  for (const format::Node& node : shell.nodes) {
-    const Vector3 center(static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
-                         static_cast<double>(node.center[2]));
-    const double reach = static_cast<double>(node.radius);
-    for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
-      if (!((shell.point(i) - center).norm() <= reach * kSlack)) return false;
-    }
-  }
-  return true;
-}
-
-template <class T>
-std::span<const T> as_array(std::span<const std::byte> bytes) noexcept {
-  // sections begin at multiples of kAlignment of an aligned image; T is trivial
-  return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
-}
-
-/// `values` is float x[n], y[n], z[n].
-void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x, const float*& y,
-              const float*& z) noexcept {
-  x = as_array<float>(values).data();
-  y = x + n;
-  z = y + n;
-}
-
-/// The sections that make up one voxelmap.
-struct MapSections {
-  SectionId grid, index, bricks, refined, edges;
-};
-
-Status open_map(const Sections& sections, const MapSections& ids, format::Grid& grid, Voxelmap& map) noexcept {
-  if (!read_one(sections[ids.grid], grid)) return Status::kImageLayout;
-  if (!valid_grid(grid)) return Status::kImageValue;
-  const std::uint64_t positions = static_cast<std::uint64_t>(grid.bricks[0]) *
-                                  static_cast<std::uint64_t>(grid.bricks[1]) *
-                                  static_cast<std::uint64_t>(grid.bricks[2]);
-  const auto index = as_array<std::uint32_t>(sections[ids.index]);
-  const auto bricks = as_array<format::Brick>(sections[ids.bricks]);
-  const auto refined = as_array<format::Refined>(sections[ids.refined]);
-  if (sections[ids.index].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
-  if (sections[ids.bricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
-  const auto edges = as_array<format::Edge>(sections[ids.edges]);
-  if (sections[ids.refined].size() != refined.size_bytes()) return Status::kImageLayout;
-  if (sections[ids.edges].size() != edges.size_bytes()) return Status::kImageLayout;
-  if (!valid_clearances(index) || !valid_bricks(bricks, edges.size()) || !valid_entries(index, bricks, refined) ||
-      !valid_edges(edges)) {
-    return Status::kImageValue;
-  }
-  map = Voxelmap(grid, index, bricks, refined, edges);
-  return Status::kOk;
-}
-
-/// Sample or feature points with their sphere tree; `normals` may be absent.
-Status open_shell(std::span<const std::byte> points, std::span<const std::byte> normals,
-                  std::span<const std::byte> nodes, const TreeSize& size, Pointshell& shell) noexcept {
-  if (!size.valid()) return Status::kImageValue;
-  const std::size_t axes_bytes = std::size_t{3} * sizeof(float) * size.point_count;
-  if (points.size() != axes_bytes || nodes.size() != size.node_count * sizeof(format::Node))
-    return Status::kImageLayout;
-  if (normals.data() != nullptr && normals.size() != axes_bytes) return Status::kImageLayout;
-  shell.size = size.point_count;
-  set_axes(points, shell.size, shell.x, shell.y, shell.z);
-  if (normals.data() != nullptr) set_axes(normals, shell.size, shell.normal_x, shell.normal_y, shell.normal_z);
-  shell.nodes = as_array<format::Node>(nodes);
-  return valid_nodes(shell.nodes, size) && valid_points(shell, size.radius) ? Status::kOk : Status::kImageValue;
-}
-
-/// Feature points and the moving body's voxelmap: both or neither.
-Status open_features(const Sections& sections, Scene& scene) noexcept {
-  const auto bytes = sections[SectionId::kFeatures];
-  const bool map = sections[SectionId::kBodyGrid].data() != nullptr;
-  if (bytes.data() == nullptr) return map ? Status::kImageLayout : Status::kOk;
-  format::Features features{};
-  format::Grid grid{};
-  if (!read_one(bytes, features)) return Status::kImageLayout;
-  for (const double x : features.origin) {
-    if (!in_range(x, -1e7, 1e7)) return Status::kImageValue;
-  }
-  if (features.reserved != 0) return Status::kImageValue;
-  const Status status =
-      open_shell(sections[SectionId::kFeaturePoints], {}, sections[SectionId::kFeatureNodes],
-                 {features.point_count, features.node_count, features.level_count, features.radius}, scene.features);
-  if (status != Status::kOk) return status;
-  scene.features_origin = Vector3(features.origin[0], features.origin[1], features.origin[2]);
-  return open_map(sections,
-                  {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
-                   SectionId::kBodyEdges},
-                  grid, scene.body_map);
-}
-
-/// `box` stays unlimited where the image has none.
-Status open_workspace(const Sections& sections, WorkspaceBox& box) noexcept {
-  const auto bytes = sections[SectionId::kWorkspace];
-  if (bytes.data() == nullptr) return Status::kOk;
-  format::Workspace workspace{};
-  if (!read_one(bytes, workspace)) return Status::kImageLayout;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!in_range(workspace.low[axis], -1e7, 1e7) || !in_range(workspace.high[axis], workspace.low[axis], 1e7))
-      return Status::kImageValue;
-    box.low[axis] = workspace.low[axis];
-    box.high[axis] = workspace.high[axis];
-  }
-  box.limited = true;
-  return Status::kOk;
-}
-
-}  // namespace
 
 Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
-  if (reinterpret_cast<std::uintptr_t>(image.data()) % format::kAlignment != 0) return Status::kImageLayout;
-  format::Header header{};
-  Status status = read_header(image, header);
-  if (status != Status::kOk) return status;
-  Sections sections;
-  status = read_sections(image, header, sections);
-  if (status != Status::kOk) return status;
+  return SceneView::open(image, scene.view());
+}
 
-  Scene opened;
-  const format::Body& body = opened.body;
-  if (!read_one(sections[SectionId::kSettings], opened.settings)) return Status::kImageLayout;
-  if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
-  if (!valid_settings(opened.settings) || !valid_body(body)) return Status::kImageValue;
+Scene Scene::of(const SceneView& view) noexcept {
+  Scene scene;
+  scene.view() = view;
+  return scene;
+}
 
-  status = open_map(
-      sections, {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined, SectionId::kEdges},
-      opened.grid, opened.voxelmap);
-  if (status != Status::kOk) return status;
-  // contacts begin at the safety distance: there the field must be known
-  if (opened.grid.band < opened.settings.safety_distance) return Status::kImageValue;
+const SceneView& Scene::view() const noexcept { return *std::launder(reinterpret_cast<const SceneView*>(storage_)); }
+SceneView& Scene::view() noexcept { return *std::launder(reinterpret_cast<SceneView*>(storage_)); }
 
-  status = open_workspace(sections, opened.workspace);
-  if (status != Status::kOk) return status;
-  const auto normals = sections[SectionId::kNormals];
-  if (normals.data() == nullptr && opened.holds(format::Solver::kPaper)) return Status::kImageLayout;
-  status = open_shell(sections[SectionId::kPoints], normals, sections[SectionId::kNodes],
-                      {body.point_count, body.node_count, body.level_count, body.radius}, opened.pointshell);
-  if (status != Status::kOk) return status;
-  if (!contains(sphere_of(body), opened.pointshell)) return Status::kImageValue;
-  status = open_features(sections, opened);
-  if (status != Status::kOk) return status;
+Solver Scene::default_solver() const noexcept { return view().default_solver(); }
+bool Scene::holds(Solver solver) const noexcept { return view().holds(solver); }
+bool Scene::has_friction() const noexcept { return view().settings.friction != 0; }
+double Scene::voxel_size() const noexcept { return view().grid.voxel_size; }
+Vector3 Scene::center_of_mass_M() const noexcept { return view().H_MB.translation; }
 
-  opened.H_MB.rotation =
-      Quaternion(body.rotation_MB[0], body.rotation_MB[1], body.rotation_MB[2], body.rotation_MB[3]).normalized();
-  opened.H_MB.translation = Vector3(body.translation_MB[0], body.translation_MB[1], body.translation_MB[2]);
-  opened.provenance = sections[SectionId::kProvenance];
-  scene = opened;
+SurfaceDistance Scene::distance(const Vector3& p_W) const noexcept {
+  const FieldSample sample = view().voxelmap.sample(p_W);
+  const double steepness = sample.gradient.norm();
+  SurfaceDistance distance;
+  distance.distance = sample.distance;
+  distance.known = sample.known;
+  if (steepness > 0.0) distance.normal_W = sample.gradient / steepness;
+  return distance;
+}
+
+Gains Scene::gains() const noexcept {
+  const format::Settings& settings = view().settings;
+  return {settings.stiffness, settings.damping, settings.coupling_rotation};
+}
+
+Status Scene::set_gains(const Gains& gains) noexcept {
+  const auto positive = [](double value) noexcept { return std::isfinite(value) && value > 0.0; };
+  if (!positive(gains.stiffness) || !positive(gains.rotational)) return Status::kOutOfRange;
+  if (!std::isfinite(gains.damping) || gains.damping < 0.0) return Status::kOutOfRange;
+  format::Settings& settings = view().settings;
+  settings.stiffness = gains.stiffness;
+  settings.damping = gains.damping;
+  settings.coupling_rotation = gains.rotational;
   return Status::kOk;
 }
 

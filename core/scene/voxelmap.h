@@ -18,7 +18,7 @@ class Voxelmap {
  public:
   Voxelmap() = default;
 
-  /// The parts must have been validated (Scene::open does) and must outlive the view.
+  /// The parts must have been validated (SceneView::open does) and must outlive the view.
   Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
            std::span<const format::Refined> refined, std::span<const format::Edge> edges = {}) noexcept;
 
@@ -55,7 +55,7 @@ class Voxelmap {
   std::uint64_t free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,
                                SampleBatch& batch) const noexcept;
 
-  /// What the kernels of `clearances` read, for points of a frame at H; not where in_batches() is false.
+  /// The data that the kernels of `clearances` read, for points of a frame at H. Requires in_batches().
   detail::FieldOfCells in_cells(const Pose& H) const noexcept;
   bool in_batches() const noexcept { return in_batches_; }
 
@@ -103,8 +103,8 @@ class Voxelmap {
   double band_ = 0.0;
   double quantum_ = 0.0;  ///< of the stored distances; less where they are refined [m]
   double quantum_per_voxel_ = 0.0;
-  double near_band_ = 0.0;  ///< what a clearance may take of a distance: the band less what its nodes may be rounded
-                            ///< down by, no more than a brick's edge [m]
+  double near_band_ = 0.0;  ///< largest part of a distance that a clearance may use: the band less its rounding, at
+                            ///< most a brick's edge [m]
   double lipschitz_ = 1.0;  ///< of the whole field
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;

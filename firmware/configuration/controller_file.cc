@@ -17,7 +17,7 @@ namespace {
 
 using files::TomlTable;
 
-/// A path as the file means it; empty stays empty.
+/// A path relative to the folder of `file`; empty stays empty.
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
   return path.empty() ? std::filesystem::path() : file.parent_path() / path;
 }
@@ -56,12 +56,13 @@ void read_workspace(const TomlTable& table, ControllerConfig& config) {
 void read_limits(const TomlTable& table, ControllerConfig::Limits& limits) {
   table.allow({"force", "torque", "speed", "speed_stop", "turn", "turn_stop", "joint_speed", "joint_speed_stop",
                "torque_rate", "stuck_torque"});
-  // what a person's hand and wrist bear, and how quickly they move; 140 N: ISO/TS 15066, hand, quasi-static
+  // Largest limits: a person holds the tool. 140 N: ISO/TS 15066, quasi-static contact of the hand. 10 Nm, 5 m/s and
+  // 30 rad/s: chosen, the order of what a wrist bears and of how fast a hand moves.
   const auto bearable = [&table](const char* key, double least, double most, const char* unit, double fallback) {
     const double value = table.number(key, {least, 1e6}, fallback);
     if (value > most) {
-      table.complain(key, fmt::format("= {:g} {} protects nobody: a person's hand is in it; at most {:g} {}", value,
-                                      unit, most, unit));
+      table.complain(key, fmt::format("= {:g} {} does not protect the hand of a person; at most {:g} {}", value, unit,
+                                      most, unit));
     }
     return value;
   };
@@ -151,7 +152,7 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   return config;
 }
 
-void set_gains(const ControllerConfig::Gains& gains, Scene& scene) noexcept {
+void set_gains(const ControllerConfig::Gains& gains, SceneView& scene) noexcept {
   format::Settings& settings = scene.settings;
   settings.stiffness = gains.stiffness.value_or(settings.stiffness);
   settings.damping = gains.damping.value_or(settings.damping);
@@ -160,8 +161,8 @@ void set_gains(const ControllerConfig::Gains& gains, Scene& scene) noexcept {
 
 Placement place(const ControllerConfig::Workspace& workspace, const Device& device, const Vector3& p_MB) {
   Placement placement{{}, {}, device};
-  const Pose H_RT = forward_kinematics(device.model, workspace.posture).H_WM;
-  // the scene's rotation is R_WR R_RT R_TM
+  const Pose H_RT = forward_kinematics(device.model, workspace.posture).H_RM;  // the device file's M is T here
+  // solves R_WR R_RT R_TM = R_WM at the start
   placement.H_TM.rotation = (workspace.turn * H_RT.rotation).conjugate() * workspace.start.rotation;
   placement.H_TM.rotation.normalize();
   placement.H_TM.translation = -placement.H_TM.rotation._transformVector(p_MB) / workspace.scale;

@@ -8,20 +8,21 @@
 
 namespace godobject::firmware {
 
-/// An arm and how it is driven, as a file in firmware/devices says it.
+/// An arm and its drives: the contents of a file in firmware/devices.
 struct Device {
   std::string name;
   ArmModel model;
   JointTorqueParameters torque;
-  hal::BusLayout bus;  ///< without `compute`: that is the controller's
+  hal::BusLayout bus;  ///< without `compute`, which the controller file has
 };
 
-/// Reads and validates a device file; its keys stand at the top of firmware/devices/*.toml. No key has a default.
-/// Throws command::Failure: kNoInput if the file cannot be read, kBadConfig naming file, line and key.
+/// Reads and validates a device file. The head of each firmware/devices/*.toml explains the keys; none has a default
+/// but some of [bus]. Throws command::Failure: kNoInput if the file cannot be read, kBadConfig naming file, line and
+/// key.
 Device read_device_file(const std::filesystem::path& file);
 
-/// The device with the moving mesh held otherwise: `H_MG` is the mesh's frame in what the file calls M, which it
-/// replaces. The payload stays where it is.
-void regrip(const Pose& H_MG, Device& device);
+/// Makes the mesh's frame M the device's tool frame. Before the call `model.H_FM` is the pose of T, the tool frame of
+/// the device file; `H_TM` is the mesh in it. The payload stays where it is.
+void regrip(const Pose& H_TM, Device& device);
 
 }  // namespace godobject::firmware

@@ -7,10 +7,10 @@
 
 namespace godobject::firmware {
 
-/// [x, y, z, qw, qx, qy, qz]; a rotation within 1e-3 of unit length is normalised, any other refused.
+/// Reads a pose [x, y, z, qw, qx, qy, qz]. A rotation within 1e-3 of unit length is normalised, any other refused.
 Pose read_pose(const files::TomlTable& table, std::string_view key);
 
-/// [qw, qx, qy, qz], the same.
+/// Reads a rotation [qw, qx, qy, qz], with the same rule.
 Quaternion read_rotation(const files::TomlTable& table, std::string_view key);
 
 }  // namespace godobject::firmware

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <csignal>
 #include <ctime>
 #include <memory>
 #include <optional>
@@ -12,10 +11,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "firmware/can_buses.h"
 #include "firmware/configuration/controller_file.h"
-#include "firmware/scene_file.h"
-#include "firmware/simulated_arm.h"
+#include "firmware/configuration/scene_file.h"
+#include "firmware/drives/cia402/can_buses.h"
+#include "firmware/machine/signals.h"
+#include "firmware/simulation/simulated_arm.h"
 #include "hal/cia402/bus_plan.h"
 #include "hal/linux/monotonic_clock.h"
 #include "sim/can_bridge.h"
@@ -33,14 +33,13 @@ const char* const kFooter = R"(Examples:
   godobject-simdevice firmware/controllers/lwr.toml --bus vcan0,vcan1,vcan2 &
   godobject-controller firmware/controllers/lwr.toml --bus vcan0,vcan1,vcan2
 
-The drives and the panel answer as CANopen nodes do; give the controller the same file. The arm moves in lock-step with the
-controller's SYNC, one period each. Without SYNC it goes by the clock, so that the drives' deadlines run out. It ends at
-SIGTERM, SIGINT, SIGHUP or after --duration and then prints what it has seen.
+Simulates arm, drives, operator's panel and hand as CANopen nodes; use the same file for the controller. Each SYNC of the
+controller advances the arm by one period. Without SYNC the arm follows the clock, so the drives' deadlines expire. The run ends
+at SIGTERM, SIGINT, SIGHUP or after --duration and then prints its figures.
 
-Exit codes: 0 done, 64 usage, 65 bad data, 66 no such input, 69 an interface is not there,
-77 not permitted, 78 bad configuration)";
+Exit codes: 0 done, 64 usage, 65 bad data, 66 no such input, 69 an interface is missing, 77 no right, 78 bad configuration)";
 
-constexpr std::int64_t kLongestWait_ns = 100'000'000;
+constexpr std::int64_t kLongestWait_ns = 100'000'000;  // chosen: signals and --duration are noticed within 0.1 s
 
 struct Options {
   std::string controller;
@@ -50,16 +49,7 @@ struct Options {
   std::optional<double> duration;
 };
 
-std::atomic<bool> ended{false};
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { ended.store(true, std::memory_order_relaxed); };
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) ::sigaction(signal, &action, nullptr);
-}
-
-/// Until a frame has come, or for so long.
+/// Waits until a frame has arrived, at most `ns`.
 void wait_for_frames(const firmware::CanBuses& wires, std::int64_t ns) {
   std::array<pollfd, hal::kMaxBuses> descriptors{};
   const std::size_t count = wires.buses().size();
@@ -67,7 +57,7 @@ void wait_for_frames(const firmware::CanBuses& wires, std::int64_t ns) {
   const timespec most{0, std::clamp<std::int64_t>(ns, 0, kLongestWait_ns)};
   if (::ppoll(descriptors.data(), count, &most, nullptr) <= 0) return;
   for (std::size_t i = 0; i < count; ++i) {
-    // an interface that is down is ready at once, again and again
+    // an interface that is down makes ppoll return at once each time
     const timespec moment{0, 100'000};
     if ((descriptors[i].revents & (POLLERR | POLLHUP)) != 0) ::nanosleep(&moment, nullptr);
   }
@@ -75,10 +65,10 @@ void wait_for_frames(const firmware::CanBuses& wires, std::int64_t ns) {
 
 void print_report(const sim::CanDevice& device, const sim::CanBridge& bridge, const firmware::SimulatedArm& arm) {
   const sim::BridgeCounters& counters = bridge.counters();
-  fmt::print("{} cycles, {:.3f} s of the arm; {} frames sent, {} found no room; {} received, {} dropped\n",
-             counters.cycles, 1e-9 * static_cast<double>(arm.now_ns()), counters.forwarded, counters.not_sent,
-             counters.received, counters.dropped);
-  fmt::print("left alone by the controller: {} times\n", counters.left_alone);
+  fmt::print("{} cycles, {:.3f} s of the arm; {} frames sent, {} not sent; {} received, {} dropped\n", counters.cycles,
+             1e-9 * static_cast<double>(arm.now_ns()), counters.forwarded, counters.not_sent, counters.received,
+             counters.dropped);
+  fmt::print("controller silent: {} times\n", counters.left_alone);
   for (int i = 0; i < arm.joint_count(); ++i) {
     const sim::Cia402Slave& drive = device.nodes().drive(i);
     fmt::print("joint {}: {} commands, {} trips, {}\n", i + 1, drive.commands(), drive.trips(), name(drive.state()));
@@ -97,14 +87,15 @@ void simulate(const Options& options) {
   const firmware::CanBuses wires(firmware::split_names(options.bus), layout);
   for (const std::string& line : wires.warnings()) fmt::print(stderr, "godobject-simdevice: {}\n", line);
   const firmware::SceneFile image(config.scene.image);
-  const Scene scene = image.scene();
+  const SceneView scene = image.scene();
   const firmware::Placement placement = firmware::place(config.workspace, config.device, scene.H_MB.translation);
   const auto arm = std::make_unique<firmware::SimulatedArm>(config, placement);
   const sim::CanScript script{.hold_from_ns = static_cast<std::int64_t>(1e9 * options.enable_after), .faults = {}};
   const auto device = std::make_unique<sim::CanDevice>(arm->plant(), layout, arm->hardware(), script);
   const auto bridge = std::make_unique<sim::CanBridge>(*device, layout, hal::plan_buses(layout).timing, wires.buses());
 
-  catch_signals();
+  firmware::catch_end_signals();
+  const std::atomic<bool>& ended = firmware::signal_requests().end;
   hal::MonotonicClock clock;
   const std::int64_t end_ns =
       options.duration ? clock.now_ns() + static_cast<std::int64_t>(1e9 * *options.duration) : sim::kNever;
@@ -118,7 +109,7 @@ void simulate(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The simulated arm on CAN: drives, operator's panel and hand for a controller in another process.",
+  CLI::App app("Simulates the arm on CAN: drives, operator's panel and hand for a controller in another process.",
                "godobject-simdevice");
   app.footer(kFooter);
   Options options;
@@ -126,12 +117,12 @@ int main(int argc, char** argv) {
   app.add_option("--bus", options.bus, "CAN interfaces, bus 0 first, such as vcan0,vcan1,vcan2")
       ->required()
       ->option_text("NAMES");
-  app.add_option("--scene", options.scene, "scene image, in place of scene.image")->option_text("FILE");
+  app.add_option("--scene", options.scene, "scene image, instead of scene.image")->option_text("FILE");
   app.add_option("--enable-after", options.enable_after,
-                 "seconds of the arm's time until the operator holds the enable switch; default: 3")
+                 "time of the arm in seconds from which the operator holds the enable switch; default: 3")
       ->check(CLI::Range(0.0, 1e6))
       ->option_text("SECONDS");
-  app.add_option("--duration", options.duration, "seconds after which it ends; default: never")
+  app.add_option("--duration", options.duration, "seconds until the run ends; default: no limit")
       ->check(CLI::Range(0.001, 1e7))
       ->option_text("SECONDS");
   return command::run(app, argc, argv, [&] { simulate(options); });

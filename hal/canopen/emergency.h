@@ -6,21 +6,21 @@
 
 namespace godobject::hal::canopen {
 
-/// A node's emergency message (CiA 301); the five bytes of the maker's own are left out.
+/// A node's emergency message (CiA 301) without the five manufacturer-specific bytes.
 struct Emergency {
   int node = 0;
-  std::uint16_t code = 0;           ///< 0: the error has gone
-  std::uint8_t error_register = 0;  ///< 1001
+  std::uint16_t code = 0;           ///< 0: the error has disappeared
+  std::uint8_t error_register = 0;  ///< object 1001
 };
 
-/// Commands stayed away from a node for longer than the deadline of their PDO, 1400:5.
+/// Code of a node whose RPDOs were missing for longer than their deadline, 1400:5.
 inline constexpr std::uint16_t kRpdoTimeout = 0x8250;
 
-/// False: it is none.
+/// Parses a frame. False: it is no emergency message.
 bool parse_emergency(const CanFrame& frame, Emergency& emergency) noexcept;
 
-/// Whether a node may go on after it: no error any more, or 8110 and 8120, a node that was behind with its frames or
-/// saw errors on the wire. What that costs shows by itself: lost frames, and the drives' deadline.
+/// True if the controller may continue after this code: 0 (no error), 8110 (CAN overrun of the node) or 8120 (error
+/// passive). Their effects are noticed anyway, as lost frames or by the drives' deadline.
 bool is_warning(std::uint16_t code) noexcept;
 
 }  // namespace godobject::hal::canopen

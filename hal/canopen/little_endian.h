@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-/// Numbers as CANopen has them on the wire: least significant byte first. The caller answers for the length.
+/// Numbers in CANopen's byte order, least significant byte first. The caller checks the length.
 namespace godobject::hal::canopen {
 
 constexpr std::uint32_t load(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size) noexcept {

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-/// Numbers of CiA 301 and CiA 402 that both ends of the wire share.
+/// Numbers of CiA 301, CiA 401 and CiA 402.
 namespace godobject::hal::canopen {
 
-/// COB-IDs; those with a node are base + node, 1 to 127.
+/// COB-IDs. For messages of a node this is the base: COB-ID = base + node, 1 to 127.
 enum Cob : std::uint16_t {
   kCobNmt = 0x000,
   kCobSync = 0x080,
@@ -33,7 +33,7 @@ enum NmtState : std::uint8_t {
   kNmtPreOperationalState = 0x7F,
 };
 
-/// Objects of the dictionary by index.
+/// Indices of the object dictionary.
 enum Object : std::uint16_t {
   kDeviceType = 0x1000,
   kErrorRegister = 0x1001,
@@ -75,18 +75,18 @@ enum Object : std::uint16_t {
   kPositiveTorqueLimit = 0x60E0,
   kNegativeTorqueLimit = 0x60E1,
   kSupportedModes = 0x6502,
-  kDigitalInputs8 = 0x6000,  ///< CiA 401: of the operator's panel
-  kInputPolarity8 = 0x6002,  ///< CiA 401: a bit that is 1 turns its input round
+  kDigitalInputs8 = 0x6000,  ///< CiA 401: inputs of the operator's panel
+  kInputPolarity8 = 0x6002,  ///< CiA 401: a bit of 1 inverts its input
 };
 
 inline constexpr std::int8_t kModeTorque = 10;                    ///< cyclic synchronous torque
-inline constexpr std::uint32_t kSupportsTorque = 1u << 9;         ///< its bit in 6502
+inline constexpr std::uint32_t kSupportsTorque = 1u << 9;         ///< bit of that mode in 6502
 inline constexpr std::uint32_t kServoDrive = 0x00020192;          ///< 1000: CiA 402, servo drive
 inline constexpr std::uint32_t kDigitalInputModule = 0x00010191;  ///< 1000: CiA 401 with digital inputs
 
-/// Bits of 6000:1 of the operator's panel. A closed circuit reads 1, so that a broken wire is safe.
+/// Bits of 6000:1 of the operator's panel. A closed circuit reads 1, so a broken wire is safe.
 inline constexpr std::uint8_t kPanelStopReleased = 1u << 0;  ///< 0: emergency stop pressed
 inline constexpr std::uint8_t kPanelEnable = 1u << 1;        ///< 1: the enable switch is held
-inline constexpr std::uint8_t kPanelClutch = 1u << 2;  ///< 1: the clutch is open, the hand moves without the scene
+inline constexpr std::uint8_t kPanelClutch = 1u << 2;        ///< 1: the clutch is open
 
 }  // namespace godobject::hal::canopen

@@ -6,7 +6,7 @@
 namespace godobject::hal::canopen {
 namespace {
 
-// the upper three bits of byte 0: what client and server want
+// command specifiers: the upper three bits of byte 0
 constexpr int kClientDownloadSegment = 0;
 constexpr int kClientDownload = 1;
 constexpr int kClientBlockDownload = 6;

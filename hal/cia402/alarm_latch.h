@@ -6,21 +6,20 @@
 
 namespace godobject::hal::cia402 {
 
-/// An alarm, and what is known of its cause.
+/// An alarm and its cause.
 struct AlarmDetail {
   Alarm alarm = Alarm::kNone;
   int bus = -1;
-  int joint = -1;              ///< -1: nobody's
-  std::uint16_t id = 0;        ///< COB-ID of the frame that told it; 0: it was told by none
-  std::uint16_t index = 0;     ///< object; 0: it is about none
+  int joint = -1;              ///< -1: no single joint
+  std::uint16_t id = 0;        ///< COB-ID of the frame that raised it; 0: none
+  std::uint16_t index = 0;     ///< index of an object; 0: none
   std::uint8_t subindex = 0;   ///< of the object
-  std::uint32_t expected = 0;  ///< of the object
-  std::uint32_t found =
-      0;  ///< in the object; of kDriveError the emergency code, of kWrongMode without an object the NMT state
+  std::uint32_t expected = 0;  ///< value of the object
+  std::uint32_t found = 0;  ///< value found; kDriveError: the emergency code; kWrongMode without object: the NMT state
 };
 
-/// Keeps the first alarm until it is reset. What only a new start can mend stays: a drive that has started anew, or in
-/// which somebody has written.
+/// Latches the first alarm until it is reset. Alarms that only a new start can cure stay over a reset: a drive has
+/// restarted, or another node has written to it.
 class AlarmLatch {
  public:
   void raise(const AlarmDetail& detail) noexcept {

@@ -19,11 +19,19 @@ using cia402::ParameterStep;
 using Kind = ParameterStep::Kind;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
+/// Time in which another master shows itself. Chosen: five heartbeats of a controller like this one (20 ms).
 constexpr std::int64_t kListen_ns = 100 * kMillisecond_ns;
-constexpr std::int64_t kSettle_ns = 50 * kMillisecond_ns;  // in which a node may still boot a second time
+/// Time after the last boot-up in which a node may still boot again, as one does whose supply bounces. Chosen: the boot
+/// time of the simulated nodes.
+constexpr std::int64_t kSettle_ns = 50 * kMillisecond_ns;
+/// Longest time of an SDO exchange, and from NMT start to operational. Chosen: the simulated nodes answer within a
+/// millisecond, but a drive may store an object in non-volatile memory before it answers. A longer time only delays the
+/// message about a dead node.
 constexpr std::int64_t kSdoTimeout_ns = 1000 * kMillisecond_ns;
 constexpr std::int64_t kStartTimeout_ns = 1000 * kMillisecond_ns;
-constexpr int kMostFrames = 64;  // of a bus in a millisecond
+/// Frames of a bus taken in a millisecond. Derived: the shortest frame, 47 bits, takes 47 us at 1 Mbit/s: 21 in a
+/// millisecond. Three times that catches up after a stall.
+constexpr int kMostFrames = 64;
 
 class BringUp {
  public:
@@ -40,7 +48,7 @@ class BringUp {
  private:
   struct Station {
     bool booted = false;
-    bool mode_told = false;  // since it was started
+    bool mode_told = false;  // since NMT start
     NmtState state = kNmtBoot;
   };
 
@@ -70,7 +78,7 @@ class BringUp {
   cia402::Stations stations_;
   std::array<Station, kMaxStations> seen_{};
   bool boot_is_over_ = false;
-  int asked_ = -1;  // station from which a response is awaited
+  int asked_ = -1;  // station whose response is awaited; -1: none
   const ParameterStep* step_ = nullptr;
   bool answered_ = false;
   SdoResponse response_;
@@ -93,7 +101,7 @@ bool BringUp::fail_at(BringUpStatus status, int station) noexcept {
   return fail(status, stations_.bus(station));
 }
 
-/// Looks at one frame of somebody else's.
+/// Processes one frame of another node. False: the start has failed.
 bool BringUp::take(int bus, const CanFrame& frame) noexcept {
   if (is_of_master(frame.id)) {
     result_.found = frame.id;
@@ -125,7 +133,7 @@ bool BringUp::take(int bus, const CanFrame& frame) noexcept {
   return true;
 }
 
-/// Takes what has come on all buses. False: the start has failed.
+/// Takes the received frames of all buses. False: the start has failed.
 bool BringUp::poll() noexcept {
   if (end_ != nullptr && end_->load(std::memory_order_relaxed)) return fail(BringUpStatus::kEnded, -1);
   for (std::size_t b = 0; b < buses_.size(); ++b) {
@@ -141,7 +149,7 @@ bool BringUp::poll() noexcept {
   return true;
 }
 
-/// Until `done()`, or for so long. False: time is up, or the start has failed.
+/// Waits until `done()`. False: the time is over, or the start has failed.
 template <class Done>
 bool BringUp::wait(std::int64_t timeout_ns, Done&& done) noexcept {
   const std::int64_t end_ns = clock_.now_ns() + timeout_ns;
@@ -185,7 +193,7 @@ bool BringUp::boot() noexcept {
   if (!wait(std::llround(1e9 * layout_.boot_timeout), [&] { return silent() < 0; })) {
     if (result_.status != BringUpStatus::kOk) return false;
     const int bus = stations_.bus(silent());
-    // nobody acknowledges: then it is the bus and not the node
+    // no node acknowledges: the bus is at fault and not this node
     if (buses_[static_cast<std::size_t>(bus)]->health().unreturned > 0) return fail(BringUpStatus::kCannotSend, bus);
     return fail_at(BringUpStatus::kNoBootUp, silent());
   }
@@ -230,7 +238,8 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
          fail_at(step.or_more ? BringUpStatus::kTooLow : BringUpStatus::kWrongValue, station);
 }
 
-/// Sub-index 1 of an object over its sub-index 2, if it is there, to a thousandth.
+/// Compares sub-index 1 over sub-index 2 of an object with the expected ratio, to a thousandth (chosen: device files
+/// give gears with four digits). A drive may lack the object.
 bool BringUp::check_ratio(int station, std::uint16_t index, double expected, double or_this) noexcept {
   constexpr std::uint32_t kAny = 0;  // mask
   const ParameterStep over{Kind::kExpectIfThere, index, 1, 4, 0, kAny};
@@ -304,22 +313,23 @@ const char* describe(BringUpStatus status) noexcept {
     case BringUpStatus::kOk: return "all nodes are operational";
     case BringUpStatus::kBusDown:
       return "the interface is down or bus-off; check wiring and termination, set it up again";
-    case BringUpStatus::kSecondMaster: return "somebody else sends what only a master may; stop the other master";
+    case BringUpStatus::kSecondMaster:
+      return "another node sends frames that only a master may send; stop the other master";
     case BringUpStatus::kCannotSend:
       return "frames do not leave the interface; check that a node is connected, and the bit rate";
     case BringUpStatus::kNoBootUp: return "did not boot in time; check its supply, node number and bit rate";
-    case BringUpStatus::kStartedAnew: return "booted again while it was being set up; check its supply";
+    case BringUpStatus::kStartedAnew: return "rebooted during its setup; check its supply";
     case BringUpStatus::kNoAnswer: return "did not answer; check wiring and bus load";
     case BringUpStatus::kRefused: return "refused an object; compare it with the drive's manual";
     case BringUpStatus::kWrongSize: return "has an object of another size; this drive cannot be used";
-    case BringUpStatus::kWrongValue: return "has another value than it must; correct the device file or the drive";
+    case BringUpStatus::kWrongValue: return "has a wrong value; correct the device file or the drive";
     case BringUpStatus::kTooLow:
-      return "has less than it must have; raise it in the drive, or lower the joint's torque limit in the device file";
-    case BringUpStatus::kWrongRatio: return "contradicts the device file; correct the one that is wrong";
+      return "has too low a value; raise it in the drive, or lower the joint's torque limit in the device file";
+    case BringUpStatus::kWrongRatio: return "contradicts the device file; correct the file or the drive";
     case BringUpStatus::kEnded: return "the start was asked to end";
-    case BringUpStatus::kNotOperational: return "did not become operational; look at its own error";
+    case BringUpStatus::kNotOperational: return "did not become operational; read its own error display";
     case BringUpStatus::kModeNotTold:
-      return "does not tell its mode by TPDO2, type 255 with an event timer; this drive cannot be used";
+      return "does not send its mode by TPDO2, type 255 with an event timer; this drive cannot be used";
   }
   return "unknown status";
 }

@@ -9,9 +9,9 @@
 
 namespace godobject::hal {
 
-/// The identifiers that matter to the controller on one bus: those of its drives and panel in both directions, so that
-/// foreign ones are seen too, those of PDOs that are not used among them, and what only a master sends. For the filters
-/// of a socket: all else costs nothing.
+/// The identifiers that the controller needs from one bus, for the filters of a socket: those of its drives and panel
+/// in both directions, unused PDOs included, and those that only a master sends. With them it notices foreign frames,
+/// too; all other frames cost nothing.
 class BusIdentifiers {
  public:
   BusIdentifiers(const BusLayout& layout, int bus) noexcept;

@@ -9,52 +9,53 @@ namespace godobject::hal {
 
 inline constexpr int kMaxBuses = 4;
 
-/// How a joint is reached and what its drive's numbers mean. The only place with anything but SI.
+/// Address and scaling of a joint's drive. The only struct with other units than SI.
 ///
 /// Joint position [rad] = zero + sign * 2 pi * (6064) / (counts * gear); joint torque [Nm] = sign * gear * rated *
 /// (6077) / 1000.
 struct DriveConfig {
   int bus = 0;                ///< index of its bus
-  int node = 1;               ///< 1 to 127, different on one bus
-  double counts = 1 << 20;    ///< of 6064 a turn of the motor
+  int node = 1;               ///< 1 to 126, unique on its bus
+  double counts = 1 << 20;    ///< counts of 6064 a turn of the motor
   double gear = 1.0;          ///< turns of the motor a turn of the joint
-  double rated_torque = 0.0;  ///< of the motor [Nm]; 6076 of the drive must say the same
-  double torque_limit = 0.0;  ///< of the joint: the most that is asked for [Nm]
-  double sign = 1.0;          ///< -1: the motor turns against the joint
+  double rated_torque = 0.0;  ///< of the motor [Nm]; must be equal to 6076 of the drive
+  double torque_limit = 0.0;  ///< largest commanded torque of the joint [Nm]
+  double sign = 1.0;          ///< -1: the motor turns against the joint's direction
   double zero = 0.0;          ///< position of the joint where 6064 is 0 [rad]
 };
 
 /// The operator's panel: a CiA 401 input module that answers each SYNC with 6000:1, see object_numbers.h. Three cycles
-/// without it count as an emergency stop.
+/// without an answer count as an emergency stop.
 struct PanelConfig {
-  int bus = -1;  ///< -1: there is none, and no bus that is not simulated may be driven
+  int bus = -1;  ///< -1: no panel; then only a simulated bus may be driven
   int node = 0x20;
 };
 
-/// All joints over one or several buses.
+/// Drives and panel on one or several buses. Defaults are chosen; their ranges stand in
+/// firmware/configuration/cia402_keys.cc.
 struct BusLayout {
   int bus_count = 1;
-  double bit_rate = 1e6;           ///< [bit/s]
-  bool fd = false;                 ///< SYNC and PDOs in FD frames; all else stays classical
-  double data_rate = 5e6;          ///< of FD frames' data [bit/s]
-  double period = 1e-3;            ///< [s]
-  double compute = 120e-6;         ///< what the controller may take between the last position and the first torque [s]
-  double answer = 0.0;             ///< from SYNC's end until a node has queued the TPDO that answers it, at most [s]
-  double drive_delay = 0.0;        ///< from an RPDO's end to the torque, and of a position's age at SYNC, together [s]
-  double command_deadline = 4e-3;  ///< a drive trips when torques stay away for so long [s]
-  double drive_heartbeat = 20e-3;  ///< producer of drives and controller [s]
-  double heartbeat_timeout = 50e-3;  ///< consumer [s]
-  double mode_refresh = 1.0;         ///< a drive tells its mode when it changes, and this often [s]
-  double boot_timeout = 5.0;         ///< for each node [s]
-  int read_back_interval = 50;       ///< cycles from one SDO exchange to the next while torque may flow
+  double bit_rate = 1e6;             ///< [bit/s]
+  bool fd = false;                   ///< SYNC and PDOs as FD frames; all other messages are classical
+  double data_rate = 5e6;            ///< bit rate of FD frames' data [bit/s]
+  double period = 1e-3;              ///< [s]
+  double compute = 120e-6;           ///< computing time between the last position and the first torque [s]
+  double answer = 0.0;               ///< longest time from SYNC's end until a node has queued its TPDO1 [s]
+  double drive_delay = 0.0;          ///< time from an RPDO's end to the torque plus a position's age at SYNC [s]
+  double command_deadline = 4e-3;    ///< a drive stops by itself if torques are missing for longer [s]
+  double drive_heartbeat = 20e-3;    ///< period of the heartbeats of drives and controller [s]
+  double heartbeat_timeout = 50e-3;  ///< a missing heartbeat is noticed after this time [s]
+  double mode_refresh = 1.0;         ///< a drive sends its mode on change and with this period [s]
+  double boot_timeout = 5.0;         ///< until each node must boot [s]
+  int read_back_interval = 50;       ///< cycles from one SDO exchange to the next while the drives may have power
   int joint_count = 0;
   std::array<DriveConfig, kMaxJoints> drives{};
   PanelConfig panel;
 };
 
-/// When things happen in a cycle; `plan_buses` computes it.
+/// Times of a cycle, computed by `plan_buses`.
 struct BusTiming {
-  std::int64_t collect_ns = 0;  ///< from SYNC's hand-over until every sample has come
+  std::int64_t collect_ns = 0;  ///< from handing SYNC over until every sample has arrived
   double delay_s = 0.0;         ///< longest time from a sample to the torque that answers it [s]
 };
 

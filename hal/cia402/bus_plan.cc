@@ -18,7 +18,7 @@ constexpr int kSdoBytes = 8;
 
 enum class Stuffing { kNone, kWorst };
 
-/// Whole nanoseconds, upwards; a bit's billionth is rounding.
+/// Duration in nanoseconds, rounded up; 1e-6 ns of it is rounding error.
 std::int64_t duration_ns(double bits, double rate) noexcept {
   return static_cast<std::int64_t>(std::ceil(1e9 * bits / rate - 1e-6));
 }
@@ -35,7 +35,7 @@ std::int64_t frame_ns(int bytes, bool fd, const BusLayout& layout, Stuffing stuf
   return duration_ns(nominal, layout.bit_rate) + duration_ns(data, layout.data_rate);
 }
 
-/// The frames of one bus, without what depends on the other buses.
+/// The load of one bus as far as it does not depend on the other buses.
 BusLoad frames_of(const BusLayout& layout, int bus) noexcept {
   BusLoad load;
   load.panel = layout.panel.bus == bus;
@@ -51,7 +51,7 @@ BusLoad frames_of(const BusLayout& layout, int bus) noexcept {
   return load;
 }
 
-/// Ends, slot and utilisation of a bus whose samples are taken at `collect_ns`.
+/// Completes the load of a bus whose samples are collected at `collect_ns`.
 void judge(const BusLayout& layout, std::int64_t collect_ns, BusLoad& load) noexcept {
   const std::int64_t period_ns = duration_ns(layout.period, 1.0);
   const std::int64_t compute_ns = duration_ns(layout.compute, 1.0);
@@ -63,7 +63,7 @@ void judge(const BusLayout& layout, std::int64_t collect_ns, BusLoad& load) noex
   load.late_ns = std::max<std::int64_t>(0, sdo_ns + sampled_ns - collect_ns);
   load.fits = load.end_ns <= period_ns && load.slot_ns <= period_ns;
 
-  const int producers = load.joints + (load.panel ? 1 : 0) + 1;  // of heartbeats; one is the controller
+  const int producers = load.joints + (load.panel ? 1 : 0) + 1;  // of heartbeats, with the controller
   load.utilisation = static_cast<double>(load.sync_ns + load.samples_ns + load.torques_ns) * 1e-9 / layout.period +
                      producers * static_cast<double>(load.blocking_ns) * 1e-9 / layout.drive_heartbeat +
                      load.joints * static_cast<double>(load.blocking_ns) * 1e-9 / layout.mode_refresh +
@@ -90,7 +90,7 @@ BusPlan plan_buses(const BusLayout& layout) noexcept {
   for (int bus = 0; bus < layout.bus_count; ++bus) {
     BusLoad& load = plan.buses[static_cast<std::size_t>(bus)];
     load = frames_of(layout, bus);
-    // while the drives have not yet answered the wire is idle, and another frame may begin
+    // until the drives answer the wire is idle, and another frame may begin
     const std::int64_t idle_ns = layout.answer > 0.0 ? duration_ns(layout.answer, 1.0) + load.blocking_ns : 0;
     collect_ns = std::max(collect_ns, load.blocking_ns + load.sync_ns + idle_ns + load.samples_ns);
   }
@@ -102,12 +102,12 @@ BusPlan plan_buses(const BusLayout& layout) noexcept {
     plan.fits = plan.fits && load.fits;
     if (load.joints > 0) last_torque_ns = std::max(last_torque_ns, load.end_ns);
   }
-  // the earliest sample: at the end of a SYNC that nothing has blocked
+  // the earliest sample: at the end of a SYNC without blocking
   const std::int64_t sample_ns = shortest_frame_ns(kSyncBytes, layout.fd, layout);
   plan.timing.delay_s =
       layout.drive_delay + 1e-9 * static_cast<double>(std::max<std::int64_t>(0, last_torque_ns - sample_ns));
 
-  std::array<int, kMaxBuses> sent{};  // RPDOs so far: they leave in the order of the joints
+  std::array<int, kMaxBuses> sent{};  // RPDOs so far: they are sent in the order of the joints
   for (std::size_t joint = 0; joint < static_cast<std::size_t>(layout.joint_count); ++joint) {
     const DriveConfig& drive = layout.drives[joint];
     assert(drive.bus >= 0 && drive.bus < layout.bus_count);

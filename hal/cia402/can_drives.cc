@@ -89,12 +89,12 @@ void CanDrives::request() noexcept {
   for (int b = 0; b < layout_.bus_count; ++b) {
     Bus& bus = buses_[static_cast<std::size_t>(b)];
     bus.echo_ns = bus.sample_ns = 0;
-    // what is still in the queue would be late, and everything behind it
+    // frames that are still in the queue would be late, and all frames after them
     bus.holds = bus.unechoed > 0 && ++bus.held < kHeldCycles;
     bus.asked = false;
     if (!bus.holds) {
       bus.unechoed = 0;
-      bus.held = 0;  // what has not come back in all this time never will
+      bus.held = 0;  // a SYNC that has not returned in this time never will
       if (probe_ == 0 || probe_ > kProbeSilent) bus.asked = send_on(b, sync) == SendResult::kSent;
       if (bus.asked) ++bus.unechoed;
     }
@@ -119,7 +119,7 @@ void CanDrives::check_health() noexcept {
   for (int b = 0; b < layout_.bus_count; ++b) {
     const Bus& bus = buses_[static_cast<std::size_t>(b)];
     const BusHealth health = bus.wire->health();
-    // a bus on which nobody acknowledges does not go off, its frames only stay away
+    // a bus without an acknowledging node does not become bus-off; its frames only do not return
     const bool unheard = health.unreturned > kMostUnreturned;
     if (health.down || health.bus_off || unheard) alarm_.raise({.alarm = Alarm::kBusDown, .bus = b});
     if (bus.watch.finding().alarm != Alarm::kNone) alarm_.raise(bus.watch.finding());
@@ -222,7 +222,7 @@ void CanDrives::take_sample(int b, int station, const ReceivedFrame& received) n
   bus.sample_ns = received.time_ns;
 }
 
-/// Whenever it comes: a drive tells of its mode when it changes.
+/// Takes a mode at any time: a drive sends it when it changes.
 void CanDrives::take_mode(int i, const CanFrame& frame) noexcept {
   if (frame.length != 1) {
     ++statistics_.malformed;
@@ -235,7 +235,7 @@ void CanDrives::take_emergency(int bus, int station, const CanFrame& frame) noex
   Emergency emergency;
   if (parse_emergency(frame, emergency) && is_warning(emergency.code)) {
     ++statistics_.warnings;
-  } else {  // also one that cannot be read: its sender is in trouble
+  } else {  // also a malformed one: its sender has a problem
     alarm_.raise(
         {.alarm = Alarm::kDriveError, .bus = bus, .joint = joint_of(station), .id = frame.id, .found = emergency.code});
   }
@@ -257,7 +257,7 @@ void CanDrives::take_heartbeat(int bus, int station, const CanFrame& frame) noex
                 .found = heartbeat.state});
 }
 
-/// The end of a cycle for one joint.
+/// Completes the reading of one joint in this cycle.
 void CanDrives::close_joint(int i) noexcept {
   const auto at = static_cast<std::size_t>(i);
   Joint& drive = joint(i);
@@ -324,7 +324,7 @@ bool CanDrives::send(const JointCommand& command) noexcept {
     if (i == withheld_ && command.power == PowerRequest::kOff) continue;
     CanFrame rpdo;
     const bool finite = joint(i).channel.command(command.power, command.torque[i], rpdo);
-    // behind a SYNC that is still in the queue it would come late, and after a stall many at once
+    // after a SYNC that is still in the queue it would be late, and after a stall many would come at once
     const bool goes_out = buses_[static_cast<std::size_t>(stations_.bus(i))].unechoed == 0;
     const bool sent = goes_out && send_on(stations_.bus(i), rpdo) == SendResult::kSent;
     all_sent = all_sent && finite && sent;
@@ -332,8 +332,8 @@ bool CanDrives::send(const JointCommand& command) noexcept {
   return all_sent;
 }
 
-/// A heartbeat of this bus comes in this cycle or the next one, or is overdue: beside it an SDO exchange would push
-/// samples beyond their collection.
+/// True if a heartbeat on this bus is due in this cycle or the next one, or overdue: together with an SDO exchange it
+/// would delay samples beyond their collection.
 bool CanDrives::heartbeat_is_near(int bus) const noexcept {
   const auto is_near = [this](int silent) { return silent < 1 || silent > heartbeat_cycles_ - 3; };
   for (int i = 0; i < layout_.joint_count; ++i) {
@@ -342,8 +342,9 @@ bool CanDrives::heartbeat_is_near(int bus) const noexcept {
   return layout_.panel.bus == bus && is_near(panel_.silent);
 }
 
-/// Between the samples and the torques, while these are computed, the wire is idle. Right behind SYNC if the drives
-/// answer at once: the samples go first. Else once they are collected, since they would find the wire taken.
+/// Uses the wire between samples and torques, which is idle while the torques are computed. If the drives answer at
+/// once the frame is handed over right after SYNC: the samples go first. Otherwise it is handed over after the
+/// collection, or the samples would find the wire occupied.
 void CanDrives::send_heartbeat_or_sdo() noexcept {
   const bool heartbeat = --to_heartbeat_ <= 0;
   if (heartbeat) to_heartbeat_ = heartbeat_cycles_;

@@ -21,32 +21,32 @@
 
 namespace godobject::hal {
 
-/// CiA 402 drives in cyclic synchronous torque over one or several CANopen buses, and the operator's panel.
+/// CiA 402 drives in cyclic synchronous torque mode over one or several CANopen buses, and the operator's panel.
 ///
-/// A cycle. `request` sends SYNC, the first frame on each bus. `receive` takes what has come, at most kMostFrames a
-/// bus: a sample belongs to this cycle if and only if it comes after the own echo of this cycle's SYNC; what comes
-/// before it is late and used by nobody. `send` sends RPDO1 to each joint. The controller's heartbeat every
-/// `drive_heartbeat`, or else, every `read_back_interval` cycles or some more, when no node's heartbeat is near, one
-/// SDO request, get the wire between samples and torques: they are handed over behind SYNC, or behind the collection if
-/// the drives' `answer` leaves the wire idle before. A mode, TPDO2, counts whenever it comes.
+/// A cycle: `request` sends SYNC, the first frame on each bus. `receive` takes the received frames, at most kMostFrames
+/// a bus. A sample belongs to this cycle if and only if it follows the own echo of this cycle's SYNC; an earlier one is
+/// late and not used. `send` sends RPDO1 to each joint. One more frame may use the wire between samples and torques:
+/// every `drive_heartbeat` the controller's heartbeat; else, about every `read_back_interval` cycles and at a distance
+/// from the nodes' heartbeats, an SDO request. It is handed over right after SYNC, or after the collection if the
+/// drives' `answer` leaves the wire idle before. A mode, TPDO2, counts whenever it arrives.
 ///
-/// Nothing is queued for later: on a bus on which the last SYNC has not come back neither torques nor another SYNC are
-/// handed over, for kHeldCycles; then what is missing is given up, and a new SYNC tries.
+/// Nothing is queued for later. On a bus whose last SYNC has not returned, neither torques nor another SYNC are handed
+/// over for kHeldCycles. Then the missing SYNC is given up and a new one is tried.
 ///
-/// A start ends with a probe of kProbeCycles, in which drives are still kUnavailable: after the last of some SYNCs no
-/// sample may come any more. A drive that answers a SYNC only after the next one would always be a period late.
+/// A start ends with a probe of kProbeCycles, during which drives are still kUnavailable: after the last of some SYNCs
+/// no sample may arrive any more. A drive that answers a SYNC only after the next one would always be one period late.
 ///
-/// A drive that has not been heard of for `heartbeat_timeout` is kUnavailable; before that its last state stands.
-/// Without a panel the enable switch is never held.
+/// A drive without a sample for `heartbeat_timeout` is kUnavailable; before that it keeps its last state. Without a
+/// panel the enable switch is never held.
 ///
-/// Alarms: as `Alarm` says; `alarm_detail` knows more. Of others' frames on a bus: SYNC, RPDOs, the controller's
-/// heartbeat and SDO reads are kForeignMaster, NMT and SDO writes kForeignWrite; an emergency message is an alarm
-/// unless canopen::is_warning. Five watched parameters in a row not answered count as kParameterChanged. PowerRequest
-/// kReset forgets the alarm when it begins, except kNodeReset, kForeignWrite and kParameterChanged, which take a new
-/// start.
+/// Alarms: see `Alarm`; `alarm_detail` gives the cause. Frames of other nodes: SYNC, RPDOs, the controller's heartbeat
+/// and SDO reads raise kForeignMaster, NMT and SDO writes kForeignWrite. An emergency message raises an alarm unless
+/// canopen::is_warning. Five unanswered requests in a row to a drive for its watched parameters raise
+/// kParameterChanged. PowerRequest kReset clears the alarm when it begins, but not kNodeReset, kForeignWrite,
+/// kParameterChanged and kAnswersLate, which need a new start.
 ///
-/// All but `bring_up` and `stop_nodes` is real-time safe. Cost without that of the bus objects: 1 us a cycle with seven
-/// joints.
+/// All functions but `bring_up` and `stop_nodes` are real-time safe. Cost without the bus objects: 1 us a cycle with
+/// seven joints.
 class CanDrives final : public JointDrives {
  public:
   static constexpr int kMostFrames = 64;                ///< taken from a bus in a cycle
@@ -57,20 +57,20 @@ class CanDrives final : public JointDrives {
   static constexpr int kProbeCycles = 8;                ///< after a start
   static constexpr int kProbeSilent = 4;                ///< of these, the last ones: without SYNC
 
-  /// `buses`: one each of the layout's, which outlive this, as the tap does if there is one. The layout has been
-  /// checked: buses and nodes exist, nodes differ on each bus and from 127.
+  /// `buses`: one for each bus of the layout; they and the tap outlive this. The layout has been checked: buses and
+  /// nodes exist, and node numbers are unique on each bus and not 127.
   CanDrives(const BusLayout& layout, std::span<CanBus* const> buses, const BusTiming& timing,
             FrameTap* tap = nullptr) noexcept;
 
-  // not on the heap by itself: this library knows none, not even in a virtual destructor that nobody calls
+  // never on the heap by itself: this library links no heap function, not even for an unused virtual destructor
   static void* operator new(std::size_t) = delete;
   static void operator delete(void*) noexcept {}
 
-  /// Starts all nodes, see `hal::bring_up`, and begins anew with what is known of them.
+  /// Starts all nodes, see `hal::bring_up`, and forgets their earlier state.
   BringUpResult bring_up(Clock& clock, const std::atomic<bool>* end = nullptr) noexcept;
 
-  /// Sends NMT stop to all nodes: the end. Not to those of a second master, for which the start was refused, nor if the
-  /// last start has not got as far as sending.
+  /// Sends NMT stop to all nodes, for the end. Sends nothing if the start was refused because of a second master, or if
+  /// it ended before its first frame: then the nodes may obey another controller.
   void stop_nodes() noexcept;
 
   int joint_count() const noexcept override { return layout_.joint_count; }
@@ -80,8 +80,7 @@ class CanDrives final : public JointDrives {
   bool send(const JointCommand& command) noexcept override;
   double delay() const noexcept override { return timing_.delay_s; }
 
-  /// Leaves out the RPDOs to a joint while no power is asked for, so that its deadline can be seen to run out; -1: to
-  /// none.
+  /// Omits the RPDOs to a joint while no power is requested, to test its deadline; -1: to no joint.
   void withhold(int joint) noexcept { withheld_ = joint; }
 
   const CanStatistics& statistics() const noexcept { return statistics_; }
@@ -91,11 +90,11 @@ class CanDrives final : public JointDrives {
   struct Bus {
     CanBus* wire = nullptr;
     bool asked = false;          // SYNC was sent in this cycle
-    bool holds = false;          // nothing is handed over in this cycle
+    bool holds = false;          // no SYNC and no torque is handed over in this cycle
     int held = 0;                // such cycles in a row
     int since_sdo = 0;           // cycles
-    std::uint32_t unechoed = 0;  // SYNCs whose echo has not come
-    std::int64_t echo_ns = 0;    // time stamps of this cycle's SYNC and of the last sample
+    std::uint32_t unechoed = 0;  // SYNCs without an echo so far
+    std::int64_t echo_ns = 0;    // time stamps of this cycle's SYNC and of its last sample
     std::int64_t sample_ns = 0;
     cia402::ParameterWatch watch;
   };
@@ -148,10 +147,10 @@ class CanDrives final : public JointDrives {
   CanStatistics statistics_;
   PowerRequest power_ = PowerRequest::kOff;
   bool sync_failed_ = false;
-  bool anothers_ = false;  // the nodes obey a second master, or may do so
+  bool anothers_ = false;  // the nodes obey, or may obey, a second master
   int withheld_ = -1;
-  int probe_ = 0;         // cycles of it still to come
-  int to_heartbeat_ = 0;  // cycles
+  int probe_ = 0;         // remaining cycles of the probe
+  int to_heartbeat_ = 0;  // cycles until the next heartbeat
 };
 
 }  // namespace godobject::hal

@@ -29,7 +29,7 @@ double JointScaling::position(std::int32_t count) noexcept {
 
 bool JointScaling::permille(double torque, std::int16_t& permille) const noexcept {
   const double scaled = torque / nm_per_permille_;
-  // last, after the scaling: what is not a number must never become one
+  // after the scaling: a NaN must never become a number
   const bool finite = std::isfinite(scaled);
   permille = finite ? static_cast<std::int16_t>(std::lround(std::clamp(scaled, -32767.0, 32767.0))) : std::int16_t{0};
   return finite;

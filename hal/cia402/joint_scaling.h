@@ -6,21 +6,21 @@
 
 namespace godobject::hal::cia402 {
 
-/// A joint's numbers between wire and SI, as `DriveConfig` says. Real-time safe.
+/// Converts a joint's numbers between wire and SI by `DriveConfig`. Real-time safe.
 class JointScaling {
  public:
   JointScaling() = default;
   explicit JointScaling(const DriveConfig& drive) noexcept;
 
-  /// Takes 6064. The first count is taken for the position nearest to 0 rad that it can stand for; from there the
-  /// counter is followed by differences, over its wraps.
+  /// Converts 6064 to a joint position [rad]. The first count is taken as the position nearest to 0 rad that it can
+  /// stand for; from there differences follow the counter over its wraps.
   double position(std::int32_t count) noexcept;
 
-  /// 6077 [permille of the rated torque] in Nm.
+  /// Converts 6077 [permille of the rated torque] to the joint's torque [Nm].
   double torque(std::int16_t permille) const noexcept { return nm_per_permille_ * permille; }
 
-  /// 6071 for a torque [Nm]: rounded to the nearest, held to what the number takes. False: the torque is not a finite
-  /// number, or the scale is not, and `permille` is 0.
+  /// Converts a torque [Nm] to 6071: rounded to the nearest, clamped to 16 bits. False: torque or scale is not finite,
+  /// and `permille` is 0.
   bool permille(double torque, std::int16_t& permille) const noexcept;
 
  private:

@@ -11,24 +11,26 @@
 
 namespace godobject::hal::cia402 {
 
-/// Reads the watched parameters of the drives on one bus in turn, one exchange at a time. Real-time safe.
+/// Reads the watched parameters of the drives on one bus in turn, one SDO exchange at a time. Real-time safe.
 class ParameterWatch {
  public:
-  static constexpr int kMostSilent = 5;  ///< exchanges in a row without an answer: then there is nothing to trust in
+  /// Exchanges in a row without an answer that raise the alarm. Chosen: an answer may be lost now and then; with 5 a
+  /// drive without SDO is noticed within a second, since each of its parameters is read once a second.
+  static constexpr int kMostSilent = 5;
 
   ParameterWatch() = default;
   ParameterWatch(const BusLayout& layout, int bus) noexcept;
 
-  /// The next request. False: there is no drive on this bus. What has not been answered until now counts as silent.
+  /// Makes the next request. The previous one, if not answered, counts as silent. False: there is no drive on this bus.
   bool next(CanFrame& request) noexcept;
 
-  /// Cycles of a millisecond between two requests: `wanted`, or fewer, so that each parameter is read within a second.
+  /// Cycles of a millisecond between two requests: `wanted`, or fewer such that each parameter is read within a second.
   int interval(int wanted) const noexcept;
 
-  /// Looks at an SDO response of this bus; what was not asked for is passed over.
+  /// Checks an SDO response of this bus. Ignores responses to other requests.
   void take(const canopen::SdoResponse& response) noexcept;
 
-  /// What is wrong; `alarm` is kNone while nothing is.
+  /// The first wrong parameter; `alarm` is kNone while there is none.
   const AlarmDetail& finding() const noexcept { return finding_; }
 
  private:

@@ -12,14 +12,14 @@ namespace {
 using namespace canopen;
 using Kind = ParameterStep::Kind;
 
-constexpr std::uint32_t kProfileMask = 0xFFFF;   // of 1000: number of the device profile
-constexpr std::uint32_t kInputsMask = 0x1FFFF;   // of 1000: the profile, and that there are digital inputs
-constexpr std::uint32_t kSyncMask = 0x400007FF;  // of 1005: COB-ID, and that the node makes no SYNC itself
+constexpr std::uint32_t kProfileMask = 0xFFFF;   // bits of 1000: number of the device profile
+constexpr std::uint32_t kInputsMask = 0x1FFFF;   // bits of 1000: the profile, and digital inputs
+constexpr std::uint32_t kSyncMask = 0x400007FF;  // bits of 1005: COB-ID; the node produces no SYNC
 constexpr std::uint16_t kRpdoCommunicationLast = 0x1403;
 constexpr std::uint16_t kTpdoCommunicationLast = 0x1803;
-constexpr std::uint32_t kNoChange = 1;        // 1029: the NMT state stays, 6007 acts
-constexpr std::uint32_t kAbortQuickStop = 3;  // 6007: as the quick stop
-constexpr std::uint32_t kQuickStopRamp = 2;   // 605A, 605E: by the quick-stop ramp, then without power
+constexpr std::uint32_t kNoChange = 1;        // 1029: the NMT state does not change, 6007 acts
+constexpr std::uint32_t kAbortQuickStop = 3;  // 6007: quick stop
+constexpr std::uint32_t kQuickStopRamp = 2;   // 605A, 605E: slow down on the quick-stop ramp, then no power
 
 std::uint32_t scaled(double value, double unit) noexcept {
   return static_cast<std::uint32_t>(std::lround(value / unit));
@@ -34,13 +34,13 @@ void expect(ParameterSteps& steps, std::uint16_t index, std::uint8_t subindex, i
   steps.add({Kind::kExpect, index, subindex, size, value, mask});
 }
 
-/// One PDO: invalid, empty, entries, their number, type, timers, valid.
+/// A PDO. It is set up in this order: invalid, empty, entries, their number, type, timers, valid.
 struct Pdo {
   std::uint16_t communication;
   std::uint16_t mapping;
   std::uint16_t cob;
   std::uint8_t type;
-  std::uint32_t event_timer_ms;  // of an RPDO its deadline, of a TPDO its refresh; 0: none
+  std::uint32_t event_timer_ms;  // an RPDO's deadline, a TPDO's period; 0: none
   std::span<const std::uint32_t> entries;
 };
 
@@ -52,7 +52,7 @@ void map_pdo(ParameterSteps& steps, const Pdo& pdo) noexcept {
   }
   write(steps, pdo.mapping, 0, 1, static_cast<std::uint32_t>(pdo.entries.size()));
   write(steps, pdo.communication, 2, 1, pdo.type);
-  // no change waits for the one before: the inhibit time
+  // inhibit time 0: a change does not wait after the one before
   const bool by_change = pdo.communication >= kTpdo1Communication && pdo.type == kPdoAtOnce;
   if (by_change) steps.add({Kind::kWriteIfThere, pdo.communication, 3, 2, 0});
   if (pdo.event_timer_ms > 0) write(steps, pdo.communication, 5, 2, pdo.event_timer_ms);
@@ -68,7 +68,7 @@ void read_back(ParameterSteps& steps, const Pdo& pdo) noexcept {
   }
 }
 
-/// 60C2: period = sub1 * 10^sub2 s.
+/// Adds 60C2: period = sub1 * 10^sub2 s.
 void set_interpolation_period(ParameterSteps& steps, double period) noexcept {
   int exponent = -3;
   double count = period * 1e3;
@@ -81,7 +81,7 @@ void set_interpolation_period(ParameterSteps& steps, double period) noexcept {
   steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 2, 1, static_cast<std::uint32_t>(exponent)});
 }
 
-/// That the controller asks for, in permille of the rated torque.
+/// Largest torque that the controller commands, in permille of the rated torque.
 std::uint32_t greatest_torque(const DriveConfig& drive) noexcept {
   return scaled(drive.torque_limit, 1e-3 * std::fabs(drive.gear) * drive.rated_torque);
 }
@@ -103,14 +103,14 @@ void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSte
   expect(steps, kDeviceType, 0, 4, kServoDrive & kProfileMask, kProfileMask);
   expect(steps, kSupportedModes, 0, 4, kSupportsTorque, kSupportsTorque);
   steps.add({Kind::kExpect, kMotorRatedTorque, 0, 4, rated, 0xFFFFFFFF, rated / 100});
-  // what goes into the PDOs must have the sizes for which there is room
+  // mapped objects must have the sizes of their places in the PDOs
   expect(steps, kTargetTorque, 0, 2, 0, 0);
   expect(steps, kActualTorque, 0, 2, 0, 0);
   expect(steps, kPosition, 0, 4, 0, 0);
   expect(steps, kSyncCob, 0, 4, kCobSync, kSyncMask);
   steps.add({Kind::kWriteIfThere, kSyncPeriod, 0, 4, scaled(layout.period, 1e-6)});
   steps.add({Kind::kExpectIfThere, kEmergencyCob, 0, 4, cob(kCobEmergency, drive.node), kPdoCobMask});
-  steps.add({Kind::kExpectIfThere, kSyncOverflow, 0, 1, 0});  // else SYNC had to have a counter
+  steps.add({Kind::kExpectIfThere, kSyncOverflow, 0, 1, 0});  // 0: SYNC without a counter
   steps.add({Kind::kExpectIfThere, kPolarity, 0, 1, 0});
   for (const Object limit : {kMaxTorque, kPositiveTorqueLimit, kNegativeTorqueLimit}) {
     steps.add(

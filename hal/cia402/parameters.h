@@ -12,10 +12,10 @@ namespace godobject::hal::cia402 {
 /// One SDO exchange with a station.
 struct ParameterStep {
   enum class Kind : std::uint8_t {
-    kExpect,         ///< reads; size and value must be as said
-    kWrite,          ///< writes; must be accepted
-    kExpectIfThere,  ///< the same, of an object that a station may do without
-    kWriteIfThere,   ///< writes; a station without this object may do without
+    kExpect,         ///< reads; size and value must match
+    kWrite,          ///< writes; the station must accept it
+    kExpectIfThere,  ///< as kExpect, if the station has the object
+    kWriteIfThere,   ///< as kWrite, if the station has the object
   };
 
   Kind kind = Kind::kExpect;
@@ -23,16 +23,17 @@ struct ParameterStep {
   std::uint8_t subindex = 0;
   int size = 0;  ///< bytes
   std::uint32_t value = 0;
-  std::uint32_t mask = 0xFFFFFFFF;  ///< which bits matter of what is read
-  std::uint32_t tolerance = 0;      ///< by which what is read may differ
-  bool or_more = false;             ///< what is read may be greater
+  std::uint32_t mask = 0xFFFFFFFF;  ///< compared bits of the value read
+  std::uint32_t tolerance = 0;      ///< allowed difference of the value read
+  bool or_more = false;             ///< the value read may be larger
 
   bool accepts(std::uint32_t found) const noexcept;
 };
 
-/// Steps in the order in which they are to be done.
+/// A sequence of steps.
 class ParameterSteps {
  public:
+  /// Derived: drive_steps adds 104 steps at most; asserted in `add` and counted by tests/hal/bring_up_test.cc.
   static constexpr std::size_t kCapacity = 112;
 
   void add(const ParameterStep& step) noexcept {
@@ -46,22 +47,26 @@ class ParameterSteps {
   std::size_t count_ = 0;
 };
 
-/// What a drive must be and is set to before it is started, in the order that CiA 301 wants. Identity and abilities;
-/// limits of its torque (6072, 60E0, 60E1) no lower than the joint's, which it would cut without a word; a quick-stop
-/// ramp (6085), without which there is no quick stop;
-/// RPDO1 {6040, 6071} applied at once, with the deadline; TPDO1 {6041, 6064, 6077} on each SYNC, TPDO2 {6061} when it
-/// changes, no other TPDO; heartbeats both ways; cyclic synchronous torque; a lost controller or a quick stop brings
-/// the joint to rest by the drive's own ramp and then takes power away. Ends with reading back what was written.
+/// The steps that check and set up a drive before its start, in the order that CiA 301 requires:
+/// - identity and abilities; torque limits of the drive (6072, 60E0, 60E1) not below the joint's, since silent
+/// saturation
+///   distorts the force; a quick-stop ramp (6085), without which there is no quick stop
+/// - RPDO1 {6040, 6071} that acts at once, with the deadline; TPDO1 {6041, 6064, 6077} on each SYNC; TPDO2 {6061} on
+///   change; no other TPDO
+/// - heartbeats in both directions; cyclic synchronous torque mode
+/// - reaction to a lost controller and to a quick stop: the joint comes to rest by the drive's own ramp, then without
+/// power
+/// - all written values are read back.
 void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSteps& steps) noexcept;
 
-/// The same for the operator's panel: inputs that are not turned round (6002), TPDO1 {6000:1} on each SYNC, heartbeats
-/// both ways.
+/// The steps for the operator's panel: no inverted inputs (6002), TPDO1 {6000:1} on each SYNC, heartbeats in both
+/// directions.
 void panel_steps(const BusLayout& layout, ParameterSteps& steps) noexcept;
 
 inline constexpr int kWatchedCount = 6;
 
-/// What is read again and again while power may flow, since safety hangs on it: the deadline of the torques and that
-/// they act at once, who is watched by its heartbeat, what a lost controller and a quick stop lead to, the mode.
+/// The parameters on which safety depends; they are read repeatedly while the drives may have power: deadline and type
+/// of RPDO1, the watched heartbeat, the reactions to a lost controller and to a quick stop, the mode.
 std::array<ParameterStep, kWatchedCount> watched_parameters(const BusLayout& layout) noexcept;
 
 }  // namespace godobject::hal::cia402

@@ -29,7 +29,7 @@ struct Row {
   Controlword quick_stop;
 };
 
-// The quick stop goes to every state but the faults: the drive may be a transition further than it last told.
+// The quick stop is sent in every state but the faults: the drive may already be one transition further than reported.
 constexpr std::array<Row, 9> kNext = {{
     {kDisableVoltage, kDisableVoltage, kQuickStopCommand},    // not ready: T1 comes by itself
     {kDisableVoltage, kShutdown, kQuickStopCommand},          // switch-on disabled: T2

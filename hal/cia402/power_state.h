@@ -14,10 +14,10 @@ enum class PowerState : std::uint8_t {
   kQuickStopActive,
   kFaultReaction,
   kFault,
-  kUnknown,  ///< a statusword that the standard does not have
+  kUnknown,  ///< a statusword that the standard does not define
 };
 
-/// Where a drive is to go.
+/// The power state that a drive shall reach.
 enum class PowerGoal : std::uint8_t {
   kOff,        ///< switch-on disabled, at once
   kEnabled,    ///< operation enabled
@@ -27,7 +27,7 @@ enum class PowerGoal : std::uint8_t {
 
 enum Statusword : std::uint16_t {
   kStatusRemote = 1u << 9,
-  kStatusFollowsTarget = 1u << 12,  ///< in cyclic synchronous torque: the drive follows 6071
+  kStatusFollowsTarget = 1u << 12,  ///< in cyclic synchronous torque mode: the drive follows 6071
 };
 
 enum Controlword : std::uint16_t {
@@ -39,11 +39,12 @@ enum Controlword : std::uint16_t {
   kFaultReset = 0x80,        ///< T15, by its rising edge
 };
 
+/// Decodes a statusword by its state bits.
 PowerState power_state(std::uint16_t statusword) noexcept;
 
-/// The controlword for the next transition from `state` towards `goal`, one transition at a time. A fault is left only
-/// for `kReset`, and only while `reset_bit`: whoever asks lets it rise. A quick stop is never broken off into operation
-/// (T16), nor is anything enabled out of a fault.
+/// The controlword for the next transition from `state` towards `goal`, one transition at a time. Only `kReset` ends a
+/// fault, and only while `reset_bit`: the caller lets it rise. A quick stop is never interrupted into operation (T16),
+/// and no drive is enabled out of a fault.
 Controlword next_controlword(PowerState state, PowerGoal goal, bool reset_bit) noexcept;
 
 }  // namespace godobject::hal::cia402

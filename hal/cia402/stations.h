@@ -12,7 +12,7 @@ namespace godobject::hal::cia402 {
 inline constexpr int kPanelStation = kMaxJoints;
 inline constexpr int kMaxStations = kMaxJoints + 1;
 
-/// The nodes that the controller speaks to: one a joint, and the operator's panel behind them.
+/// The nodes of the controller: one a joint, then the operator's panel.
 class Stations {
  public:
   explicit Stations(const BusLayout& layout) noexcept {
@@ -24,7 +24,7 @@ class Stations {
     if (layout.panel.bus >= 0) add(kPanelStation, layout.panel.bus, layout.panel.node);
   }
 
-  /// Joint of a node, kPanelStation, or -1: it is none of ours.
+  /// The station of a node: its joint, kPanelStation, or -1: another node.
   int at(int bus, int node) const noexcept {
     return stations_[static_cast<std::size_t>(bus)][static_cast<std::size_t>(node)];
   }
@@ -42,7 +42,7 @@ class Stations {
 
   std::array<std::array<std::int8_t, canopen::kMaxNode + 1>, kMaxBuses> stations_;
   std::array<int, kMaxStations> bus_{};
-  std::array<int, kMaxStations> node_{};  // 0: there is no such station
+  std::array<int, kMaxStations> node_{};  // 0: no such station
 };
 
 }  // namespace godobject::hal::cia402

@@ -4,12 +4,12 @@
 
 namespace godobject::hal {
 
-/// CLOCK_MONOTONIC: setting the machine's date has no effect on it.
+/// CLOCK_MONOTONIC: independent of the machine's date.
 class MonotonicClock final : public Clock {
  public:
   std::int64_t now_ns() noexcept override;
 
-  /// One clock_nanosleep to the absolute time; a signal does not end it.
+  /// Sleeps until the absolute time by clock_nanosleep; a signal does not end the sleep.
   void sleep_until(std::int64_t ns) noexcept override;
 };
 

@@ -16,10 +16,11 @@
 namespace godobject::hal {
 namespace {
 
+/// Frames that one call of `receive` may drop. Chosen: bounds its time to that of 4 batches.
 constexpr int kMostLeftOut = 64;
 constexpr std::size_t kMostIdentifiers = CAN_RAW_FILTER_MAX - 2;
 
-/// What a controller reports of trouble; lost arbitration is none.
+/// The error classes to receive; lost arbitration is no error.
 constexpr can_err_mask_t kErrors = CAN_ERR_TX_TIMEOUT | CAN_ERR_CRTL | CAN_ERR_PROT | CAN_ERR_TRX | CAN_ERR_ACK |
                                    CAN_ERR_BUSOFF | CAN_ERR_BUSERROR | CAN_ERR_RESTARTED;
 
@@ -38,7 +39,7 @@ bool switch_on(int descriptor, int level, int option) noexcept {
   return set(descriptor, level, option, &on, sizeof on);
 }
 
-/// What the kernel grants, which may be less than asked for.
+/// Requests a receive buffer and returns the granted size, which may be smaller.
 int set_receive_buffer(int descriptor, int bytes) noexcept {
   const int half = bytes / 2;  // the kernel doubles it
   if (!set(descriptor, SOL_SOCKET, SO_RCVBUFFORCE, &half, sizeof half)) {
@@ -58,7 +59,7 @@ bool set_filters(int descriptor, std::span<const std::uint16_t> identifiers) noe
   for (const std::uint16_t id : identifiers) {
     filters[count++] = {id, CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG};
   }
-  filters[count++] = {CAN_EFF_FLAG, CAN_EFF_FLAG};  // foreign on such a bus: let through to be counted
+  filters[count++] = {CAN_EFF_FLAG, CAN_EFF_FLAG};  // none of CANopen: passed in order to be counted
   filters[count++] = {CAN_RTR_FLAG, CAN_EFF_FLAG | CAN_RTR_FLAG};
   return set(descriptor, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), count * sizeof(can_filter));
 }
@@ -68,14 +69,14 @@ bool set_filters(int descriptor, std::span<const std::uint16_t> identifiers) noe
 const char* describe(OpenStatus status) noexcept {
   switch (status) {
     case OpenStatus::kOk: return "ok";
-    case OpenStatus::kNoCan: return "this kernel has no CAN; modprobe can_raw, or boot a kernel that has it";
-    case OpenStatus::kSocket: return "no CAN socket can be made";
-    case OpenStatus::kNoInterface: return "no such interface; ip link shows those that are there";
+    case OpenStatus::kNoCan: return "this kernel has no CAN; modprobe can_raw, or boot a kernel with CAN";
+    case OpenStatus::kSocket: return "cannot make a CAN socket";
+    case OpenStatus::kNoInterface: return "no such interface; ip link shows the existing ones";
     case OpenStatus::kNotCan: return "not a CAN interface";
     case OpenStatus::kInterfaceDown: return "the interface is down; ip link set it up";
     case OpenStatus::kNoFd: return "the interface has no FD frames; ip link set it up with fd on, a vcan with mtu 72";
     case OpenStatus::kOption: return "an option of the CAN socket was refused";
-    case OpenStatus::kBind: return "the CAN socket cannot be bound";
+    case OpenStatus::kBind: return "cannot bind the CAN socket";
   }
   return "unknown status";
 }
@@ -133,7 +134,7 @@ OpenResult SocketCan::open(const char* interface, const SocketCanOptions& option
 
 SendResult SocketCan::send(const CanFrame& frame) noexcept {
   assert(frame.id <= CAN_SFF_MASK && is_length(frame.length, frame.fd));
-  canfd_frame raw{};  // a classical frame has the same layout, cut short
+  canfd_frame raw{};  // a classical frame has the same layout, truncated
   raw.can_id = frame.id;
   raw.len = frame.length;
   raw.flags = frame.fd ? CANFD_BRS : 0;
@@ -155,11 +156,11 @@ bool SocketCan::receive(ReceivedFrame& received) noexcept {
     const std::size_t i = taken_++;
     if (take(messages_[i], frames_[i], received)) return true;
   }
-  left_out_ = 0;  // until the next time that all is taken
+  left_out_ = 0;
   return false;
 }
 
-/// The next frames, if there are any.
+/// Reads the next batch of frames. False: there is none.
 bool SocketCan::fetch() noexcept {
   fetched_ = taken_ = 0;
   for (std::size_t i = 0; i < kBatch; ++i) {
@@ -177,12 +178,12 @@ bool SocketCan::fetch() noexcept {
       return true;
     }
     if (count == 0 || errno == EAGAIN || errno == EINTR) return false;
-    health_.down = true;  // told once; what came before it is still there
+    health_.down = true;  // the kernel reports it once; earlier frames are still in the queue
   }
   return false;
 }
 
-/// False: it is left out.
+/// Converts a received message. False: it is dropped.
 bool SocketCan::take(const mmsghdr& message, const canfd_frame& raw, ReceivedFrame& received) noexcept {
   const msghdr& header = message.msg_hdr;
   read_control(header, received);
@@ -203,7 +204,7 @@ bool SocketCan::take(const mmsghdr& message, const canfd_frame& raw, ReceivedFra
   return true;
 }
 
-/// Time stamp and drops.
+/// Reads time stamp and drop counter.
 void SocketCan::read_control(const msghdr& header, ReceivedFrame& received) noexcept {
   received.time_ns = 0;
   for (const cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr;

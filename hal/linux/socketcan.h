@@ -12,54 +12,56 @@
 namespace godobject::hal {
 
 struct SocketCanOptions {
-  bool fd = false;                               ///< FD frames beside classical ones; the interface's MTU must be 72
-  int receive_buffer = 1 << 20;                  ///< wanted [bytes], as the kernel counts them: some 800 a frame
-  std::span<const std::uint16_t> identifiers{};  ///< those let through, own ones too; none: all
+  bool fd = false;  ///< FD frames and classical ones; the interface's MTU must be 72
+  /// Requested receive buffer [bytes]. Chosen: at some 800 bytes a frame, as the kernel counts them, it holds 1300
+  /// frames.
+  int receive_buffer = 1 << 20;
+  std::span<const std::uint16_t> identifiers{};  ///< COB-IDs that the kernel passes, own frames too; empty: all
 };
 
 enum class OpenStatus : std::uint8_t {
   kOk,
   kNoCan,          ///< the kernel has no CAN sockets
-  kSocket,         ///< another reason not to make a socket
-  kNoInterface,    ///< none of this name
-  kNotCan,         ///< the interface is none of CAN
-  kInterfaceDown,  ///< it is there, but down
-  kNoFd,           ///< FD frames are wanted, and the interface has classical ones only
+  kSocket,         ///< the socket could not be made for another reason
+  kNoInterface,    ///< no interface has this name
+  kNotCan,         ///< the interface is no CAN interface
+  kInterfaceDown,  ///< the interface is down
+  kNoFd,           ///< the interface has classical frames only, and FD frames were requested
   kOption,         ///< an option of the socket was refused
-  kBind,           ///< it could not be bound
+  kBind,           ///< the socket could not be bound
 };
 
-/// A clause in lower case with the cure, for the user's eye. Never null.
+/// The status as one clause with the cure. Never null.
 const char* describe(OpenStatus status) noexcept;
 
 struct OpenResult {
   OpenStatus status = OpenStatus::kOk;
-  int error = 0;           ///< errno where there is one
+  int error = 0;           ///< errno, or 0
   int receive_buffer = 0;  ///< granted [bytes]
 };
 
 /// A CAN interface of Linux by a raw socket. `send` is one send(), `receive` one recvmmsg() for each 16 frames and one
-/// that finds nothing, both without waiting; no other system calls. Own frames come back once they have been on the
-/// wire. Extended and remote frames and impossible lengths are counted and left out; error frames become health.
+/// that finds no frame, both without waiting; there are no other system calls. Own frames return after they were on the
+/// wire. Extended frames, remote frames and impossible lengths are counted and dropped. Error frames become `health`.
 ///
-/// An interface that goes down and a controller that leaves the bus stay so in `health` until it is opened anew: what
-/// was lost meanwhile nobody knows. Cost: of the system calls; at most 64 frames are left out until `receive` has been
-/// false, which it then is whether there are more or not.
+/// An interface that was down, or a controller that was bus-off, stays so in `health` until the next `open`: it is not
+/// known which frames were lost meanwhile. Cost: the system calls. After 64 dropped frames `receive` returns false
+/// once, whether there are more frames or not.
 class SocketCan final : public CanBus {
  public:
   SocketCan() noexcept = default;
 
-  /// Over a socket that carries one frame a message, and closes it in the end.
+  /// Uses, and finally closes, a socket that carries one frame a message.
   explicit SocketCan(int descriptor) noexcept : descriptor_(descriptor) {}
 
   ~SocketCan() override;
   SocketCan(const SocketCan&) = delete;
   SocketCan& operator=(const SocketCan&) = delete;
 
-  /// At the start, before anything is sent or received.
+  /// Opens an interface, before `send` and `receive`.
   OpenResult open(const char* interface, const SocketCanOptions& options) noexcept;
 
-  /// To wait with poll() until something has come, where that may take time.
+  /// For poll(), outside the real-time loop.
   int descriptor() const noexcept { return descriptor_; }
 
   SendResult send(const CanFrame& frame) noexcept override;
@@ -77,10 +79,10 @@ class SocketCan final : public CanBus {
 
   int descriptor_ = -1;
   BusHealth health_;
-  std::uint32_t drop_counter_ = 0;  // the kernel's last, of 32 bit
+  std::uint32_t drop_counter_ = 0;  // last value of the kernel's 32 bit counter
   std::size_t fetched_ = 0;
   std::size_t taken_ = 0;
-  int left_out_ = 0;  // since all that there was has been taken
+  int left_out_ = 0;  // since the socket was last empty
   std::array<canfd_frame, kBatch> frames_{};
   std::array<iovec, kBatch> vectors_{};
   std::array<mmsghdr, kBatch> messages_{};

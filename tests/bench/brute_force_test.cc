@@ -161,8 +161,8 @@ TEST(PointScan, AllWaysFindTheSameOfARandomCloudAboutABall) {
 
 TEST(BruteForce, FindsTheSamePointsAsTheTree) {
   const auto image = test::ball_over_plate();
-  Scene scene;
-  ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
+  SceneView scene;
+  ASSERT_EQ(SceneView::open(image.bytes(), scene), Status::kOk);
   Random random(3);
   std::vector<Pose> poses;
   std::vector<std::size_t> cycles;
@@ -183,8 +183,8 @@ TEST(BruteForce, FindsTheSamePointsAsTheTree) {
 
 TEST(BruteForce, FindsNothingFarAway) {
   const auto image = test::ball_over_plate();
-  Scene scene;
-  ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
+  SceneView scene;
+  ASSERT_EQ(SceneView::open(image.bytes(), scene), Status::kOk);
   BruteForce brute(scene, 0.125 * scene.grid.voxel_size);
   Pose far;
   for (const Vector3& at : {Vector3(0.3, 0.0, 0.0), Vector3(0.0, 0.0, 0.04), Vector3(-1e3, 1e3, -1e3)}) {

@@ -55,7 +55,7 @@ std::vector<SimulatedCycle> direct_run(const test::SceneImage& scene, const sim:
   return run.cycles;
 }
 
-/// How far apart the joints are at most in those cycles, in steps of the encoder.
+/// Returns the largest difference of joint positions between two runs, over kCompared cycles, in encoder steps.
 double apart(const std::vector<CanRun::Cycle>& can, const std::vector<SimulatedCycle>& direct, std::int64_t from) {
   constexpr double kStep = 2.0 * M_PI / (1 << 20);  // [rad]
   double most = 0.0;

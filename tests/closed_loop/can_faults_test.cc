@@ -61,7 +61,7 @@ void start(CanRun& run) {
   ASSERT_EQ(result.status, hal::BringUpStatus::kOk) << describe(result.status) << ' ' << result.node;
   run.run(kBegin - run.device().now_ns() / 1'000'000 - 1);
   ASSERT_EQ(run.cycles.back().record.fault, Fault::kNone) << describe(run.cycles.back().record.fault);
-  ASSERT_GT(run.cycles.back().record.wrench_R.force.norm(), 2.0) << "the fault is to meet a contact";
+  ASSERT_GT(run.cycles.back().record.F_G_R.force.norm(), 2.0) << "the fault is to meet a contact";
   ASSERT_EQ(run.controller().counters().lost, 0u) << "those that the probe at the start leaves out do not count";
 }
 
@@ -296,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(
             4}),
     [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
 
-/// What was counted while it went on.
+/// Returns the counters of losses and disturbances during a run as text.
 std::string counted(CanRun& run) {
   const CycleCounters& cycles = run.controller().counters();
   const hal::CanStatistics& bus = run.drives().statistics();
@@ -422,7 +422,7 @@ double largest_force_step(const CanRun& run) {
   double largest = 0.0;
   for (std::size_t i = 1; i < run.cycles.size(); ++i) {
     if (run.cycles[i].number < kBegin) continue;
-    const Vector3 step = run.cycles[i].record.wrench_R.force - run.cycles[i - 1].record.wrench_R.force;
+    const Vector3 step = run.cycles[i].record.F_G_R.force - run.cycles[i - 1].record.F_G_R.force;
     largest = std::max(largest, step.norm());
   }
   return largest;
@@ -460,7 +460,7 @@ TEST(CanLoop, GoesOnWithOneSampleInAHundredLostAtRandom) {
   EXPECT_LT(step, without + 0.1) << "a position that is predicted is off by less than 0.05 mm";
   double deviation = 0.0;
   for (std::size_t i = 0; i < run.cycles.size(); ++i) {
-    const Vector3 off = run.cycles[i].record.wrench_R.force - plain.cycles[i].record.wrench_R.force;
+    const Vector3 off = run.cycles[i].record.F_G_R.force - plain.cycles[i].record.F_G_R.force;
     deviation = std::max(deviation, off.norm());
   }
   test::SeenFault seen = seen_since(run.cycles, kBegin);
@@ -472,7 +472,7 @@ TEST(CanLoop, GoesOnWithOneSampleInAHundredLostAtRandom) {
   std::printf("[ measured ] %s\n", text);
 }
 
-/// What comes twice or in another order is felt by nobody: every cycle is that of the undisturbed run.
+/// Frames that arrive twice or in another order change nothing: every cycle equals that of the undisturbed run.
 class CanEcho : public testing::TestWithParam<Row> {};
 
 TEST_P(CanEcho, ChangesNothing) {
@@ -516,7 +516,7 @@ INSTANTIATE_TEST_SUITE_P(
                         0}),
     [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
 
-/// More frames wait on a bus than a cycle may take: a burst is gone on with, for good it takes the samples' place.
+/// More frames wait on a bus than a cycle may take. A burst does not end the run; an endless flood displaces samples.
 TEST(CanFlood, OfABurstIsCountedAndGoneOnWith) {
   CanRun::Options options = pressing();
   options.flood = {.bus = 1, .first_cycle = kBegin, .cycles = 1, .frames = 90};

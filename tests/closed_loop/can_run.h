@@ -13,8 +13,8 @@
 
 namespace godobject::firmware {
 
-/// A bus as the controller sees it, with what befalls its side of it: more frames than it may take in a cycle, stamps
-/// by a clock that is set, and SDO that takes no time on the wire.
+/// A bus with disturbances on the controller's side: more frames than the controller may take in a cycle, time stamps
+/// of a clock that is set during the run, and SDO transfers that need no time on the wire.
 class DisturbedBus final : public hal::CanBus {
  public:
   explicit DisturbedBus(hal::CanBus& bus) noexcept : bus_(bus) {}
@@ -23,11 +23,11 @@ class DisturbedBus final : public hal::CanBus {
   bool receive(hal::ReceivedFrame& received) noexcept override;
   hal::BusHealth health() const noexcept override { return bus_.health(); }
 
-  /// So many foreign frames are before all others in this cycle; stamps are off by `clock_ns`.
+  /// Begins a cycle in which `flood` foreign frames precede all other frames and time stamps are off by `clock_ns`.
   void begin_cycle(int flood, std::int64_t clock_ns) noexcept;
-  int most_taken() const noexcept { return most_taken_; }  ///< frames in a cycle
+  int most_taken() const noexcept { return most_taken_; }  ///< largest number of frames in a cycle
 
-  /// SDO requests of the cycles reach this bus's nodes at once, and their answers the controller.
+  /// From the first cycle on passes SDO requests to the nodes of this bus at once, and the answers to the controller.
   void answer_beside_the_wire(sim::CanNodes& nodes, int bus) noexcept;
 
  private:
@@ -37,22 +37,22 @@ class DisturbedBus final : public hal::CanBus {
   int taken_ = 0;
   int most_taken_ = 0;
   std::int64_t clock_ns_ = 0;
-  sim::CanNodes* nodes_ = nullptr;  // that answer beside the wire
+  sim::CanNodes* nodes_ = nullptr;  // nodes that answer beside the wire
   int number_ = 0;
   std::optional<hal::CanFrame> answer_;
 };
 
-/// The whole controller on the simulated arm over its three buses, in virtual time; otherwise as SimulatedRun.
+/// Runs the whole controller on the simulated arm over its three buses, in virtual time. Otherwise as SimulatedRun.
 class CanRun {
  public:
   struct Options {
-    std::vector<Vector3> path;  ///< of the ball in the scene, 1 ms apart, from time `begin` on
+    std::vector<Vector3> path;  ///< positions of the ball in the scene, 1 ms apart, from time `begin` on
     double begin = 1.2;         ///< [s]
     std::vector<sim::BusFault> bus_faults;
     std::vector<sim::DriveFault> drive_faults;
     double zero = 0.0;        ///< position of joint 2 where its counter is 0 [rad]
-    double hold_from = 1.04;  ///< when the enable switch is held [s]
-    bool quiet = false;       ///< for 3 s from its first heartbeat on nothing is on the wires but SYNC and PDOs
+    double hold_from = 1.04;  ///< the enable switch is held from this time on [s]
+    bool quiet = false;       ///< for 3 s from the first heartbeat on, only SYNC and PDOs are on the wires
     struct Flood {
       int bus = 0;
       std::int64_t first_cycle = 0;
@@ -70,15 +70,15 @@ class CanRun {
   /// Starts the nodes.
   hal::BringUpResult bring_up() { return drives_->bring_up(*clock_); }
 
-  /// So many cycles more; each is kept. `events` are those of the first one.
+  /// Runs so many more cycles and appends each to the member `cycles`. `events` are the events of the first one.
   void run(std::int64_t cycles, const LoopEvents& events = {});
 
-  /// Without anything from the controller: it was killed.
+  /// Advances the arm without the controller, as after the controller was killed.
   void go_on_alone(double seconds) {
     device_->advance_to(device_->now_ns() + static_cast<std::int64_t>(1e9 * seconds));
   }
 
-  /// Cycles from the period `number` on until nothing is rendered any more, that of `number` being the first; 0: never.
+  /// Returns the number of cycles from the period `number` to the first one without rendering, both included; 0: never.
   int cycles_to_stop(std::int64_t number) const;
 
   struct Cycle {
@@ -87,7 +87,7 @@ class CanRun {
   };
   std::vector<Cycle> cycles;
 
-  int most_taken() const;  ///< frames from a bus in a cycle
+  int most_taken() const;  ///< largest number of frames taken from a bus in a cycle
 
   ControlCycle& controller() { return *cycle_; }
   hal::CanDrives& drives() { return *drives_; }
@@ -96,7 +96,7 @@ class CanRun {
   const hal::BusLayout& layout() const { return placement_.device.bus; }
 
  private:
-  Scene scene_;
+  SceneView scene_;
   Placement placement_;
   Options options_;
   std::vector<Pose> path_R_;

@@ -26,7 +26,7 @@ Steps force_steps(const SimulatedRun& run) {
     const CycleRecord& before = run.cycles[i - 1].record;
     const CycleRecord& now = run.cycles[i].record;
     if (before.mode != Mode::kRunning || now.mode != Mode::kRunning) continue;
-    const double step = (now.wrench_R.force - before.wrench_R.force).norm();
+    const double step = (now.F_G_R.force - before.F_G_R.force).norm();
     double& largest = now.clutch_is_open      ? steps.while_open
                       : before.clutch_is_open ? steps.on_closing
                                               : steps.without_it;
@@ -61,7 +61,7 @@ TEST(Clutch, MovesTheToolWhileTheBallRestsAndGoesOnFromThere) {
   EXPECT_GT(up, 0.03) << "the tool moved";
   // in the end the hand would have the ball as much lower as the tool went up: a press on springs in series
   const SimulatedCycle& rest = at(run, 3690);
-  EXPECT_NEAR(rest.record.wrench_R.force.z(), 300.0 * 2000.0 / 2300.0 * (0.03 - (0.06 - up)), 0.3);
+  EXPECT_NEAR(rest.record.F_G_R.force.z(), 300.0 * 2000.0 / 2300.0 * (0.03 - (0.06 - up)), 0.3);
   const Steps steps = force_steps(run);
   std::printf("[ measured ] opening %.3f N, closing %.3f N, otherwise %.3f N a cycle\n", steps.while_open,
               steps.on_closing, steps.without_it);
@@ -81,7 +81,7 @@ TEST(Clutch, WaitsUntilTheHandLeansOnNothing) {
   run.run(3800);
   EXPECT_EQ(run.controller().record().fault, Fault::kNone);
   EXPECT_EQ(run.violation(), "");
-  ASSERT_GT(at(run, 2300).record.wrench_R.force.norm(), 4.0);
+  ASSERT_GT(at(run, 2300).record.F_G_R.force.norm(), 4.0);
   std::int64_t opened = 0;
   for (std::size_t i = 0; i < run.cycles.size() && opened == 0; ++i) {
     if (run.cycles[i].record.clutch_is_open) {
@@ -91,7 +91,7 @@ TEST(Clutch, WaitsUntilTheHandLeansOnNothing) {
     }
   }
   ASSERT_GT(opened, 2800) << "on the hand's way up";
-  EXPECT_LT(at(run, opened - 1).record.wrench_R.force.norm(), 0.5);
+  EXPECT_LT(at(run, opened - 1).record.F_G_R.force.norm(), 0.5);
   EXPECT_FALSE(at(run, 3500).record.clutch_is_open);
   const Steps steps = force_steps(run);
   std::printf("[ measured ] opened in cycle %lld; opening %.3f N, closing %.3f N, otherwise %.3f N a cycle\n",

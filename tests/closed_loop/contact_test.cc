@@ -10,7 +10,7 @@
 #include "core/device/dynamics.h"
 #include "core/device/kinematics.h"
 #include "core/device/stability.h"
-#include "firmware/gain_check.h"
+#include "firmware/configuration/gain_check.h"
 #include "tests/closed_loop/simulated_run.h"
 #include "tests/support/small_scenes.h"
 
@@ -28,12 +28,12 @@ TEST(ClosedLoopContact, HoldsAPressAtRestAsSpringsInSeries) {
   EXPECT_EQ(run.violation(), "");
   // the hand's 300 N/m pull it 20 mm below the surface, 2000 N/m hold against it: 300 * 2000 / 2300 * 0.02 N
   const SimulatedCycle& rest = run.cycles[2990];
-  EXPECT_NEAR(rest.record.wrench_R.force.z(), 5.2, 0.4);
+  EXPECT_NEAR(rest.record.F_G_R.force.z(), 5.2, 0.4);
   EXPECT_NEAR(rest.record.god_object_W.translation.z(), 0.03, 2e-4);
   double step = 0.0;
   double moved = 0.0;
   for (std::size_t i = 2500; i < 2990; ++i) {
-    const Vector3 change = run.cycles[i].record.wrench_R.force - run.cycles[i - 1].record.wrench_R.force;
+    const Vector3 change = run.cycles[i].record.F_G_R.force - run.cycles[i - 1].record.F_G_R.force;
     step = std::max(step, change.norm());
     moved = std::max(moved, (run.cycles[i].tool_R - rest.tool_R).norm());
   }
@@ -111,7 +111,7 @@ TEST(ClosedLoopContact, PlugsABallIntoAHoleOneVoxelWider) {
   EXPECT_LT((run.cycles[3500].record.H_WM.translation - Vector3(0.0, 0.0, 0.06)).norm(), 0.01);
 }
 
-/// Lowers the tool onto the plate as a soft hand would, lets go of it in cycle `lets_go`, and pushes a little harder.
+/// Presses the tool on the plate with the damping of a soft hand; from cycle `lets_go` on a little harder and undamped.
 Wrench lowers_and_lets_go(std::int64_t cycle, const sim::BodyState& tool, const Vector3& normal_R,
                           std::int64_t lets_go = 1500) {
   if (cycle < 400) return {};
@@ -131,7 +131,7 @@ double swing(const SimulatedRun& run, std::int64_t from, const Vector3& normal_R
   return high - low;
 }
 
-/// What theory says of an arm that a spring holds along the plate's normal only.
+/// Returns the theory's loop for an arm that a spring holds along the plate's normal only.
 ArmLoop held_along(const SimulatedRun& run, const Vector3& normal_R) {
   const ArmModel& arm = run.device().model;
   const ArmKinematics kinematics = forward_kinematics(arm, run.plant().positions());
@@ -140,8 +140,8 @@ ArmLoop held_along(const SimulatedRun& run, const Vector3& normal_R) {
   loop.joint_count = arm.joint_count;
   loop.mass = mass_matrix(arm, kinematics);
   for (int i = 0; i < arm.joint_count; ++i) loop.damping[i] = arm.joints[static_cast<std::size_t>(i)].damping;
-  // which row is that of the spring does not matter
-  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  // the spring may have any row
+  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   loop.jacobian.row(0) = normal_R.transpose() * J.topRows<3>();
   loop.stiffness = felt.stiffness;
   loop.tool_damping = felt.damping;
@@ -161,11 +161,11 @@ TEST(ClosedLoopContact, ComesToRestBelowTheExactBoundaryAndDoesNotAboveIt) {
   options.friction = false;
   SimulatedRun soft(image, options);
   soft.run(1500);
-  ASSERT_NEAR(soft.cycles[1490].record.wrench_R.force.z(), 3.0, 0.2) << "it lies on the plate";
+  ASSERT_NEAR(soft.cycles[1490].record.F_G_R.force.z(), 3.0, 0.2) << "it lies on the plate";
   const ArmLoop loop = held_along(soft, Vector3::UnitZ());
   const double boundary = stiffness_margin(loop) * loop.stiffness;
 
-  // what is let through at the start is on the safe side of it
+  // the check at the start accepts less stiffness than the boundary
   const GainReport report = check_gains(soft.scene(), soft.device().model, soft.posture(), 1.0, loop.timing);
   EXPECT_LT(report.margin * loop.stiffness, boundary);
   for (const double share : {0.8, 1.4}) {
@@ -216,7 +216,7 @@ TEST_P(ClosedLoopBoundary, TwoPercentBelowDecaysTwoPercentAboveGrows) {
   options.turn = Quaternion::FromTwoVectors(normal, Vector3::UnitZ());
   SimulatedRun soft(image, options);
   soft.run(2500);
-  ASSERT_NEAR(soft.cycles[2490].record.wrench_R.force.dot(normal), 3.0, 0.5) << "it lies on the plate";
+  ASSERT_NEAR(soft.cycles[2490].record.F_G_R.force.dot(normal), 3.0, 0.5) << "it lies on the plate";
   ArmLoop loop = held_along(soft, normal);
   const double boundary = stiffness_margin(loop) * loop.stiffness;
   for (const double share : {0.98, 1.02}) {

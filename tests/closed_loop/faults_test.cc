@@ -45,7 +45,7 @@ SimulatedRun::Options pressing() {
 
 double force_before(const SimulatedRun& run) {
   for (const SimulatedCycle& cycle : run.cycles) {
-    if (cycle.number == kBegin - 1) return cycle.record.wrench_R.force.norm();
+    if (cycle.number == kBegin - 1) return cycle.record.F_G_R.force.norm();
   }
   return 0.0;
 }
@@ -238,9 +238,9 @@ TEST(ClosedLoop, TellsWhatIsFeltWhileItFades) {
   for (const SimulatedCycle& cycle : run.cycles) {
     if (cycle.record.mode == Mode::kFade) {
       ++fading;
-      EXPECT_NEAR(cycle.record.wrench_R.force.norm(), cycle.record.share * before, 1e-9) << cycle.number;
+      EXPECT_NEAR(cycle.record.F_G_R.force.norm(), cycle.record.share * before, 1e-9) << cycle.number;
     } else if (cycle.record.mode == Mode::kRunning) {
-      before = cycle.record.wrench_R.force.norm();
+      before = cycle.record.F_G_R.force.norm();
     }
   }
   EXPECT_EQ(fading, 5);

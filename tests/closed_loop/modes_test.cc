@@ -1,5 +1,5 @@
-// Faults in every mode: what each leads to when it begins in the middle of it. Where power flows the reaction is that
-// of the table; where none does, none may come.
+// Every fault begins in the middle of every mode. While the drives have power, the reaction must be that of the table
+// of faults. While they have none, no power may come.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ SimulatedRun::Options options_for(const Row& row) {
   SimulatedRun::Options options;
   options.path = {{0.0, 0.0, 0.06}};
   options.sign_test = row.sign_test;
-  // what else answers late makes the boot last
+  // another joint without supply for 60 cycles makes the mode BOOT last
   if (row.mode == Mode::kBoot) options.faults = {{FaultKind::kSupplyLost, 0, 0, 60}};
   return options;
 }

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "firmware/control_cycle.h"
+#include "firmware/cycle/control_cycle.h"
 #include "tests/support/fault_record.h"
 
 namespace godobject::firmware {
 
-/// What the records of a run say of the reaction to a fault that began in the period `begin`: `cycles` as counted until
-/// nothing is rendered any more, the modes it went through, in words. What comes from the period `end` on does not
-/// count.
+/// Returns the reaction to a fault that began in the period `begin`, from the records of a run: the modes that
+/// followed, the fault, and the number of cycles until the controller renders nothing any more. Ignores the records
+/// from the period `end` on.
 template <class Cycle>
 test::SeenFault seen_since(const std::vector<Cycle>& cycles, std::int64_t begin,
                            std::int64_t end = std::numeric_limits<std::int64_t>::max()) {
@@ -51,7 +51,7 @@ test::SeenFault seen_since(const std::vector<Cycle>& cycles, std::int64_t begin,
   return seen;
 }
 
-/// Torques of the motors and brakes at the end, in words; `joint(i)` has both.
+/// Returns the largest motor torque and the number of closed brakes as text. `joint(i)` has both values.
 template <class JointOf>
 std::string rest_of(int joints, const JointOf& joint) {
   double torque = 0.0;

@@ -43,7 +43,7 @@ Placement run_placement(const Quaternion& turn) {
   return place(workspace(turn), read_device_file(GODOBJECT_DEVICES_DIR "/lwr.toml"), Vector3::Zero());
 }
 
-void set_run_gains(double stiffness, Scene& scene) {
+void set_run_gains(double stiffness, SceneView& scene) {
   ControllerConfig::Gains gains;
   gains.stiffness = stiffness;
   gains.damping = 5.0;
@@ -51,7 +51,7 @@ void set_run_gains(double stiffness, Scene& scene) {
   set_gains(gains, scene);
 }
 
-CycleSetup run_setup(const Scene& scene, const Placement& placement) {
+CycleSetup run_setup(const SceneView& scene, const Placement& placement) {
   CycleSetup setup;
   setup.scene = &scene;
   setup.friction = true;
@@ -65,7 +65,7 @@ CycleSetup run_setup(const Scene& scene, const Placement& placement) {
 }
 
 std::vector<Pose> run_path(const Placement& placement, std::span<const Vector3> path) {
-  const Pose rest = forward_kinematics(placement.device.model, SimulatedRun::posture()).H_WM;
+  const Pose rest = forward_kinematics(placement.device.model, SimulatedRun::posture()).H_RM;
   std::vector<Pose> in_room{rest};
   for (const Vector3& p_W : path) in_room.push_back({rest.rotation, p_W - placement.mapping.H_WR.translation});
   return in_room;
@@ -79,7 +79,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
       faults_(options.faults),
       late_(options.late) {
   set_run_gains(options.scene_stiffness, scene_);
-  if (options.weightless) placement_.device.model.gravity_W.setZero();
+  if (options.weightless) placement_.device.model.gravity_R.setZero();
   const ArmModel& arm = placement_.device.model;
   hardware_ = sim::usual_hardware(arm);
   for (auto& joint : hardware_) {

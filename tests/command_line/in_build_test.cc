@@ -10,7 +10,7 @@ namespace {
 using format::Solver;
 
 TEST(InBuild, LetsAllPipelinesOfAWholeBuildRun) {
-  const Scene scene;
+  const SceneView scene;
   for (const Solver solver : {Solver::kPaper, Solver::kCorrected, Solver::kContact}) {
     for (const bool friction : {false, true}) EXPECT_NO_THROW(require_in_build("x.scene", scene, solver, friction));
   }
@@ -18,7 +18,7 @@ TEST(InBuild, LetsAllPipelinesOfAWholeBuildRun) {
 
 TEST(InBuild, NamesTheSceneThePartAndTheOptionToDrop) {
   constexpr SceneTraits kBall{.paper = false, .corrected = false, .friction = false, .features = false};
-  Scene scene;
+  SceneView scene;
   const auto message = [&](Solver solver, bool friction) -> std::string {
     try {
       require_in_build("x.scene", scene, solver, friction, kBall);

@@ -1,4 +1,4 @@
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 
 #include <gtest/gtest.h>
 
@@ -81,20 +81,20 @@ SceneImage refined_image(std::optional<format::Edge> edge = {}) {
   return test::build_scene_image(description);
 }
 
-/// What the view holds, byte for byte.
-std::array<std::byte, sizeof(Scene)> bytes_of(const Scene& scene) {
-  std::array<std::byte, sizeof(Scene)> bytes{};
-  std::memcpy(bytes.data(), static_cast<const void*>(&scene), sizeof(Scene));
+/// Returns the bytes of the view.
+std::array<std::byte, sizeof(SceneView)> bytes_of(const SceneView& scene) {
+  std::array<std::byte, sizeof(SceneView)> bytes{};
+  std::memcpy(bytes.data(), static_cast<const void*>(&scene), sizeof(SceneView));
   return bytes;
 }
 
 /// Opens `image` into a scene that holds another one already; a refusal must leave that as it was.
 Status open_over_another(std::span<const std::byte> image) {
   static const SceneImage another = small_image();
-  static const Scene opened = test::open_scene(another);
-  Scene scene = opened;
+  static const SceneView opened = test::open_scene(another);
+  SceneView scene = opened;
   const auto before = bytes_of(scene);
-  const Status status = Scene::open(image, scene);
+  const Status status = SceneView::open(image, scene);
   if (status != Status::kOk) {
     EXPECT_EQ(bytes_of(scene), before) << "a refused image has changed the scene";
   }
@@ -103,7 +103,7 @@ Status open_over_another(std::span<const std::byte> image) {
 
 TEST(Scene, ShowsWhatTheImageHolds) {
   const SceneImage image = small_image();
-  const Scene scene = test::open_scene(image);
+  const SceneView scene = test::open_scene(image);
   EXPECT_EQ(scene.pointshell.size, 26u);
   EXPECT_EQ(scene.pointshell.nodes.size(), 7u);
   EXPECT_EQ(scene.body.level_count, 3u);
@@ -133,7 +133,7 @@ TEST(Scene, OpensWithoutNormalsWhenPaperIsNotHeld) {
   description.surface_max = Vector3::Constant(0.01);
   description.points = test::sample_ball(0.02, 40).points;
   const SceneImage image = test::build_scene_image(description);
-  const Scene scene = test::open_scene(image);
+  const SceneView scene = test::open_scene(image);
   EXPECT_EQ(scene.pointshell.normal_x, nullptr);
   EXPECT_FALSE(scene.workspace.limited);
   EXPECT_TRUE(scene.workspace.contains(Vector3(1e7, -1e7, 0.0)));
@@ -181,8 +181,8 @@ TEST(Scene, SurvivesEverySingleBitFlipBehindRightChecksums) {
       header.checksum = 0;
       header.checksum = format::checksum(image.bytes().data(), header_bytes);
     }
-    Scene scene;
-    if (Scene::open(image.bytes(), scene) != Status::kOk) {
+    SceneView scene;
+    if (SceneView::open(image.bytes(), scene) != Status::kOk) {
       ++refused;
       continue;
     }
@@ -523,8 +523,8 @@ TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
     const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};
     bytes[bit / 8] ^= mask;
     test::seal(image);
-    Scene scene;
-    if (Scene::open(image.bytes(), scene) == Status::kOk) {
+    SceneView scene;
+    if (SceneView::open(image.bytes(), scene) == Status::kOk) {
       for (int corner = 0; corner < 64; ++corner) {
         const Vector3 p = 0.019 * (Vector3(corner & 3, corner >> 2 & 3, corner >> 4) - Vector3::Constant(1.5));
         ASSERT_FALSE(std::isnan(scene.voxelmap.sample(p).distance)) << "bit " << bit;

@@ -129,7 +129,7 @@ TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
   EXPECT_NEAR(one.map().lower_bound(Vector3::Constant(0.5), 1.5), 0.5, kAllowance);
   EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 2.5), -kInfinity);
   EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, -2);
-  // what is known of the centre, less the way to it
+  // the clearance of the brick's centre, less the distance to the centre
   EXPECT_EQ(one.map().sample(Vector3::Constant(0.5)).clearance, 2.0);
   EXPECT_NEAR(one.map().sample(Vector3(0.5, 0.8, 0.9)).clearance, 1.5, kAllowance);
   EXPECT_NEAR(one.map().lower_bound(Vector3(0.5, 0.8, 0.9), 1.25), 0.25, kAllowance);
@@ -464,7 +464,7 @@ TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
   EXPECT_GT(useful, 100);
 }
 
-/// What a batch gives is what `sample` gives there, to the last bit, with any vectors.
+/// A batch gives the same bits as `sample` at the same points, with every vector kernel.
 TEST_P(VoxelmapOfRandomShapes, LooksUpInBatchesWhatItLooksUpSingly) {
   std::vector<const detail::SampleKernel*> kernels{nullptr};
   for (const detail::SampleKernel& kernel : detail::sample_kernels()) kernels.push_back(&kernel);

@@ -31,7 +31,7 @@ ReplayRow at(double t, const Vector3& rotation, double z) {
 
 TEST(Crossing, IsThatOfTheFurthestPointAndCycle) {
   const test::SceneImage image = dumbbell();
-  const Scene scene = test::open_scene(image);
+  const SceneView scene = test::open_scene(image);
   const Barrier floor{.point = Vector3(0, 0, 0.01), .normal = Vector3(0, 0, 1)};
   const Vector3 upright(0, std::numbers::pi / 2, 0);  // takes the mesh's x to -z
   const ReplayLog log = {at(0.0, Vector3::Zero(), 0.05), at(0.1, upright, 0.08), at(0.2, Vector3::Zero(), 0.005)};
@@ -42,14 +42,14 @@ TEST(Crossing, IsThatOfTheFurthestPointAndCycle) {
 
 TEST(Crossing, IsZeroOnTheRightSide) {
   const test::SceneImage image = dumbbell();
-  const Scene scene = test::open_scene(image);
+  const SceneView scene = test::open_scene(image);
   const Barrier floor{.point = Vector3::Zero(), .normal = Vector3(0, 0, 1)};
   EXPECT_EQ(furthest_crossing({at(0.0, Vector3::Zero(), 0.05)}, scene, floor).distance, 0.0);
 }
 
 TEST(SceneFacts, AreThoseOfTheImage) {
   const test::SceneImage image = dumbbell();
-  Scene scene = test::open_scene(image);
+  SceneView scene = test::open_scene(image);
   scene.grid.voxel_size = 0.0005;
   scene.settings.friction = 0;
   EXPECT_EQ(scene_facts(scene), fmt::format("Voxels of 0.5 mm, 2 points of the moving body in {} levels, no friction.",

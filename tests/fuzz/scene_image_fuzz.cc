@@ -1,4 +1,4 @@
-// Any bytes as a scene image: refused, or good for a thousand look-ups and for cycles of every solver that it holds.
+// Opens any bytes as a scene image. If the image is valid, makes a thousand look-ups and cycles of every solver in it.
 
 #include <cmath>
 #include <cstdint>
@@ -10,20 +10,20 @@
 #include <vector>
 
 #include "toolchain/session/owned_god_object.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 
 namespace godobject {
 namespace {
 
 void require(bool holds) {
-  if (!holds) std::abort();  // what libFuzzer calls a crash
+  if (!holds) std::abort();  // libFuzzer reports this as a crash
 }
 
 bool finite(const FieldSample& sample) {
   return std::isfinite(sample.distance) && sample.gradient.allFinite() && std::isfinite(sample.clearance);
 }
 
-/// Points in the grid and around it.
+/// Looks up points in the grid and around it. All results must be finite.
 void look_up(const Voxelmap& map, const format::Grid& grid, std::mt19937& random) {
   constexpr int kLookUps = 1000;
   std::uniform_real_distribution<double> anywhere(-0.2, 1.2);
@@ -38,7 +38,7 @@ void look_up(const Voxelmap& map, const format::Grid& grid, std::mt19937& random
   }
 }
 
-void run(const Scene& scene, Solver solver, bool friction, std::mt19937& random) {
+void run(const SceneView& scene, Solver solver, bool friction, std::mt19937& random) {
   constexpr int kCycles = 100;
   static OwnedGodObject god_object;
   if (god_object.start(scene, solver, friction) != Status::kOk) return;
@@ -50,7 +50,7 @@ void run(const Scene& scene, Solver solver, bool friction, std::mt19937& random)
   for (int cycle = 0; cycle < kCycles; ++cycle) {
     const Vector3 at(share(random), share(random), share(random));
     input.H_WM.translation = low + at.cwiseProduct(high - low);
-    // a refusal is no harm: numbers within their bounds may still lead out of what a double holds
+    // a cycle may fail: numbers within their bounds can still lead to an overflow
     if (god_object->update(input, report) != Status::kOk) return;
     require(report.H_WS.is_finite() && report.force.total_W.force.allFinite() &&
             report.force.total_W.torque.allFinite());
@@ -67,8 +67,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   std::vector<Line> memory(size / sizeof(Line) + 1);
   if (size > 0) std::memcpy(memory.data(), data, size);
-  Scene scene;
-  if (Scene::open(std::as_bytes(std::span(memory)).first(size), scene) != Status::kOk) return 0;
+  SceneView scene;
+  if (SceneView::open(std::as_bytes(std::span(memory)).first(size), scene) != Status::kOk) return 0;
   std::mt19937 random(1);
   look_up(scene.voxelmap, scene.grid, random);
   for (const Solver solver : {Solver::kPaper, Solver::kCorrected, Solver::kContact}) {

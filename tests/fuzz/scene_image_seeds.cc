@@ -1,4 +1,4 @@
-// Small valid scene images for a fuzzer to begin with: scene_image_seeds FOLDER
+// scene_image_seeds FOLDER: writes small valid scene images, with which the fuzzer begins.
 
 #include <cstdio>
 #include <filesystem>

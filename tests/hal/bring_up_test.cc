@@ -193,7 +193,7 @@ TEST_F(BringUpTest, NamesTheDriveThatDoesNotTellItsMode) {
   EXPECT_EQ(result.index, 0x6061);
 }
 
-/// What is wrong in joint 1's drive, and what the result must then say.
+/// A wrong object in the drive of joint 1, and the result that the bring-up must return.
 struct WrongObject {
   int index;
   int subindex;

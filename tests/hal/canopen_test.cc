@@ -82,7 +82,7 @@ TEST(Sdo, ResponsesByteForByte) {
 
   ASSERT_TRUE(parse_sdo_response(frame(0x583, {0x4B, 0x05, 0x14, 0x05, 0x04, 0x00, 0xFF, 0xFF}), response));
   EXPECT_EQ(response.size, 2);
-  EXPECT_EQ(response.value, 4u);  // what lies behind the two bytes is nothing
+  EXPECT_EQ(response.value, 4u);  // the bytes after the first two have no meaning
   EXPECT_EQ(response.subindex, 5);
   ASSERT_TRUE(parse_sdo_response(frame(0x583, {0x4F, 0x61, 0x60, 0x00, 0x0A, 0xAA, 0xAA, 0xAA}), response));
   EXPECT_EQ(response.size, 1);

@@ -65,7 +65,7 @@ TEST(PowerStates, EveryStateTowardsEveryGoal) {
       {0x00, 0x02, 0x02, 0x00, 0x00},  // quick stop active: T12; never T16
       {0x00, 0x00, 0x00, 0x00, 0x00},  // fault reaction active: only T14, by itself
       {0x00, 0x00, 0x00, 0x00, 0x80},  // fault: T15 fault reset
-      {0x00, 0x00, 0x02, 0x00, 0x00},  // what the standard does not have
+      {0x00, 0x00, 0x02, 0x00, 0x00},  // unknown: a state that the standard does not define
   }};
   for (std::size_t s = 0; s < kStates.size(); ++s) {
     const PowerState state = kStates[s];

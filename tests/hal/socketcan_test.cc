@@ -285,7 +285,7 @@ bool allow_only_what_the_cycle_needs() {
   return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-/// What a process comes to that does `action` under these rules; 99: they cannot be set here.
+/// Returns the wait status of a process that runs `action` under these rules. Exit code 99: the rules cannot be set.
 template <typename Action>
 int status_of_restricted(Action action) {
   const pid_t child = ::fork();

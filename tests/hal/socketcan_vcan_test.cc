@@ -278,7 +278,7 @@ TEST_F(OwnInterfaceTest, GoingDownInMidRunIsSeenBySendAndByReceive) {
   EXPECT_EQ(late.open("vcan_own", {}).status, OpenStatus::kInterfaceDown);
   ASSERT_TRUE(run("ip link set vcan_own up"));
   EXPECT_EQ(bus_.send({0x80, 0, false, {}}), SendResult::kSent);
-  EXPECT_TRUE(bus_.health().down);  // until it is opened anew
+  EXPECT_TRUE(bus_.health().down);  // until it is opened again
   open("vcan_own");
   EXPECT_FALSE(bus_.health().down);
   EXPECT_EQ(bus_.send({0x80, 0, false, {}}), SendResult::kSent);

@@ -1,6 +1,6 @@
-// replay_ball X.scene SOLVER on|off: a ball sinks onto a plate, slides over it, turning, and rises again; friction on
-// or off. One line a cycle with every bit of pose and force. Cycles that slide pass through counted_update, by whose
-// name callgrind collects. Exit 78 with the status if the pipeline is refused.
+// replay_ball X.scene SOLVER on|off: lowers a ball onto a plate, slides and turns it there, and lifts it. The last
+// argument switches friction. Prints one line a cycle with every bit of pose and force. callgrind counts only the
+// function counted_update, which runs the sliding cycles. Exit 78, with the status, if the build lacks the pipeline.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace godobject;
 
 GodObject god_object;
 
-/// The device in cycle `i`: 1 mm deep from cycle 100 to 899.
+/// Returns the device's input in cycle `i`. The ball is 1 mm deep from cycle 100 to 899.
 GodObject::Input device(int i) {
   const double ramp = std::min({1.0, i / 100.0, (999 - i) / 100.0});
   const double t = 1e-3 * i;
@@ -39,15 +39,15 @@ GodObject::Input device(int i) {
 int main(int argc, char** argv) {
   std::ifstream file(argc == 4 ? argv[1] : "", std::ios::binary | std::ios::ate);
   if (!file) return std::fprintf(stderr, "usage: replay_ball X.scene SOLVER on|off\n"), 66;
-  struct alignas(CompiledScene::kImageAlignment) Line {
-    char byte[CompiledScene::kImageAlignment];
+  struct alignas(Scene::kImageAlignment) Line {
+    char byte[Scene::kImageAlignment];
   };
   const auto bytes = static_cast<std::size_t>(file.tellg());
   std::vector<Line> image(bytes / sizeof(Line) + 1);
   file.seekg(0).read(image.data()->byte, static_cast<std::streamsize>(bytes));
 
-  CompiledScene scene;
-  if (const Status status = CompiledScene::open(std::as_bytes(std::span(image)).first(bytes), scene); status != Status::kOk) {
+  Scene scene;
+  if (const Status status = Scene::open(std::as_bytes(std::span(image)).first(bytes), scene); status != Status::kOk) {
     return std::fprintf(stderr, "%s\n", describe(status)), 65;
   }
   constexpr const char* kSolvers[] = {"paper", "corrected", "contact"};

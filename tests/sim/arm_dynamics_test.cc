@@ -24,7 +24,7 @@ class Oracle {
       : chain_(test::make_chain(model)),
         pose_(chain_),
         jacobian_(chain_),
-        torque_(chain_, test::to_kdl(model.gravity_W)),
+        torque_(chain_, test::to_kdl(model.gravity_R)),
         wrenches_(chain_.getNrOfSegments(), KDL::Wrench::Zero()),
         n_(model.joint_count),
         q_(size()),
@@ -34,9 +34,9 @@ class Oracle {
 
   KDL::Frame pose(const JointVector& q) {
     q_.data = q.head(n_);
-    KDL::Frame H_WM;
-    EXPECT_GE(pose_.JntToCart(q_, H_WM), 0);
-    return H_WM;
+    KDL::Frame H_RM;
+    EXPECT_GE(pose_.JntToCart(q_, H_RM), 0);
+    return H_RM;
   }
 
   Eigen::MatrixXd jacobian(const JointVector& q) {
@@ -46,9 +46,9 @@ class Oracle {
     return jacobian.data;
   }
 
-  Eigen::VectorXd torque(const JointVector& q, const JointVector& qd, const JointVector& qdd, const Wrench& wrench_W) {
-    const KDL::Wrench on_axes_of_W(test::to_kdl(wrench_W.force), test::to_kdl(wrench_W.torque));
-    wrenches_.back() = pose(q).M.Inverse() * on_axes_of_W;
+  Eigen::VectorXd torque(const JointVector& q, const JointVector& qd, const JointVector& qdd, const Wrench& F_M_R) {
+    const KDL::Wrench on_axes_of_R(test::to_kdl(F_M_R.force), test::to_kdl(F_M_R.torque));
+    wrenches_.back() = pose(q).M.Inverse() * on_axes_of_R;
     qd_.data = qd.head(n_);
     qdd_.data = qdd.head(n_);
     EXPECT_GE(torque_.CartToJnt(q_, qd_, qdd_, wrenches_, needed_), 0);
@@ -72,17 +72,17 @@ void expect_as_kdl(const ArmModel& model, Oracle& oracle, Random& random) {
   const JointVector q = test::random_positions(random, model);
   const JointVector qd = test::random_joints(random, model, 5.0);
   const JointVector qdd = test::random_joints(random, model, 20.0);
-  const Wrench wrench_W = {random.in_cube(30.0), random.in_cube(3.0)};
+  const Wrench F_M_R = {random.in_cube(30.0), random.in_cube(3.0)};
   const ArmDynamics arm(model);
   ArmPosture posture;
   arm.set_posture(q, posture);
 
-  const KDL::Frame H_WM = oracle.pose(q);
+  const KDL::Frame H_RM = oracle.pose(q);
   const Pose tool = arm.tool_pose(posture);
-  const Matrix3 R_WM = tool.rotation.toRotationMatrix();
+  const Matrix3 R_RM = tool.rotation.toRotationMatrix();
   for (int i = 0; i < 3; ++i) {
-    ASSERT_NEAR(tool.translation[i], H_WM.p(i), kTolerance);
-    for (int j = 0; j < 3; ++j) ASSERT_NEAR(R_WM(i, j), H_WM.M(i, j), kTolerance);
+    ASSERT_NEAR(tool.translation[i], H_RM.p(i), kTolerance);
+    for (int j = 0; j < 3; ++j) ASSERT_NEAR(R_RM(i, j), H_RM.M(i, j), kTolerance);
   }
 
   const Eigen::MatrixXd jacobian = oracle.jacobian(q);
@@ -101,8 +101,8 @@ void expect_as_kdl(const ArmModel& model, Oracle& oracle, Random& random) {
     const Eigen::VectorXd column = oracle.torque(q, none, JointVector::Unit(i), {}) - gravity;
     ASSERT_LT((posture.mass.col(i).head(n) - column).cwiseAbs().maxCoeff(), kTolerance);
   }
-  const JointVector applied = posture.mass * qdd + arm.bias_torque(posture, qd) - arm.tool_torque(posture, wrench_W);
-  ASSERT_LT((applied.head(n) - oracle.torque(q, qd, qdd, wrench_W)).cwiseAbs().maxCoeff(), kTolerance);
+  const JointVector applied = posture.mass * qdd + arm.bias_torque(posture, qd) - arm.tool_torque(posture, F_M_R);
+  ASSERT_LT((applied.head(n) - oracle.torque(q, qd, qdd, F_M_R)).cwiseAbs().maxCoeff(), kTolerance);
   ASSERT_TRUE(posture.mass == posture.mass.transpose());
   ASSERT_TRUE(applied.tail(kMaxJoints - n).isZero(0.0));
 }
@@ -133,11 +133,11 @@ TEST(ArmDynamics, AnyArmIsAsOrocosHasIt) {
   }
 }
 
-/// A point mass on a rod, a joint that turns about -y of W: M = m l^2, g(q) = m g l cos q.
+/// A point mass on a rod, a joint that turns about -y of R: M = m l^2, g(q) = m g l cos q.
 TEST(ArmDynamics, PendulumIsAsByHand) {
   ArmModel model;
   model.joint_count = 1;
-  model.H_WA.rotation = exp_rotation(Vector3(0.5 * M_PI, 0.0, 0.0));
+  model.H_RA.rotation = exp_rotation(Vector3(0.5 * M_PI, 0.0, 0.0));
   model.joints[0].link = {2.0, Vector3(0.5, 0.0, 0.0), Matrix3::Zero()};
   model.joints[0].rotor = 0.1;
   model.H_FM.translation = Vector3(0.7, 0.0, 0.0);

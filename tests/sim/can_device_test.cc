@@ -23,7 +23,7 @@ constexpr std::int64_t kMs = 1'000'000;
 
 ArmModel joints(int count, double inertia) {
   ArmModel model = test::one_joint(inertia, 0.0);
-  model.gravity_W.setZero();
+  model.gravity_R.setZero();
   model.joint_count = count;
   for (int i = 1; i < count; ++i) model.joints.at(static_cast<std::size_t>(i)) = model.joints[0];
   return model;
@@ -173,7 +173,7 @@ TEST(CanDevice, DrivesTripWhenTheControllerFallsSilent) {
   const auto joints_at = [](int place) { return place == 0 ? std::vector{0, 3, 6} : std::vector{place, place + 3}; };
   for (int place = 0; place < 3; ++place) {  // of a drive's torque on its bus
     const std::int64_t trips_ns = sent_ns + (place + 1) * 95 * kUs + 4 * kMs;
-    bench.device->advance_to(trips_ns);  // what is due then happens in what follows
+    bench.device->advance_to(trips_ns);  // events of this instant happen in the next advance
     for (const int i : joints_at(place)) EXPECT_EQ(bench.device->nodes().drive(i).state(), PowerState::kEnabled) << i;
     bench.device->advance_to(trips_ns + 1);
     for (const int i : joints_at(place)) EXPECT_NE(bench.device->nodes().drive(i).state(), PowerState::kEnabled) << i;

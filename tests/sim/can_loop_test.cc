@@ -83,7 +83,7 @@ TEST(CanLoop, DrivesOfTheArmComeUpAndTakeTorque) {
 /// Two joints on a bus whose drives take 150 us: a plan that counts them loses nothing, one that does not loses all.
 TEST(CanLoop, DrivesThatTakeTheirTimeAnswerInTheTimeThatThePlanGivesThem) {
   ArmModel arm = test::one_joint(0.5, 0.1);
-  arm.gravity_W.setZero();
+  arm.gravity_R.setZero();
   arm.joint_count = 2;
   arm.joints[1] = arm.joints[0];
   hal::BusLayout layout = test::layout_of(arm);
@@ -131,7 +131,7 @@ TEST(CanLoop, ALimitOfADriveBelowItsJointsIsRefused) {
 
 ArmModel three_joints() {
   ArmModel model = test::one_joint(0.5, 0.1);
-  model.gravity_W.setZero();
+  model.gravity_R.setZero();
   model.joint_count = 3;
   model.joints[1] = model.joints[2] = model.joints[0];
   return model;
@@ -176,7 +176,7 @@ TEST(CanLoop, DrivesStopThemselvesWheneverTheControllerIsKilled) {
 /// measured over the wire is that of the layout's frames, and within the plan's.
 TEST(CanLoop, MeasuresTheDelayOfTheWire) {
   ArmModel arm = test::one_joint(1.0, 2.0);
-  arm.gravity_W.setZero();
+  arm.gravity_R.setZero();
   constexpr double kStiffness = 1000.0;
   constexpr double kAmplitude = 4e-3;
   constexpr int kSine = 1000;  // cycles a period
@@ -232,10 +232,10 @@ TEST(CanLoop, MeasuresTheDelayOfTheWire) {
   EXPECT_LT(measured, loop.plan.timing.delay_s);
 }
 
-/// A4 over the wire, with the delay of the layout's frames: a torsional spring on one joint, let go at 20 mrad.
+/// A4 over the wire, with the delay of the layout's frames: a torsional spring on one joint, released at 20 mrad.
 TEST(CanLoop, DecaysBelowTheExactBoundaryOfItsDelayAndGrowsAbove) {
   ArmModel arm = test::one_joint(1.0, 2.0);
-  arm.gravity_W.setZero();
+  arm.gravity_R.setZero();
   for (const double share : {0.98, 1.02}) {
     Plant plant(arm, JointVector::Constant(0.02));
     Loop loop(arm, test::layout_of(arm), plant);

@@ -20,7 +20,7 @@ inline std::vector<int> bytes_of(const hal::CanFrame& frame) {
   return {frame.data.begin(), frame.data.begin() + frame.length};
 }
 
-/// Whether a frame is this one, byte by byte.
+/// Returns true if the frame has this identifier and exactly these bytes.
 inline bool is(const hal::CanFrame& frame, int id, std::initializer_list<int> bytes) {
   return frame.id == id && bytes_of(frame) == std::vector<int>(bytes);
 }

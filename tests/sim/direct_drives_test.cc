@@ -252,7 +252,7 @@ struct Scripted {
     loop.run(50);
     plant.set_velocity(JointVector::Unit(0));
   }
-  /// What is read in each cycle from the first of the script on, and what stands there.
+  /// Returns the reading of each cycle from the first cycle of the script on. Appends the true positions.
   std::vector<hal::JointReading> readings(int cycles, std::vector<double>& positions) {
     std::vector<hal::JointReading> all;
     for (int i = 0; i < cycles; ++i) {
@@ -305,7 +305,7 @@ TEST(Faults, LateReadingsAreOfAnEarlierCycle) {
   Scripted run({FaultKind::kReadingLate, 0, 3, 4, 2.0});
   std::vector<double> q;
   const auto read = run.readings(9, q);
-  // what came in time before the fault is newer than what comes late at first
+  // the sample before the fault is newer than the first late samples
   const std::uint32_t age[] = {0, 0, 0, 1, 2, 2, 2, 0, 0};
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_EQ(read[i].age[0], age[i]) << i;

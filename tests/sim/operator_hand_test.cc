@@ -104,9 +104,9 @@ TEST(HandSprings, WrenchesAreTheSlopeOfTheEnergyTheyStore) {
         }
         return (energy[1] - energy[0]) / (2.0 * kStep);
       };
-      ASSERT_NEAR(entry(wrenches.on_tool), -slope(2), 1e-4);
-      ASSERT_NEAR(entry(wrenches.on_hand), slope(0), 1e-4) << "what pulls the hand pulls the target back";
-      ASSERT_NEAR(entry(wrenches.on_hand) - entry(wrenches.on_tool), -slope(1), 1e-4);
+      ASSERT_NEAR(entry(wrenches.F_M_R), -slope(2), 1e-4);
+      ASSERT_NEAR(entry(wrenches.F_H_R), slope(0), 1e-4) << "what pulls the hand pulls the target back";
+      ASSERT_NEAR(entry(wrenches.F_H_R) - entry(wrenches.F_M_R), -slope(1), 1e-4);
     }
   }
 }
@@ -116,7 +116,7 @@ TEST(Hand, CarriesAToolToItsTarget) {
   JointVector q = JointVector::Zero();
   q.head<6>() << 0.2, 0.6, 0.3, 1.4, -0.4, 0.8;
   ArmModel model = arm.model;
-  model.gravity_W.setZero();
+  model.gravity_R.setZero();
   for (const Grip grip : {Grip::kSpring, Grip::kRigid}) {
     std::vector<Pose> script(1);
     script[0] = Plant(model, q).tool().pose;
@@ -208,7 +208,7 @@ TEST(Hand, StiffGripIsNearlyRigid) {
   EXPECT_LT((rigid.tool().pose.translation - spring.tool().pose.translation).norm(), 2e-4);
 }
 
-/// What a hand that knocks, shakes and turns puts into the arm is what the arm has, or lost.
+/// The energy of the arm changes by the work of motors, hand and friction, while the hand knocks, shakes and turns.
 TEST(Hand, ItsWorkIsTheArmsEnergy) {
   Random random(5);
   for (const Grip grip : {Grip::kSpring, Grip::kRigid}) {

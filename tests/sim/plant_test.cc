@@ -113,7 +113,7 @@ TEST(DryFriction, BringsAJointToRestAndKeepsItThere) {
 }
 
 TEST(DryFriction, DoesNotChatterAtTurningPoints) {
-  // a slow torque to and fro, twice the friction: the joint stops twice a period, and its motion never trembles
+  // a slow torque back and forth, twice the friction: the joint stops twice a period, and its motion never trembles
   Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero(), 1.0 * JointVector::Unit(0));
   JointLoad load;
   int reversals = 0;

@@ -32,27 +32,27 @@ std::array<JointHardwareParameters, kMaxJoints> ideal_hardware() {
   return hardware;
 }
 
-/// The virtual wall: a spring and damper on both sides along one direction of W through the place where the tool was.
+/// The virtual wall: a spring and damper on both sides along one direction of R through the place where the tool was.
 class Wall {
  public:
   Wall(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness, double damping)
       : model_(model), direction_(direction), stiffness_(stiffness), damping_(damping) {
-    origin_ = forward_kinematics(model, q).H_WM.translation;
+    origin_ = forward_kinematics(model, q).H_RM.translation;
   }
   void shift(double distance) { origin_ += distance * direction_; }
 
   double depth(const JointVector& q) const {
-    return direction_.dot(forward_kinematics(model_, q).H_WM.translation - origin_);
+    return direction_.dot(forward_kinematics(model_, q).H_RM.translation - origin_);
   }
 
   /// Joint torques, from positions as they are read.
   JointVector torque(const JointVector& q) {
     const ArmKinematics kinematics = forward_kinematics(model_, q);
-    const double x = direction_.dot(kinematics.H_WM.translation - origin_);
+    const double x = direction_.dot(kinematics.H_RM.translation - origin_);
     const double v = started_ ? (x - x_before_) / kPeriod : 0.0;
     started_ = true;
     x_before_ = x;
-    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     return J.topRows<3>().transpose() * (-(stiffness_ * x + damping_ * v) * direction_);
   }
 
@@ -82,12 +82,12 @@ struct Loop {
 };
 
 ArmModel weightless(ArmModel model) {
-  model.gravity_W.setZero();  // its compensation would be sampled and delayed as well
+  model.gravity_R.setZero();  // its compensation would be sampled and delayed as well
   return model;
 }
 
-/// A9: a hand moves the tool to and fro along the wall's direction; the work that the motors do in a period, more than
-/// nothing, is what delay and hold give. -> the delay [s]
+/// Returns the delay [s] by rule A9: a hand moves the tool back and forth along the wall's direction, and the energy
+/// that the motors generate in a period is the effect of delay and hold.
 double measured_delay(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness,
                       std::int64_t delay_ns, const std::array<JointHardwareParameters, kMaxJoints>& hardware) {
   constexpr double kAmplitude = 4e-3;
@@ -100,7 +100,7 @@ double measured_delay(const ArmModel& model, const JointVector& q, const Vector3
   std::vector<Pose> script(4 * kSine);
   for (std::size_t i = 0; i < script.size(); ++i) {
     const double time = kPeriod * static_cast<double>(i);
-    script[i] = forward_kinematics(model, q).H_WM;
+    script[i] = forward_kinematics(model, q).H_RM;
     script[i].translation += std::min(time, 1.0) * kAmplitude * std::sin(w * time) * direction;
   }
   Plant plant(model, q, JointVector::Zero(), OperatorHand(parameters, script));
@@ -157,8 +157,8 @@ TEST(EnergyIdentity, MeasuresTheDelayOfTheArmInThreeDirections) {
   }
 }
 
-/// What the spectral radius says of a loop, and what becomes of it in the simulation: logarithm of the growth of
-/// what is left of the motion between two stretches of `stretch` cycles, `apart` cycles apart.
+/// Returns the growth of a loop's motion in the simulation, for comparison with the spectral radius: the logarithm of
+/// the ratio of the amplitudes in two stretches of `stretch` cycles that are `apart` cycles apart.
 double grown(const ArmModel& model, const JointVector& q, const Vector3& direction, double stiffness, double damping,
              double delay, int settle, int stretch, int apart) {
   Plant plant(model, q);
@@ -312,7 +312,7 @@ TEST(ExactStability, ArmDecaysBelowAndGrowsAboveInThreeDirections) {
       for (int i = 0; i < model.joint_count; ++i) {
         arm.damping[i] = model.joints.at(static_cast<std::size_t>(i)).damping;
       }
-      arm.jacobian.row(axis) = geometric_jacobian(kinematics, kinematics.H_WM.translation).row(axis);
+      arm.jacobian.row(axis) = geometric_jacobian(kinematics, kinematics.H_RM.translation).row(axis);
       arm.stiffness = 1000.0;
       arm.tool_damping = damping;
       arm.timing.delay = 1.3e-3;

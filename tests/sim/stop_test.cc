@@ -1,4 +1,4 @@
-// What becomes of an arm when its drives stop: how far the tool goes until the brakes hold.
+// Stops of the arm by its drives: the distance that the tool travels until the brakes hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -4,12 +4,12 @@
 
 namespace godobject::test {
 
-/// Counts the heap calls of this thread while it lives: malloc, calloc, realloc, aligned_alloc, posix_memalign,
-/// memalign, free, and operator new and delete, which end in them. Other threads are not counted. Guards nest; each
-/// counts for itself.
+/// Counts the heap calls of its thread during its lifetime: malloc, calloc, realloc, aligned_alloc, posix_memalign,
+/// memalign, free, and operator new and delete, which call them. The calls of other threads do not count. Guards can be
+/// nested; each one counts for itself.
 ///
-/// Works in every build type, because it stands in for the C library's functions: link the library `allocation_guard`.
-/// Under a sanitizer, which needs those functions for itself, nothing is counted and `works()` is false: skip the test.
+/// Link the library `allocation_guard`, which replaces the functions of the C library in every build type. A sanitizer
+/// replaces the same functions: then the guard counts nothing and `works()` returns false, so skip the test.
 class AllocationGuard {
  public:
   AllocationGuard() noexcept;
@@ -17,7 +17,7 @@ class AllocationGuard {
   AllocationGuard(const AllocationGuard&) = delete;
   AllocationGuard& operator=(const AllocationGuard&) = delete;
 
-  /// Blocks taken, and given back, since the guard was made.
+  /// Returns the number of allocated blocks, or of freed blocks, since the guard was constructed.
   std::int64_t allocations() const noexcept;
   std::int64_t releases() const noexcept;
 

@@ -8,7 +8,7 @@
 
 namespace godobject::test {
 
-/// Exact signed distance to a ball about the origin [m].
+/// Returns the exact signed distance to a ball centred at the origin [m].
 inline double ball_distance(const Vector3& p, double radius) { return p.norm() - radius; }
 
 using analytic::box_distance;
@@ -19,7 +19,7 @@ struct SurfaceSamples {
   std::vector<Vector3> normals;
 };
 
-/// `count` points spread evenly (golden spiral) over a ball about the origin.
+/// Returns `count` points that are spread evenly (golden spiral) over a ball centred at the origin.
 inline SurfaceSamples sample_ball(double radius, int count) {
   constexpr double kGoldenAngle = 2.399963229728653;
   SurfaceSamples samples;
@@ -33,7 +33,7 @@ inline SurfaceSamples sample_ball(double radius, int count) {
   return samples;
 }
 
-/// A lattice of `per_edge`^3 points on the faces, edges and corners of a box about the origin; per_edge >= 2.
+/// Returns the outer points of a lattice that fills a box centred at the origin; per_edge >= 2 points along each edge.
 inline SurfaceSamples sample_box(const Vector3& half_edges, int per_edge) {
   SurfaceSamples samples;
   const int last = per_edge - 1;

@@ -16,21 +16,21 @@ using analytic::AnalyticField;
 using analytic::Ball;
 using analytic::HalfSpace;
 
-/// Solid but for the gap |x| < half_width: two walls that face each other.
+/// Two solid walls that face each other across the gap |x| < half_width.
 struct Slot {
   double half_width = 0.02;
   double distance(const Vector3& p) const noexcept { return half_width - std::fabs(p.x()); }
   Vector3 gradient(const Vector3& p) const noexcept { return {p.x() > 0.0 ? -1.0 : 1.0, 0.0, 0.0}; }
 };
 
-/// A plate of full `thickness` about z = 0, without end.
+/// An infinite plate with the middle plane z = 0; `thickness` is its full thickness.
 struct Plate {
   double thickness = 0.002;
   double distance(const Vector3& p) const noexcept { return std::fabs(p.z()) - 0.5 * thickness; }
   Vector3 gradient(const Vector3& p) const noexcept { return {0.0, 0.0, p.z() < 0.0 ? -1.0 : 1.0}; }
 };
 
-/// As that of the desk tools, from samples of a surface.
+/// The sampled body of the desk tools, constructed from samples of a surface.
 class SampledBody : public analytic::SampledBody {
  public:
   /// `principal_inertia`: J_B / m [m^2].
@@ -50,7 +50,7 @@ inline SampledBody box_body(int per_edge = 13) {
   return {sample_box(0.5 * edges, per_edge), (Vector3::Constant(squares.sum()) - squares) / 12.0};
 }
 
-/// The cycles of the three solvers, each with the memory that it carries.
+/// The cycles of the three solvers, each with the memory that the solver carries to the next cycle.
 template <bool kFriction>
 struct PaperCycle {
   template <class Field>
@@ -68,7 +68,7 @@ struct CorrectedCycle {
     return corrected_cycle<kFriction>(field, shell, q, input, memory, state, report);
   }
 };
-/// The search looks everywhere in every cycle.
+/// Restarts the search in every cycle, so that each search looks at all points.
 template <bool kFriction>
 struct ContactCycle {
   std::unique_ptr<ContactMemory> memory = std::make_unique<ContactMemory>();
@@ -84,7 +84,7 @@ struct ContactCycle {
   }
 };
 
-/// The god object of a body in an analytic world, with one solver, placed outside: what GodObject is for compiled scenes.
+/// Runs one solver for a body in an analytic world, as GodObject does in a compiled scene. The body starts outside.
 template <class Field, class Cycle>
 struct AnalyticRun {
   const Field& field;
@@ -108,7 +108,7 @@ struct AnalyticRun {
     return cycle(field, body.pointshell(), parameters, input, state, report);
   }
 
-  /// Deepest sample point below the surface at the god object's pose [m], positive inside.
+  /// Returns the depth of the deepest sample point at the god object's pose [m], positive inside.
   double depth() const { return -smallest_distance(field, body.pointshell(), state.H_WS); }
 };
 

@@ -35,8 +35,8 @@ Arm random_arm(Random& random, int joint_count) {
   Arm arm;
   ArmModel& model = arm.model;
   model.joint_count = joint_count;
-  model.H_WA = {random_rotation(random), random.in_cube(1.0)};
-  model.gravity_W = random.between(1.0, 20.0) * random.direction();
+  model.H_RA = {random_rotation(random), random.in_cube(1.0)};
+  model.gravity_R = random.between(1.0, 20.0) * random.direction();
   model.H_FM = {random_rotation(random), random.in_cube(0.2)};
   model.payload = random_body(random, random.between(0.0, 2.0));
   for (int i = 0; i < joint_count; ++i) {

@@ -6,15 +6,15 @@
 
 namespace godobject::test {
 
-/// What a test has seen of the reaction to a fault that it injected: measured, not expected.
+/// The measured reaction of the controller to a fault that a test injected.
 struct SeenFault {
   std::string reaction;  ///< "goes on", "STOP", "FADE, STOP", "DRIVE", "REFUSE", "ends"
-  std::string found;     ///< the fault in the words of the controller, or what it has counted
-  std::string after;     ///< modes that followed, torques and brakes at the end
-  int cycles = -1;       ///< from the cause to the reaction, the cause's own being the first; -1: none to count
+  std::string found;     ///< the controller's message about the fault, or its counters
+  std::string after;     ///< the modes that followed; torques and brakes at the end
+  int cycles = -1;       ///< number of cycles from the cause to the reaction, both included; -1: not counted
 };
 
-/// Into the result of the running test, where the table of faults (godobject-report) finds it. Once a test.
+/// Writes `seen` into the result of the running test, for the table of faults of godobject-report. Call it once a test.
 inline void record(const SeenFault& seen) {
   testing::Test::RecordProperty("fault_reaction", seen.reaction);
   testing::Test::RecordProperty("fault_found", seen.found);
@@ -22,7 +22,7 @@ inline void record(const SeenFault& seen) {
   testing::Test::RecordProperty("fault_cycles", seen.cycles);
 }
 
-/// A start that ended with an exit code.
+/// Records a start of the controller that ended with `exit_code` and the message `words`.
 inline void record_start(int exit_code, const std::string& words) {
   const bool refused = exit_code == 65 || exit_code == 69 || exit_code == 77 || exit_code == 78;
   record({.reaction = refused ? "REFUSE" : "starts",

@@ -19,10 +19,10 @@ inline KDL::RigidBodyInertia to_kdl(const LinkMass& body) {
   return KDL::RigidBodyInertia(body.mass, to_kdl(body.com), inertia);
 }
 
-/// The same arm in Orocos KDL, from the same numbers and nothing else: the base, two segments a joint, the tool.
+/// Returns the arm as a chain of Orocos KDL, made only from the numbers of `model`: base, two segments a joint, tool.
 inline KDL::Chain make_chain(const ArmModel& model) {
   KDL::Chain chain;
-  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), to_kdl(model.H_WA)));
+  chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), to_kdl(model.H_RA)));
   for (int i = 0; i < model.joint_count; ++i) {
     const ArmJoint& joint = model.joints.at(static_cast<std::size_t>(i));
     const KDL::Frame before = KDL::Frame::DH_Craig1989(joint.a, joint.alpha, joint.d, joint.offset);

@@ -6,7 +6,7 @@
 
 namespace godobject::test {
 
-/// Rights do not bind the superuser: there the test acts as another user for as long as this lasts.
+/// Switches a test that runs as root to the user `nobody` for its lifetime, because file permissions do not stop root.
 class AsOrdinaryUser {
  public:
   AsOrdinaryUser() : user_(::geteuid()), changed_(user_ == 0 && ::seteuid(kNobody) == 0) {}

@@ -6,7 +6,7 @@
 
 namespace godobject::test {
 
-/// Reproducible numbers, vectors and motions.
+/// Generates reproducible random numbers, vectors and motions.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}

@@ -23,10 +23,10 @@ std::size_t padded(std::size_t bytes) {
   return (bytes + format::kAlignment - 1) / format::kAlignment * format::kAlignment;
 }
 
-/// Before it is rounded.
+/// A brick before its values are rounded.
 struct Brick {
   double value[format::kBrickValues];  ///< [m]
-  int level;                           ///< how often it is halved
+  int level;                           ///< number of halvings
   std::uint16_t edge;
 };
 
@@ -54,9 +54,9 @@ format::Grid frame_grid(const SceneDescription& description) {
   return grid;
 }
 
-/// Of a node of a level's lattice: a whole number of quanta, in a field that is refined of 16 / 4^level. Whatever a
-/// finer node carries of such is one of its own level's; then what refinements share stays the same in spite of
-/// rounding. As it is while no quantum is known.
+/// Returns the distance at a node of `level`, rounded to a multiple of the quantum, or of 16 / 4^level quanta in a
+/// refined field. A finer node that interpolates such values has a multiple of its own level's unit, so rounding keeps
+/// the values that refinements share. Returns `distance` unchanged while the quantum is unknown.
 double node_rounded(double distance, const SceneDescription& description, const format::Grid& grid, int level) {
   if (grid.quantum == 0.0) return distance;
   const double unit = std::ldexp(grid.quantum, description.refined ? format::kMaxRefinement - 2 * level : 0);
@@ -102,12 +102,12 @@ double steepest(const Brick& brick) {
   return std::sqrt(steepest_squared);
 }
 
-/// Refines stored positions. Slow and plain: what a node carries is worked out anew from the definition, however deep.
+/// Refines stored positions. Slow and simple: computes every node's value from its definition, at every level.
 class Octants {
  public:
   Octants(const SceneDescription& description, StoredField& field) : description_(description), field_(field) {}
 
-  /// Gives the largest gradient of the octants.
+  /// Refines all stored positions. Returns the largest gradient of the octants.
   double store() {
     for (std::size_t i = 0; i < field_.index.size(); ++i) {
       if ((field_.index[i] & format::index_entry::kFar) != 0) continue;
@@ -129,7 +129,7 @@ class Octants {
     return level < format::kMaxRefinement && description_.refined(low + Vector3::Constant(0.5 * edge), edge);
   }
 
-  /// Of the octant whose lowest corner is `low`.
+  /// Returns true if the octant whose lowest corner is `low` stays coarse.
   bool is_coarse(const Vector3& low, int level) const {
     const double edge = brick_edge(level);
     return description_.coarse && description_.coarse(low + Vector3::Constant(0.5 * edge), edge);
@@ -141,7 +141,7 @@ class Octants {
     return static_cast<std::uint32_t>(field_.bricks.size() - 1);
   }
 
-  /// `own`: number of a position's brick. An octant has none yet.
+  /// Stores a brick or its octants. Returns its index entry. `own`: number of a position's brick; kNoBrick for octants.
   std::uint32_t store(const Vector3& low, int level, std::uint32_t own) {
     if (!is_refined(low, level)) return own != format::kNoBrick ? own : add_brick(low, level);
     const std::size_t number = field_.refined.size();
@@ -169,7 +169,7 @@ class Octants {
     return brick;
   }
 
-  /// How often the bricks around p are refined; -1 where nothing is stored.
+  /// Returns the number of halvings of the brick around p; -1 if no brick is stored there.
   int level_at(const Vector3& p) const {
     Vector3 low = ((p - origin()) / brick_edge(0)).array().floor();
     for (int axis = 0; axis < 3; ++axis) {
@@ -189,7 +189,7 @@ class Octants {
     return level;
   }
 
-  /// Exact, unless something coarser touches the node.
+  /// Returns the exact distance, or the interpolation of a coarser brick if one touches the node.
   double node_value(const Vector3& node, int level) const {
     Vector3 beside = node;
     int coarsest = level;
@@ -268,7 +268,7 @@ std::vector<format::Brick> rounded_bricks(const SceneDescription& description, c
   return bricks;
 }
 
-/// `quantum` 0: none is known yet, and nothing rounded.
+/// Stores the still body's field. `quantum` 0: the quantum is not known yet, and nothing is rounded.
 StoredField store_field(const SceneDescription& description, double quantum) {
   StoredField field;
   field.grid = frame_grid(description);
@@ -505,9 +505,9 @@ void seal(SceneImage& image) {
   header.checksum = format::checksum(begin, header.header_bytes);
 }
 
-Scene open_scene(const SceneImage& image) {
-  Scene scene;
-  const Status status = Scene::open(image.bytes(), scene);
+SceneView open_scene(const SceneImage& image) {
+  SceneView scene;
+  const Status status = SceneView::open(image.bytes(), scene);
   if (status != Status::kOk) throw std::runtime_error(std::string("the image does not open: ") + describe(status));
   return scene;
 }

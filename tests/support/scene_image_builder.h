@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/scene/format.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/pose.h"
 
 namespace godobject::test {
 
-/// The bytes of a scene image, aligned as Scene::open wants them.
+/// The bytes of a scene image, aligned as SceneView::open requires.
 class SceneImage {
  public:
   explicit SceneImage(std::size_t bytes) : blocks_((bytes + sizeof(Block) - 1) / sizeof(Block)), bytes_(bytes) {}
@@ -31,7 +31,7 @@ class SceneImage {
   std::size_t bytes_;
 };
 
-/// What a small scene is made of. All lengths in metres.
+/// Describes a small scene for `build_scene_image`. All lengths are in metres.
 struct SceneDescription {
   /// Signed distance in W, positive outside, 1-Lipschitz; its zero set lies within surface_min .. surface_max.
   std::function<double(const Vector3&)> distance;
@@ -39,44 +39,44 @@ struct SceneDescription {
   Vector3 surface_max = Vector3::Zero();
   double voxel_size = 0.005;
   double band = 0.0;  ///< 0: four voxels
-  /// Whether the brick that is the cube of `edge` about `center` is refined; asked of stored positions, then of their
-  /// octants. Empty: none is.
+  /// Returns true if the brick with this centre and edge length is refined. The builder asks for all stored positions,
+  /// then for their octants. Empty: no brick is refined.
   std::function<bool(const Vector3& center, double edge)> refined;
-  /// Whether the octant of a refined brick that is the cube of `edge` about `center` is left coarse. Empty: none is.
+  /// Returns true if the octant of a refined brick with this centre and edge stays coarse. Empty: no octant does.
   std::function<bool(const Vector3& center, double edge)> coarse;
 
-  /// Named by every brick that is looked up; grid.lipschitz is that of the field without.
+  /// Exact edge to which every brick that is looked up refers. grid.lipschitz does not take the edge into account.
   std::optional<format::Edge> edge;
 
-  std::vector<Vector3> points;    ///< in the body frame B; the image may hold them in another order
-  std::vector<Vector3> normals;   ///< unit, pointing into the body, one a point; empty: left out, and `paper` with them
-  std::uint32_t level_count = 0;  ///< of the sphere tree; 0: as many as leave about eight points to a leaf
+  std::vector<Vector3> points;    ///< in the body frame B; the image may store them in another order
+  std::vector<Vector3> normals;   ///< unit, pointing into the body, one a point; empty: none, and no solver `paper`
+  std::uint32_t level_count = 0;  ///< of the sphere tree; 0: as many levels as give a leaf about eight points
   Pose H_MB;
   std::array<double, 3> inertia{};  ///< principal moments over mass, ascending [m^2]; zeros: those of a solid ball
 
   std::optional<format::Workspace> workspace;
-  format::Settings settings{};  ///< where a length or stiffness is 0: the scene file's default
+  format::Settings settings{};  ///< a length or stiffness of 0 stands for the scene file's default
   std::string provenance = "{}";
 };
 
-/// A valid image of the scene, checksums and all, written without the scene compiler: a second reading of format.h.
-/// The grid covers the surface's box, one band and a voxel. Throws std::invalid_argument naming the member that is
-/// wrong.
+/// Returns a valid image of the scene, with checksums. The code is a second implementation of format.h, independent
+/// of the scene compiler. The grid covers the surface's box, one band and a voxel. Throws std::invalid_argument, which
+/// names the wrong member.
 SceneImage build_scene_image(const SceneDescription& description);
 
-/// The bytes of a section, without padding; empty where the image has none.
+/// Returns the bytes of a section, without padding. Empty if the image lacks the section.
 std::span<std::byte> section_bytes(SceneImage& image, format::SectionId id);
 
-/// The i-th T of a section, to read or to spoil.
+/// Returns the i-th T of a section, which a test can read or damage.
 template <class T>
 T& section_item(SceneImage& image, format::SectionId id, std::size_t i = 0) {
   return reinterpret_cast<T*>(section_bytes(image, id).data())[i];
 }
 
-/// Recomputes every checksum, so that what a test spoiled is met by the checks behind them.
+/// Recomputes all checksums. Then data that a test damaged passes them and meets the checks that follow.
 void seal(SceneImage& image);
 
-/// Opens an image that must be valid; throws std::runtime_error with the status otherwise.
-Scene open_scene(const SceneImage& image);
+/// Opens an image that must be valid. Throws std::runtime_error with the status if it is not.
+SceneView open_scene(const SceneImage& image);
 
 }  // namespace godobject::test

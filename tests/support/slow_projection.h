@@ -15,12 +15,12 @@ namespace godobject::test {
 
 using SixVector = Eigen::Matrix<double, 6, 1>;
 
-/// Slow, simple solutions of the contact problem in z = (x, rho r), to compare the solver with. They take the rows' own
-/// single-precision numbers.
+/// One contact of the problem in z = (x, rho r), for the slow and simple reference solutions below. The numbers are the
+/// single-precision numbers of the solver's rows.
 struct SlowContact {
-  Eigen::Matrix<double, 3, 6> velocity;  ///< of the point: x + r x P
+  Eigen::Matrix<double, 3, 6> velocity;  ///< times z: velocity of the point, x + r x P
   Vector3 normal;
-  SixVector gradient;  ///< of normal . velocity as the rows have it
+  SixVector gradient;  ///< of normal . velocity, with the torque arm of the row
   double required_gain = 0.0;
 };
 
@@ -39,8 +39,8 @@ inline std::vector<SlowContact> slow_contacts(const ContactRows& rows, double gy
   return contacts;
 }
 
-/// The point nearest to `target` with gradient . z >= need for all contacts, by trying every subset of up to six of
-/// them as equalities; none if there is no such point. For up to about 12 contacts.
+/// Returns the point nearest to `target` with gradient . z >= required_gain for all contacts, or nullopt if there is no
+/// such point. Tries every subset of up to six contacts as equalities, which suits up to about 12 contacts.
 inline std::optional<SixVector> nearest_by_enumeration(const SixVector& target,
                                                        const std::vector<SlowContact>& contacts, double tolerance) {
   const auto count = static_cast<int>(contacts.size());
@@ -71,8 +71,8 @@ inline std::optional<SixVector> nearest_by_enumeration(const SixVector& target,
   return best;
 }
 
-/// The same for any number of contacts by Hildreth's method, coordinate ascent on the multipliers; none if it has not
-/// settled to `settled` after `sweeps`.
+/// Returns the same point for any number of contacts, by Hildreth's method (coordinate ascent on the multipliers).
+/// Returns nullopt if each of `sweeps` sweeps changes a multiplier by `settled` or more.
 inline std::optional<SixVector> nearest_by_ascent(const SixVector& target, const std::vector<SlowContact>& contacts,
                                                   double settled, int sweeps) {
   std::vector<double> multiplier(contacts.size(), 0.0);
@@ -91,7 +91,7 @@ inline std::optional<SixVector> nearest_by_ascent(const SixVector& target, const
   return std::nullopt;
 }
 
-/// Projection of a force on the cone |t| <= ratio n.
+/// Returns the projection of a force on the cone |t| <= ratio n.
 inline Vector3 on_cone(const Vector3& force, const Vector3& normal, double ratio) {
   const double n = normal.dot(force);
   const Vector3 t = force - n * normal;
@@ -105,12 +105,12 @@ inline Vector3 on_cone(const Vector3& force, const Vector3& normal, double ratio
 struct SlowFriction {
   SixVector z;
   std::vector<Vector3> forces;
-  double residual = 0.0;  ///< largest change of a force by another iteration [m]
+  double residual = 0.0;  ///< largest change of a force in the last iteration [m]
 };
 
-/// Coulomb's law with one ratio at all contacts, by the fixed point of de Saxce and Feng: each force in its turn
-/// becomes the projection on its cone of force - (velocity - need n + ratio |slip| n), damped by the contact's own
-/// inertia.
+/// Solves Coulomb's law with one friction ratio at all contacts, by the fixed point of de Saxce and Feng. One after the
+/// other, each force becomes the projection of force - step (velocity - required_gain n + ratio |slip| n) on its cone;
+/// the contact's own inertia determines the step.
 inline SlowFriction coulomb_by_fixed_point(const SixVector& target, const std::vector<SlowContact>& contacts,
                                            double ratio, double settled, int sweeps) {
   SlowFriction out;

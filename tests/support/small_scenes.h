@@ -9,8 +9,8 @@
 
 namespace godobject::test {
 
-/// A ball of 20 mm radius about the moving mesh's origin, with friction of 0.2 and 0.18, and a still body in a box
-/// about the origin.
+/// Returns the image of a ball of 20 mm radius about the moving mesh's origin and of the still body with this distance
+/// in a box about the origin. Friction is 0.2 (static) and 0.18 (kinetic).
 inline SceneImage ball_and(const std::function<double(const Vector3&)>& distance, const Vector3& half_edges,
                            double voxel_size = 0.002) {
   const SurfaceSamples ball = sample_ball(0.02, 500);
@@ -27,13 +27,13 @@ inline SceneImage ball_and(const std::function<double(const Vector3&)>& distance
   return build_scene_image(description);
 }
 
-/// A plate of 100 x 100 mm, its top at z = `half_thickness`.
+/// Returns the ball over a plate of 100 x 100 mm with its top at z = `half_thickness`.
 inline SceneImage ball_over_plate(double half_thickness = 0.01) {
   const Vector3 half_edges(0.05, 0.05, half_thickness);
   return ball_and([half_edges](const Vector3& p) { return box_distance(p, half_edges); }, half_edges);
 }
 
-/// A block of 60 mm height with a hole along z, 1 mm wider than the ball to each side.
+/// Returns the ball over a block of 60 mm height with a hole along z, 1 mm wider than the ball on each side.
 inline SceneImage ball_over_hole() {
   const Vector3 half_edges(0.05, 0.05, 0.03);
   return ball_and(

@@ -41,7 +41,7 @@ std::vector<std::uint32_t> morton_order(const Pointshell& shell) {
 
 }  // namespace
 
-BruteForce::BruteForce(const Scene& scene, double cut) {
+BruteForce::BruteForce(const SceneView& scene, double cut) {
   const format::Grid& lattice = scene.grid;
   const double s = lattice.voxel_size;
   voxel_size_ = s;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/pose.h"
 #include "toolchain/bench/point_scan.h"
 
@@ -17,7 +17,7 @@ class BruteForce {
  public:
   /// Copies the points and the distances at the lattice's nodes from the scene. Scans find points nearer than `cut`
   /// [m]. Cost: one look-up per node of the tight grid.
-  BruteForce(const Scene& scene, double cut);
+  BruteForce(const SceneView& scene, double cut);
 
   /// Scans the points with the body at H_WS. The result is valid until the next call.
   const NearList& scan(PointScan how, const Pose& H_WS) noexcept;

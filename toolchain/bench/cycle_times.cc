@@ -12,7 +12,7 @@ namespace {
 /// A god object with its memory.
 class Runner {
  public:
-  Runner(const Scene& scene, const Pipeline& pipeline) {
+  Runner(const SceneView& scene, const Pipeline& pipeline) {
     if (god_object_.start(scene, pipeline.solver, pipeline.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kBadData,
                              "the scene image was compiled without " + pipeline.name() + "; compile it again");
@@ -47,7 +47,7 @@ void run_passes(const PassBudget& budget, Pass&& pass) {
 
 }  // namespace
 
-Recording record(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device) {
+Recording record(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device) {
   Recording recording;
   Runner runner(scene, pipeline);
   for (const Pose& H_WM : device) {
@@ -59,7 +59,7 @@ Recording record(const Scene& scene, const Pipeline& pipeline, std::span<const P
   return recording;
 }
 
-CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
+CycleTimes time_cycles(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device,
                        const PassBudget& budget) {
   const timing::Stopwatch now_ns = timing::stopwatch();
   CycleTimes times{PassSamples(device.size()), PassSamples(device.size()), PassSamples(device.size())};
@@ -84,7 +84,7 @@ CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<c
   return times;
 }
 
-std::vector<double> time_cold_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
+std::vector<double> time_cold_cycles(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device,
                                      std::span<const std::size_t> cycles) {
   const timing::Stopwatch now_ns = timing::stopwatch();
   const ColdWalk cold;

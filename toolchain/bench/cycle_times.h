@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/pose.h"
 #include "toolchain/bench/distribution.h"
 #include "toolchain/bench/workload.h"
@@ -19,7 +19,7 @@ struct Recording {
 };
 
 /// Runs the path once and returns its poses. Throws Failure if the scene lacks the pipeline.
-Recording record(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device);
+Recording record(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device);
 
 /// Limits of the number of passes.
 struct PassBudget {
@@ -36,12 +36,12 @@ struct CycleTimes {
 };
 
 /// Times cycles with warm caches: each cycle follows the one before at once.
-CycleTimes time_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
+CycleTimes time_cycles(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device,
                        const PassBudget& budget);
 
 /// Returns the times of whole cycles with cold caches [ns], in the order of `cycles` (ascending). 96 MB are read before
 /// each of them; the other cycles of the path run warm.
-std::vector<double> time_cold_cycles(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
+std::vector<double> time_cold_cycles(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device,
                                      std::span<const std::size_t> cycles);
 
 /// Returns every n-th of `cycles`, about `wanted` of them.

@@ -46,7 +46,7 @@ std::size_t bytes_of(const Pointshell& shell) {
 using ColdTimes = std::map<const Phase*, std::vector<double>>;
 
 /// Times about `wanted` cycles of each phase with cold caches, all in one pass [ns].
-ColdTimes cold_by_phase(const Scene& scene, const Pipeline& pipeline, std::span<const Pose> device,
+ColdTimes cold_by_phase(const SceneView& scene, const Pipeline& pipeline, std::span<const Pose> device,
                         const Workload& workload, std::size_t wanted) {
   std::map<std::size_t, const Phase*> phase_of;
   for (const Phase& phase : workload.phases) {

@@ -70,7 +70,7 @@ struct Sliding {
 /// positions are far apart in memory.
 std::vector<Vector3> places(const Sliding& sliding, double low, double high) {
   constexpr std::size_t kMost = 4096;
-  const Scene& scene = sliding.image.scene;
+  const SceneView& scene = sliding.image.scene;
   std::vector<Vector3> found;
   for (std::size_t i = 0; i < 200 * scene.pointshell.size && found.size() < kMost; ++i) {
     const Pose& H_WS = sliding.recording.H_WS[sliding.cycles[i * 7 % sliding.cycles.size()]];
@@ -112,7 +112,7 @@ void add_look_ups(Sliding& sliding) {
 }
 
 void add_searches(Sliding& sliding) {
-  const Scene& scene = sliding.image.scene;
+  const SceneView& scene = sliding.image.scene;
   benchmark::RegisterBenchmark("#1 of corrected: tree, distances", [&](benchmark::State& state) {
     for (auto _ : state) {
       benchmark::DoNotOptimize(penalty_contacts<DistancePenetration>(scene.voxelmap, scene.pointshell, sliding.H_WS(),
@@ -150,7 +150,7 @@ struct RecordedRows {
 
 std::vector<std::unique_ptr<RecordedRows>> recorded_rows(Sliding& sliding) {
   constexpr std::size_t kCycles = 64;
-  const Scene& scene = sliding.image.scene;
+  const SceneView& scene = sliding.image.scene;
   std::vector<std::unique_ptr<RecordedRows>> recorded;
   for (const std::size_t cycle : thinned(sliding.cycles, kCycles)) {
     const Pose& H_WS = sliding.recording.H_WS[cycle];

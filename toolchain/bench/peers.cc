@@ -52,7 +52,7 @@ Distribution time_query(const MeshPeer& peer, const Pose& H_BM, std::span<const 
   return distribution(std::move(times));
 }
 
-Agreement agreement(const Scene& scene, std::span<const Pose> poses, std::span<const std::size_t> cycles) {
+Agreement agreement(const SceneView& scene, std::span<const Pose> poses, std::span<const std::size_t> cycles) {
   Agreement found;
   BruteForce brute(scene, 0.0);
   const auto distance = [&](const Pose& H_WS, std::uint32_t i) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "toolchain/bench/brute_force.h"
 #include "toolchain/bench/cycle_times.h"
 #include "toolchain/bench/distribution.h"
@@ -39,6 +39,6 @@ struct Agreement {
 };
 
 /// Compares both at poses[i] for i in `cycles`. A point penetrates if its stored distance is below zero.
-Agreement agreement(const Scene& scene, std::span<const Pose> poses, std::span<const std::size_t> cycles);
+Agreement agreement(const SceneView& scene, std::span<const Pose> poses, std::span<const std::size_t> cycles);
 
 }  // namespace godobject::bench

@@ -44,7 +44,7 @@ struct Found {
 /// Dense grids above this size are not measured.
 constexpr double kMostGridBytes = 1e9;
 
-double grid_bytes(const Scene& scene) {
+double grid_bytes(const SceneView& scene) {
   double nodes = 1.0;
   for (int k = 0; k < 3; ++k) {
     nodes *= 4.0 + (scene.grid.surface_max[k] - scene.grid.surface_min[k]) / scene.grid.voxel_size;
@@ -52,7 +52,7 @@ double grid_bytes(const Scene& scene) {
   return sizeof(float) * nodes;
 }
 
-Found measure(const Scene& scene, std::span<const Pose> device, const Phase& phase, bool full) {
+Found measure(const SceneView& scene, std::span<const Pose> device, const Phase& phase, bool full) {
   const PassBudget budget{.least_passes = full ? 2u : 1u, .most_passes = 40, .seconds = full ? 3.0 : 0.3};
   const std::vector<std::size_t> cold_cycles = thinned(phase.cycles, full ? 200 : 25);
   Found found;

@@ -53,7 +53,7 @@ std::string Pipeline::name() const {
   return fmt::format("{}{}", format::kSolverNames[static_cast<std::size_t>(solver)], friction ? ", friction" : "");
 }
 
-std::vector<Pipeline> pipelines(const Scene& scene) {
+std::vector<Pipeline> pipelines(const SceneView& scene) {
   std::vector<Pipeline> held;
   for (const Solver solver : {Solver::kContact, Solver::kCorrected, Solver::kPaper}) {
     if (!scene.holds(solver)) continue;

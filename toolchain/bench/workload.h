@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "toolchain/session/owned_god_object.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/pose.h"
 
 namespace godobject::bench {
@@ -40,6 +40,6 @@ struct Pipeline {
 };
 
 /// Returns all pipelines that a scene has data for.
-std::vector<Pipeline> pipelines(const Scene& scene);
+std::vector<Pipeline> pipelines(const SceneView& scene);
 
 }  // namespace godobject::bench

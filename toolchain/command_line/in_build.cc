@@ -22,7 +22,7 @@ const char* describe(Part part) {
 
 }  // namespace
 
-void require_in_build(const std::string& scene_name, const Scene& scene, format::Solver solver, bool friction,
+void require_in_build(const std::string& scene_name, const SceneView& scene, format::Solver solver, bool friction,
                       const SceneTraits& traits) {
   const Part missing = missing_part(traits, solver, friction, scene.has_features(), is_ball(scene));
   if (missing == Part::kNone) return;

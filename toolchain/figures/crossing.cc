@@ -4,7 +4,7 @@
 
 namespace godobject::figures {
 
-Crossing furthest_crossing(const ReplayLog& log, const Scene& scene, const Barrier& barrier) {
+Crossing furthest_crossing(const ReplayLog& log, const SceneView& scene, const Barrier& barrier) {
   Crossing furthest;
   for (const ReplayRow& row : log) {
     const Pose H_WB = row.H_WS * scene.H_MB;

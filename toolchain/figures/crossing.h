@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "toolchain/figures/replay_log.h"
 
 namespace godobject::figures {
@@ -21,6 +21,6 @@ struct Crossing {
 };
 
 /// Returns the crossing over all sample points of the scene and all cycles.
-Crossing furthest_crossing(const ReplayLog& log, const Scene& scene, const Barrier& barrier);
+Crossing furthest_crossing(const ReplayLog& log, const SceneView& scene, const Barrier& barrier);
 
 }  // namespace godobject::figures

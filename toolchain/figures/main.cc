@@ -82,7 +82,7 @@ files::SceneImage read_image(const Options& options, const ScenePlan& plan) {
 
 void add_scene(const Options& options, const ScenePlan& plan, PageContent& content) {
   const auto image = read_image(options, plan);
-  const godobject::Scene& scene = image.scene;
+  const godobject::SceneView& scene = image.scene;
   const fs::path folder = fs::path(options.output) / plan.name;
   Figure figure{.title = plan.title,
                 .facts = scene_facts(scene),
@@ -102,7 +102,7 @@ void add_scene(const Options& options, const ScenePlan& plan, PageContent& conte
 
 void add_run(const Options& options, const ArmPlan& plan, PageContent& content) {
   const auto image = read_image(options, plan.scene);
-  const godobject::Scene& scene = image.scene;
+  const godobject::SceneView& scene = image.scene;
   const fs::path folder = fs::path(options.output) / plan.scene.name;
   ArmFigure figure{plan.scene.title, scene_facts(scene), plan.scene.markers, read_arm_log(folder, plan.device)};
   ArmRun run = arm_run(figure.log, scene.grid.band);

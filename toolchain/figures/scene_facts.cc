@@ -4,7 +4,7 @@
 
 namespace godobject::figures {
 
-std::string scene_facts(const Scene& scene) {
+std::string scene_facts(const SceneView& scene) {
   constexpr double kMillimetre = 1e3;
   const format::Settings& settings = scene.settings;
   std::string text = fmt::format("Voxels of {:.4g} mm, {} points of the moving body in {} levels",

@@ -21,7 +21,7 @@ SceneImage::SceneImage(AlignedBytes image, const std::string& name) : bytes(std:
                               "order of the arguments",
                               name));
   }
-  const Status status = Scene::open(whole, scene);
+  const Status status = SceneView::open(whole, scene);
   if (status != Status::kOk) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile the scene again with godobject-scenec", name, describe(status)));

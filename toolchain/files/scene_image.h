@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "toolchain/files/aligned_bytes.h"
 
 namespace godobject::files {
@@ -12,7 +12,7 @@ namespace godobject::files {
 /// (firmware/scene_file.h), which locks the memory and accepts no links.
 struct SceneImage {
   AlignedBytes bytes;
-  Scene scene;
+  SceneView scene;
 
   /// Opens an image. Throws Failure (kBadData) if the bytes are no image, or with the core's reason. `name` stands for
   /// it in messages.

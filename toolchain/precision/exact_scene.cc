@@ -62,7 +62,7 @@ Pointshell shell_of(const std::vector<float>& values, const std::vector<format::
 
 Parameters make_parameters(const scene_compiler::SceneConfig& config, const format::Body& body) {
   constexpr double kMargin = 1e-3;  // [voxels] a tenth of the default
-  Scene scene;
+  SceneView scene;
   scene.settings = config.settings;
   scene.grid.voxel_size = config.voxel_size;
   scene.body = body;

@@ -115,7 +115,7 @@ std::vector<Setting> settings_of(const scene_compiler::SceneConfig& config, cons
   return settings;
 }
 
-std::vector<CycleCost> costs_of(const Scene& scene, std::span<const Setting> settings, const Paths& paths,
+std::vector<CycleCost> costs_of(const SceneView& scene, std::span<const Setting> settings, const Paths& paths,
                                 std::size_t passes) {
   std::vector<Session> sessions;
   for (const Setting& setting : settings) sessions.emplace_back(scene, setting);

@@ -56,7 +56,7 @@ std::vector<Setting> settings_of(const scene_compiler::SceneConfig& config, cons
                                  std::span<const Variant> variants);
 
 /// Returns the cycle costs of the settings, which share one image, as time_cycles does.
-std::vector<CycleCost> costs_of(const Scene& scene, std::span<const Setting> settings, const Paths& paths,
+std::vector<CycleCost> costs_of(const SceneView& scene, std::span<const Setting> settings, const Paths& paths,
                                 std::size_t passes);
 
 /// Tries settings of one scene: runs them along the paths and compares them with the exact meshes.

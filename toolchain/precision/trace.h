@@ -23,9 +23,9 @@ struct TracedCycle {
 class Session {
  public:
   /// The image of `scene` must outlive it. Throws Failure (kBadData) if the image lacks the solver or friction.
-  Session(const Scene& scene, const Setting& setting);
+  Session(const SceneView& scene, const Setting& setting);
 
-  /// Makes the next update start anew at the device pose.
+  /// Makes the next update start again at the device pose.
   void reset() { (*god_object_)->reset(); }
 
   /// Runs one cycle. Throws Failure (kBadData) for an invalid pose.

@@ -104,7 +104,7 @@ struct Pipeline {
   bool friction;
 };
 
-Pipeline pipeline_of(const Options& options, const godobject::Scene& scene) {
+Pipeline pipeline_of(const Options& options, const godobject::SceneView& scene) {
   const bool has_friction = scene.settings.friction != 0;
   const Pipeline pipeline{
       options.solver.empty() ? scene.default_solver() : *godobject::command::solver_of(options.solver),
@@ -127,7 +127,7 @@ void replay_file(const Options& options) {
   godobject::files::output_target(options.output);  // refused before anything is read
   auto image = godobject::files::SceneImage::read(options.scene);
   if (options.stiffness) image.scene.settings.stiffness = checked_stiffness(*options.stiffness);
-  const godobject::Scene& scene = image.scene;
+  const godobject::SceneView& scene = image.scene;
   const Pipeline pipeline = pipeline_of(options, scene);
   const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses);
   godobject::files::AtomicFile out(options.output);

@@ -33,7 +33,7 @@ const char* const kColumns =
     "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
     "solve_ns,status";
 
-Summary replay(const Scene& scene, Solver solver, bool friction, const files::PosePath& path,
+Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;

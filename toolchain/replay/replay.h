@@ -7,7 +7,7 @@
 #include <string>
 
 #include "godobject/god_object.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "toolchain/files/pose_path.h"
 
 namespace godobject::replay {
@@ -35,7 +35,7 @@ extern const char* const kColumns;
 /// Runs the god object along the path, one cycle for each pose. Passes the header and then one CSV row for each cycle
 /// to `write_row`. Everything except the two timing columns depends on the input alone, to the last bit. Throws Failure
 /// (kBadData) if the image lacks the solver or friction.
-Summary replay(const Scene& scene, Solver solver, bool friction, const files::PosePath& path,
+Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
                const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress);
 
 }  // namespace godobject::replay

@@ -17,7 +17,7 @@ struct CompileRequest {
   std::optional<SceneConfig> config = {};  ///< replaces the scene file
   std::filesystem::path output;
   std::optional<format::Solver> only_solver;
-  nlohmann::ordered_json choice = {};  ///< how the settings were chosen, for the provenance; null: by the scene file
+  nlohmann::ordered_json choice = {};  ///< choice of the settings, for the provenance; null: the scene file states them
   bool times_left_out = false;         ///< also measure the time saved by trimming, which takes some seconds
   PhaseProgress progress;
 };

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/pipeline/compiled_session.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/god_object.h"
 #include "toolchain/files/aligned_bytes.h"
 
@@ -15,8 +15,8 @@ namespace godobject {
 class OwnedGodObject {
  public:
   /// As GodObject::start; `scene` is copied. `remembers`: with the memory by which `contact` skips what cannot be near.
-  Status start(const Scene& scene, Solver solver, bool friction, bool remembers = true) {
-    const CompiledScene compiled = CompiledScene::of(scene);
+  Status start(const SceneView& scene, Solver solver, bool friction, bool remembers = true) {
+    const Scene compiled = Scene::of(scene);
     const std::size_t bytes = remembers ? GodObject::memory_size(compiled) : GodObject::least_memory_size();
     if (!memory_ || memory_->span().size() < bytes) memory_.emplace(bytes);
     return god_object_->start(compiled, solver, friction, memory_->span().first(bytes));

@@ -38,7 +38,7 @@ class GodObject {
 
   /// Returns the memory that `start` needs to run at full speed in `scene` [bytes]. With it `contact` remembers from
   /// cycle to cycle which parts of the bodies are too far apart to touch.
-  static std::size_t memory_size(const CompiledScene& scene) noexcept;
+  static std::size_t memory_size(const Scene& scene) noexcept;
   /// Returns the least memory that `start` accepts [bytes]. With less than memory_size(scene) the results are the same,
   /// but `contact` visits the sphere trees from their roots in every cycle.
   static std::size_t least_memory_size() noexcept;
@@ -59,13 +59,13 @@ class GodObject {
   /// kMemory: `memory` is smaller than least_memory_size() or not aligned. After a refusal the god object is unchanged.
   ///
   /// Cost: some 10 ns per byte of memory. Not for the real-time loop.
-  Status start(const CompiledScene& scene, Solver solver, bool friction, std::span<std::byte> memory) noexcept;
+  Status start(const Scene& scene, Solver solver, bool friction, std::span<std::byte> memory) noexcept;
 
   /// Forgets the god object: the next `update` starts with it at the device pose. Cost: 0.1 us. Real-time safe.
   void reset() noexcept;
 
   /// Moves the god object to the device pose H_WM and renders no force; the scene is not looked at. The next `update`
-  /// starts anew, as after `reset`. `report` is that of a free cycle.
+  /// starts again, as after `reset`. `report` is that of a free cycle.
   ///
   /// kNotStarted: `start` has not succeeded; `report` is unchanged. kNotFinite, kNotUnit, kOutOfRange: H_WM is not a
   /// valid pose; the god object stays, and the report's outcome is kBadInput. Cost: 0.1 us. Real-time safe.

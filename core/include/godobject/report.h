@@ -40,11 +40,11 @@ struct CycleReport {
   std::uint32_t substeps = 0;  ///< of this cycle; `contact`: those with a near point, 1 if there was none
   bool unconverged = false;    ///< `contact`: friction is not Coulomb's to the tolerance; the gaps hold all the same
   bool outside = false;        ///< the device is outside of the workspace; its faces push back once it has been inside
-  Outcome outcome = Outcome::kFree;  ///< how the cycle went
+  Outcome outcome = Outcome::kFree;  ///< outcome of the cycle
 };
 
 /// An optional stopwatch: the times of step #1 and of steps #2-#7 in one cycle, all sub-steps and attempts summed. The
-/// core has no clock of its own: set `now_ns`. `update` writes the other members anew in each cycle that it runs.
+/// core has no clock of its own: set `now_ns`. `update` rewrites the other members in each cycle that it runs.
 ///
 /// With `contact` the look-ups of the certificate count as step #1. Each interval contains one reading of the clock:
 /// one interval of step #1 and one of the other steps in `paper`; one of each a sub-step in `corrected`; in `contact`

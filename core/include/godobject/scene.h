@@ -9,7 +9,7 @@
 
 namespace godobject {
 
-struct Scene;
+struct SceneView;
 
 /// The three solvers for the god object's motion. Use `contact`; the others are there for comparison.
 enum class Solver : std::uint32_t {
@@ -30,20 +30,20 @@ struct SurfaceDistance {
   double distance = 0.0;  ///< signed, positive outside [m]; plus or minus the band where `known` is false
   Vector3 normal_W =
       Vector3::Zero();  ///< unit, out of the body, in W; zero where `known` is false or nothing is nearest
-  bool known = false;                  ///< the point lies within the stored band around the surface
+  bool known = false;   ///< the point lies within the stored band around the surface
 };
 
 /// A scene image that `godobject-scenec` compiled: both bodies, solver data and settings. The object is a view of the
 /// image's bytes, which the caller owns. Copies cost 2 KiB and view the same bytes. A scene that was never opened holds
 /// no solver.
-class CompiledScene {
+class Scene {
  public:
   /// Alignment of the image [bytes]: it must begin at a multiple of this.
   static constexpr std::size_t kImageAlignment = 64;
 
-  CompiledScene() noexcept;
-  CompiledScene(const CompiledScene& other) noexcept;
-  CompiledScene& operator=(const CompiledScene& other) noexcept;
+  Scene() noexcept;
+  Scene(const Scene& other) noexcept;
+  Scene& operator=(const Scene& other) noexcept;
 
   /// Checks the whole image once (checksums, layout, every index and every number) and makes `scene` a view of it. The
   /// bytes must stay in place, unchanged, as long as the scene, a copy of it or a god object in it is used.
@@ -52,11 +52,11 @@ class CompiledScene {
   /// kImageVersion, kImageChecksum, kImageValue: see Status. After a refusal `scene` is unchanged.
   ///
   /// Cost: one pass over the bytes, about 1 ms per MiB; no allocation. Not for the real-time loop.
-  static Status open(std::span<const std::byte> image, CompiledScene& scene) noexcept;
+  static Status open(std::span<const std::byte> image, Scene& scene) noexcept;
 
   Solver default_solver() const noexcept;     ///< the scene file's solver
-  bool holds(Solver solver) const noexcept;   ///< whether the image holds the data that this solver reads
-  bool has_friction() const noexcept;         ///< whether the scene file has a friction table
+  bool holds(Solver solver) const noexcept;   ///< true if the image has the data that this solver reads
+  bool has_friction() const noexcept;         ///< true if the scene file has a friction table
   double voxel_size() const noexcept;         ///< voxel edge of the still body's field [m]
   Vector3 center_of_mass_M() const noexcept;  ///< centre of mass of the moving body, in its mesh frame M [m]
 
@@ -72,12 +72,12 @@ class CompiledScene {
   Status set_gains(const Gains& gains) noexcept;
 
   /// The parts of the image, for this project's own tools: their types are not part of the library's interface.
-  const Scene& view() const noexcept;
-  static CompiledScene of(const Scene& view) noexcept;
+  const SceneView& view() const noexcept;
+  static Scene of(const SceneView& view) noexcept;
 
  private:
   static constexpr std::size_t kBytes = 2048;
-  Scene& view() noexcept;
+  SceneView& view() noexcept;
 
   alignas(64) std::byte storage_[kBytes];
 };

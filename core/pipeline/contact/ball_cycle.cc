@@ -25,8 +25,8 @@ using detail::Obstacle;
 /// Half spaces normal . x >= gain for a motion x of the centre, in W.
 struct HalfSpaces {
   static constexpr int kCapacity = 1 + kMostSecondLooks;  ///< the contact at the start and the obstacles
-  std::array<Vector3, kCapacity> normal;  ///< unit
-  std::array<double, kCapacity> gain;     ///< required gap increase [m]
+  std::array<Vector3, kCapacity> normal;                  ///< unit
+  std::array<double, kCapacity> gain;                     ///< required gap increase [m]
   int count = 0;
 
   void push(const Vector3& n, double b) noexcept {

@@ -154,9 +154,8 @@ class Certificate {
 /// Tells whether the certificate holds for the motion of one direction from H0 to H1. If not, `obstacle` receives the
 /// first chord that failed. Real-time safe.
 template <DistanceField Field>
-bool motion_is_free(const Field& field, const Pose& H0, const Pose& H1, double least_gap,
-                    const ContactLengths& lengths, const NearPoints& near, Budget& budget,
-                    Obstacle& obstacle) noexcept {
+bool motion_is_free(const Field& field, const Pose& H0, const Pose& H1, double least_gap, const ContactLengths& lengths,
+                    const NearPoints& near, Budget& budget, Obstacle& obstacle) noexcept {
   obstacle.exhausted = false;
   if (near.count == 0) return true;
   return Certificate<Field>(field, H0, H1, least_gap, lengths.rounding, near, budget, obstacle).holds();

@@ -20,11 +20,11 @@ inline constexpr std::uint32_t kMostFreeSubsteps = 64;
 /// Most free balls along one chord. Measured: with 16 a second sub-step follows in 33 instead of 25 cycles over the
 /// teapot, with 4 in 87 instead of 36 in the handle; 256 changes only some 20 cycles in the handle and the hole.
 inline constexpr int kMostBallsOfChord = 64;
-/// Look-ups for free balls in one cycle. The remaining motion is dropped when they are used up. Without vectors a flat face
-/// of a thousand points that slides by a millimetre a cycle takes 50000; with fewer the god object would fall behind for
-/// good.
+/// Look-ups for free balls in one cycle. The remaining motion is dropped when they are used up. Without vectors a flat
+/// face of a thousand points that slides by a millimetre a cycle takes 50000; with fewer the god object would fall
+/// behind for good.
 inline constexpr int kMostBallsOfCycle = 1 << 17;
 /// A motion that would raise the coupling's energy again beyond this share of its first decrease stops earlier
-/// (`Arrival`). At 1 the god object would swing in a valley of the field for ever; 0.5 halves the swing each cycle.
+/// (`Arrival`). At 1 the god object would swing in a valley of the field without end; 0.5 halves the swing each cycle.
 inline constexpr double kMostOvershoot = 0.5;
 }  // namespace godobject

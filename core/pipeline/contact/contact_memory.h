@@ -36,8 +36,8 @@ struct ContactSearch {
     return NearSearch::memory(shell) + NearSearch::memory(features);
   }
 
-  /// Starts anew. `words`: memory(...) words that outlive the search. With none, each cycle visits the trees from their
-  /// roots.
+  /// Forgets all and starts. `words`: memory(...) words that outlive the search. With none, each cycle visits the trees
+  /// from their roots.
   template <DistanceField Field, DistanceField BodyField>
   void start(const ContactScene<Field, BodyField>& scene, std::span<std::uint32_t> words) noexcept {
     odometer.reset();

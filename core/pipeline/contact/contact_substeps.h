@@ -155,15 +155,13 @@ class ContactSubsteps {
     whole_.rotation += motion_.rotation;
     result_.H_WS = H1_;
     result_.cut = share_.is_cut();
-    most_search_radius_ =
-        std::min(std::max(most_search_radius_, 2.0 * search_radius_), scene_.longest_search_radius);
+    most_search_radius_ = std::min(std::max(most_search_radius_, 2.0 * search_radius_), scene_.longest_search_radius);
     longest_displacement_ = std::max(longest_displacement_, travel(lengths_.sphere, motion_));
     // The remainder of a cut motion may change its direction, but is seldom twice as long; the motion past an edge is
     // seldom followed by a longer one. Measured (godobject-replay, the demo's paths): without the factor 2 the path
     // through the plate takes 1.5 % more sub-steps; 4 in place of either factor 2 changes few cycles.
     const double expected = result_.cut ? 2.0 * remainder : longest_displacement_;
-    search_radius_ =
-        std::min(most_search_radius_, lengths_.search_radius_for(expected, scene_.longest_search_radius));
+    search_radius_ = std::min(most_search_radius_, lengths_.search_radius_for(expected, scene_.longest_search_radius));
   }
 
   /// Tells whether another sub-step follows.
@@ -184,9 +182,7 @@ class ContactSubsteps {
   }
 
  private:
-  bool is_clear_to_device() const noexcept {
-    return memory_.search.is_free(free_displacement_, scene_.free_clearance);
-  }
+  bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
 
   void follow_device() noexcept {
     result_.H_WS = input_.H_WD;
@@ -219,7 +215,7 @@ class ContactSubsteps {
               travelled, radius, lengths_, near, rows_, around_);
   }
 
-  /// Selects rows anew where there are more near points than rows: the deepest, and some spread over the others.
+  /// Selects the rows again when there are more near points than rows: the deepest, and some spread over the others.
   void select_again() noexcept {
     const Selection selection = select_rows(memory_.workspace);
     rows_.count = 0;
@@ -254,8 +250,8 @@ class ContactSubsteps {
   /// Reacts to a failed attempt: turns the obstacle into a row, or shortens the motion.
   void react_to_obstacle(bool samples_free, bool features_free) noexcept {
     if (at_sample_.exhausted || at_feature_.exhausted) {
-      share_.shrink_to(std::min(at_sample_.exhausted ? at_sample_.share : 1.0,
-                                at_feature_.exhausted ? at_feature_.share : 1.0));
+      share_.shrink_to(
+          std::min(at_sample_.exhausted ? at_sample_.share : 1.0, at_feature_.exhausted ? at_feature_.share : 1.0));
       return;
     }
     if (!push_obstacles(samples_free, features_free)) return share_.shrink_at_obstacle();

@@ -20,7 +20,7 @@ struct FeatureContacts {
 /// The body field of a build that leaves out the second direction; the compiler then removes all code for it.
 struct NoBodyField : Voxelmap {};
 
-/// Whether a build with this body field has the second direction.
+/// True if a build with this body field has the second direction.
 template <class BodyField>
 inline constexpr bool kHasSecondDirection = !std::is_same_v<BodyField, NoBodyField>;
 

@@ -36,13 +36,15 @@ class MotionShare {
   /// Halves the share: points that are not near do not allow more.
   void halve() noexcept { shrink(0.5); }
   /// Shortens the motion to the share of a chord that is proved free; beyond it nothing is known.
-  void shrink_to(double share_of_chord) noexcept { shrink(is_early() ? share_of_chord : std::min(share_of_chord, 0.25)); }
+  void shrink_to(double share_of_chord) noexcept {
+    shrink(is_early() ? share_of_chord : std::min(share_of_chord, 0.25));
+  }
   /// Shortens the motion at an obstacle that cannot become a row.
   void shrink_at_obstacle() noexcept {
     looks_ = 0;
     shrink(is_early() ? 0.5 : 0.25);
   }
-  /// Restarts with the share `first` after an obstacle became a row and the motion was computed anew.
+  /// Restarts with the share `first` after an obstacle became a row and the motion was computed again.
   void look_again(double first) noexcept {
     --looks_;
     overshoots_ = false;

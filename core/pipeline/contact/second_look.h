@@ -19,8 +19,7 @@ namespace godobject::detail {
 inline double second_look_gain(const ContactLengths& lengths, const FieldSample& at_obstacle,
                                const Vector3& displacement, double start_distance, double steepness) noexcept {
   // extrapolated to the start, the distance differs by the gradient times the displacement
-  const double gain =
-      (lengths.margin - at_obstacle.distance + at_obstacle.gradient.dot(displacement)) / steepness;
+  const double gain = (lengths.margin - at_obstacle.distance + at_obstacle.gradient.dot(displacement)) / steepness;
   return std::min(gain, std::max(0.0, kRecovery * (lengths.margin - start_distance)));
 }
 

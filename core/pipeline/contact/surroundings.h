@@ -19,9 +19,9 @@ namespace godobject::detail {
 struct Surroundings {
   double free_displacement;  ///< up to this displacement all points outside of the lists of near points are free [m]
   double smallest = std::numeric_limits<double>::infinity();  ///< smallest stored distance of the near points [m]
-  bool swallowed = false;     ///< a point lies inside, where the field has no gradient
-  std::uint32_t dropped = 0;  ///< near points that found no row
-  std::uint32_t unseen = 0;   ///< points that the point budget left without a look-up
+  bool swallowed = false;                                     ///< a point lies inside, where the field has no gradient
+  std::uint32_t dropped = 0;                                  ///< near points that found no row
+  std::uint32_t unseen = 0;                                   ///< points that the point budget left without a look-up
 };
 
 /// Appends rows for the chosen points of a batch that have a gradient, while there is room. Returns how many found

@@ -26,7 +26,7 @@ MassModel MassModel::make(const Vector3& principal_inertia, double radius, doubl
   return mass;
 }
 
-Parameters Parameters::make(const Scene& scene) noexcept {
+Parameters Parameters::make(const SceneView& scene) noexcept {
   const format::Settings& s = scene.settings;
   Parameters p;
   p.safety_distance = s.safety_distance;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "core/spatial/bounding_sphere.h"
 #include "godobject/pose.h"
 
@@ -59,7 +59,7 @@ struct Parameters {
   WorkspaceBox workspace;  ///< in W
 
   /// Returns the parameters of a scene.
-  static Parameters make(const Scene& scene) noexcept;
+  static Parameters make(const SceneView& scene) noexcept;
 };
 
 }  // namespace godobject

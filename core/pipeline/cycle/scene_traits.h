@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 
 namespace godobject {
 
@@ -62,12 +62,12 @@ constexpr Part missing_part(const SceneTraits& traits, format::Solver solver, bo
 
 /// Tells whether the moving body is a ball that is represented by its centre: its one sample point is the centre of
 /// mass, and the still body's distances are reduced by the radius.
-inline bool is_ball(const Scene& scene) noexcept {
+inline bool is_ball(const SceneView& scene) noexcept {
   return scene.pointshell.size == 1 && scene.pointshell.point(0).isZero(0.0) && !scene.has_features();
 }
 
 /// Returns the first part that a pipeline needs on `scene` and this build leaves out.
-inline Part missing_part(const Scene& scene, format::Solver solver, bool friction) noexcept {
+inline Part missing_part(const SceneView& scene, format::Solver solver, bool friction) noexcept {
   return missing_part(kSceneTraits, solver, friction, scene.has_features(), is_ball(scene));
 }
 

@@ -8,7 +8,7 @@ namespace godobject {
 
 /// A translation [m] or rotation [rad] split along a constrained direction u, eq (34) and (35).
 struct SplitMotion {
-  Vector3 parallel = Vector3::Zero();  ///< along u
+  Vector3 parallel = Vector3::Zero();       ///< along u
   Vector3 perpendicular = Vector3::Zero();  ///< across u
 };
 

@@ -37,8 +37,8 @@ Correction correction(const PenaltyContacts& contacts, double safety_distance, c
   if (force < kNoForce) return out;
   out.u_x = contacts.wrench_S.force / force;  // (5)
   const double torque = contacts.wrench_S.torque.norm();
-  if (torque < kNoLever * force) return out;  // the limit delta -> 0 of (21) and (27): no correction
-  const Vector3 u_t = contacts.wrench_S.torque / torque;                       // (5)
+  if (torque < kNoLever * force) return out;              // the limit delta -> 0 of (21) and (27): no correction
+  const Vector3 u_t = contacts.wrench_S.torque / torque;  // (5)
   const Vector3 turned = mass.sigma * mass.inverse_inertia.cwiseProduct(u_t);  // J^-1 u_t, J = J_B / (m sigma)
   out.u_r = turned / turned.norm();                                            // (5)
   out.lever = torque / force;                                                  // (6)

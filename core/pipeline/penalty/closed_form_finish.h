@@ -12,9 +12,9 @@ namespace godobject {
 
 /// The result of the steps #1 to #5 of `paper` or `corrected`.
 struct ClosedFormResult {
-  Pose H_WS;                   ///< the god object's new pose, frame B in W
-  PenaltyContacts contacts;    ///< of the last sub-step
-  bool cut = false;            ///< the motion was shortened so as not to jump over the surface
+  Pose H_WS;                 ///< the god object's new pose, frame B in W
+  PenaltyContacts contacts;  ///< of the last sub-step
+  bool cut = false;          ///< the motion was shortened so as not to jump over the surface
   std::uint32_t substeps = 1;
 };
 

@@ -25,7 +25,7 @@ struct PenaltyContacts {
 
 /// The penetration of one sample point: V of eq (1) and the contact normal.
 struct PointPenetration {
-  double value = 0.0;  ///< V [m], safety distance included
+  double value = 0.0;                  ///< V [m], safety distance included
   Vector3 normal_W = Vector3::Zero();  ///< n: into the moving body; zero where unknown (deep inside, medial axis)
 };
 

@@ -34,8 +34,8 @@ std::span<const std::byte> read_aligned(const char* path) {
 
 int main(int argc, char** argv) {
   if (argc != 4) return 64;
-  CompiledScene scene;
-  if (CompiledScene::open(read_aligned(argv[1]), scene) != Status::kOk) return 65;
+  Scene scene;
+  if (Scene::open(read_aligned(argv[1]), scene) != Status::kOk) return 65;
   const std::size_t bytes = (GodObject::memory_size(scene) / kAligned + 1) * kAligned;
   const std::span memory(static_cast<std::byte*>(std::aligned_alloc(kAligned, bytes)), bytes);
   if (god_object.start(scene, Solver::kContact, true, memory) != Status::kOk) return 65;

@@ -26,8 +26,8 @@ TEST(DeviceFiles, LightWeightRobotIsThePublishedOne) {
   ASSERT_EQ(model.joint_count, 7);
   // straight up at zero: 0.3105 + 0.4 + 0.39 + 0.078 to the flange, 0.08 to the handle
   const ArmKinematics straight = forward_kinematics(model, JointVector::Zero());
-  EXPECT_LT((straight.H_WM.translation - Vector3(0.0, 0.0, 1.2585)).norm(), 1e-12);
-  EXPECT_LT(log_rotation(straight.H_WM.rotation).norm(), 1e-12);
+  EXPECT_LT((straight.H_RM.translation - Vector3(0.0, 0.0, 1.2585)).norm(), 1e-12);
+  EXPECT_LT(log_rotation(straight.H_RM.rotation).norm(), 1e-12);
   double mass = 0.0;
   for (const ArmJoint& joint : model.joints) mass += joint.link.mass;
   EXPECT_NEAR(mass, 14.4, 1e-12);
@@ -37,9 +37,9 @@ TEST(DeviceFiles, DesktopArmHasItsPostureAtZero) {
   const ArmModel model = test::desktop6().model;
   const ArmKinematics rest = forward_kinematics(model, JointVector::Zero());
   // turntable 0.12 up, upper arm 0.14 forward, forearm 0.14 down, stylus 0.04 square to it
-  EXPECT_LT((rest.H_WL[4].translation - Vector3(0.14, 0.0, -0.02)).norm(), 1e-12);
-  EXPECT_NEAR((rest.H_WM.translation - rest.H_WL[5].translation).z(), 0.0, 1e-12);
-  EXPECT_NEAR((rest.H_WM.translation - rest.H_WL[5].translation).norm(), 0.04, 1e-12);
+  EXPECT_LT((rest.H_RL[4].translation - Vector3(0.14, 0.0, -0.02)).norm(), 1e-12);
+  EXPECT_NEAR((rest.H_RM.translation - rest.H_RL[5].translation).z(), 0.0, 1e-12);
+  EXPECT_NEAR((rest.H_RM.translation - rest.H_RL[5].translation).norm(), 0.04, 1e-12);
 }
 
 template <class Change>
@@ -57,8 +57,8 @@ TEST(ArmModel, RefusesWhatIsNotFinite) {
     EXPECT_EQ(after([&](ArmModel& m) { m.joints[3].link.com.y() = bad; }), Status::kNotFinite);
     EXPECT_EQ(after([&](ArmModel& m) { m.joints[3].link.inertia(2, 0) = bad; }), Status::kNotFinite);
     EXPECT_EQ(after([&](ArmModel& m) { m.payload.mass = bad; }), Status::kNotFinite);
-    EXPECT_EQ(after([&](ArmModel& m) { m.gravity_W.x() = bad; }), Status::kNotFinite);
-    EXPECT_EQ(after([&](ArmModel& m) { m.H_WA.translation.x() = bad; }), Status::kNotFinite);
+    EXPECT_EQ(after([&](ArmModel& m) { m.gravity_R.x() = bad; }), Status::kNotFinite);
+    EXPECT_EQ(after([&](ArmModel& m) { m.H_RA.translation.x() = bad; }), Status::kNotFinite);
     EXPECT_EQ(after([&](ArmModel& m) { m.H_FM.rotation.x() = bad; }), Status::kNotFinite);
   }
 }
@@ -67,7 +67,7 @@ TEST(ArmModel, RefusesJointCountsAndRotationsThatCannotBe) {
   EXPECT_EQ(after([](ArmModel& m) { m.joint_count = 0; }), Status::kArmShape);
   EXPECT_EQ(after([](ArmModel& m) { m.joint_count = -1; }), Status::kArmShape);
   EXPECT_EQ(after([](ArmModel& m) { m.joint_count = kMaxJoints + 1; }), Status::kArmShape);
-  EXPECT_EQ(after([](ArmModel& m) { m.H_WA.rotation.w() = 1.01; }), Status::kArmShape);
+  EXPECT_EQ(after([](ArmModel& m) { m.H_RA.rotation.w() = 1.01; }), Status::kArmShape);
   EXPECT_EQ(after([](ArmModel& m) { m.H_FM.rotation.coeffs().setZero(); }), Status::kArmShape);
 }
 

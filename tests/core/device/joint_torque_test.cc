@@ -24,7 +24,7 @@ TorqueRequest request_at(const ArmModel& model, const JointVector& q) {
   TorqueRequest request;
   request.q = q;
   request.kinematics = forward_kinematics(model, q);
-  request.p_W = request.kinematics.H_WM.translation;
+  request.p_RP = request.kinematics.H_RM.translation;
   return request;
 }
 
@@ -40,9 +40,9 @@ Vector6 stacked(const Wrench& F) {
   return vector;
 }
 
-/// W J
+/// Z J
 Jacobian weighted_jacobian(const Arm& arm, const TorqueRequest& request) {
-  Jacobian J = geometric_jacobian(request.kinematics, request.p_W);
+  Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
   J.bottomRows<3>() *= arm.parameters.rotation_length;
   return J;
 }
@@ -56,7 +56,7 @@ double smallest_singular_value(const Arm& arm, const TorqueRequest& request) {
   return singular_values(arm, request)[std::min(6, arm.model.joint_count) - 1];
 }
 
-/// W^-1 F
+/// Z^-1 F
 double weighted_length(const Arm& arm, const Wrench& F) {
   return std::hypot(F.force.norm(), F.torque.norm() / arm.parameters.rotation_length);
 }
@@ -92,14 +92,14 @@ TEST(JointTorque, IsGravityAndTransposedJacobianWhereNothingIsSingular) {
       TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 1.5));
       if (smallest_singular_value(arm, request) < arm.parameters.singular_full) continue;
       ++regular;
-      request.p_W += random.in_cube(0.02);
+      request.p_RP += random.in_cube(0.02);
       if (smallest_singular_value(arm, request) < arm.parameters.singular_full) continue;
-      request.F_W = {random.in_cube(0.1), random.in_cube(0.01)};
+      request.F_P_R = {random.in_cube(0.1), random.in_cube(0.01)};
       const JointTorque result = expect_ok(arm, request);
       const JointVector gravity = gravity_torque(arm.model, request.kinematics);
-      const Jacobian J = geometric_jacobian(request.kinematics, request.p_W);
-      ASSERT_LT((result.torque - gravity - J.transpose() * stacked(request.F_W)).norm(), 1e-12);
-      ASSERT_LT((stacked(result.rendered_W) - stacked(request.F_W)).norm(), 1e-12);
+      const Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
+      ASSERT_LT((result.torque - gravity - J.transpose() * stacked(request.F_P_R)).norm(), 1e-12);
+      ASSERT_LT((stacked(result.rendered_P_R) - stacked(request.F_P_R)).norm(), 1e-12);
       ASSERT_EQ(result.scale, 1.0);
       ASSERT_LT(result.left_out, 1e-12);
       ASSERT_FALSE(result.gravity_clipped);
@@ -114,13 +114,13 @@ TEST(JointTorque, PowerOfTheRenderedWrenchIsPowerOfItsTorque) {
     const Arm arm = without_additions(test::random_arm(random, 1 + i % kMaxJoints));
     TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 3.0));
     request.qd = test::random_joints(random, arm.model, 2.0);
-    request.F_W = {random.in_cube(100.0), random.in_cube(20.0)};
+    request.F_P_R = {random.in_cube(100.0), random.in_cube(20.0)};
     const JointTorque result = expect_ok(arm, request);
-    const Motion velocity = tool_velocity(geometric_jacobian(request.kinematics, request.p_W), request.qd);
+    const Motion velocity = tool_velocity(geometric_jacobian(request.kinematics, request.p_RP), request.qd);
     const double at_tool =
-        result.rendered_W.force.dot(velocity.translation) + result.rendered_W.torque.dot(velocity.rotation);
+        result.rendered_P_R.force.dot(velocity.translation) + result.rendered_P_R.torque.dot(velocity.rotation);
     const double at_joints = (result.torque - result.gravity).dot(request.qd);
-    ASSERT_NEAR(at_joints, at_tool, 1e-10 * (1.0 + weighted_length(arm, request.F_W))) << i;
+    ASSERT_NEAR(at_joints, at_tool, 1e-10 * (1.0 + weighted_length(arm, request.F_P_R))) << i;
   }
 }
 
@@ -135,14 +135,14 @@ TEST(JointTorque, SingularDirectionsAreNeverAmplified) {
       }
     }
     TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 3.0));
-    request.F_W = {random.in_cube(10.0), random.in_cube(2.0)};
+    request.F_P_R = {random.in_cube(10.0), random.in_cube(2.0)};
     const JointTorque result = expect_ok(arm, request);
-    const Jacobian J = geometric_jacobian(request.kinematics, request.p_W);
+    const Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
     const double rendered = (result.torque - result.gravity).norm();
     const double rounding = 1e-12 * (1.0 + result.gravity.norm());
-    ASSERT_LE(rendered, (J.transpose() * stacked(request.F_W)).norm() + rounding) << i;
-    ASSERT_LE(rendered, singular_values(arm, request)[0] * weighted_length(arm, request.F_W) + rounding) << i;
-    ASSERT_LE(weighted_length(arm, result.rendered_W), weighted_length(arm, request.F_W) * (1.0 + 1e-12)) << i;
+    ASSERT_LE(rendered, (J.transpose() * stacked(request.F_P_R)).norm() + rounding) << i;
+    ASSERT_LE(rendered, singular_values(arm, request)[0] * weighted_length(arm, request.F_P_R) + rounding) << i;
+    ASSERT_LE(weighted_length(arm, result.rendered_P_R), weighted_length(arm, request.F_P_R) * (1.0 + 1e-12)) << i;
     ASSERT_GE(result.left_out, 0.0);
     ASSERT_LE(result.left_out, 1.0);
   }
@@ -154,7 +154,7 @@ double largest_step(const Arm& arm, const JointVector& from, const JointVector& 
   JointVector last = JointVector::Zero();
   for (int i = 0; i <= steps; ++i) {
     TorqueRequest request = request_at(arm.model, from + (to - from) * i / steps);
-    request.F_W = {Vector3(20.0, -30.0, 25.0), Vector3(1.0, 2.0, -1.5)};
+    request.F_P_R = {Vector3(20.0, -30.0, 25.0), Vector3(1.0, 2.0, -1.5)};
     request.qd = JointVector::Zero();
     request.qd.head(arm.model.joint_count).setConstant(0.5);
     const JointVector torque = expect_ok(arm, request).torque;
@@ -211,24 +211,24 @@ TEST(JointTorque, LeavesOutWhatTheArmCannotShow) {
   // one joint about z, tool at 0.3 along x: it shows a force along y, nothing else
   Arm arm;
   arm.model.joint_count = 1;
-  arm.model.gravity_W.setZero();
+  arm.model.gravity_R.setZero();
   arm.model.H_FM.translation = Vector3(0.3, 0.0, 0.0);
   arm.model.joints[0].link.mass = 1.0;
   arm.model.joints[0].lower = -1.0;
   arm.model.joints[0].upper = 1.0;
   arm.model.joints[0].torque = 10.0;
   TorqueRequest request = request_at(arm.model, JointVector::Zero());
-  request.F_W.force = Vector3(5.0, 0.0, 3.0);
+  request.F_P_R.force = Vector3(5.0, 0.0, 3.0);
   JointTorque result = expect_ok(arm, request);
   EXPECT_TRUE(result.torque.isZero(1e-15));
   EXPECT_NEAR(result.left_out, 1.0, 1e-15);
 
-  request.F_W.force = Vector3(0.0, 5.0, 0.0);
+  request.F_P_R.force = Vector3(0.0, 5.0, 0.0);
   result = expect_ok(arm, request);
   EXPECT_NEAR(result.torque[0], 1.5, 1e-14);
   // of a pure force the joint shows the part along (y, L about z): cos^2 of the angle between them
   const double L = arm.parameters.rotation_length;
-  EXPECT_NEAR(result.rendered_W.force.y(), 5.0 * 0.09 / (0.09 + L * L), 1e-13);
+  EXPECT_NEAR(result.rendered_P_R.force.y(), 5.0 * 0.09 / (0.09 + L * L), 1e-13);
 }
 
 TEST(JointTorque, KeepsTheDirectionOfWhatIsTooStrong) {
@@ -236,14 +236,14 @@ TEST(JointTorque, KeepsTheDirectionOfWhatIsTooStrong) {
   for (int i = 0; i < 5000; ++i) {
     const Arm arm = without_additions(test::random_arm(random, 1 + i % kMaxJoints));
     TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 3.0));
-    request.F_W = {random.in_cube(1e-3), random.in_cube(1e-3)};
+    request.F_P_R = {random.in_cube(1e-3), random.in_cube(1e-3)};
     const JointTorque weak = expect_ok(arm, request);
     if (weak.gravity_clipped) continue;
     const double factor = 1e7;
-    request.F_W = {factor * request.F_W.force, factor * request.F_W.torque};
+    request.F_P_R = {factor * request.F_P_R.force, factor * request.F_P_R.torque};
     const JointTorque strong = expect_ok(arm, request);
-    const Vector6 expected = strong.scale * factor * stacked(weak.rendered_W);
-    ASSERT_LE((stacked(strong.rendered_W) - expected).norm(), 1e-10 * expected.norm());
+    const Vector6 expected = strong.scale * factor * stacked(weak.rendered_P_R);
+    ASSERT_LE((stacked(strong.rendered_P_R) - expected).norm(), 1e-10 * expected.norm());
     // rounding of the small difference between weak torque and gravity
     const JointVector torque = strong.scale * factor * (weak.torque - weak.gravity);
     ASSERT_LE((strong.torque - strong.gravity - torque).norm(), 1e-12 * (1.0 + strong.scale * factor) * 1e3);
@@ -262,7 +262,7 @@ TEST(JointTorque, NeverExceedsTheLimits) {
     TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 4.0));
     request.qd = test::random_joints(random, arm.model, std::pow(10.0, random.between(-3.0, 4.0)));
     const double size = std::pow(10.0, random.between(-3.0, 150.0));
-    request.F_W = {random.in_cube(size), random.in_cube(size)};
+    request.F_P_R = {random.in_cube(size), random.in_cube(size)};
     const JointTorque result = expect_ok(arm, request);
     const JointVector limits = torque_limits(arm.model);
     ASSERT_TRUE((result.torque.array().abs() <= limits.array()).all()) << i;
@@ -273,16 +273,16 @@ TEST(JointTorque, NeverExceedsTheLimits) {
 }
 
 TEST(JointTorque, HoldsTheArmWhateverElseIsAsked) {
-  // what is rendered may use the rest of the limits, in both directions, and no more
+  // rendered torques may use the rest of each limit in both directions, and no more
   const Arm arm = without_additions(test::lwr());
   Random random(7);
   for (int i = 0; i < 1000; ++i) {
     TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 2.0));
-    request.F_W = {random.in_cube(1e4), random.in_cube(1e3)};
+    request.F_P_R = {random.in_cube(1e4), random.in_cube(1e3)};
     const JointTorque result = expect_ok(arm, request);
     ASSERT_LT((result.gravity - gravity_torque(arm.model, request.kinematics)).norm(), 1e-12);
-    const Jacobian J = geometric_jacobian(request.kinematics, request.p_W);
-    const JointVector rendered = J.transpose() * stacked(result.rendered_W);
+    const Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
+    const JointVector rendered = J.transpose() * stacked(result.rendered_P_R);
     ASSERT_LT((result.torque - result.gravity - rendered).norm(), 1e-9);
   }
 }
@@ -310,7 +310,7 @@ TEST(JointTorque, NullSpaceDampingIsNotFeltAtTheTool) {
     request.qd = test::random_joints(random, arm.model, 2.0);
     const JointTorque result = expect_ok(arm, request);
     const JointVector damping = result.torque - result.gravity;
-    const Jacobian J = geometric_jacobian(request.kinematics, request.p_W);
+    const Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
     // no torque that a wrench at the tool would balance
     ASSERT_LT((J * damping).norm(), 1e-10);
     ASSERT_GT(damping.norm(), 1e-6);
@@ -350,7 +350,7 @@ TEST(JointTorque, SixRegularJointsAreNotDamped) {
 
 TEST(JointTorque, SpringsPushAwayFromTheLimitsAndOnlyInTheBand) {
   Arm arm = with_strong_joints(test::desktop6());
-  arm.model.gravity_W.setZero();
+  arm.model.gravity_R.setZero();
   for (int joint = 0; joint < arm.model.joint_count; ++joint) {
     const ArmJoint& limits = arm.model.joints.at(static_cast<std::size_t>(joint));
     const double band = arm.parameters.limit_band;
@@ -382,14 +382,14 @@ TEST(JointTorque, SpringsPushAwayFromTheLimitsAndOnlyInTheBand) {
 TEST(JointTorque, NoWrenchPressesTheArmThroughItsSprings) {
   Random random(10);
   for (Arm arm : {test::lwr(), test::desktop6()}) {
-    arm.model.gravity_W.setZero();
+    arm.model.gravity_R.setZero();
     for (int i = 0; i < 2000; ++i) {
       const int joint = i % arm.model.joint_count;
       const ArmJoint& limits = arm.model.joints.at(static_cast<std::size_t>(joint));
       JointVector q = 0.8 * test::random_positions(random, arm.model);
       q[joint] = limits.upper;
       TorqueRequest request = request_at(arm.model, q);
-      request.F_W = {random.in_cube(1e5), random.in_cube(1e4)};
+      request.F_P_R = {random.in_cube(1e5), random.in_cube(1e4)};
       const JointTorque result = expect_ok(arm, request);
       const double spring =
           std::min(arm.parameters.limit_stiffness[joint] * arm.parameters.limit_band, 0.9 * limits.torque);
@@ -411,14 +411,14 @@ TEST(JointTorque, FadesWhatPushesTowardsALimitFromTheBandOn) {
       const ArmJoint& flange = arm.model.joints[6];
       q[6] = (side > 0.0 ? flange.upper : flange.lower) - side * (1.0 - share) * band;
       TorqueRequest request = request_at(arm.model, q);
-      request.F_W.torque = side * 3.0 * request.kinematics.axis_W[6];
+      request.F_P_R.torque = side * 3.0 * request.kinematics.axis_R[6];
       const double spring = arm.parameters.limit_stiffness[6] * share * band;
       const JointTorque result = expect_ok(arm, request);
       const double towards = side * (result.torque[6] - result.gravity[6]) + spring;
       ASSERT_LE(towards, std::max(1.0 - share, 0.9 * spring / 3.0) * 3.0 + 1e-9) << step;
       ASSERT_LE(last - towards, 3.0 * 0.011) << "evenly, " << step;
       last = towards;
-      request.F_W.torque = -request.F_W.torque;  // away from it: as it is
+      request.F_P_R.torque = -request.F_P_R.torque;  // away from it: as it is
       EXPECT_NEAR(expect_ok(arm, request).scale, 1.0, 1e-12);
     }
   }
@@ -438,17 +438,17 @@ TEST_P(NotFinite, GivesGravityOrNothing) {
     EXPECT_EQ(joint_torque(arm.model, arm.parameters, request, result), Status::kNotFinite);
     EXPECT_TRUE(result.torque == gravity);
     EXPECT_EQ(result.scale, 0.0);
-    EXPECT_TRUE(stacked(result.rendered_W).isZero(0.0));
+    EXPECT_TRUE(stacked(result.rendered_P_R).isZero(0.0));
   };
   for (int i = 0; i < 3; ++i) {
     TorqueRequest request = good;
-    request.F_W.force[i] = bad;
+    request.F_P_R.force[i] = bad;
     expect_gravity(request);
     request = good;
-    request.F_W.torque[i] = bad;
+    request.F_P_R.torque[i] = bad;
     expect_gravity(request);
     request = good;
-    request.p_W[i] = bad;
+    request.p_RP[i] = bad;
     expect_gravity(request);
   }
   for (int i = 0; i < arm.model.joint_count; ++i) {
@@ -464,7 +464,7 @@ TEST_P(NotFinite, GivesGravityOrNothing) {
     EXPECT_TRUE(result.torque.allFinite());
   }
   TorqueRequest request = good;
-  request.kinematics.H_WL[0].translation.x() = bad;
+  request.kinematics.H_RL[0].translation.x() = bad;
   EXPECT_EQ(joint_torque(arm.model, arm.parameters, request, result), Status::kNotFinite);
   EXPECT_TRUE(result.torque.allFinite());
 }
@@ -477,8 +477,8 @@ INSTANTIATE_TEST_SUITE_P(JointTorque, NotFinite,
 TEST(JointTorque, OverflowIsNotFinite) {
   const Arm arm = test::lwr();
   TorqueRequest request = request_at(arm.model, JointVector::Constant(0.4));
-  request.F_W.force.setConstant(std::numeric_limits<double>::max());
-  request.F_W.torque.setConstant(std::numeric_limits<double>::max());
+  request.F_P_R.force.setConstant(std::numeric_limits<double>::max());
+  request.F_P_R.torque.setConstant(std::numeric_limits<double>::max());
   JointTorque result;
   EXPECT_EQ(joint_torque(arm.model, arm.parameters, request, result), Status::kNotFinite);
   EXPECT_TRUE(result.torque == result.gravity);
@@ -494,7 +494,7 @@ TEST(JointTorque, DoesNotAllocate) {
     const Arm& arm = arms[i % 3];
     TorqueRequest request = request_at(arm.model, test::random_positions(random, arm.model));
     request.qd = test::random_joints(random, arm.model, 1.0);
-    request.F_W = {random.in_cube(30.0), random.in_cube(3.0)};
+    request.F_P_R = {random.in_cube(30.0), random.in_cube(3.0)};
     JointTorque result;
     if (validate(arm.model) != Status::kOk) break;
     if (joint_torque(arm.model, arm.parameters, request, result) != Status::kOk) break;

@@ -25,7 +25,7 @@ class Oracle {
       : chain_(test::make_chain(model)),
         pose_(chain_),
         jacobian_(chain_),
-        dynamics_(chain_, test::to_kdl(model.gravity_W)) {}
+        dynamics_(chain_, test::to_kdl(model.gravity_R)) {}
 
   void expect_equal(const ArmModel& model, const JointVector& q) {
     constexpr double kTolerance = 1e-9;  // of metres, Nm and kg m^2 in the hundreds at most
@@ -35,17 +35,17 @@ class Oracle {
     KDL::JntArray positions(size);
     positions.data = q.head(n);
 
-    KDL::Frame H_WM;
-    ASSERT_GE(pose_.JntToCart(positions, H_WM), 0);
-    const Matrix3 R_WM = kinematics.H_WM.rotation.toRotationMatrix();
+    KDL::Frame H_RM;
+    ASSERT_GE(pose_.JntToCart(positions, H_RM), 0);
+    const Matrix3 R_RM = kinematics.H_RM.rotation.toRotationMatrix();
     for (int i = 0; i < 3; ++i) {
-      ASSERT_NEAR(kinematics.H_WM.translation[i], H_WM.p(i), kTolerance);
-      for (int j = 0; j < 3; ++j) ASSERT_NEAR(R_WM(i, j), H_WM.M(i, j), kTolerance);
+      ASSERT_NEAR(kinematics.H_RM.translation[i], H_RM.p(i), kTolerance);
+      for (int j = 0; j < 3; ++j) ASSERT_NEAR(R_RM(i, j), H_RM.M(i, j), kTolerance);
     }
 
     KDL::Jacobian jacobian(size);
     ASSERT_GE(jacobian_.JntToJac(positions, jacobian), 0);
-    const Jacobian ours = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    const Jacobian ours = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     ASSERT_LT((ours.leftCols(n) - jacobian.data).cwiseAbs().maxCoeff(), kTolerance);
     ASSERT_TRUE(ours.rightCols(kMaxJoints - n).isZero(0.0));
 
@@ -97,11 +97,11 @@ TEST(Kinematics, AnyArmIsAsOrocosHasIt) {
   }
 }
 
-/// Two links in the vertical plane: joints about -y of W, q = 0 along x, positive angles upwards.
+/// Two links in the vertical plane: joints about -y of R, q = 0 along x, positive angles upwards.
 ArmModel planar_arm() {
   ArmModel model;
   model.joint_count = 2;
-  model.H_WA.rotation = exp_rotation(Vector3(0.5 * M_PI, 0.0, 0.0));
+  model.H_RA.rotation = exp_rotation(Vector3(0.5 * M_PI, 0.0, 0.0));
   model.joints[1].a = 0.4;
   model.joints[0].link = {2.0, Vector3(0.2, 0.0, 0.0), Vector3(0.0, 0.01, 0.01).asDiagonal()};
   model.joints[1].link = {1.0, Vector3(0.15, 0.0, 0.0), Vector3(0.0, 0.02, 0.02).asDiagonal()};
@@ -118,9 +118,9 @@ TEST(Kinematics, PlanarArmIsAsByHand) {
   const ArmKinematics kinematics = forward_kinematics(model, q);
   const double x = 0.4 * std::cos(q1) + 0.3 * std::cos(q1 + q2);
   const double z = 0.4 * std::sin(q1) + 0.3 * std::sin(q1 + q2);
-  EXPECT_LT((kinematics.H_WM.translation - Vector3(x, 0.0, z)).norm(), 1e-15);
+  EXPECT_LT((kinematics.H_RM.translation - Vector3(x, 0.0, z)).norm(), 1e-15);
 
-  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   const double x2 = 0.3 * std::cos(q1 + q2);
   const double z2 = 0.3 * std::sin(q1 + q2);
   Jacobian expected = Jacobian::Zero();
@@ -144,8 +144,8 @@ TEST(Kinematics, PlanarArmIsAsByHand) {
 /// Velocity of a point of the tool and angular velocity, by central differences of the poses.
 Motion velocity_by_differences(const ArmModel& model, const JointVector& q, const JointVector& qd, const Vector3& p_M) {
   constexpr double kStep = 1e-5;  // error: the step squared times third derivatives, and rounding over the step
-  const Pose before = forward_kinematics(model, q - kStep * qd).H_WM;
-  const Pose after = forward_kinematics(model, q + kStep * qd).H_WM;
+  const Pose before = forward_kinematics(model, q - kStep * qd).H_RM;
+  const Pose after = forward_kinematics(model, q + kStep * qd).H_RM;
   return {(after * p_M - before * p_M) / (2.0 * kStep),
           log_rotation(after.rotation * before.rotation.conjugate()) / (2.0 * kStep)};
 }
@@ -158,7 +158,7 @@ TEST(Kinematics, PowerAtTheToolIsPowerAtTheJoints) {
     const JointVector qd = test::random_joints(random, model, 1.0);
     const ArmKinematics kinematics = forward_kinematics(model, q);
     const Vector3 p_M = random.in_cube(0.5);
-    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM * p_M);
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM * p_M);
     const Motion expected = velocity_by_differences(model, q, qd, p_M);
     const Motion velocity = tool_velocity(J, qd);
     ASSERT_LT((velocity.translation - expected.translation).norm(), 1e-7) << i;
@@ -172,11 +172,11 @@ TEST(Kinematics, PowerAtTheToolIsPowerAtTheJoints) {
 
 double potential_energy(const ArmModel& model, const JointVector& q) {
   const ArmKinematics kinematics = forward_kinematics(model, q);
-  double energy = -model.payload.mass * model.gravity_W.dot(kinematics.H_WM * model.payload.com);
+  double energy = -model.payload.mass * model.gravity_R.dot(kinematics.H_RM * model.payload.com);
   for (int i = 0; i < model.joint_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const LinkMass& link = model.joints.at(k).link;
-    energy -= link.mass * model.gravity_W.dot(kinematics.H_WL.at(k) * link.com);
+    energy -= link.mass * model.gravity_R.dot(kinematics.H_RL.at(k) * link.com);
   }
   return energy;
 }
@@ -201,7 +201,7 @@ TEST(Dynamics, FarFromTheOriginOnlyPositionsAreLost) {
   Random random(6);
   const JointVector q = test::random_positions(random, arm.model);
   const JointMatrix near = mass_matrix(arm.model, forward_kinematics(arm.model, q));
-  arm.model.H_WA.translation = Vector3(1e4, -1e4, 1e4);
+  arm.model.H_RA.translation = Vector3(1e4, -1e4, 1e4);
   const JointMatrix far = mass_matrix(arm.model, forward_kinematics(arm.model, q));
   EXPECT_LT((near - far).cwiseAbs().maxCoeff(), 1e-10);  // metres are good to 1e4 * 2^-52
 }

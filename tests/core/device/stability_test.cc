@@ -139,7 +139,7 @@ ArmLoop arm_loop(const Arm& arm, const JointVector& q) {
   for (int i = 0; i < arm.model.joint_count; ++i) {
     loop.damping[i] = arm.model.joints.at(static_cast<std::size_t>(i)).damping;
   }
-  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   loop.stiffness = 1000.0;
   loop.rotation_stiffness = 10.0;
   loop.tool_damping = 2.0;
@@ -263,8 +263,8 @@ TEST(ArmLoop, RefusesWhatIsNoLoop) {
   EXPECT_TRUE(std::isinf(radius_after([](ArmLoop& l) { l.timing.velocity_window = 1; })));
 }
 
-/// What the device files promise: springs at the position limits are stable on each joint alone, the other joints free,
-/// and so is the damping, with a delay of a period and a half.
+/// Checks the promise of the device files: the springs at the position limits are stable on each joint alone, while the
+/// other joints are free. So is the damping. The delay is a period and a half.
 TEST(DeviceFiles, SpringsAndDampingAreStable) {
   Random random(4);
   for (const Arm& arm : {test::lwr(), test::desktop6()}) {

@@ -45,7 +45,7 @@ SceneDescription balls() {
 
 class GodObjectTest : public testing::Test {
  protected:
-  GodObjectTest() : image_(build_scene_image(balls())) { EXPECT_EQ(Scene::open(image_.bytes(), scene_), Status::kOk); }
+  GodObjectTest() : image_(build_scene_image(balls())) { EXPECT_EQ(SceneView::open(image_.bytes(), scene_), Status::kOk); }
 
   /// Mesh pose with the body's centre at `center`, turned by `r`.
   Pose mesh_pose(const Vector3& center, const Vector3& r = Vector3::Zero()) const {
@@ -64,7 +64,7 @@ class GodObjectTest : public testing::Test {
   }
 
   SceneImage image_;
-  Scene scene_;
+  SceneView scene_;
 };
 
 struct Pipeline {
@@ -74,7 +74,7 @@ struct Pipeline {
 constexpr Pipeline kPipelines[] = {{Solver::kPaper, false},    {Solver::kPaper, true},    {Solver::kCorrected, false},
                                    {Solver::kCorrected, true}, {Solver::kContact, false}, {Solver::kContact, true}};
 
-/// What every pipeline promises.
+/// Tests that hold for every pipeline: for each solver, with and without friction.
 class EachPipeline : public GodObjectTest, public testing::WithParamInterface<Pipeline> {
  protected:
   void start() { ASSERT_EQ(god_object_.start(scene_, GetParam().solver, GetParam().friction, false), Status::kOk); }
@@ -264,9 +264,9 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
   const test::SceneImage all_image = build_scene_image(small);
   small.settings.point_budget = 3;
   const test::SceneImage few_image = build_scene_image(small);
-  Scene all_scene, few_scene;
-  ASSERT_EQ(Scene::open(all_image.bytes(), all_scene), Status::kOk);
-  ASSERT_EQ(Scene::open(few_image.bytes(), few_scene), Status::kOk);
+  SceneView all_scene, few_scene;
+  ASSERT_EQ(SceneView::open(all_image.bytes(), all_scene), Status::kOk);
+  ASSERT_EQ(SceneView::open(few_image.bytes(), few_scene), Status::kOk);
   OwnedGodObject all, few;
   ASSERT_EQ(all.start(all_scene, Solver::kContact, false), Status::kOk);
   ASSERT_EQ(few.start(few_scene, Solver::kContact, false), Status::kOk);
@@ -291,8 +291,8 @@ TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   lean.normals.clear();
   lean.settings.friction = 0;
   const SceneImage image = build_scene_image(lean);
-  Scene scene;
-  ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
+  SceneView scene;
+  ASSERT_EQ(SceneView::open(image.bytes(), scene), Status::kOk);
   OwnedGodObject god_object;
   EXPECT_EQ(god_object.start(scene, Solver::kPaper, false), Status::kNotInImage);
   EXPECT_EQ(god_object.start(scene, Solver::kCorrected, true), Status::kNotInImage);

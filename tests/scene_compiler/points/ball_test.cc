@@ -212,7 +212,7 @@ class BallScene : public testing::Test {
 TEST_F(BallScene, HoldsOnePointAndNothingOfTheSecondDirection) {
   const CompileReport report = compile({});
   ASSERT_TRUE(report.ball);
-  const Scene& scene = files::SceneImage::read(folder_.file("out.scene")).scene;
+  const SceneView& scene = files::SceneImage::read(folder_.file("out.scene")).scene;
   EXPECT_EQ(scene.pointshell.size, 1u);
   EXPECT_EQ(scene.pointshell.point(0), Vector3::Zero());
   EXPECT_LT((scene.H_MB.translation - kCenter).norm(), 1e-8);
@@ -297,7 +297,7 @@ INSTANTIATE_TEST_SUITE_P(OfTolerance, BallOnCube, testing::Values(Tolerated{0.05
 TEST_F(BallScene, StandsWhereTheCycleOfManyPointsHasItsCentre) {
   compile({});
   Rendered ball(folder_.file("out.scene"));
-  const Scene& scene = ball.image.scene;
+  const SceneView& scene = ball.image.scene;
   const Parameters& parameters = ball.god_object.parameters();
   const ContactScene<Voxelmap, Voxelmap> contact(scene.voxelmap, scene.pointshell, {}, parameters);
   const auto memory = std::make_unique<ContactMemory>();

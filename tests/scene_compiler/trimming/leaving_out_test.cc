@@ -65,7 +65,7 @@ class LeavesOut : public testing::Test {
 
 class Session {
  public:
-  Session(const Scene& scene, Solver solver, bool friction)
+  Session(const SceneView& scene, Solver solver, bool friction)
       : H_BM_(scene.H_MB.inverse()) {
     EXPECT_EQ(god_object_.start(scene, solver, friction), Status::kOk);
   }
@@ -82,7 +82,7 @@ class Session {
 
 /// Moves devices in the workspace and a little outside, with all solvers. Both scenes must give the same bits. Returns
 /// the number of cycles with contact.
-int expect_same_bits(const Scene& all, const Scene& less, int sessions, std::uint32_t seed) {
+int expect_same_bits(const SceneView& all, const SceneView& less, int sessions, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -135,8 +135,8 @@ const LeftOut* item(const CompileReport& report, const char* words) {
 }
 
 /// Returns the complete scene, limited to the workspace.
-Scene limited(const Scene& scene, const format::Workspace& workspace) {
-  Scene all = scene;
+SceneView limited(const SceneView& scene, const format::Workspace& workspace) {
+  SceneView all = scene;
   all.workspace.limited = true;
   all.workspace.low = Vector3(workspace.low[0], workspace.low[1], workspace.low[2]);
   all.workspace.high = Vector3(workspace.high[0], workspace.high[1], workspace.high[2]);
@@ -236,7 +236,7 @@ TEST_F(LeavesOut, PointsInACavity) {
 /// The scene of an image with more points in a sphere about `center` (in M), as the last leaf.
 class WithMorePoints {
  public:
-  WithMorePoints(const Scene& scene, std::span<const Vector3> more_M, const Vector3& center_M) : scene_(scene) {
+  WithMorePoints(const SceneView& scene, std::span<const Vector3> more_M, const Vector3& center_M) : scene_(scene) {
     const Pointshell& shell = scene.pointshell;
     const std::array<const float*, 6> from = {shell.x,        shell.y,        shell.z,
                                               shell.normal_x, shell.normal_y, shell.normal_z};
@@ -265,10 +265,10 @@ class WithMorePoints {
     scene_.pointshell = {axes_[0].size(), axes_[0].data(), axes_[1].data(), axes_[2].data(),
                          axes_[3].data(), axes_[4].data(), axes_[5].data(), nodes_};
   }
-  const Scene& scene() const { return scene_; }
+  const SceneView& scene() const { return scene_; }
 
  private:
-  Scene scene_;
+  SceneView scene_;
   std::array<std::vector<float>, 6> axes_;
   std::vector<format::Node> nodes_;
 };
@@ -433,15 +433,15 @@ TEST_F(LeavesOut, NothingWithoutAWorkspaceThatIsReachableEverywhere) {
 TEST_F(LeavesOut, LevelsThatChangeNoResult) {
   compile(kBracket.text(), "all.scene");
   const files::SceneImage whole = image("all.scene");
-  const Scene& all = whole.scene;
-  const Scene limited_all = limited(all, {{-0.06, -0.06, -0.06}, {0.16, 0.12, 0.14}});
+  const SceneView& all = whole.scene;
+  const SceneView limited_all = limited(all, {{-0.06, -0.06, -0.06}, {0.16, 0.12, 0.14}});
   const std::uint32_t deepest = deepest_level(all.pointshell.nodes);
   ASSERT_GE(deepest, 2u);
   std::vector<format::Node> fewer(all.pointshell.nodes.begin(), all.pointshell.nodes.end());
   for (std::uint32_t level = deepest; level > 0; --level) {
     fewer = without_level(fewer, level);
     const auto features = without_level(all.features.nodes, 1 + level % deepest_level(all.features.nodes));
-    Scene scene = limited_all;
+    SceneView scene = limited_all;
     scene.pointshell.nodes = fewer;
     scene.features.nodes = features;
     EXPECT_GT(expect_same_bits(limited_all, scene, 2, level), 100);
@@ -461,7 +461,7 @@ TEST_F(LeavesOut, LevelsOnlyWhereNoMoreIsLookedUp) {
     ASSERT_GT(poses.size(), 1000u);
     for (const Tree tree : {Tree::kSamples, Tree::kFeatures}) {
       // the compiler removed useless levels; a tree with one more level, a node over each leaf, needs more look-ups
-      Scene scene = whole.scene;
+      SceneView scene = whole.scene;
       std::span<const format::Node>& nodes = tree == Tree::kSamples ? scene.pointshell.nodes : scene.features.nodes;
       EXPECT_EQ(lean_tree(scene, tree, poses).levels_left_out, 0u);
       std::vector<format::Node> more_nodes;

@@ -16,7 +16,7 @@ Body make_body(const std::string& name, const scene_compiler::TriangleMesh& mesh
   return {file, points, compile(name + "-body", text, folder)};
 }
 
-std::vector<Vector3> points_B(const Scene& scene) {
+std::vector<Vector3> points_B(const SceneView& scene) {
   std::vector<Vector3> points;
   for (std::size_t i = 0; i < scene.pointshell.size; ++i) points.push_back(scene.pointshell.point(i));
   return points;

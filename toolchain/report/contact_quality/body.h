@@ -16,7 +16,7 @@ struct Body {
   std::uint32_t points = 0;    ///< requested number
   files::SceneImage image;   ///< image of a scene with this body and any still body
 
-  const Scene& scene() const { return image.scene; }
+  const SceneView& scene() const { return image.scene; }
 };
 
 /// Number of levels of every body's sphere tree.
@@ -27,6 +27,6 @@ Body make_body(const std::string& name, const scene_compiler::TriangleMesh& mesh
                const std::filesystem::path& folder);
 
 /// Returns the sample points in the body frame B.
-std::vector<Vector3> points_B(const Scene& scene);
+std::vector<Vector3> points_B(const SceneView& scene);
 
 }  // namespace godobject::report

@@ -43,7 +43,7 @@ class CompiledWorld : public World {
   }
 
   double true_depth(const Pose& H_WS) const override {
-    const Scene& scene = image_.scene;
+    const SceneView& scene = image_.scene;
     const double near = 0.5 * scene.grid.voxel_size;  // largest error of interpolation at an edge
     double deepest = -near;
     visit_points_below(near, scene.voxelmap, scene.pointshell, H_WS, [&](std::size_t, const Vector3& p_W) {

@@ -52,9 +52,9 @@ JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
   for (int i = 0; i < 3; ++i) {
     const ArmKinematics kinematics = forward_kinematics(model, q);
     Eigen::Matrix<double, 6, 1> off;
-    off << H_RM.translation - kinematics.H_WM.translation,
-        log_rotation(H_RM.rotation * kinematics.H_WM.rotation.conjugate());
-    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    off << H_RM.translation - kinematics.H_RM.translation,
+        log_rotation(H_RM.rotation * kinematics.H_RM.rotation.conjugate());
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     Eigen::Matrix<double, 6, 6> A = J * J.transpose();
     A.diagonal().array() += kSingular;
     q += J.transpose() * A.inverse() * off;
@@ -79,10 +79,11 @@ class Unsupervised {
     request.q = cycle.record.q;
     request.qd = cycle.record.qd;
     request.kinematics = forward_kinematics(*setup_.arm, request.q);
-    request.p_W = request.kinematics.H_WM * setup_.scene->H_MB.translation;
-    const Motion velocity = tool_velocity(geometric_jacobian(request.kinematics, request.p_W), request.qd);
+    request.p_RP = request.kinematics.H_RM * setup_.scene->H_MB.translation;
+    const Motion velocity = tool_velocity(geometric_jacobian(request.kinematics, request.p_RP), request.qd);
     if (god_object_->update({cycle.record.H_WM, velocity}, report_) == Status::kOk) {
-      request.F_W = limit_at_hand(setup_.hand, report_.force.total_W, velocity).wrench_R;
+      const Wrench& F_G_R = report_.force.total_W;  // this workspace is neither turned nor scaled
+      request.F_P_R = limit_at_hand(setup_.hand, F_G_R, velocity).F_G_R;
     }
     JointTorque torque;
     static_cast<void>(joint_torque(*setup_.arm, *setup_.joint_torque, request, torque));
@@ -91,7 +92,7 @@ class Unsupervised {
     all.share = 1.0;
     cycle.computed_at_once = torque.torque;
     cycle.sent_at_once = limiter_.apply(all, {torque.gravity, torque.torque - torque.gravity}, request.qd);
-    cycle.wrench_W = report_.force.total_W;
+    cycle.F_B_W = report_.force.total_W;
     cycle.outcome = report_.outcome;
     cycle.contacts = report_.contacts;
   }
@@ -116,7 +117,7 @@ std::vector<LedCycle> lead(const LedArm& arm, std::span<const Pose> path) {
   const ControllerConfig::Workspace at_start = workspace(path.front());
   const Placement placement = place(at_start, *arm.device, arm.scene->H_MB.translation);
   const ArmModel& model = placement.device.model;
-  files::AlignedBytes memory(GodObject::memory_size(CompiledScene::of(*arm.scene)));
+  files::AlignedBytes memory(GodObject::memory_size(Scene::of(*arm.scene)));
   CycleSetup setup;
   setup.scene = arm.scene;
   setup.solver = arm.solver;

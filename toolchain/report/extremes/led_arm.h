@@ -6,13 +6,13 @@
 
 #include "toolchain/session/owned_god_object.h"
 #include "firmware/configuration/controller_file.h"
-#include "firmware/control_cycle.h"
+#include "firmware/cycle/control_cycle.h"
 
 namespace godobject::report {
 
 /// An arm in a scene, and the limits of its torques. Scene and device must outlive the runs.
 struct LedArm {
-  const Scene* scene = nullptr;
+  const SceneView* scene = nullptr;
   const firmware::Device* device = nullptr;
   Solver solver = Solver::kContact;
   bool friction = false;
@@ -26,9 +26,9 @@ struct LedCycle {
   /// Torques that a controller which renders fully from the first cycle on would compute and send [Nm].
   JointVector computed_at_once = JointVector::Zero();
   JointVector sent_at_once = JointVector::Zero();
-  Wrench wrench_W;                   ///< wrench of that solver, before any limit
-  Outcome outcome = Outcome::kFree;  ///< outcome of that solver
-  std::uint32_t contacts = 0;        ///< contacts of that solver
+  Wrench F_B_W;                      ///< of the solver in that case, before any limit
+  Outcome outcome = Outcome::kFree;  ///< the same
+  std::uint32_t contacts = 0;        ///< the same
 };
 
 /// Runs the whole control cycle on an arm whose joints follow the poses of the moving mesh, H_WM, one per millisecond,

@@ -36,7 +36,7 @@ struct LookUps {
   std::int64_t wrong_sign = 0;  ///< only where the exact distance exceeds a voxel
 };
 
-LookUps look_up(const Scene& scene, const Vector3& half, int count, bool open) {
+LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   LookUps found;

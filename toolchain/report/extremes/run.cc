@@ -216,7 +216,7 @@ class CompiledRig final : public Rig {
  public:
   CompiledRig(const Setup& setup, const std::filesystem::path& work)
       : image_(compile("fuzz", text_of(setup, work), work)) {
-    Scene& scene = image_.scene;
+    SceneView& scene = image_.scene;
     scene.settings.damping = setup.damping;
     H_BM_ = scene.H_MB.inverse();
     started_ = god_object_.start(scene, setup.solver, setup.friction);
@@ -236,7 +236,7 @@ class CompiledRig final : public Rig {
     return smallest_distance(image_.scene.voxelmap, image_.scene.pointshell, H_WS);
   }
   std::vector<Touch> touches(const Pose& H_WS) const override {
-    const Scene& scene = image_.scene;
+    const SceneView& scene = image_.scene;
     const double reach = search_radius_of(god_object_.parameters());
     std::vector<Touch> touches = sample_touches(scene.voxelmap, scene.pointshell, H_WS, reach);
     if (!scene.has_features()) return touches;

@@ -26,19 +26,19 @@ Vector3 half_of_body(Place place) {
   return kMillimetre * (place == Place::kGridBorder ? Vector3(30.0, 4.0, 4.0) : Vector3(10.0, 8.0, 6.0));
 }
 
-Vector3 top_of_grid(const Scene& scene) {
+Vector3 top_of_grid(const SceneView& scene) {
   const Vector3 bricks(scene.grid.bricks[0], scene.grid.bricks[1], scene.grid.bricks[2]);
   return Eigen::Map<const Vector3>(scene.grid.origin) + format::kBrickCells * scene.grid.voxel_size * bricks;
 }
 
 /// Tells if the field knows of p only that it is inside.
-bool is_beyond_band(const Scene& scene, const Vector3& p_W) {
+bool is_beyond_band(const SceneView& scene, const Vector3& p_W) {
   const FieldSample sample = scene.voxelmap.sample(p_W);
   return !sample.known && sample.distance < 0.0;
 }
 
 /// Tells if the arm is at the place in this cycle.
-bool is_there(Place place, const Scene& scene, const LedCycle& cycle) {
+bool is_there(Place place, const SceneView& scene, const LedCycle& cycle) {
   const Pose& H_WM = cycle.record.H_WM;
   const Vector3& p_W = H_WM.translation;
   const bool all_rendered = cycle.record.share == 1.0;
@@ -94,7 +94,7 @@ files::SceneImage place_scene(Place place, const std::filesystem::path& work) {
                  work);
 }
 
-std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed) {
+std::vector<Pose> place_path(Place place, const SceneView& scene, std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto between = [&random](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
@@ -155,7 +155,7 @@ void TorqueSteps::add(const TorqueSteps& other) {
   raise(force, other.force);
 }
 
-TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device& device, Solver solver, bool friction,
+TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver, bool friction,
                          const firmware::TorqueLimits& used, std::uint32_t seed) {
   const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, used}, place_path(place, scene, seed));
   TorqueSteps found{.cycles = static_cast<std::int64_t>(cycles.size())};
@@ -165,7 +165,7 @@ TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device
     raise(found.sent, largest_step(device.model, cycle.sent, before.sent));
     raise(found.sent_at_once, largest_step(device.model, cycle.sent_at_once, before.sent_at_once));
     raise(found.computed, largest_step(device.model, cycle.computed_at_once, before.computed_at_once));
-    raise(found.force, (cycle.wrench_W.force - before.wrench_W.force).norm());
+    raise(found.force, (cycle.F_B_W.force - before.F_B_W.force).norm());
     if (is_there(place, scene, cycle)) ++found.there;
     if (cycle.record.share == 1.0) ++found.rendered;
     before = cycle;

@@ -7,7 +7,7 @@
 
 #include "godobject/god_object.h"
 #include "firmware/configuration/device_file.h"
-#include "firmware/torque_limiter.h"
+#include "firmware/cycle/torque_limiter.h"
 #include "godobject/pose.h"
 #include "toolchain/files/scene_image.h"
 #include "toolchain/report/study/case.h"
@@ -30,7 +30,7 @@ extern const std::size_t kPlaceCount;
 files::SceneImage place_scene(Place place, const std::filesystem::path& work);
 
 /// Returns a path to the place and back at less than 0.3 m/s: H_WM, one pose per millisecond. It depends on the seed.
-std::vector<Pose> place_path(Place place, const Scene& scene, std::uint32_t seed);
+std::vector<Pose> place_path(Place place, const SceneView& scene, std::uint32_t seed);
 
 /// Results of runs at a place.
 struct TorqueSteps {
@@ -48,7 +48,7 @@ struct TorqueSteps {
 };
 
 /// Runs one path. `used`: limits of the controller; the judgement always uses 5 %.
-TorqueSteps torque_steps(Place place, const Scene& scene, const firmware::Device& device, Solver solver, bool friction,
+TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver, bool friction,
                          const firmware::TorqueLimits& used, std::uint32_t seed);
 
 /// Runs all solvers, with and without friction, for `cycles` or a little more.

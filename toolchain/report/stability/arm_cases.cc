@@ -49,7 +49,7 @@ ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& cou
   loop.joint_count = model.joint_count;
   loop.mass = mass_matrix(model, kinematics);
   for (int i = 0; i < model.joint_count; ++i) loop.damping[i] = model.joints.at(static_cast<std::size_t>(i)).damping;
-  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+  loop.jacobian = geometric_jacobian(kinematics, kinematics.H_RM.translation);
   loop.stiffness = coupling.stiffness;
   loop.rotation_stiffness = coupling.rotation_stiffness;
   loop.tool_damping = coupling.damping;
@@ -69,7 +69,7 @@ class CoupledArm {
         hardware_(ideal_hardware()),
         drives_(plant_, hardware_, {kPeriod_ns, std::llround(1e9 * delay)}),
         clock_(drives_) {
-    target_ = forward_kinematics(model, q).H_WM;
+    target_ = forward_kinematics(model, q).H_RM;
     // released a hundredth of a millimetre and of a milliradian away, in a random direction
     target_.translation += 1e-5 * Vector3(0.6, -0.5, 0.62);
     target_.rotation = exp_rotation(1e-5 * Vector3(-0.4, 0.7, 0.6)) * target_.rotation;
@@ -98,8 +98,8 @@ class CoupledArm {
     drives_.receive(reading);
     const ArmKinematics kinematics = forward_kinematics(model_, reading.position);
     Motion x;
-    x.translation = kinematics.H_WM.translation - target_.translation;
-    x.rotation = log_rotation(kinematics.H_WM.rotation * target_.rotation.conjugate());
+    x.translation = kinematics.H_RM.translation - target_.translation;
+    x.rotation = log_rotation(kinematics.H_RM.rotation * target_.rotation.conjugate());
     if (!started_) x_before_ = x;
     started_ = true;
     Eigen::Matrix<double, 6, 1> wrench;
@@ -108,7 +108,7 @@ class CoupledArm {
         -coupling_.rotation_stiffness * x.rotation -
             coupling_.rotation_damping / kPeriod * (x.rotation - x_before_.rotation);
     x_before_ = x;
-    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_WM.translation);
+    const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     static_cast<void>(drives_.send({J.transpose() * wrench, hal::PowerRequest::kEnable}));
     deadline_ns_ += kPeriod_ns;
     clock_.sleep_until(deadline_ns_);
@@ -146,7 +146,7 @@ JointVector posture(const ArmModel& model, std::mt19937& random) {
 /// A4 on the whole matrix: finds the boundary between 0.98 and 1.02 of the exact one, at random postures.
 CaseResult whole_arm(const firmware::Device& device, const Coupling& coupling, bool quick) {
   ArmModel model = device.model;
-  model.gravity_W.setZero();
+  model.gravity_R.setZero();
   CaseResult result;
   Sheet sheet{.name = "stability_arm",
               .columns = {"device", "posture", "t_d_ms", "margin_exact", "margin_simulated", "passivity_excess"},
@@ -263,7 +263,7 @@ ArmModel rotors(const hal::BusLayout& layout) {
     joint.upper = 10.0;
     joint.velocity = 10.0;
   }
-  model.gravity_W.setZero();
+  model.gravity_R.setZero();
   return model;
 }
 

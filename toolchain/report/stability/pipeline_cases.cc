@@ -48,7 +48,7 @@ class Press {
   }
 
   static constexpr double kTouching = 0.005;  ///< height of the body's middle [m]
-  const Scene& scene() const { return image_.scene; }
+  const SceneView& scene() const { return image_.scene; }
 
  private:
   Press(const std::string& name, const TriangleMesh& body, const std::filesystem::path& work)
@@ -180,7 +180,7 @@ class SwingWidths {
 /// Holds the body with the spring `kPressed` long until it is still, then releases it with `push` [m/s] and `turn`
 /// [rad/s]. Growth beyond the linear range counts as infinite.
 Swings release(const Press& press, const Floating& floating, double push, double turn) {
-  Scene scene = press.scene();
+  SceneView scene = press.scene();
   scene.settings.stiffness = floating.stiffness;
   scene.settings.damping = floating.height.virtual_damping;
   scene.settings.coupling_rotation = floating.coupling_rotation;
@@ -342,7 +342,7 @@ CaseResult pipeline_observer(bool quick, const std::filesystem::path& work) {
   for (std::uint32_t s = 0; s < format::kSolverCount; ++s) {
     const auto solver = static_cast<Solver>(s);
     double lowest = 0.0;
-    const Scene& scene = press.scene();
+    const SceneView& scene = press.scene();
     for (unsigned seed = 1; seed <= (quick ? 3u : 20u); ++seed) {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> phase(0.0, 2.0 * M_PI);

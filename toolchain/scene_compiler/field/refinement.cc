@@ -22,7 +22,7 @@ namespace godobject::scene_compiler {
 namespace {
 
 constexpr double kSlack = 0.85;  // of the tolerance: between the points that are looked at it may be worse
-/// Of the refined field before it is rounded; Scene::open takes gradients up to 2 and what rounding adds.
+/// Of the refined field before it is rounded; SceneView::open takes gradients up to 2 and what rounding adds.
 constexpr double kSteepest = 1.95;
 constexpr double kWidestTube = 2.4;  // about a straight edge, in voxels
 

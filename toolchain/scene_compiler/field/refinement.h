@@ -18,8 +18,8 @@ struct RefinementReport {
   std::uint64_t bytes() const { return finer * sizeof(format::Brick) + refined * sizeof(format::Refined); }
 };
 
-/// How far outside the surface the stored one may lie, in tolerances. Chosen: penetration is worse than a force that
-/// starts early, by 0.25 voxels at the default tolerance.
+/// The stored surface may lie this far outside the exact one, in tolerances. A chosen value: penetration is worse than
+/// a force that starts too early, by 0.25 voxels at the default tolerance.
 inline constexpr double kHeldOff = 5.0;
 
 /// Refines `field` until it represents the surface of a solid, or the offset surface of a shell, within `tolerance`

@@ -6,7 +6,7 @@
 
 namespace godobject::scene_compiler {
 
-SceneTraits traits_of(const Scene& scene) noexcept {
+SceneTraits traits_of(const SceneView& scene) noexcept {
   SceneTraits traits;
   traits.paper = scene.holds(format::Solver::kPaper);
   traits.corrected = scene.holds(format::Solver::kCorrected);

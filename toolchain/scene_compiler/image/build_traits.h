@@ -7,7 +7,7 @@
 namespace godobject::scene_compiler {
 
 /// Returns the parts of the core that the image uses.
-SceneTraits traits_of(const Scene& scene) noexcept;
+SceneTraits traits_of(const SceneView& scene) noexcept;
 
 /// Returns the traits as the file that -DGODOBJECT_SCENE reads (toolchain/cmake/scene_traits.cmake). `scene_name`
 /// appears in a comment.

@@ -107,7 +107,7 @@ Json body_json(const format::Body& b) {
 }
 
 Json inspect_json(const files::SceneImage& image) {
-  const Scene& scene = image.scene;
+  const SceneView& scene = image.scene;
   format::Header header{};
   std::copy_n(image.bytes.span().data(), sizeof(header), reinterpret_cast<std::byte*>(&header));
   Json sections;

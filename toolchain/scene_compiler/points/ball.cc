@@ -117,7 +117,7 @@ MovingBody make_ball_body(const Ball& ball) {
   return moving;
 }
 
-double ball_radius(const Scene& scene) {
+double ball_radius(const SceneView& scene) {
   const auto* const begin = reinterpret_cast<const char*>(scene.provenance.data());
   const auto told = nlohmann::json::parse(begin, begin + scene.provenance.size(), nullptr, false);
   const auto at = nlohmann::json::json_pointer("/ball/radius");

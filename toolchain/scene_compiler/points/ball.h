@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 #include "toolchain/scene_compiler/points/moving_body.h"
 
@@ -43,6 +43,6 @@ MovingBody make_ball_body(const Ball& ball);
 
 /// Returns the radius by which an image's distances are reduced, from its provenance; 0 if its moving body is no ball
 /// [m].
-double ball_radius(const Scene& scene);
+double ball_radius(const SceneView& scene);
 
 }  // namespace godobject::scene_compiler

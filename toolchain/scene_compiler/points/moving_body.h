@@ -29,7 +29,7 @@ struct MovingBody {
   std::vector<format::Node> nodes;
 };
 
-/// How evenly the points of the moving body cover its surface.
+/// The evenness with which the points of the moving body cover its surface.
 struct PointSpread {
   std::vector<std::uint32_t> level_sizes;  ///< samples of level 1 .. level_count; the last is the number of points
   double spacing = 0.0;   ///< median distance of a point to the nearest one on its side of the body [m]

@@ -31,7 +31,7 @@ void TrimmingSteps::step(const std::string& what, const SceneParts& parts, const
 
 std::optional<CycleTimes> TrimmingSteps::time(const parallel::Progress& progress) const {
   if (images_.size() < 2) return {};
-  std::vector<const Scene*> scenes;
+  std::vector<const SceneView*> scenes;
   for (const files::SceneImage& image : images_) scenes.push_back(&image.scene);
   const std::vector<Pose> motion = try_out_motion(*scenes.front());
   if (motion.empty()) return {};

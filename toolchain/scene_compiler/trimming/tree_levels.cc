@@ -87,7 +87,7 @@ static_assert(DistanceField<CountingField>);
 template <class Direction>
 class NearWork {
  public:
-  NearWork(const Scene& scene, const Direction& direction, const Pointshell& shell, const CountingField& field)
+  NearWork(const SceneView& scene, const Direction& direction, const Pointshell& shell, const CountingField& field)
       : scene_(scene),
         direction_(direction),
         shell_(shell),
@@ -113,7 +113,7 @@ class NearWork {
   }
 
  private:
-  const Scene& scene_;
+  const SceneView& scene_;
   Direction direction_;
   const Pointshell& shell_;
   const CountingField& field_;
@@ -149,7 +149,7 @@ std::vector<Node> without_level(std::span<const Node> nodes, std::uint32_t level
   return Rebuilding(nodes, level).make();
 }
 
-SearchWork search_work(const Scene& scene, Tree tree, std::span<const Pose> poses_WB) {
+SearchWork search_work(const SceneView& scene, Tree tree, std::span<const Pose> poses_WB) {
   double cost = 0.0;
   const CountingField field(tree == Tree::kSamples ? scene.voxelmap : scene.body_map, cost);
   const Parameters q = Parameters::make(scene);
@@ -168,8 +168,8 @@ SearchWork search_work(const Scene& scene, Tree tree, std::span<const Pose> pose
   });
 }
 
-LeanTree lean_tree(const Scene& scene, Tree tree, std::span<const Pose> poses_WB) {
-  Scene tried = scene;
+LeanTree lean_tree(const SceneView& scene, Tree tree, std::span<const Pose> poses_WB) {
+  SceneView tried = scene;
   std::span<const Node>& nodes = tree == Tree::kSamples ? tried.pointshell.nodes : tried.features.nodes;
   LeanTree lean{{nodes.begin(), nodes.end()}};
   SearchWork work = search_work(tried, tree, poses_WB);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/scene/format.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/pose.h"
 
 namespace godobject::scene_compiler {
@@ -29,8 +29,8 @@ struct SearchWork {
 enum class Tree { kSamples, kFeatures };
 
 /// Counts the look-ups. `poses_WB`: poses of the god object, one for each cycle. `contact` searches the tree with its
-/// memory. `paper` and `corrected` start anew in every cycle.
-SearchWork search_work(const Scene& scene, Tree tree, std::span<const Pose> poses_WB);
+/// memory. `paper` and `corrected` start again at the root in every cycle.
+SearchWork search_work(const SceneView& scene, Tree tree, std::span<const Pose> poses_WB);
 
 struct LeanTree {
   std::vector<format::Node> nodes;
@@ -41,6 +41,6 @@ struct LeanTree {
 /// long as step #1 needs no more look-ups on average, and in the worst cycle at most kMostGrowth times as many as with
 /// the whole tree.
 inline constexpr double kMostGrowth = 1.01;
-LeanTree lean_tree(const Scene& scene, Tree tree, std::span<const Pose> poses_WB);
+LeanTree lean_tree(const SceneView& scene, Tree tree, std::span<const Pose> poses_WB);
 
 }  // namespace godobject::scene_compiler

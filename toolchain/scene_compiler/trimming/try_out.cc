@@ -26,7 +26,7 @@ constexpr std::chrono::seconds kLongest{4};
 /// One session of the scene's own pipeline.
 class Session {
  public:
-  explicit Session(const Scene& scene) {
+  explicit Session(const SceneView& scene) {
     if (god_object_.start(scene, scene.default_solver(), scene.settings.friction != 0) != Status::kOk)
       throw command::Failure(command::ExitCode::kInternal,
                              "the image cannot run its own solver; please report this scene");
@@ -87,8 +87,8 @@ class Draw {
   std::uniform_real_distribution<double> share_{0.0, 1.0};
 };
 
-/// Appends the motion from free space to the touch pose and deeper, to and fro, and back. Places in voxels, along
-/// `into` and across it.
+/// Appends the motion from free space to the touch pose and deeper, along the surface back and forth, and out again.
+/// The places are in voxels, along `into` and across it.
 void press(const Pose& H_WB, const Vector3& into, const Vector3& along, double s, std::vector<Pose>& poses) {
   constexpr int kCycles = 100;  // of each leg
   struct Place {
@@ -110,7 +110,7 @@ void press(const Pose& H_WB, const Vector3& into, const Vector3& along, double s
 
 }  // namespace
 
-std::vector<Pose> try_out_motion(const Scene& scene) {
+std::vector<Pose> try_out_motion(const SceneView& scene) {
   constexpr double kStep = 0.25;  // voxels for each cycle of the approach
   constexpr int kMostCycles = 4000;
   const double s = scene.grid.voxel_size;
@@ -148,7 +148,7 @@ std::vector<Pose> try_out_motion(const Scene& scene) {
   return motion;
 }
 
-std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion) {
+std::vector<Pose> poses_along(const SceneView& scene, std::span<const Pose> motion) {
   Session session(scene);
   std::vector<Pose> poses;
   for (const Pose& H_WM : motion) {
@@ -158,7 +158,7 @@ std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion) 
   return poses;
 }
 
-CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion,
+CycleTimes time_cycles(std::span<const SceneView* const> scenes, std::span<const Pose> motion,
                        const parallel::Progress& progress) {
   std::vector<std::vector<double>> runs(scenes.size());  // mean time of a cycle [ns]
   const auto begin = std::chrono::steady_clock::now();

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/scene_view.h"
 #include "godobject/pose.h"
 #include "toolchain/parallel/parallel.h"
 
@@ -11,12 +11,12 @@ namespace godobject::scene_compiler {
 
 /// Returns a short motion for an unknown scene, as poses of the moving mesh, one for each cycle. From several sides and
 /// in random orientation (fixed seed) the body approaches until the scene's own solver reports contact. Then it is
-/// pressed three voxels deep, slides to and fro by ten voxels and leaves. The body's centre starts in the workspace, if
-/// there is one. If nothing is met, the motion flies by. Empty if the body has no free place to start.
-std::vector<Pose> try_out_motion(const Scene& scene);
+/// pressed three voxels deep, slides back and forth by ten voxels and leaves. The body's centre starts in the
+/// workspace, if there is one. If the body meets nothing, the motion flies by. Empty if the body has no free start.
+std::vector<Pose> try_out_motion(const SceneView& scene);
 
 /// Returns the god object's poses of frame B along the motion, with the scene's own solver.
-std::vector<Pose> poses_along(const Scene& scene, std::span<const Pose> motion);
+std::vector<Pose> poses_along(const SceneView& scene, std::span<const Pose> motion);
 
 /// The processor time by which a cycle of one scene is shorter than that of another [ns].
 struct Saving {
@@ -31,7 +31,7 @@ struct CycleTimes {
 
 /// Times each scene's solver along the motion, with friction if the scene has it. Runs take turns, for some seconds.
 /// `motion` must not be empty. The result holds for this machine at this time.
-CycleTimes time_cycles(std::span<const Scene* const> scenes, std::span<const Pose> motion,
+CycleTimes time_cycles(std::span<const SceneView* const> scenes, std::span<const Pose> motion,
                        const parallel::Progress& progress);
 
 }  // namespace godobject::scene_compiler

@@ -63,7 +63,7 @@ class Unneeded {
   std::uint64_t levels() {
     if (input_.moving_is_ball) return 0;
     const files::SceneImage image(make_image(lay_out(parts_)), "image under trimming");
-    const Scene& scene = image.scene;
+    const SceneView& scene = image.scene;
     const std::vector<Pose> poses = poses_along(scene, try_out_motion(scene));
     const auto leave_out = [&](Tree tree, std::vector<format::Node>& nodes, auto& header) {
       const LeanTree lean = lean_tree(scene, tree, poses);

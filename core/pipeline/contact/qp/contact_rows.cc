@@ -24,7 +24,7 @@ struct Largest {
 /// Returns the violation of row `i` [m]; m: the motion (x, r).
 float violation(const ContactRows& rows, std::uint32_t i, const float (&m)[6]) noexcept {
   return rows.required_gain[i] - (m[0] * rows.normal_x[i] + m[1] * rows.normal_y[i] + m[2] * rows.normal_z[i] +
-                         m[3] * rows.torque_x[i] + m[4] * rows.torque_y[i] + m[5] * rows.torque_z[i]);
+                                  m[3] * rows.torque_x[i] + m[4] * rows.torque_y[i] + m[5] * rows.torque_z[i]);
 }
 
 /// Returns the largest violation of the first `count` rows, a multiple of kLanes.
@@ -38,8 +38,8 @@ Largest largest_violation(const ContactRows& rows, std::uint32_t count, const fl
       // one expression: versions of a function may pass vectors differently, so none is passed to or from a function
 #define GODOBJECT_AT(component) (*reinterpret_cast<const Lanes*>(rows.component + i))
       const Lanes here = GODOBJECT_AT(required_gain) - (m[0] * GODOBJECT_AT(normal_x) + m[1] * GODOBJECT_AT(normal_y) +
-                                               m[2] * GODOBJECT_AT(normal_z) + m[3] * GODOBJECT_AT(torque_x) +
-                                               m[4] * GODOBJECT_AT(torque_y) + m[5] * GODOBJECT_AT(torque_z));
+                                                        m[2] * GODOBJECT_AT(normal_z) + m[3] * GODOBJECT_AT(torque_x) +
+                                                        m[4] * GODOBJECT_AT(torque_y) + m[5] * GODOBJECT_AT(torque_z));
 #undef GODOBJECT_AT
       most = here > most ? here : most;
     }

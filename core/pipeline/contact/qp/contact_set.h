@@ -25,15 +25,15 @@ using ActiveSet = DualActiveSet<ContactTag>;
 /// represent it in the active set: one if it slips, up to three if it sticks.
 struct Contact {
   std::uint32_t row = ContactRows::kNone;
-  Vector3 normal;        ///< n, unit, in S
-  Vector3 point;         ///< in S [m]
+  Vector3 normal;              ///< n, unit, in S
+  Vector3 point;               ///< in S [m]
   double required_gain = 0.0;  ///< [m]
-  double ratio = 0.0;    ///< mu
-  double shift = 0.0;    ///< |slip| by which the cone is shifted [m]
-  double speed = 0.0;    ///< Newton: |slip| in the last step [m]
-  int reversals = 0;     ///< Newton: consecutive steps in which the slip had the force's direction
-  bool slips = false;    ///< Newton: it has one half space, against the slip
-  bool is_held = false;  ///< Newton: three half spaces hold it, even if it had slipped
+  double ratio = 0.0;          ///< mu
+  double shift = 0.0;          ///< |slip| by which the cone is shifted [m]
+  double speed = 0.0;          ///< Newton: |slip| in the last step [m]
+  int reversals = 0;           ///< Newton: consecutive steps in which the slip had the force's direction
+  bool slips = false;          ///< Newton: it has one half space, against the slip
+  bool is_held = false;        ///< Newton: three half spaces hold it, even if it had slipped
 };
 
 /// The displacement of a contact point, split by its normal.

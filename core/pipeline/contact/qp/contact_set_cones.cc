@@ -49,7 +49,8 @@ void ContactSet::close_idle() noexcept {
 }
 
 void ContactSet::close_all() noexcept {
-  for (int k = 0; k < contact_count_; ++k) rows_.required_gain[contact(k).row] = static_cast<float>(contact(k).required_gain);
+  for (int k = 0; k < contact_count_; ++k)
+    rows_.required_gain[contact(k).row] = static_cast<float>(contact(k).required_gain);
   contact_count_ = 0;
 }
 

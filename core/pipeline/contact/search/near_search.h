@@ -41,9 +41,9 @@ class NearSearch {
   /// Returns the size of the memory for this shell [32-bit words].
   static std::size_t memory(const Pointshell& shell) noexcept { return DueCalendar::memory(shell) + shell.size; }
 
-  /// Starts anew. `words`: memory(shell) words that outlive the search; with none, every cycle visits the tree from its
-  /// root. `slope`: the field's lipschitz(); `longest`: largest search radius, at most the field's assured clearance
-  /// [m].
+  /// Forgets all and starts. `words`: memory(shell) words that outlive the search; with none, every cycle visits the
+  /// tree from its root. `slope`: the field's lipschitz(); `longest`: largest search radius, at most the field's
+  /// assured clearance [m].
   void start(std::span<std::uint32_t> words, const Pointshell& shell, double slope, double longest) noexcept {
     slope_ = slope;
     tick_ = longest / kTicks;
@@ -63,9 +63,7 @@ class NearSearch {
 
   /// Tells whether the last `find` proves that no clearance falls below `clearance` [m] up to the odometer's reading
   /// `travelled` [m]. `clearance` is at most the longest search radius.
-  bool is_free(double travelled, double clearance) const noexcept {
-    return travelled + slope_ * clearance < certain_;
-  }
+  bool is_free(double travelled, double clearance) const noexcept { return travelled + slope_ * clearance < certain_; }
 
   /// Finds the near points of the shell at pose H in the field's frame: calls visit(batch, index, near) for batches of
   /// points that were looked up. `index` contains their numbers in the shell; `near` is a bit mask of those with a
@@ -85,8 +83,8 @@ class NearSearch {
   template <class Direction, DistanceField Field, class Visit, class LeaveOut>
   void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
             double radius, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
-    const Look<Direction, Field> look{direction, field,     shell,  H,
-                                      H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius, radius};
+    const Look<Direction, Field> look{
+        direction, field, shell, H, H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius, radius};
     if (words_.empty()) {
       certain_ = search_from_root(look, visit);
     } else {

@@ -84,14 +84,14 @@ class Session {
   }
   const Vector3& center() const { return god_object_.state().H_WS.translation; }
   double depth() const { return -smallest_distance(scene_.voxelmap, scene_.pointshell, god_object_.state().H_WS); }
-  const Scene& scene() const { return scene_; }
+  const SceneView& scene() const { return scene_; }
   OwnedGodObject& god_object() { return god_object_; }
 
   CycleReport report;
 
  private:
   SceneImage image_;
-  Scene scene_;
+  SceneView scene_;
   OwnedGodObject god_object_;
 };
 

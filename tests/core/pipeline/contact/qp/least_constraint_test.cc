@@ -80,7 +80,7 @@ Problem random_problem(Random& random, int count, bool feasible) {
   return p;
 }
 
-/// What must hold of every result without friction. `rounding` of the sum of forces, as a share of their size.
+/// Checks a result without friction. `rounding`: error of the sum of forces by rounding, relative to their size.
 void expect_optimal(const Problem& p, const ConstrainedStep& step, double rounding = 1e-11) {
   const double gyration = p.metric.gyration;
   const SixVector z = six(step.motion, gyration);
@@ -178,7 +178,7 @@ TEST(LeastConstraint, FindsWhatEnumerationFinds) {
     EXPECT_EQ(step.infeasible, !slow.has_value()) << "problem " << problem;
     infeasible += step.infeasible ? 1 : 0;
     if (!slow) continue;
-    // what the tolerance of the needs can make of the distance and of the place
+    // the effect of the tolerance of the required gains on the distance and on the position
     double load = 0.0;
     for (std::uint32_t j = 0; j < step.force_count; ++j) load += step.forces[j].multiplier;
     const SixVector wanted = six(p.wanted, p.metric.gyration);
@@ -305,7 +305,7 @@ TEST(LeastConstraint, LaysAFlatFaceOnThePlane) {
     EXPECT_FALSE(step.infeasible);
     EXPECT_LE(step.iterations, 12u);
     EXPECT_LE(step.force_count, 3u);
-    // what slides along the face stays as it was
+    // the rotation along the face is unchanged
     EXPECT_NEAR(step.motion.rotation.z(), p.wanted.rotation.z(), 1e-9);
     if (step.force_count == 3) {
       EXPECT_NEAR(step.motion.rotation.head<2>().norm(), 0.0, 3e-6);
@@ -456,13 +456,13 @@ TEST(LeastConstraint, TakesAllTheRowsThereCanBe) {
 
 // -- friction
 
-/// How far a result is from Coulomb's law, in the worst of its contacts.
+/// The deviation of a result from Coulomb's law, at its worst contact.
 struct CoulombErrors {
   double outside_cone = 0.0;  ///< |t| - mu lambda [m]
-  double sliding = 0.0;       ///< angle between force and slip of those that slip, times the smaller of both [m]
-  double creep = 0.0;         ///< slip of those whose force is well inside the cone [m]
-  double gap = 0.0;           ///< |n . v - need| of those that are loaded [m]
-  double balance = 0.0;       ///< [m]
+  double sliding = 0.0;       ///< angle between force and slip of sliding contacts, times the smaller of both [m]
+  double creep = 0.0;         ///< slip of contacts whose force is well inside the cone [m]
+  double gap = 0.0;           ///< |n . v - required gain| of loaded contacts [m]
+  double balance = 0.0;       ///< of the forces [m]
 };
 
 CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, const ContactFriction& friction,
@@ -541,7 +541,7 @@ void expect_balance(const Problem& p, const ConstrainedStep& step) {
   EXPECT_LE(sum.norm(), p.metric.tolerance + rounding * load);
 }
 
-/// What must hold of every result with friction.
+/// Checks a result with friction.
 void expect_coulomb(const Problem& p, const ConstrainedStep& step, const ContactFriction& friction,
                     const Motion& last = {}) {
   ASSERT_TRUE(six(step.motion, p.metric.gyration).allFinite());
@@ -700,7 +700,7 @@ TEST(LeastConstraintFriction, IsTheFrictionlessProblemWithoutARatio) {
   }
 }
 
-/// What a series of problems came to; `worst` of those that converged.
+/// Statistics of a series of problems; `worst` is that of the problems that converged.
 struct Outcomes {
   int all = 0, unconverged = 0, infeasible = 0, unbalanced = 0;
   std::uint32_t iterations = 0;

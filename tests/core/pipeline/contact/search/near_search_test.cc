@@ -102,7 +102,7 @@ class Walk {
   int step_ = 0;
 };
 
-void expect_the_points_of_brute_force(const Scene& scene, unsigned seed) {
+void expect_the_points_of_brute_force(const SceneView& scene, unsigned seed) {
   constexpr int kSteps = 3000;
   const MassModel mass = Parameters::make(scene).mass;
   const double longest = scene.voxelmap.assured_clearance();
@@ -139,7 +139,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceInAHole) {
 /// Points that stand, a field that moves and turns: what is far from its origin moves farther than the odometer says.
 TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   const SceneImage image = ball_over_plate();
-  const Scene scene = open_scene(image);
+  const SceneView scene = open_scene(image);
   Parameters q;
   q.voxel_size = scene.voxelmap.voxel_size();
   q.mass.sphere = {Vector3(0.004, -0.003, 0.002), 0.02};  // a body much smaller than where the points are
@@ -167,7 +167,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
 /// Whatever a budget left unlooked at is found once there is none.
 TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
   const SceneImage image = ball_over_plate();
-  const Scene scene = open_scene(image);
+  const SceneView scene = open_scene(image);
   const MassModel mass = Parameters::make(scene).mass;
   const double longest = scene.voxelmap.assured_clearance();
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
@@ -197,11 +197,11 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
   EXPECT_GT(short_of_it, 1000) << "the budget must be put to the test";
 }
 
-/// What is left out is as far as it was said to be, what is nearer than that was found, and the budget is kept but for
-/// points that touch.
+/// Points that the search omits are at least as far away as the bound that it reports. It finds all nearer points. Only
+/// touching points may exceed the budget.
 TEST(NearSearch, KeepsItsBudgetNearestFirst) {
   const SceneImage image = ball_over_plate();
-  const Scene scene = open_scene(image);
+  const SceneView scene = open_scene(image);
   const Counted<Voxelmap> field{scene.voxelmap};
   const Pointshell& shell = scene.pointshell;
   const double longest = field.assured_clearance();
@@ -250,7 +250,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
 
 TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   const SceneImage image = ball_over_plate();
-  const Scene scene = open_scene(image);
+  const SceneView scene = open_scene(image);
   const Counted<Voxelmap> field{scene.voxelmap};
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;

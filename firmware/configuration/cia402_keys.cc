@@ -1,0 +1,96 @@
+#include "firmware/configuration/cia402_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace godobject::firmware {
+namespace {
+
+using files::TomlTable;
+
+/// The joint's range must be unambiguous: within half a wrap of 6064, a counter of 32 bits, from `joint.zero`.
+void require_unambiguous(const TomlTable& table, const ArmJoint& joint, const hal::DriveConfig& drive) {
+  constexpr double kBeyond = 0.5;  // largest position beyond a joint's limits before the start, chosen [rad]
+  constexpr double kCounts = 4'294'967'296.0;
+  const double half_turn = std::numbers::pi * kCounts / (drive.counts * drive.gear);
+  const double reach = std::max(std::fabs(joint.lower - drive.zero), std::fabs(joint.upper - drive.zero)) + kBeyond;
+  if (reach < half_turn) return;
+  table.complain("counts", fmt::format("times gear makes the 32 bits of 6064 wrap {:.3g} rad from joint.zero, but the "
+                                       "joint moves {:.3g} rad, with a reserve of {:.3g}; check counts and zero",
+                                       half_turn, reach, kBeyond));
+}
+
+/// Refuses a node number that another node on the same bus has.
+void check_nodes(const TomlTable& joint, const hal::BusLayout& bus, std::size_t index) {
+  const hal::DriveConfig& drive = bus.drives[index];
+  for (std::size_t j = 0; j < index; ++j) {
+    if (bus.drives[j].bus == drive.bus && bus.drives[j].node == drive.node) {
+      joint.complain("node", fmt::format("= {} is also joint {}'s on the same bus; give it another node or bus",
+                                         drive.node, j + 1));
+    }
+  }
+  if (bus.panel.bus == drive.bus && bus.panel.node == drive.node) {
+    joint.complain("node",
+                   fmt::format("= {} is also the panel's on the same bus; give it another node or bus", drive.node));
+  }
+}
+
+}  // namespace
+
+void read_bus(const TomlTable& table, hal::BusLayout& bus) {
+  table.allow({"bit_rate", "fd", "data_rate", "answer", "drive_delay", "command_deadline", "drive_heartbeat",
+               "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
+  bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
+  bus.fd = table.flag("fd", bus.fd);
+  bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
+  bus.answer = table.number("answer", {0.0, 5e-4}, bus.answer);
+  bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
+  bus.command_deadline = table.number("command_deadline", {2e-3, 0.01}, bus.command_deadline);
+  bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);
+  bus.heartbeat_timeout = table.number("heartbeat_timeout", {2.0 * bus.drive_heartbeat, 0.5}, bus.heartbeat_timeout);
+  bus.boot_timeout = table.number("boot_timeout", {0.1, 60.0}, bus.boot_timeout);
+  bus.panel.bus = static_cast<int>(table.whole_number("panel_bus", {-1, hal::kMaxBuses - 1}, bus.panel.bus));
+  bus.panel.node = static_cast<int>(table.whole_number("panel_node", {1, 126}, bus.panel.node));
+}
+
+hal::DriveConfig read_drive(const TomlTable& table, const ArmJoint& joint) {
+  hal::DriveConfig drive;
+  drive.bus = static_cast<int>(table.whole_number("bus", {0, hal::kMaxBuses - 1}));
+  drive.node = static_cast<int>(table.whole_number("node", {1, 126}));
+  drive.counts = table.number("counts", {16.0, 1e9});
+  drive.gear = table.number("gear", {1e-3, 1e4});
+  drive.rated_torque = table.number("rated_torque", {1e-9, 1e6});
+  drive.torque_limit = joint.torque;
+  drive.sign = table.number("sign", {-1.0, 1.0});
+  if (std::fabs(drive.sign) != 1.0) table.complain("sign", "must be 1 or -1");
+  drive.zero = table.number("zero", {-4.0 * std::numbers::pi, 4.0 * std::numbers::pi});
+  require_unambiguous(table, joint, drive);
+  // 6071 and 6077 are 16 bit numbers of permille of the rated torque: up to 32 times it
+  const double share = joint.torque / (drive.gear * drive.rated_torque);
+  if (!(share > 0.01 && share < 32.0)) {
+    table.complain("rated_torque", fmt::format("times gear is {:.3g} Nm at the joint, out of proportion to its torque "
+                                               "limit of {:.3g} Nm; check both",
+                                               drive.gear * drive.rated_torque, joint.torque));
+  }
+  return drive;
+}
+
+void finish_buses(const TomlTable& table, const std::vector<TomlTable>& joints, hal::BusLayout& bus) {
+  bus.joint_count = static_cast<int>(joints.size());
+  int last = bus.panel.bus;
+  for (const hal::DriveConfig& drive : bus.drives) last = std::max(last, drive.bus);
+  bus.bus_count = last + 1;
+  for (int b = 0; b < bus.bus_count; ++b) {
+    const bool used = b == bus.panel.bus || std::any_of(bus.drives.begin(), bus.drives.begin() + bus.joint_count,
+                                                        [b](const hal::DriveConfig& drive) { return drive.bus == b; });
+    if (!used)
+      table.complain("panel_bus", fmt::format("or a joint's bus is wrong: bus {} has no node; count buses from 0", b));
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) check_nodes(joints[i], bus, i);
+}
+
+}  // namespace godobject::firmware

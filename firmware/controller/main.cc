@@ -1,0 +1,24 @@
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "firmware/controller/commission_command.h"
+#include "firmware/controller/control_command.h"
+#include "firmware/controller/doctor_command.h"
+#include "firmware/drives/drive_family.h"
+#include "toolchain/command_line/run.h"
+
+int main(int argc, char** argv) {
+  using namespace godobject;
+  CLI::App app("The haptic controller: reads the drives' positions and sends their torques, once a millisecond.",
+               "godobject-controller");
+  std::string transport = firmware::kSimulatedTransport;
+  const firmware::ControlCommand control(app, transport);
+  const firmware::DoctorCommand doctor(app, transport);
+  const firmware::CommissionCommand commission(app, transport);
+  return command::run(app, argc, argv, [&] {
+    if (commission.is_asked()) return commission.run();
+    if (doctor.is_asked()) return doctor.run();
+    control.run();
+  });
+}

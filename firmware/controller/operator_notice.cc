@@ -1,0 +1,52 @@
+#include "firmware/controller/operator_notice.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "firmware/controller/warning.h"
+#include "firmware/cycle/supervisor.h"
+
+namespace godobject::firmware {
+namespace {
+
+constexpr std::uint32_t kMoment = 3000;  // cycles; chosen: 3 s, longer than an operator needs who knows what to do
+
+std::string why(const Standing& standing) {
+  if (standing.fault != Fault::kAlarm) return describe(standing.fault);
+  const std::string joint = standing.alarm_joint >= 0 ? fmt::format("joint {}: ", standing.alarm_joint + 1) : "";
+  return joint + describe(standing.alarm);
+}
+
+}  // namespace
+
+void OperatorNotice::look() {
+  const Standing standing = report_.standing.load(std::memory_order_relaxed);
+  const bool waits = report_.waiting.load(std::memory_order_relaxed) > kMoment;
+  if (waits && !said_waiting_) {
+    warn(standing.mode == Mode::kIdle
+             ? "waits for the enable switch: release it, then hold it"
+             : "waits with the arm held: the moving body touches or penetrates the still body; move the tool away");
+  }
+  said_waiting_ = waits;
+  const bool stopped = standing.mode == Mode::kStopped && !refuses_to_start(standing.fault);
+  if (stopped && !said_stopped_) {
+    warn(fmt::format("stopped: {}; to go on, release enable switch and emergency stop, then kill -USR1 {}",
+                     why(standing), ::getpid()));
+  }
+  said_stopped_ = stopped;
+}
+
+void OperatorNotice::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    look();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+}
+
+}  // namespace godobject::firmware

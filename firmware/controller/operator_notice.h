@@ -1,0 +1,27 @@
+#pragma once
+
+#include <stop_token>
+
+#include "firmware/loop/controller_run.h"
+
+namespace godobject::firmware {
+
+/// Tells the operator, once for each occasion, what to do: the controller waits for longer than 3 s, or it has stopped.
+class OperatorNotice {
+ public:
+  /// `report`: of the running loop; outlives this.
+  explicit OperatorNotice(const RunReport& report) noexcept : report_(report) {}
+
+  /// Reads the report and prints a line if there is something new to say.
+  void look();
+
+  /// Looks five times a second until it is asked to stop: the thread beside the loop.
+  void run(const std::stop_token& stop);
+
+ private:
+  const RunReport& report_;
+  bool said_waiting_ = false;
+  bool said_stopped_ = false;
+};
+
+}  // namespace godobject::firmware

@@ -1,0 +1,152 @@
+#include "firmware/controller/session.h"
+
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "firmware/controller/cycle_setup.h"
+#include "firmware/controller/drive_choice.h"
+#include "firmware/controller/operator_notice.h"
+#include "firmware/controller/real_time_thread.h"
+#include "firmware/controller/run_summary.h"
+#include "firmware/controller/start_checks.h"
+#include "firmware/controller/warning.h"
+#include "firmware/machine/rt_setup.h"
+#include "firmware/machine/worker_thread.h"
+#include "firmware/records/hand_log.h"
+#include "firmware/simulation/simulated_arm.h"
+#include "hal/linux/monotonic_clock.h"
+#include "toolchain/command_line/failure.h"
+#include "toolchain/command_line/in_build.h"
+
+namespace godobject::firmware {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
+  set_gains(gains, scene);
+  return scene;
+}
+
+}  // namespace
+
+Session::Session(const ControllerConfig& config, const std::string& transport)
+    : config_(config),
+      image_(config.scene.image),
+      scene_(with_gains(image_.scene(), config.gains)),
+      placement_(place(config.workspace, config.device, scene_.H_MB.translation)) {
+  const std::unique_ptr<DriveFamily> family = choose_drives(config_.device);
+  family->require_plan();
+  check_gains_at_start(config_, scene_, placement_.device, family->delay());
+  if (!config_.start.sign_test) {
+    warn("start.sign_test = false: wrong polarities of motors and encoders will not be found");
+  }
+  link_ = family->connect({.transport = transport,
+                           .config = &config_,
+                           .placement = &placement_,
+                           .tap = config_.telemetry.bus ? &bus_ring_ : nullptr});
+  for (const std::string& line : link_->warnings()) warn(line);
+  start_cycle();
+}
+
+void Session::start_cycle() {
+  memory_.emplace(GodObject::memory_size(Scene::of(scene_)));
+  const CycleSetup setup = cycle_setup(config_, scene_, placement_, memory_->span());
+  cycle_.emplace(setup, link_->drives());
+  const Status status = cycle_->start();
+  if (status == Status::kNotInBuild) {
+    command::require_in_build(config_.scene.image.string(), scene_, setup.solver, setup.friction);
+  }
+  if (status != Status::kOk) {
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "
+                              "table, or change scene.solver or scene.friction",
+                              config_.scene.image.string(), describe(status)));
+  }
+}
+
+std::string Session::run(const std::optional<double>& duration, RunRequests& requests) {
+  hal::MonotonicClock stopwatch;
+  RunRecords records({.folder = config_.telemetry.folder,
+                      .joint_count = config_.device.model.joint_count,
+                      .buses = config_.telemetry.bus,
+                      .bus_names = link_->bus_names()},
+                     ring_, bus_ring_);
+  if (run_loop(run_setup(duration, stopwatch), requests, records)) {
+    fmt::print("{}", run_summary(report_, cycle_->counters(), link_->statistics(), page_faults_));
+    fmt::print("{}", records.summary());
+  } else {
+    warn("ended before the drives were started; no drive was enabled");
+  }
+  return describe_stop();
+}
+
+RunSetup Session::run_setup(const std::optional<double>& duration, hal::Clock& stopwatch) const {
+  std::optional<double> seconds = duration;
+  const SimulatedArm* simulated = link_->simulated_arm();
+  if (!seconds && simulated != nullptr && !config_.simulation.path.empty()) {
+    seconds = config_.simulation.begin + simulated->path_seconds() + 0.5;
+  }
+  RunSetup setup;
+  setup.cycles = seconds ? static_cast<std::uint64_t>(1e3 * *seconds) : 0;
+  setup.every = static_cast<std::uint32_t>(config_.telemetry.every);
+  setup.stopwatch = &stopwatch;
+  setup.compute_ns = static_cast<std::int64_t>(1e9 * config_.loop.compute);
+  return setup;
+}
+
+/// From the start of the drives to their stop. False: the run was asked to end before the drives were started.
+bool Session::run_loop(const RunSetup& setup, RunRequests& requests, RunRecords& records) {
+  OperatorNotice notice(report_);
+  std::vector<std::jthread> beside;  // started before this thread is a real-time one: threads inherit that
+  const auto run_beside = [&beside](const char* name, auto& worker) {
+    beside.push_back(start_worker(name, [&worker](const std::stop_token& stop) { worker.run(stop); }));
+  };
+  if (link_->real_time()) {
+    run_beside("godobject-controller: notices for the operator", notice);
+    if (records.telemetry() != nullptr) run_beside("godobject-controller: telemetry", *records.telemetry());
+    if (records.buses() != nullptr) run_beside("godobject-controller: the log of the buses", *records.buses());
+    set_up_loop_thread(config_.loop, link_->simulated_arm() != nullptr);
+  }
+  const std::unique_ptr<hal::Clock> clock = link_->make_clock();
+  if (!link_->start(*clock, requests.end)) return false;
+  if (link_->real_time()) {
+    const long before = page_faults();
+    const std::int64_t& round_trip_ns = link_->round_trip_ns();
+    run_controller(setup, *clock, *cycle_, requests, ring_, report_, [&] {
+      if (round_trip_ns > 0) report_.round_trip.add(round_trip_ns);
+    });
+    page_faults_ = page_faults() - before;
+  } else {
+    run_in_virtual_time(setup, *clock, requests, records, notice);
+  }
+  link_->stop();
+  return true;
+}
+
+/// Notices and logs in the same thread, so that a run in virtual time is the same each time.
+void Session::run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, RunRecords& records,
+                                  OperatorNotice& notice) {
+  std::optional<HandLog> hand;
+  const SimulatedArm* arm = link_->simulated_arm();
+  if (arm != nullptr && records.telemetry() != nullptr) hand.emplace(config_.telemetry.folder);
+  run_controller(setup, clock, *cycle_, requests, ring_, report_, [&] {
+    notice.look();
+    records.drain();
+    if (hand) hand->write_row(arm->now_ns(), arm->hand_work());
+  });
+  if (hand) hand->close();
+}
+
+std::string Session::describe_stop() const {
+  const Supervisor& supervisor = cycle_->supervisor();
+  if (supervisor.fault() == Fault::kNone) return "";
+  if (supervisor.fault() == Fault::kAlarm) return fmt::format("stopped: {}", link_->alarm());
+  const std::string joint =
+      supervisor.fault_joint() >= 0 ? fmt::format("joint {}: ", supervisor.fault_joint() + 1) : "";
+  return fmt::format("stopped: {}{}", joint, describe(supervisor.fault()));
+}
+
+}  // namespace godobject::firmware

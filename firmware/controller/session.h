@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/scene/scene_view.h"
+#include "firmware/configuration/controller_file.h"
+#include "firmware/configuration/scene_file.h"
+#include "firmware/cycle/control_cycle.h"
+#include "firmware/drives/drive_link.h"
+#include "firmware/loop/controller_run.h"
+#include "firmware/loop/telemetry_ring.h"
+#include "firmware/records/run_records.h"
+#include "hal/can_log_ring.h"
+#include "toolchain/files/aligned_bytes.h"
+
+namespace godobject::firmware {
+
+class OperatorNotice;
+
+/// One run of the controller, from checked files to the stopped drives. It owns everything that the loop uses: scene,
+/// rings, drives, cycle, report. Large: make it on the heap, before the loop.
+class Session {
+ public:
+  /// Reads the scene image, checks the gains, connects the drives and prepares the cycle. Prints warnings and the gain
+  /// line. No drive is started. Throws command::Failure with the codes of `godobject-controller --help`.
+  Session(const ControllerConfig& config, const std::string& transport);
+
+  /// Starts the drives, runs the loop until the supervisor has ended it, stops the drives and prints the summary.
+  /// `duration` [s]; none: with a simulated path half a second longer than that, else until `requests.end`.
+  /// Returns the fault that stopped the run, with its place; empty: none did. Throws command::Failure if the drives
+  /// cannot be started, a right is missing or a log cannot be made.
+  std::string run(const std::optional<double>& duration, RunRequests& requests);
+
+ private:
+  void start_cycle();
+  RunSetup run_setup(const std::optional<double>& duration, hal::Clock& stopwatch) const;
+  bool run_loop(const RunSetup& setup, RunRequests& requests, RunRecords& records);
+  void run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, RunRecords& records,
+                           OperatorNotice& notice);
+  std::string describe_stop() const;
+
+  ControllerConfig config_;
+  SceneFile image_;
+  SceneView scene_;  // of the image, with the gains of the controller file
+  Placement placement_;
+  TelemetryRing ring_;
+  hal::CanLogRing bus_ring_;
+  RunReport report_;
+  std::unique_ptr<DriveLink> link_;
+  std::optional<files::AlignedBytes> memory_;  // of the god object
+  std::optional<ControlCycle> cycle_;
+  std::optional<long> page_faults_;  // of the loop's thread, in a real-time run
+};
+
+}  // namespace godobject::firmware

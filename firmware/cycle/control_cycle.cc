@@ -1,0 +1,196 @@
+#include "firmware/cycle/control_cycle.h"
+
+#include <algorithm>
+
+namespace godobject::firmware {
+
+ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
+    : setup_(setup),
+      drives_(drives),
+      position_check_(*setup.arm, setup.stuck_torque, kPeriod),
+      velocity_(setup.velocity_window, kPeriod),
+      supervisor_(*setup.arm, setup.supervisor),
+      limiter_(*setup.arm, setup.torque),
+      observer_(drives.delay() / kPeriod),
+      passivity_(setup.passivity) {}
+
+// clang-format off: the steps stand in a column
+void ControlCycle::run_once(const LoopEvents& events) noexcept {
+  drives_.receive(reading_);
+  if (!supervisor_.follows_positions()) begin_positions_anew();
+  position_check_.update(reading_, qd_, limiter_.pushed(), events.skipped, positions_);
+  Status status = estimate_velocity(events.skipped);
+  observe_energy();
+  const ArmKinematics kinematics = forward_kinematics(*setup_.arm, positions_.q);
+  if (status == Status::kOk) status = render(kinematics);          // mapping, #1 - #7, limits at the hand
+  if (status == Status::kOk) status = compute_torque(kinematics);  // J^T
+  const Decision decision = supervisor_.step(observe(events, status));
+  const JointVector torque = limiter_.apply(decision, computed_, qd_);
+  const bool sent = drives_.send({torque, decision.power});
+  observer_.send(limiter_.pushed());
+  // clang-format on
+  sends_failed_ = sent ? 0 : sends_failed_ + 1;
+  record_.torque = torque;
+  record_.status = status;
+  record_.H_RM = kinematics.H_RM;
+  keep(decision);
+  count(events);
+}
+
+/// Takes the next reading as it is, with the joints at rest: readings before it may not have been positions at all.
+void ControlCycle::begin_positions_anew() noexcept {
+  position_check_.restart();
+  velocity_.reset();
+  last_q_ = reading_.position;
+}
+
+/// Counts the energy of rendered torques only.
+void ControlCycle::observe_energy() noexcept {
+  if (!supervisor_.renders()) {
+    observer_.reset();
+    passivity_.reset();
+  }
+  if (positions_.finite) observer_.observe(positions_.q);
+}
+
+/// Interpolates positions for periods without a cycle, since the estimator needs one a period.
+Status ControlCycle::estimate_velocity(std::uint32_t skipped) noexcept {
+  if (!positions_.finite) return Status::kNotFinite;
+  if (skipped >= VelocityEstimator::kMaxWindow) {
+    velocity_.reset();
+  } else {
+    for (std::uint32_t k = 1; k <= skipped; ++k) {
+      const double share = static_cast<double>(k) / (skipped + 1);
+      const Status status = velocity_.update(last_q_ + share * (positions_.q - last_q_), qd_);
+      if (status != Status::kOk) return status;
+    }
+  }
+  last_q_ = positions_.q;
+  return velocity_.update(positions_.q, qd_);
+}
+
+/// The clutch stays closed while the hand leans on something: otherwise the contact would give way under the hand, and
+/// push it when the clutch closes again. It stays closed, too, before the joints' positions are known.
+bool ControlCycle::opens_clutch() noexcept {
+  const bool leans = contact_force() >= setup_.supervisor.engage_force || report_.outcome == Outcome::kStartInside;
+  const bool may_open = supervisor_.follows_positions() && (clutch_is_open_ || !leans);
+  clutch_is_open_ = reading_.clutch_open && may_open;
+  return clutch_is_open_;
+}
+
+/// Size of the wrench at the hand; torques count as forces at the rotation length [N].
+double ControlCycle::contact_force() const noexcept {
+  return at_hand_.F_G_R.force.norm() + at_hand_.F_G_R.torque.norm() / setup_.joint_torque->rotation_length;
+}
+
+/// From the tool's pose to the wrench at the hand. The mapping maps the grip G and not M: otherwise, after the clutch
+/// has rotated the mesh against the tool, forces would act on the hand with other levers than in the scene and give it
+/// energy.
+Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
+  const Pose& H_RM = kinematics.H_RM;
+  const Vector3& p_MB = setup_.scene->H_MB.translation;
+  p_MG_R_ = H_RM.rotation._transformVector(p_MB) / setup_.mapping.scale;
+  const Pose H_RG{H_RM.rotation, H_RM.translation + p_MG_R_};
+  if (!mapping_) mapping_.emplace(setup_.mapping, H_RG);
+  if (const Status status = mapping_->update(H_RG, !opens_clutch(), kPeriod); status != Status::kOk) return status;
+  const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RG.translation), qd_);
+
+  const Pose& H_WG = mapping_->scene_pose();
+  H_WM_ = {H_WG.rotation, H_WG.translation - H_WG.rotation._transformVector(p_MB)};  // G's origin is B's
+  if (!supervisor_.renders()) {
+    at_hand_ = limit_at_hand(setup_.hand, {}, velocity_R);
+    return god_object_.follow(H_WM_, report_);
+  }
+  const Motion velocity_W = mapping_->velocity_in_scene(velocity_R);
+  if (const Status status = god_object_.update({H_WM_, velocity_W}, report_); status != Status::kOk) return status;
+
+  const Wrench& F_G_W = report_.force.total_W;  // about the centre of mass
+  const Wrench F_G_R = passivity_.apply(observer_.absorbed(), mapping_->wrench_at_hand(F_G_W), velocity_R);
+  at_hand_ = limit_at_hand(setup_.hand, F_G_R, velocity_R);
+  return Status::kOk;
+}
+
+Status ControlCycle::compute_torque(const ArmKinematics& kinematics) noexcept {
+  TorqueRequest request;
+  request.q = positions_.q;
+  request.qd = qd_;
+  request.kinematics = kinematics;
+  const Wrench& F_G_R = at_hand_.F_G_R;
+  const Wrench F_M_R{F_G_R.force, F_G_R.torque + p_MG_R_.cross(F_G_R.force)};
+  request.F_P_R = F_M_R;
+  request.p_RP = kinematics.H_RM.translation;
+  const Status status = joint_torque(*setup_.arm, *setup_.joint_torque, request, joint_torque_);
+  computed_.holding = joint_torque_.gravity;
+  computed_.rendered = joint_torque_.torque - joint_torque_.gravity;
+  return status;
+}
+
+Observation ControlCycle::observe(const LoopEvents& events, Status status) const noexcept {
+  Observation seen;
+  seen.drives = summarize(reading_, setup_.arm->joint_count);
+  seen.emergency_stop = reading_.emergency_stop;
+  seen.enable_switch = reading_.enable_switch;
+  seen.alarm = reading_.alarm != hal::Alarm::kNone;
+  seen.drive_restarted = reading_.alarm == hal::Alarm::kNodeReset;
+  seen.q = positions_.q;
+  seen.lost = positions_.predicted;
+  seen.jumps = positions_.jumps;
+  seen.finite = positions_.finite;
+  seen.stuck = positions_.stuck;
+  for (int i = 0; i < setup_.arm->joint_count; ++i) {
+    const ArmJoint& joint = setup_.arm->joints[static_cast<std::size_t>(i)];
+    if (positions_.q[i] < joint.lower || positions_.q[i] > joint.upper) seen.joint_beyond_limit = i;
+  }
+  seen.too_fast = at_hand_.too_fast || limiter_.too_fast(qd_) || positions_.runs_away;
+  seen.status = status;
+  seen.contact_force = contact_force();
+  seen.inside = report_.outcome == Outcome::kStartInside;
+  seen.overrun_ns = events.overrun_ns;
+  seen.sends_failed = sends_failed_;
+  seen.end_requested = events.end_requested;
+  seen.reset_requested = events.reset_requested;
+  return seen;
+}
+
+void ControlCycle::keep(const Decision& decision) noexcept {
+  record_.mode = supervisor_.mode();
+  record_.fault = supervisor_.fault();
+  record_.alarm = reading_.alarm;
+  record_.alarm_joint = reading_.alarm_joint;
+  record_.q = positions_.q;
+  record_.qd = qd_;
+  record_.H_WM = H_WM_;
+  record_.god_object_W = god_object_.mesh_pose();
+  record_.share = decision.share;
+  record_.absorbed = observer_.absorbed();
+  record_.injected_damping = passivity_.damping();
+  if (!decision.of_last) {
+    const Wrench& F_M_R = joint_torque_.rendered_P_R;  // P is M's origin
+    rendered_G_R_ = {decision.share * F_M_R.force, decision.share * (F_M_R.torque - p_MG_R_.cross(F_M_R.force))};
+  }
+  const double share = decision.of_last ? decision.share : 1.0;
+  record_.F_G_R = {share * rendered_G_R_.force, share * rendered_G_R_.torque};
+  record_.penetration = report_.penetration;
+  record_.contacts = report_.contacts;
+  record_.lost = positions_.lost;
+  record_.clutch_is_open = clutch_is_open_;
+  record_.outcome = report_.outcome;
+}
+
+void ControlCycle::count(const LoopEvents& events) noexcept {
+  const auto add = [](bool happened) -> std::uint64_t { return happened ? 1 : 0; };
+  const bool rendering = record_.share > 0.0;
+  counters_.cycles += 1;
+  counters_.lost += add(positions_.lost > 0 && record_.mode != Mode::kBoot);  // in kBoot none is expected
+  counters_.jumps += add(positions_.jumps > 0);
+  counters_.overruns += add(events.overrun_ns > 0);
+  counters_.skipped += events.skipped;
+  counters_.sends_failed += add(sends_failed_ > 0);
+  counters_.clipped += add(rendering && at_hand_.clipped);
+  counters_.slowed += add(rendering && at_hand_.slowed);
+  counters_.scaled += add(rendering && joint_torque_.scale < 1.0);
+  counters_.rate_limited += add(limiter_.rate_limited());
+  counters_.unconverged += add(rendering && report_.unconverged);
+}
+
+}  // namespace godobject::firmware

@@ -1,0 +1,108 @@
+#include "firmware/cycle/position_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace godobject::firmware {
+
+PositionCheck::PositionCheck(const ArmModel& arm, double stuck_torque, double period) noexcept
+    : joint_count_(arm.joint_count), period_(period) {
+  for (int i = 0; i < joint_count_; ++i) {
+    const ArmJoint& joint = arm.joints[static_cast<std::size_t>(i)];
+    largest_step_[i] = kJumpOfVelocity * joint.velocity * period;
+    stuck_torque_[i] = stuck_torque * joint.torque;
+    speed_step_[i] = joint.velocity * period;
+  }
+}
+
+void PositionCheck::update(const hal::JointReading& reading, const JointVector& qd, const JointVector& pushed,
+                           std::uint32_t skipped, CheckedPositions& checked) noexcept {
+  checked = CheckedPositions();
+  const std::uint32_t periods = 1 + skipped;
+  for (int i = 0; i < joint_count_; ++i) {
+    const auto joint = static_cast<std::size_t>(i);
+    const double position = reading.position[i];
+    checked.finite = checked.finite && std::isfinite(position) && std::isfinite(reading.torque[i]);
+    // a constant lateness is as bad as a missing position; an age also counts skipped cycles
+    lost_[joint] = reading.age[joint] == 0 ? 0 : lost_[joint] + 1;
+    checked.lost = std::max({checked.lost, lost_[joint], reading.age[joint]});
+    if (!started_) {
+      accepted_[i] = q_[i] = position;
+      fresh_[i] = position;
+      periods_[joint] = jumps_[joint] = predicted_[joint] = 0;
+      continue;
+    }
+    periods_[joint] += periods;
+    const bool fresh = reading.age[joint] == 0;
+    // false for a NaN
+    const bool possible = std::fabs(position - accepted_[i]) <= largest_step_[i] * periods_[joint];
+    if (fresh && possible) {
+      accepted_[i] = q_[i] = position;
+      periods_[joint] = jumps_[joint] = predicted_[joint] = 0;
+    } else {
+      const double first = fresh_[i] - accepted_[i];
+      const double second = position - fresh_[i];
+      const double far = largest_step_[i] * periods;
+      const bool far_on = std::fabs(first) > far && std::fabs(second) > far && first * second > 0.0;
+      checked.runs_away = checked.runs_away || (fresh && jumps_[joint] > 0 && far_on);
+      if (fresh) ++jumps_[joint];
+      ++predicted_[joint];
+      q_[i] += qd[i] * period_ * periods;
+    }
+    if (fresh) fresh_[i] = position;
+    checked.jumps = std::max(checked.jumps, jumps_[joint]);
+    checked.predicted = std::max(checked.predicted, predicted_[joint]);
+  }
+  checked.predicted = std::max(checked.predicted, checked.lost);
+  if (!started_) motion_.fill(Motion());
+  started_ = checked.finite;
+  checked.q = q_;
+  const bool abruptly = stops_abruptly(reading);
+  checked.stuck = rests_though_pushed(reading, pushed) || abruptly;
+}
+
+bool PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
+  bool found = false;
+  for (int i = 0; i < joint_count_; ++i) {
+    if (reading.age[static_cast<std::size_t>(i)] > 0) continue;
+    Motion& motion = motion_[static_cast<std::size_t>(i)];
+    const double position = reading.position[i];
+    if (position == motion.last[0]) {
+      if (motion.still == 0) {
+        motion.abrupt =
+            motion.moving >= kMoving && std::fabs(position - motion.last[kMoving]) > kMotion * kMoving * speed_step_[i];
+      }
+      ++motion.still;
+      motion.moving = 0;
+    } else {
+      ++motion.moving;
+      motion.still = 0;
+      motion.abrupt = false;
+    }
+    for (std::size_t k = kMoving; k > 0; --k) motion.last[k] = motion.last[k - 1];
+    motion.last[0] = position;
+    found = found || (motion.abrupt && motion.still >= kStill);
+  }
+  return found;
+}
+
+bool PositionCheck::rests_though_pushed(const hal::JointReading& reading, const JointVector& pushed) noexcept {
+  if (in_window_ == 0) {
+    window_start_ = reading.position;
+    rests_.fill(true);
+    moved_ = false;
+  }
+  for (int i = 0; i < joint_count_; ++i) {
+    const double motion = std::fabs(reading.position[i] - window_start_[i]);
+    moved_ = moved_ || motion > kOtherMotion * kWindow * speed_step_[i];
+    bool& rests = rests_[static_cast<std::size_t>(i)];
+    rests = rests && motion == 0.0 && std::fabs(pushed[i]) > stuck_torque_[i] &&
+            reading.age[static_cast<std::size_t>(i)] == 0;
+  }
+  if (++in_window_ < kWindow) return false;
+  in_window_ = 0;
+  const auto* first = rests_.begin();
+  return moved_ && std::any_of(first, first + joint_count_, [](bool rests) { return rests; });
+}
+
+}  // namespace godobject::firmware

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "firmware/records/log_file.h"
+#include "hal/can_log_ring.h"
+
+namespace godobject::firmware {
+
+/// Appends one line of a `candump -L` log with its line feed: `(1400000000.123456) can0 203#0F00CEFF`, identifier and
+/// data in hexadecimal digits. FD frames have `##` and a digit of flags, 1: data at the higher bit rate.
+void append_candump_line(const hal::ReceivedFrame& received, const std::string& interface, std::string& text);
+
+/// The header of a pcap file with LINKTYPE_CAN_SOCKETCAN (227) and times in nanoseconds, in this machine's byte order.
+std::string pcap_header();
+
+/// Appends a frame as a packet of that file: the kernel's can_frame (16 bytes) or canfd_frame (72 bytes), with the
+/// identifier in network order.
+void append_pcap_packet(const hal::ReceivedFrame& received, std::string& bytes);
+
+/// Writes the frames of a ring to DIR/can.log, all buses in the format of `candump -L`, and to DIR/INTERFACE.pcap, one
+/// file a bus. A full or stalled disk costs frames, which are counted, and nothing else.
+class BusLogWriter {
+ public:
+  /// `interfaces`: names of the buses, bus 0 first. Throws command::Failure (kIo) if folder or files cannot be made.
+  BusLogWriter(const std::filesystem::path& folder, const std::vector<std::string>& interfaces, hal::CanLogRing& ring);
+
+  /// Writes all frames that are in the ring.
+  void drain();
+
+  /// Drains every 50 ms until it is asked to stop: the work of a thread beside the loop.
+  void run(const std::stop_token& stop) { drain_until_stopped(*this, stop); }
+
+  const std::filesystem::path& file() const noexcept { return text_file_.path(); }  ///< can.log
+  std::uint64_t written() const noexcept { return text_file_.written(); }           ///< frames in can.log
+  std::uint64_t lost() const noexcept;  ///< frames that could not be written: of can.log or of all .pcap, the larger
+
+ private:
+  struct Bus {
+    Bus(const std::filesystem::path& folder, const std::string& its_name);
+
+    std::string name;
+    LogFile file;
+    std::string packets;
+    std::uint64_t count = 0;
+  };
+
+  void write_all();
+
+  hal::CanLogRing& ring_;
+  LogFile text_file_;
+  std::string text_;
+  std::uint64_t lines_ = 0;
+  std::deque<Bus> buses_;
+};
+
+}  // namespace godobject::firmware

@@ -1,0 +1,75 @@
+#include "firmware/records/telemetry_writer.h"
+
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace godobject::firmware {
+namespace {
+
+constexpr std::uint64_t kRowsAtOnce = 64;  // rows a write call; chosen: some 40 KiB of text
+
+std::string header(int joint_count) {
+  std::string text = "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost";
+  for (const char* column : {"q{}_rad", "qd{}_rad_s", "torque{}_Nm"}) {
+    for (int i = 1; i <= joint_count; ++i) text += ',' + fmt::format(fmt::runtime(column), i);
+  }
+  for (const char* frame : {"d", "g"}) {  // device pose and god object, with the column names of godobject-replay
+    text += fmt::format(",{0}px_m,{0}py_m,{0}pz_m,{0}qw,{0}qx,{0}qy,{0}qz", frame);
+  }
+  return text + ",fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m\n";
+}
+
+void append(std::string& text, const Pose& pose) {
+  const Vector3& p = pose.translation;
+  const Quaternion& q = pose.rotation;
+  fmt::format_to(std::back_inserter(text), ",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z(),
+                 q.w(), q.x(), q.y(), q.z());
+}
+
+void append(std::string& text, const JointVector& joints, int joint_count) {
+  for (int i = 0; i < joint_count; ++i) fmt::format_to(std::back_inserter(text), ",{:.9g}", joints[i]);
+}
+
+void append(std::string& text, const TelemetryRecord& record, int joint_count) {
+  const CycleRecord& cycle = record.cycle;
+  fmt::format_to(std::back_inserter(text), "{:.6f},{:.3f},{:.3f},{},{},{:.4g},{},{},{}",
+                 1e-9 * static_cast<double>(record.times.deadline_ns), 1e-3 * static_cast<double>(record.times.late_ns),
+                 1e-3 * static_cast<double>(record.times.compute_ns), name(cycle.mode), static_cast<int>(cycle.fault),
+                 cycle.share, name(cycle.outcome), cycle.contacts, cycle.lost);
+  append(text, cycle.q, joint_count);
+  append(text, cycle.qd, joint_count);
+  append(text, cycle.torque, joint_count);
+  append(text, cycle.H_WM);
+  append(text, cycle.god_object_W);
+  const Vector3& f = cycle.F_G_R.force;
+  const Vector3& t = cycle.F_G_R.torque;
+  fmt::format_to(std::back_inserter(text), ",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.x(),
+                 f.y(), f.z(), t.x(), t.y(), t.z(), cycle.penetration, cycle.absorbed, cycle.injected_damping);
+}
+
+}  // namespace
+
+TelemetryWriter::TelemetryWriter(const std::filesystem::path& folder, int joint_count, TelemetryRing& ring)
+    : file_(folder / "telemetry.csv"), joint_count_(joint_count), ring_(ring) {
+  file_.write(header(joint_count), 0);
+}
+
+void TelemetryWriter::drain() {
+  TelemetryRecord record;
+  std::uint64_t rows = 0;
+  while (ring_.pop(record)) {
+    append(text_, record, joint_count_);
+    if (++rows < kRowsAtOnce) continue;
+    write_rows(rows);
+    rows = 0;
+  }
+  if (rows > 0) write_rows(rows);
+}
+
+void TelemetryWriter::write_rows(std::uint64_t rows) {
+  file_.write(text_, rows);
+  text_.clear();
+}
+
+}  // namespace godobject::firmware

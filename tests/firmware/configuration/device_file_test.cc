@@ -1,0 +1,178 @@
+#include "firmware/configuration/device_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/device/dynamics.h"
+#include "tests/support/arms.h"
+#include "tests/support/fault_record.h"
+#include "toolchain/command_line/failure.h"
+
+namespace godobject::firmware {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+class DeviceFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ifstream stream(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+    text_.assign(std::istreambuf_iterator<char>(stream), {});
+    file_ = std::filesystem::path(testing::TempDir()) /
+            (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  /// The message with which the file is refused once `from` is `to`; empty if it is not.
+  std::string refusal(const std::string& from, const std::string& to) {
+    std::string text = text_;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(file_) << text;
+    try {
+      read_device_file(file_);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), ExitCode::kBadConfig);
+      code_ = static_cast<int>(failure.exit_code());
+      EXPECT_NE(std::string(failure.what()).find(file_.string()), std::string::npos) << failure.what();
+      return failure.what();
+    }
+    return {};
+  }
+
+  std::string text_;
+  std::filesystem::path file_;
+  int code_ = 0;  // of the last refusal
+};
+
+TEST_F(DeviceFileTest, ReadsBothArms) {
+  const Device lwr = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml");
+  EXPECT_EQ(lwr.name, "lwr");
+  EXPECT_EQ(lwr.model.joint_count, 7);
+  EXPECT_EQ(lwr.model.joints[0].torque, 176.0);
+  EXPECT_EQ(lwr.model.joints[6].link.inertia(2, 2), 2.400e-04);
+  EXPECT_EQ(lwr.torque.null_damping[6], 0.02);
+  EXPECT_EQ(lwr.model.payload.mass, 0.5);
+  const Device desktop = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  EXPECT_EQ(desktop.model.joint_count, 6);
+  EXPECT_EQ(desktop.torque.singular_full, 0.016);
+  EXPECT_EQ(lwr.bus.bus_count, 3);
+  EXPECT_EQ(lwr.bus.joint_count, 7);
+  EXPECT_EQ(lwr.bus.drives[6].node, 7);
+  EXPECT_EQ(lwr.bus.drives[6].rated_torque, 38.0);
+  EXPECT_EQ(lwr.bus.drives[6].torque_limit, lwr.model.joints[6].torque);
+  EXPECT_EQ(lwr.bus.panel.bus, 2);
+  EXPECT_EQ(desktop.bus.drives[2].sign, -1.0);
+  EXPECT_EQ(desktop.bus.drives[2].gear, 10.0);
+}
+
+TEST_F(DeviceFileTest, RefusesWhatIsNotThere) {
+  try {
+    read_device_file("nowhere.toml");
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), ExitCode::kNoInput);
+  }
+}
+
+TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
+  EXPECT_EQ(refusal("velocity = 8.0", "velocity = 8.0 "), "");
+  int refused = 0;
+  std::string words;
+  for (const auto& [from, to, says] : std::initializer_list<std::array<const char*, 3>>{
+           {"velocity = 8.0", "velocity = nan", "joint[1].velocity = nan is out of range"},
+           {"velocity = 8.0", "velocity = -1.0", "joint[1].velocity = -1 is out of range"},
+           {"velocity = 8.0", "velocity = \"8\"", "joint[1].velocity must be a number"},
+           {"velocity = 8.0", "speed = 8.0", "joint[1].speed is not a known key"},
+           {"velocity = 8.0\n", "", "joint[1].velocity is missing"},
+           {"upper = 1.8", "upper = -0.4", "joint[2].upper = -0.4 is out of range"},
+           {"com = [0.06, 0.0, 0.0]", "com = [0.06, 0.0]", "joint[2].com must be an array of 3 numbers"},
+           {"2.003e-04, 2.003e-04", "2.003e-04, 9.003e-04", "joint[2].inertia is not possible"},
+           {"singular_full = 0.016", "singular_full = 0.004", "torque.singular_full = 0.004 is out of range"},
+           {"limit_band = 0.1", "limit_band = 1.06", "torque.limit_band = 1.06 is out of range"},
+           {"base = [0.0, 0.0, 0.0, 1.0", "base = [0.0, 0.0, 0.0, 1.1", "arm.base has a quaternion that is not"},
+           {"\n[payload]", "\n[cargo]", "cargo is not a known table"},
+           {"mass = 0.02\n", "mass = -0.02\n", "payload.mass = -0.02 is out of range"},
+           {"name = \"desktop6\"", "name = 6", "arm.name must be a text in quotes"},
+           {"\n[tool]", "\n[tool", "not TOML"},
+           {"\nnode = 2\n", "\nnode = 1\n", "joint[2].node = 1 is joint 1's on the same bus"},
+           {"\nnode = 5\n", "\nnode = 32\n", "joint[5].node = 32 is the panel's"},
+           {"\nnode = 5\n", "\nnode = 5.5\n", "joint[5].node must be a whole number"},
+           {"\nbus = 0\nnode = 1\n", "\nnode = 1\n", "joint[1].bus is missing"},
+           {"\nbus = 0\nnode = 1\n", "\nbus = 4\nnode = 1\n", "joint[1].bus = 4 is out of range"},
+           {"\nsign = -1\n", "\nsign = 0.5\n", "joint[3].sign must be 1 or -1"},
+           {"\nrated_torque = 0.15\n", "\nrated_torque = 15.0\n", "joint[1].rated_torque times gear is 150 Nm"},
+           {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},
+           {"drive_delay = 0.0\n", "", "bus.drive_delay is missing"},
+           {"drive_delay = 0.0", "drive_delay = -1e-6", "bus.drive_delay = -1e-06 is out of range"},
+           {"drive_delay = 0.0", "drive_delay = 0.0051", "bus.drive_delay = 0.0051 is out of range"},
+           {"drive_delay = 0.0", "drive_delay = nan", "bus.drive_delay = nan is out of range"},
+           {"drive_delay = 0.0", "drive_delay = 0.0\nanswer = 0.0006", "bus.answer = 0.0006 is out of range"},
+       }) {
+    const std::string message = refusal(from, to);
+    EXPECT_NE(message.find(says), std::string::npos) << "'" << message << "' should say: " << says;
+    refused += message.find(says) != std::string::npos ? 1 : 0;
+    words = message.substr(message.rfind('/') + 1);
+  }
+  test::record_start(code_, std::to_string(refused) + " cases, the last: " + words);
+  EXPECT_NE(refusal("panel_bus = 2", "panel_bus = 2\nheartbeat = 1").find("bus.heartbeat is not a known key"),
+            std::string::npos);
+  EXPECT_NE(refusal("velocity = 8.0", "velocity = nan").find(".toml:51:"), std::string::npos)
+      << refusal("velocity = 8.0", "velocity = nan");
+}
+
+TEST_F(DeviceFileTest, ReadsTheDrivesDelay) {
+  EXPECT_EQ(read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml").bus.drive_delay, 0.0);
+  ASSERT_EQ(refusal("drive_delay = 0.0", "drive_delay = 0.005"), "");
+  EXPECT_EQ(read_device_file(file_).bus.drive_delay, 0.005);
+  EXPECT_EQ(read_device_file(file_).bus.answer, 0.0);
+  ASSERT_EQ(refusal("drive_delay = 0.0", "drive_delay = 0.0\nanswer = 120e-6"), "");
+  EXPECT_EQ(read_device_file(file_).bus.answer, 120e-6);
+}
+
+/// Joint 1: limits of +-1.2 rad about a zero of 0, gear 10. With 0.5 rad more, half a turn of 2^32 counts is at
+/// pi * 2^32 / (counts * 10) = 1.7 rad, that is 793'708'100.3 counts.
+TEST_F(DeviceFileTest, RefusesACounterWhosePositionWouldBeAmbiguous) {
+  const std::string_view says = "joint[1].counts times gear";
+  EXPECT_EQ(refusal("counts = 65536", "counts = 793708100"), "");
+  EXPECT_NE(refusal("counts = 65536", "counts = 793708101").find(says), std::string::npos);
+  EXPECT_NE(refusal("counts = 65536", "counts = 1e9").find(says), std::string::npos);
+  // from a zero 0.4 rad off the limit on the other side is 1.6 rad away: 642'525'604.98 counts
+  for (const char* zero : {"zero = 0.4", "zero = -0.4"}) {
+    text_.replace(text_.find("zero = "), text_.find('\n', text_.find("zero = ")) - text_.find("zero = "), zero);
+    EXPECT_EQ(refusal("counts = 65536", "counts = 642525604"), "") << zero;
+    EXPECT_NE(refusal("counts = 65536", "counts = 642525605").find(says), std::string::npos) << zero;
+  }
+}
+
+TEST_F(DeviceFileTest, RefusesTooManyJointsAndNone) {
+  const std::size_t first = text_.find("\n[[joint]]");
+  const std::string joint = text_.substr(first, text_.find("\n[[joint]]", first + 1) - first);
+  EXPECT_NE(refusal("\n[[joint]]", joint + joint + "\n[[joint]]").find("has 8 [[joint]] tables"), std::string::npos);
+  text_.erase(first, text_.find("\n[tool]") - first);
+  EXPECT_NE(refusal("\n[tool]", "\n[tool]").find("has 0 [[joint]] tables"), std::string::npos);
+}
+
+TEST_F(DeviceFileTest, HoldsAnotherMeshFrameWithTheSameMechanics) {
+  test::Random random(3);
+  Device device = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  device.model.payload.com = Vector3(0.01, 0.02, -0.03);
+  const Device before = device;
+  const Pose H_TM = set_matrix(random.motion(0.1, 3.0));
+  regrip(H_TM, device);
+  const JointVector q = test::random_positions(random, device.model);
+  const ArmKinematics kinematics = forward_kinematics(device.model, q);
+  const ArmKinematics kinematics_before = forward_kinematics(before.model, q);
+  const Pose H_RM = kinematics_before.H_RM * H_TM;  // the M before is T
+  EXPECT_LT((kinematics.H_RM.translation - H_RM.translation).norm(), 1e-12);
+  EXPECT_LT((gravity_torque(device.model, kinematics) - gravity_torque(before.model, kinematics_before)).norm(), 1e-12);
+  EXPECT_LT((mass_matrix(device.model, kinematics) - mass_matrix(before.model, kinematics_before)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace godobject::firmware

@@ -1,0 +1,125 @@
+#include "firmware/configuration/scene_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "tests/support/fault_record.h"
+#include "tests/support/ordinary_user.h"
+#include "tests/support/small_scenes.h"
+#include "toolchain/command_line/failure.h"
+
+namespace godobject::firmware {
+namespace {
+
+using command::ExitCode;
+using command::Failure;
+
+class SceneFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+    file_ = folder_ / "a.scene";
+    const auto bytes = image_.bytes();
+    text_.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    write(text_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
+
+  /// Exit code and message with which the file is refused.
+  std::pair<ExitCode, std::string> refusal(const std::filesystem::path& file) const {
+    try {
+      const SceneFile scene(file);
+    } catch (const Failure& failure) {
+      return {failure.exit_code(), failure.what()};
+    }
+    return {ExitCode::kOk, ""};
+  }
+
+  test::SceneImage image_ = test::ball_over_plate();
+  std::string text_;
+  std::filesystem::path folder_;
+  std::filesystem::path file_;
+};
+
+TEST_F(SceneFileTest, KeepsACopyThatLaterWritesDoNotReach) {
+  const SceneFile scene(file_);
+  EXPECT_EQ(scene.size(), text_.size());
+  EXPECT_EQ(scene.scene().grid.voxel_size, 0.002);
+  const std::size_t points = scene.scene().pointshell.size;
+  const float first = *scene.scene().pointshell.x;
+  write(std::string(text_.size(), 'x'));
+  EXPECT_EQ(scene.scene().pointshell.size, points);
+  EXPECT_EQ(*scene.scene().pointshell.x, first);
+  const bool unchanged = scene.scene().pointshell.size == points && *scene.scene().pointshell.x == first;
+  test::record({.reaction = unchanged ? "goes on" : "changes", .found = "a private copy", .after = "", .cycles = -1});
+}
+
+TEST_F(SceneFileTest, RefusesWhatIsNoRegularFile) {
+  EXPECT_EQ(refusal(folder_ / "nothing").first, ExitCode::kNoInput);
+  EXPECT_EQ(refusal(folder_).first, ExitCode::kNoInput);
+  std::filesystem::create_symlink(file_, folder_ / "link");
+  EXPECT_EQ(refusal(folder_ / "link").first, ExitCode::kNoInput);
+  EXPECT_NE(refusal(folder_ / "link").second.find("symbolic link"), std::string::npos);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(refusal(folder_ / "pipe").first, ExitCode::kNoInput) << "and does not wait for a writer";
+  EXPECT_EQ(refusal("/dev/zero").first, ExitCode::kNoInput);
+}
+
+TEST_F(SceneFileTest, RefusesWhatMayNotBeRead) {
+  std::filesystem::permissions(file_, std::filesystem::perms::none);
+  const test::AsOrdinaryUser user;
+  if (!user.holds()) GTEST_SKIP() << "rights do not bind this user, who cannot become another";
+  EXPECT_EQ(refusal(file_).first, ExitCode::kNoPermission);
+}
+
+TEST_F(SceneFileTest, RefusesEveryTruncationAndFlippedBits) {
+  for (std::size_t size = text_.size(); size-- > 0;) {
+    ASSERT_EQ(::truncate(file_.c_str(), static_cast<off_t>(size)), 0);
+    ASSERT_EQ(refusal(file_).first, ExitCode::kBadData) << size;
+  }
+  for (std::size_t bit = 0; bit < 8 * text_.size(); bit += 1 + 8 * text_.size() / 200) {
+    std::string flipped = text_;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    write(flipped);
+    ASSERT_EQ(refusal(file_).first, ExitCode::kBadData) << bit;
+  }
+  write(text_ + "x");
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  test::record_start(static_cast<int>(code), "all of " + std::to_string(text_.size()) + " lengths, 200 flipped bits");
+}
+
+TEST_F(SceneFileTest, RefusesAnotherVersion) {
+  auto& header = *reinterpret_cast<format::Header*>(image_.bytes().data());
+  ++header.version;
+  header.checksum = 0;
+  header.checksum = format::checksum(image_.bytes().data(), header.header_bytes);
+  const auto bytes = image_.bytes();
+  write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  EXPECT_NE(words.find("version"), std::string::npos) << words;
+  test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
+}
+
+TEST_F(SceneFileTest, RefusesWhatIsHugeWithoutTakingMemory) {
+  std::filesystem::resize_file(file_, std::uintmax_t{1} << 40);  // a hole
+  EXPECT_EQ(refusal(file_).first, ExitCode::kBadData);
+  std::filesystem::resize_file(file_, SceneFile::kLargest);  // its header still tells the true size
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
+}
+
+}  // namespace
+}  // namespace godobject::firmware

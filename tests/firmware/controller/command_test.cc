@@ -1,0 +1,186 @@
+// godobject-controller as its users meet it: the program is run, its exit codes, words and files are looked at.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include "tests/firmware/controller/controller_folder.h"
+#include "tests/support/fault_record.h"
+
+namespace godobject::firmware {
+namespace {
+
+class ControllerCommandTest : public ControllerFolderTest {
+ protected:
+  /// Exit code; `words_` gets stdout and stderr.
+  int run(const std::string& arguments, const std::string& before = "") {
+    const std::string command =
+        fmt::format("cd {} && {} {} {} > log.txt 2>&1", folder_.string(), before, GODOBJECT_CONTROLLER, arguments);
+    const int status = std::system(command.c_str());
+    words_ = text("log.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  bool says(const std::string& what) const { return words_.find(what) != std::string::npos; }
+
+  std::string words_;
+};
+
+TEST_F(ControllerCommandTest, RendersAPathAndLogsIt) {
+  write_path();
+  write_controller("[simulation]\npath = \"path.csv\"\nbegin = 6.0\n");
+  ASSERT_EQ(run("c.toml --log logs"), 0) << words_;
+  EXPECT_TRUE(says("stable up to")) << words_;
+  EXPECT_FALSE(says("in contact in 0:")) << words_;
+  EXPECT_TRUE(says(" 0 lost")) << words_;
+  std::ifstream log(folder_ / "logs" / "telemetry.csv");
+  std::string line;
+  ASSERT_TRUE(std::getline(log, line));
+  EXPECT_EQ(line.substr(0, 4), "t_s,");
+  int rows = 0;
+  bool contact = false;
+  while (std::getline(log, line)) {
+    ++rows;
+    contact = contact || line.find(",running,0,1,contact,") != std::string::npos;
+  }
+  EXPECT_GE(rows, 6000);
+  std::ifstream hand(folder_ / "logs" / "hand.csv");
+  ASSERT_TRUE(std::getline(hand, line));
+  EXPECT_EQ(line, "t_s,hand_J");
+  int hand_rows = 0;
+  std::string last;
+  for (; std::getline(hand, line); ++hand_rows) last = line;
+  EXPECT_EQ(hand_rows, rows);
+  EXPECT_GT(std::stod(last.substr(last.find(',') + 1)), 0.0) << "it was moved and pressed";
+  EXPECT_TRUE(contact);
+}
+
+TEST_F(ControllerCommandTest, WarnsWhereTheSignTestIsLeftOut) {
+  write_controller("[start]\nsign_test = false\n");
+  EXPECT_EQ(run("c.toml --duration 0.5"), 0) << words_;
+  EXPECT_TRUE(says("start.sign_test = false: ")) << words_;
+}
+
+TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
+  EXPECT_EQ(run("c.toml --bus none0,none1"), 78);
+  EXPECT_TRUE(says("--bus names 2 CAN interfaces, the device has 3 buses"));
+  EXPECT_EQ(run("c.toml --bus none0,none1,none0"), 78);
+  EXPECT_TRUE(says("names an interface twice"));
+  EXPECT_EQ(run("c.toml --bus none0,none1,none2"), 69);  // on machines with CAN and without it
+  EXPECT_TRUE(says("--bus none0: ")) << words_;
+  EXPECT_EQ(run(""), 64);
+  EXPECT_EQ(run("c.toml --duration -1"), 64);
+  EXPECT_EQ(run("c.toml --log-bus"), 64) << "with no folder to write it to";
+  EXPECT_EQ(run("nothing.toml"), 66);
+  EXPECT_EQ(run("c.toml --scene nothing.scene"), 66);
+  EXPECT_EQ(run("c.toml --scene c.toml"), 65);
+  EXPECT_TRUE(says("is not a scene image")) << words_;
+  write_controller("[limits]\nforce = nan\n");
+  EXPECT_EQ(run("c.toml"), 78);
+  EXPECT_TRUE(says("limits.force = nan")) << words_;
+  EXPECT_EQ(std::count(words_.begin(), words_.end(), '\n'), 1) << words_;
+  write_controller("[limits]\nforce = 10000.0\n");
+  EXPECT_EQ(run("c.toml"), 78);
+  EXPECT_TRUE(says("limits.force = 10000 N does not protect the hand of a person")) << words_;
+  write_path();
+  write_controller("[simulation]\npath = \"path.csv\"\n");
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0.2,0,0.06,1,0,0,0\n";
+  EXPECT_EQ(run("c.toml"), 78);
+  EXPECT_TRUE(says("set workspace.start to its first pose")) << words_;
+}
+
+/// Runs the command of the unit with interfaces that no machine has: it must look for them and simulate nothing.
+TEST_F(ControllerCommandTest, UnitOfSystemdDrivesBuses) {
+  std::ifstream unit(GODOBJECT_FIRMWARE_DIR "/systemd/godobject-controller.service");
+  std::string arguments;
+  for (std::string line; std::getline(unit, line);) {
+    const std::string start = "ExecStart=/usr/local/bin/godobject-controller ";
+    if (line.rfind(start, 0) == 0) arguments = line.substr(start.size());
+  }
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    ASSERT_NE(arguments.find(what), std::string::npos) << what << " in " << arguments;
+    arguments.replace(arguments.find(what), what.size(), with);
+  };
+  replace("/etc/godobject/controller.toml", "c.toml");
+  replace("can0,can1,can2", "none0,none1,none2");
+  EXPECT_EQ(run(arguments + " --duration 0.1"), 69) << words_;
+  EXPECT_TRUE(says("--bus none0: ")) << words_;
+}
+
+TEST_F(ControllerCommandTest, NamesTheFolderOfALogThatCannotBeMade) {
+  EXPECT_EQ(run("c.toml --duration 0.1 --log c.toml/logs"), 74);
+  EXPECT_TRUE(says("c.toml/logs: cannot make this folder (Not a directory)")) << words_;
+}
+
+TEST_F(ControllerCommandTest, SaysWhereItsTimeWentAndThatNothingRendersFromInside) {
+  write_controller("[start]\nsign_test = false\n");
+  std::string file = text("c.toml");
+  file.replace(file.find("0.06, 1.0"), 4, "0.00");
+  std::ofstream(folder_ / "c.toml") << file;
+  EXPECT_EQ(run("c.toml --duration 6"), 0) << words_;
+  EXPECT_TRUE(says("waits with the arm held: ")) << words_;
+  EXPECT_TRUE(says("rendered in 0 of ")) << words_;
+  EXPECT_TRUE(says("modes: boot ") && says(", armed ") && !says("running")) << words_;
+  EXPECT_LT(words_.find("waits with the arm held: "), words_.find("rendered in 0 of ")) << "in the order it happened";
+}
+
+TEST_F(ControllerCommandTest, RefusesGainsBeyondTheBoundary) {
+  write_controller("", "damping = 20.0\n");
+  EXPECT_EQ(run("c.toml"), 78);
+  EXPECT_TRUE(says("no stiffness is stable")) << words_;
+  write_controller("", "damping = 5.0\nrotational = 0.003\nstiffness = 20000.0\n");
+  const int code = run("c.toml");
+  EXPECT_EQ(code, 78);
+  EXPECT_TRUE(says("stability boundary")) << words_;
+  test::record_start(code, words_);
+}
+
+TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
+  write_controller("[loop]\nreal_time = true\npriority = 1\n");
+  const int code = run("c.toml --duration 0.3");
+  EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words_;  // a busy machine may be too late
+  EXPECT_TRUE(says("waking late: p50")) << words_;
+}
+
+TEST_F(ControllerCommandTest, CommissionsTheSimulatedDrives) {
+  EXPECT_EQ(run("commission c.toml"), 0) << words_;
+  EXPECT_EQ(std::count(words_.begin(), words_.end(), '\n'), 8) << words_;
+  std::size_t seen = 0;
+  for (std::size_t at = words_.find("emergency 8250"); at != std::string::npos;
+       at = words_.find("emergency 8250", at + 1)) {
+    ++seen;
+  }
+  EXPECT_EQ(seen, 7u) << words_;
+  EXPECT_EQ(run("commission nothing.toml"), 66);
+  EXPECT_EQ(run("commission"), 64);
+  EXPECT_EQ(run("commission --help"), 0);
+  EXPECT_TRUE(says("Exit codes: 0 ")) << words_;
+}
+
+TEST_F(ControllerCommandTest, CountsCyclesThatComputeForLongerThanThePlanSays) {
+  write_controller("[loop]\ncompute = 1e-6\n");
+  EXPECT_EQ(run("c.toml --duration 0.5"), 0) << words_;
+  EXPECT_TRUE(says("longer than loop.compute in ")) << words_;
+  EXPECT_FALSE(says("longer than loop.compute in 0\n")) << words_;
+}
+
+TEST_F(ControllerCommandTest, ExaminesTheMachine) {
+  for (const char* arguments : {"doctor", "doctor c.toml"}) {
+    const int code = run(arguments);
+    const bool able = !says("LACK kernel: ") && !says("LACK rtprio: ") && !says("LACK memlock: ");
+    EXPECT_EQ(code, able ? 0 : 69) << words_;
+    EXPECT_EQ(says("no real-time work on this machine"), !able) << words_;
+    EXPECT_TRUE(says("kernel: ") && says("memlock: ") && says("rtprio: ")) << words_;
+  }
+  EXPECT_EQ(run("doctor nothing.toml"), 66);
+  EXPECT_EQ(run("doctor --help"), 0);
+  EXPECT_TRUE(says("Exit codes: 0 done")) << words_;
+}
+
+}  // namespace
+}  // namespace godobject::firmware

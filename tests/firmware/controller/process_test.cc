@@ -1,0 +1,296 @@
+// godobject-controller as a process: signals, and a log that cannot be written. It waits for what it wants to see; how
+// long that takes decides nothing.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "tests/firmware/controller/controller_folder.h"
+#include "tests/support/fault_record.h"
+#include "tests/support/ordinary_user.h"
+
+namespace godobject::firmware {
+namespace {
+
+/// The controller in a folder, its words in log.txt there; killed with this.
+class Process {
+ public:
+  Process(const std::filesystem::path& folder, const std::vector<std::string>& arguments, rlim_t largest_file) {
+    std::vector<std::string> words{GODOBJECT_CONTROLLER};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    const int log = ::open((folder / "log.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const rlimit limit{largest_file, largest_file};
+    const bool ready = log >= 0 && ::dup2(log, 1) == 1 && ::dup2(log, 2) == 2 && ::chdir(folder.c_str()) == 0 &&
+                       ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
+    if (ready) ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Process() {
+    if (pid_ <= 0) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const { ::kill(pid_, signal); }
+
+  /// Exit code, or minus the signal that killed it.
+  int wait() {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /// Its open sockets.
+  int sockets() const {
+    int count = 0;
+    for (const auto& file : std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/fd")) {
+      std::error_code gone;
+      count += std::filesystem::read_symlink(file, gone).string().starts_with("socket:") ? 1 : 0;
+    }
+    return count;
+  }
+
+  bool is_stopped() const {
+    std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
+    std::string text((std::istreambuf_iterator<char>(stat)), {});
+    const std::size_t end = text.rfind(") ");
+    return end != std::string::npos && text[end + 2] == 'T';
+  }
+
+ private:
+  pid_t pid_;
+};
+
+class ControllerProcessTest : public ControllerFolderTest {
+ protected:
+  /// A condition that is not seen within this time counts as never seen. The value measures nothing else.
+  static constexpr std::chrono::seconds kNever{60};
+
+  bool see(const std::function<bool()>& what) const {
+    const auto end = std::chrono::steady_clock::now() + kNever;
+    while (!what()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  }
+
+  /// Modes of the rows that are whole, in their order.
+  std::vector<std::string> modes() const {
+    std::vector<std::string> found;
+    const std::string log = text("logs/telemetry.csv");
+    for (std::size_t begin = log.find('\n') + 1, end; (end = log.find('\n', begin)) != std::string::npos;
+         begin = end + 1) {
+      std::size_t from = begin;
+      for (int column = 0; column < 3; ++column) from = log.find(',', from) + 1;
+      found.push_back(log.substr(from, log.find(',', from) - from));
+    }
+    return found;
+  }
+
+  bool has(const std::string& mode) const {
+    const auto all = modes();
+    return std::find(all.begin(), all.end(), mode) != all.end();
+  }
+
+  /// The line of log.txt that has `what` in it.
+  std::string line_with(const std::string& what) const {
+    std::istringstream lines(text("log.txt"));
+    std::string line;
+    while (std::getline(lines, line)) {
+      if (line.find(what) != std::string::npos) return line;
+    }
+    return {};
+  }
+
+  /// For the report: a run with an end of its own, whose log was hindered.
+  void record_going_on(int exit_code) const {
+    const std::string cycles = line_with("overruns ");
+    const bool in_time = cycles.find("overruns 0, periods skipped 0") != std::string::npos;
+    test::record({.reaction = exit_code == 0 && in_time ? "goes on" : "ends early or late",
+                  .found = line_with("telemetry.csv: ") + "; " + cycles,
+                  .after = "exit " + std::to_string(exit_code),
+                  .cycles = -1});
+  }
+
+  bool says(const std::string& what) const { return text("log.txt").find(what) != std::string::npos; }
+
+  Process start(const std::vector<std::string>& more = {}, rlim_t largest_file = RLIM_INFINITY) const {
+    std::vector<std::string> arguments{"c.toml", "--log", "logs"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Process(folder_, arguments, largest_file);
+  }
+};
+
+const char* const kSeldom = "[start]\nsign_test = false\n[telemetry]\nevery = 200\n";
+const char* const kRealTime = "[start]\nsign_test = false\n[loop]\nreal_time = true\npriority = 1\n";
+
+TEST_F(ControllerProcessTest, EndsInOrderWhenItIsAskedTo) {
+  write_controller("[start]\nsign_test = false\n");
+  std::ptrdiff_t most = 0;
+  std::string codes;
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    std::filesystem::remove_all(folder_ / "logs");
+    Process process = start();
+    ASSERT_TRUE(see([&] { return has("running"); })) << text("log.txt");
+    process.send(signal);
+    const int code = process.wait();
+    EXPECT_EQ(code, 0) << signal << ": " << text("log.txt");
+    EXPECT_TRUE(says("rendered in")) << signal;
+    EXPECT_FALSE(says("stopped:")) << signal;
+    const std::vector<std::string> all = modes();
+    most = std::max(most, all.end() - std::find(all.begin(), all.end(), "ending"));
+    codes += (codes.empty() ? "exit " : ", ") + std::to_string(code);
+    EXPECT_LE(most, 200) << signal;
+  }
+  test::record({.reaction = codes == "exit 0, 0, 0" && most > 1 ? "ends" : "fails",
+                .found = "SIGTERM, SIGINT, SIGHUP",
+                .after = codes,
+                .cycles = static_cast<int>(most)});
+}
+
+TEST_F(ControllerProcessTest, TakesAResetWithoutAFaultForNothing) {
+  write_controller(kSeldom);
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running"); }));
+  for (int i = 0; i < 5; ++i) {
+    process.send(SIGUSR1);
+    const std::size_t rows = modes().size();
+    ASSERT_TRUE(see([&] { return modes().size() > rows + 2; }));
+  }
+  EXPECT_EQ(modes().back(), "running");
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+}
+
+TEST_F(ControllerProcessTest, IsStoppedForGoodByAPauseOfTheProcess) {
+  write_controller(kRealTime);
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running") || has("stopped"); })) << text("log.txt");
+  if (has("stopped")) GTEST_SKIP() << "this machine is too busy for a loop in real time: " << modes().size() << " rows";
+  process.send(SIGSTOP);
+  ASSERT_TRUE(see([&] { return process.is_stopped(); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  process.send(SIGCONT);
+  ASSERT_TRUE(see([&] { return has("stopped"); }));
+  ASSERT_TRUE(see([&] { return says("kill -USR1 "); })) << "the operator is told at once, with the cure";
+  const std::size_t rows = modes().size();
+  ASSERT_TRUE(see([&] { return modes().size() > rows + 300; })) << "it waits for the operator";
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+  EXPECT_TRUE(says("stopped: ")) << text("log.txt");
+  const std::vector<std::string> all = modes();
+  const auto stopping = std::find(all.begin(), all.end(), "stopping");
+  ASSERT_NE(stopping, all.end());
+  const std::set<std::string> allowed{"stopping", "stopped", "ended"};
+  const bool stays = std::all_of(stopping, all.end(), [&](const auto& mode) { return allowed.contains(mode); });
+  EXPECT_TRUE(stays) << "no power again";
+  test::record({.reaction = stays ? "STOP" : "powered again",
+                .found = line_with("stopped: "),
+                .after = "stopped for " + std::to_string(rows) + " cycles and more",
+                .cycles = -1});
+}
+
+TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKilled) {
+  write_controller("[start]\nsign_test = false\n");
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running"); }));
+  process.send(SIGKILL);
+  EXPECT_EQ(process.wait(), -SIGKILL);
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
+    files.insert(entry.path().filename());
+  }
+  EXPECT_EQ(files, (std::set<std::string>{"telemetry.csv", "hand.csv"}));
+  for (const std::string& file : files) {
+    const std::string log = text("logs/" + file);
+    std::istringstream lines(log.substr(0, log.rfind('\n') + 1));
+    std::string line;
+    std::getline(lines, line);
+    const auto columns = std::count(line.begin(), line.end(), ',');
+    EXPECT_GT(columns, 0);
+    while (std::getline(lines, line)) ASSERT_EQ(std::count(line.begin(), line.end(), ','), columns) << file;
+  }
+  // the next run starts with the files that the killed process left
+  Process again = start({"--duration", "0.5"});
+  EXPECT_EQ(again.wait(), 0) << text("log.txt");
+}
+
+TEST_F(ControllerProcessTest, GoesOnWithoutItsTelemetryOnAFullDisk) {
+  write_controller("[start]\nsign_test = false\n");
+  std::filesystem::create_directories(folder_ / "logs");
+  std::filesystem::create_symlink("/dev/full", folder_ / "logs" / "telemetry.csv");
+  Process process = start({"--duration", "2"});
+  const int code = process.wait();
+  EXPECT_EQ(code, 0) << text("log.txt");
+  EXPECT_TRUE(says("telemetry.csv: 0 rows, ")) << text("log.txt");
+  EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
+  record_going_on(code);
+}
+
+TEST_F(ControllerProcessTest, GoesOnWhenItsFileMayNotGrow) {
+  write_controller("[start]\nsign_test = false\n");
+  Process process = start({"--duration", "2"}, 200 * 1024);
+  const int code = process.wait();
+  EXPECT_EQ(code, 0) << text("log.txt");
+  EXPECT_TRUE(says("overruns 0, periods skipped 0")) << text("log.txt");
+  EXPECT_FALSE(says(" 0 lost")) << text("log.txt");
+  EXPECT_LE(std::filesystem::file_size(folder_ / "logs" / "telemetry.csv"), 200u * 1024u);
+  EXPECT_GT(modes().size(), 100u);
+  record_going_on(code);
+}
+
+TEST_F(ControllerProcessTest, OpensNoSocketOnASimulatedBus) {
+  write_controller(kSeldom);
+  Process process = start();
+  ASSERT_TRUE(see([&] { return has("running"); })) << text("log.txt");
+  const int sockets = process.sockets();
+  EXPECT_EQ(sockets, 0);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+  test::record({.reaction = sockets == 0 ? "goes on" : "opens sockets",
+                .found = std::to_string(sockets) + " sockets while it logs",
+                .after = "",
+                .cycles = -1});
+}
+
+/// Another user without rights to real-time work; on a real bus that is refused.
+TEST_F(ControllerProcessTest, SaysWhatItMayNotDoAndRunsOnASimulatedBus) {
+  write_controller(kRealTime);
+  std::filesystem::permissions(folder_, std::filesystem::perms::all);
+  int code = 0;
+  {
+    const test::AsOrdinaryUser user;
+    if (!user.holds()) GTEST_SKIP() << "rights do not bind this user, who cannot become another";
+    if (::faccessat(AT_FDCWD, GODOBJECT_CONTROLLER, X_OK, AT_EACCESS) != 0) {
+      GTEST_SKIP() << "the program lies in a folder that is closed to other users";
+    }
+    Process process = start({"--duration", "0.3"});
+    code = process.wait();
+  }
+  EXPECT_TRUE(says("going on, since the bus is simulated")) << text("log.txt");
+  EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << text("log.txt");  // a busy machine is late
+  const std::string words = line_with("going on, since");
+  test::record({.reaction = words.empty() ? "silent" : "goes on",
+                .found = words,
+                .after = "exit " + std::to_string(code),
+                .cycles = -1});
+}
+
+}  // namespace
+}  // namespace godobject::firmware

@@ -1,0 +1,178 @@
+#include "firmware/loop/periodic_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "firmware/cycle/overrun_watch.h"
+#include "tests/support/random.h"
+
+namespace godobject::firmware {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 1'000'000;
+
+/// Time that passes while somebody sleeps or a test says so.
+class FakeClock final : public hal::Clock {
+ public:
+  std::int64_t now_ns() noexcept override { return now; }
+  void sleep_until(std::int64_t ns) noexcept override { now = std::max(now, ns); }
+  std::int64_t now = 12'345'678;
+};
+
+TEST(PeriodicLoop, WakesAtAbsoluteDeadlinesWhateverComputingTakes) {
+  FakeClock clock;
+  LoopStatistics statistics;
+  std::vector<std::int64_t> deadlines;
+  test::Random random(1);
+  int left = 1000;
+  run_periodically(
+      clock, kPeriod_ns, 0, statistics, [] {},
+      [&](const LoopEvents& events) {
+        EXPECT_EQ(events.overrun_ns, 0);
+        EXPECT_EQ(events.skipped, 0u);
+        clock.now += random.integer(1, 999'999);
+        return --left > 0;
+      },
+      [&](const CycleTimes& times) { deadlines.push_back(times.deadline_ns); });
+  ASSERT_EQ(deadlines.size(), 1000u);
+  for (std::size_t i = 0; i < deadlines.size(); ++i) {
+    EXPECT_EQ(deadlines[i], 13'000'000 + static_cast<std::int64_t>(i) * kPeriod_ns);
+  }
+  EXPECT_EQ(statistics.lateness.largest_ns(), 0);
+  EXPECT_LE(statistics.compute.largest_ns(), 999'999);
+}
+
+TEST(PeriodicLoop, LeavesOutWhatHasPassedAndTellsTheNextCycle) {
+  // computing time of a cycle -> by how much the next one hears that it was late, and how many periods it lost
+  for (const auto& [took, overrun, skipped] :
+       std::initializer_list<std::array<std::int64_t, 3>>{{kPeriod_ns, 0, 0},
+                                                          {kPeriod_ns + 1, 1, 1},
+                                                          {2 * kPeriod_ns, kPeriod_ns, 1},
+                                                          {2 * kPeriod_ns + 1, kPeriod_ns + 1, 2},
+                                                          {7 * kPeriod_ns + 500, 6 * kPeriod_ns + 500, 7}}) {
+    FakeClock clock;
+    LoopStatistics statistics;
+    std::vector<LoopEvents> heard;
+    std::vector<std::int64_t> deadlines;
+    run_periodically(
+        clock, kPeriod_ns, 0, statistics, [] {},
+        [&, spent = took](const LoopEvents& events) {
+          heard.push_back(events);
+          if (heard.size() == 3) clock.now += spent;
+          return heard.size() < 6;
+        },
+        [&](const CycleTimes& times) { deadlines.push_back(times.deadline_ns); });
+    EXPECT_EQ(heard[3].overrun_ns, overrun);
+    EXPECT_EQ(heard[3].skipped, static_cast<std::uint32_t>(skipped));
+    EXPECT_EQ(heard[4].overrun_ns, 0);
+    EXPECT_EQ(deadlines[3] - deadlines[2], (1 + skipped) * kPeriod_ns);
+    EXPECT_EQ(deadlines[4] - deadlines[3], kPeriod_ns) << "no burst";
+  }
+}
+
+/// The scheduler's lateness lies before the cycle that wakes late: that one must know, for its velocities.
+TEST(PeriodicLoop, TellsACycleOfItsOwnLateWakingAndNoOther) {
+  class LateOnce final : public hal::Clock {
+   public:
+    explicit LateOnce(std::int64_t by) : late_by_(by) {}
+    std::int64_t now_ns() noexcept override { return now; }
+    void sleep_until(std::int64_t ns) noexcept override {
+      now = std::max(now, ns);
+      if (++slept_ == 4) now += late_by_;
+    }
+    std::int64_t now = 0;
+
+   private:
+    std::int64_t late_by_;
+    int slept_ = 0;
+  };
+  for (const std::int64_t late : {400'000, 999'999, 1'000'000, 1'600'000, 2'400'000, 7'200'000}) {
+    LateOnce clock(late);
+    LoopStatistics statistics;
+    std::vector<LoopEvents> heard;
+    std::vector<std::int64_t> woke;
+    run_periodically(
+        clock, kPeriod_ns, 0, statistics, [] {},
+        [&](const LoopEvents& events) {
+          heard.push_back(events);
+          woke.push_back(clock.now);
+          clock.now += 50'000;
+          return heard.size() < 8;
+        },
+        [](const CycleTimes&) {});
+    EXPECT_EQ(heard[3].overrun_ns, late >= kPeriod_ns ? late : 0) << late;
+    std::int64_t periods = 0;
+    for (std::size_t i = 1; i < heard.size(); ++i) {
+      if (i != 3) {
+        EXPECT_EQ(heard[i].overrun_ns, late < kPeriod_ns && late > 950'000 && i == 4 ? late + 50'000 - kPeriod_ns : 0)
+            << late << " " << i;
+      }
+      // the reported number of periods between two cycles is off by at most one, by half in the cycle that wakes late
+      const auto told = static_cast<double>(1 + heard[i].skipped);
+      const double apart = static_cast<double>(woke[i] - woke[i - 1]) / kPeriod_ns;
+      EXPECT_LE(std::abs(told - apart), 1.0) << late << " " << i;
+      if (i == 3) {
+        EXPECT_LE(std::abs(told - apart), 0.5) << late;
+      }
+      periods += 1 + heard[i].skipped;
+    }
+    EXPECT_LE(std::abs(periods - (woke.back() - woke.front()) / kPeriod_ns), 1) << late;
+  }
+}
+
+TEST(DurationHistogram, TellsQuantilesToASixteenthOfAnOctave) {
+  test::Random random(2);
+  std::vector<std::int64_t> all;
+  DurationHistogram histogram;
+  for (int i = 0; i < 50'000; ++i) {
+    all.push_back(static_cast<std::int64_t>(std::exp(random.between(0.0, 20.0))));
+    histogram.add(all.back());
+  }
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(histogram.count(), all.size());
+  EXPECT_EQ(histogram.largest_ns(), all.back());
+  for (const double share : {0.01, 0.5, 0.9, 0.999}) {
+    const auto exact = static_cast<double>(all[static_cast<std::size_t>(std::ceil(share * 50'000.0)) - 1]);
+    const auto told = static_cast<double>(histogram.quantile_ns(share));
+    EXPECT_GE(told, exact);
+    EXPECT_LE(told, exact * (1.0 + 1.0 / 16.0) + 1.0);
+  }
+  EXPECT_EQ(histogram.quantile_ns(1.0), all.back());
+}
+
+TEST(DurationHistogram, TakesEveryNumber) {
+  DurationHistogram histogram;
+  EXPECT_EQ(histogram.quantile_ns(0.5), 0);
+  histogram.add(-5);
+  EXPECT_EQ(histogram.quantile_ns(1.0), 0);
+  for (int bit = 0; bit < 63; ++bit) {
+    DurationHistogram one;
+    one.add(std::int64_t{1} << bit);
+    EXPECT_EQ(one.quantile_ns(0.5), std::int64_t{1} << bit);
+  }
+  histogram.add(INT64_MAX);
+  EXPECT_EQ(histogram.largest_ns(), INT64_MAX);
+}
+
+TEST(OverrunWatch, CountsInARowInAWindowAndTheLongOnes) {
+  OverrunWatch row;
+  EXPECT_FALSE(row.update(1));
+  EXPECT_FALSE(row.update(1));
+  EXPECT_TRUE(row.update(1));
+  OverrunWatch longest;
+  EXPECT_FALSE(longest.update(5'000'000));
+  EXPECT_TRUE(longest.update(5'000'001));
+  OverrunWatch window;
+  for (int i = 0; i < 20'000; ++i) ASSERT_FALSE(window.update(i % 100 == 0 ? 1 : 0)) << i;
+  OverrunWatch more;
+  bool tripped = false;
+  for (int i = 0; i < 1000; ++i) tripped |= more.update(i % 90 == 0 ? 1 : 0);
+  EXPECT_TRUE(tripped);
+}
+
+}  // namespace
+}  // namespace godobject::firmware

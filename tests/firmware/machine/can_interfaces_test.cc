@@ -1,0 +1,241 @@
+#include "firmware/machine/can_interfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace godobject::firmware {
+namespace {
+
+/// A netlink message put together number by number: rtnetlink(7), and the values of linux/can/netlink.h.
+class Message {
+ public:
+  Message(std::uint16_t type, std::uint16_t hardware, std::uint32_t flags) {
+    put32(0);  // length, at the end
+    put16(type);
+    put16(0);
+    put32(0);
+    put32(0);
+    put16(0);  // family, padding
+    put16(hardware);
+    put32(7);  // index
+    put32(flags);
+    put32(0);
+  }
+
+  Message& attribute(std::uint16_t type, const std::vector<std::uint8_t>& payload) {
+    const auto length = static_cast<std::uint16_t>(4 + payload.size());
+    put16(length);
+    put16(type);
+    for (const std::uint8_t byte : payload) bytes_.push_back(byte);
+    while (bytes_.size() % 4 != 0) bytes_.push_back(0);
+    return *this;
+  }
+
+  std::vector<std::uint8_t> bytes() const {
+    std::vector<std::uint8_t> whole = bytes_;
+    for (std::size_t i = 0; i < 4; ++i) whole[i] = static_cast<std::uint8_t>(whole.size() >> (8 * i));
+    return whole;
+  }
+
+  static std::vector<std::uint8_t> number(std::uint32_t value) {
+    return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8),
+            static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 24)};
+  }
+
+  static std::vector<std::uint8_t> text(const std::string& value) {
+    std::vector<std::uint8_t> bytes(value.begin(), value.end());
+    bytes.push_back(0);
+    return bytes;
+  }
+
+  /// The attributes alone, to be nested.
+  std::vector<std::uint8_t> nested() const { return {bytes_.begin() + 32, bytes_.end()}; }
+
+ private:
+  void put16(std::uint32_t value) {
+    bytes_.push_back(static_cast<std::uint8_t>(value));
+    bytes_.push_back(static_cast<std::uint8_t>(value >> 8));
+  }
+  void put32(std::uint32_t value) {
+    put16(value);
+    put16(value >> 16);
+  }
+
+  std::vector<std::uint8_t> bytes_;
+};
+
+constexpr std::uint16_t kNewLink = 16;
+constexpr std::uint16_t kHardwareCan = 280;
+
+std::vector<std::uint8_t> bit_timing(std::uint32_t rate) {
+  std::vector<std::uint8_t> payload = Message::number(rate);
+  payload.resize(32);
+  return payload;
+}
+
+/// can0 with a controller: 1 Mbit/s, 5 Mbit/s, restarts after 100 ms, error-passive, listens only.
+Message real_interface() {
+  Message data(0, 0, 0);
+  data.attribute(1, bit_timing(1'000'000));
+  data.attribute(4, Message::number(2));
+  data.attribute(5, {0x3F, 0, 0, 0, 0x22, 0, 0, 0});  // mask; flags: listen-only, FD
+  data.attribute(6, Message::number(100));
+  data.attribute(9, bit_timing(5'000'000));
+  Message info(0, 0, 0);
+  info.attribute(1, Message::text("can")).attribute(2, data.nested());
+  Message message(kNewLink, kHardwareCan, 0x40001);
+  message.attribute(3, Message::text("can0")).attribute(4, Message::number(72)).attribute(13, Message::number(10));
+  message.attribute(0x8000 | 18, info.nested());
+  return message;
+}
+
+CanInterface ready() {
+  CanInterface interface;
+  interface.name = "can0";
+  interface.kind = "can";
+  interface.can = interface.up = interface.echoes = true;
+  interface.mtu = 16;
+  interface.transmit_queue = 1000;
+  interface.bit_rate = 1'000'000;
+  return interface;
+}
+
+bool all_good(const std::vector<Finding>& findings) {
+  return std::all_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.good; });
+}
+
+TEST(CanInterface, IsReadFromTheKernelsMessage) {
+  const std::optional<CanInterface> interface = parse_link(real_interface().bytes());
+  ASSERT_TRUE(interface);
+  EXPECT_EQ(interface->name, "can0");
+  EXPECT_EQ(interface->kind, "can");
+  EXPECT_TRUE(interface->can);
+  EXPECT_TRUE(interface->up);
+  EXPECT_TRUE(interface->echoes);
+  EXPECT_EQ(interface->mtu, 72);
+  EXPECT_EQ(interface->transmit_queue, 10);
+  EXPECT_EQ(interface->bit_rate, 1'000'000u);
+  EXPECT_EQ(interface->data_rate, 5'000'000u);
+  EXPECT_EQ(interface->restart_ms, 100u);
+  EXPECT_TRUE(interface->listen_only);
+  EXPECT_TRUE(interface->passive);
+  EXPECT_FALSE(interface->bus_off);
+}
+
+TEST(CanInterface, NoOtherMessageIsTakenForOne) {
+  EXPECT_FALSE(parse_link(Message(2 /* error */, kHardwareCan, 1).bytes()));
+  EXPECT_FALSE(parse_link({}));
+}
+
+TEST(CanInterface, BrokenMessagesAreSurvived) {
+  const std::vector<std::uint8_t> whole = real_interface().bytes();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_FALSE(parse_link(std::span(whole).first(size)));  // shorter than it says
+  }
+  std::mt19937 random(5);
+  for (int i = 0; i < 20'000; ++i) {
+    std::vector<std::uint8_t> bent = whole;
+    for (int k = 0; k < 3; ++k) bent[32 + random() % (bent.size() - 32)] = static_cast<std::uint8_t>(random());
+    (void)parse_link(bent);
+  }
+}
+
+TEST(CanInterface, LacksNothingWhenItIsAsTheLayoutWants) {
+  const std::vector<Finding> findings = examine_can_interface(ready(), {});
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].good);
+  EXPECT_EQ(findings[0].what, "can0: up, 1000 kbit/s, txqueuelen 1000");
+}
+
+TEST(CanInterface, EachLackHasItsCure) {
+  struct Case {
+    void (*spoil)(CanInterface&);
+    const char* what;
+    const char* cure;
+    bool needed;
+  };
+  const Case cases[] = {
+      {[](CanInterface& i) { i.up = false; }, "can0: down",
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
+      {[](CanInterface& i) { i.bit_rate = 500'000; }, "can0: 500 kbit/s; the device file has 1000",
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
+      {[](CanInterface& i) { i.transmit_queue = 10; }, "can0: txqueuelen 10; a burst may find it full",
+       "ip link set can0 txqueuelen 1000", false},
+      {[](CanInterface& i) { i.restart_ms = 100; },
+       "can0: comes back 100 ms after it has left the bus, with nobody asked",
+       "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
+      {[](CanInterface& i) { i.echoes = false; }, "can0: its driver does not tell when a frame has been on the wire",
+       "use an adapter whose driver has IFF_ECHO; slcan of old kernels has not", true},
+      {[](CanInterface& i) { i.listen_only = true; }, "can0: listens only",
+       "ip link set can0 down; ip link set can0 up type can listen-only off", true},
+      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can shows those", true},
+  };
+  for (const Case& test : cases) {
+    CanInterface interface = ready();
+    test.spoil(interface);
+    const std::vector<Finding> findings = examine_can_interface(interface, {});
+    ASSERT_EQ(findings.size(), 1u) << test.what;
+    EXPECT_FALSE(findings[0].good);
+    EXPECT_EQ(findings[0].needed, test.needed) << test.what;
+    EXPECT_EQ(findings[0].what, test.what);
+    EXPECT_EQ(findings[0].cure, test.cure);
+  }
+  CanInterface off = ready();
+  off.bus_off = true;
+  EXPECT_FALSE(all_good(examine_can_interface(off, {})));
+  CanInterface passive = ready();
+  passive.passive = true;
+  EXPECT_FALSE(all_good(examine_can_interface(passive, {})));
+}
+
+TEST(CanInterface, FdFramesNeedMtuAndDataRate) {
+  hal::BusLayout layout;
+  layout.fd = true;
+  EXPECT_EQ(examine_can_interface(ready(), layout).size(), 2u);
+  CanInterface interface = ready();
+  interface.mtu = 72;
+  interface.data_rate = 5'000'000;
+  EXPECT_TRUE(all_good(examine_can_interface(interface, layout)));
+}
+
+TEST(CanInterface, ASimulatedOneHasNoBitTiming) {
+  CanInterface interface;
+  interface.name = "vcan0";
+  interface.kind = "vcan";
+  interface.can = interface.up = interface.echoes = true;
+  interface.mtu = 72;
+  const std::vector<Finding> findings = examine_can_interface(interface, {});
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].good);
+  EXPECT_EQ(findings[0].what, "vcan0: up, simulated (vcan)");
+}
+
+TEST(CanInterface, TheKernelIsAsked) {
+  const std::vector<std::string> names = {"lo", "no-such-can", "a-name-longer-than-any-interface"};
+  const std::vector<Finding> findings = examine_can_interfaces(names, {});
+  ASSERT_EQ(findings.size(), 3u);
+  EXPECT_EQ(findings[0].what, "lo: not a CAN interface");
+  EXPECT_EQ(findings[1].what, "no-such-can: no such interface");
+  EXPECT_FALSE(findings[2].good);
+  const std::optional<CanInterface> loopback = read_can_interface("lo");
+  ASSERT_TRUE(loopback);
+  EXPECT_EQ(loopback->name, "lo");
+  EXPECT_GT(loopback->mtu, 1000);
+}
+
+TEST(CanInterface, TheKernelsOwnSimulatedOneIsReady) {
+  const std::optional<CanInterface> interface = read_can_interface("vcan0");
+  if (!interface) GTEST_SKIP() << "not run: no interface vcan0; ip link add dev vcan0 type vcan";
+  EXPECT_EQ(interface->kind, "vcan");
+  EXPECT_TRUE(interface->can);
+  EXPECT_EQ(interface->mtu, 72);
+  EXPECT_TRUE(all_good(examine_can_interface(*interface, {})));
+}
+
+}  // namespace
+}  // namespace godobject::firmware
