@@ -1,4 +1,4 @@
-// The controller behind CAN against the same controller on drives without a bus that have the bus plan's delays.
+// Compares the controller behind CAN with the same controller on drives without a bus that have the bus plan's delays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double kBegin = 4.2;     // of the hand's path [s]
 constexpr double kHoldFrom = 4.0;  // the enable switch [s]
 constexpr int kCompared = 1000;    // cycles from the first contact on
 
-/// Down on the plate, 20 mm into it, and along in circles.
+/// Returns a path that goes down to the plate, 20 mm into it, and along the plate in circles.
 std::vector<Vector3> circling() {
   const std::vector<Waypoint> waypoints{{0.0, {0.0, 0.0, 0.06}}, {0.4, {0.0, 0.0, 0.01}}};
   std::vector<Vector3> path = path_through(waypoints);
@@ -29,7 +29,7 @@ std::vector<Vector3> circling() {
   return path;
 }
 
-/// When each joint is sampled and each torque acts if every frame is as long as it may be and none is blocked.
+/// Returns the times at which joints are sampled and torques act if each frame has its greatest length and none waits.
 sim::DriveTiming timing_of(const hal::BusLayout& layout) {
   const hal::BusPlan plan = hal::plan_buses(layout);
   sim::DriveTiming timing;
@@ -49,7 +49,7 @@ std::vector<SimulatedCycle> direct_run(const test::SceneImage& scene, const sim:
   options.path = circling();
   options.begin = kBegin;
   options.timing = timing;
-  options.enable_ns += 2'000'000;  // a CiA 402 drive is led there by three controlwords, one a cycle
+  options.enable_ns += 2'000'000;  // enabling a CiA 402 drive takes three controlwords, one a cycle
   SimulatedRun run(scene, options);
   run.run(cycles);
   return run.cycles;
@@ -94,7 +94,7 @@ TEST(BusDelay, ArmMovesAsOnDrivesWithThePlansDelays) {
       kCompared, static_cast<long>(contacts), most);
   EXPECT_LT(most, 1.5);
 
-  // and it is these delays that make it so: 5 us more for one joint's torque show
+  // the comparison is sensitive: 5 us more for the torque of one joint show
   timing.acts_ns[1] += 5'000;
   const double off = apart(can.cycles, direct_run(plate, timing, cycles), first->number);
   std::printf("torque of joint 2 later by 5 us: %.0f steps\n", off);

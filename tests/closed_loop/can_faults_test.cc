@@ -1,5 +1,5 @@
-// The table of faults over the wire: each is put on the simulated buses while the ball is pressed on a plate and moved
-// along; reaction and cycles are counted, and recorded for the report.
+// The table of faults over the wire. Each fault is injected into the simulated buses while the ball is pressed on a
+// plate and moved along it. The tests count the cycles of the reaction and record both for the report.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ const test::SceneImage& plate() {
   return image;
 }
 
-/// Down on the plate, 20 mm into it, and along in circles.
+/// Returns options with a path that goes down to the plate, 20 mm into it, and along the plate in circles.
 CanRun::Options pressing() {
   const std::vector<Waypoint> waypoints{{0.0, {0.0, 0.0, 0.06}}, {0.4, {0.0, 0.0, 0.01}}};
   CanRun::Options options;
@@ -50,7 +50,7 @@ hal::CanFrame frame(int id, std::initializer_list<int> bytes) {
   return frame;
 }
 
-/// Torques and brakes of all drives.
+/// Returns torques and brakes of all drives as text.
 std::string rest_of_arm(CanRun& run) {
   return rest_of(
       run.layout().joint_count, [&](int i) -> auto& { return run.device().nodes().drive(i); });
@@ -357,7 +357,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"transmit_queue_full_once", {bus_fault(K::kTransmitQueueFull, 1, 1)}, {}, {}, {}, 0}),
     [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
 
-/// A start that a fault meets, recorded with the exit code that the program ends with.
+/// Starts the nodes and records the result: refused if it failed and no torque was sent.
 hal::BringUpResult record_bring_up(CanRun& run) {
   const hal::BringUpResult result = run.bring_up();
   std::uint64_t commands = 0;
@@ -417,7 +417,7 @@ INSTANTIATE_TEST_SUITE_P(
         Start{"transmit_queue_full", bus_fault(K::kTransmitQueueFull, 0, kForGood), hal::BringUpStatus::kCannotSend}),
     [](const testing::TestParamInfo<Start>& row) { return row.param.name; });
 
-/// The greatest change of the hand's force in a cycle, from the fault's period on [N].
+/// Returns the largest change of the hand's force in a cycle, from the fault's period on [N].
 double largest_force_step(const CanRun& run) {
   double largest = 0.0;
   for (std::size_t i = 1; i < run.cycles.size(); ++i) {
@@ -428,7 +428,7 @@ double largest_force_step(const CanRun& run) {
   return largest;
 }
 
-/// Each sample of each joint is lost with a probability of 1 %, seldom enough that none is three times in a row.
+/// Each sample is lost with a probability of 1 %. The seed is such that no joint loses three samples in a row.
 TEST(CanLoop, GoesOnWithOneSampleInAHundredLostAtRandom) {
   CanRun plain(plate(), pressing());
   start(plain);
@@ -551,7 +551,7 @@ TEST(CanFlood, WithoutEndStopsInTime) {
   test::record(seen);
 }
 
-/// Frames are stamped by the clock that may be set.
+/// The clock that stamps the frames is set during the run.
 TEST(CanLoop, DoesNotFeelAClockThatIsSet) {
   CanRun plain(plate(), pressing());
   start(plain);
@@ -578,7 +578,7 @@ TEST(CanLoop, DoesNotFeelACounterThatWraps) {
   CanRun plain(plate(), pressing());
   start(plain);
   CanRun::Options options = pressing();
-  // joint 2's counter passes its greatest value a little from where the joint begins
+  // the counter of joint 2 wraps at a position shortly after the joint's start
   options.zero = -0.5 - 1e-3 - 2.0 * M_PI / (1 << 20) * 2'147'483'648.0;
   CanRun wrapped(plate(), options);
   start(wrapped);
@@ -598,7 +598,7 @@ TEST(CanLoop, DoesNotFeelACounterThatWraps) {
   test::record(seen);
 }
 
-/// Cycles in which no drive is enabled any more, from now on without the controller; 0: not within `most`.
+/// Advances without the controller. Returns the number of cycles until no drive is enabled; 0: not within `most`.
 int cycles_until_off(CanRun& run, int most) {
   const std::int64_t begin_ns = run.device().now_ns();
   const auto enabled = [&](int i) { return run.device().nodes().drive(i).state() == sim::PowerState::kEnabled; };
@@ -611,7 +611,7 @@ int cycles_until_off(CanRun& run, int most) {
   return 0;
 }
 
-/// SIGKILL at an instant of a cycle: every drive stops by itself, and ends without torque and with its brake closed.
+/// SIGKILL at an instant of a cycle: every drive stops by itself and ends without torque, with its brake closed.
 TEST(CanLoop, DrivesStopThemselvesWhenTheControllerIsKilled) {
   test::Random random(11);
   CanRun run(plate(), pressing());
@@ -635,7 +635,7 @@ TEST(CanLoop, DrivesStopThemselvesWhenTheControllerIsKilled) {
                 .cycles = cycles});
 }
 
-/// SIGSTOP, and SIGCONT 50 ms later: the drives have stopped, and are not enabled again.
+/// SIGSTOP, and SIGCONT 50 ms later: the drives have stopped and are not enabled again.
 TEST(CanLoop, DrivesStopThemselvesInAPauseAndStayWithoutPower) {
   CanRun run(plate(), pressing());
   start(run);
@@ -655,7 +655,7 @@ TEST(CanLoop, DrivesStopThemselvesInAPauseAndStayWithoutPower) {
                 .cycles = cycles});
 }
 
-/// The drives of a bus that is dead get no quick stop from the controller.
+/// The controller cannot send a quick stop to the drives of a dead bus.
 TEST(CanLoop, DrivesOnADeadBusStopThemselves) {
   CanRun::Options options = pressing();
   options.bus_faults = {bus_fault(K::kBusOff, 1, kForGood)};

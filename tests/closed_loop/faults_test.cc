@@ -1,5 +1,5 @@
-// The table of faults, without a wire: each is put into the simulated device while the ball is pressed on a plate and
-// moved along; the reaction and the cycles that it takes are counted at the device, and recorded for the report.
+// The table of faults, without a wire. Each fault is injected into the simulated device while the ball is pressed on a
+// plate and moved along it. The tests count the cycles of the reaction at the device and record both for the report.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const test::SceneImage& plate() {
   return image;
 }
 
-/// Down on the plate, 20 mm into it, and along in circles.
+/// Returns a path that goes down to the plate, 20 mm into it, and along the plate in circles.
 std::vector<Vector3> press_and_rub() {
   std::vector<Waypoint> waypoints{{0.0, {0.0, 0.0, 0.06}}, {0.4, {0.0, 0.0, 0.01}}};
   std::vector<Vector3> path = path_through(waypoints);

@@ -1,7 +1,6 @@
-// Example 3: a loop of 1 kHz with a device of your own. `Device` is the part to replace: here it is a handle of 0.5 kg that a
-// hand presses down with 5 N and that is free to move up and down. The loop keeps absolute deadlines, so that the
-// duration of a cycle does not add up.
-// usage: 3_own_device X.scene
+// Example 3: a loop of 1 kHz with a device of your own. `Device` is the part to replace: here it is a handle of 0.5 kg
+// that a hand presses down with 5 N and that is free to move up and down. The loop keeps absolute deadlines, so that
+// the duration of a cycle does not add up. usage: 3_own_device X.scene
 
 #include <time.h>
 

@@ -1,7 +1,7 @@
 // Example 4: closed loop on a simulated arm. The whole controller runs: position check, god object, limits at the hand,
-// joint torques, supervisor. The hand of an operator, a spring of 300 N/m, leads the tool down until the mesh presses on the
-// still body, and on by 40 mm. Time is virtual, so the run is the same each time. For a real arm, replace the drives.
-// usage: 4_simulated_arm firmware/devices/lwr.toml X.scene
+// joint torques, supervisor. The hand of an operator, a spring of 300 N/m, leads the tool down until the mesh presses
+// on the still body, and on by 40 mm. Time is virtual, so the run is the same each time. For a real arm, replace the
+// drives. usage: 4_simulated_arm firmware/devices/lwr.toml X.scene
 
 #include <cstdint>
 #include <cstdio>
@@ -45,7 +45,8 @@ void run(const char* device_file, const char* image_file) {
       firmware::place(workspace, firmware::read_device_file(device_file), image.scene.H_MB.translation);
   const ArmModel& arm = placement.device.model;
 
-  // the start takes 3 s, the hand begins at 8 s; a real arm brings these along: joints, drives, and the hand of a person
+  // the start takes 3 s, the hand begins at 8 s; a real arm brings these along: joints, drives, and the hand of a
+  // person
   const std::vector<Pose> path = lead_down(forward_kinematics(arm, workspace.posture).H_RM);
   sim::HandParameters hand;
   hand.grip = sim::Grip::kSpring;
@@ -65,13 +66,13 @@ void run(const char* device_file, const char* image_file) {
   const Status status = cycle->start();
   if (status != Status::kOk) throw std::runtime_error(describe(status));
 
-  for (std::int64_t k = 0; k < 12'000; ++k) {
+  for (int k = 0; k < 12'000; ++k) {
     drives.advance_to(k * kPeriod_ns);
     cycle->request();
     cycle->run_once({});
     const firmware::CycleRecord& record = cycle->record();
     if (k % 1000 == 999) {
-      std::printf("%4.1f s  %-8s device %6.2f mm  god object %6.2f mm  force %5.2f N\n", 1e-3 * (k + 1),
+      std::printf("%4.1f s  %-9s device %6.2f mm  god object %6.2f mm  force %5.2f N\n", 1e-3 * (k + 1),
                   firmware::name(record.mode), 1e3 * record.H_WM.translation.z(),
                   1e3 * record.god_object_W.translation.z(), record.F_G_R.force.z());
     }

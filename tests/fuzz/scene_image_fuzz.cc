@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "toolchain/session/owned_god_object.h"
 #include "core/scene/scene_view.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject {
 namespace {

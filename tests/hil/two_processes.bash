@@ -1,4 +1,4 @@
-# For the cases: the simulated arm and the controller as two processes on three buses. Sourced.
+# Functions for the cases, which source this file: the simulated arm and the controller as two processes on three buses.
 set -euo pipefail
 
 buses=(vcan0 vcan1 vcan2)
@@ -19,8 +19,8 @@ fail() {
   exit 1
 }
 
-# Below the controller's own priority, which sleeps while the arm answers.
-start_device() {  # [SECONDS until the enable switch is held: soon after the controller waits for it]
+# Starts the arm, at a lower priority than the controller's, because the controller sleeps while the arm answers.
+start_device() {  # [SECONDS until the operator holds the enable switch: shortly after the controller begins to wait for it]
   chrt -f 70 "$HIL_BIN/godobject-simdevice" "$config" --scene "$HIL_SCENE" --bus "$devices" --enable-after "${1:-1.1}" \
     >"$HIL_WORK/device" 2>&1 &
   device=$!
@@ -36,7 +36,7 @@ start_controller() {  # [ARGUMENT ...]
 
 mode() { tail -n 1 "$log/telemetry.csv" 2>/dev/null | cut -d , -f 4; }
 
-# In steps of 100 ms: each look costs the virtual machine some milliseconds.
+# Waits in steps of 100 ms, because each check takes the virtual machine some milliseconds.
 until_mode() {  # MODE SECONDS
   local i
   for ((i = 0; i < 10 * $2; ++i)); do
@@ -53,14 +53,14 @@ start_running() {
   until_mode running 15
 }
 
-# The rows from the last one in the mode running on: no mode may power the arm again.
+# Checks the telemetry after the last row in the mode running: no later mode may power the arm again.
 never_again() {
   awk -F , '$4 == "running" { last = NR } { mode[NR] = $4 }
     END { for (i = last + 1; i <= NR; ++i) if (mode[i] !~ /^(fade|stopping|stopped|ending|ended)$/) { print "row " i ": " mode[i]; exit 1 } }' \
     "$log/telemetry.csv" || fail "powered again"
 }
 
-# What must not disturb: still running a moment later, to the end in order.
+# For disturbances without effect: the controller still runs after a moment (goes_on_running), then ends in order (goes_on).
 goes_on_running() {
   sleep 0.1
   [ "$(mode)" = running ] || fail "not running, but $(mode)"
@@ -75,8 +75,10 @@ goes_on() {
   grep 'positions lost' "$HIL_WORK/controller"
 }
 
-# Nothing late, nothing lost, no page fault. The arm's first answers after the silence of the controller's probe, in which it goes
-# by its own clock, may come late, one of each joint: positions lost are counted from the mode behind it on. What a machine without a real-time kernel is late is not the controller's fault.
+# Checks that nothing was late or lost and that there was no page fault. Only in virtual time, because delays of a machine
+# without a real-time kernel are not the controller's fault. One late sample of each joint is allowed: during the silence
+# of the controller's probe the arm follows its own clock, so its first answers after that may be late. Lost positions
+# count from the next mode on.
 not_late() {
   [ "$HIL_CLOCK" = "virtual time" ] || return 0
   grep -q 'positions lost in 0 cycles, jumps in 0, sends failed 0, overruns 0, periods skipped 0' "$HIL_WORK/controller" ||
@@ -85,7 +87,7 @@ not_late() {
   grep -q 'page faults in the loop: 0' "$HIL_WORK/controller" || fail "page faults"
 }
 
-# Sends the arm's end by SIGTERM and shows what it saw.
+# Ends the arm with SIGTERM and prints its output.
 end_device() {
   kill -TERM "$device" 2>/dev/null || true
   wait "$device" || fail "the device ended with $?"
@@ -93,7 +95,7 @@ end_device() {
   cat "$HIL_WORK/device"
 }
 
-# A fault that the controller must find: stopped, latched until SIGTERM, and the words of it on stderr.
+# Checks a fault that the controller must find: it stops, stays stopped until SIGTERM, and stderr has the words of the fault.
 stopped_by() {  # WORDS
   until_mode stopped 2
   sleep 0.1

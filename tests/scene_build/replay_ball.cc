@@ -56,8 +56,8 @@ int main(int argc, char** argv) {
   if (name == std::end(kSolvers)) return 64;
   const auto solver = static_cast<Solver>(name - std::begin(kSolvers));
   static std::vector<Line> memory(GodObject::memory_size(scene) / sizeof(Line) + 1);
-  const Status started = god_object.start(scene, solver, std::strcmp(argv[3], "on") == 0,
-                                          std::as_writable_bytes(std::span(memory)));
+  const Status started =
+      god_object.start(scene, solver, std::strcmp(argv[3], "on") == 0, std::as_writable_bytes(std::span(memory)));
   if (started != Status::kOk) return std::fprintf(stderr, "%s\n", describe(started)), 78;
   for (int i = 0; i < 1000; ++i) {
     CycleReport report;

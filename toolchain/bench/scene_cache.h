@@ -18,11 +18,11 @@ class SceneCache {
 
   /// Returns the image of a scene file, and compiles it if it is not cached. `progress` may be empty. Throws Failure.
   files::SceneImage image(const std::filesystem::path& scene_file,
-                            const std::function<void(const char* phase, double done)>& progress) const;
+                          const std::function<void(const char* phase, double done)>& progress) const;
 
   /// The same for the text of a scene file, whose meshes have absolute paths; the file's name begins with `name`.
   files::SceneImage image_of_text(std::string_view name, std::string_view text,
-                                    const std::function<void(const char* phase, double done)>& progress) const;
+                                  const std::function<void(const char* phase, double done)>& progress) const;
 
  private:
   std::filesystem::path folder_;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "toolchain/session/owned_god_object.h"
 #include "core/scene/scene_view.h"
 #include "godobject/pose.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::bench {
 

@@ -39,8 +39,7 @@ void for_each_cycle(Session& session, const Paths& paths, Cycle&& cycle) {
 
 }  // namespace
 
-Session::Session(const SceneView& scene, const Setting& setting)
-    : god_object_(std::make_unique<OwnedGodObject>()) {
+Session::Session(const SceneView& scene, const Setting& setting) : god_object_(std::make_unique<OwnedGodObject>()) {
   SceneView with_margin = scene;
   with_margin.settings.margin = setting.margin;
   if (god_object_->start(with_margin, setting.solver, setting.friction) != Status::kOk) {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "toolchain/session/owned_god_object.h"
 #include "toolchain/precision/setting.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::precision {
 

@@ -41,8 +41,8 @@ void append_row(std::string& text, std::string_view point_text, const FieldSampl
 
 }  // namespace
 
-std::uint64_t query_points(const SceneView& scene, const std::filesystem::path& points, const std::filesystem::path& output,
-                           const parallel::Progress& progress) {
+std::uint64_t query_points(const SceneView& scene, const std::filesystem::path& points,
+                           const std::filesystem::path& output, const parallel::Progress& progress) {
   files::CsvLines lines(points);
   std::error_code unknown;  // of a pipe: no progress is shown
   const std::uintmax_t size = std::filesystem::file_size(points, unknown);

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "godobject/god_object.h"
 #include "core/scene/scene_view.h"
+#include "godobject/god_object.h"
 #include "toolchain/files/pose_path.h"
 
 namespace godobject::replay {

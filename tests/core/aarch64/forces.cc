@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "godobject/god_object.h"
 #include "core/scene/clearance_kernel.h"
+#include "godobject/god_object.h"
 
 namespace {
 

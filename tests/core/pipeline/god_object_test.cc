@@ -45,7 +45,9 @@ SceneDescription balls() {
 
 class GodObjectTest : public testing::Test {
  protected:
-  GodObjectTest() : image_(build_scene_image(balls())) { EXPECT_EQ(SceneView::open(image_.bytes(), scene_), Status::kOk); }
+  GodObjectTest() : image_(build_scene_image(balls())) {
+    EXPECT_EQ(SceneView::open(image_.bytes(), scene_), Status::kOk);
+  }
 
   /// Mesh pose with the body's centre at `center`, turned by `r`.
   Pose mesh_pose(const Vector3& center, const Vector3& r = Vector3::Zero()) const {

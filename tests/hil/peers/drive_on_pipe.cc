@@ -1,5 +1,5 @@
-// A simulated drive, node 1, and the panel, node 20h, on a pipe: see FramePipe. A millisecond of theirs passes whenever
-// one passes, or a frame has come; ends when stdin does.
+// A simulated drive, node 1, and the panel, node 20h, on a pipe (FramePipe). Their time advances by a millisecond for
+// each millisecond of real time and for each received frame. Ends when stdin ends.
 #include <memory>
 
 #include "sim/can_device.h"

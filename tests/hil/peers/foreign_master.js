@@ -21,7 +21,7 @@ async function main() {
   const statusword = object(0x6041, U16), position = object(0x6064, I32), torque = object(0x6077, I16);
   const controlword = object(0x6040, U16), target = object(0x6071, I16);
   eds.addReceivePdo({ cobId: 0x180 + node, transmissionType: 1, dataObjects: [statusword, position, torque] });
-  // of a type that is sent when told
+  // transmission type 255: sent on request of this program
   eds.addTransmitPdo({ cobId: 0x200 + node, transmissionType: 255, dataObjects: [controlword, target] });
   pipe.add(master);
   master.start();

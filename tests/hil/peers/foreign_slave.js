@@ -1,7 +1,7 @@
 'use strict';
-// foreign_slave.js PROGRAM LOG: a drive, node 5, and a panel, node 20h, written with the library `canopen`, for our master. The
-// library has no CiA 402: power states by hand; no boot-up message and no TPDO of type 255: sent by hand; and it takes neither 1005 nor sub-objects back at
-// a reset.
+// foreign_slave.js PROGRAM LOG: a drive, node 5, and a panel, node 20h, written with the library `canopen`, for our master.
+// The library lacks CiA 402, the boot-up message and TPDOs of type 255, so this file has the power states and sends both.
+// At a reset the library restores neither 1005 nor sub-objects.
 
 const assert = require('assert');
 const { Device, DataType, ObjectType, AccessType, NmtState } = require('canopen');
@@ -76,7 +76,7 @@ async function main() {
     }
   });
 
-  // some time after it was enabled and stopped something breaks
+  // the drive fails some time after it was enabled and stopped
   drive.sync.on('sync', () => {
     if (permille !== 0 && statusword.value === 0x1250 && ++stopped === 20) drive.emcy.write(0x7305, Buffer.alloc(5));
   });

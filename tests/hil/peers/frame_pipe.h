@@ -11,10 +11,10 @@
 
 namespace godobject::test {
 
-/// Frames as lines of text, 203#0F00CEFF, in on stdin and out on stdout.
+/// Receives frames on stdin and sends them on stdout, one line of text each: 203#0F00CEFF.
 class FramePipe {
  public:
-  /// A frame that has come; does not wait.
+  /// Returns true and a frame if one has arrived. Does not wait.
   bool read(hal::CanFrame& frame) {
     std::size_t end = 0;
     while ((end = text_.find('\n')) == std::string::npos) {
@@ -37,7 +37,7 @@ class FramePipe {
     std::fflush(stdout);
   }
 
-  /// Waits for at most so long until something comes. False once the other side has gone.
+  /// Waits for input, for at most this time. Returns false after the other side has ended.
   bool wait(int milliseconds) {
     fetch(milliseconds);
     return !ended_;

@@ -1,5 +1,5 @@
-// CanDrives on a pipe, see FramePipe, against a drive, node 5, and a panel, node 20h, of other people's making. Says on
-// stderr how far it came. Exit: 0 all was as it should be, 1 not.
+// CanDrives on a pipe (FramePipe) with a drive, node 5, and a panel, node 20h, of another library. Prints its progress
+// on stderr. Exit: 0 passed, 1 failed.
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace godobject;
 
-/// Own frames come back before whatever comes after them.
+/// A bus on a pipe. Own frames are received again, before all later frames.
 class PipeBus final : public hal::CanBus {
  public:
   hal::SendResult send(const hal::CanFrame& frame) noexcept override {
@@ -35,12 +35,12 @@ class PipeBus final : public hal::CanBus {
   std::deque<hal::CanFrame> own_;
 };
 
-/// Cycles of 10 ms, of which the other side has 8 for its answer: an interpreter takes its time.
+/// Runs cycles of 10 ms. The other side, an interpreter, has 8 ms of each cycle for its answer.
 class Cycles {
  public:
   Cycles(hal::CanDrives& drives, hal::Clock& clock) : drives_(drives), clock_(clock) {}
 
-  /// Until `done`, for at most 3 s.
+  /// Runs cycles until `done` returns true, for at most 3 s.
   template <class Done>
   bool run(hal::PowerRequest power, double torque, Done&& done) {
     hal::JointCommand command;
@@ -93,7 +93,7 @@ int main() {
   hal::JointReading& reading = cycles.reading;
   using enum hal::PowerRequest;
 
-  // 12345 counts of 6553600 a turn of the joint, against its direction; 10 Nm are 50 permille of 200 Nm, against it too
+  // 12345 of 6553600 counts per turn, and 10 Nm, 50 permille of 200 Nm: both against the joint's direction
   constexpr double kPosition = 0.25 - 2.0 * M_PI * 12345.0 / 6553600.0;
   bool good = check(cycles.run(kEnable, 0.0, [&] { return reading.state[0] == hal::DriveState::kEnabled; }), "enabled");
   good = good && check(std::fabs(reading.position[0] - kPosition) < 1e-12, "position");

@@ -1,6 +1,6 @@
 'use strict';
-// Devices of the library `canopen` on a pipe to one of our programs: a frame a line, 203#0F00CEFF. All frames of both sides go into a
-// log as candump -L writes it.
+// Connects devices of the library `canopen` with one of our programs by a pipe, one frame a line: 203#0F00CEFF. Writes the
+// frames of both sides into a log in the format of candump -L.
 
 const { spawn } = require('child_process');
 const fs = require('fs');
@@ -51,7 +51,7 @@ class Pipe {
     fs.writeSync(this.log, `(${us / 1000000n}.${String(us % 1000000n).padStart(6, '0')}) can0 ${line}\n`);
   }
 
-  // The first frame from now on that is as `wanted` says.
+  // Resolves to the first frame from now on for which `wanted` returns true.
   frame(what, wanted) {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => reject(new Error(`no ${what} within 20 s`)), 20000);

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "toolchain/session/owned_god_object.h"
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
@@ -19,6 +18,7 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 #include "toolchain/scene_compiler/report_json.h"
 #include "toolchain/scene_compiler/report_text.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::scene_compiler {
 namespace {

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "toolchain/session/owned_god_object.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/compile_scene.h"
@@ -19,6 +18,7 @@
 #include "toolchain/scene_compiler/report_text.h"
 #include "toolchain/scene_compiler/trimming/tree_levels.h"
 #include "toolchain/scene_compiler/trimming/try_out.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -65,8 +65,7 @@ class LeavesOut : public testing::Test {
 
 class Session {
  public:
-  Session(const SceneView& scene, Solver solver, bool friction)
-      : H_BM_(scene.H_MB.inverse()) {
+  Session(const SceneView& scene, Solver solver, bool friction) : H_BM_(scene.H_MB.inverse()) {
     EXPECT_EQ(god_object_.start(scene, solver, friction), Status::kOk);
   }
   CycleReport update(const Pose& H_WB) {

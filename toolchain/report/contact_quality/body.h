@@ -14,7 +14,7 @@ namespace godobject::report {
 struct Body {
   std::filesystem::path file;  ///< its mesh, in metres
   std::uint32_t points = 0;    ///< requested number
-  files::SceneImage image;   ///< image of a scene with this body and any still body
+  files::SceneImage image;     ///< image of a scene with this body and any still body
 
   const SceneView& scene() const { return image.scene; }
 };

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "toolchain/session/owned_god_object.h"
 #include "toolchain/report/analytic/solid.h"
 #include "toolchain/report/contact_quality/body.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/reference.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::report {
 

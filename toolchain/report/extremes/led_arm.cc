@@ -65,9 +65,7 @@ JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
 /// The controller without its supervisor; it renders fully from the first cycle on.
 class Unsupervised {
  public:
-  Unsupervised(const LedArm& arm, const CycleSetup& setup)
-      : setup_(setup),
-        limiter_(*setup.arm, setup.torque) {
+  Unsupervised(const LedArm& arm, const CycleSetup& setup) : setup_(setup), limiter_(*setup.arm, setup.torque) {
     if (god_object_.start(*arm.scene, arm.solver, arm.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kInternal, "the scene lacks the solver");
     }

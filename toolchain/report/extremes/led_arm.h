@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "toolchain/session/owned_god_object.h"
 #include "firmware/configuration/controller_file.h"
 #include "firmware/cycle/control_cycle.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::report {
 

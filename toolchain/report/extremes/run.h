@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "toolchain/session/owned_god_object.h"
 #include "toolchain/report/extremes/setup.h"
 #include "toolchain/report/extremes/way_out.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::report {
 

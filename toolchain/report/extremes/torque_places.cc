@@ -155,8 +155,8 @@ void TorqueSteps::add(const TorqueSteps& other) {
   raise(force, other.force);
 }
 
-TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver, bool friction,
-                         const firmware::TorqueLimits& used, std::uint32_t seed) {
+TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver,
+                         bool friction, const firmware::TorqueLimits& used, std::uint32_t seed) {
   const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, used}, place_path(place, scene, seed));
   TorqueSteps found{.cycles = static_cast<std::int64_t>(cycles.size())};
   LedCycle before = cycles.front();  // the arm's weight, which comes at once, does not count as a change

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "godobject/god_object.h"
 #include "firmware/configuration/device_file.h"
 #include "firmware/cycle/torque_limiter.h"
+#include "godobject/god_object.h"
 #include "godobject/pose.h"
 #include "toolchain/files/scene_image.h"
 #include "toolchain/report/study/case.h"
@@ -48,8 +48,8 @@ struct TorqueSteps {
 };
 
 /// Runs one path. `used`: limits of the controller; the judgement always uses 5 %.
-TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver, bool friction,
-                         const firmware::TorqueLimits& used, std::uint32_t seed);
+TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver,
+                         bool friction, const firmware::TorqueLimits& used, std::uint32_t seed);
 
 /// Runs all solvers, with and without friction, for `cycles` or a little more.
 CaseResult torque_rate(Place place, const std::filesystem::path& device_file, std::int64_t cycles,

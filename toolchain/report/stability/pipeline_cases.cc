@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/device/stability.h"
-#include "toolchain/session/owned_god_object.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/meshes.h"
 #include "toolchain/report/stability/axis_loop.h"
 #include "toolchain/report/stability/axis_theory.h"
 #include "toolchain/report/stability/cases.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::report {
 namespace {

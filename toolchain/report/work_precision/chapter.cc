@@ -252,7 +252,7 @@ Chapter work_precision_chapter(const WorkPrecisionRequest& request) {
     const std::filesystem::path motion = request.scenes / "paths" / scene.path;
     for (const auto& input : {file, motion}) {
       files::require_regular_input(input,
-                                     "name the folder of the scenes with --scenes; the sources have toolchain/scenes");
+                                   "name the folder of the scenes with --scenes; the sources have toolchain/scenes");
     }
     const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(file);
     const std::string inputs =

@@ -14,7 +14,7 @@ namespace godobject::report {
 
 /// Returns the image of `config`; `key` names all its inputs except the program.
 files::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
-                               const scene_compiler::SceneConfig& config);
+                             const scene_compiler::SceneConfig& config);
 
 /// Returns the cycles of `run`; `key` as above. They are stored in the machine's byte order. Throws Failure (kBadData)
 /// if the file ends within a cycle.

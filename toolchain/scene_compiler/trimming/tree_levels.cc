@@ -104,8 +104,8 @@ class NearWork {
     const double moved = odometer_.travelled() - before;
     const double free_cut = std::min(std::max(lengths_.margin, lengths_.shortest_search_radius), longest_);
     if (search_.is_free(odometer_.travelled() + moved, free_cut)) return;
-    const double reach =
-        direction_.most_stretch() * lengths_.search_radius_for(ContactLengths::kSearchRadiusOverDisplacement * moved, longest_);
+    const double reach = direction_.most_stretch() *
+                         lengths_.search_radius_for(ContactLengths::kSearchRadiusOverDisplacement * moved, longest_);
     if (search_.is_free(odometer_.travelled(), reach)) return;
     search_.find(
         direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.travelled(), reach,

@@ -12,7 +12,7 @@ namespace godobject::scene_compiler {
 /// Returns a short motion for an unknown scene, as poses of the moving mesh, one for each cycle. From several sides and
 /// in random orientation (fixed seed) the body approaches until the scene's own solver reports contact. Then it is
 /// pressed three voxels deep, slides back and forth by ten voxels and leaves. The body's centre starts in the
-/// workspace, if there is one. If the body meets nothing, the motion flies by. Empty if the body has no free start.
+/// workspace, if there is one. If the body meets nothing, the motion flies by. Empty if no start is free.
 std::vector<Pose> try_out_motion(const SceneView& scene);
 
 /// Returns the god object's poses of frame B along the motion, with the scene's own solver.

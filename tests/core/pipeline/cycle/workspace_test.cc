@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "toolchain/session/owned_god_object.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::test {
 namespace {

@@ -119,8 +119,10 @@ void expect_the_points_of_brute_force(const SceneView& scene, unsigned seed) {
     odometer.move_to(H, mass.sphere);
     const double cut = longest * (step % 7 == 0 ? 1.0 : walk.share());
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
-    ASSERT_EQ(found(remembers, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected) << step;
-    ASSERT_EQ(found(forgets, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected) << step;
+    ASSERT_EQ(found(remembers, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected)
+        << step;
+    ASSERT_EQ(found(forgets, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected)
+        << step;
     near += expected.size();
   }
   EXPECT_GT(near, static_cast<std::size_t>(kSteps)) << "the walk must come near";
@@ -158,7 +160,8 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
     const Pose H = detail::FeatureDirection::pose(H_WS, {0.05, 0.0, 0.0});
     const double cut = longest * walk.share();
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
-    ASSERT_EQ(found(search, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected) << step;
+    ASSERT_EQ(found(search, direction, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut), expected)
+        << step;
     near += expected.size();
   }
   EXPECT_GT(near, 1000u) << "the walk must come near";
@@ -183,8 +186,8 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
     const double cut = longest * walk.share();
     if (walk.share() < 0.5) {
       search.find(
-          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut, PointBudget{3, 1e-4},
-          [](const SampleBatch&, const auto&, std::uint64_t) {}, [&](double) { ++short_of_it; });
+          detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut,
+          PointBudget{3, 1e-4}, [](const SampleBatch&, const auto&, std::uint64_t) {}, [&](double) { ++short_of_it; });
       continue;
     }
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
