@@ -41,9 +41,9 @@ class Scene {
   /// Alignment of the image [bytes]: it must begin at a multiple of this.
   static constexpr std::size_t kImageAlignment = 64;
 
-  Scene() noexcept;
-  Scene(const Scene& other) noexcept;
-  Scene& operator=(const Scene& other) noexcept;
+  Scene() noexcept;                               ///< a scene that was never opened
+  Scene(const Scene& other) noexcept;             ///< a second view of the same bytes
+  Scene& operator=(const Scene& other) noexcept;  ///< becomes a view of the other scene's bytes
 
   /// Checks the whole image once (checksums, layout, every index and every number) and makes `scene` a view of it. The
   /// bytes must stay in place, unchanged, as long as the scene, a copy of it or a god object in it is used.
@@ -71,8 +71,9 @@ class Scene {
   /// damping is negative; nothing changed.
   Status set_gains(const Gains& gains) noexcept;
 
-  /// The parts of the image, for this project's own tools: their types are not part of the library's interface.
+  /// Returns the parts of the image, for this project's own tools: their types are not part of the interface.
   const SceneView& view() const noexcept;
+  /// Returns the scene with these parts, for this project's own tools.
   static Scene of(const SceneView& view) noexcept;
 
  private:

@@ -164,16 +164,16 @@ TEST(CanInterface, EachLackHasItsCure) {
        "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
       {[](CanInterface& i) { i.bit_rate = 500'000; }, "can0: 500 kbit/s; the device file has 1000",
        "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
-      {[](CanInterface& i) { i.transmit_queue = 10; }, "can0: txqueuelen 10; a burst may find it full",
+      {[](CanInterface& i) { i.transmit_queue = 10; }, "can0: txqueuelen 10 is short; a burst may fill it",
        "ip link set can0 txqueuelen 1000", false},
       {[](CanInterface& i) { i.restart_ms = 100; },
-       "can0: comes back 100 ms after it has left the bus, with nobody asked",
+       "can0: restarts by itself 100 ms after bus-off",
        "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
-      {[](CanInterface& i) { i.echoes = false; }, "can0: its driver does not tell when a frame has been on the wire",
-       "use an adapter whose driver has IFF_ECHO; slcan of old kernels has not", true},
+      {[](CanInterface& i) { i.echoes = false; }, "can0: its driver does not report when a frame was on the wire",
+       "use an adapter whose driver has IFF_ECHO; slcan of old kernels does not", true},
       {[](CanInterface& i) { i.listen_only = true; }, "can0: listens only",
        "ip link set can0 down; ip link set can0 up type can listen-only off", true},
-      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can shows those", true},
+      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can lists CAN interfaces", true},
   };
   for (const Case& test : cases) {
     CanInterface interface = ready();

@@ -41,8 +41,8 @@ TEST(BusPlanTable, NamesTheBusThatDoesNotFitAndTheCure) {
   const hal::BusPlan plan = hal::plan_buses(layout);
   EXPECT_NE(bus_plan_table(layout, plan).find("does not fit\n  1      0"), std::string::npos);
   EXPECT_EQ(bus_plan_objection(layout, plan),
-            "bus 0: a cycle needs 1065 us of 1000 with 3 joints and the panel; put fewer on it, lower what the "
-            "controller may compute (120 us) or use CAN FD");
+            "bus 0: a cycle needs 1065 us of 1000 with 3 joints and the panel; put fewer on it, lower "
+            "loop.compute (120 us) or use CAN FD");
   layout.bit_rate = 250e3;
   EXPECT_NE(bus_plan_objection(layout, hal::plan_buses(layout)).find("put fewer on it, raise bus.bit_rate, lower"),
             std::string::npos);
