@@ -1,5 +1,5 @@
 // Example 2: a device that sinks 30 mm in 100 cycles, and the force that it feels.
-// usage: 2_press X.scene
+// usage: 2_press X.scene; the numbers suit the ball above a plate that write_scene makes
 
 #include <cstdio>
 
@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
   AlignedBytes image = read_file(argv[1]);
   godobject::Scene scene;
   auto status = godobject::Scene::open(image.span(), scene);
-  if (status != godobject::Status::kOk) return std::fprintf(stderr, "%s\n", godobject::describe(status)), 65;
+  if (status != godobject::Status::kOk)
+    return std::fprintf(stderr, "%s: %s\n", argv[1], godobject::describe(status)), 65;
 
   godobject::GodObject god_object;
   AlignedBytes memory(godobject::GodObject::memory_size(scene));
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
     std::printf("device %6.2f mm  god object %6.2f mm  force %5.2f N\n", 1e3 * device.H_WM.translation.z(),
                 1e3 * god_object.mesh_pose().translation.z(), report.force.total_W.force.z());
   }
-  if (status != godobject::Status::kOk) return std::fprintf(stderr, "%s\n", godobject::describe(status)), 65;
+  if (status != godobject::Status::kOk)
+    return std::fprintf(stderr, "%s: %s\n", argv[1], godobject::describe(status)), 65;
   return 0;
 }

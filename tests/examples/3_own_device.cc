@@ -1,6 +1,8 @@
 // Example 3: a loop of 1 kHz with a device of your own. `Device` is the part to replace: here it is a handle of 0.5 kg
 // that a hand presses down with 5 N and that is free to move up and down. The loop keeps absolute deadlines, so that
-// the duration of a cycle does not add up. usage: 3_own_device X.scene
+// the duration of a cycle does not add up.
+//
+// usage: 3_own_device X.scene; the numbers suit the ball above a plate that write_scene makes
 
 #include <time.h>
 
@@ -52,11 +54,13 @@ int main(int argc, char** argv) {
   AlignedBytes image = read_file(argv[1]);
   godobject::Scene scene;
   auto status = godobject::Scene::open(image.span(), scene);
-  if (status != godobject::Status::kOk) return std::fprintf(stderr, "%s\n", godobject::describe(status)), 65;
+  if (status != godobject::Status::kOk)
+    return std::fprintf(stderr, "%s: %s\n", argv[1], godobject::describe(status)), 65;
   godobject::GodObject god_object;
   AlignedBytes memory(godobject::GodObject::memory_size(scene));
   status = god_object.start(scene, scene.default_solver(), scene.has_friction(), memory.span());
-  if (status != godobject::Status::kOk) return std::fprintf(stderr, "%s\n", godobject::describe(status)), 65;
+  if (status != godobject::Status::kOk)
+    return std::fprintf(stderr, "%s: %s\n", argv[1], godobject::describe(status)), 65;
 
   Device device;
   godobject::CycleReport report;

@@ -1,12 +1,13 @@
 // Example 4: closed loop on a simulated arm. The whole controller runs: position check, god object, limits at the hand,
 // joint torques, supervisor. The hand of an operator, a spring of 300 N/m, leads the tool down until the mesh presses
 // on the still body, and on by 40 mm. Time is virtual, so the run is the same each time. For a real arm, replace the
-// drives. usage: 4_simulated_arm firmware/devices/lwr.toml X.scene
+// drives.
+//
+// usage: 4_simulated_arm firmware/devices/lwr.toml X.scene; the numbers suit the scene of write_scene
 
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -62,15 +63,15 @@ void run(const char* device_file, const char* image_file) {
   setup.arm = &arm;
   setup.joint_torque = &placement.device.torque;
   setup.mapping = placement.mapping;
-  const auto cycle = std::make_unique<firmware::ControlCycle>(setup, drives);
-  const Status status = cycle->start();
+  firmware::ControlCycle cycle(setup, drives);
+  const Status status = cycle.start();
   if (status != Status::kOk) throw std::runtime_error(describe(status));
 
   for (int k = 0; k < 12'000; ++k) {
     drives.advance_to(k * kPeriod_ns);
-    cycle->request();
-    cycle->run_once({});
-    const firmware::CycleRecord& record = cycle->record();
+    cycle.request();
+    cycle.run_once({});
+    const firmware::CycleRecord& record = cycle.record();
     if (k % 1000 == 999) {
       std::printf("%4.1f s  %-9s device %6.2f mm  god object %6.2f mm  force %5.2f N\n", 1e-3 * (k + 1),
                   firmware::name(record.mode), 1e3 * record.H_WM.translation.z(),

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <span>
 #include <vector>
@@ -19,10 +21,13 @@ class AlignedBytes {
   std::size_t size_;
 };
 
-/// A whole file; empty if it cannot be read.
+/// Returns a whole file. Ends the program with code 66 if it cannot be read.
 inline AlignedBytes read_file(const char* path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) return AlignedBytes{};
+  if (!file) {
+    std::fprintf(stderr, "%s: cannot be read; check the path\n", path);
+    std::exit(66);
+  }
   AlignedBytes bytes(static_cast<std::size_t>(file.tellg()));
   file.seekg(0).read(reinterpret_cast<char*>(bytes.span().data()), static_cast<std::streamsize>(bytes.span().size()));
   return bytes;

@@ -116,5 +116,6 @@ struct ContactRows {
     return {static_cast<double>(point_x[i]), static_cast<double>(point_y[i]), static_cast<double>(point_z[i])};
   }
 };
+static_assert(sizeof(ContactRows) <= 89 * 1024);
 
 }  // namespace godobject

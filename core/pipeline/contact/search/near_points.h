@@ -66,5 +66,6 @@ struct NearPoints {
   std::uint64_t leave_their_ball(std::uint32_t first, const Matrix3& turn, const Vector3& shift,
                                  double gap) const noexcept;
 };
+static_assert(sizeof(NearPoints) <= 257 * 1024);
 
 }  // namespace godobject
