@@ -56,7 +56,7 @@ Status CompiledSession::refuse(Status status, CycleReport& report) const noexcep
 Status CompiledSession::follow(const Pose& H_WM, CycleReport& report) noexcept {
   Pose unit = H_WM;
   if (const Status status = make_unit(unit); status != Status::kOk) return refuse(status, report);
-  core_.place(unit * H_MB_);
+  core_.place(unit * H_MB_);  // S: B as the god object has it
   report = CycleReport{};
   report.H_WS = core_.state().H_WS;
   return Status::kOk;
@@ -69,7 +69,7 @@ Status CompiledSession::update(const GodObject::Input& input, CycleReport& repor
   Pose H_WM = input.H_WM;
   if (const Status status = make_unit(H_WM); status != Status::kOk) return refuse(status, report);
   CycleInput cycle_input;
-  cycle_input.H_WD = H_WM * H_MB_;
+  cycle_input.H_WD = H_WM * H_MB_;  // D: B as the device holds it
   cycle_input.velocity_W = input.velocity_W;
   const Parameters& parameters = core_.parameters();
   if (parameters.workspace.limited) {

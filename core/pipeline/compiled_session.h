@@ -15,6 +15,10 @@ namespace godobject {
 /// caller's memory. Documented at GodObject.
 class CompiledSession {
  public:
+  CompiledSession() = default;
+  CompiledSession(const CompiledSession&) = delete;  // `core_` refers to `scene_`
+  CompiledSession& operator=(const CompiledSession&) = delete;
+
   using BodyField = std::conditional_t<kSceneTraits.features, Voxelmap, NoBodyField>;
   using Core = Session<Voxelmap, BodyField>;
 
@@ -30,7 +34,7 @@ class CompiledSession {
   void reset() noexcept { core_.reset(); }
   Status follow(const Pose& H_WM, CycleReport& report) noexcept;
   Status update(const GodObject::Input& input, CycleReport& report, StepTimes* times) noexcept;
-  Pose mesh_pose() const noexcept { return core_.state().H_WS * H_BM_; }
+  Pose mesh_pose() const noexcept { return core_.state().H_WS * H_BM_; }  ///< S is a pose of B
 
   const Parameters& parameters() const noexcept { return core_.parameters(); }
   const ProxyState& state() const noexcept { return core_.state(); }

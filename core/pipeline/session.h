@@ -27,6 +27,10 @@ namespace godobject {
 template <DistanceField Field, DistanceField BodyField>
 class Session {
  public:
+  Session() = default;
+  Session(const Session&) = delete;  // the scene of `contact` refers to the parameters
+  Session& operator=(const Session&) = delete;
+
   /// Returns the size of the memory for the search of `contact` [32-bit words].
   static std::size_t search_words(const Pointshell& shell, const Pointshell& features) noexcept {
     return kHasSearch ? ContactSearch::memory(shell, features) : 0;

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <new>
 #include <type_traits>
 
@@ -16,22 +15,22 @@ Scene::Scene() noexcept {
 Scene::Scene(const Scene& other) noexcept { new (storage_) SceneView(other.view()); }
 
 Scene& Scene::operator=(const Scene& other) noexcept {
-  view() = other.view();
+  mutable_view() = other.view();
   return *this;
 }
 
 Status Scene::open(std::span<const std::byte> image, Scene& scene) noexcept {
-  return SceneView::open(image, scene.view());
+  return SceneView::open(image, scene.mutable_view());
 }
 
 Scene Scene::of(const SceneView& view) noexcept {
   Scene scene;
-  scene.view() = view;
+  scene.mutable_view() = view;
   return scene;
 }
 
 const SceneView& Scene::view() const noexcept { return *std::launder(reinterpret_cast<const SceneView*>(storage_)); }
-SceneView& Scene::view() noexcept { return *std::launder(reinterpret_cast<SceneView*>(storage_)); }
+SceneView& Scene::mutable_view() noexcept { return *std::launder(reinterpret_cast<SceneView*>(storage_)); }
 
 Solver Scene::default_solver() const noexcept { return view().default_solver(); }
 bool Scene::holds(Solver solver) const noexcept { return view().holds(solver); }
@@ -55,13 +54,12 @@ Gains Scene::gains() const noexcept {
 }
 
 Status Scene::set_gains(const Gains& gains) noexcept {
-  const auto positive = [](double value) noexcept { return std::isfinite(value) && value > 0.0; };
-  if (!positive(gains.stiffness) || !positive(gains.rotational)) return Status::kOutOfRange;
-  if (!std::isfinite(gains.damping) || gains.damping < 0.0) return Status::kOutOfRange;
-  format::Settings& settings = view().settings;
+  format::Settings settings = view().settings;
   settings.stiffness = gains.stiffness;
   settings.damping = gains.damping;
   settings.coupling_rotation = gains.rotational;
+  if (!valid_gains(settings)) return Status::kOutOfRange;
+  mutable_view().settings = settings;
   return Status::kOk;
 }
 

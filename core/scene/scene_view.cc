@@ -85,15 +85,15 @@ Status read_sections(std::span<const std::byte> image, const format::Header& hea
   return next == image.size() ? Status::kOk : Status::kImageLayout;
 }
 
+constexpr double kLargestSetting = 1e9;  // of settings; chosen, beyond all gains and lengths of devices
+
 bool valid_settings(const format::Settings& s) noexcept {
-  constexpr double kLarge = 1e9;
   return s.default_solver < format::kSolverCount && s.solvers < (1u << format::kSolverCount) &&
-         ((s.solvers >> s.default_solver) & 1u) != 0 && s.friction <= 1 && in_range(s.safety_distance, 1e-12, kLarge) &&
-         in_range(s.margin, 1e-12, kLarge) && in_range(s.stiffness, 1e-12, kLarge) &&
-         in_range(s.damping, 0.0, kLarge) && in_range(s.coupling_translation, 1e-12, kLarge) &&
-         in_range(s.coupling_rotation, 1e-18, kLarge) && in_range(s.friction_static, 0.0, 10.0) &&
-         in_range(s.friction_kinetic, 0.0, s.friction_static) && in_range(s.friction_viscous, 0.0, kLarge) &&
-         in_range(s.paper_rotation_static, 0.0, 10.0) &&
+         ((s.solvers >> s.default_solver) & 1u) != 0 && s.friction <= 1 &&
+         in_range(s.safety_distance, 1e-12, kLargestSetting) && in_range(s.margin, 1e-12, kLargestSetting) &&
+         valid_gains(s) && in_range(s.coupling_translation, 1e-12, kLargestSetting) &&
+         in_range(s.friction_static, 0.0, 10.0) && in_range(s.friction_kinetic, 0.0, s.friction_static) &&
+         in_range(s.friction_viscous, 0.0, kLargestSetting) && in_range(s.paper_rotation_static, 0.0, 10.0) &&
          in_range(s.paper_rotation_kinetic, 0.0, s.paper_rotation_static) && in_range(s.paper_viscous, 0.0, 10.0);
 }
 
@@ -422,6 +422,11 @@ Status open_workspace(const Sections& sections, WorkspaceBox& box) noexcept {
 }
 
 }  // namespace
+
+bool valid_gains(const format::Settings& settings) noexcept {
+  return in_range(settings.stiffness, 1e-12, kLargestSetting) && in_range(settings.damping, 0.0, kLargestSetting) &&
+         in_range(settings.coupling_rotation, 1e-18, kLargestSetting);
+}
 
 Status SceneView::open(std::span<const std::byte> image, SceneView& scene) noexcept {
   if (reinterpret_cast<std::uintptr_t>(image.data()) % format::kAlignment != 0) return Status::kImageLayout;

@@ -42,4 +42,7 @@ struct SceneView {
   }
 };
 
+/// Tells whether stiffness, damping and rotational stiffness are within the ranges of an image.
+bool valid_gains(const format::Settings& settings) noexcept;
+
 }  // namespace godobject

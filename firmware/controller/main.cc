@@ -13,9 +13,9 @@ int main(int argc, char** argv) {
   CLI::App app("The haptic controller: reads the drives' positions and sends their torques, once a millisecond.",
                "godobject-controller");
   std::string transport = firmware::kSimulatedTransport;
-  const firmware::ControlCommand control(app, transport);
-  const firmware::DoctorCommand doctor(app, transport);
-  const firmware::CommissionCommand commission(app, transport);
+  firmware::ControlCommand control(app, transport);
+  firmware::DoctorCommand doctor(app, transport);
+  firmware::CommissionCommand commission(app, transport);
   return command::run(app, argc, argv, [&] {
     if (commission.is_asked()) return commission.run();
     if (doctor.is_asked()) return doctor.run();

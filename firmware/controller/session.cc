@@ -59,11 +59,15 @@ void Session::start_cycle() {
   if (status == Status::kNotInBuild) {
     command::require_in_build(config_.scene.image.string(), scene_, setup.solver, setup.friction);
   }
-  if (status != Status::kOk) {
+  if (status == Status::kNotInImage) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}: {}; compile it again without --only-solver and with a [friction] "
                               "table, or change scene.solver or scene.friction",
                               config_.scene.image.string(), describe(status)));
+  }
+  if (status != Status::kOk) {
+    throw Failure(ExitCode::kInternal,
+                  fmt::format("{}: {}; please report this", config_.scene.image.string(), describe(status)));
   }
 }
 

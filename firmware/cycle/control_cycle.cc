@@ -83,9 +83,9 @@ double ControlCycle::contact_force() const noexcept {
   return at_hand_.F_G_R.force.norm() + at_hand_.F_G_R.torque.norm() / setup_.joint_torque->rotation_length;
 }
 
-/// From the tool's pose to the wrench at the hand. The mapping maps the grip G and not M: otherwise, after the clutch
-/// has rotated the mesh against the tool, forces would act on the hand with other levers than in the scene and give it
-/// energy.
+/// From the tool's pose to the wrench at the hand. G, the grip, has the axes of M at the centre of mass, so R_WG is
+/// R_WM. The mapping maps G and not M: otherwise, after the clutch has rotated the mesh against the tool, forces would
+/// act on the hand with other levers than in the scene and give it energy.
 Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   const Pose& H_RM = kinematics.H_RM;
   const Vector3& p_MB = setup_.scene->H_MB.translation;

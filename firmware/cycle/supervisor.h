@@ -66,8 +66,8 @@ class Supervisor {
   /// Cycles until the drives must be enabled. 500 to 2000. The simulated drives need 28 (3 ms power stage, 25 ms
   /// brake); with 30 they are too late over CAN.
   static constexpr std::uint32_t kEnableCycles = 2000;
-  /// Cycles of a FADE. 5: the reaction to a lost position is complete in 7 cycles of the 8 that the fault table allows;
-  /// with 10 it is too late. Fewer would let the torque step harder.
+  /// Cycles of a FADE. 5: from the third loss on the bus to the complete reaction the fault table measures 7 cycles,
+  /// and allows 8; with 10 it is too late. Fewer would let the torque step harder.
   static constexpr std::uint32_t kFadeCycles = 5;
   /// Cycles in which a STOP holds the arm. 1 to 4. With 0 the quick stop would begin with the last rendered torque.
   static constexpr std::uint32_t kHoldCycles = 2;

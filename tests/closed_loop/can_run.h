@@ -106,7 +106,7 @@ class CanRun {
   std::unique_ptr<sim::VirtualClock> clock_;
   std::vector<DisturbedBus> buses_;
   std::optional<hal::CanDrives> drives_;
-  files::AlignedBytes memory_{GodObject::least_memory_size()};
+  files::AlignedBytes memory_{GodObject::memory_size(Scene::of(scene_))};
   std::unique_ptr<ControlCycle> cycle_;
   std::int64_t deadline_ns_ = 0;
 };

@@ -107,7 +107,7 @@ class SimulatedRun {
   std::unique_ptr<sim::DirectDrives> drives_;
   std::unique_ptr<sim::VirtualClock> clock_;
   std::unique_ptr<TelemetryRing> ring_;
-  files::AlignedBytes memory_{GodObject::least_memory_size()};
+  files::AlignedBytes memory_{GodObject::memory_size(Scene::of(scene_))};
   std::unique_ptr<ControlCycle> cycle_;
 };
 

@@ -1,9 +1,9 @@
-# Warnings of every target, as errors. `godobject_embedded` adds what holds in the rooms that run on the device.
+# Warnings of every target; errors where this is the top-level project. `godobject_embedded` adds what holds in the rooms that run on the device.
 
 add_library(godobject_warnings INTERFACE)
 target_compile_options(godobject_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor -Wcast-align
-  -Wundef -Werror)
+  -Wundef $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>)
 
 # -Wnull-dereference only here: it misfires on GCC 12's own std::vector, which these rooms do not use.
 # Each function has a section of its own: a program linked with --gc-sections holds only what it calls.

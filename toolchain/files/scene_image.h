@@ -9,7 +9,7 @@
 namespace godobject::files {
 
 /// A scene image in memory and the core's view of it, for tools at the desk. The controller has its own reader
-/// (firmware/scene_file.h), which locks the memory and accepts no links.
+/// (firmware/configuration/scene_file.h), which locks the memory and accepts no links.
 struct SceneImage {
   AlignedBytes bytes;
   SceneView scene;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/pipeline/compiled_session.h"
 #include "core/scene/scene_view.h"
@@ -18,8 +19,11 @@ class OwnedGodObject {
   Status start(const SceneView& scene, Solver solver, bool friction, bool remembers = true) {
     const Scene compiled = Scene::of(scene);
     const std::size_t bytes = remembers ? GodObject::memory_size(compiled) : GodObject::least_memory_size();
-    if (!memory_ || memory_->span().size() < bytes) memory_.emplace(bytes);
-    return god_object_->start(compiled, solver, friction, memory_->span().first(bytes));
+    files::AlignedBytes memory(bytes);
+    const Status status = god_object_->start(compiled, solver, friction, memory.span());
+    if (status == Status::kOk)
+      memory_ = std::move(memory);  // after a refusal the last session goes on in the old memory
+    return status;
   }
 
   GodObject& operator*() noexcept { return *god_object_; }

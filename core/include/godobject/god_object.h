@@ -17,8 +17,9 @@ class CompiledSession;
 /// Poses of this interface are H_WM: the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
 /// Forces are in W about the moving body's centre of mass. Lengths are in m, forces in N, torques in Nm.
 ///
-/// The class allocates nothing, throws nothing and takes no lock. It works in memory that the caller provides, most of
-/// a mebibyte. One god object belongs to one thread at a time.
+/// The class allocates nothing, throws nothing and takes no lock. It works in memory that the caller provides: below
+/// a mebibyte, and for full speed some 36 bytes more for each point and sphere of the scene. For a real-time loop lock
+/// that memory, and touch it once, before `start`. One god object belongs to one thread at a time.
 ///
 /// ```cpp
 /// GodObject god_object;
@@ -58,7 +59,7 @@ class GodObject {
   /// kNotInBuild: this build of the library leaves out the solver, friction, or a part that the scene needs.
   /// kMemory: `memory` is smaller than least_memory_size() or not aligned. After a refusal the god object is unchanged.
   ///
-  /// Cost: some 10 ns per byte of memory. Not for the real-time loop.
+  /// Cost: linear in points, spheres and bricks of the scene, some milliseconds. Not for the real-time loop.
   Status start(const Scene& scene, Solver solver, bool friction, std::span<std::byte> memory) noexcept;
 
   /// Forgets the god object: the next `update` starts with it at the device pose. Cost: 0.1 us. Real-time safe.
@@ -91,7 +92,7 @@ class GodObject {
   /// with friction 1-2 us; more in a cycle in which many contacts begin at once. Real-time safe.
   Status update(const Input& input, CycleReport& report, StepTimes* times = nullptr) noexcept;
 
-  /// Returns the god object's pose H_WM. Call it only after `start` has succeeded. Real-time safe.
+  /// Returns the god object's pose H_WM; the identity before `start` has succeeded. Real-time safe.
   Pose mesh_pose() const noexcept;
 
   /// Returns the session, or null before `start`. For this project's own tools and tests: its type is not part of the

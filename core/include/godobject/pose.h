@@ -92,4 +92,6 @@ inline Pose set_matrix(const Motion& xi) noexcept {
 /// Returns the motion (x, r) of a pose: the inverse of `set_matrix`, the paper's getTranslation and getRotation.
 inline Motion get_motion(const Pose& pose) noexcept { return {pose.translation, log_rotation(pose.rotation)}; }
 
+static_assert(alignof(Pose) == 16, "compile with EIGEN_MAX_STATIC_ALIGN_BYTES=16, as the target godobject::core does");
+
 }  // namespace godobject

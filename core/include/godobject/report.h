@@ -29,7 +29,7 @@ const char* name(Outcome outcome) noexcept;
 
 /// The result of one cycle.
 struct CycleReport {
-  Pose H_WS;          ///< the god object after the cycle: body frame B (centre of mass, principal axes) in W
+  Pose H_WS;          ///< the god object S after the cycle: its body frame (centre of mass, principal axes) in W
   DeviceForce force;  ///< for the device
   /// `paper`, `corrected`: p = p_d - d of step #1, before the last sub-step's motion [m]. `contact`: minus the smallest
   /// stored distance of a near point at the start of the last sub-step [m]; distances above an eighth of a voxel count

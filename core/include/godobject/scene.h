@@ -67,8 +67,8 @@ class Scene {
   /// Returns the gains with which god objects start in this scene.
   Gains gains() const noexcept;
   /// Sets the gains of god objects that are started from now on, in this object and later copies of it; the image and
-  /// running sessions do not change. kOutOfRange: a gain is not finite, stiffness or rotational is not positive, or
-  /// damping is negative; nothing changed.
+  /// running sessions do not change. kOutOfRange, and nothing changed: stiffness is not within 1e-12 .. 1e9, damping
+  /// not within 0 .. 1e9, or rotational not within 1e-18 .. 1e9.
   Status set_gains(const Gains& gains) noexcept;
 
   /// Returns the parts of the image, for this project's own tools: their types are not part of the interface.
@@ -78,7 +78,7 @@ class Scene {
 
  private:
   static constexpr std::size_t kBytes = 2048;
-  SceneView& view() noexcept;
+  SceneView& mutable_view() noexcept;
 
   alignas(64) std::byte storage_[kBytes];
 };

@@ -9,7 +9,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kOk = 0,          ///< success
     kNotFinite,       ///< an input is NaN or Inf, or the result would have been
     kNotUnit,         ///< a quaternion's length differs from 1 by more than 1e-3
-    kOutOfRange,      ///< a pose is farther than 1e7 m from the origin, or a gain is out of its range
+    kOutOfRange,      ///< a coordinate of a pose is beyond 1e7 m, or a gain is out of its range
     kImageTruncated,  ///< scene image: fewer or more bytes than its header says
     kImageForeign,    ///< not a scene image, or one of another byte order
     kImageVersion,    ///< scene image: its format version is not this library's; compile it again

@@ -29,6 +29,7 @@ Status finish_closed_form(const CycleInput& input, const ClosedFormResult& resul
   }
   report.penetration = penetration;
   report.contacts = result.contacts.count;
+  report.dropped = 0;
   report.substeps = result.substeps;
   report.unconverged = false;
   report.outcome = result.contacts.depth > 0.0 ? Outcome::kContact : Outcome::kFree;

@@ -1,7 +1,7 @@
 // The whole cycle on compiled scenes: its edges, its promises to the caller, no allocation, no floating-point
 // exception.
 
-#include "toolchain/session/owned_god_object.h"
+#include "godobject/god_object.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,14 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
+#include "godobject/version.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
+#include "toolchain/files/aligned_bytes.h"
+#include "toolchain/session/owned_god_object.h"
 
 namespace godobject::test {
 namespace {
@@ -68,6 +72,113 @@ class GodObjectTest : public testing::Test {
   SceneImage image_;
   SceneView scene_;
 };
+
+/// The god object in memory that the caller chooses.
+class CallersMemory : public GodObjectTest {
+ protected:
+  CallersMemory() : public_scene_(Scene::of(scene_)), full_(GodObject::memory_size(public_scene_)) {}
+
+  Status start(GodObject& god_object, std::span<std::byte> memory) const {
+    return god_object.start(public_scene_, Solver::kContact, true, memory);
+  }
+  std::vector<Vector3> forces(GodObject& god_object) const {
+    std::vector<Vector3> forces;
+    CycleReport report;
+    for (int k = 0; k < 400; ++k) {
+      EXPECT_EQ(god_object.update({along_path(k / 400.0), Motion{}}, report), Status::kOk);
+      forces.push_back(report.force.total_W.force);
+    }
+    return forces;
+  }
+
+  Scene public_scene_;
+  std::size_t full_;
+  std::size_t least_ = GodObject::least_memory_size();
+};
+
+TEST_F(CallersMemory, IsRefusedWhereItIsTooSmallOrNotAligned) {
+  files::AlignedBytes memory(full_ + GodObject::memory_alignment());
+  GodObject god_object;
+  EXPECT_EQ(start(god_object, memory.span().first(least_ - 1)), Status::kMemory);
+  EXPECT_EQ(start(god_object, memory.span().subspan(1)), Status::kMemory);
+  EXPECT_EQ(start(god_object, {}), Status::kMemory);
+  CycleReport report;
+  report.contacts = 17;
+  EXPECT_EQ(god_object.update({along_path(0.0), Motion{}}, report), Status::kNotStarted);
+  EXPECT_EQ(god_object.follow(along_path(0.0), report), Status::kNotStarted);
+  EXPECT_EQ(report.contacts, 17u);
+  EXPECT_TRUE(god_object.mesh_pose() == Pose{});
+  god_object.reset();
+  EXPECT_EQ(start(god_object, memory.span().first(least_)), Status::kOk);
+}
+
+TEST_F(CallersMemory, DoesNotChangeResultsByItsSize) {
+  GodObject reference;
+  files::AlignedBytes memory(full_);
+  ASSERT_EQ(start(reference, memory.span()), Status::kOk);
+  const std::vector<Vector3> expected = forces(reference);
+  for (const std::size_t size : {least_, least_ + 4, full_ - 1, full_}) {
+    files::AlignedBytes other(size);
+    GodObject god_object;
+    ASSERT_EQ(start(god_object, other.span()), Status::kOk) << size;
+    EXPECT_EQ(forces(god_object), expected) << size;
+  }
+}
+
+TEST_F(CallersMemory, MayBeStartedInAgainAndARefusalLeavesTheSession) {
+  files::AlignedBytes memory(full_);
+  files::AlignedBytes other(full_);
+  GodObject god_object;
+  ASSERT_EQ(start(god_object, memory.span()), Status::kOk);
+  const std::vector<Vector3> expected = forces(god_object);
+  ASSERT_EQ(start(god_object, memory.span()), Status::kOk);
+  EXPECT_EQ(forces(god_object), expected);
+  ASSERT_EQ(start(god_object, other.span()), Status::kOk);
+  EXPECT_EQ(forces(god_object), expected);
+  const Pose before = god_object.mesh_pose();
+  EXPECT_EQ(start(god_object, memory.span().first(least_ - 1)), Status::kMemory);
+  EXPECT_EQ(god_object.start(Scene{}, Solver::kContact, true, memory.span()), Status::kNotInImage);
+  EXPECT_TRUE(god_object.mesh_pose() == before);
+  CycleReport report;
+  EXPECT_EQ(god_object.update({along_path(0.99), Motion{}}, report), Status::kOk);
+}
+
+TEST_F(CallersMemory, OutlivesTheSceneItWasStartedWith) {
+  files::AlignedBytes memory(full_);
+  GodObject god_object;
+  {
+    Scene passing = public_scene_;
+    ASSERT_EQ(god_object.start(passing, Solver::kContact, true, memory.span()), Status::kOk);
+    passing = Scene{};
+  }
+  EXPECT_GT(forces(god_object)[200].norm(), 1.0);
+}
+
+TEST_F(CallersMemory, GainsOfASceneStayWithinTheRangesOfAnImage) {
+  const Gains first = public_scene_.gains();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const Gains& bad : {Gains{0.0, 1.0, 0.1}, Gains{-1.0, 1.0, 0.1}, Gains{1e10, 1.0, 0.1}, Gains{1e-320, 1.0, 0.1},
+                           Gains{1.0, -1.0, 0.1}, Gains{1.0, 1e300, 0.1}, Gains{1.0, 1.0, 0.0}, Gains{kNan, 1.0, 0.1},
+                           Gains{1.0, kNan, 0.1}, Gains{1.0, 1.0, kNan}}) {
+    EXPECT_EQ(public_scene_.set_gains(bad), Status::kOutOfRange);
+    EXPECT_EQ(public_scene_.gains().stiffness, first.stiffness);
+  }
+  Scene copy = public_scene_;
+  ASSERT_EQ(copy.set_gains({2.0 * first.stiffness, first.damping, first.rotational}), Status::kOk);
+  EXPECT_EQ(public_scene_.gains().stiffness, first.stiffness);
+  files::AlignedBytes memory(full_);
+  GodObject soft, stiff;
+  ASSERT_EQ(start(soft, memory.span()), Status::kOk);
+  const Vector3 force = forces(soft)[200];
+  ASSERT_EQ(stiff.start(copy, Solver::kContact, true, memory.span()), Status::kOk);
+  EXPECT_NEAR(forces(stiff)[200].norm() / force.norm(), 2.0, 1e-6);
+}
+
+TEST(Version, HasItsPartsInOneText) {
+  EXPECT_EQ(std::string(GODOBJECT_VERSION), std::to_string(GODOBJECT_VERSION_MAJOR) + "." +
+                                                std::to_string(GODOBJECT_VERSION_MINOR) + "." +
+                                                std::to_string(GODOBJECT_VERSION_PATCH));
+}
 
 struct Pipeline {
   Solver solver;

@@ -106,6 +106,16 @@ class ControlCycleTest : public testing::Test {
   std::unique_ptr<ControlCycle> cycle_;
 };
 
+TEST_F(ControlCycleTest, NeverRendersIfTheGodObjectWasNotStarted) {
+  cycle_ = std::make_unique<ControlCycle>(setup_, drives_);
+  ASSERT_EQ(cycle_->start(), Status::kMemory);  // refused, and the refusal ignored
+  for (int i = 0; i < 1000; ++i) {
+    step();
+    ASSERT_EQ(cycle_->record().share, 0.0);
+  }
+  EXPECT_EQ(cycle_->record().fault, Fault::kComputation);
+}
+
 TEST_F(ControlCycleTest, SendsNothingButGravityInFreeSpace) {
   make();
   run_to(Mode::kRunning);
