@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "tests/support/folder_test.h"
 #include "tests/support/ordinary_user.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/output_target.h"
@@ -21,16 +22,8 @@ using command::Failure;
 
 namespace fs = std::filesystem;
 
-class AtomicFileTest : public testing::Test {
+class AtomicFileTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static void write(const fs::path& file) {
     AtomicFile output(file);
     output.write("whole");
@@ -53,8 +46,6 @@ class AtomicFileTest : public testing::Test {
     expect([&] { AtomicFile output(file); });
     expect([&] { WorkFolder output(file); });
   }
-
-  fs::path folder_;
 };
 
 TEST_F(AtomicFileTest, AppearsWholeOrNotAtAll) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
 namespace godobject::files {
@@ -15,15 +16,8 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-class CommandFiles : public testing::Test {
+class CommandFiles : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path file(const std::string& text) const {
     std::ofstream(folder_ / "table.csv", std::ios::binary) << text;
     return folder_ / "table.csv";
@@ -41,7 +35,6 @@ class CommandFiles : public testing::Test {
   }
 
   static constexpr std::array<std::string_view, 3> kColumns = {"a", "b", "c"};
-  std::filesystem::path folder_;
 };
 
 TEST_F(CommandFiles, CsvIsReadWithItsLineNumbers) {

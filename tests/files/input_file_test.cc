@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "tests/support/folder_test.h"
 #include "tests/support/ordinary_user.h"
 #include "toolchain/command_line/failure.h"
 
@@ -18,16 +19,9 @@ using command::Failure;
 
 namespace fs = std::filesystem;
 
-class InputFileTest : public testing::Test {
+class InputFileTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "there") << "x";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { std::ofstream(folder_ / "there") << "x"; }
 
   /// Returns the message with which `file` is refused; empty if it is accepted.
   static std::string refusal(const fs::path& file, bool regular = false) {
@@ -39,8 +33,6 @@ class InputFileTest : public testing::Test {
     }
     return "";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(InputFileTest, TakesWhatCanBeRead) {

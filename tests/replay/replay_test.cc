@@ -15,20 +15,15 @@
 #include <sys/wait.h>
 
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/scene_image_builder.h"
 
 namespace godobject::test {
 namespace {
 
-class ReplayTest : public testing::Test {
+class ReplayTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-    write_scene(true);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { write_scene(true); }
 
   void write_scene(bool friction) const {
     SceneDescription d;
@@ -83,7 +78,6 @@ class ReplayTest : public testing::Test {
     return table;
   }
 
-  std::filesystem::path folder_;
   std::string output_;
 };
 

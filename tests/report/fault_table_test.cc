@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/report/fault_table/results.h"
 
@@ -48,21 +49,14 @@ TEST(FaultTable, HasEachRowAndInjectionOnce) {
   }
 }
 
-class FaultResultsTest : public testing::Test {
+class FaultResultsTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_ / "hil" / "can");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { std::filesystem::create_directories(folder_ / "hil" / "can"); }
 
   std::vector<TestResult> read(const std::string& tests) const {
     std::ofstream(folder_ / "r.json") << R"({"testsuites": [{"testsuite": [)" << tests << "]}]}";
     return read_test_results(folder_ / "r.json");
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(FaultResultsTest, ReadWhatATestSays) {

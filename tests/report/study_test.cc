@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/report/study/made_once.h"
 #include "toolchain/report/study/page.h"
@@ -65,14 +66,9 @@ TEST(Plot, LeavesOutWhatIsNotFinite) {
   EXPECT_NE(text.find("'it''s'"), std::string::npos);
 }
 
-class StudyTest : public testing::Test {
+class StudyTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_study_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(case_folder(folder_));
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { std::filesystem::create_directories(case_folder(folder_)); }
 
   /// A case that counts its runs and measures `value`.
   StudyCase counted(const std::string& name, double value, const std::string& inputs = "") {
@@ -100,7 +96,6 @@ class StudyTest : public testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  std::filesystem::path folder_;
   std::atomic<int> runs_ = 0;
 };
 

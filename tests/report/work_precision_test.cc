@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/report/contact_quality/meshes.h"
 #include "toolchain/report/study/study.h"
@@ -17,10 +18,9 @@
 namespace godobject::report {
 namespace {
 
-class WorkPrecisionTest : public testing::Test {
+class WorkPrecisionTest : public test::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / ("godobject_work_precision_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_ / "paths");
     write_ply(box_mesh(Vector3(-0.04, -0.04, -0.03), Vector3(0.04, 0.04, 0.0)), folder_ / "block.ply");
     write_ply(ball_mesh(0.012, 8), folder_ / "ball.ply");
@@ -33,7 +33,6 @@ class WorkPrecisionTest : public testing::Test {
       path << 1e-3 * k << ',' << 5e-5 * k << ",0," << 0.013 - 5e-5 * k << ",1,0,0,0\n";
     }
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string text_of(const std::filesystem::path& file) const {
     std::ifstream stream(file);
@@ -45,8 +44,6 @@ class WorkPrecisionTest : public testing::Test {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) count += entry.path().extension() == ending;
     return count;
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(WorkPrecisionTest, GivesTheSameErrorsFromSingleCasesAndSeveralThreads) {

@@ -10,6 +10,7 @@
 
 #include "core/device/kinematics.h"
 #include "tests/support/fault_record.h"
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
@@ -22,14 +23,8 @@ constexpr const char* kLeast = "[device]\nfile = \"" GODOBJECT_FIRMWARE_DIR
                                "/devices/desktop6.toml\"\n"
                                "[workspace]\nposture = [0.1, 0.6, -0.2, 0.3, 0.2, 0.0]\n";
 
-class ControllerFileTest : public testing::Test {
+class ControllerFileTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    file_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml");
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
-
   ControllerConfig read(const std::string& text) const {
     std::ofstream(file_) << text;
     return read_controller_file(file_);
@@ -46,7 +41,7 @@ class ControllerFileTest : public testing::Test {
     return {};
   }
 
-  std::filesystem::path file_;
+  const std::filesystem::path file_ = folder_ / "controller.toml";
   int code_ = 0;  // of the last refusal
 };
 

@@ -9,6 +9,7 @@
 #include "core/device/dynamics.h"
 #include "tests/support/arms.h"
 #include "tests/support/fault_record.h"
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
@@ -17,15 +18,12 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-class DeviceFileTest : public testing::Test {
+class DeviceFileTest : public test::FolderTest {
  protected:
   void SetUp() override {
     std::ifstream stream(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
     text_.assign(std::istreambuf_iterator<char>(stream), {});
-    file_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml");
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
   /// The message with which the file is refused once `from` is `to`; empty if it is not.
   std::string refusal(const std::string& from, const std::string& to) {
@@ -46,7 +44,7 @@ class DeviceFileTest : public testing::Test {
   }
 
   std::string text_;
-  std::filesystem::path file_;
+  const std::filesystem::path file_ = folder_ / "device.toml";
   int code_ = 0;  // of the last refusal
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tests/support/fault_record.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/ordinary_user.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/command_line/failure.h"
@@ -20,18 +21,14 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-class SceneFileTest : public testing::Test {
+class SceneFileTest : public test::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
     file_ = folder_ / "a.scene";
     const auto bytes = image_.bytes();
     text_.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     write(text_);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
 
@@ -47,7 +44,6 @@ class SceneFileTest : public testing::Test {
 
   test::SceneImage image_ = test::ball_over_plate();
   std::string text_;
-  std::filesystem::path folder_;
   std::filesystem::path file_;
 };
 

@@ -10,24 +10,20 @@
 
 #include <fmt/format.h>
 
+#include "tests/support/folder_test.h"
 #include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 
 /// A folder with a scene, a controller file c.toml of the light-weight robot over it, and what a run writes there.
-class ControllerFolderTest : public testing::Test {
+class ControllerFolderTest : public test::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
     const test::SceneImage image = test::ball_over_plate();
     std::ofstream(folder_ / "plate.scene", std::ios::binary)
         .write(reinterpret_cast<const char*>(image.bytes().data()), static_cast<std::streamsize>(image.bytes().size()));
     write_controller("");
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void write_controller(const std::string& more,
                         const std::string& gains = "damping = 5.0\nrotational = 0.003\n") const {
@@ -50,8 +46,6 @@ class ControllerFolderTest : public testing::Test {
     text << std::ifstream(folder_ / file).rdbuf();
     return text.str();
   }
-
-  std::filesystem::path folder_;
 };
 
 }  // namespace godobject::firmware

@@ -19,6 +19,7 @@
 #include "hal/linux/monotonic_clock.h"
 #include "tests/firmware/cycle/fake_drives.h"
 #include "tests/support/arms.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/files/aligned_bytes.h"
 
@@ -28,29 +29,20 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A root folder with what a test puts below /proc and /sys.
-class DoctorTest : public testing::Test {
+class DoctorTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    root_ = fs::path(testing::TempDir()) /
-            (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   void put(const std::string& file, const std::string& text) const {
-    fs::create_directories((root_ / file).parent_path());
-    std::ofstream(root_ / file) << text << '\n';
+    fs::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << text << '\n';
   }
 
   Finding find(const std::string& begin, int cpu = 3) const {
-    for (const Finding& finding : examine_machine(cpu, 80, root_)) {
+    for (const Finding& finding : examine_machine(cpu, 80, folder_)) {
       if (finding.what.starts_with(begin)) return finding;
     }
     ADD_FAILURE() << begin;
     return {};
   }
-
-  fs::path root_;
 };
 
 TEST_F(DoctorTest, NamesACureForAllThatABareMachineLacks) {

@@ -23,6 +23,7 @@
 #include "hal/can_log_ring.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/fault_record.h"
+#include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware {
@@ -77,16 +78,8 @@ TEST(BusLog, PcapBytesByHand) {
   EXPECT_EQ(packet.substr(36), std::string(52, '\0'));
 }
 
-class BusLogTest : public testing::Test {
+class BusLogTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_bus_log_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string content(const std::string& name) const {
     std::ifstream stream(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -98,7 +91,6 @@ class BusLogTest : public testing::Test {
     return received;
   }
 
-  std::filesystem::path folder_;
   std::unique_ptr<hal::CanLogRing> ring_ = std::make_unique<hal::CanLogRing>();
 };
 

@@ -24,6 +24,7 @@
 #include "tests/support/allocation_guard.h"
 #include "tests/support/arms.h"
 #include "tests/support/fault_record.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/scene_image_builder.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/command_line/failure.h"
@@ -32,15 +33,8 @@
 namespace godobject::firmware {
 namespace {
 
-class TelemetryTest : public testing::Test {
+class TelemetryTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("godobject_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::vector<std::string> lines() const {
     std::ifstream stream(folder_ / "telemetry.csv");
     std::vector<std::string> all;
@@ -58,7 +52,6 @@ class TelemetryTest : public testing::Test {
     return record;
   }
 
-  std::filesystem::path folder_;
   std::unique_ptr<TelemetryRing> ring_ = std::make_unique<TelemetryRing>();
 };
 
