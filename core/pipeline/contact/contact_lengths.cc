@@ -15,7 +15,9 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.least_margin = 0.25 * q.margin;
   // derived: interpolation in single precision rounds by 6e-8 of some voxels
   lengths.rounding = std::min(1e-6 * q.voxel_size, 0.1 * lengths.least_margin);
-  lengths.shortest_search_radius = shortest_search_radius_of(q);
+  // measured: 0.03 s takes 43 % fewer instructions in the peg's hole, but a second sub-step follows in 315 instead of
+  // 243 cycles there; 0.5 s takes 4.5 times the instructions
+  lengths.shortest_search_radius = 0.125 * q.voxel_size;
   // measured: 1 takes up to half a percent more sub-steps through the plate, 2.5 takes 2 % more instructions in the
   // hole
   lengths.longest_search_radius = 1.5 * q.voxel_size;

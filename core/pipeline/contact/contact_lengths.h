@@ -33,9 +33,6 @@ struct ContactLengths {
 
   /// Returns the lengths for the parameters of a session.
   static ContactLengths make(const Parameters& q) noexcept;
-  /// Returns the shortest search radius [m]. Measured: 0.03 s takes 43 % fewer instructions in the peg's hole, but a
-  /// second sub-step follows in 315 instead of 243 cycles there. 0.5 s takes 4.5 times the instructions.
-  static double shortest_search_radius_of(const Parameters& q) noexcept { return 0.125 * q.voxel_size; }
 
   /// Returns the search radius of a sub-step that is expected to displace points by up to `displacement` [m].
   /// `longest`: up to this distance the fields tell near points from others [m]. Three margins are added. Measured: 1.5

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/damping.h"
@@ -38,7 +37,8 @@ Wrench damping_of(const ConstrainedStep& step, const Pose& H_WS, const Motion& v
 }  // namespace
 
 Status finish_contact(const CycleInput& input, const ContactResult& result, const ConstrainedStep& step,
-                      const Parameters& q, ContactMemory& memory, ProxyState& state, CycleReport& report) noexcept {
+                      const Parameters& q, const ContactLengths& lengths, ContactMemory& memory, ProxyState& state,
+                      CycleReport& report) noexcept {
   DeviceForce force;
   if (!(result.H_WS == input.H_WD)) {
     const Motion stretch = coupling_stretch(input.H_WD, result.H_WS);                                // #6 (44), (45)
@@ -48,8 +48,7 @@ Status finish_contact(const CycleInput& input, const ContactResult& result, cons
     force.total_W = force.spring_W;
   }
   if (step.force_count > 0) {
-    const double gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
-    const Wrench damping = damping_of(step, result.H_WS, input.velocity_W, gyration,
+    const Wrench damping = damping_of(step, result.H_WS, input.velocity_W, lengths.metric.gyration,
                                       q.stiffness * q.coupling_translation, q.damping / q.stiffness);
     force.total_W.force += damping.force;
     force.total_W.torque += damping.torque;
@@ -58,7 +57,7 @@ Status finish_contact(const CycleInput& input, const ContactResult& result, cons
   if (status != Status::kOk) return status;
   memory.last_step = step;
   memory.H_WD_last = input.H_WD;
-  report.penetration = -std::min(result.smallest, ContactLengths::shortest_search_radius_of(q));
+  report.penetration = -std::min(result.smallest, lengths.shortest_search_radius);
   report.contacts = step.contact_count;
   report.dropped = result.dropped;
   report.substeps = std::max(1u, result.substeps);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/contact_memory.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
 #include "core/pipeline/cycle/parameters.h"
@@ -42,7 +43,7 @@ constexpr Outcome outcome_of(const OutcomeFlags& flags) noexcept {
 /// forces, in `memory` for the next cycle. Statuses as those of `commit`; if not kOk, `memory` is unchanged too.
 /// Real-time safe.
 Status finish_contact(const CycleInput& input, const ContactResult& result, const ConstrainedStep& step,
-                      const Parameters& parameters, ContactMemory& memory, ProxyState& state,
-                      CycleReport& report) noexcept;
+                      const Parameters& parameters, const ContactLengths& lengths, ContactMemory& memory,
+                      ProxyState& state, CycleReport& report) noexcept;
 
 }  // namespace godobject::detail

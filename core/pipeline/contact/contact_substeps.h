@@ -178,7 +178,7 @@ class ContactSubsteps {
       // friction needs the slip of the whole cycle; in the sum the slip of a point that stuck stays zero
       step_.motion = whole_;
     }
-    return finish_contact(input_, result_, step_, *scene_.parameters, memory_, state, report);
+    return finish_contact(input_, result_, step_, *scene_.parameters, lengths_, memory_, state, report);
   }
 
  private:

@@ -3,7 +3,6 @@
 namespace godobject::detail {
 
 Vector6 damping_change(const Vector6* rows, std::uint32_t count, const Vector6& load, const Vector6& damping) noexcept {
-  if (count == 0 || damping.isZero(0.0)) return Vector6::Zero();
   struct NoTag {};
   using Cone = DualActiveSet<NoTag>;
   Cone cone;
