@@ -93,17 +93,17 @@ void sample_each(const Field& field, const Pose& H, SampleBatch& batch) noexcept
 /// `clearances(H, b)`   Sets for each point p of the batch a clearance C at H p for which the guarantee of lipschitz()
 ///                      holds. It may cost much less than sample(H p).clearance, and be smaller.
 /// `samples(H, b)`      Sets for each point p of the batch H p, up to rounding, and sample() there. It may cost less.
-/// `free_chords(H0, H1, b)`  Returns a bit mask of the batch's points p: those whose chord from H0 p to H1 p is proved
-/// to
+/// `free_chords(H0, H1, b)`
+///                      Returns a bit mask of the batch's points p: those whose chord from H0 p to H1 p is proved to
 ///                      meet no distance <= 0; possibly none. The batch was looked up at H1 and contains
 ///                      sample(H0 p).clearance in `from_clearance`. Bits beyond the batch's count are undefined.
 /// `lower_bound(c, r)`  Returns a lower bound of the distance at all x with |x - c| <= r: sample(x).distance is at
-/// least
-///                      the bound or the band. The bound may exceed the band and may be loose. It is negative infinity
-///                      where no bound of at least 0 is proved.
-/// `lipschitz()`        Returns L >= 1, and
-/// `assured_clearance()`  returns A [m]: for any points p and x, sample(x).clearance is at least
-///                      min((sample(p).clearance - |x - p|) / L, A).
+///                      least the bound or the band. The bound may exceed the band and may be loose. It is negative
+///                      infinity where no bound of at least 0 is proved.
+/// `lipschitz()`        Returns L >= 1. With A of `assured_clearance()`: for any points p and x, sample(x).clearance is
+///                      at least min((sample(p).clearance - |x - p|) / L, A).
+/// `assured_clearance()`
+///                      Returns A [m].
 /// `voxel_size()`       Returns s [m].
 /// `band()`             Returns the largest stored distance [m].
 template <class F>

@@ -7,7 +7,7 @@
 namespace godobject::detail {
 namespace {
 
-/// Vectors of AVX2 for the kernels' loops, which say what they want of them.
+/// Vectors of AVX2, with the operations that clearance_kernel_lanes.h and cell_lanes.h list.
 struct Avx2 {
   static constexpr std::uint32_t kLanes = 8;
   using Floats __attribute__((vector_size(4 * kLanes))) = float;

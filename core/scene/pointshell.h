@@ -15,10 +15,10 @@ struct Pointshell {
   const float* x = nullptr;  ///< [m]; size values each
   const float* y = nullptr;
   const float* z = nullptr;
-  const float* normal_x = nullptr;  ///< unit, pointing into the body; null where the image holds no normals
+  const float* normal_x = nullptr;  ///< unit, into the body; null if the image has no normals
   const float* normal_y = nullptr;
   const float* normal_z = nullptr;
-  std::span<const format::Node> nodes;  ///< pre-order; nodes[0] holds all points
+  std::span<const format::Node> nodes;  ///< pre-order; nodes[0] contains all points
 
   Vector3 point(std::size_t i) const noexcept {
     return {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
@@ -28,12 +28,12 @@ struct Pointshell {
   }
 };
 
-/// A sphere around all points of a node's subtree: its centre in B, and a radius that is never too small although the
-/// image holds it in single precision.
+/// Returns the centre of the sphere around all points of a node's subtree, in B [m].
 inline Vector3 center_of(const format::Node& node) noexcept {
   return {static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
           static_cast<double>(node.center[2])};
 }
+/// Returns the radius of that sphere [m], enlarged by the rounding of the image to single precision.
 inline double radius_of(const format::Node& node) noexcept {
   constexpr double kRounding = 2e-6;
   return static_cast<double>(node.radius) * (1.0 + kRounding) + kRounding * center_of(node).cwiseAbs().sum();

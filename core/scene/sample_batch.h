@@ -14,11 +14,11 @@ struct SampleBatch {
   alignas(64) float z[kCapacity];
   std::uint32_t count = 0;
 
-  // of chords that end where the batch is looked up: where they begin
+  // values at the start of the points' chords, if they have one; the batch is looked up at the end
   alignas(64) double from_clearance[kCapacity];  ///< [m]
   alignas(64) double from_distance[kCapacity];   ///< [m]
 
-  // the results, as in FieldSample; where `known` is 0 without a gradient
+  // the results, as in FieldSample; there is no gradient where `known` is 0
   alignas(64) double field_x[kCapacity];  ///< in the field's frame [m]
   alignas(64) double field_y[kCapacity];
   alignas(64) double field_z[kCapacity];
@@ -27,8 +27,8 @@ struct SampleBatch {
   alignas(64) double gradient_x[kCapacity];
   alignas(64) double gradient_y[kCapacity];
   alignas(64) double gradient_z[kCapacity];
-  std::uint64_t known;  ///< a bit a point
+  std::uint64_t known;  ///< one bit for each point
 };
-static_assert(SampleBatch::kCapacity == 64, "a bit a point");
+static_assert(SampleBatch::kCapacity == 64, "one bit for each point");
 
 }  // namespace godobject

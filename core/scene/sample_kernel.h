@@ -5,11 +5,11 @@
 
 #include "core/scene/sample_batch.h"
 
-/// The inner loops of Voxelmap::samples and Voxelmap::free_chords, once for each kind of vectors; with nothing that
-/// other sources share, as clearance_kernel.h.
+/// The kernels of Voxelmap::samples and Voxelmap::free_chords, one for each vector type. The header includes nothing
+/// that other sources share, for the reason in clearance_kernel.h.
 namespace godobject::detail {
 
-/// A voxelmap as the kernel reads it.
+/// The parts of a voxelmap that a kernel reads.
 struct FieldOfNodes {
   const std::uint32_t* index;
   const std::int16_t* bricks;
@@ -24,18 +24,19 @@ struct FieldOfNodes {
   double band, near_band;           ///< [m]
 };
 
-/// Looks up points `first` to `first + lanes` of a batch, as Voxelmap::sample does it, to the last bit. Gives those
-/// that it left out, a bit a lane: outside the grid, where nothing is stored, and in bricks with an edge; of them only
-/// the position in the field's frame is found.
+/// Looks up points `first` to `first + lanes` of a batch; the results equal those of Voxelmap::sample to the last bit.
+/// Returns a bit mask of the lanes that it left out: points outside the grid, points where nothing is stored, and
+/// points in bricks with an edge. These get only their position in the field's frame.
 using LookUpSamples = std::uint32_t(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept;
 
-/// From where points are (FieldOfNodes::to_field) to where their chords end.
+/// The change from the pose at which points are looked up (FieldOfNodes::to_field) to the pose at the end of their
+/// chords.
 struct ChordEnds {
-  double change[3][4];  ///< the change of to_field; the last column [m]
+  double change[3][4];  ///< change of to_field; the last column is the translation [m]
 };
 
-/// Of points `first` to `first + lanes` of a batch that was looked up where their chords end, a bit a lane: those whose
-/// chord is free, see DistanceField::free_chords. Chords are gone through cell by cell.
+/// Returns a bit mask of the lanes, points `first` to `first + lanes` of a batch, whose chord is proved free cell by
+/// cell, see DistanceField::free_chords. The batch was looked up at the end of the chords.
 using FindFreeChords = std::uint32_t(const FieldOfNodes& field, const ChordEnds& ends, const SampleBatch& batch,
                                      std::uint32_t first) noexcept;
 
@@ -46,7 +47,7 @@ struct SampleKernel {
   FindFreeChords* free_chords;
 };
 
-/// Those that this processor can run, the widest first; none where no vectors are known.
+/// Returns the kernels that this processor can run, the widest first; none if it has no known vectors.
 std::span<const SampleKernel> sample_kernels() noexcept;
 
 #if defined(__x86_64__)

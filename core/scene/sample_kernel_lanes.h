@@ -24,7 +24,7 @@ template <class Vectors>
   return {(low - f.origin[axis]) * f.per_voxel, (high - f.origin[axis]) * f.per_voxel, f.cells[axis]};
 }
 
-/// Half of what was found, as Voxelmap::sample has it.
+/// Stores half of the results in double precision, as Voxelmap::sample computes them.
 template <class Vectors>
 [[gnu::always_inline]] inline typename Vectors::Longs store_samples(const FieldOfNodes& f,
                                                                     typename Vectors::Doubles distance,

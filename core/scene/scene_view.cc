@@ -9,14 +9,14 @@ namespace godobject {
 namespace {
 
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-constexpr bool kLooksAtChecksums = false;  // a fuzzer does not guess them, and is to see what lies behind
+constexpr bool kLooksAtChecksums = false;  // a fuzzer cannot guess checksums, and must reach the code after them
 #else
 constexpr bool kLooksAtChecksums = true;
 #endif
 
 using format::SectionId;
 
-/// The sections of one image, by id; empty where absent.
+/// The sections of one image, by id; empty if absent.
 struct Sections {
   std::array<std::span<const std::byte>, format::kMaxSections> of{};
 
@@ -100,8 +100,9 @@ bool valid_settings(const format::Settings& s) noexcept {
 bool valid_grid(const format::Grid& g) noexcept {
   constexpr double kLarge = 1e7;
   if (!in_range(g.voxel_size, 1e-9, 1e6) || !in_range(g.band, g.voxel_size, 1e6 * g.voxel_size)) return false;
-  // from 1: an exact distance field falls by a metre a metre somewhere; to 1e6: a seam jumps by many bands
-  // bricks are refined up to 2, then rounded: a finest cell's nodes apart by as much as coarse ones are off
+  // at least 1: an exact distance field falls by a metre per metre somewhere; at most 1e6: a seam jumps by many bands
+  // before rounding the slope of a brick is at most 2; nodes of the finest cells may then differ by the rounding of
+  // coarse ones
   constexpr double kRoundingSlope =
       2.0 * format::kMostRoundedOff * format::kLargestQuantum * (1 << format::kMaxRefinement);
   if (!in_range(g.lipschitz, 0.0, 2.0 + kRoundingSlope) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
@@ -125,14 +126,14 @@ bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
   return true;
 }
 
-/// The brick that an entry or a refinement names: whether there is one, and whether it knows its edge.
+/// Tells whether the brick that an entry or a refinement refers to exists and agrees about having an edge.
 bool valid_brick_name(std::uint32_t number, bool edged, std::span<const format::Brick> bricks) noexcept {
   return number < bricks.size() && edged == (bricks[number].edge != 0);
 }
 
-/// Of a refinement's own nodes: named where they are read.
+/// Tells whether a refinement refers to its own nodes if and only if they are read.
 bool valid_own_nodes(const format::Refined& refined, bool of_position, std::span<const format::Brick> bricks) noexcept {
-  std::uint32_t coarse = 0;  // those that are must all say the same of an edge
+  std::uint32_t coarse = 0;  // coarse children, which must all agree about having an edge
   bool any = false;
   for (const std::uint32_t child : refined.child) {
     if ((child & format::index_entry::kFar) == 0) continue;
@@ -145,9 +146,9 @@ bool valid_own_nodes(const format::Refined& refined, bool of_position, std::span
   return valid_brick_name(refined.brick, (coarse & format::index_entry::kEdged) != 0, bricks);
 }
 
-/// Walks all refinements in the order that the format prescribes. Each is met once, at the number that is next: so none
-/// is out of reach, shared or contained in itself, and the walk is as long as index and refinements. It names as many
-/// bricks as there are.
+/// Walks all refinements in the order that the format prescribes, and expects each at the next number. So every
+/// refinement is reached once, none is shared or contains itself, and the length of the walk is bounded by index and
+/// refinements. It must refer to as many bricks as there are.
 bool valid_entries(std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
                    std::span<const format::Refined> refined) noexcept {
   struct Open {
@@ -162,7 +163,7 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
     std::uint32_t entry = position;
     std::size_t depth = 0;
     while (true) {
-      const bool coarse = (entry & format::index_entry::kFar) != 0;  // valid_own_nodes has seen it
+      const bool coarse = (entry & format::index_entry::kFar) != 0;  // valid_own_nodes has checked it
       if (!coarse) {
         if ((entry & format::index_entry::kInside) != 0) return false;
         const std::uint32_t number = entry & format::index_entry::kNumber;
@@ -194,7 +195,7 @@ bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count)
 }
 
 bool valid_edges(std::span<const format::Edge> edges) noexcept {
-  constexpr double kSlack = 1e-9;  // of products of unit vectors
+  constexpr double kSlack = 1e-9;  // rounding of products of unit vectors
   constexpr double kFarthest = 1e8;
   const auto dot = [](const double(&a)[3], const double(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   const auto unit = [&](const double(&a)[3]) { return in_range(dot(a, a), 1.0 - kSlack, 1.0 + kSlack); };
@@ -240,7 +241,7 @@ bool valid_body(const format::Body& b) noexcept {
   return in_range(b.sphere_radius, 1e-12, 1e6) && in_range(b.volume, 0.0, 1e18) && b.inertia_from_points <= 1;
 }
 
-/// The bound on a body's displacement needs this.
+/// Tells whether the sphere contains all points: the bound on a body's displacement requires it.
 bool contains(const BoundingSphere& sphere, const Pointshell& shell) noexcept {
   for (std::size_t i = 0; i < shell.size; ++i) {
     if (!((shell.point(i) - sphere.center).norm() <= sphere.radius)) return false;
@@ -314,7 +315,7 @@ bool valid_points(const Pointshell& shell, double radius) noexcept {
     if (!(shell.point(i).norm() <= radius * kSlack)) return false;
     if (shell.normal_x != nullptr && !in_range(shell.normal(i).squaredNorm(), 0.998, 1.002)) return false;
   }
-  // the tree is worth nothing if a point stands outside of its spheres
+  // the search may skip a subtree only if its sphere contains all its points
   for (const format::Node& node : shell.nodes) {
     const Vector3 center(static_cast<double>(node.center[0]), static_cast<double>(node.center[1]),
                          static_cast<double>(node.center[2]));
@@ -332,7 +333,7 @@ std::span<const T> as_array(std::span<const std::byte> bytes) noexcept {
   return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
 }
 
-/// `values` is float x[n], y[n], z[n].
+/// Sets pointers into `values`, which is float x[n], y[n], z[n].
 void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x, const float*& y,
               const float*& z) noexcept {
   x = as_array<float>(values).data();
@@ -405,7 +406,7 @@ Status open_features(const Sections& sections, SceneView& scene) noexcept {
                   grid, scene.body_map);
 }
 
-/// `box` stays unlimited where the image has none.
+/// Reads the workspace; `box` stays unlimited if the image has none.
 Status open_workspace(const Sections& sections, WorkspaceBox& box) noexcept {
   const auto bytes = sections[SectionId::kWorkspace];
   if (bytes.data() == nullptr) return Status::kOk;

@@ -70,8 +70,8 @@ bool Voxelmap::locate(const Vector3& p_W, Cell& cell) const noexcept {
   return true;
 }
 
-/// From a refined position to the cell that holds the point: of the octant, of the octant's octant, ... down to what is
-/// not refined. Gives that cell's edge [voxels].
+/// Descends from a refined position through its octants to the unrefined cell that contains the point. Returns that
+/// cell's edge [voxels].
 double Voxelmap::descend(Cell& cell) const noexcept {
   constexpr int kHalf = kBrickCells / 2;
   std::array<double, 3> at = {cell.x + static_cast<double>(cell.fx), cell.y + static_cast<double>(cell.fy),
@@ -100,13 +100,13 @@ double Voxelmap::descend(Cell& cell) const noexcept {
   return cell_edge;
 }
 
-/// The own nodes of a position that is not far.
+/// Returns the brick with the own nodes of a position that is not far.
 const format::Brick& Voxelmap::unrefined(std::uint32_t entry) const noexcept {
   const std::uint32_t number = entry & format::index_entry::kNumber;
   return bricks_[(entry & format::index_entry::kRefined) != 0 ? refined_[number].brick : number];
 }
 
-/// Of a point in a far position, from what is known of its centre.
+/// Returns the clearance of a point in a far position, which follows from that of the position's centre [m].
 double Voxelmap::far_clearance(const Cell& cell) const noexcept {
   constexpr double kCenter = 0.5 * kBrickCells;
   const Vector3 from_center(cell.x + static_cast<double>(cell.fx) - kCenter,
@@ -119,14 +119,15 @@ double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
   return (surface_min_ - p_W).cwiseMax(p_W - surface_max_).cwiseMax(0.0).norm();
 }
 
-/// Of a point outside the grid, as a far entry has it: from the exact distance to the stored one it is kFieldError
-/// voxels at most.
+/// Returns the clearance of a point outside the grid [m]. The stored distance differs from the exact one by at most
+/// kFieldError voxels.
 double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept { return distance_to_box(p_W) - outside_off_; }
 
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   FieldSample sample;
   sample.distance = band_;
-  // from where nothing is stored any way to the surface enters stored bricks at a value of at least the band
+  // Where nothing is stored the clearance is positive: every path from there to the surface enters the stored bricks at
+  // a value of at least the band.
   Cell cell;
   if (!locate(p_W, cell)) {
     sample.clearance = std::max(assured_clearance_, outside_clearance(p_W));
@@ -167,8 +168,8 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     wedge = wedge_distance(edge, p_W);
     distance += weight.value * (wedge.value - distance);
   }
-  // A straight way of a brick's edge stays in the positions about this one, or leaves the stored bricks and enters them
-  // again at a value of at least the band, rounded.
+  // A straight path as long as a brick's edge stays in the positions around this one, or it leaves the stored bricks
+  // and enters them again at a value of at least the band, rounded.
   if (distance > 0.0) {
     sample.clearance = std::min(distance, near_band_) / static_cast<double>(format::decode_lipschitz(brick.lipschitz));
   }
@@ -230,15 +231,15 @@ double Voxelmap::lower_bound(const Vector3& center_W, double radius) const noexc
     if (cell.entry & format::index_entry::kInside) return kNoBound;
     bound = far_clearance(cell) - radius;
   } else {
-    // Along the segment from the centre to any x of the ball the stored field falls by at most the Lipschitz constant a
-    // metre while the segment stays in stored bricks; where it leaves them (outside) it re-enters at a value of at
-    // least the band. The brick's own constant holds for a brick's edge.
+    // Along the segment from the centre to a point of the ball the stored field falls by at most the Lipschitz constant
+    // per metre while the segment stays in stored bricks. If the segment leaves them, outside, it enters them again at
+    // a value of at least the band. The brick's own constant holds over a length of one brick.
     const bool about = radius <= kBrickCells * voxel_size_;
     const double lipschitz =
         about ? static_cast<double>(format::decode_lipschitz(unrefined(cell.entry).lipschitz)) : lipschitz_;
     bound = sample(center_W).distance - lipschitz * radius;
   }
-  // A ball that may reach the surface may also reach through a seam into the solid: no bound is known there.
+  // A ball that may reach the surface may also reach through a seam into the solid; then there is no bound.
   return bound >= 0.0 ? bound : kNoBound;
 }
 

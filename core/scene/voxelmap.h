@@ -11,9 +11,9 @@
 
 namespace godobject {
 
-/// A compiled body, still or moving: trilinear value and gradient of signed distances stored in sparse bricks. A view;
-/// owns nothing. Real-time safe; every call looks at one brick (one index entry, where the position is refined at most
-/// format::kMaxRefinement more entries, 8 nodes of the brick, and the edge of one that has one).
+/// The distance field of a compiled body, still or moving: trilinear value and gradient of signed distances stored in
+/// sparse bricks. A view; owns nothing. Real-time safe. Each call reads one brick: an index entry, at most
+/// format::kMaxRefinement entries of refinements, 8 nodes, and the brick's edge if it has one.
 class Voxelmap {
  public:
   Voxelmap() = default;
@@ -27,58 +27,58 @@ class Voxelmap {
   double lipschitz() const noexcept { return clearance_slope_; }
   double assured_clearance() const noexcept { return assured_clearance_; }
 
-  /// No point of the surface is farther from `center` [m].
+  /// Returns an upper bound of the distance of the surface's points from `center` [m].
   double surface_radius(const Vector3& center) const noexcept {
     return (center - surface_min_).cwiseMax(surface_max_ - center).norm();
   }
 
-  /// The stored field at p_W, trilinear but for bricks with an edge (format::Edge), and its exact gradient. Outside the
-  /// grid is free space (+band), deep inside is solid (-band), both with `known` false. A p that is not finite counts
-  /// as outside. The clearance is the distance over Brick::lipschitz, more beyond the band.
+  /// Returns the stored field at p_W and its exact gradient. The field is trilinear, except in bricks with an edge
+  /// (format::Edge). It is +band outside the grid and -band deep inside, both with `known` false. A point that is not
+  /// finite counts as outside. Within the band the clearance is the distance over Brick::lipschitz; beyond it, larger.
   FieldSample sample(const Vector3& p_W) const noexcept;
 
-  /// See DistanceField. In single precision, of each position's own nodes, with allowance for both; eight points at a
-  /// time where the processor gathers (some 10 ns a point in cache).
+  /// As in DistanceField. Works in single precision on each position's own nodes, and subtracts bounds of both errors.
+  /// With gather instructions eight points at a time, some 10 ns a point from the cache.
   void clearances(const Pose& H, PointBatch& batch) const noexcept;
 
-  /// See DistanceField: to the last bit what `sample` gives there, several points at a time where the processor has
-  /// vectors; what lies in bricks with an edge, or where nothing is stored, one by one.
+  /// As in DistanceField. The results equal those of `sample` to the last bit. Vectors do several points at a time;
+  /// points in bricks with an edge, and points where nothing is stored, are done one by one.
   void samples(const Pose& H, SampleBatch& batch) const noexcept;
-  /// By one of sample_kernels(), or by none.
+  /// The same with one of sample_kernels(); null: without vectors.
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
-  /// See DistanceField. Knows it of a chord through at most four cells without an edge, one after the other, in each of
-  /// which the cubic that the field is there has positive Bernstein coefficients; 0 where the processor has no vectors:
-  /// there balls decide alone, so what a cycle with long chords comes to may differ in value.
+  /// As in DistanceField. Proves chords through at most four cells without an edge. In each cell the field along the
+  /// chord is a cubic, and the proof is that its Bernstein coefficients are positive. Returns 0 if the processor has no
+  /// vectors: then free balls alone decide, and a cycle with long chords may have a different result.
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;
-  /// By one of sample_kernels(), or by none; the batch was looked up by one at least as wide.
+  /// The same with one of sample_kernels(); null: 0. The batch was looked up by a kernel at least as wide.
   std::uint64_t free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,
                                SampleBatch& batch) const noexcept;
 
-  /// The data that the kernels of `clearances` read, for points of a frame at H. Requires in_batches().
+  /// Returns the data that the kernels of `clearances` read, for points of a frame at H. Requires in_batches().
   detail::FieldOfCells in_cells(const Pose& H) const noexcept;
   bool in_batches() const noexcept { return in_batches_; }
 
-  /// The paper's voxel layer v = round(-phi(C) / s) at the centre C of the voxel (node) nearest to p_W; beyond the band
-  /// that of the band's edge. Nothing more is stored for it: voxels have one size, so a refined position answers from
-  /// its own nodes.
+  /// Returns the paper's voxel layer v = round(-phi(C) / s) at the centre C of the voxel (node) nearest to p_W; beyond
+  /// the band the layer of the band's edge. The paper's voxels have one size, so a refined position answers from its
+  /// own nodes.
   LayerSample layer(const Vector3& p_W) const noexcept;
 
-  /// See DistanceField. Within the band from Brick::lipschitz, beyond it from the clearance kept in the brick index,
-  /// outside the grid from the surface's bounding box.
+  /// As in DistanceField. The bound follows from Brick::lipschitz within the band, from the far clearance of the brick
+  /// index beyond it, and from the surface's bounding box outside the grid.
   double lower_bound(const Vector3& center_W, double radius) const noexcept;
 
  private:
-  /// Largest error of trilinear interpolation of a 1-Lipschitz function, in voxels: half the cell's diagonal. It holds
-  /// for refinements too: nodes that carry a coarser brick's value weigh coarser nodes m, of mean x in all, so the
-  /// error is at most the root of sum w_m |m - x|^2, which the halved edges leave below 3/4 (faces add 1/2, 1/8, ...,
-  /// the cell itself 3/4 of its squared edge).
+  /// Largest error of trilinear interpolation of a 1-Lipschitz function: half the cell's diagonal [voxels]. The bound
+  /// also holds in refinements. There a shared node has the weighted mean of coarser nodes m around it. The error at x
+  /// is at most the root of sum w_m |m - x|^2. The halved edges keep that sum below 3/4: faces add 1/2, 1/8, ..., and
+  /// the cell itself 3/4 of its squared edge.
   static constexpr double kInterpolationError = 0.8660254037844387;
-  /// With what rounding adds.
+  /// The same with the rounding of the nodes [voxels].
   static constexpr double kFieldError = kInterpolationError + format::kMostRoundedOff * format::kLargestQuantum;
 
   struct Cell {
-    std::uint32_t entry;  ///< of the brick index; of a refinement after `descend`
+    std::uint32_t entry;  ///< entry of the brick index; after `descend`, of a refinement
     int x, y, z;          ///< cell within the brick, 0 .. kBrickCells - 1
     float fx, fy, fz;     ///< position within the cell, 0 .. 1
   };
@@ -101,17 +101,17 @@ class Voxelmap {
   double voxel_size_ = 1.0;
   double per_voxel_ = 1.0;
   double band_ = 0.0;
-  double quantum_ = 0.0;  ///< of the stored distances; less where they are refined [m]
+  double quantum_ = 0.0;  ///< unit of the stored distances without refinement [m]
   double quantum_per_voxel_ = 0.0;
   double near_band_ = 0.0;  ///< largest part of a distance that a clearance may use: the band less its rounding, at
                             ///< most a brick's edge [m]
-  double lipschitz_ = 1.0;  ///< of the whole field
+  double lipschitz_ = 1.0;  ///< bound of the gradient in the whole field [1]
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;
-  double outside_off_ = 0.0;         ///< of the distance to the surface's box, as clearance [m]
-  bool in_batches_ = false;          ///< the index and the nodes are few enough for 32 bits
-  Vector3 cells_ = Vector3::Zero();  ///< of the grid along x, y, z
-  std::ptrdiff_t stride_y_ = 0;      ///< brick positions from one to its neighbour in y, in z
+  double outside_off_ = 0.0;         ///< distance to the surface's box minus clearance, outside the grid [m]
+  bool in_batches_ = false;          ///< index and nodes can be addressed with 32 bits
+  Vector3 cells_ = Vector3::Zero();  ///< number of cells of the grid along x, y, z
+  std::ptrdiff_t stride_y_ = 0;      ///< index difference of neighbouring positions in y; stride_z_ in z
   std::ptrdiff_t stride_z_ = 0;
 };
 

@@ -10,23 +10,35 @@
 namespace godobject::scene_compiler {
 namespace {
 
-constexpr double kAim = 0.78;  // of what is wanted, for points that are added: places between others are a little worse
-constexpr double kStrict = 0.82;  // of what is wanted: places that hold no more than this get points, too
-constexpr int kRounds = 14;       // of adding; each looks at other places than the one before
+// All are chosen. The result is checked at all places afterwards (`holds`), so other values change the number of points
+// and the compile time, not the bound that is kept. "The bound" is [contact] between_points.
+
+/// Share of the bound that points are added for: places between the checked ones are a little worse.
+constexpr double kAim = 0.78;
+/// Share of the bound above which a place gets more points, although it keeps the bound.
+constexpr double kStrict = 0.82;
+/// Rounds of adding points; each checks other places than the round before.
+constexpr int kRounds = 14;
 constexpr std::uint32_t kFirstSeed = 11;
-constexpr double kEdge = 0.6;       // h, of what is wanted
-constexpr double kSharp = 0.5;      // of the aim, between any place on an edge and a point
-constexpr double kFurthest = 1.1;   // coverages, that a point serves a place of the moving body
-constexpr double kFinePart = 0.5;   // of the aim, between places where the surface falls soon
-constexpr double kMostDense = 0.5;  // of what is wanted, between such places
-/// Of what is wanted: a smaller fall needs no dense places, before it is shared out.
+/// Target::edge over the bound [1].
+constexpr double kEdge = 0.6;
+/// Largest distance from a place on an edge to a point, share of the aim.
+constexpr double kSharp = 0.5;
+/// Largest distance at which a point serves a place of the moving body, in coverages.
+constexpr double kFurthest = 1.1;
+/// Requested distance of places near which the surface falls off, share of the aim.
+constexpr double kFinePart = 0.5;
+/// Largest distance of such places with which the bound can be proved, share of the bound.
+constexpr double kMostDense = 0.5;
+/// Fall of the moving and of the still surface with which the search begins, share of the bound.
 constexpr double kMovingRough = 0.5;
 constexpr double kStillRough = 0.25;
-constexpr std::size_t kEstimates = 4000;  // places, for the number of points
-constexpr std::array kStillParts{0.04, 0.1, 0.2, 0.3,
-                                 0.4,  0.5, 0.6, 0.7};  // of the bound, that the still surface may fall
-constexpr std::array kLarger{1.1, 1.25, 1.5, 2.0, 2.5,
-                             3.0, 4.0,  6.0, 8.0};  // bounds that may hold where the wanted does not
+/// Places by which the number of points is estimated.
+constexpr std::size_t kEstimates = 4000;
+/// Shares of the bound that are tried for the fall of the still surface.
+constexpr std::array kStillParts{0.04, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+/// Multiples of the bound that are tried if the bound itself cannot be kept.
+constexpr std::array kLarger{1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0};
 
 void append(const std::vector<SurfaceSample>& more, std::vector<SurfaceSample>& samples) {
   samples.insert(samples.end(), more.begin(), more.end());
