@@ -17,14 +17,14 @@ using Eigen::Map;
 
 void store(const Vector3& v, double (&out)[3]) { std::copy(v.data(), v.data() + 3, out); }
 
-/// The edge of a solid that fills `angle` [rad] between its faces; along z, the first face in the plane x = 0 towards
-/// -y, the body at x < 0 or, re-entrant, around the empty wedge there.
+/// Returns the edge of a solid that fills `angle` [rad] between its faces. The edge is along z. The first face is in
+/// the plane x = 0 towards -y. The body is at x < 0 or, for a re-entrant edge, around the empty wedge there.
 format::Edge edge_of(double angle, double side) {
   format::Edge edge{};
   store(Vector3::UnitZ(), edge.along);
   store(Vector3::UnitX(), edge.normal[0]);
   store(-Vector3::UnitY(), edge.face[0]);
-  const Eigen::AngleAxisd turn(-angle, Vector3::UnitZ());  // of the face, into the wedge
+  const Eigen::AngleAxisd turn(-angle, Vector3::UnitZ());  // turn of the face, into the wedge
   const Vector3 face = turn * -Vector3::UnitY();
   store(face, edge.face[1]);
   store(Vector3(face.y(), -face.x(), 0.0), edge.normal[1]);
@@ -53,7 +53,7 @@ Pose any_pose(test::Random& random) {
   return {Quaternion(Eigen::AngleAxisd(random.between(0.0, 3.1), random.direction())), random.in_cube(2.0)};
 }
 
-/// Distance to the two half planes, looked for along each of them; negative inside of the wedge.
+/// Returns the distance to the two half planes by a search along each of them; negative inside the wedge.
 double slow_distance(const format::Edge& edge, const Vector3& p) {
   const Vector3 from = p - Map<const Vector3>(edge.point);
   const Vector3 across = from - Map<const Vector3>(edge.along).dot(from) * Map<const Vector3>(edge.along);
@@ -63,7 +63,7 @@ double slow_distance(const format::Edge& edge, const Vector3& p) {
     const Map<const Vector3> face(edge.face[i]);
     double low = 0.0;
     double high = 10.0;
-    for (int k = 0; k < 200; ++k) {  // the distance from a place on the face falls, then rises
+    for (int k = 0; k < 200; ++k) {  // along the face the distance first falls, then rises
       const double a = low + (high - low) / 3.0;
       const double b = high - (high - low) / 3.0;
       if ((across - a * face).norm() < (across - b * face).norm()) {
@@ -111,9 +111,9 @@ TEST(Edge, AgreesWithASlowSearchAndItsOwnDifferences) {
     const double step = 1e-6;
     const Vector3 direction = random.direction();
     const double ahead = wedge_distance(edge, p + step * direction).value;
-    EXPECT_LE(std::abs(ahead - distance), step * (1.0 + 1e-9));  // a distance
+    EXPECT_LE(std::abs(ahead - distance), step * (1.0 + 1e-9));  // the slope of a distance is at most 1
     const double behind = wedge_distance(edge, p - step * direction).value;
-    if (std::abs(ahead - 2.0 * distance + behind) > 1e-9) continue;  // astride a crease
+    if (std::abs(ahead - 2.0 * distance + behind) > 1e-9) continue;  // across a crease
     EXPECT_NEAR(wedge_distance(edge, p).gradient.dot(direction), (ahead - behind) / (2.0 * step), 1e-5);
     edge.offset = 0.25;
     EXPECT_DOUBLE_EQ(wedge_distance(edge, p).value, distance + 0.25);
@@ -127,7 +127,7 @@ TEST(Edge, CountsByHand) {
   EXPECT_DOUBLE_EQ(edge_weight(edge, {0.0, 0.6, 1.0}).value, 0.5);          // 2 (1 - 0.6 / 0.8)
   EXPECT_DOUBLE_EQ(edge_weight(edge, {0.0, 0.375, -0.5}).value, 0.5);       // R = 0.4 + 0.2 * 0.5
   EXPECT_DOUBLE_EQ(edge_weight(edge, {0.0, 0.0, -0.9}).value, 0.1 / 0.5);   // the ramp
-  EXPECT_DOUBLE_EQ(edge_weight(edge, {0.0, 0.0, 2.75}).value, 0.25 / 0.5);  // and at the other end
+  EXPECT_DOUBLE_EQ(edge_weight(edge, {0.0, 0.0, 2.75}).value, 0.25 / 0.5);  // the same ramp at the other end
   for (const Vector3& p :
        {Vector3(0.8, 0.0, 1.0), Vector3(0.0, 0.0, -1.0), Vector3(0.0, 0.0, 3.0), Vector3(0.0, 0.0, 9.0)}) {
     EXPECT_EQ(edge_weight(edge, p).value, 0.0);
@@ -151,7 +151,7 @@ TEST(Edge, CountsWithoutAJumpAndAsItsGradientSays) {
     const double behind = edge_weight(edge, p - step * direction).value;
     const double steepest = std::max(1.0 / edge.ramp, 2.0 / edge.end_radius * std::hypot(1.0, edge.slope));
     EXPECT_LE(std::abs(ahead - behind), 2.0 * step * steepest * (1.0 + 1e-6));
-    if (std::abs(ahead - 2.0 * w.value + behind) > 1e-10) continue;  // astride a crease of w
+    if (std::abs(ahead - 2.0 * w.value + behind) > 1e-10) continue;  // across a crease of w
     EXPECT_NEAR(w.gradient.dot(direction), (ahead - behind) / (2.0 * step), 1e-6);
     if (w.value > 0.0 && w.value < 1.0) ++between;
   }

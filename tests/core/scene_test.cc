@@ -24,7 +24,7 @@ using test::section_item;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A ball of two voxels' diameter, and a box of 26 points under a tree of seven nodes: 7 KiB with everything in it.
+/// Returns a ball of two voxels' diameter, and a box of 26 points under a tree of seven nodes: 7 KiB in all.
 SceneImage small_image() {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
@@ -44,7 +44,7 @@ SceneImage small_image() {
   return test::build_scene_image(description);
 }
 
-/// A convex edge along z.
+/// Returns a convex edge along z.
 format::Edge any_edge() {
   format::Edge edge{};
   edge.along[2] = edge.normal[0][0] = edge.normal[1][1] = 1.0;
@@ -59,8 +59,8 @@ format::Edge any_edge() {
   return edge;
 }
 
-/// The same ball with two positions refined, 0 and 2, and the last octant of the first one, 1. Coarse are: of the
-/// second position the lowest octant.
+/// Returns the same ball with refinements at two positions, 0 and 2, and in the first one's last octant, 1. The lowest
+/// octant of the second position is coarse.
 SceneImage refined_image(std::optional<format::Edge> edge = {}) {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
@@ -88,7 +88,7 @@ std::array<std::byte, sizeof(SceneView)> bytes_of(const SceneView& scene) {
   return bytes;
 }
 
-/// Opens `image` into a scene that holds another one already; a refusal must leave that as it was.
+/// Opens `image` over another scene. A refused image must leave that scene unchanged.
 Status open_over_another(std::span<const std::byte> image) {
   static const SceneImage another = small_image();
   static const SceneView opened = test::open_scene(another);
@@ -119,7 +119,7 @@ TEST(Scene, ShowsWhatTheImageHolds) {
   EXPECT_EQ(scene.H_MB.translation, Vector3(0.1, 0.2, 0.3));
   EXPECT_EQ(scene.H_MB.rotation.coeffs(), Quaternion(0.5, 0.5, -0.5, 0.5).coeffs());
   EXPECT_EQ(scene.provenance.size(), std::strlen(R"({"still": "ball"})"));
-  // R_max is the corner's distance, and each normal points to the centre's side
+  // R_max is the corner's distance, and each normal points towards the centre
   EXPECT_NEAR(scene.body.radius, Vector3(0.01, 0.02, 0.03).norm(), 1e-8);
   for (std::size_t i = 0; i < scene.pointshell.size; ++i) {
     EXPECT_LT(scene.pointshell.point(i).dot(scene.pointshell.normal(i)), 0.0);
@@ -166,7 +166,8 @@ TEST(Scene, RefusesEverySingleBitFlip) {
   EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
 }
 
-/// A flipped bit behind a right checksum may be refused or not; what opens must be safe to use. The sanitizers judge.
+/// An image with a flipped bit and a correct checksum may open or not. If it opens, it must be safe: the sanitizers
+/// judge.
 TEST(Scene, SurvivesEverySingleBitFlipBehindRightChecksums) {
   const SceneImage whole = small_image();
   std::size_t refused = 0;
@@ -229,7 +230,7 @@ format::Section& section_of(SceneImage& image, SectionId id) {
   return *sections;
 }
 
-/// Of the header alone: the table may be spoiled, so the sections cannot be found.
+/// Writes the checksum of the header alone. A spoiled table does not lead to the sections.
 void seal_header(SceneImage& image, std::uint32_t header_bytes) {
   header_of(image).checksum = 0;
   header_of(image).checksum = format::checksum(image.bytes().data(), header_bytes);
@@ -462,16 +463,16 @@ constexpr Spoiled kEdges[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Edge, SceneRefusesEdges, ::testing::ValuesIn(kEdges));
 
-/// The first octant of the first octant ... of the first position, `depth` times halved, and the position beside it. Of
-/// each refinement the last octant is coarse, if asked for.
+/// Returns a scene that halves the first position's first octant again and again, `depth` times in all, and also the
+/// position beside it. `last_coarse`: the last octant of each refinement is coarse.
 SceneImage chain_image(int depth, bool last_coarse) {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
   description.surface_min = Vector3::Constant(-0.01);
-  description.surface_max = Vector3::Constant(0.05);  // roomy: some positions are far
+  description.surface_max = Vector3::Constant(0.05);  // large enough that some positions are far
   description.voxel_size = 0.01;
   description.points = {Vector3(0.01, 0.0, 0.0)};
-  const Vector3 low = description.surface_min - Vector3::Constant(0.05);  // band of four voxels, and one
+  const Vector3 low = description.surface_min - Vector3::Constant(0.05);  // band of four voxels, plus one voxel
   description.refined = [depth, low](const Vector3& center, double edge) {
     if (edge > 0.03 && (center - low - 0.04 * Vector3::UnitX()).cwiseAbs().maxCoeff() < 0.51 * edge) return true;
     return edge > 0.045 * std::exp2(-depth) && (center - low).cwiseAbs().maxCoeff() < 0.51 * edge;
@@ -499,7 +500,7 @@ TEST(Scene, RefusesRefinementsTooDeep) {
   SceneImage image = chain_image(format::kMaxRefinement, false);
   auto* index = &section_item<std::uint32_t>(image, SectionId::kBrickIndex);
   auto* refined = &section_item<format::Refined>(image, SectionId::kRefined);
-  // the fifth becomes an octant of the fourth, and all bricks stay named
+  // the fifth becomes an octant of the fourth, and each brick keeps a reference
   std::uint32_t* far = index;
   while ((*far & format::index_entry::kFar) == 0) ++far;
   *far = refined[3].child[7];
@@ -515,7 +516,7 @@ TEST(Scene, RefusesRefinementsTooDeep) {
   EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
 }
 
-/// As above: a flipped bit behind a right checksum. The sanitizers judge.
+/// An image with a flipped bit and a correct checksum may open or not; if it opens, it must be safe. Sanitizers judge.
 TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
   SceneImage image = refined_image(any_edge());
   const auto bytes = test::section_bytes(image, SectionId::kRefined);
@@ -535,7 +536,7 @@ TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
   }
 }
 
-/// Every double from `first` on, one after the other.
+/// Sets every double from `first` on to each bad value, one at a time, and expects a refusal.
 template <class T, SectionId kId>
 void expect_each_double_is_checked(std::size_t first, std::size_t count) {
   for (const double value : {kNaN, kInfinity, -kInfinity}) {

@@ -49,7 +49,7 @@ TEST(Rotation, OfAQuarterTurnIsKnownByHand) {
   EXPECT_NEAR(q.z(), std::sqrt(0.5), 1e-15);
 }
 
-/// From where squares vanish to just below half a turn, with the switch of the series (1e-4 rad) on the way.
+/// The angles reach from vanishing squares to just below half a turn, across the switch to the series (1e-4 rad).
 TEST(Rotation, LogUndoesExpForEveryAngle) {
   Random random(1);
   for (const double angle : {1e-300, 1e-160, 1e-30, 1e-12, 1e-8, 9.9e-6, 1.9e-5, 2.1e-5, 9.999e-5, 1.0001e-4, 1e-3, 0.1,
@@ -67,7 +67,7 @@ TEST(Rotation, ExpAgreesWithAxisAndAngle) {
   Random random(2);
   for (int i = 0; i < 10000; ++i) {
     const Vector3 axis = random.direction();
-    const double angle = 3.0 * kPi * random.uniform();  // more than a turn, too
+    const double angle = 3.0 * kPi * random.uniform();  // also more than a turn
     const Matrix3 expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
     ASSERT_LT((exp_rotation(angle * axis).toRotationMatrix() - expected).norm(), 1e-14) << angle;
   }
@@ -113,7 +113,7 @@ TEST(Pose, ComposesLikeMatrices) {
   }
 }
 
-/// H_WS H_SP = H_WP and so on: what the letters promise.
+/// The letters of the frames promise this: H_WS H_SP = H_WP, and so on.
 TEST(Pose, NeighbouringLettersCancel) {
   Random random(5);
   for (int i = 0; i < 10000; ++i) {
@@ -136,14 +136,14 @@ TEST(Pose, StaysUnitOverAMillionProducts) {
   Pose H;
   for (int i = 0; i < 1000000; ++i) H = H * step;
   EXPECT_NEAR(H.rotation.norm(), 1.0, 4e-16);
-  // the same turn in one go; rounding adds up like a random walk, at worst straight
+  // the same turn in one step; rounding adds up like a random walk, or linearly at worst
   const double angle = std::remainder(1e6 * log_rotation(step.rotation).norm(), 2.0 * kPi);
   const Quaternion expected = exp_rotation(angle * log_rotation(step.rotation).normalized());
   EXPECT_LT(log_rotation(expected.conjugate() * H.rotation).norm(), 1e6 * 4e-16);
 }
 
 TEST(Pose, SetMatrixMovesInTheFrameThatMoves) {
-  // S stands a metre along x of W and looks along y; a step of 0.1 along its own x goes along y of W
+  // S is a metre along x of W and looks along y, so a step of 0.1 along its own x is along y of W
   Pose H_WS;
   H_WS.rotation = exp_rotation(Vector3(0.0, 0.0, 0.5 * kPi));
   H_WS.translation = Vector3(1.0, 0.0, 0.0);
@@ -157,7 +157,7 @@ TEST(Pose, GetMotionUndoesSetMatrix) {
   for (int i = 0; i < 10000; ++i) {
     const Motion xi{random.vector(), 3.1 * random.uniform() * random.direction()};
     const Motion back = get_motion(set_matrix(xi));
-    ASSERT_EQ(back.translation, xi.translation);  // no SE(3) logarithm: the translation is taken as it is
+    ASSERT_EQ(back.translation, xi.translation);  // not the SE(3) logarithm: the translation stays as it is
     ASSERT_LT((back.rotation - xi.rotation).norm(), 4e-15);
   }
 }
@@ -178,7 +178,7 @@ TEST(Pose, KnowsWhatIsNotFinite) {
   }
 }
 
-/// No point of the sphere goes farther, and one goes more than half as far.
+/// No point of the sphere travels farther than the bound, and one travels more than half of it.
 TEST(BoundingSphere, BoundsTheWayFromPoseToPose) {
   Random random(11);
   for (int k = 0; k < 300; ++k) {
@@ -206,7 +206,7 @@ TEST(BoundingSphere, GoesAsFarAsItsCentreWhereNothingTurns) {
   H1.translation = Vector3(3e-3, 0.0, 4e-3);
   EXPECT_NEAR(farthest_way(sphere, H0, H1), 5e-3, 1e-8);
   EXPECT_NEAR(travel(sphere, {H1.translation, Vector3::Zero()}), 5e-3, 1e-15);
-  // about the centre
+  // a rotation about the centre
   const double turn = 0.5;
   H1.rotation = exp_rotation({0.0, 0.0, turn});
   H1.translation = sphere.center - H1.rotation * sphere.center;
@@ -217,7 +217,7 @@ TEST(BoundingSphere, TurnsAboutItsCentreByItsRadiusAlone) {
   const BoundingSphere sphere{{0.1, -0.2, 0.3}, 0.5};
   const Vector3 turn(2e-3, 1e-3, -2e-3);  // 3 mrad
   EXPECT_NEAR(travel(sphere, {-turn.cross(sphere.center), turn}), 3e-3 * 0.5 + 0.5 * 9e-6 * 0.6, 1e-12);
-  // far round, the way there and back counts
+  // for a large rotation, the distance to the axis counts as well
   const Vector3 far(0.0, 3.0, 0.0);
   EXPECT_NEAR(travel(sphere, {Vector3(0.0, 0.1, 0.0), far}), 0.1 + 3.0 * (0.6 + 0.5), 1e-12);
 }

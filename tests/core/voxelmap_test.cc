@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// lower_bound takes the ball larger by 2e-6 of it and 1e-5 voxels, against the rounding of stored floats. [m]
+/// Against the rounding of stored floats, lower_bound enlarges the ball by 2e-6 of it and by 1e-5 voxels. [m]
 constexpr double kAllowance = 1e-5;
 
 test::SceneDescription still_body(std::function<double(const Vector3&)> distance, const Vector3& half_edges,
@@ -48,7 +48,7 @@ void fill(format::Brick& brick, double value, int level = 0) {
   std::fill(std::begin(brick.value), std::end(brick.value), quanta(value, level));
 }
 
-/// One brick of 4 x 4 x 4 cells with edge 1/4 m, its first node at the origin. Numbers that a brick holds exactly.
+/// One brick of 4 x 4 x 4 cells with edge 1/4 m. Its first node is at the origin. A brick stores its values exactly.
 struct OneBrick {
   format::Grid grid{};
   format::Brick brick{};
@@ -78,16 +78,16 @@ TEST(Voxelmap, InterpolatesACellByHand) {
       for (const int x : {1, 2}) one.set(x, y, z, 0.125 * corner++);
     }
   }
-  // a quarter along x, a half along y, three quarters along z: 1 + 1/4 + 2/2 + 4 * 3/4 = 5.25 eighths
+  // 1/4 along x, 1/2 along y, 3/4 along z: 1 + 1/4 + 2/2 + 4 * 3/4 = 5.25 eighths
   const FieldSample sample = one.map().sample(0.25 * Vector3(1.25, 2.5, 3.75));
   EXPECT_TRUE(sample.known);
   EXPECT_EQ(sample.distance, 5.25 / 8.0);
-  EXPECT_EQ(sample.gradient, Vector3(0.5, 1.0, 2.0));  // 1, 2, 4 eighths a quarter metre
+  EXPECT_EQ(sample.gradient, Vector3(0.5, 1.0, 2.0));  // 1, 2 and 4 eighths per quarter metre
 }
 
 TEST(Voxelmap, InterpolatesTheProductTermsByHand) {
   OneBrick one;
-  one.set(1, 1, 1, 1.0);  // xyz of the cell at the origin, all other corners 0
+  one.set(1, 1, 1, 1.0);  // x y z in the cell at the origin, because all other corners are 0
   const FieldSample sample = one.map().sample(0.25 * Vector3(0.5, 0.25, 0.75));
   EXPECT_EQ(sample.distance, 0.5 * 0.25 * 0.75);
   EXPECT_EQ(sample.gradient, 4.0 * Vector3(0.25 * 0.75, 0.5 * 0.75, 0.5 * 0.25));
@@ -107,7 +107,7 @@ TEST(Voxelmap, TellsKnownFromBandInsideAndOutside) {
   EXPECT_EQ(at(0.5).distance, 0.0);
   EXPECT_EQ(at(0.5).gradient, Vector3(2.0, 0.0, 0.0));
   EXPECT_TRUE(at(0.74).known);
-  for (const double x : {0.75, 0.8, 0.99, 1.0, 7.0}) {  // at the band, beyond it, at the grid's end, beyond that
+  for (const double x : {0.75, 0.8, 0.99, 1.0, 7.0}) {  // at the band, beyond it, at the grid's end, beyond the grid
     EXPECT_FALSE(at(x).known) << x;
     EXPECT_EQ(at(x).distance, 0.5) << x;
     EXPECT_EQ(at(x).gradient, Vector3::Zero()) << x;
@@ -117,7 +117,7 @@ TEST(Voxelmap, TellsKnownFromBandInsideAndOutside) {
     EXPECT_EQ(at(x).distance, -0.5) << x;
     EXPECT_EQ(at(x).gradient, Vector3::Zero()) << x;
   }
-  EXPECT_EQ(at(-1e-9).distance, 0.5);  // before the grid is free space, whatever stands at its edge
+  EXPECT_EQ(at(-1e-9).distance, 0.5);  // before the grid there is free space, whatever is stored at its edge
 }
 
 TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
@@ -129,7 +129,7 @@ TEST(Voxelmap, AnswersFarBricksFromTheIndexAlone) {
   EXPECT_NEAR(one.map().lower_bound(Vector3::Constant(0.5), 1.5), 0.5, kAllowance);
   EXPECT_EQ(one.map().lower_bound(Vector3::Constant(0.5), 2.5), -kInfinity);
   EXPECT_EQ(one.map().layer(Vector3::Constant(0.5)).layer, -2);
-  // the clearance of the brick's centre, less the distance to the centre
+  // the clearance of the brick's centre minus the distance to the centre
   EXPECT_EQ(one.map().sample(Vector3::Constant(0.5)).clearance, 2.0);
   EXPECT_NEAR(one.map().sample(Vector3(0.5, 0.8, 0.9)).clearance, 1.5, kAllowance);
   EXPECT_NEAR(one.map().lower_bound(Vector3(0.5, 0.8, 0.9), 1.25), 0.25, kAllowance);
@@ -148,9 +148,9 @@ TEST(Voxelmap, DividesByTheBricksSlopeAboutItAndByTheWholeFieldsBeyond) {
   one.grid.lipschitz_seam = 2.5;
   const Vector3 center = Vector3::Constant(0.5);
   EXPECT_NEAR(one.map().lower_bound(center, 0.9), 1.2, 2.0 * kAllowance);
-  EXPECT_NEAR(one.map().lower_bound(center, 1.1), 0.25, 3.0 * kAllowance) << "longer than a brick's edge";
+  EXPECT_NEAR(one.map().lower_bound(center, 1.1), 0.25, 3.0 * kAllowance) << "the radius exceeds a brick's edge";
   EXPECT_EQ(one.map().lower_bound(center, 1.3), -kInfinity);
-  EXPECT_EQ(one.map().sample(center).clearance, 0.5) << "no more than a brick's edge counts";
+  EXPECT_EQ(one.map().sample(center).clearance, 0.5) << "the clearance is limited to a brick's edge";
   one.grid.band = 0.75;
   constexpr double kRoundedBand = 0.75 - format::kMostRoundedOff * kQuantum;
   EXPECT_EQ(one.map().sample(center).clearance, kRoundedBand / 2.0);
@@ -187,7 +187,7 @@ TEST(Voxelmap, ReproducesALinearFieldToItsQuantum) {
     const Vector3 p(anywhere(random), anywhere(random), anywhere(random));
     const FieldSample sample = map.sample(p);
     ASSERT_TRUE(sample.known);
-    // half a quantum a node, two nodes a voxel apart along each axis
+    // each node is off by half a quantum at most; a gradient uses two nodes a voxel apart along each axis
     const double quantum = quantum_of(image);
     ASSERT_NEAR(sample.distance, slope.dot(p) - 0.003, 0.5 * quantum + 1e-9) << p.transpose();
     ASSERT_LT((sample.gradient - slope).norm(), 1.7321 * quantum / 0.0017) << p.transpose();
@@ -195,8 +195,8 @@ TEST(Voxelmap, ReproducesALinearFieldToItsQuantum) {
   }
 }
 
-/// A brick whose lowest octant is halved again: octant 0 is refined, octants 1 .. 7 of it and of the brick are bricks.
-/// `coarse` makes the last octants of both coarse: looked up in bricks 0 and 1.
+/// A brick whose lowest octant is halved again. Octant 0 is refined; its octants and octants 1 .. 7 of the brick are
+/// bricks. `coarse` makes the last octants of both coarse: their look-ups use bricks 0 and 1.
 struct HalvedTwice {
   OneBrick one;
   std::array<format::Brick, 17> bricks{};
@@ -227,7 +227,7 @@ struct HalvedTwice {
 };
 
 TEST(Voxelmap, DescendsToTheOctantThatHoldsThePoint) {
-  const HalvedTwice halved;  // a cube of 1 m: octants of 1/2 m, of the lowest one 1/4 m
+  const HalvedTwice halved;  // a cube of 1 m; octants of 1/2 m, and of 1/4 m in the lowest one
   const Voxelmap map = halved.map();
   const auto number = [&map](const Vector3& p) { return 16.0 * map.sample(p).distance; };
   for (int octant = 0; octant < 8; ++octant) {
@@ -262,7 +262,7 @@ TEST(Voxelmap, LooksCoarseOctantsUpInTheOwnNodes) {
 TEST(Voxelmap, InterpolatesInTheHalvedCellByHand) {
   HalvedTwice halved;
   halved.fill_all(0.0);
-  halved.set(9 + 7, 1, 1, 1, 1.0);  // from (1/4, 1/4, 1/4), cells of 1/16 m: xyz in the first cell
+  halved.set(9 + 7, 1, 1, 1, 1.0);  // starts at (1/4, 1/4, 1/4), cells of 1/16 m: x y z in the first cell
   const FieldSample sample = halved.map().sample(Vector3::Constant(0.25) + 0.0625 * Vector3(0.5, 0.25, 0.75));
   EXPECT_EQ(sample.distance, 0.5 * 0.25 * 0.75);
   EXPECT_EQ(sample.gradient, 16.0 * Vector3(0.25 * 0.75, 0.5 * 0.75, 0.5 * 0.25));
@@ -285,7 +285,7 @@ TEST(Voxelmap, BoundsAHalvedPositionByItsSlope) {
   EXPECT_EQ(halved.map().sample(Vector3::Constant(0.3)).clearance, 0.25);
 }
 
-/// A union of balls and boxes, turned: 1-Lipschitz, with edges and saddles.
+/// A union of balls and boxes, rotated. Its distance is 1-Lipschitz, with edges and saddles.
 class RandomShapes {
  public:
   explicit RandomShapes(unsigned seed) : random_(seed) {
@@ -307,8 +307,8 @@ class RandomShapes {
   Quaternion turn_;
 };
 
-/// Seeds from kRefinedFrom on have bricks refined along the surface, those from kCoarseFrom on only the octants near
-/// it.
+/// Seeds from kRefinedFrom on have bricks refined along the surface. From kCoarseFrom on, only octants near the surface
+/// are refined.
 constexpr unsigned kRefinedFrom = 9;
 constexpr unsigned kCoarseFrom = 11;
 
@@ -317,7 +317,7 @@ class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
   VoxelmapOfRandomShapes()
       : shapes_(GetParam()), image_(image_of(GetParam(), *this)), map_(test::open_scene(image_).voxelmap) {}
 
-  /// Built once a seed.
+  /// Returns the image of a seed; it is built once.
   static const test::SceneImage& image_of(unsigned seed, const VoxelmapOfRandomShapes& fixture) {
     static std::map<unsigned, test::SceneImage> images;
     const auto found = images.find(seed);
@@ -328,7 +328,7 @@ class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
   test::SceneDescription description() const {
     auto description = still_body(shapes_, Vector3::Constant(0.055), 0.002, 0.008);
     if (GetParam() >= kRefinedFrom) {
-      // around two points of the surface, once where it is far off, four times where it is near: levels differ by one
+      // two points of the surface: once refined in the wide vicinity, four times close by, so that levels differ by one
       const Vector3 first = shapes_.centers()[0] + Vector3(0.0, 0.006, 0.008);
       const Vector3 second = shapes_.centers()[1] + Vector3(0.006, 0.0, 0.0);
       description.refined = [first, second](const Vector3& center, double edge) {
@@ -359,13 +359,13 @@ TEST_P(VoxelmapOfRandomShapes, IsNearTheTruth) {
     const Vector3 p = random_point(0.06);
     const double truth = shapes_(p);
     const double stored = map_.sample(p).distance;
-    // trilinear error of a 1-Lipschitz function, and the clipping to the band
+    // the trilinear error of a 1-Lipschitz function, with values clipped to the band
     ASSERT_NEAR(stored, std::clamp(truth, -0.008, 0.008), 0.8661 * 0.002) << p.transpose();
   }
 }
 
 TEST_P(VoxelmapOfRandomShapes, GivesTheGradientOfItsOwnDistance) {
-  constexpr double kStep = 1e-4;  // long against float rounding (1e-9), short against a voxel
+  constexpr double kStep = 1e-4;  // long compared with float rounding (1e-9), short compared with a voxel
   int compared = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vector3 p = random_point(0.05);
@@ -377,7 +377,7 @@ TEST_P(VoxelmapOfRandomShapes, GivesTheGradientOfItsOwnDistance) {
       const FieldSample ahead = map_.sample(p + step);
       const FieldSample behind = map_.sample(p - step);
       if (!ahead.known || !behind.known) continue;
-      // along an axis the field is linear within a cell: differences are exact there, and the component is constant
+      // within a cell the field is linear along an axis: differences are exact and the component is constant
       if (std::fabs(ahead.gradient[axis] - behind.gradient[axis]) > 1e-5) continue;
       ++compared;
       ASSERT_NEAR(sample.gradient[axis], (ahead.distance - behind.distance) / (2.0 * kStep), 1e-4) << p.transpose();
@@ -406,7 +406,7 @@ TEST_P(VoxelmapOfRandomShapes, NeverPromisesMoreThanTheBallHolds) {
     ++promised;
     for (int k = 0; k < 50; ++k) {
       Vector3 offset = random_point(1.0);
-      if (k % 2 == 0 || offset.norm() > 1.0) offset.normalize();  // half of them on the sphere, where it counts
+      if (k % 2 == 0 || offset.norm() > 1.0) offset.normalize();  // half of them on the sphere, where the bound matters
       const FieldSample sample = map_.sample(center + radius * offset);
       ASSERT_GE(sample.distance, std::min(bound, map_.band()) - 1e-9) << center.transpose() << " r " << radius;
     }
@@ -414,7 +414,7 @@ TEST_P(VoxelmapOfRandomShapes, NeverPromisesMoreThanTheBallHolds) {
   EXPECT_GT(promised, 1000);
 }
 
-/// A batch's clearance may be no larger than leads, a little farther on, to what `sample` says there; with any vectors.
+/// A batch's clearance at a point must be consistent with `sample` at points near it, with any vectors.
 TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
   ASSERT_TRUE(map_.in_batches());
   int useful = 0;
@@ -436,7 +436,7 @@ TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
     PointBatch scalar = batch;
     detail::look_up_clearances(map_.in_cells(H), scalar.x, scalar.y, scalar.z, scalar.clearance, scalar.count);
     const std::uint32_t lanes = (batch.count + kernel.lanes - 1) / kernel.lanes * kernel.lanes;
-    // lanes that nobody asks for
+    // unused lanes hold NaN
     std::fill(batch.x + batch.count, batch.x + lanes, std::numeric_limits<float>::quiet_NaN());
     kernel.look_up(map_.in_cells(H), batch.x, batch.y, batch.z, batch.clearance, lanes);
     if (&kernel == &kernels.front()) {
@@ -449,7 +449,7 @@ TEST_P(VoxelmapOfRandomShapes, BoundsClearancesInBatches) {
                                     static_cast<double>(batch.z[k]));
       const double clearance = std::max(0.0, static_cast<double>(batch.clearance[k]));
       const double stored = map_.sample(p).clearance;
-      // a point within rounding of a brick's face may be taken for the neighbour's
+      // rounding may put a point near a brick's face into the neighbouring brick
       const double other = std::max(0.0, static_cast<double>(scalar.clearance[k]));
       ASSERT_GE(clearance, std::min(other, map_.assured_clearance()) / map_.lipschitz() - 1e-7) << p.transpose();
       ASSERT_GE(other, std::min(clearance, map_.assured_clearance()) / map_.lipschitz() - 1e-7) << p.transpose();
@@ -477,14 +477,14 @@ TEST_P(VoxelmapOfRandomShapes, LooksUpInBatchesWhatItLooksUpSingly) {
     batch.count = 1 + static_cast<std::uint32_t>(i) % SampleBatch::kCapacity;
     for (std::uint32_t k = 0; k < batch.count; ++k) {
       Vector3 p = random_point(k % 10 == 0 ? 0.2 : 0.05);
-      if (k % 3 == 0) p = 0.001 * (p / 0.001).array().round().matrix();  // on nodes, faces of cells and of bricks
+      if (k % 3 == 0) p = 0.001 * (p / 0.001).array().round().matrix();  // on nodes and on faces of cells and bricks
       if (k % 6 != 0) p = H.inverse() * p;
       if (k % 23 == 7) p[static_cast<int>(k) % 3] = std::array{kNaN, kInfinity, -kInfinity, 1e30}[k % 4];
       batch.x[k] = static_cast<float>(p.x());
       batch.y[k] = static_cast<float>(p.y());
       batch.z[k] = static_cast<float>(p.z());
     }
-    if (i % 2 == 0) H = Pose{};  // exactly on them
+    if (i % 2 == 0) H = Pose{};  // then the points are exactly on them
     const detail::SampleKernel* const kernel = kernels[static_cast<std::size_t>(i) % kernels.size()];
     SCOPED_TRACE(kernel != nullptr ? kernel->name : "one by one");
     map_.samples_by(kernel, H, batch);
@@ -507,9 +507,9 @@ TEST_P(VoxelmapOfRandomShapes, LooksUpInBatchesWhatItLooksUpSingly) {
   EXPECT_GT(known, 1000);
 }
 
-/// Chords that a kernel calls free are free all along; it knows most of those that are; and all vectors say the same.
+/// A chord that a kernel calls free is free everywhere. The kernel finds most of the free chords. All vectors agree.
 TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
-  constexpr int kLooks = 400;  // along a chord
+  constexpr int kLooks = 400;  // samples along a chord
   const auto kernels = detail::sample_kernels();
   if (kernels.empty()) GTEST_SKIP() << "not run: this processor has no vectors that the core knows";
   int free = 0, known_free = 0, blocked = 0, through_cells = 0;
@@ -518,7 +518,7 @@ TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
     H0.rotation = exp_rotation(random_point(3.0));
     H0.translation = random_point(0.02);
     Pose H1 = H0;
-    const double stride = i % 3 == 0 ? 2e-4 : (i % 3 == 1 ? 1e-3 : 4e-3);  // to two voxels
+    const double stride = i % 3 == 0 ? 2e-4 : (i % 3 == 1 ? 1e-3 : 4e-3);  // up to two voxels
     H1.translation += random_point(stride);
     H1.rotation = (H1.rotation * exp_rotation(random_point(20.0 * stride))).normalized();
     SampleBatch batch;
@@ -570,17 +570,17 @@ TEST_P(VoxelmapOfRandomShapes, KnowsWhichChordsAreFree) {
       if (batch.from_clearance[k] + batch.clearance[k] >= way.norm()) continue;
       ++through_cells;
       blocked += least <= 0.0;
-      if (least <= 1e-7) continue;  // where rounding decides
+      if (least <= 1e-7) continue;  // rounding decides here
       ++free;
       known_free += known;
     }
   }
   EXPECT_GT(through_cells, 1000);
   EXPECT_GT(blocked, 100);
-  EXPECT_GT(known_free, 0.85 * free) << "of " << free;
+  EXPECT_GT(known_free, 0.85 * free) << "free chords: " << free;
 }
 
-/// A point that does not move is free where it is outside, and not where it is inside.
+/// A point that does not move has a free chord if it is outside, and no free chord if it is inside.
 TEST_P(VoxelmapOfRandomShapes, KnowsChordsOfNoLength) {
   int outside = 0, inside = 0;
   for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
@@ -613,8 +613,8 @@ TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
   for (int i = 0; i < 20000; ++i) {
     const Vector3 center = random_point(0.1);
     const double truth = shapes_(center);
-    // a loose bound is legal but would send every point of the tree to the field; two brick diagonals is what it may
-    // lose
+    // a loose bound is legal, but it would send every point of the tree to the field; a loss of two brick diagonals is
+    // allowed
     if (truth > 2.0 * 4.0 * 1.7321 * 0.002) {
       ASSERT_GE(map_.lower_bound(center, 0.0), 0.0) << center.transpose();
     }
@@ -623,7 +623,7 @@ TEST_P(VoxelmapOfRandomShapes, PromisesSomethingInFreeSpace) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, VoxelmapOfRandomShapes, ::testing::Range(1u, kCoarseFrom + 2u));
 
-/// Over a flat floor, low, along planes and lines of nodes as well as between them.
+/// Chords low over a flat floor, along planes and lines of nodes and between them.
 TEST(Voxelmap, KnowsChordsAlongTheLattice) {
   OneBrick one;
   one.grid.band = 0.5;
@@ -655,7 +655,7 @@ TEST(Voxelmap, KnowsChordsAlongTheLattice) {
 }
 
 TEST(Voxelmap, NumbersTheLayersByHand) {
-  OneBrick one;  // voxels of 1/4 m around the nodes; the surface stands at x = 1/2
+  OneBrick one;  // voxels of 1/4 m around the nodes; the surface is at x = 1/2
   one.grid.band = 0.5;
   for (int z = 0; z < 5; ++z) {
     for (int y = 0; y < 5; ++y) {
@@ -674,7 +674,7 @@ TEST(Voxelmap, NumbersTheLayersByHand) {
   EXPECT_EQ(at(5.0), -2);
 
   const LayerSample sample = map.layer(Vector3(0.375, 0.5625, 0.4375));
-  EXPECT_EQ(sample.layer, 0);  // half way goes to the node above
+  EXPECT_EQ(sample.layer, 0);  // a point half way belongs to the node above
   EXPECT_EQ(sample.to_center, Vector3(0.125, -0.0625, 0.0625));
 }
 

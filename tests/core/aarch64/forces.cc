@@ -1,5 +1,5 @@
-// forces X.scene POSES.csv CYCLES: replays a path with `contact` and friction, and prints which vectors the look-ups
-// take, and force, torque and number of contacts of every tenth cycle. Needs nothing but the core.
+// forces X.scene POSES.csv CYCLES: replays a path with `contact` and friction. Prints the vectors that the look-ups
+// use, then force, torque and number of contacts of every tenth cycle. It needs nothing but the core.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -17,7 +17,7 @@ constexpr std::size_t kAligned = 64;
 
 GodObject god_object;
 
-/// The file's bytes, aligned as an image must be; freed with the process.
+/// Returns the file's bytes, aligned as an image must be. They are freed when the process ends.
 std::span<const std::byte> read_aligned(const char* path) {
   std::FILE* const file = std::fopen(path, "rb");
   if (file == nullptr) return {};
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   std::FILE* const path = std::fopen(argv[2], "r");
   if (path == nullptr) return 66;
   char line[512];
-  if (std::fgets(line, sizeof line, path) == nullptr) return 65;  // names of the columns
+  if (std::fgets(line, sizeof line, path) == nullptr) return 65;  // the names of the columns
   std::printf("%s\n", detail::clearance_kernels().front().name);
   const int cycles = std::atoi(argv[3]);
   for (int i = 0; i < cycles; ++i) {

@@ -36,7 +36,7 @@ TEST(DeviceFiles, LightWeightRobotIsThePublishedOne) {
 TEST(DeviceFiles, DesktopArmHasItsPostureAtZero) {
   const ArmModel model = test::desktop6().model;
   const ArmKinematics rest = forward_kinematics(model, JointVector::Zero());
-  // turntable 0.12 up, upper arm 0.14 forward, forearm 0.14 down, stylus 0.04 square to it
+  // turntable 0.12 m up, upper arm 0.14 m forward, forearm 0.14 m down, stylus 0.04 m at a right angle to it
   EXPECT_LT((rest.H_RL[4].translation - Vector3(0.14, 0.0, -0.02)).norm(), 1e-12);
   EXPECT_NEAR((rest.H_RM.translation - rest.H_RL[5].translation).z(), 0.0, 1e-12);
   EXPECT_NEAR((rest.H_RM.translation - rest.H_RL[5].translation).norm(), 0.04, 1e-12);
@@ -81,7 +81,7 @@ TEST(ArmModel, RefusesMassesThatNoBodyHas) {
   EXPECT_EQ(after([&](ArmModel& m) { m.joints[2].link.inertia = inertia(-0.1, 0.1, 0.1); }), Status::kArmMass);
   EXPECT_EQ(after([&](ArmModel& m) { m.joints[2].link.inertia = inertia(0.1, 0.1, 0.21); }), Status::kArmMass);
   EXPECT_EQ(after([&](ArmModel& m) { m.payload.inertia = inertia(0.1, 0.3, 0.1); }), Status::kArmMass);
-  // a disc's edge of the triangle inequality, a rod, a point
+  // limits of the triangle inequality: a disc, a rod, a point
   EXPECT_EQ(after([&](ArmModel& m) { m.joints[2].link.inertia = inertia(0.1, 0.1, 0.2); }), Status::kOk);
   EXPECT_EQ(after([&](ArmModel& m) { m.joints[2].link.inertia = inertia(0.1, 0.1, 0.0); }), Status::kOk);
   EXPECT_EQ(after([&](ArmModel& m) { m.joints[2].link.inertia.setZero(); }), Status::kOk);

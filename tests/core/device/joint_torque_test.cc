@@ -40,7 +40,7 @@ Vector6 stacked(const Wrench& F) {
   return vector;
 }
 
-/// Z J
+/// Returns the Jacobian with its rotation rows in units of the force rows: Z J.
 Jacobian weighted_jacobian(const Arm& arm, const TorqueRequest& request) {
   Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
   J.bottomRows<3>() *= arm.parameters.rotation_length;
@@ -56,7 +56,7 @@ double smallest_singular_value(const Arm& arm, const TorqueRequest& request) {
   return singular_values(arm, request)[std::min(6, arm.model.joint_count) - 1];
 }
 
-/// Z^-1 F
+/// Returns the length of a wrench whose torque has the unit of its force: |Z^-1 F|.
 double weighted_length(const Arm& arm, const Wrench& F) {
   return std::hypot(F.force.norm(), F.torque.norm() / arm.parameters.rotation_length);
 }
@@ -67,7 +67,7 @@ JointVector torque_limits(const ArmModel& model) {
   return limits;
 }
 
-/// No springs, no damping.
+/// Returns the arm without springs and without damping.
 Arm without_additions(Arm arm) {
   arm.parameters.null_damping.setZero();
   arm.parameters.limit_stiffness.setZero();
@@ -128,7 +128,7 @@ TEST(JointTorque, SingularDirectionsAreNeverAmplified) {
   Random random(3);
   for (int i = 0; i < 20000; ++i) {
     Arm arm = with_strong_joints(without_additions(test::random_arm(random, 1 + i % kMaxJoints)));
-    if (i % 3 == 0) {  // parallel axes, no offsets: singular everywhere or nearly
+    if (i % 3 == 0) {  // parallel axes, no offsets: singular or nearly singular in every posture
       for (ArmJoint& joint : arm.model.joints) {
         joint.alpha *= 1e-3;
         joint.d *= 1e-3;
@@ -148,7 +148,7 @@ TEST(JointTorque, SingularDirectionsAreNeverAmplified) {
   }
 }
 
-/// Largest change of torque between neighbours on a straight way through joint space.
+/// Returns the largest change of torque between neighbouring postures on a straight path through joint space.
 double largest_step(const Arm& arm, const JointVector& from, const JointVector& to, int steps, double& least_singular) {
   double largest = 0.0;
   JointVector last = JointVector::Zero();
@@ -165,13 +165,13 @@ double largest_step(const Arm& arm, const JointVector& from, const JointVector& 
   return largest;
 }
 
-/// A function with a bounded slope: with a tenth of the step, a tenth of the change. A jump would stay as it is.
+/// Expects a bounded slope: a tenth of the step gives about a tenth of the change. A jump would keep its size.
 void expect_continuous(const Arm& arm, const JointVector& from, const JointVector& to) {
   double least_singular = std::numeric_limits<double>::infinity();
   const double coarse = largest_step(arm, from, to, 2000, least_singular);
   const double fine = largest_step(arm, from, to, 20000, least_singular);
   EXPECT_LT(fine, 0.2 * coarse);
-  EXPECT_LT(least_singular, 0.1 * arm.parameters.singular_none) << "the way misses the singularity";
+  EXPECT_LT(least_singular, 0.1 * arm.parameters.singular_none) << "the path misses the singularity";
 }
 
 TEST(JointTorque, IsContinuousThroughStretchedElbow) {
@@ -185,7 +185,7 @@ TEST(JointTorque, IsContinuousThroughStretchedElbow) {
 
 TEST(JointTorque, IsContinuousThroughWristSingularity) {
   Arm arm = with_strong_joints(test::desktop6());
-  arm.model.joints[4].lower = -2.0;  // the arm itself stops before
+  arm.model.joints[4].lower = -2.0;  // the arm itself stops before this limit
   arm.parameters.null_damping.setConstant(0.01);
   JointVector from;
   from << 0.3, 0.5, 0.2, 0.4, -1.8, 0.1, 0.0;
@@ -208,7 +208,7 @@ TEST(JointTorque, IsContinuousAtTorqueLimits) {
 }
 
 TEST(JointTorque, LeavesOutWhatTheArmCannotShow) {
-  // one joint about z, tool at 0.3 along x: it shows a force along y, nothing else
+  // one joint about z, tool at 0.3 m along x: the arm can render a force along y, nothing else
   Arm arm;
   arm.model.joint_count = 1;
   arm.model.gravity_R.setZero();
@@ -226,7 +226,7 @@ TEST(JointTorque, LeavesOutWhatTheArmCannotShow) {
   request.F_P_R.force = Vector3(0.0, 5.0, 0.0);
   result = expect_ok(arm, request);
   EXPECT_NEAR(result.torque[0], 1.5, 1e-14);
-  // of a pure force the joint shows the part along (y, L about z): cos^2 of the angle between them
+  // the joint renders the part of a pure force along (y, L about z): cos^2 of the angle between them
   const double L = arm.parameters.rotation_length;
   EXPECT_NEAR(result.rendered_P_R.force.y(), 5.0 * 0.09 / (0.09 + L * L), 1e-13);
 }
@@ -244,10 +244,10 @@ TEST(JointTorque, KeepsTheDirectionOfWhatIsTooStrong) {
     const JointTorque strong = expect_ok(arm, request);
     const Vector6 expected = strong.scale * factor * stacked(weak.rendered_P_R);
     ASSERT_LE((stacked(strong.rendered_P_R) - expected).norm(), 1e-10 * expected.norm());
-    // rounding of the small difference between weak torque and gravity
+    // the tolerance covers the rounding of the small difference between the weak torque and gravity
     const JointVector torque = strong.scale * factor * (weak.torque - weak.gravity);
     ASSERT_LE((strong.torque - strong.gravity - torque).norm(), 1e-12 * (1.0 + strong.scale * factor) * 1e3);
-    // as strong as it can be: one joint is at its limit
+    // the wrench is as strong as possible: one joint is at its limit
     if (strong.scale < 1.0) {
       const JointVector left = torque_limits(arm.model) - strong.torque.cwiseAbs();
       ASSERT_NEAR(left.head(arm.model.joint_count).minCoeff(), 0.0, 1e-9) << i;
@@ -273,7 +273,7 @@ TEST(JointTorque, NeverExceedsTheLimits) {
 }
 
 TEST(JointTorque, HoldsTheArmWhateverElseIsAsked) {
-  // rendered torques may use the rest of each limit in both directions, and no more
+  // rendered torques may use the rest of each limit in both directions, but no more
   const Arm arm = without_additions(test::lwr());
   Random random(7);
   for (int i = 0; i < 1000; ++i) {
@@ -311,10 +311,10 @@ TEST(JointTorque, NullSpaceDampingIsNotFeltAtTheTool) {
     const JointTorque result = expect_ok(arm, request);
     const JointVector damping = result.torque - result.gravity;
     const Jacobian J = geometric_jacobian(request.kinematics, request.p_RP);
-    // no torque that a wrench at the tool would balance
+    // the damping contains no torque that a wrench at the tool would balance
     ASSERT_LT((J * damping).norm(), 1e-10);
     ASSERT_GT(damping.norm(), 1e-6);
-    // no power but that of the motion that leaves the tool at rest
+    // the damping takes power only from the motion that leaves the tool at rest
     const Eigen::MatrixXd pinv = Eigen::MatrixXd(J).completeOrthogonalDecomposition().pseudoInverse();
     const JointVector with_tool = pinv * (J * request.qd);
     ASSERT_NEAR(damping.dot(with_tool), 0.0, 1e-10);
@@ -367,7 +367,7 @@ TEST(JointTorque, SpringsPushAwayFromTheLimitsAndOnlyInTheBand) {
     EXPECT_NEAR(torque_at(limits.lower, 0.0), k * band, 1e-12);
     EXPECT_NEAR(torque_at(limits.upper, 2.0), -k * band - 2.0 * b, 1e-12);
     EXPECT_NEAR(torque_at(limits.upper - 0.5 * band, 2.0), -0.5 * k * band - b, 1e-12);
-    EXPECT_NEAR(torque_at(limits.upper, -2.0), -k * band, 1e-12);  // on the way back it does not hold
+    EXPECT_NEAR(torque_at(limits.upper, -2.0), -k * band, 1e-12);  // on the way back the damper does not act
     EXPECT_NEAR(torque_at(limits.upper - 1.001 * band, 5.0), 0.0, 1e-12);
     EXPECT_NEAR(torque_at(limits.lower + 1.001 * band, -5.0), 0.0, 1e-12);
     for (const double speed : {-5.0, 0.0, 5.0}) {
@@ -398,7 +398,7 @@ TEST(JointTorque, NoWrenchPressesTheArmThroughItsSprings) {
   }
 }
 
-/// The wrenches that a hand may be given are small beside the light-weight robot's torque limits: they fade, too.
+/// The wrenches that a hand may feel are small beside the light-weight robot's torque limits. They fade, too.
 TEST(JointTorque, FadesWhatPushesTowardsALimitFromTheBandOn) {
   const Arm arm = test::lwr();
   const double band = arm.parameters.limit_band;
@@ -416,9 +416,9 @@ TEST(JointTorque, FadesWhatPushesTowardsALimitFromTheBandOn) {
       const JointTorque result = expect_ok(arm, request);
       const double towards = side * (result.torque[6] - result.gravity[6]) + spring;
       ASSERT_LE(towards, std::max(1.0 - share, 0.9 * spring / 3.0) * 3.0 + 1e-9) << step;
-      ASSERT_LE(last - towards, 3.0 * 0.011) << "evenly, " << step;
+      ASSERT_LE(last - towards, 3.0 * 0.011) << "the torque must fade evenly, step " << step;
       last = towards;
-      request.F_P_R.torque = -request.F_P_R.torque;  // away from it: as it is
+      request.F_P_R.torque = -request.F_P_R.torque;  // away from the limit the torque is unchanged
       EXPECT_NEAR(expect_ok(arm, request).scale, 1.0, 1e-12);
     }
   }

@@ -18,7 +18,7 @@ namespace {
 using test::Arm;
 using test::Random;
 
-/// The same arm in Orocos KDL.
+/// The same arm in Orocos KDL, an independent implementation.
 class Oracle {
  public:
   explicit Oracle(const ArmModel& model)
@@ -28,7 +28,7 @@ class Oracle {
         dynamics_(chain_, test::to_kdl(model.gravity_R)) {}
 
   void expect_equal(const ArmModel& model, const JointVector& q) {
-    constexpr double kTolerance = 1e-9;  // of metres, Nm and kg m^2 in the hundreds at most
+    constexpr double kTolerance = 1e-9;  // for values of at most some hundred metres, Nm or kg m^2
     const int n = model.joint_count;
     const auto size = static_cast<unsigned>(n);
     const ArmKinematics kinematics = forward_kinematics(model, q);
@@ -97,7 +97,7 @@ TEST(Kinematics, AnyArmIsAsOrocosHasIt) {
   }
 }
 
-/// Two links in the vertical plane: joints about -y of R, q = 0 along x, positive angles upwards.
+/// Returns two links in the vertical plane: joints about -y of R, q = 0 along x, positive angles upwards.
 ArmModel planar_arm() {
   ArmModel model;
   model.joint_count = 2;
@@ -141,9 +141,9 @@ TEST(Kinematics, PlanarArmIsAsByHand) {
   EXPECT_NEAR(M(1, 1), M22, 1e-14);
 }
 
-/// Velocity of a point of the tool and angular velocity, by central differences of the poses.
+/// Returns the velocity of a tool point and the angular velocity, by central differences of the poses.
 Motion velocity_by_differences(const ArmModel& model, const JointVector& q, const JointVector& qd, const Vector3& p_M) {
-  constexpr double kStep = 1e-5;  // error: the step squared times third derivatives, and rounding over the step
+  constexpr double kStep = 1e-5;  // error: kStep^2 times the third derivatives, plus rounding divided by kStep
   const Pose before = forward_kinematics(model, q - kStep * qd).H_RM;
   const Pose after = forward_kinematics(model, q + kStep * qd).H_RM;
   return {(after * p_M - before * p_M) / (2.0 * kStep),
@@ -203,7 +203,7 @@ TEST(Dynamics, FarFromTheOriginOnlyPositionsAreLost) {
   const JointMatrix near = mass_matrix(arm.model, forward_kinematics(arm.model, q));
   arm.model.H_RA.translation = Vector3(1e4, -1e4, 1e4);
   const JointMatrix far = mass_matrix(arm.model, forward_kinematics(arm.model, q));
-  EXPECT_LT((near - far).cwiseAbs().maxCoeff(), 1e-10);  // metres are good to 1e4 * 2^-52
+  EXPECT_LT((near - far).cwiseAbs().maxCoeff(), 1e-10);  // positions of 1e4 m are rounded to 1e4 * 2^-52 m
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ JointVector joint(double value) {
   return all;
 }
 
-/// Torque 2 Nm from sample 0 on, at rest until then, a way of 0.1 rad a sample.
+/// Returns the absorbed energy. The torque is 2 Nm from sample 0 on; the joint moves by 0.1 rad a sample after it.
 double after(PassivityObserver& observer, int samples) {
   for (int k = 0; k <= samples; ++k) {
     observer.observe(joint(0.1 * k));
@@ -27,7 +27,7 @@ double after(PassivityObserver& observer, int samples) {
 }
 
 TEST(PassivityObserver, CountsWhatActsAndNotWhatIsSent) {
-  // by hand: 0.2 J a sample is given once it acts, at d = 1.25 a period and a quarter after the first sample
+  // by hand: the torque gives 0.2 J a sample once it acts; for d = 1.25 it acts 1.25 periods after the first sample
   PassivityObserver at_once(0.0);
   EXPECT_NEAR(after(at_once, 3), -0.6, 1e-15);
   PassivityObserver later(1.0);
@@ -67,7 +67,7 @@ TEST(PassivityObserver, SumsOverJoints) {
   EXPECT_NEAR(observer.absorbed(), -given, 1e-12);
 }
 
-/// A9: a slow sine on a spring gets pi w A^2 K (T/2 + t_d) a cycle; over joint 1, K in Nm/rad.
+/// Rule A9: a slow sine on a spring gains pi w A^2 K (T/2 + t_d) a cycle. Here it acts on joint 1, K in Nm/rad.
 TEST(PassivityObserver, SeesWhatHoldAndDelayGive) {
   constexpr double kStiffness = 1000.0;
   constexpr int kSamples = 1000;
@@ -85,7 +85,7 @@ TEST(PassivityObserver, SeesWhatHoldAndDelayGive) {
     const double before = observer.absorbed();
     run_cycle();
     const double expected = -M_PI * w * kStiffness * kPeriod * (0.5 + delay);
-    EXPECT_NEAR(observer.absorbed() - before, expected, 0.001 * std::fabs(expected)) << "delay " << delay;
+    EXPECT_NEAR(observer.absorbed() - before, expected, 0.001 * std::fabs(expected)) << "delay [s] " << delay;
   }
 }
 
@@ -109,7 +109,7 @@ TEST(PassivityController, PaysTheDebtWithinAPeriodWhereItMay) {
   EXPECT_NEAR(controller.apply(-1e-4, kPush, kIn).force.z(), 11.0, 1e-12);
   EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
   EXPECT_NEAR(controller.apply(-1e-4, kPush, kOut).force.z(), 9.0, 1e-12);
-  // at most 50 Ns/m
+  // the damping is limited to 50 Ns/m
   EXPECT_NEAR(controller.apply(-1.0, kPush, kIn).force.z(), 15.0, 1e-12);
   EXPECT_EQ(controller.damping(), 50.0);
 }
@@ -120,8 +120,8 @@ TEST(PassivityController, NeverTurnsAPushIntoAPull) {
   EXPECT_TRUE(controller.apply(-1.0, {}, kOut).force.isZero(0.0));
 }
 
-/// Random wrenches and motions: direction kept, what it takes in a period is neither negative nor more than the debt,
-/// and the change is no larger than the largest damper's, all in the coupling's lengths.
+/// Random wrenches and motions. The direction is kept. The energy taken in a period is between zero and the debt. The
+/// change is no larger than the largest damper's. All norms use the coupling's lengths.
 TEST(PassivityController, TakesNoMoreThanTheDebtAndTheLargestDamper) {
   constexpr double kLength = 0.16;
   constexpr double kMost = 40.0;
@@ -152,7 +152,7 @@ TEST(PassivityController, ForgetsASurplusOnceNothingIsRenderedButNotADebt) {
   PassivityController controller({.most_damping = 50.0, .period = kPeriod});
   constexpr double kSurplus = 0.1;
   for (int k = 1; k < PassivityController::kForget; ++k) controller.apply(kSurplus, {}, kIn);
-  EXPECT_EQ(controller.apply(kSurplus - 0.01, kPush, kIn).force, kPush.force);  // too early: it may still act
+  EXPECT_EQ(controller.apply(kSurplus - 0.01, kPush, kIn).force, kPush.force);  // too early: a wrench may still act
   for (int k = 0; k < PassivityController::kForget; ++k) controller.apply(kSurplus, {}, kIn);
   EXPECT_GT(controller.apply(kSurplus - 0.01, kPush, kIn).force.z(), 10.0);
   for (int k = 0; k < PassivityController::kForget; ++k) controller.apply(kSurplus - 0.01, {}, kIn);

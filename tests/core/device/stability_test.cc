@@ -26,7 +26,7 @@ AxisLoop axis(double virtual_damping, double delay) {
   return loop;
 }
 
-/// K_crit [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms, found independently; 0: no stiffness is stable.
+/// K_crit [N/m] for m = 1 kg, b = 2 Ns/m, T = 1 ms, computed independently. 0: no stiffness is stable.
 TEST(StabilityBoundary, IsTheTabulatedOne) {
   constexpr double kDamping[] = {0, 5, 10, 20, 50, 100, 200, 300, 400, 600};
   constexpr double kDelay[] = {0.5e-3, 1e-3, 2e-3};
@@ -41,7 +41,7 @@ TEST(StabilityBoundary, IsTheTabulatedOne) {
   }
 }
 
-/// Largest B T/m without stiffness and device damping.
+/// Largest B T/m without stiffness and without device damping.
 TEST(DampingBoundary, IsTheTabulatedOne) {
   constexpr double kPeriods[] = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0};
   constexpr double kBoundary[] = {2.00, 1.14, 0.83, 0.65, 0.54, 0.40};
@@ -57,7 +57,7 @@ TEST(DampingBoundary, IsTheTabulatedOne) {
 TEST(StabilityBoundary, FollowsTheLinearRuleWithoutVirtualDamping) {
   for (const double delay : {0.0, 0.3e-3, 0.5e-3, 1e-3, 1.7e-3, 2e-3, 3e-3}) {
     const double rule = 2.0 / (0.5e-3 + delay);
-    // first order in the product of frequency and delay, which is 0.1 at most here
+    // the rule is of first order in frequency times delay, which is at most 0.1 here
     EXPECT_NEAR(stability_boundary(axis(0.0, delay)), rule, 3e-3 * rule) << delay;
   }
 }
@@ -71,7 +71,7 @@ TEST(StabilityBoundary, ChangesContinuouslyWithTheDelay) {
 }
 
 TEST(StabilityBoundary, DoesNotDependOnTheUnits) {
-  // lengths drop out; twice the mass, half the period
+  // lengths cancel; the second loop has twice the mass and half the period
   AxisLoop loop = axis(20.0, 1e-3);
   const double boundary = stability_boundary(loop);
   loop.mass = 2.0;
@@ -81,8 +81,8 @@ TEST(StabilityBoundary, DoesNotDependOnTheUnits) {
   EXPECT_NEAR(stability_boundary(loop), 8.0 * boundary, 1e-5 * 8.0 * boundary);
 }
 
-/// The loop in time: exact motion between changes of the force, integrated in pieces of a period. -> growth of the
-/// energy between the two halves of the run.
+/// Simulates the loop in time: exact motion between changes of the force, in pieces of a period. Returns the growth of
+/// the energy between the two halves of the run.
 double growth(const AxisLoop& loop, double stiffness, int window) {
   constexpr int kPieces = 20;  // delays are multiples of a twentieth of the period
   const double step = loop.timing.period / kPieces;
@@ -91,9 +91,9 @@ double growth(const AxisLoop& loop, double stiffness, int window) {
   const int late = static_cast<int>(std::lround(loop.timing.delay / step));
   double x = 1e-3;
   double v = 0.0;
-  double history[16];  // of positions
+  double history[16];  // of the positions
   std::fill_n(history, 16, x);
-  double forces[200] = {};  // the one that acts in each piece to come
+  double forces[200] = {};  // the force that acts in each coming piece
   double halves[2] = {0.0, 0.0};
   constexpr int kCycles = 20000;
   for (int k = 0; k < kCycles; ++k) {
@@ -130,7 +130,7 @@ TEST(StabilityBoundary, DividesDecayFromGrowthInTime) {
   }
 }
 
-/// An arm that is held at its tool. Damping is little: a stylus turns as easily as 3e-5 kg m^2.
+/// Returns an arm that is held at its tool. The damping is small: a stylus has an inertia of only 3e-5 kg m^2.
 ArmLoop arm_loop(const Arm& arm, const JointVector& q) {
   const ArmKinematics kinematics = forward_kinematics(arm.model, q);
   ArmLoop loop;
@@ -165,7 +165,7 @@ TEST(ArmLoop, OneJointIsOneAxis) {
 }
 
 TEST(ArmLoop, IndependentAxesAreAsStableAsTheWorst) {
-  // three masses along x, y, z, and one that turns
+  // three masses that move along x, y and z, and one that rotates
   ArmLoop arm;
   arm.joint_count = 4;
   arm.mass.diagonal().head<4>() << 1.0, 3.0, 0.5, 0.01;
@@ -285,7 +285,7 @@ TEST(DeviceFiles, SpringsAndDampingAreStable) {
       EXPECT_LT(2.0 * arm.parameters.limit_damping[i], damping_boundary(loop)) << "joint " << i + 1;
       loop.virtual_damping = arm.parameters.limit_damping[i];
       EXPECT_LT(2.0 * arm.parameters.limit_stiffness[i], stability_boundary(loop)) << "joint " << i + 1;
-      // on the way back there is no damping but the joint's own: whatever is left is in the hand
+      // on the way back only the joint's own damping acts; the rest comes from the hand
     }
   }
 }

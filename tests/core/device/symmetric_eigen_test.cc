@@ -31,7 +31,7 @@ TEST(SymmetricEigen, AgreesWithEigen) {
   test::Random random(1);
   for (int i = 0; i < 20000; ++i) {
     SCOPED_TRACE(i);
-    // of rank 1 to 7, sizes over twelve decades
+    // ranks from 1 to 7, sizes over twelve decades
     Eigen::Matrix<double, 6, 7> J = Eigen::Matrix<double, 6, 7>::Zero();
     for (int k = 0; k <= i % 7; ++k) J.col(k) << random.in_cube(1.0), random.in_cube(1.0);
     J *= std::pow(10.0, random.between(-6.0, 6.0));

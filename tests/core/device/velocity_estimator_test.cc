@@ -49,7 +49,7 @@ TEST_P(Window, ConstantAccelerationIsLateByTheStatedDelay) {
 
 TEST_P(Window, NoiseIsAsStated) {
   test::Random random(1);
-  const double half_width = std::sqrt(3.0) * 1e-5;  // standard deviation 1e-5
+  const double half_width = std::sqrt(3.0) * 1e-5;  // the standard deviation is 1e-5
   double sum = 0.0;
   const int count = 200000;
   for (int k = 0; k < count; ++k) {
@@ -57,7 +57,7 @@ TEST_P(Window, NoiseIsAsStated) {
     if (k >= GetParam()) sum += v * v;
   }
   const double expected = 1e-5 * std::sqrt(12.0 / (n_ * (n_ * n_ - 1.0))) / kPeriod;
-  // neighbouring estimates share positions: some ten thousand independent ones, 1 %
+  // neighbouring estimates share positions: about ten thousand are independent, so the error is 1 %
   EXPECT_NEAR(std::sqrt(sum / count), expected, 0.03 * expected);
 }
 
@@ -77,7 +77,7 @@ TEST_P(Window, QuantisationStaysWithinTheStatedBound) {
   }
   EXPECT_LE(worst, bound * (1.0 + 1e-9));
 
-  // the bound is attained: errors of half a quantum, one sign in the older half, the other in the newer one
+  // the bound is attained: errors of half a quantum, with one sign in the older half and the other in the newer half
   estimator_.reset();
   double estimate = 0.0;
   for (int k = 0; k < GetParam(); ++k) {

@@ -57,7 +57,7 @@ TEST(WorkspaceMapping, PowerAtTheHandIsPowerInTheScene) {
   for (int i = 0; i < 2000; ++i) {
     Pose H_RG = set_matrix(random.motion(0.5, 3.0));
     WorkspaceMapping mapping(any_parameters(random), H_RG);
-    // some clutching, for any offset
+    // clutch several times, to get any offset
     for (int k = 0; k < 300; ++k) {
       H_RG = H_RG * set_matrix(random.motion(0.001, 0.01));
       ASSERT_EQ(mapping.update(H_RG, k % 200 > 50, kPeriod), Status::kOk);
@@ -134,7 +134,7 @@ TEST(WorkspaceMapping, ClutchingMovesNeitherPoseNorForceAtOnce) {
       ASSERT_LT(distance(last, mapping.scene_pose()), 1e-13) << k;
     }
     const Wrench wrench = mapping.wrench_at_hand(F_G_W);
-    // a 200th of the whole, the fade time being 200 cycles
+    // a step is at most 1/200 of the whole, because the fade time is 200 cycles
     ASSERT_LE((wrench.force - last_wrench.force).norm(), parameters.scale * 13.0 / 200.0 * (1.0 + 1e-9));
     ASSERT_LE((wrench.torque - last_wrench.torque).norm(), 1.3 / 200.0 * (1.0 + 1e-9));
     last = mapping.scene_pose();
@@ -163,7 +163,7 @@ TEST(WorkspaceMapping, ManyClutchingsDoNotDrift) {
   WorkspaceMapping mapping(any_parameters(random), Pose());
   const Pose start = mapping.scene_pose();
   const Pose other = set_matrix(random.motion(0.5, 3.0));
-  // there and back, with the clutch opened and closed at either end
+  // move there and back, and open and close the clutch at both ends
   for (int k = 0; k < 100000; ++k) {
     for (const Pose& end : {other, Pose()}) {
       ASSERT_EQ(mapping.update(end, true, kPeriod), Status::kOk);

@@ -1,5 +1,4 @@
-// The whole cycle on compiled scenes: its edges, its promises to the caller, no allocation, no floating-point
-// exception.
+// The whole cycle on compiled scenes: limits, promises to the caller, no allocation, no floating-point exception.
 
 #include "godobject/god_object.h"
 
@@ -53,7 +52,7 @@ class GodObjectTest : public testing::Test {
     EXPECT_EQ(SceneView::open(image_.bytes(), scene_), Status::kOk);
   }
 
-  /// Mesh pose with the body's centre at `center`, turned by `r`.
+  /// Returns the mesh pose that has the body's centre at `center`, turned by `r`.
   Pose mesh_pose(const Vector3& center, const Vector3& r = Vector3::Zero()) const {
     Pose H_WB;
     H_WB.translation = center;
@@ -61,7 +60,7 @@ class GodObjectTest : public testing::Test {
     return H_WB * scene_.H_MB.inverse();
   }
 
-  /// Comes down, presses by 5 mm, slides, turns and leaves; 0 <= phase < 1.
+  /// Returns a pose of a path that comes down, presses by 5 mm, slides, turns and leaves; 0 <= phase < 1.
   Pose along_path(double phase) const {
     const double press = 0.025 * std::sin(M_PI * phase);
     const double angle = 0.8 * phase;
@@ -73,7 +72,7 @@ class GodObjectTest : public testing::Test {
   SceneView scene_;
 };
 
-/// The god object in memory that the caller chooses.
+/// A god object in memory that the caller chooses.
 class CallersMemory : public GodObjectTest {
  protected:
   CallersMemory() : public_scene_(Scene::of(scene_)), full_(GodObject::memory_size(public_scene_)) {}
@@ -219,11 +218,11 @@ TEST_P(EachPipeline, MakesNoAllocationAndRaisesNoFloatingPointExceptionInAHundre
   EXPECT_EQ(guard.releases(), 0);
   EXPECT_EQ(std::fetestexcept(kWatched), 0);
   EXPECT_EQ(bad, 0);
-  // contact counts the points that carry: one where two balls meet
+  // `contact` counts only the points that carry load: one where two balls meet
   EXPECT_GT(contacts, is_contact() ? 0u : 10u) << "the path must touch, or this shows nothing";
 }
 
-/// Nothing is left of an earlier session, in the workspace either.
+/// No state of an earlier session may remain, not even in the workspace.
 TEST_P(EachPipeline, IsTheSameToTheLastBitWhateverWasRunBefore) {
   start();
   for (int k = 0; k < 1234; ++k)
@@ -256,7 +255,7 @@ TEST_F(GodObjectTest, SpeaksOfTheMeshFrameAndForcesOfTheCentreOfMass) {
       const double height = kWorldRadius + kBodyRadius + 0.005 - 2e-5 * k;
       ASSERT_EQ(god_object->update({mesh_pose({0.0, 0.0, height}, {0.4, 0.0, 0.0}), Motion{}}, report), Status::kOk);
     }
-    // 5 mm deep along the line of centres: the mesh frame is pushed back by as much, the force has no lever
+    // 5 mm deep along the line of centres: the mesh frame is pushed back by 5 mm, and the force has no lever
     const Pose god = god_object->mesh_pose();
     const Pose device = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius - 0.005}, {0.4, 0.0, 0.0});
     EXPECT_NEAR((god.translation - device.translation).z(), 0.005, 0.1 * 0.003);
@@ -290,7 +289,7 @@ TEST_P(EachPipeline, HoldsTheGodObjectAndSendsNoForceOnBadInput) {
   EXPECT_EQ(report_.outcome, Outcome::kBadInput);
   EXPECT_TRUE(report_.force.total_W.force.isZero());
   EXPECT_EQ(god_object_->mesh_pose().translation, before.translation);
-  // and goes on with the next pose; a rotation within 1e-3 of unit length is one, of either sign
+  // the next pose works again; a quaternion within 1e-3 of unit length is accepted, with either sign
   Pose rough = start;
   rough.rotation.coeffs() *= -1.0005;
   EXPECT_EQ(god_object_->update({rough, Motion{}}, report_), Status::kOk);
@@ -371,7 +370,7 @@ TEST_F(GodObjectTest, RefusesPosesBeyondAnySceneAndStartsWithTheNextGoodOne) {
   EXPECT_NEAR((god_object->mesh_pose().translation - good.translation).norm(), 0.0, 1e-15);
 }
 
-/// With next to no budget the god object may lag, but it crosses nothing, and it arrives where it would without.
+/// With a tiny budget the god object may lag, but it crosses nothing and arrives at the same place.
 TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
   SceneDescription small = balls();
   const test::SceneImage all_image = build_scene_image(small);
@@ -395,8 +394,8 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
     dropped += few_report.dropped;
     ASSERT_EQ(all_report.dropped, 0u);
   }
-  EXPECT_GT(dropped, 100u) << "the budget must be put to the test";
-  EXPECT_LT((few_report.H_WS.translation - all_report.H_WS.translation).norm(), 2e-5) << "a margin";
+  EXPECT_GT(dropped, 100u) << "the budget was rarely exceeded";
+  EXPECT_LT((few_report.H_WS.translation - all_report.H_WS.translation).norm(), 2e-5) << "differs by a margin";
 }
 
 TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
@@ -430,13 +429,13 @@ TEST(SceneTraits, NameTheFirstPartThatAPipelineIsWithout) {
   EXPECT_EQ(missing_part(kCenter, Solver::kContact, false, false, true), Part::kNone);
   EXPECT_EQ(missing_part(kCenter, Solver::kContact, false, false, false), Part::kPoints);
   EXPECT_EQ(missing_part(kCenter, Solver::kContact, true, false, true), Part::kPoints);
-  // the second direction is the contact solver's alone
+  // only the contact solver has the second direction
   constexpr SceneTraits kPaper{.corrected = false, .contact = false, .features = false};
   EXPECT_EQ(missing_part(kPaper, Solver::kPaper, true, true), Part::kNone);
   EXPECT_EQ(missing_part(kPaper, Solver::kContact, false, false), Part::kContact);
 }
 
-/// The tree must not lose a contact, whatever the pose: same points, bit for bit, as looking at all of them.
+/// The tree must not lose a contact in any pose: it finds the same points as brute force, bit for bit.
 TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -450,7 +449,7 @@ TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
     const Matrix3 R_WS = H_WS.rotation.toRotationMatrix();
     const double d = 0.0045;
     double smallest = scene_.voxelmap.band();
-    double exact = std::numeric_limits<double>::infinity();  // from the ball
+    double exact = std::numeric_limits<double>::infinity();  // distance to the ball itself
     for (std::size_t p = 0; p < shell.size; ++p) {
       const Vector3 p_W = R_WS * shell.point(p) + H_WS.translation;
       smallest = std::min(smallest, scene_.voxelmap.sample(p_W).distance);
@@ -476,7 +475,7 @@ TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
         ASSERT_EQ(fast.depth, depth);
       }
       if (count == 0) {
-        // beyond the band, which is all that stored distances tell, a bound may tell more
+        // beyond the band stored distances say no more than the band; a bound may say more
         const bool known = smallest < scene_.voxelmap.band();
         const double bound = Penetration::contact_distance(d, scene_.voxelmap.voxel_size()) - exact;
         ASSERT_GE(fast.depth, known ? depth : std::min(depth, bound));

@@ -217,7 +217,7 @@ TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
   EXPECT_LE(field.grid.grid.lipschitz_seam, std::max(kSteepest, field.coarse.grid.lipschitz_seam));
 }
 
-/// Where an edge has full weight, the field is the surface's distance to double precision.
+/// The field equals the surface's distance to double precision where an edge has full weight.
 TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
   std::mt19937_64 random(18);
   const double s = 0.002;

@@ -55,8 +55,8 @@ Vector3d anywhere_about(const format::Edge& edge, test::Random& random) {
   return Vector3Map(edge.point) + t * Vector3Map(edge.along) + random.between(0.0, edge.radius) * across;
 }
 
-/// Where an edge has a weight, its wedge is the surface, no other edge has a weight, and reaches() is true for cubes
-/// around.
+/// Checks places where an edge has a weight: its wedge is the surface there, no other edge has a weight, and reaches()
+/// is true for cubes around the place.
 std::size_t expect_exact(const SolidSurface& surface, const char* what) {
   const std::vector<format::Edge> edges = straight_edges(surface, kVoxel, kLargestRadius);
   test::Random random(3);

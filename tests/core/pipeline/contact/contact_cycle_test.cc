@@ -26,11 +26,11 @@ struct Groove {
   Vector3 gradient(const Vector3& p) const noexcept { return side(p.x()); }
 };
 
-/// A floor with ripples along x, as an interpolated field has beside an oblique edge. The distance is a lower bound.
+/// A floor with ripples along x, like an interpolated field beside an oblique edge. The distance is a lower bound.
 struct Ripples {
   static constexpr double kHeight = 2e-5;                 // amplitude [m]
   static constexpr double kNumber = 2.0 * M_PI / 2.5e-4;  // [1/m]
-  static constexpr double kSlope = kHeight * kNumber;     // largest
+  static constexpr double kSlope = kHeight * kNumber;     // largest slope
   double scale = 1.0 / std::sqrt(1.0 + kSlope * kSlope);
   double distance(const Vector3& p) const noexcept { return scale * (p.z() - kHeight * std::cos(kNumber * p.x())); }
   Vector3 gradient(const Vector3& p) const noexcept { return {scale * kSlope * std::sin(kNumber * p.x()), 0.0, scale}; }
@@ -82,7 +82,7 @@ TEST(ContactCycle, LaysABoxFlatAtTheMargin) {
   EXPECT_EQ(run.report.substeps, 1u);
 }
 
-/// Whatever is between the ends of a motion, no chord of a sample point may meet it.
+/// Expects that no chord of a sample point meets the shape, whatever the motion crosses between its ends.
 template <class Shape>
 void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, unsigned seed,
                         const WorkspaceBox& workspace = {}) {
@@ -100,7 +100,7 @@ void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, 
       velocity = top_speed * vector().normalized();
       spin = 90.0 * vector().normalized();
     }
-    // back towards the plate, so that it is met again and again
+    // turn back towards the plate, so that the body meets it again and again
     if (std::fabs(device.translation.z()) > 0.08) velocity.z() = -std::copysign(velocity.z(), device.translation.z());
     device.translation += 1e-3 * velocity;
     device.translation.head<2>() *= 0.99;
@@ -113,7 +113,7 @@ void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, 
     for (std::size_t i = 0; i < shell.size; ++i) {
       const double z0 = (before * shell.point(i)).z();
       const double z1 = (run.state.H_WS * shell.point(i)).z();
-      ASSERT_GT(z0 * z1, 0.0) << "cycle " << cycle << " point " << i;  // a plate about z = 0
+      ASSERT_GT(z0 * z1, 0.0) << "cycle " << cycle << " point " << i;  // the plate is about z = 0
     }
   }
 }
@@ -129,8 +129,8 @@ TEST(ContactCycle, LetsNoPointCrossATwoVoxelPlate) {
   expect_no_crossing(needle, plate, 7.0, 4);
 }
 
-/// A hammer's head, which is small and far from the centre of mass; with that held in a plane, on a line and at a
-/// point.
+/// A hammer's head is small and far from the centre of mass. The centre is free, or it is held in a plane, on a line or
+/// at a point.
 TEST(ContactCycle, LetsNoPointOfAHammerCross) {
   const Vector3 head(0.09, 0.01, 0.0);
   auto samples = sample_box({0.01, 0.02, 0.01}, 5);
@@ -161,7 +161,7 @@ TEST(ContactCycle, ComesToRestInAValleyThatIsMuchNarrowerThanTheCouplingIsStretc
   const AnalyticField<Ripples> field({}, kVoxel);
   const SampledBody body({{Vector3(0.0, 0.0, -0.01)}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
   ContactRun<Ripples> run(field, body, at({0.0, 0.0, 0.02}));
-  const Pose device = at({4e-5, 0.0, 0.005});  // 5 mm deep, beside a ripple's top: the radius there is 0.08 mm
+  const Pose device = at({4e-5, 0.0, 0.005});  // 5 mm deep, beside the top of a ripple with a radius of 0.08 mm
   for (int i = 0; i < 200; ++i) {
     ASSERT_EQ(run.step(device), Status::kOk);
     ASSERT_LT(run.depth(), 0.0);
@@ -171,7 +171,7 @@ TEST(ContactCycle, ComesToRestInAValleyThatIsMuchNarrowerThanTheCouplingIsStretc
     ASSERT_EQ(run.step(device), Status::kOk);
     EXPECT_LT((run.state.H_WS.translation - rest).norm(), 5.0 * 2e-8);  // the tolerance of contacts
   }
-  // in the valley: the surface's normal there points to the device, to what the coupling of rotation gives way
+  // the point rests in the valley: the surface's normal there points to the device, as far as the body can turn
   const Vector3 p = run.state.H_WS * Vector3(0.0, 0.0, -0.01);
   EXPECT_GT(std::cos(Ripples::kNumber * p.x()), -1.0);
   EXPECT_LT(std::cos(Ripples::kNumber * p.x()), -0.9);
@@ -184,7 +184,7 @@ TEST(ContactCycle, HoldsABallBetweenTwoWalls) {
   for (int i = 0; i < 100; ++i) {
     ASSERT_EQ(run.step(at({0.01 * std::sin(0.1 * i), 0.0, 1e-4 * i}, {0.0, 0.02 * i, 0.0})), Status::kOk);
     ASSERT_LT(run.depth(), 0.0);
-    // nothing holds it along the slot
+    // nothing holds the ball along the slot
     ASSERT_NEAR(run.state.H_WS.translation.z(), 1e-4 * i, 2e-5);
   }
 }
@@ -210,7 +210,7 @@ TEST(ContactCycle, DoesNotDragAndDoesNotPullWithoutFriction) {
 
 TEST(ContactCycle, KeepsUpWithAFlatFaceThatSlidesAtAMetreASecond) {
   const AnalyticField<HalfSpace> field({}, kVoxel);
-  const SampledBody body = box_body(33);  // a thousand points below
+  const SampledBody body = box_body(33);  // a thousand points on the lower face
   ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.015 + kMargin}));
   for (int i = 0; i < 40; ++i) {
     ASSERT_EQ(run.step(at({1e-3 * i, 0.0, 0.008})), Status::kOk);
@@ -306,7 +306,7 @@ TEST(ContactCycle, ComesOutWhenItStartsInside) {
 }
 
 TEST(ContactCycle, GoesWithTheDeviceWhereItStartsInsideWithoutAWayOut) {
-  // in a slot narrower than the ball both walls push
+  // the slot is narrower than the ball: both walls push
   const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
   const SampledBody body = ball_body();
   ContactRun<Slot> run(field, body, Pose{});
@@ -321,7 +321,7 @@ TEST(ContactCycle, GoesWithTheDeviceWhereItStartsInsideWithoutAWayOut) {
   }
 }
 
-/// The tip of a spike under the middle of a box's face, where the box has no sample point.
+/// A spike's tip is under the middle of a box's face. The box has no sample point there.
 TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   struct BoxField {
     Vector3 half_edges{0.03, 0.02, 0.015};
@@ -359,7 +359,7 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   CycleReport report;
   Pose device = state.H_WS;
   for (int i = 0; i < 2000; ++i) {
-    // wanders about the tip, mostly pressing upon it
+    // move about the tip and press on it most of the time
     device.translation = tip_W + Vector3(0.01 * std::sin(0.013 * i), 0.01 * std::sin(0.017 * i), 0.008);
     device.rotation = exp_rotation(Vector3(0.3 * std::sin(0.011 * i), 0.3 * std::sin(0.019 * i), 0.002 * i));
     CycleInput input;
@@ -369,7 +369,7 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   }
   EXPECT_EQ(report.contacts, 1u);
   EXPECT_NEAR(BoxField{}.distance(state.H_WS.inverse() * tip_W), kMargin, 1e-5);
-  // without the second direction the box does not know of it
+  // without the second direction the box does not feel the tip
   const ContactScene<AnalyticField<HalfSpace>, AnalyticField<BoxField>> one_direction(nothing, shell, {}, q);
   ProxyState blind = state;
   CycleInput input;
@@ -394,10 +394,10 @@ TEST(ContactCycle, CountsWhatDoesNotFitAndStillLetsNothingThrough) {
   EXPECT_TRUE(overflow);
 }
 
-/// Neighbouring points of one flat would turn a slow rotation into large opposite forces, were each damped by itself.
+/// If each point were damped alone, neighbours on one flat would turn a slow rotation into large opposite forces.
 TEST(ContactCycle, DampsByNoMoreThanTheVelocityAsksFor) {
   const AnalyticField<HalfSpace> field({}, kVoxel);
-  const SampledBody body = box_body(31);  // points 1 to 2 mm apart
+  const SampledBody body = box_body(31);  // the points are 1 to 2 mm apart
   ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.016}));
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
@@ -417,7 +417,7 @@ TEST(ContactCycle, DampsByNoMoreThanTheVelocityAsksFor) {
   }
 }
 
-/// Rows that contradict each other but for their rounding may carry any load: what is left of their sum is rounding.
+/// The rows contradict each other up to rounding, so they may carry any load. The rest of their sum is rounding.
 TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
   std::mt19937 random(12);
   std::normal_distribution<double> normal;
@@ -450,17 +450,18 @@ TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
     input.velocity_W = {0.1 * vector(), vector()};
     ProxyState state;
     CycleReport report;
-    ASSERT_EQ(detail::finish_contact(input, result, step, q, *memory, state, report), Status::kOk);
-    const Wrench& total = report.force.total_W;  // without a stretch there is no spring
+    ASSERT_EQ(detail::finish_contact(input, result, step, q, ContactLengths::make(q), *memory, state, report),
+              Status::kOk);
+    const Wrench& total = report.force.total_W;  // without a stretch the spring gives no force
     const double speed = std::hypot(input.velocity_W.translation.norm(), gyration * input.velocity_W.rotation.norm());
     ASSERT_LE(std::hypot(total.force.norm(), total.torque.norm() / gyration), q.damping * speed * 1.000001)
-        << "problem " << i << ", load " << load;
+        << "damping too strong in problem " << i << ", load " << load;
     if (!total.force.isZero(0.0)) ++damped;
   }
   EXPECT_GT(damped, 5000);
 }
 
-/// Turned and shifted by ten metres the world is the same.
+/// Moves the world by a rotation and ten metres. Nothing else may change.
 TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
   const SampledBody body = box_body(7);
   const Pose moved = at({10.0, -3.0, 6.0}, {0.4, -0.7, 1.1});

@@ -49,7 +49,7 @@ TEST(Projection, LeavesMotionAwayFromTheSurfaceAlone) {
   EXPECT_EQ(out.motion.rotation, away.rotation);
 }
 
-/// Gauss' principle: no motion that keeps the row is nearer to the unconstrained one in the metric of the mass.
+/// Gauss' principle: no motion that meets the row is nearer to the unconstrained motion, in the metric of the mass.
 TEST(Projection, IsTheNearestOfTheAllowedMotions) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -65,7 +65,7 @@ TEST(Projection, IsTheNearestOfTheAllowedMotions) {
     if (contacts.depth <= 0.0) continue;
     contacts.wrench_S.force = 0.01 * vector();
     contacts.wrench_S.torque = 0.0003 * vector();
-    const Motion wanted{0.0002 * vector(), 0.003 * vector()};  // within the room of one step
+    const Motion wanted{0.0002 * vector(), 0.003 * vector()};  // within the bounds of one step
     const Motion got = project(wanted, contacts, 0.003, 0.2, mass, nullptr, {}).motion;
     const double force = contacts.wrench_S.force.norm();
     const double p = contacts.depth - 0.003;
@@ -83,7 +83,7 @@ TEST(Projection, IsTheNearestOfTheAllowedMotions) {
   }
 }
 
-/// Walls on both sides, a tenth of a millimetre apart from the ball: their forces cancel and leave no direction.
+/// The walls on both sides are a tenth of a millimetre away from the ball. Their forces cancel and leave no direction.
 TEST(Projection, FollowsBetweenOpposingContactsWithoutLeavingThem) {
   const AnalyticField<Slot> slot(Slot{kBallRadius + 1e-4}, kVoxel);
   const SampledBody ball = ball_body();
@@ -107,7 +107,7 @@ TEST(Corrected, StaysOutOfAFloorWithinATenthOfAVoxel) {
     deepest = std::max(deepest, run.depth());
   }
   EXPECT_LE(deepest, 0.1 * kVoxel);
-  // and does not hover either: the ball's lowest sample point touches
+  // the ball does not hover either: its lowest sample point touches
   EXPECT_NEAR(run.depth(), 0.0, 0.1 * kVoxel);
   EXPECT_EQ(run.report.outcome, Outcome::kContact);
 }
@@ -128,8 +128,8 @@ TEST(Corrected, StaysOnABallWithinATenthOfAVoxelWhileItSlidesAround) {
   EXPECT_LE(deepest, 0.1 * kVoxel);
 }
 
-/// Pressed deeper than J over the shift of its contact point per radian (5 mm here), an ellipsoid swings from side to
-/// side unless the projection is relaxed; a box does so from edge to edge.
+/// Pressed deeper than J over the contact point's shift per radian (5 mm here), an ellipsoid swings from side to side
+/// unless the projection is relaxed. A box swings from edge to edge.
 template <class Body>
 void expect_quiet(const Body& body, double half_height, double press) {
   const Floor floor(HalfSpace{}, kVoxel);
@@ -172,7 +172,7 @@ TEST(Corrected, DoesNotLagInFreeAirBesideASurface) {
   run.parameters.safety_distance = 0.00075;
   for (int k = 0; k < 200; ++k) {
     ASSERT_EQ(run.step(at(2e-3 * k, kBallRadius + 0.00076)), Status::kOk);
-    ASSERT_LT(run.report.force.spring_W.force.norm(), 0.01) << "2 m/s, a hundredth of a millimetre above the layer";
+    ASSERT_LT(run.report.force.spring_W.force.norm(), 0.01) << "a force at 2 m/s, 0.01 mm above the safety layer";
   }
 }
 
@@ -211,7 +211,7 @@ TEST(Corrected, ComesOutWhenItStartedInside) {
   EXPECT_EQ(run.report.outcome, Outcome::kContact);
 }
 
-/// Steady sliding at 7 mm depth and `speed`: tangential over normal force.
+/// Returns the ratio of tangential to normal force while the body slides at `speed`, steadily and 7 mm deep.
 double sliding_ratio(const SampledBody& body, double half_height, double speed, double mu_kinetic, double viscous) {
   const Floor floor(HalfSpace{}, kVoxel);
   FrictionRun run(floor, body, at(0.0, half_height));
@@ -240,7 +240,7 @@ TEST(Corrected, AddsTheViscousForceOfItsSpeed) {
   EXPECT_NEAR(sliding_ratio(ball_body(), kBallRadius, 0.1, 0.18, 10.0), 0.18 + 1.0 / 14.0, 0.002);
 }
 
-/// Tremor of 8-12 Hz and 5 um encoder steps, inside the cone; how far the god object wanders in 10 s.
+/// Returns the drift of the god object in 10 s of tremor of 8-12 Hz and 5 um encoder steps, inside the cone.
 double stick_drift(const SampledBody& body, double half_height) {
   const Floor floor(HalfSpace{}, kVoxel);
   FrictionRun run(floor, body, at(0.0, half_height));

@@ -1,4 +1,4 @@
-// The workspace of a scene: the body's centre does not leave it, the device feels its faces.
+// The workspace of a scene: the body's centre does not leave it, and the device feels its faces.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ constexpr double kBodyRadius = 0.02;
 constexpr double kVoxel = 0.003;
 constexpr double kStiffness = 2000.0;
 
-enum class Body { kPoints, kCentre };  // kCentre: a ball by its centre, in distances that are less by its radius
+enum class Body { kPoints, kCentre };  // kCentre: the ball as one point; stored distances are less by its radius
 
 SceneImage make_image(Body body, const std::optional<format::Workspace>& workspace) {
   SceneDescription d;
@@ -47,7 +47,7 @@ SceneImage make_image(Body body, const std::optional<format::Workspace>& workspa
   d.H_MB.rotation = exp_rotation(Vector3(0.3, -0.5, 0.2));
   d.settings.damping = 20.0;
   SceneImage image = build_scene_image(d);
-  if (body == Body::kCentre) {  // a point has no extent, an image wants some
+  if (body == Body::kCentre) {  // a point has no extent, but an image requires one
     section_item<format::Body>(image, format::SectionId::kBody).radius = 1e-9;
     seal(image);
   }
@@ -66,7 +66,7 @@ constexpr Pipeline kPipelines[] = {
     {Solver::kContact, false, Body::kCentre},
 };
 
-/// A god object of its own image.
+/// A god object with its own image.
 class Session {
  public:
   Session(const Pipeline& pipeline, const std::optional<format::Workspace>& workspace)
@@ -74,7 +74,7 @@ class Session {
     EXPECT_EQ(god_object_.start(scene_, pipeline.solver, pipeline.friction), Status::kOk);
   }
 
-  /// The body's centre at `center`.
+  /// Runs a cycle with the body's centre at `center`.
   Status update(const Vector3& center, const Vector3& turn = Vector3::Zero(),
                 const Vector3& velocity = Vector3::Zero()) {
     Pose H_WB;
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Workspace, InAWorkspace, testing::ValuesIn(kPipelines),
          (pipeline.param.friction ? "WithFriction" : "") + (pipeline.param.body == Body::kCentre ? "OfABall" : "");
 });
 
-/// Whatever device and solver do, to the last bit.
+/// The bound holds to the last bit, for any device motion and any solver.
 TEST_P(InAWorkspace, KeepsTheCentreWithinItInRandomMotions) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   std::mt19937 random(20);
@@ -112,7 +112,7 @@ TEST_P(InAWorkspace, KeepsTheCentreWithinItInRandomMotions) {
   int at_face_in_contact = 0;
   std::feclearexcept(kWatched);
   for (int session = 0; session < 12; ++session) {
-    // about a place on the sphere that the centre may touch, now and then without extent along an axis
+    // near a place on the sphere that the centre may touch; now and then without extent along an axis
     const Vector3 at = (kWorldRadius + kBodyRadius) * vector().normalized();
     format::Workspace workspace{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -168,7 +168,7 @@ TEST_P(InAWorkspace, FeelsItsFacesAsStiffAsTheCouplingAndNeverPulled) {
   EXPECT_LT((run.report.force.total_W.force - expected).norm(), 1e-9);
   EXPECT_TRUE(run.report.force.total_W.torque.isZero(1e-9));
   EXPECT_TRUE(run.report.outside);
-  // into the face at 0.1 m/s: 2 N more; out of it fast: nothing, but no pull; along it: nothing more
+  // into the face at 0.1 m/s: 2 N more; fast out of it: no force, but no pull either; along it: no change
   ASSERT_EQ(run.update({0.105, 0.0, 0.2}, Vector3::Zero(), {0.1, 5.0, -5.0}), Status::kOk);
   EXPECT_LT((run.report.force.total_W.force - Vector3(-12.0, 0.0, 0.0)).norm(), 1e-9);
   ASSERT_EQ(run.update({0.105, 0.0, 0.2}, Vector3::Zero(), {-5.0, 0.0, 0.0}), Status::kOk);
@@ -181,7 +181,7 @@ TEST_P(InAWorkspace, FeelsItsFacesAsStiffAsTheCouplingAndNeverPulled) {
 
 TEST_P(InAWorkspace, RendersNothingUntilTheDeviceHasBeenWithinIt) {
   Session run(GetParam(), format::Workspace{{-0.1, -0.1, 0.07}, {0.1, 0.1, 0.3}});
-  for (int k = 0; k < 50; ++k) {  // within the still body, and below the workspace
+  for (int k = 0; k < 50; ++k) {  // inside the still body, and below the workspace
     ASSERT_EQ(run.update({0.0, 0.0, 0.001 * k}), Status::kOk);
     ASSERT_TRUE(run.report.outside);
     ASSERT_TRUE(run.report.force.total_W.force.isZero(0.0));
@@ -221,8 +221,8 @@ TEST_P(InAWorkspace, RefusesAVelocityThatMakesAForceBeyondAllNumbers) {
   EXPECT_EQ(run.center(), before);
 }
 
-/// The surface pushes it against a face: there it follows the device to the place that is nearest of all that both
-/// allow, and is not stuck.
+/// The surface pushes the body against a face. There the body must not get stuck: it follows the device to the nearest
+/// place that face and surface allow.
 TEST(Workspace, LetsTheContactSolverSlideAlongAFaceThatASurfacePushesItAgainst) {
   constexpr double kFace = 0.02;
   const double reach = kWorldRadius + kBodyRadius;
@@ -236,12 +236,12 @@ TEST(Workspace, LetsTheContactSolverSlideAlongAFaceThatASurfacePushesItAgainst) 
       ASSERT_EQ(run.update(device, Vector3::Zero()), Status::kOk);
       ASSERT_LE(run.center().x(), kFace);
       if (k < 500) continue;
-      // of the circle that the face cuts out of the sphere the point that is nearest to the device
+      // the face cuts a circle out of the sphere; `best` is the circle's point nearest to the device
       const double radius = std::sqrt(reach * reach - kFace * kFace);
       const Vector3 best(kFace, radius * std::sin(angle), radius * std::cos(angle));
       worst = std::max(worst, (run.center() - best).norm());
     }
-    // points and nodes stand on chords of the two balls, a fifth of a millimetre within each
+    // points and nodes lie on chords of the two balls, a fifth of a millimetre inside each
     EXPECT_LT(worst, 0.2 * kVoxel) << (pipeline.body == Body::kCentre ? "ball" : "points");
   }
 }

@@ -31,8 +31,8 @@ TEST(Paper, LeavesABallThatStartedTwoMillimetresDeepWhereItIs) {
   EXPECT_NEAR(run.depth(), 1.98e-3, 0.02e-3);
 }
 
-/// A press to 5 mm below contact and a hold there: region B glues, lambda being next to nothing (ALGORITHM: (21) with
-/// (27)).
+/// Returns the height of the body after a press to 5 mm below contact. Lambda is nearly zero there, so region B glues
+/// (ALGORITHM: (21) with (27)).
 double hover_height(const SampledBody& body, double half_height) {
   const Floor floor(HalfSpace{}, kVoxel);
   PaperRun run(floor, body, at_height(half_height + 0.010));

@@ -50,7 +50,7 @@ TEST(ContactRows, HaveNoViolatedRowWithinTheTolerance) {
   EXPECT_EQ(rows->most_violated(Motion{}, 1e-10).row, 0u);
 }
 
-/// A batch gives the rows that the definitions give, contact by contact.
+/// A batch gives the same rows as the definitions give for each contact alone.
 TEST(ContactRows, TakeContactsInBatches) {
   constexpr GapLaw kGap{1e-5, 1e-8, 0.3, 5e-4};
   test::Random random(11);
@@ -112,7 +112,7 @@ TEST(ContactRows, FindTheNextRowOfAPoint) {
       std::uint32_t next = 0;
       for (std::uint32_t i = 0; i <= count; ++i) {
         if (i < count && rows->id[i] != id) continue;
-        ASSERT_EQ(rows->find(id, next), i) << "of " << count;
+        ASSERT_EQ(rows->find(id, next), i) << "point not found; rows: " << count;
         next = i + 1;
       }
     }

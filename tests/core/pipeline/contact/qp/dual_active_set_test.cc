@@ -1,4 +1,4 @@
-// The projection on half spaces in six dimensions, against its optimality conditions.
+// The projection on half spaces in six dimensions, checked by its optimality conditions.
 
 #include "core/pipeline/contact/qp/dual_active_set.h"
 
@@ -29,7 +29,7 @@ class Random {
   std::normal_distribution<double> normal_;
 };
 
-/// Adds the most violated half space until all are met; false if that ends in a contradiction.
+/// Adds the most violated half space until all are met. Returns false if they contradict each other.
 bool meet_all(const std::vector<Set::Inequality>& half_spaces, Set& set, int& additions) {
   for (additions = 0; additions < 1000; ++additions) {
     double worst = 1e-12;
@@ -44,14 +44,14 @@ bool meet_all(const std::vector<Set::Inequality>& half_spaces, Set& set, int& ad
     if (entering == nullptr) return true;
     if (!set.add(*entering)) return false;
   }
-  ADD_FAILURE() << "no end";
+  ADD_FAILURE() << "the active set did not end within 1000 additions";
   return false;
 }
 
 void expect_optimal(const Vector6& target, const Set& set, double tolerance) {
   ASSERT_LE(set.size(), 6);
   Vector6 sum = target;
-  double size = 1.0;  // of what cancels where half spaces nearly contradict each other
+  double size = 1.0;  // size of the terms that cancel where half spaces nearly contradict each other
   for (int i = 0; i < set.size(); ++i) {
     EXPECT_GE(set[i].multiplier, 0.0);
     sum += set[i].multiplier * set[i].gradient;
@@ -82,7 +82,7 @@ TEST(DualActiveSet, DropsAFaceThatASteeperOneMakesIdle) {
   Set set;
   set.start(Vector6::Zero());
   ASSERT_TRUE(set.add(half_space(Vector6::Unit(0), 1.0)));
-  // x + y >= 10: the nearest point (5, 5) leaves x >= 1 by itself
+  // x + y >= 10: the nearest point (5, 5) also satisfies x >= 1
   ASSERT_TRUE(set.add(half_space(Vector6::Unit(0) + Vector6::Unit(1), 10.0)));
   ASSERT_EQ(set.size(), 1);
   EXPECT_NEAR(set[0].multiplier, 5.0, 1e-14);
@@ -110,7 +110,7 @@ TEST(DualActiveSet, RefusesWhatContradictsAndStaysAsItWas) {
   EXPECT_EQ(set.size(), 2);
   EXPECT_EQ(set.z(), before);
   expect_optimal(Vector6::Zero(), set, 1e-15);
-  // seven half spaces around a simplex that leave nothing in between
+  // seven half spaces around a simplex whose inside is empty
   Set simplex;
   simplex.start(Vector6::Zero());
   for (int i = 0; i < 6; ++i) ASSERT_TRUE(simplex.add(half_space(Vector6::Unit(i), 1.0)));

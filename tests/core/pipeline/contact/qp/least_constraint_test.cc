@@ -1,4 +1,4 @@
-// The contact problem of one cycle: hand cases, its optimality conditions and Coulomb's law on random problems, slow
+// The contact problem of one cycle: hand cases, optimality conditions and Coulomb's law on random problems, slow
 // independent solutions, degenerate rows.
 
 #include "core/pipeline/contact/qp/least_constraint.h"
@@ -31,7 +31,7 @@ double distance(const Motion& a, const Motion& b) {
   return (six(a, kMetric.gyration) - six(b, kMetric.gyration)).norm();
 }
 
-/// Rows, what is wanted and what comes out.
+/// Rows and the wanted motion of one problem, with functions that solve it.
 struct Problem {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted;
@@ -60,8 +60,8 @@ struct Problem {
   }
 };
 
-/// Points of a body with random normals; `feasible`: the needs leave room for one hidden motion. One problem in three
-/// is a tight one.
+/// Returns points of a body with random normals. `feasible`: one hidden motion meets all required gains. In one problem
+/// of three the gaps are small.
 Problem random_problem(Random& random, int count, bool feasible) {
   Problem p;
   const double least = random.integer(0, 2) == 0 ? -0.00005 : -0.003;
@@ -80,7 +80,7 @@ Problem random_problem(Random& random, int count, bool feasible) {
   return p;
 }
 
-/// Checks a result without friction. `rounding`: error of the sum of forces by rounding, relative to their size.
+/// Checks a result without friction. `rounding`: the relative rounding error of the sum of forces.
 void expect_optimal(const Problem& p, const ConstrainedStep& step, double rounding = 1e-11) {
   const double gyration = p.metric.gyration;
   const SixVector z = six(step.motion, gyration);
@@ -88,7 +88,7 @@ void expect_optimal(const Problem& p, const ConstrainedStep& step, double roundi
   ASSERT_LE(step.force_count, 6u);
   EXPECT_EQ(step.contact_count, step.force_count);
   EXPECT_FALSE(step.unconverged);
-  EXPECT_LE(p.worst_violation(step.motion), 1.2 * p.metric.tolerance);  // the scan is in single precision
+  EXPECT_LE(p.worst_violation(step.motion), 1.2 * p.metric.tolerance);  // the solver scans the rows in single precision
   SixVector sum = six(p.wanted, gyration);
   double load = 0.0;
   std::set<std::uint32_t> ids;
@@ -163,7 +163,7 @@ TEST(LeastConstraint, FindsWhatEnumerationFinds) {
     Problem p;
     if (problem % 2 == 0) {
       p = random_problem(random, 1 + problem % 9, true);
-    } else {  // planar, three degrees of freedom, hardly any room
+    } else {  // planar, three degrees of freedom, very small gaps
       for (int i = 0; i < 2 + problem % 8; ++i) {
         const double angle = random.between(-M_PI, M_PI);
         Vector3 point = random.in_cube(kBody);
@@ -178,7 +178,7 @@ TEST(LeastConstraint, FindsWhatEnumerationFinds) {
     EXPECT_EQ(step.infeasible, !slow.has_value()) << "problem " << problem;
     infeasible += step.infeasible ? 1 : 0;
     if (!slow) continue;
-    // the effect of the tolerance of the required gains on the distance and on the position
+    // the effect of the required gains' tolerance on the distance and on the position
     double load = 0.0;
     for (std::uint32_t j = 0; j < step.force_count; ++j) load += step.forces[j].multiplier;
     const SixVector wanted = six(p.wanted, p.metric.gyration);
@@ -240,7 +240,7 @@ TEST(LeastConstraint, EndsAtTheSameMotionFromAnyStart) {
 
 // -- degenerate rows
 
-/// A flat face of per_edge^2 points, `half` wide, at z = height.
+/// Adds a flat face of per_edge^2 points, from -`half` to `half`, at z = height.
 void push_face(Problem& p, const Vector3& normal, double half, double height, int per_edge, double need) {
   for (int i = 0; i < per_edge; ++i) {
     for (int j = 0; j < per_edge; ++j) {
@@ -251,7 +251,7 @@ void push_face(Problem& p, const Vector3& normal, double half, double height, in
 }
 
 TEST(LeastConstraint, StartsEachForceOfAPointFromTheRowThatFits) {
-  // one point in a valley of two faces, as two rows: both hold it, and nothing is left to add the second time
+  // one point touches both faces of a valley, as two rows: both hold it, and the warm start needs no addition
   for (const bool turned_round : {false, true}) {
     Problem p;
     const double side = turned_round ? -0.6 : 0.6;
@@ -332,7 +332,7 @@ TEST(LeastConstraint, CentresBetweenOpposingFaces) {
 }
 
 TEST(LeastConstraint, LetsALockedBodyNotMove) {
-  // faces of a cube from six sides, and edges that turn against each other
+  // the cube's faces press from six sides, and its edges turn against each other
   for (const int per_edge : {2, 3, 10}) {
     Problem p;
     for (int axis = 0; axis < 3; ++axis) {
@@ -366,7 +366,7 @@ TEST(LeastConstraint, LetsALockedBodyNotMove) {
 }
 
 TEST(LeastConstraint, KeepsALockedBodyWithRandomNormalsAndNoRoomAtAll) {
-  // forty random rows span all directions: z = 0 alone meets them
+  // forty random rows span all directions: only z = 0 meets them
   Random random(17);
   std::uint32_t most = 0;
   for (int problem = 0; problem < 1000; ++problem) {
@@ -399,7 +399,7 @@ TEST(LeastConstraint, MeetsRowsThroughOnePointOrOneLine) {
     EXPECT_LE(centre.force_count, 3u);
     EXPECT_LT((centre.motion.rotation - at_centre.wanted.rotation).norm(), 1e-15);
     const ConstrainedStep line = on_line.solve();
-    expect_optimal(on_line, line, 1e-7);  // twists about the line are nearly free
+    expect_optimal(on_line, line, 1e-7);  // rotations about the line are nearly free
     EXPECT_NEAR(line.motion.rotation.dot(axis), on_line.wanted.rotation.dot(axis), 1e-8);
     if (HasFailure()) FAIL() << "problem " << problem;
   }
@@ -416,7 +416,7 @@ TEST(LeastConstraint, HoldsANeedle) {
     p.wanted = random.motion(0.01, 0.3);
     const ConstrainedStep step = p.solve();
     EXPECT_FALSE(step.infeasible);
-    expect_optimal(p, step, 1e-6);  // the lever about the axis is a thousandth of that across it
+    expect_optimal(p, step, 1e-6);  // the lever about the axis is a thousandth of the lever across it
     if (HasFailure()) FAIL() << "problem " << problem;
   }
 }
@@ -456,13 +456,13 @@ TEST(LeastConstraint, TakesAllTheRowsThereCanBe) {
 
 // -- friction
 
-/// The deviation of a result from Coulomb's law, at its worst contact.
+/// The deviation of a result from Coulomb's law, at the worst contact.
 struct CoulombErrors {
   double outside_cone = 0.0;  ///< |t| - mu lambda [m]
-  double sliding = 0.0;       ///< angle between force and slip of sliding contacts, times the smaller of both [m]
+  double sliding = 0.0;       ///< angle between force and slip of sliding contacts, times the smaller of the two [m]
   double creep = 0.0;         ///< slip of contacts whose force is well inside the cone [m]
   double gap = 0.0;           ///< |n . v - required gain| of loaded contacts [m]
-  double balance = 0.0;       ///< of the forces [m]
+  double balance = 0.0;       ///< sum of the forces [m]
 };
 
 CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, const ContactFriction& friction,
@@ -521,7 +521,7 @@ CoulombErrors coulomb_errors(const Problem& p, const ConstrainedStep& step, cons
   return worst;
 }
 
-/// The forces are what takes the wanted motion to the one found, converged or not; without viscous friction.
+/// Expects that the forces turn the wanted motion into the result, converged or not. Valid without viscous friction.
 void expect_balance(const Problem& p, const ConstrainedStep& step) {
   SixVector sum = six(p.wanted, p.metric.gyration) - six(step.motion, p.metric.gyration);
   double load = 0.0;
@@ -534,9 +534,9 @@ void expect_balance(const Problem& p, const ConstrainedStep& step) {
     sum += push;
     load += f.multiplier;
   }
-  // forces have their normals in single precision. Where the law is not found, the cones' forces may oppose each other
-  // with many times the load that is left when they and the last word's are made into six: 24 m against 1.2 m, whose
-  // rounding is 1.6e-7 of what is left and 8e-9 of what it comes from
+  // The normals of the forces are in single precision. If the solver does not converge, the forces of the cones may
+  // oppose each other. The last step then merges them into six, and most of the load cancels: from 24 m to 1.2 m in one
+  // case. The rounding error is 1.6e-7 of the remaining load and 8e-9 of the load before.
   const double rounding = step.unconverged ? 2e-7 : 1e-7;
   EXPECT_LE(sum.norm(), p.metric.tolerance + rounding * load);
 }
@@ -566,7 +566,7 @@ void expect_coulomb_found(const Problem& p, const ConstrainedStep& step, const C
 const Motion kSliding{{0.001, 0.0, 0.0}, Vector3::Zero()};
 
 TEST(LeastConstraintFriction, HoldsABlockBelowTheRatioAndLetsItSlipAbove) {
-  // a point under the centre, pressed by 5 mm; exact: it slips by (drag - mu press)
+  // a point under the centre, pressed by 5 mm; the exact slip is (drag - mu press)
   for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999, 1.001, 1.1, 2.0, 100.0}) {
     const ContactFriction friction{0.3, 0.3, 0.0};
     Problem p;
@@ -590,10 +590,10 @@ TEST(LeastConstraintFriction, HasTheStaticRatioAtRestAndTheKineticOneInMotion) {
     const double height = many ? -kBody : 0.0;
     const auto drag = [&](double share) {
       p.wanted.translation = Vector3(share * 0.005, 0.0, -0.005);
-      // through the face, so that nothing tilts
+      // the push goes through the face, so that nothing tilts
       p.wanted.rotation = Vector3(0.0, -height * share * 0.005, 0.0) / (p.metric.gyration * p.metric.gyration);
     };
-    // between the two: at rest it stays, from the start or from the last cycle; in motion it goes on
+    // between the two ratios: a block at rest stays, in the first cycle and in later ones; a block in motion slides on
     drag(0.3);
     const ConstrainedStep at_rest = p.solve(friction);
     expect_coulomb_found(p, at_rest, friction);
@@ -602,12 +602,12 @@ TEST(LeastConstraintFriction, HasTheStaticRatioAtRestAndTheKineticOneInMotion) {
     const ConstrainedStep on = p.solve(friction, kSliding, at_rest);
     expect_coulomb_found(p, on, friction, kSliding);
     EXPECT_NEAR(on.motion.translation.x(), 0.1 * 0.005, 1e-6) << many;
-    // above both it begins, with the kinetic ratio
+    // above both ratios it begins to slide, with the kinetic ratio
     drag(0.5);
     const ConstrainedStep begins = p.solve(friction, Motion{}, at_rest);
     expect_coulomb_found(p, begins, friction);
     EXPECT_NEAR(begins.motion.translation.x(), 0.3 * 0.005, 1e-6) << many;
-    // below both it stops
+    // below both ratios it stops
     drag(0.1);
     const ConstrainedStep stops = p.solve(friction, kSliding, on);
     expect_coulomb_found(p, stops, friction, kSliding);
@@ -630,7 +630,7 @@ TEST(LeastConstraintFriction, AddsTheViscousPart) {
   }
 }
 
-/// The part of `wanted` that turns a push through the origin into one through `point`.
+/// Returns the rotation of `wanted` that moves the line of a push from the origin to `point`.
 Vector3 turn_of(const Vector3& point, const Vector3& push) {
   return point.cross(push) / (kMetric.gyration * kMetric.gyration);
 }
@@ -651,7 +651,7 @@ TEST(LeastConstraintFriction, GripsInAGrooveByTheSineOfItsHalfAngle) {
     // at rest the walls can wedge: friction across the groove adds to the load, up to a ratio of
     // mu / sqrt(sin^2 - mu^2 cos^2)
     const double wedged = 1.0 / std::sqrt(1.0 - std::pow(mu / std::tan(half_angle), 2));
-    const double depth = 0.01 * std::sin(half_angle);  // of the contacts under the axis
+    const double depth = 0.01 * std::sin(half_angle);  // depth of the contacts under the axis
     for (const double drag : {0.5, 0.99, 0.99 * wedged, 1.01 * wedged, 2.0}) {
       const Vector3 push(0.0, drag * ratio * 0.005, -0.005);
       p.wanted = {push, turn_of(Vector3(0.0, 0.0, -depth), Vector3(0.0, push.y(), 0.0))};
@@ -671,7 +671,7 @@ TEST(LeastConstraintFriction, LeavesWhatRestsExactlyWhereItIs) {
     const ContactFriction friction{mu, mu, 0.0};
     Problem p;
     push_face(p, Vector3::UnitZ(), kBody, -kBody, 2 + problem % 8, 0.0);
-    // a force within the cone at a point within the face
+    // the force is within the cone and acts at a point of the face
     const Vector3 point(random.between(-0.8, 0.8) * kBody, random.between(-0.8, 0.8) * kBody, -kBody);
     const double angle = random.between(-M_PI, M_PI);
     const double share = random.between(0.0, 0.9) * mu;
@@ -700,7 +700,7 @@ TEST(LeastConstraintFriction, IsTheFrictionlessProblemWithoutARatio) {
   }
 }
 
-/// Statistics of a series of problems; `worst` is that of the problems that converged.
+/// Statistics of a series of problems. `worst` counts only the problems that converged.
 struct Outcomes {
   int all = 0, unconverged = 0, infeasible = 0, unbalanced = 0;
   std::uint32_t iterations = 0;
@@ -735,7 +735,7 @@ struct Outcomes {
         worst.gap, worst.balance);
   }
 
-  /// In tolerances of the rows.
+  /// Checks the statistics. `tolerances`: limit in tolerances of the rows.
   void expect_within(double tolerances, double share_unconverged) const {
     const double tolerance = tolerances * kMetric.tolerance;
     EXPECT_LE(violation, 1.2 * kMetric.tolerance);
@@ -774,7 +774,7 @@ TEST(LeastConstraintFriction, ObeysCoulombOnRandomProblems) {
 }
 
 TEST(LeastConstraintFriction, ObeysCoulombOnABoxInACorner) {
-  // 16 points a face, on one to three planes; pushed off-centre, turned, dragged, warm started over some cycles
+  // 16 points a face, on one to three planes; off-centre pushes, rotation, drag; warm started over some cycles
   for (const double ratio : {0.1, 0.3, 0.6}) {
     for (int walls = 1; walls <= 3; ++walls) {
       Random random(33);
@@ -808,7 +808,7 @@ TEST(LeastConstraintFriction, ObeysCoulombOnABoxInACorner) {
 }
 
 TEST(LeastConstraintFriction, HoldsAPegThatIsSqueezed) {
-  // faces above and below without a gap: nothing presses them but what the turn does; it must not lift, tip or crash
+  // faces above and below without a gap: only the rotation presses them; the peg must not lift or tip
   for (const double ratio : {0.1, 0.3, 1.0}) {
     for (const double need : {-1e-5, 0.0, 2e-5}) {
       Random random(34);
@@ -853,10 +853,10 @@ TEST(LeastConstraintFriction, FindsWhatTheFixedPointFinds) {
   EXPECT_GT(agree, 10 * differ);
 }
 
-/// Friction takes energy from a motion, so the motion ends no farther from the wanted one than rest, whether the law
-/// was found or not: but for what lost gaps need.
+/// Friction takes energy from a motion, so the result is no farther from the wanted motion than rest is, converged or
+/// not. Only lost gaps may add to it.
 TEST(LeastConstraintFriction, LeadsNoFartherThanRest) {
-  // a point wedged between two sides, found by the fuzzer of the study: 9 mm farther than rest
+  // the study's fuzzer found this point wedged between two sides: the result was 9 mm farther than rest
   Problem wedge;
   wedge.metric = {.gyration = 3.9706573807056804, .tolerance = 6.9531960619130865e-7, .still = 6.9531960619130862e-8};
   const Vector3 tip(2.3285748958587646, -1.4553593397140503, -0.87321561574935913);
@@ -897,7 +897,7 @@ TEST(LeastConstraintFriction, LeadsNoFartherThanRest) {
     const double ratio = random.between(0.3, 2.0);
     ConstrainedStep step;
     Motion before;
-    for (int cycle = 0; cycle < 3; ++cycle) {  // from its own forces, too
+    for (int cycle = 0; cycle < 3; ++cycle) {  // also warm started from its own forces
       step = p.solve({1.2 * ratio, ratio, 0.0}, before, step);
       before = step.motion;
       unconverged += step.unconverged ? 1 : 0;

@@ -1,4 +1,4 @@
-// Small linear equations: known solutions and singular systems, in units far apart.
+// Small linear systems: known solutions and singular systems, in units of very different size.
 
 #include "core/pipeline/contact/qp/small_system.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSize = 5;
 
-/// Random equations of a known solution; the unknown `column` in a unit 1 / `scale`.
+/// Returns random equations with a known solution. The unknown `column` has the unit 1 / `scale`.
 SmallSystem<kSize> equations(Random& random, int column, double scale, std::array<double, kSize>& solution) {
   SmallSystem<kSize> system;
   system.size = kSize;

@@ -1,4 +1,4 @@
-// The calendar of step #1 against a plain table of who is due when.
+// The search calendar, compared with a plain table of due ticks.
 
 #include "core/pipeline/contact/search/due_calendar.h"
 
@@ -24,12 +24,12 @@ TEST(DueCalendar, TakesWhatIsDueAndNothingElse) {
   calendar.start(memory, shell);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::map<std::uint32_t, std::uint64_t> due;  // of what is filed
+  std::map<std::uint32_t, std::uint64_t> due;  // the due ticks of all filed items
   due[0] = 0;
   std::uint64_t now = 0;
   std::uint64_t farthest = 0;
   for (int step = 0; step < 20000; ++step) {
-    // mostly a little on, at times back, far beyond the ticks that have a list, or beyond 32 bits
+    // mostly a small step on; at times a step back, a step beyond all listed ticks, or one beyond 32 bits
     const double kind = unit(random);
     if (kind < 0.9)
       now = farthest + static_cast<std::uint64_t>(30.0 * unit(random));
@@ -50,7 +50,7 @@ TEST(DueCalendar, TakesWhatIsDueAndNothingElse) {
     }
     std::uint64_t least = ~0ull;
     for (const auto& [item, tick] : due) {
-      ASSERT_GT(tick, now) << step << ": left behind";
+      ASSERT_GT(tick, now) << step << ": an item is overdue";
       ASSERT_TRUE(calendar.is_filed(item));
       least = std::min(least, tick);
     }
@@ -84,10 +84,10 @@ TEST(DueCalendar, FilesTheFarthestWhereItIsSeenInTime) {
       calendar.file(item, ~0ull);
     });
   }
-  EXPECT_LE(taken, 8) << "early, as 32 bits tell no more, but not often";
+  EXPECT_LE(taken, 8) << "32 bits make items due early, but only rarely";
 }
 
-/// However far it goes at once; a search looks at one item too many at worst.
+/// The calendar may jump by any number of ticks. A search then looks at one item too many at worst.
 TEST(DueCalendar, LosesNothingInAnyJump) {
   const SampledBody body = ball_body();
   for (int power = 0; power < 60; ++power) {
@@ -161,7 +161,7 @@ TEST(DueCalendar, GivesMarkedPointsOnceAndInOrder) {
   const auto points = static_cast<std::uint32_t>(body.pointshell().size);
   for (const std::uint32_t point : {points - 1, 31u, 0u, 32u, 31u, 63u}) calendar.mark(point);
   EXPECT_EQ(calendar.marked(), 5u);
-  EXPECT_EQ(calendar.certain(), 0u) << "what is marked is due";
+  EXPECT_EQ(calendar.certain(), 0u) << "marked points are due";
   std::vector<std::uint32_t> given;
   const auto unmark_some = [&](std::uint32_t point) {
     given.push_back(point);
@@ -177,22 +177,22 @@ TEST(DueCalendar, GivesMarkedPointsOnceAndInOrder) {
   });
   EXPECT_EQ(given, (std::vector<std::uint32_t>{32}));
   EXPECT_EQ(calendar.certain(), 100u);
-  calendar.for_each_marked([](std::uint32_t) { FAIL() << "none is left"; });
+  calendar.for_each_marked([](std::uint32_t) { FAIL() << "a point is still marked"; });
 }
 
-/// Looking farther ahead and less far again, as a search does that doubles its reach, costs nothing later.
+/// A search that doubles its radius looks farther ahead and then less far again. This must cost nothing later.
 TEST(DueCalendar, GoesBackAndVisitsNothingTwice) {
   const SampledBody body = ball_body();
   std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
   DueCalendar calendar;
   calendar.start(memory, body.pointshell());
   calendar.take(0);
-  calendar.take_due(64, [](std::uint32_t) { FAIL() << "nothing is filed"; });
+  calendar.take_due(64, [](std::uint32_t) { FAIL() << "no item is filed"; });
   calendar.file(0, 50);
-  EXPECT_EQ(calendar.certain(), 0u) << "due already";
-  calendar.take_due(10, [](std::uint32_t) { FAIL() << "not due there"; });
+  EXPECT_EQ(calendar.certain(), 0u) << "the item is due already";
+  calendar.take_due(10, [](std::uint32_t) { FAIL() << "the item is not due at this tick"; });
   EXPECT_EQ(calendar.certain(), 50u);
-  calendar.take_due(49, [](std::uint32_t) { FAIL() << "not due there"; });
+  calendar.take_due(49, [](std::uint32_t) { FAIL() << "the item is not due at this tick"; });
   int taken = 0;
   calendar.take_due(50, [&](std::uint32_t) { ++taken; });
   EXPECT_EQ(taken, 1);

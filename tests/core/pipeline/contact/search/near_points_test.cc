@@ -17,7 +17,7 @@
 namespace godobject {
 namespace {
 
-/// Points of which some clearances are as long as their way, some longer, some shorter.
+/// The clearances of the points are about as long as their displacements: some longer, some shorter.
 TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
   test::Random random(3);
   int leaving = 0, held = 0;
@@ -82,7 +82,7 @@ TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
       expected |= std::uint64_t{1} << k;
       pushed.push_back(numbers[k]);
     });
-    ASSERT_EQ(held, expected) << "the first of them";
+    ASSERT_EQ(held, expected) << "the first points until the list is full";
     refused += held != chosen;
   }
   ASSERT_EQ(near->count, NearPoints::kCapacity);

@@ -1,4 +1,4 @@
-// Step #1 with temporal coherence against brute force: the same points, whatever was known before.
+// The search with its calendar, compared with brute force: it finds the same points, whatever it has stored.
 
 #include "core/pipeline/contact/search/near_search.h"
 
@@ -17,7 +17,7 @@
 namespace godobject::test {
 namespace {
 
-/// A field that counts who asks.
+/// A field that counts its look-ups.
 template <class Field>
 struct Counted {
   const Field& field;
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> found(NearSearch& search, const Direction& direction,
       [&near](const SampleBatch&, const auto& index, std::uint64_t found) {
         for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
       },
-      [](double) { FAIL() << "no budget, so nothing is left out"; });
+      [](double) { FAIL() << "the search omitted a point without a budget"; });
   return near;
 }
 
@@ -69,7 +69,7 @@ std::vector<std::uint32_t> near_by_brute_force(const Field& field, const Pointsh
   return near;
 }
 
-/// Walks about the origin: at speeds from a micrometre to a centimetre a step, turning as it likes, with jumps.
+/// Random poses about the origin: speeds from a micrometre to a centimetre a step, any rotation, and jumps.
 class Walk {
  public:
   Walk(unsigned seed, double extent) : random_(seed), extent_(extent) {}
@@ -125,7 +125,7 @@ void expect_the_points_of_brute_force(const SceneView& scene, unsigned seed) {
         << step;
     near += expected.size();
   }
-  EXPECT_GT(near, static_cast<std::size_t>(kSteps)) << "the walk must come near";
+  EXPECT_GT(near, static_cast<std::size_t>(kSteps)) << "the walk meets too few near points";
 }
 
 TEST(NearSearch, FindsThePointsOfBruteForceOverAPlate) {
@@ -138,13 +138,13 @@ TEST(NearSearch, FindsThePointsOfBruteForceInAHole) {
   for (const unsigned seed : {1u, 2u, 3u}) expect_the_points_of_brute_force(open_scene(image), seed);
 }
 
-/// Points that stand, a field that moves and turns: what is far from its origin moves farther than the odometer says.
+/// The points stand still; the field moves and turns. Points far from its origin move farther than the odometer says.
 TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
   const SceneImage image = ball_over_plate();
   const SceneView scene = open_scene(image);
   Parameters q;
   q.voxel_size = scene.voxelmap.voxel_size();
-  q.mass.sphere = {Vector3(0.004, -0.003, 0.002), 0.02};  // a body much smaller than where the points are
+  q.mass.sphere = {Vector3(0.004, -0.003, 0.002), 0.02};  // a body much smaller than the region of the points
   const ContactLengths lengths = ContactLengths::make(q);
   const detail::FeatureDirection direction(lengths, scene.voxelmap.surface_radius(lengths.sphere.center));
   const double longest = scene.voxelmap.assured_clearance();
@@ -164,10 +164,10 @@ TEST(NearSearch, FindsThePointsOfBruteForceInTheOtherDirection) {
         << step;
     near += expected.size();
   }
-  EXPECT_GT(near, 1000u) << "the walk must come near";
+  EXPECT_GT(near, 1000u) << "the walk meets too few near points";
 }
 
-/// Whatever a budget left unlooked at is found once there is none.
+/// Points that a budget made the search omit are found once there is no budget.
 TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
   const SceneImage image = ball_over_plate();
   const SceneView scene = open_scene(image);
@@ -196,8 +196,8 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
         << step;
     near += expected.size();
   }
-  EXPECT_GT(near, 3000u) << "the walk must come near";
-  EXPECT_GT(short_of_it, 1000) << "the budget must be put to the test";
+  EXPECT_GT(near, 3000u) << "the walk meets too few near points";
+  EXPECT_GT(short_of_it, 1000) << "the budget was rarely exceeded";
 }
 
 /// Points that the search omits are at least as far away as the bound that it reports. It finds all nearer points. Only
@@ -248,7 +248,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
       ASSERT_GE(clearance(i), least_left_out) << "point " << i << " in step " << step;
     }
   }
-  EXPECT_GT(short_of_it, 1000) << "the budget must be put to the test";
+  EXPECT_GT(short_of_it, 1000) << "the budget was rarely exceeded";
 }
 
 TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
@@ -260,7 +260,7 @@ TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   const double longest = field.assured_clearance();
   search.start(memory, scene.pointshell, scene.voxelmap.lipschitz(), longest);
   Pose H;
-  H.translation.z() = 0.01 + 0.02 + 1.5 * field.lipschitz() * longest;  // just out of reach
+  H.translation.z() = 0.01 + 0.02 + 1.5 * field.lipschitz() * longest;  // just beyond the search radius
   const detail::SampleDirection direction;
   EXPECT_TRUE(found(search, direction, field, scene.pointshell, H, 0.0, longest).empty());
   const int first = field.looks;
@@ -280,10 +280,10 @@ TEST(NearSearch, KnowsForHowLongNothingComesNear) {
   search.start(memory, body.pointshell(), field.lipschitz(), kLongest);
   Pose H;
   H.translation.z() = 0.02 + 0.05;
-  EXPECT_FALSE(search.is_free(0.0, kLongest)) << "nobody has looked";
+  EXPECT_FALSE(search.is_free(0.0, kLongest)) << "no search has run yet";
   EXPECT_TRUE(found(search, detail::SampleDirection{}, field, body.pointshell(), H, 0.0, kLongest).empty());
   EXPECT_TRUE(search.is_free(0.046, kLongest));
-  EXPECT_FALSE(search.is_free(0.048, kLongest)) << "50 mm, less the longest cut";
+  EXPECT_FALSE(search.is_free(0.048, kLongest)) << "the limit is 50 mm less kLongest";
 }
 
 TEST(Odometer, IsNeverBehindAnyPoint) {
