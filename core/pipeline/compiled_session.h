@@ -38,6 +38,7 @@ class CompiledSession {
 
   const Parameters& parameters() const noexcept { return core_.parameters(); }
   const ProxyState& state() const noexcept { return core_.state(); }
+  const SubstepPath& path() const noexcept { return core_.path(); }
 
  private:
   Status refuse(Status status, CycleReport& report) const noexcept;

@@ -65,7 +65,7 @@ class Session {
   void reset() noexcept {
     state_ = ProxyState{};
     projection_ = ProjectionState{};
-    if constexpr (kHasSearch) contact_.reset();
+    contact_.reset();
   }
 
   /// Forgets the god object and moves it to a pose without a look-up.
@@ -88,11 +88,17 @@ class Session {
 
   const Parameters& parameters() const noexcept { return parameters_; }
   const ProxyState& state() const noexcept { return state_; }
+  /// Returns the sub-steps of the last cycle of `contact`; other solvers leave it as it is.
+  const SubstepPath& path() const noexcept { return contact_.path; }
   const ContactScene<Field, BodyField>& contact_scene() const noexcept { return contact_scene_; }
 
  private:
   static constexpr bool kHasSearch = kSceneTraits.contact && kSceneTraits.points;
-  struct NoMemory {};
+  /// What a build for a ball alone keeps of ContactMemory.
+  struct BallMemory {
+    SubstepPath path;
+    void reset() noexcept { path.clear(); }
+  };
   using Cycle = Status (*)(Session&, const CycleInput&, ProxyState&, CycleReport&, StepTimes*) noexcept;
 
   template <bool kFriction>
@@ -112,7 +118,7 @@ class Session {
   }
   static Status run_ball(Session& s, const CycleInput& input, ProxyState& state, CycleReport& report,
                          StepTimes* times) noexcept {
-    return ball_cycle(*s.field_, s.parameters_, s.contact_scene_.lengths, input, state, report, times);
+    return ball_cycle(*s.field_, s.parameters_, s.contact_scene_.lengths, input, s.contact_.path, state, report, times);
   }
 
   template <bool kFriction>
@@ -147,7 +153,7 @@ class Session {
   // carried from cycle to cycle
   ProxyState state_;
   ProjectionState projection_;
-  [[no_unique_address]] std::conditional_t<kHasSearch, ContactMemory, NoMemory> contact_;
+  std::conditional_t<kHasSearch, ContactMemory, BallMemory> contact_;
 };
 
 }  // namespace godobject

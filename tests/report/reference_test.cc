@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/analytic_shapes.h"
-#include "toolchain/report/contact_quality/least_distance.h"
+#include "toolchain/watch/least_distance.h"
 
 namespace godobject::report {
 namespace {

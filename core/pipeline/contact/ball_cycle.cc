@@ -24,7 +24,8 @@ using detail::Obstacle;
 
 /// Half spaces normal . x >= gain for a motion x of the centre, in W.
 struct HalfSpaces {
-  static constexpr int kCapacity = 1 + kMostSecondLooks;  ///< the contact at the start and the obstacles
+  static constexpr int kContacts = 1 + kMostSecondLooks;  ///< the contact at the start and the obstacles
+  static constexpr int kCapacity = kContacts + 6;         ///< and the faces of the workspace
   std::array<Vector3, kCapacity> normal;                  ///< unit
   std::array<double, kCapacity> gain;                     ///< required gap increase [m]
   int count = 0;
@@ -39,6 +40,7 @@ struct HalfSpaces {
 struct Held {
   std::array<Vector3, 3> normal;     ///< unit, in W
   std::array<double, 3> multiplier;  ///< >= 0 [m]
+  std::array<int, 3> space;          ///< number of the half space
   int count = 0;
 };
 
@@ -53,11 +55,11 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
     nearest += missing * spaces.normal[0];
     held.normal[0] = spaces.normal[0];
     held.multiplier[0] = missing;
+    held.space[0] = 0;
     held.count = 1;
     return true;
   }
-  struct NoTag {};
-  DualActiveSet<NoTag> set;
+  DualActiveSet<int> set;
   Vector6 wide = Vector6::Zero();
   wide.head<3>() = target;
   set.start(wide);
@@ -65,7 +67,7 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
   // chosen: random polyhedra of 200 half spaces in six dimensions take fewer than four additions each
   // (dual_active_set_test)
   for (int round = 0; round < 4 * HalfSpaces::kCapacity && feasible; ++round) {
-    DualActiveSet<NoTag>::Inequality worst;
+    DualActiveSet<int>::Inequality worst;
     double violation = tolerance;
     for (int i = 0; i < spaces.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -74,6 +76,7 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
       violation = missing;
       worst.gradient.head<3>() = spaces.normal[k];
       worst.rhs = spaces.gain[k];
+      worst.tag = i;
     }
     if (!(violation > tolerance)) break;
     feasible = set.add(worst);
@@ -82,6 +85,7 @@ bool project(const HalfSpaces& spaces, const Vector3& target, double tolerance, 
   for (int i = 0; i < std::min(set.size(), 3); ++i) {
     if (!(set[i].multiplier > 0.0)) continue;
     held.normal[static_cast<std::size_t>(held.count)] = set[i].gradient.head<3>();
+    held.space[static_cast<std::size_t>(held.count)] = set[i].tag;
     held.multiplier[static_cast<std::size_t>(held.count++)] = set[i].multiplier;
   }
   return feasible;
@@ -162,20 +166,26 @@ void Center::push_contact() noexcept {
 /// Computes the motion nearest to `free` that all half spaces and the workspace allow. Half spaces that contradict each
 /// other drop their required gap increase.
 void Center::constrain(const Vector3& free) noexcept {
-  const auto end_of = [&](const Vector3& push) noexcept {
-    const Vector3 wanted = free - push;
-    if (!project(spaces_, wanted, lengths_.metric.tolerance, motion_, held)) {
-      infeasible = true;
-      for (double& gain : spaces_.gain) gain = std::min(gain, 0.0);
-      project(spaces_, wanted, lengths_.metric.tolerance, motion_, held);
-    }
-    return Vector3(at_ + motion_);
-  };
+  const int contacts = spaces_.count;
   if (box_.limited) {
-    push_within(box_, lengths_.metric.tolerance, end_of);
-  } else {
-    end_of(Vector3::Zero());
+    push_faces(box_, {Quaternion::Identity(), at_},
+               [&](const Vector3& normal, double gain) noexcept { spaces_.push(normal, gain); });
   }
+  if (!project(spaces_, free, lengths_.metric.tolerance, motion_, held)) {
+    infeasible = true;
+    for (double& gain : spaces_.gain) gain = std::min(gain, 0.0);
+    project(spaces_, free, lengths_.metric.tolerance, motion_, held);
+  }
+  spaces_.count = contacts;
+  int kept = 0;  // the faces are no contacts
+  for (int i = 0; i < held.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (held.space[k] >= contacts) continue;
+    const auto to = static_cast<std::size_t>(kept++);
+    held.normal[to] = held.normal[k];
+    held.multiplier[to] = held.multiplier[k];
+  }
+  held.count = kept;
 }
 
 /// Tells whether the chord to `end` meets no surface and the gap does not shrink below `least_gap`.
@@ -193,7 +203,7 @@ bool Center::certify(const Vector3& end, double least_gap) noexcept {
 bool Center::push_obstacle(const Vector3& end) noexcept {
   const FieldSample& seen = obstacle_.sample;
   const double steepness = seen.gradient.norm();
-  if (spaces_.count == HalfSpaces::kCapacity || !seen.known || !(steepness > kFlat)) return false;
+  if (spaces_.count == HalfSpaces::kContacts || !seen.known || !(steepness > kFlat)) return false;
   const Vector3 displacement = obstacle_.share * (end - at_);
   spaces_.push(seen.gradient / steepness,
                detail::second_look_gain(lengths_, seen, displacement, here_.distance, steepness));
@@ -256,22 +266,26 @@ struct BallResult {
 };
 
 /// Runs the sub-steps of one cycle from the god object to the device at `goal`.
-BallResult advance(Center& center, const Vector3& goal, bool inside) noexcept {
+BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotation, bool inside,
+                   SubstepPath& path) noexcept {
   BallResult result{.inside = inside};
   do {
     const FieldSample& here = center.look();
     result.inside = result.inside && here.distance <= 0.0;
+    result.smallest = center.is_near() ? here.distance : std::numeric_limits<double>::infinity();
     if (center.is_free(goal)) {
       center.go(goal);
+      path.push({rotation, goal});
       break;
     }
-    result.smallest = center.is_near() ? here.distance : std::numeric_limits<double>::infinity();
     ++result.substeps;
     if (result.inside && !here.known) {  // deep inside, where the field has no gradient: follow the device
       center.go(goal);
+      path.push({rotation, goal});
       break;
     }
     if (!center.step(goal)) break;
+    path.push({rotation, center.at()});
   } while ((center.cut || center.opened) && !result.inside && result.substeps < kMaxSubsteps);
   return result;
 }
@@ -279,11 +293,12 @@ BallResult advance(Center& center, const Vector3& goal, bool inside) noexcept {
 }  // namespace
 
 Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengths& lengths, const CycleInput& input,
-                  ProxyState& state, CycleReport& report, StepTimes* times) noexcept {
+                  SubstepPath& path, ProxyState& state, CycleReport& report, StepTimes* times) noexcept {
   detail::begin(times);
   const Vector3& goal = input.H_WD.translation;
   Center center(field, q.workspace, lengths, state.H_WS.translation);
-  const BallResult result = advance(center, goal, state.inside);
+  path.clear();
+  const BallResult result = advance(center, goal, input.H_WD.rotation, state.inside, path);
   detail::end(times, &StepTimes::step1_ns);
 
   DeviceForce force;

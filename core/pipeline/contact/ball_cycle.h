@@ -18,6 +18,7 @@ namespace godobject {
 /// Statuses as those of `commit`. Cost: at most kMaxSubsteps sub-steps of kMostAttempts attempts, each with one look-up
 /// and those of the certificate; in steady contact one sub-step of two look-ups. Real-time safe.
 Status ball_cycle(const Voxelmap& field, const Parameters& parameters, const ContactLengths& lengths,
-                  const CycleInput& input, ProxyState& state, CycleReport& report, StepTimes* times) noexcept;
+                  const CycleInput& input, SubstepPath& path, ProxyState& state, CycleReport& report,
+                  StepTimes* times) noexcept;
 
 }  // namespace godobject

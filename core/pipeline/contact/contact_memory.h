@@ -10,6 +10,7 @@
 #include "core/pipeline/contact/qp/least_constraint.h"
 #include "core/pipeline/contact/search/near_points.h"
 #include "core/pipeline/contact/search/near_search.h"
+#include "core/pipeline/cycle/state.h"
 
 namespace godobject {
 
@@ -64,12 +65,14 @@ struct ContactMemory {
   ContactSearch search;
   ConstrainedStep last_step;  ///< the last cycle's motion and contact forces
   Pose H_WD_last;             ///< the last cycle's device pose
+  SubstepPath path;           ///< of the last cycle, for tools and tests
   ContactWorkspace workspace;
 
   /// Forgets the last cycle; the search's memory stays valid.
   void reset() noexcept {
     last_step = ConstrainedStep{};
     H_WD_last = Pose{};
+    path.clear();
   }
 };
 

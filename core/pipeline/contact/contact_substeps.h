@@ -10,6 +10,7 @@
 #include "core/pipeline/contact/contact_result.h"
 #include "core/pipeline/contact/contact_scene.h"
 #include "core/pipeline/contact/motion_share.h"
+#include "core/pipeline/contact/qp/contact_forces.h"
 #include "core/pipeline/contact/second_look.h"
 #include "core/pipeline/contact/substep_limits.h"
 #include "core/pipeline/contact/surroundings.h"
@@ -38,6 +39,7 @@ class ContactSubsteps {
         wanted_(unconstrained_motion(state.H_WS, input.H_WD)),
         last_motion_(memory.last_step.motion) {
     step_ = memory.last_step;
+    memory.path.clear();
     result_.H_WS = state.H_WS;
     result_.inside = state.inside;
   }
@@ -93,8 +95,9 @@ class ContactSubsteps {
     const WorkspaceBox& box = scene_.parameters->workspace;
     const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
     if (!box.limited) return least_constraint(rows_, free_, lengths_.metric, friction, last_motion_, step_);
+    if (!kFriction) return constrain_within(box);
     bool infeasible = false;
-    push_within(box, lengths_.metric.tolerance, [&](const Vector3& push_W) noexcept {
+    const bool met = push_within(box, lengths_.metric.tolerance, [&](const Vector3& push_W) noexcept {
       Motion pushed = free_;
       pushed.translation -= H0_.rotation.conjugate()._transformVector(push_W);
       least_constraint(rows_, pushed, lengths_.metric, friction, last_motion_, step_);
@@ -102,14 +105,19 @@ class ContactSubsteps {
       step_.follows &= push_W.isZero(0.0);
       return H0_ * step_.motion.translation;
     });
-    step_.infeasible = infeasible;
+    // the push reduces the target, so that friction may hold the body farther from the device than rest would
+    if (!met || is_farther_than_rest()) {
+      constrain_within(box);
+      step_.unconverged = true;
+    }
+    step_.infeasible |= infeasible;
   }
 
   /// Tells whether after a start inside no direction leads out; then moves the god object to the device, without force.
   bool is_lost() noexcept {
     if (!result_.inside || !(around_.swallowed || step_.infeasible)) return false;
     step_ = ConstrainedStep{};
-    result_.H_WS = input_.H_WD;
+    move_to(input_.H_WD);
     result_.cut = false;
     return true;
   }
@@ -153,7 +161,7 @@ class ContactSubsteps {
     last_motion_ = motion_;
     whole_.translation += motion_.translation;
     whole_.rotation += motion_.rotation;
-    result_.H_WS = H1_;
+    move_to(H1_);
     result_.cut = share_.is_cut();
     most_search_radius_ = std::min(std::max(most_search_radius_, 2.0 * search_radius_), scene_.longest_search_radius);
     longest_displacement_ = std::max(longest_displacement_, travel(lengths_.sphere, motion_));
@@ -184,8 +192,39 @@ class ContactSubsteps {
  private:
   bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
 
+  void move_to(const Pose& H_WS) noexcept {
+    result_.H_WS = H_WS;
+    memory_.path.push(H_WS);
+  }
+
+  /// Tells whether the step ends farther from the device than rest, in the coupling's metric.
+  bool is_farther_than_rest() const noexcept {
+    const double gyration = lengths_.metric.gyration;
+    const auto squared = [gyration](const Vector3& x, const Vector3& r) noexcept {
+      return x.squaredNorm() + gyration * gyration * r.squaredNorm();
+    };
+    const Motion& motion = step_.motion;
+    return squared(motion.translation - free_.translation, motion.rotation - free_.rotation) >
+           squared(free_.translation, free_.rotation);
+  }
+
+  /// Computes the motion nearest to the unconstrained one without friction, with the faces of the box as rows. Their
+  /// forces are left out of the step: they are no contacts. With too many rows the last ones give way to the faces.
+  void constrain_within(const WorkspaceBox& box) noexcept {
+    constexpr std::uint32_t kFaces = 6;
+    const std::uint32_t contacts = std::min(rows_.count, ContactRows::kCapacity - kFaces);
+    result_.dropped += rows_.count - contacts;
+    rows_.count = contacts;
+    push_faces(box, H0_, [&](const Vector3& normal_S, double gain) noexcept {
+      rows_.push(kFaceOfWorkspace, normal_S, Vector3::Zero(), gain);
+    });
+    least_constraint(rows_, free_, lengths_.metric, nullptr, last_motion_, step_);
+    rows_.count = contacts;
+    drop_forces(kFaceOfWorkspace, step_);
+  }
+
   void follow_device() noexcept {
-    result_.H_WS = input_.H_WD;
+    move_to(input_.H_WD);
     step_.release();
     result_.smallest = std::numeric_limits<double>::infinity();
     result_.dropped = 0;

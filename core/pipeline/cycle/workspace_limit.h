@@ -42,32 +42,54 @@ inline Pose clipped_to(const WorkspaceBox& box, const Pose& H0, const Pose& H1) 
   return end;
 }
 
-/// Adds the faces of the box, without friction, to the constraints of a motion that other constraints push out of the
-/// box.
+/// Adds the faces of the box, without friction, to the constraints of a motion with friction that other constraints
+/// push out of the box. False: it did not converge, and the end is still outside.
 ///
 /// `end_of(push_W)` solves for the motion whose target is reduced by `push_W` [m] and returns the end of the origin, in
 /// W [m]. By duality a push along a face's normal that brings the end onto the face is that face's force. Along an axis
 /// the end moves by 0 to 1 times the push, and this ratio is constant while the same constraints are active. So the
-/// secant method finds the push in two steps. It stops within `tolerance` [m]; the caller cuts off the remainder. Cost:
-/// at most 1 + kRounds calls of `end_of`.
+/// secant method finds the push in two steps, unless contacts couple the axes. It stops within `tolerance` [m]; the
+/// caller cuts off the remainder. Cost: at most 1 + kRounds calls of `end_of`.
 template <class EndOf>
-void push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noexcept {
+bool push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noexcept {
   constexpr int kRounds = 6;
   constexpr double kLeastYield = 0.02;
   Vector3 push = Vector3::Zero();
-  Vector3 end = end_of(push);
-  Vector3 out = end - box.nearest(end);
+  // the distance beyond the face, and along a pushed axis also the distance that is missing to it
+  const auto beyond = [&](const Vector3& end) noexcept {
+    Vector3 out = end - box.nearest(end);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (push[axis] != 0.0) out[axis] = end[axis] - (push[axis] > 0.0 ? box.high[axis] : box.low[axis]);
+    }
+    return out;
+  };
+  Vector3 out = beyond(end_of(push));
   Vector3 yield = Vector3::Ones();
   for (int round = 0; round < kRounds && out.cwiseAbs().maxCoeff() > tolerance; ++round) {
     const Vector3 before = out;
-    const Vector3 step = out.cwiseQuotient(yield);
-    push += step;
-    end = end_of(push);
-    out = end - box.nearest(end);
+    const Vector3 last = push;
+    push += out.cwiseQuotient(yield);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (push[axis] * last[axis] < 0.0) push[axis] = 0.0;  // a face does not pull
+    }
+    out = beyond(end_of(push));
+    const Vector3 step = push - last;
     for (int axis = 0; axis < 3; ++axis) {
       if (step[axis] == 0.0 || out[axis] == 0.0) continue;
-      yield[axis] = std::max(kLeastYield, (before[axis] - out[axis]) / step[axis]);
+      yield[axis] = std::clamp((before[axis] - out[axis]) / step[axis], kLeastYield, 1.0);
     }
+  }
+  return out.cwiseAbs().maxCoeff() <= tolerance;
+}
+
+/// Calls push(normal_S, gain) for each face of the box: the motion x of the origin, in S [m], must satisfy
+/// normal_S . x >= gain. `H_WS`: the body, its origin in the box.
+template <class Push>
+void push_faces(const WorkspaceBox& box, const Pose& H_WS, const Push& push) noexcept {
+  const Matrix3 R_SW = H_WS.rotation.toRotationMatrix().transpose();
+  for (int axis = 0; axis < 3; ++axis) {
+    push(Vector3(R_SW.col(axis)), box.low[axis] - H_WS.translation[axis]);
+    push(Vector3(-R_SW.col(axis)), H_WS.translation[axis] - box.high[axis]);
   }
 }
 

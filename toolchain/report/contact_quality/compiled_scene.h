@@ -33,6 +33,7 @@ struct CompiledStill {
 struct SceneText {
   CompiledStill still;
   std::filesystem::path body;  ///< mesh of the moving body, in metres
+  bool ball = false;           ///< the moving mesh is a ball, rendered by its centre; no points
   std::uint32_t points = 0;
   WorldSettings settings = {};
   std::optional<format::Solver> only_solver = {};

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "toolchain/report/contact_quality/least_distance.h"
+#include "toolchain/watch/least_distance.h"
 
 namespace godobject::report {
 namespace {
@@ -28,7 +28,7 @@ Matrix3 left_jacobian(const Vector3& r) {
 /// Constraints at a pose: its penetration, and rows a.step >= -g for all points that a step may bring to a surface.
 struct Constraints {
   double violation = 0.0;
-  std::vector<HalfPlane> rows;
+  std::vector<watch::HalfPlane> rows;
 };
 
 /// The free set in the coordinates of the device pose, eta = (x_e, rho r_e). Points that are far from all surfaces are
@@ -45,17 +45,17 @@ class FreeSet {
     reach_ = 1.0 + radius / rho_;
   }
 
-  Pose pose(const Vector6& eta) const {
+  Pose pose(const watch::Vector6& eta) const {
     return problem_.H_WD * set_matrix({eta.head<3>(), Vector3(eta.tail<3>() / rho_)});
   }
-  Vector6 eta(const Pose& H_WS) const {
+  watch::Vector6 eta(const Pose& H_WS) const {
     const Motion motion = get_motion(problem_.H_WD.inverse() * H_WS);
-    Vector6 result;
+    watch::Vector6 result;
     result << motion.translation, rho_ * motion.rotation;
     return result;
   }
 
-  Constraints look(const Vector6& at) {
+  Constraints look(const watch::Vector6& at) {
     const double cutoff = 2.0 * problem_.largest_step * reach_;
     way_ += reach_ * (at - last_).norm();
     last_ = at;
@@ -74,7 +74,7 @@ class FreeSet {
         nearest = std::min(nearest, piece.distance);
         if (piece.distance > cutoff || piece.gradient.isZero()) continue;
         const Vector3 n_D = R_DW_._transformVector(piece.gradient);
-        HalfPlane row;
+        watch::HalfPlane row;
         row.normal << n_D, jacobian * R_DS._transformVector(p).cross(n_D);
         row.bound = -piece.distance;
         result.rows.push_back(row);
@@ -91,25 +91,25 @@ class FreeSet {
   Quaternion R_DW_;
   double reach_ = 1.0;  ///< largest motion of a sample point for a step of length 1
   double way_ = 0.0;    ///< largest distance that a sample point has travelled [m]
-  Vector6 last_ = Vector6::Zero();
+  watch::Vector6 last_ = watch::Vector6::Zero();
   std::vector<double> wake_;  ///< distance travelled at which a point is looked up again [m]
   std::vector<analytic::Piece> pieces_;
 };
 
 /// Returns the step to the shortest eta + step that satisfies the rows, with `proximity` |step|^2 added to the
 /// objective. If the rows contradict each other, their bounds are reduced, at most down to no deterioration.
-LeastDistance proximal_step(std::vector<HalfPlane> rows, const Vector6& eta, double proximity) {
+watch::LeastDistance proximal_step(std::vector<watch::HalfPlane> rows, const watch::Vector6& eta, double proximity) {
   constexpr int kMaxHalvings = 4;
-  const Vector6 center = -eta / (1.0 + proximity);  // of the step
-  for (HalfPlane& row : rows) row.bound -= row.normal.dot(center);
+  const watch::Vector6 center = -eta / (1.0 + proximity);  // of the step
+  for (watch::HalfPlane& row : rows) row.bound -= row.normal.dot(center);
   for (int halving = 0;; ++halving) {
-    LeastDistance step = least_distance(rows);
+    watch::LeastDistance step = watch::least_distance(rows);
     if (step.feasible || halving > kMaxHalvings) {
       step.x += center;
       step.multiplier_sum *= 1.0 + proximity;
       return step;
     }
-    for (HalfPlane& row : rows) {
+    for (watch::HalfPlane& row : rows) {
       const double asked = row.bound + row.normal.dot(center);
       if (asked > 0.0) row.bound -= (halving == kMaxHalvings ? 1.0 : 0.5) * asked;
     }
@@ -118,8 +118,9 @@ LeastDistance proximal_step(std::vector<HalfPlane> rows, const Vector6& eta, dou
 
 /// Adds the rows of the surface at the end of a refused step, `way` from here; in a valley they are those of the other
 /// side. Rows that are violated here belong to another side of an edge and are not added.
-void add_cuts(const std::vector<HalfPlane>& there, const Vector6& way, std::vector<HalfPlane>& here) {
-  for (HalfPlane row : there) {
+void add_cuts(const std::vector<watch::HalfPlane>& there, const watch::Vector6& way,
+              std::vector<watch::HalfPlane>& here) {
+  for (watch::HalfPlane row : there) {
     row.bound += row.normal.dot(way);
     if (row.bound <= 0.0) here.push_back(row);
   }
@@ -139,13 +140,13 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
       2e-5;  // of the coupling's length, where gradients jump: 3 mrad of its direction at 7 mm
   constexpr double kMaxProximity = 1e7;
   FreeSet free_set(problem);
-  Vector6 eta = free_set.eta(H_WS_start);
+  watch::Vector6 eta = free_set.eta(H_WS_start);
   Constraints here = free_set.look(eta);
   double penalty = 0.1;  // [m]: the objective is in m^2
   double proximity = 0.0;
   Optimum optimum;
   for (; optimum.iterations < kMaxIterations; ++optimum.iterations) {
-    const LeastDistance step = proximal_step(here.rows, eta, proximity);
+    const watch::LeastDistance step = proximal_step(here.rows, eta, proximity);
     if (!step.feasible) break;
     penalty = std::max(penalty, 4.0 * step.multiplier_sum);
     const double length = step.x.norm();
@@ -154,7 +155,7 @@ Optimum polish(const OptimumProblem& problem, const Pose& H_WS_start) {
       break;
     }
     const double share = length > problem.largest_step ? problem.largest_step / length : 1.0;
-    const Vector6 trial = eta + share * step.x;
+    const watch::Vector6 trial = eta + share * step.x;
     Constraints there = free_set.look(trial);
     const double nearer = eta.squaredNorm() - trial.squaredNorm();
     const double fallen = nearer + penalty * (here.violation - there.violation);

@@ -234,7 +234,7 @@ CaseResult closed_path(bool quick) {
       setup.cycles = 6000;
       const auto rig = make_rig(setup, {});
       const auto again = make_rig(setup, {});
-      const Parameters& q = rig->parameters();
+      const Parameters q = rig->watched().parameters;
       CycleReport report;
       CycleReport repeated;
       Pose before;

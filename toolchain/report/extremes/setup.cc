@@ -37,18 +37,19 @@ Setup any_setup(std::mt19937& random) {
   Setup setup;
   setup.row = "fuzzer";
   setup.world = choice.of({"plane", "slot", "groove", "bore", "plate", "heap", "heap", "compiled"});
-  setup.body = choice.of({"ball", "box", "box", "needle", "flat", "line", "point"});
-  setup.motion = choice.of({"press", "press", "dash", "jump", "spin", "rest"});
+  setup.body = choice.of({"ball", "box", "box", "ell", "needle", "flat", "line", "point"});
+  setup.motion = choice.one_in(16) ? choice.of({"press", "dash", "jump", "spin", "rest"}) : "seek";
   setup.seed = choice.seed();
-  setup.solver = choice.one_in(4) ? (choice.one_in(2) ? format::Solver::kPaper : format::Solver::kCorrected)
+  setup.solver = choice.one_in(8) ? (choice.one_in(2) ? format::Solver::kPaper : format::Solver::kCorrected)
                                   : format::Solver::kContact;
   setup.friction = choice.one_in(2);
   setup.points = static_cast<int>(choice.spread(1.0, 400.0));
   setup.bad_every = choice.one_in(5) ? 37 : 0;
   setup.scale = choice.one_in(2) ? 0.02 : choice.spread(1e-3, 1e3);
   setup.far = choice.one_in(4) ? choice.spread(1.0, 1e3) : 0.0;
-  setup.width = choice.one_in(2) ? choice.between(1.0, 1.1) : choice.between(0.6, 2.0);
-  setup.start = choice.one_in(5) ? choice.between(-3.0, 1.0) : 2.0;
+  setup.width = choice.one_in(2) ? choice.spread(1.0001, 1.1) : choice.between(0.6, 2.0);
+  setup.start = choice.one_in(8) ? choice.between(-3.0, 1.0) : choice.between(1.0, 2.0);
+  setup.cycles = 1000;
   setup.depth = choice.spread(1e-3, 3.0);
   setup.speed = choice.spread(0.1, 500.0);
   setup.spin = choice.one_in(3) ? 0.0 : choice.spread(0.1, 50.0);
@@ -58,6 +59,12 @@ Setup any_setup(std::mt19937& random) {
   setup.coupling_rotation = choice.spread(0.01, 10.0);
   setup.friction_static = choice.spread(0.01, 2.0);
   setup.friction_kinetic = choice.between(0.0, 1.0) * setup.friction_static;
+  setup.friction_viscous = choice.one_in(4) ? choice.spread(0.1, 30.0) : 0.0;
+  setup.body_scale = choice.one_in(3) ? choice.spread(0.2, 3.0) : 1.0;
+  setup.workspace = choice.one_in(4) ? choice.between(0.2, 3.0) : 0.0;
+  setup.period = choice.one_in(3) ? choice.spread(1.25e-4, 1e-2) : 1e-3;
+  setup.point_budget = choice.one_in(6) ? static_cast<int>(choice.spread(4.0, 200.0)) : 0;
+  setup.remembers = !choice.one_in(8);
   return setup;
 }
 
@@ -123,14 +130,21 @@ std::string case_file(const Setup& s, const std::string& found) {
                                 {"damping", s.damping},
                                 {"coupling_rotation", s.coupling_rotation},
                                 {"friction_static", s.friction_static},
-                                {"friction_kinetic", s.friction_kinetic}}
+                                {"friction_kinetic", s.friction_kinetic},
+                                {"friction_viscous", s.friction_viscous},
+                                {"body_scale", s.body_scale},
+                                {"workspace", s.workspace},
+                                {"period", s.period},
+                                {"point_budget", s.point_budget},
+                                {"remembers", s.remembers}}
              .dump(1) +
          "\n";
 }
 
 Setup read_case(const std::string& text) {
   const nlohmann::json all = nlohmann::json::parse(text);
-  if (all.at("generator") != kGenerator) throw std::runtime_error("it is of another generator");
+  const int generator = all.at("generator");
+  if (generator < 1 || generator > kGenerator) throw std::runtime_error("it is of another generator");
   Setup s;
   s.row = all.at("row");
   s.world = all.at("world");
@@ -159,6 +173,13 @@ Setup read_case(const std::string& text) {
   s.coupling_rotation = all.at("coupling_rotation");
   s.friction_static = all.at("friction_static");
   s.friction_kinetic = all.at("friction_kinetic");
+  // files of generator 1 lack these
+  s.friction_viscous = all.value("friction_viscous", 0.0);
+  s.body_scale = all.value("body_scale", 1.0);
+  s.workspace = all.value("workspace", 0.0);
+  s.period = all.value("period", 1e-3);
+  s.point_budget = all.value("point_budget", 0);
+  s.remembers = all.value("remembers", true);
   return s;
 }
 

@@ -10,14 +10,15 @@
 namespace godobject::report {
 
 /// Number of the generator below; with another number a seed gives other setups.
-inline constexpr int kGenerator = 1;
+inline constexpr int kGenerator = 2;
 
 /// One run of a solver with all numbers, as in a case file. Lengths are multiples of `scale`.
 struct Setup {
-  std::string row = {};          ///< row of the table of extremes
-  std::string world = "plane";   ///< plane, slot, groove, bore, plate, heap, or compiled: box, ball, turned
-  std::string body = "ball";     ///< ball, box, needle, flat, line, point
-  std::string motion = "press";  ///< press, dash, jump, spin, rest
+  std::string row = {};  ///< row of the table of extremes
+  /// plane, slot, groove, bore, plate, heap, or compiled: mesh-box, -ball, -turned, -plate, -cavity, -shell
+  std::string world = "plane";
+  std::string body = "ball";  ///< ball, box, needle, flat, line, point, ell; of compiled worlds ball, box, ell, center
+  std::string motion = "press";  ///< press, dash, jump, spin, rest; seek: a closed loop that stays in contact
   std::uint32_t seed = 0;        ///< of world and motion
   int cycles = 500;
   format::Solver solver = format::Solver::kContact;
@@ -37,6 +38,12 @@ struct Setup {
   double coupling_rotation = 0.4;  ///< k_VC,r over the square of the scale
   double friction_static = 0.2;
   double friction_kinetic = 0.18;
+  double friction_viscous = 0.0;  ///< [Ns/m]
+  double body_scale = 1.0;        ///< size of the moving body over `scale`
+  double workspace = 0.0;         ///< half edge of the box around the start of contact; 0: none
+  double period = 1e-3;           ///< [s]
+  int point_budget = 0;           ///< 0: none
+  bool remembers = true;          ///< with the memory of the search
 
   double safety_distance() const { return 1.5 * voxel * scale; }
   double margin() const { return 0.01 * voxel * scale; }

@@ -25,6 +25,15 @@ void count_contacts(ConstrainedStep& step) noexcept {
   }
 }
 
+void drop_forces(std::uint32_t id, ConstrainedStep& step) noexcept {
+  std::uint32_t kept = 0;
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    if (step.forces[j].id != id) step.forces[kept++] = step.forces[j];
+  }
+  step.force_count = kept;
+  count_contacts(step);
+}
+
 void take_forces(const ContactSet& set, ConstrainedStep& step) noexcept {
   step.force_count = static_cast<std::uint32_t>(set.active().size());
   for (std::uint32_t j = 0; j < step.force_count; ++j) step.forces[j] = force_of(set, static_cast<int>(j));

@@ -12,6 +12,9 @@ ContactForce force_of(const ContactSet& set, int half_space) noexcept;
 /// normals are two contacts.
 void count_contacts(ConstrainedStep& step) noexcept;
 
+/// Removes the forces of a point from the step.
+void drop_forces(std::uint32_t id, ConstrainedStep& step) noexcept;
+
 /// Makes the forces of the set's half spaces those of the step, and counts the contacts.
 void take_forces(const ContactSet& set, ConstrainedStep& step) noexcept;
 

@@ -107,7 +107,8 @@ bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
   }
   const ContactSet::Saved found = set.save();
   const bool feasible = conclude_with_rows(set, step);
-  if (!feasible || !leads_away(set)) return feasible;
+  // without a force there is nothing that the motion could differ for
+  if (!feasible || (step.force_count > 0 && !leads_away(set))) return feasible;
   // Shifts that differ from the slip allow forces of any size. Without shifts the cones may hold the body at rest. If
   // they do not, the motion without friction is the nearest one that meets all rows.
   set.restore(found);

@@ -1,5 +1,5 @@
 // The distance out of a lost margin: hand cases, the bound of the solver's motions, and the nearest of all poses.
-#include "toolchain/report/extremes/way_out.h"
+#include "toolchain/watch/way_out.h"
 
 #include <cmath>
 #include <memory>
@@ -12,11 +12,34 @@
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/extremes/run.h"
 
-namespace godobject::report {
+namespace godobject::watch {
 namespace {
 
 constexpr double kMargin = 1e-4;
 constexpr double kRegained = 0.3;
+
+using report::make_rig;
+using report::Optimum;
+using report::OptimumProblem;
+
+/// Returns the points of a rig within `reach` of the surface.
+std::vector<Touch> touches_of(const WatchedSession& session, const Pose& H_WS, double reach) {
+  std::vector<Touch> touches;
+  for (const Direction& direction : session.directions) {
+    for (const Vector3& p : direction.points) {
+      const double gap = direction.field->distance(H_WS * p);
+      if (gap > reach) continue;
+      touches.push_back({p, H_WS.rotation.conjugate() * direction.field->gradient(H_WS * p), gap});
+    }
+  }
+  return touches;
+}
+
+double smallest_gap(const WatchedSession& session, const Pose& H_WS) {
+  double smallest = HUGE_VAL;
+  for (const Touch& touch : touches_of(session, H_WS, HUGE_VAL)) smallest = std::min(smallest, touch.gap);
+  return smallest;
+}
 
 Parameters parameters(double rho) {
   Parameters q;
@@ -117,21 +140,22 @@ TEST(WayOut, LeadsAFlatBoxInANarrowBoreToTheNearestPoseWithTheMargin) {
   setup.voxel = 0.08036260279223173;
   setup.coupling_rotation = 9.32990778049228;
   const auto rig = make_rig(setup, {});
-  const Parameters& q = rig->parameters();
+  const WatchedSession session = rig->watched();
+  const Parameters& q = session.parameters;
   const double rho_squared = q.coupling_rotation / q.coupling_translation;
   const double rho = std::sqrt(rho_squared);
-  const Pose H_WD = device_path(setup).front();
-  ASSERT_GT(rig->smallest_gap(H_WD), 0.0) << "it does not start inside";
-  ASSERT_LT(rig->smallest_gap(H_WD), q.margin);
+  const Pose H_WD = report::device_path(setup).front();
+  ASSERT_GT(smallest_gap(session, H_WD), 0.0) << "it does not start inside";
+  ASSERT_LT(smallest_gap(session, H_WD), q.margin);
   CycleReport report;
   Pose last = H_WD;
   double most_gained = 0.0;
   for (int k = 0; k < 400; ++k) {
     ASSERT_EQ(rig->update(H_WD, {}, report), Status::kOk);
-    const Vector6 out = way_out(rig->touches(last), q);
-    const double ends = metric_distance(report.H_WS, H_WD, rho_squared);
+    const Vector6 out = way_out(touches_of(session, last, 1.5 * q.voxel_size), q);
+    const double ends = report::metric_distance(report.H_WS, H_WD, rho_squared);
     EXPECT_LE(ends, (out - six(get_motion(last.inverse() * H_WD), rho)).norm() + 0.01 * q.margin) << "cycle " << k;
-    most_gained = std::max(most_gained, ends - metric_distance(last, H_WD, rho_squared));
+    most_gained = std::max(most_gained, ends - report::metric_distance(last, H_WD, rho_squared));
     last = report.H_WS;
   }
   EXPECT_GT(most_gained, 4.0 * q.margin);
@@ -149,11 +173,11 @@ TEST(WayOut, LeadsAFlatBoxInANarrowBoreToTheNearestPoseWithTheMargin) {
   test::Random random(4);
   for (int start = 0; start < 40; ++start) {
     const Motion turned{Vector3::Zero(), 0.02 * random.direction()};
-    const Optimum optimum = polish(problem, H_WD * set_matrix(turned));
+    const Optimum optimum = report::polish(problem, H_WD * set_matrix(turned));
     if (optimum.converged && optimum.violation < 1e-3 * q.margin)
       nearest = std::min(nearest, std::sqrt(optimum.objective));
   }
-  const double ended = metric_distance(report.H_WS, H_WD, rho_squared);
+  const double ended = report::metric_distance(report.H_WS, H_WD, rho_squared);
   std::printf(
       "[ measured ] ends %.6g m from the device, the nearest pose with the margin is %.6g m away; %.3g margins in one "
       "cycle\n",
@@ -162,4 +186,4 @@ TEST(WayOut, LeadsAFlatBoxInANarrowBoreToTheNearestPoseWithTheMargin) {
 }
 
 }  // namespace
-}  // namespace godobject::report
+}  // namespace godobject::watch

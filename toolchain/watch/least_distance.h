@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace godobject::report {
+namespace godobject::watch {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -16,6 +16,7 @@ struct HalfPlane {
 
 struct LeastDistance {
   bool feasible = false;
+  bool converged = true;  ///< false: the bound on rounds was met, and x is only near the solution
   Vector6 x = Vector6::Zero();
   double multiplier_sum = 0.0;  ///< sum over the given rows; the gradient of |x|^2 / 2 is their combination
 };
@@ -24,4 +25,4 @@ struct LeastDistance {
 /// Least Squares Problems", 1974). Exact to rounding. Cost: some tens of factorisations of at most 7 columns.
 LeastDistance least_distance(const std::vector<HalfPlane>& rows);
 
-}  // namespace godobject::report
+}  // namespace godobject::watch

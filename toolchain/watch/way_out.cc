@@ -1,11 +1,11 @@
-#include "toolchain/report/extremes/way_out.h"
+#include "toolchain/watch/way_out.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-namespace godobject::report {
+namespace godobject::watch {
 
 Vector6 way_out(const std::vector<Touch>& touches, const Parameters& parameters) {
   constexpr double kRegained = 0.3;
@@ -26,4 +26,4 @@ Vector6 way_out(const std::vector<Touch>& touches, const Parameters& parameters)
   return shortest.feasible ? shortest.x : Vector6(Vector6::Zero());
 }
 
-}  // namespace godobject::report
+}  // namespace godobject::watch

@@ -4,9 +4,9 @@
 
 #include "core/pipeline/cycle/parameters.h"
 #include "godobject/pose.h"
-#include "toolchain/report/contact_quality/least_distance.h"
+#include "toolchain/watch/least_distance.h"
 
-namespace godobject::report {
+namespace godobject::watch {
 
 /// A point of the god object near the surface.
 struct Touch {
@@ -25,4 +25,4 @@ struct Touch {
 /// friction the motion z is the point nearest to w of a convex set that contains z_0, so |z - w| <= |z_0 - w|.
 Vector6 way_out(const std::vector<Touch>& touches, const Parameters& parameters);
 
-}  // namespace godobject::report
+}  // namespace godobject::watch

@@ -1,4 +1,4 @@
-#include "toolchain/report/contact_quality/least_distance.h"
+#include "toolchain/watch/least_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-namespace godobject::report {
+namespace godobject::watch {
 namespace {
 
 using Vector7 = Eigen::Matrix<double, 7, 1>;
@@ -18,8 +18,8 @@ Eigen::VectorXd least_squares(const Columns& columns, const std::vector<Eigen::I
   return chosen.colPivHouseholderQr().solve(target);
 }
 
-/// Returns the u >= 0 that minimises |columns u - target|.
-Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7& target) {
+/// Returns the u >= 0 that minimises |columns u - target|. `converged`: false if the bound on rounds was met.
+Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7& target, bool& converged) {
   constexpr int kMaxRounds = 300;
   constexpr double kTolerance = 1e-13;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(columns.cols());
@@ -28,7 +28,7 @@ Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7
     Eigen::VectorXd gain = columns.transpose() * (target - columns * u);
     for (const Eigen::Index i : passive) gain[i] = 0.0;
     Eigen::Index best = 0;
-    if (gain.maxCoeff(&best) <= kTolerance) break;
+    if (gain.maxCoeff(&best) <= kTolerance) return u;
     passive.push_back(best);
     bool added = true;
     while (!passive.empty()) {
@@ -63,6 +63,7 @@ Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7
       passive = std::move(kept);
     }
   }
+  converged = false;
   return u;
 }
 
@@ -81,7 +82,7 @@ LeastDistance least_distance(const std::vector<HalfPlane>& rows) {
     columns.col(static_cast<Eigen::Index>(i)) << rows[i].normal / length, rows[i].bound / (length * scale);
   }
   const Vector7 target = Vector7::Unit(6);
-  const Eigen::VectorXd u = non_negative_least_squares(columns, target);
+  const Eigen::VectorXd u = non_negative_least_squares(columns, target, result.converged);
   const Vector7 residual = columns * u - target;
   constexpr double kInfeasible = 1e-10;
   if (residual.norm() < kInfeasible || residual[6] > -kInfeasible * kInfeasible) {
@@ -95,4 +96,4 @@ LeastDistance least_distance(const std::vector<HalfPlane>& rows) {
   return result;
 }
 
-}  // namespace godobject::report
+}  // namespace godobject::watch

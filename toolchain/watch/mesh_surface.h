@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "toolchain/watch/oracle.h"
+
+namespace godobject::watch {
+
+/// A closed triangle mesh as an exact oracle: distance to the nearest triangle, sign by the angle-weighted normal of
+/// the nearest face, edge or vertex (Baerentzen and Aanaes, IEEE TVCG 11, 2005). It shares no code with the scene
+/// compiler.
+class MeshSurface final : public Oracle {
+ public:
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  /// Counter-clockwise seen from outside; closed and oriented.
+  MeshSurface(std::vector<Vector3> vertices, std::vector<Triangle> triangles);
+
+  double distance(const Vector3& p) const override;
+  Vector3 gradient(const Vector3& p) const override;
+  double lipschitz() const override { return 1.0; }
+
+  /// Whether the segment meets a triangle.
+  bool meets(const Vector3& p0, const Vector3& p1) const;
+
+  const std::vector<Vector3>& vertices() const { return vertices_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
+  struct Box {
+    Vector3 low, high;
+    std::uint32_t first = 0, count = 0;  ///< of order_; count 0: inner node, children at 2 k + 1 and 2 k + 2
+  };
+  struct Nearest {
+    Vector3 point;
+    Vector3 normal;  ///< outward, of the feature that holds the point; not unit
+    double squared = 0.0;
+  };
+
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  Nearest nearest(const Vector3& p) const;
+  Nearest nearest_of(std::uint32_t triangle, const Vector3& p) const;
+  bool triangle_meets(std::uint32_t triangle, const Vector3& p0, const Vector3& d) const;
+
+  std::vector<Vector3> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vector3> face_normals_;                 ///< unit
+  std::vector<std::array<Vector3, 3>> edge_normals_;  ///< of the edge opposite to corner i: sum of both faces'
+  std::vector<Vector3> vertex_normals_;               ///< angle-weighted
+  std::vector<std::uint32_t> order_;
+  std::vector<Box> boxes_;
+};
+
+}  // namespace godobject::watch

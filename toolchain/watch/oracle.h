@@ -1,0 +1,31 @@
+#pragma once
+
+#include "godobject/pose.h"
+
+namespace godobject::watch {
+
+/// A signed distance that the watch trusts: positive outside [m]. It shares no code with the solver's look-ups.
+class Oracle {
+ public:
+  virtual ~Oracle() = default;
+
+  virtual double distance(const Vector3& p) const = 0;
+  /// Returns the gradient of the distance. It need not be of unit length; it is zero where it is not known.
+  virtual Vector3 gradient(const Vector3& p) const = 0;
+  /// Returns a bound of |distance(p) - distance(q)| / |p - q|.
+  virtual double lipschitz() const = 0;
+};
+
+/// A chord, and the distances at its ends.
+struct Chord {
+  Vector3 begin;          ///< [m]
+  Vector3 end;            ///< [m]
+  double at_begin = 0.0;  ///< [m]
+  double at_end = 0.0;    ///< [m]
+};
+
+/// Tells whether the distance falls below `least` [m] along the chord. Halves the chord until the Lipschitz constant
+/// decides, or pieces are shorter than `resolution` [m]: a dip that is shorter is not seen.
+bool falls_below(const Oracle& oracle, const Chord& chord, double least, double resolution);
+
+}  // namespace godobject::watch

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene/format.h"
+#include "toolchain/watch/oracle.h"
+
+namespace godobject::watch {
+
+/// The sections of a scene image that a field stands in: those of the still body, or those of the moving body.
+struct FieldSections {
+  format::SectionId grid, index, bricks, refined, edges;
+};
+inline constexpr FieldSections kStillField{format::SectionId::kGrid, format::SectionId::kBrickIndex,
+                                           format::SectionId::kBricks, format::SectionId::kRefined,
+                                           format::SectionId::kEdges};
+inline constexpr FieldSections kBodyField{format::SectionId::kBodyGrid, format::SectionId::kBodyBrickIndex,
+                                          format::SectionId::kBodyBricks, format::SectionId::kBodyRefined,
+                                          format::SectionId::kBodyEdges};
+
+/// A stored field, read from the bytes of an image as core/scene/format.h describes them. It shares no code with
+/// Voxelmap: look-ups are plain double precision, one at a time.
+class StoredField final : public Oracle {
+ public:
+  /// `image` is valid and outlives the field. Throws std::runtime_error if it lacks the sections.
+  StoredField(std::span<const std::byte> image, const FieldSections& sections);
+
+  double distance(const Vector3& p) const override;
+  Vector3 gradient(const Vector3& p) const override;
+  double lipschitz() const override { return lipschitz_; }
+  double band() const { return grid_.band; }
+  double voxel_size() const { return grid_.voxel_size; }
+
+ private:
+  struct Value {
+    double distance = 0.0;
+    Vector3 gradient = Vector3::Zero();
+  };
+  /// A brick, and the point in it, in cells of that brick.
+  struct Place {
+    const format::Brick* brick = nullptr;
+    bool has_edge = false;
+    double unit = 0.0;  ///< of the brick's values [m]
+    double cell = 0.0;  ///< edge of the brick's cells [m]
+    Vector3 at = Vector3::Zero();
+  };
+
+  Value look_up(const Vector3& p) const;
+  Place descend(std::uint32_t entry, Vector3 at) const;
+  Value blend_with_edge(const format::Edge& edge, const Vector3& p, const Value& interpolated) const;
+  double steepest() const;
+
+  format::Grid grid_;
+  std::span<const std::uint32_t> index_;
+  std::span<const format::Brick> bricks_;
+  std::span<const format::Refined> refined_;
+  std::span<const format::Edge> edges_;
+  double lipschitz_ = 1.0;
+};
+
+}  // namespace godobject::watch

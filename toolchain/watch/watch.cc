@@ -1,0 +1,312 @@
+#include "toolchain/watch/watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "toolchain/watch/rotation_vector.h"
+
+namespace godobject::watch {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Vector3 Watch::Points::place(const Pose& H_WS, std::size_t i) const {
+  const Vector3& p = direction.points[i];
+  return direction.points_move ? Vector3(H_WS * p)
+                               : Vector3(H_WS.rotation.conjugate()._transformVector(p - H_WS.translation));
+}
+
+Watch::Watch(WatchedSession session)
+    : session_(std::move(session)),
+      q_(session_.parameters),
+      gyration_(std::sqrt(q_.coupling_rotation / q_.coupling_translation)) {
+  for (Direction& direction : session_.directions) {
+    Points points{std::move(direction), {}, {}, {}};
+    points.bound.assign(points.direction.points.size(), 0.0);
+    points.is_exact.assign(points.direction.points.size(), false);
+    points.in_mesh.assign(points.direction.points.size(), kUnknown);
+    points_.push_back(std::move(points));
+  }
+}
+
+void Watch::note(Property property, const std::string& what) {
+  Tally& tally = findings_[property];
+  ++tally.violated;
+  if (tally.first.empty()) tally.first = fmt::format("cycle {}: {}", cycle_, what);
+}
+
+Vector6 Watch::stretch(const Pose& H_WS, const Pose& H_WD) const {
+  const Quaternion back = H_WS.rotation.conjugate();
+  return stacked(
+      back._transformVector(H_WD.translation - H_WS.translation),
+      session_.renders_ball ? Vector3(Vector3::Zero()) : Vector3(gyration_ * rotation_vector(back * H_WD.rotation)));
+}
+
+Pose Watch::clamped(const Pose& H_WD) const {
+  Pose followed = H_WD;
+  if (!q_.workspace.limited) return followed;
+  followed.translation = H_WD.translation.cwiseMax(q_.workspace.low).cwiseMin(q_.workspace.high);
+  return followed;
+}
+
+void Watch::cycle(const WatchedCycle& cycle) {
+  ++cycle_;
+  ++findings_.cycles;
+  if (!check_numbers(cycle)) return;
+  const bool is_contact = session_.solver == Solver::kContact;
+  const Pose H_WD = clamped(cycle.H_WD);
+  if (q_.workspace.limited && !started_ && H_WD.translation != cycle.H_WD.translation) {
+    // nothing is rendered until the device has been in the box
+    judge(Property::kReport, cycle.report.force.total_W.force.norm(), 0.0, [] { return "force before the start"; });
+    return;
+  }
+  if (!started_) start(H_WD);
+  resting_ = (H_WD.translation - H_WD_last_.translation).norm() < 0.01 * q_.voxel_size &&
+                     rotation_vector(H_WD.rotation.conjugate() * H_WD_last_.rotation).norm() * q_.mass.radius <
+                         0.01 * q_.voxel_size
+                 ? resting_ + 1
+                 : 0;
+  H_WS_before_ = H_WS_;
+  const bool was_inside = is_inside_;
+  is_inside_ = is_contact && cycle.report.outcome == Outcome::kStartInside;
+  if (is_contact) follow(cycle);
+  H_WS_ = cycle.report.H_WS;
+  H_WD_last_ = H_WD;
+  check_wrench(cycle);
+  if (!is_contact) return;
+  if (cycle.report.contacts > 0) ++findings_.touching;
+  check_report(cycle);
+  if (is_inside_ || was_inside) return;
+  check_distance(cycle);
+  check_reference(cycle);
+}
+
+void Watch::start(const Pose& H_WD) {
+  started_ = true;
+  H_WS_ = H_WD;
+  H_WD_last_ = H_WD;
+}
+
+bool Watch::check_numbers(const WatchedCycle& cycle) {
+  const CycleReport& report = cycle.report;
+  const bool is_ok = cycle.status == Status::kOk;
+  judge(Property::kStatus, is_ok == cycle.is_valid ? 0.0 : 1.0, 0.0, [&] {
+    return cycle.is_valid ? fmt::format("a valid input was refused: {}", describe(cycle.status))
+                          : std::string("an invalid input was accepted");
+  });
+  if (!is_ok) {
+    const double force = report.force.total_W.force.norm() + report.force.total_W.torque.norm() +
+                         report.force.spring_W.force.norm() + report.force.spring_W.torque.norm();
+    judge(Property::kStatus, force, 0.0, [&] { return fmt::format("{} N or Nm after a refusal", force); });
+    judge(Property::kStatus, report.outcome == Outcome::kBadInput ? 0.0 : 1.0, 0.0,
+          [&] { return fmt::format("outcome {} after a refusal", name(report.outcome)); });
+    if (started_) {
+      judge(Property::kStatus, report.H_WS == H_WS_ ? 0.0 : 1.0, 0.0,
+            [] { return "the refused pose moved the god object"; });
+    }
+    return false;
+  }
+  const bool finite = report.H_WS.is_finite() && report.force.total_W.force.allFinite() &&
+                      report.force.total_W.torque.allFinite() && report.force.spring_W.force.allFinite() &&
+                      report.force.spring_W.torque.allFinite();
+  judge(Property::kFinite, finite ? std::fabs(report.H_WS.rotation.norm() - 1.0) : 1.0, 1e-9,
+        [&] { return finite ? "the rotation is not of unit length" : "not finite"; });
+  return cycle.is_valid && finite;
+}
+
+/// Follows the sub-steps: every point's chord in each of them.
+void Watch::follow(const WatchedCycle& cycle) {
+  travelled_ = 0.0;
+  smallest_ = std::numeric_limits<double>::infinity();
+  Pose here = H_WS_;
+  H_WS_last_start_ = here;
+  for (const Pose& next : cycle.path) {
+    H_WS_last_start_ = here;
+    advance(here, next);
+    here = next;
+  }
+  if (cycle.path.empty()) smallest_ = smallest_at(here);
+  judge(Property::kReport, here == cycle.report.H_WS ? 0.0 : 1.0, 0.0,
+        [] { return "the sub-steps do not end at the god object's pose"; });
+  if (q_.workspace.limited) {
+    const Vector3& p = cycle.report.H_WS.translation;
+    judge(Property::kWorkspace, (p - p.cwiseMax(q_.workspace.low).cwiseMin(q_.workspace.high)).norm(), 0.0,
+          [] { return "outside"; });
+  }
+}
+
+void Watch::advance(const Pose& H0, const Pose& H1) {
+  const double threshold = -1e-6 * q_.voxel_size - session_.rounding;
+  const double resolution = 1e-2 * q_.voxel_size;
+  const double near = 0.2 * q_.voxel_size;
+  smallest_ = std::numeric_limits<double>::infinity();
+  for (Points& points : points_) {
+    const Oracle& field = *points.direction.field;
+    const double lipschitz = field.lipschitz();
+    for (std::size_t i = 0; i < points.bound.size(); ++i) {
+      double& bound = points.bound[i];
+      const Vector3 p0 = points.place(H0, i);
+      const Vector3 p1 = points.place(H1, i);
+      const double displacement = (p1 - p0).norm();
+      travelled_ = std::max(travelled_, displacement);
+      const double may_lose = (1.0 + 1e-9) * lipschitz * displacement + session_.rounding;
+      if (bound > may_lose + near) {
+        bound -= may_lose;
+        points.is_exact[i] = false;
+        points.in_mesh[i] = kUnknown;
+        continue;
+      }
+      const double at_begin = points.is_exact[i] ? bound : field.distance(p0);
+      smallest_ = std::min(smallest_, at_begin);
+      bound = field.distance(p1);
+      points.is_exact[i] = true;
+      if (is_inside_) continue;
+      judge(Property::kNoCrossing, falls_below(field, {p0, p1, at_begin, bound}, threshold, resolution) ? 1.0 : 0.0,
+            0.0, [&] { return fmt::format("point {} from {} m to {} m", i, at_begin, bound); });
+      if (points.direction.mesh != nullptr) check_mesh(points, i, p0, p1);
+    }
+  }
+}
+
+/// The stored surface may lie inside the mesh by its accuracy, and no point deeper.
+void Watch::check_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1) {
+  const Oracle& mesh = *points.direction.mesh;
+  double& in_mesh = points.in_mesh[i];
+  const Chord chord{p0, p1, std::isnan(in_mesh) ? mesh.distance(p0) : in_mesh, mesh.distance(p1)};
+  in_mesh = chord.at_end;
+  const double most = points.direction.mesh_accuracy + 1e-6 * q_.voxel_size + session_.rounding;
+  judge(Property::kMesh, falls_below(mesh, chord, -most, 1e-2 * q_.voxel_size) ? 1.0 : 0.0, 0.0, [&] {
+    return fmt::format("from {} m to {} m outside of the mesh, by more than {} m", chord.at_begin, chord.at_end, most);
+  });
+  const double depth = -std::min(chord.at_begin, chord.at_end);
+  findings_[Property::kMesh].worst = std::max(findings_[Property::kMesh].worst, depth / most);
+}
+
+double Watch::smallest_at(const Pose& H_WS) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Points& points : points_) {
+    for (std::size_t i = 0; i < points.bound.size(); ++i) {
+      if (points.bound[i] > 0.2 * q_.voxel_size) continue;
+      points.bound[i] = points.direction.field->distance(points.place(H_WS, i));
+      points.is_exact[i] = true;
+      smallest = std::min(smallest, points.bound[i]);
+    }
+  }
+  return smallest;
+}
+
+/// Appends the contact of a point, given in the field's frame, with the plane that the field has at `at`.
+void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Vector3& at,
+                         double reach, std::vector<Contact>& contacts) const {
+  const Vector3 gradient = points.direction.field->gradient(at);
+  const double steepness = gradient.norm();
+  if (!(steepness > 1e-3)) return;
+  const double gap = (points.direction.field->distance(at) + gradient.dot(p - at)) / steepness;
+  if (!(gap <= reach)) return;
+  Contact contact;
+  contact.gap = gap;
+  if (points.direction.points_move) {
+    contact.point_S = points.direction.points[i];
+    contact.lever_W = p - H_WS.translation;
+    contact.normal_W = gradient / steepness;
+  } else {
+    contact.point_S = p;
+    contact.lever_W = points.direction.points[i] - H_WS.translation;
+    contact.normal_W = H_WS.rotation._transformVector(-gradient / steepness);
+  }
+  contacts.push_back(contact);
+}
+
+/// Returns the planes of the surface at the points within `reach`. At an edge or in a valley a point has several: those
+/// of the places around it, too.
+std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, double around) const {
+  std::vector<Contact> contacts;
+  for (const Points& points : points_) {
+    for (std::size_t i = 0; i < points.bound.size(); ++i) {
+      if (points.bound[i] > reach + points.direction.field->lipschitz() * travelled_) continue;
+      const Vector3 p = points.place(H_WS, i);
+      if (!(points.direction.field->distance(p) <= reach)) continue;
+      const std::size_t first = contacts.size();
+      push_contact(points, H_WS, i, p, p, reach, contacts);
+      for (const double radius : {3.0 * q_.margin, around}) {
+        if (radius > around) continue;
+        for (int side = 0; side < 6; ++side) {
+          const Vector3 offset = (side % 2 == 0 ? radius : -radius) * Vector3::Unit(side / 2);
+          push_contact(points, H_WS, i, p, p + offset, reach, contacts);
+          for (std::size_t k = first; k + 1 < contacts.size(); ++k) {
+            if ((contacts[k].normal_W - contacts.back().normal_W).norm() > 1e-6) continue;
+            contacts.pop_back();  // the same plane
+            break;
+          }
+        }
+      }
+    }
+  }
+  return contacts;
+}
+
+std::vector<Touch> Watch::touches_at(const Pose& H_WS, double reach) const {
+  std::vector<Touch> touches;
+  for (const Contact& contact : contacts_at(H_WS, reach, 0.05 * q_.voxel_size)) {
+    touches.push_back({contact.point_S, H_WS.rotation.conjugate()._transformVector(contact.normal_W), contact.gap});
+  }
+  return touches;
+}
+
+/// Tells whether the god object is at the device, but for rounding and the solver's tolerance of a thousandth of a
+/// margin.
+bool Watch::is_at_device(const WatchedCycle& cycle) const {
+  const Pose H_WD = clamped(cycle.H_WD);
+  const double tolerance = 2e-3 * q_.margin + 2e-6 * q_.voxel_size + session_.rounding;
+  return (cycle.report.H_WS.translation - H_WD.translation).norm() <= tolerance &&
+         gyration_ * rotation_vector(H_WD.rotation.conjugate() * cycle.report.H_WS.rotation).norm() <= tolerance;
+}
+
+void Watch::check_report(const WatchedCycle& cycle) {
+  const CycleReport& report = cycle.report;
+  const auto check = [&](bool holds, const char* what) {
+    judge(Property::kReport, holds ? 0.0 : 1.0, 0.0, [&] { return what; });
+  };
+  if (report.outcome == Outcome::kFree) {
+    check(report.contacts == 0, "free with contacts");
+    check(is_at_device(cycle), "free, but not at the device");
+  }
+  if (report.outcome == Outcome::kContact) check(report.contacts > 0, "contact without a row that carries force");
+  check((report.outcome == Outcome::kOverflow) <= (report.dropped > 0), "overflow without a dropped point");
+  if (is_inside_) {
+    check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding, "start_inside with every point outside");
+    return;
+  }
+  const double shortest = 0.125 * q_.voxel_size;
+  const double tolerance = 1e-5 * q_.voxel_size + session_.rounding;
+  const double expected = -std::min(smallest_, shortest);
+  if (report.dropped > 0) {  // points without a look-up may be nearer
+    return judge(Property::kReport, report.penetration - expected, tolerance, [&] {
+      return fmt::format("penetration {} m, the smallest distance of all points is {} m", report.penetration,
+                         smallest_);
+    });
+  }
+  judge(Property::kReport, std::fabs(report.penetration - expected), tolerance, [&] {
+    return fmt::format("penetration {} m, the smallest distance of all points is {} m", report.penetration, smallest_);
+  });
+}
+
+/// Tells whether every point's chord from H0 to H1 keeps the clearance.
+bool Watch::is_clear(const Pose& H0, const Pose& H1, double clearance) const {
+  for (const Points& points : points_) {
+    const Oracle& field = *points.direction.field;
+    for (std::size_t i = 0; i < points.bound.size(); ++i) {
+      const Vector3 p0 = points.place(H0, i);
+      const Vector3 p1 = points.place(H1, i);
+      const Chord chord{p0, p1, field.distance(p0), field.distance(p1)};
+      if (falls_below(field, chord, clearance, 1e-2 * q_.voxel_size)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace godobject::watch

@@ -1,0 +1,195 @@
+// Comparison of the god object with reference problems, solved by another method.
+#include "toolchain/watch/watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "toolchain/watch/least_distance.h"
+#include "toolchain/watch/rotation_vector.h"
+
+namespace godobject::watch {
+namespace {
+
+/// Returns the projection of `w` on the cone of non-negative sums of the rays. The nearest point of the polar cone to w
+/// is w less that projection.
+Vector6 projection_on_cone(const Vector6& w, const std::vector<Vector6>& rays, bool& converged) {
+  std::vector<HalfPlane> rows;
+  rows.reserve(rays.size());
+  for (const Vector6& ray : rays) rows.push_back({-ray, ray.dot(w)});
+  const LeastDistance found = least_distance(rows);
+  converged = found.feasible && found.converged;
+  return -found.x;
+}
+
+}  // namespace
+
+/// Not farther from the device than if the god object had stayed, or by the way out of lost margins.
+void Watch::check_distance(const WatchedCycle& cycle) {
+  const Pose H_WD = clamped(cycle.H_WD);
+  const double now = stretch(H_WS_, H_WD).norm();
+  const Vector6 to_device = stretch(H_WS_before_, H_WD);
+  const double slack = 4.0 * q_.margin + session_.rounding;
+  double most = to_device.norm();
+  if (now > most + slack) {
+    const std::vector<Touch> touches = touches_at(H_WS_before_, 1.5 * q_.voxel_size);
+    most = std::max(most, (way_out(touches, q_) - to_device).norm());
+  }
+  judge(Property::kNotFarther, now - most, slack, [&] {
+    return fmt::format("{} m from the device, {} m without motion, {} m by the shortest way out", now, to_device.norm(),
+                       most);
+  });
+}
+
+void Watch::check_reference(const WatchedCycle& cycle) {
+  const Pose H_WD = clamped(cycle.H_WD);
+  const bool is_at = is_at_device(cycle);
+  nearest_ = Nearest{};
+  if (is_at && cycle_ % 4 != 0) return;  // then only the nearest point is of interest
+  const std::vector<Contact> contacts = contacts_at(H_WS_, 0.125 * q_.voxel_size, 0.05 * q_.voxel_size);
+  for (const Contact& contact : contacts) {
+    if (contact.gap < nearest_.gap) nearest_ = {contact.gap, contact.normal_W};
+  }
+  if (is_at) {
+    ++findings_[Property::kArrives].judged;
+    return;
+  }
+  // the arc of a motion and the chords of its points differ by less than the clearance in motions of a voxel
+  const Vector6 to_device = stretch(H_WS_before_, H_WD);
+  const double away = to_device.head<3>().norm() + q_.mass.radius / gyration_ * to_device.tail<3>().norm();
+  if (contacts.empty() && away < q_.voxel_size && !session_.renders_ball) {
+    const double clearance = 0.25 * q_.voxel_size;
+    judge(Property::kArrives, is_clear(H_WS_before_, H_WD, clearance) ? 1.0 : 0.0, 0.0,
+          [&] { return fmt::format("{} m from the device", stretch(H_WS_, H_WD).norm()); });
+  }
+  if (resting_ > 60) {
+    check_lag(cycle);
+  } else {
+    behind_ = 0;
+  }
+  check_friction(cycle, contacts);
+  check_work(cycle);
+  if (findings_.touching % kReferenceEvery != 0) return;
+  check_pushes(cycle, contacts);
+  if (!session_.friction) check_optimum(cycle);
+}
+
+/// Returns the wrenches of unit pushes at the contacts, in the coupling's metric, with edges of the friction cones and
+/// the faces of the workspace box.
+std::vector<Vector6> Watch::rays_at(const Pose& H_WS, const std::vector<Contact>& contacts,
+                                    const WatchedCycle& cycle) const {
+  constexpr int kEdges = 8;
+  std::vector<Vector6> rays;
+  const auto add = [&](const Vector3& force, const Vector3& lever) {
+    rays.push_back(stacked(force, lever.cross(force) / gyration_));
+  };
+  // a pyramid of eight edges around the cone; viscous friction has no bound by the load
+  const double ratio = (q_.friction.viscous > 0.0 ? 20.0 : q_.friction.static_ratio) / std::cos(M_PI / kEdges);
+  for (const Contact& contact : contacts) {
+    if (!session_.friction) {
+      add(contact.normal_W, contact.lever_W);
+      continue;
+    }
+    const Vector3 t = contact.normal_W.unitOrthogonal();
+    const Vector3 u = contact.normal_W.cross(t);
+    for (int edge = 0; edge < kEdges; ++edge) {
+      const double angle = 2.0 * M_PI * edge / kEdges;
+      add(contact.normal_W + ratio * (std::cos(angle) * t + std::sin(angle) * u), contact.lever_W);
+    }
+  }
+  if (!q_.workspace.limited) return rays;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double tolerance = 2.0 * q_.margin;
+    if (H_WS.translation[axis] < q_.workspace.low[axis] + tolerance ||
+        cycle.H_WD.translation[axis] < q_.workspace.low[axis])
+      rays.push_back(Vector6::Unit(axis));
+    if (H_WS.translation[axis] > q_.workspace.high[axis] - tolerance ||
+        cycle.H_WD.translation[axis] > q_.workspace.high[axis])
+      rays.push_back(-Vector6::Unit(axis));
+  }
+  return rays;
+}
+
+/// The spring's wrench is a sum of pushes at points that touch, at the start or at the end of the last sub-step.
+void Watch::check_pushes(const WatchedCycle& cycle, const std::vector<Contact>& contacts) {
+  const Outcome outcome = cycle.report.outcome;
+  if (outcome != Outcome::kContact || travelled_ > 0.02 * q_.voxel_size) return;
+  std::vector<Vector6> rays = rays_at(H_WS_, contacts, cycle);
+  for (const Vector6& ray :
+       rays_at(H_WS_last_start_, contacts_at(H_WS_last_start_, 0.125 * q_.voxel_size, 0.05 * q_.voxel_size), cycle)) {
+    rays.push_back(ray);
+  }
+  const Vector6 w = load(cycle.report);
+  bool converged = true;
+  const Vector6 pushes = projection_on_cone(w, rays, converged);
+  if (!converged) {
+    ++findings_.not_converged;
+    return;
+  }
+  const double k = q_.stiffness * q_.coupling_translation;
+  judge(Property::kNoPull, (w - pushes).norm(), 0.05 * w.norm() + k * (q_.margin + session_.rounding), [&] {
+    return fmt::format("{} N of {} N is no push at any of {} points", (w - pushes).norm(), w.norm(), contacts.size());
+  });
+}
+
+/// One cycle's motion is the one of the linear problem at its start, which non-negative least squares solve.
+void Watch::check_optimum(const WatchedCycle& cycle) {
+  if (cycle.report.outcome != Outcome::kContact || travelled_ > 0.25 * q_.voxel_size) return;
+  const Vector6 to_device = stretch(H_WS_before_, clamped(cycle.H_WD));
+  constexpr double kRegained = 0.3;  // core/README.md: share of a lost margin that one cycle regains
+  std::vector<HalfPlane> rows;
+  for (const Touch& touch : touches_at(H_WS_before_, 0.5 * q_.voxel_size)) {
+    const double missing = q_.margin - touch.gap;
+    HalfPlane row;
+    row.normal = stacked(touch.normal_S, touch.point_S.cross(touch.normal_S) / gyration_);
+    row.bound = missing > 0.0 ? std::min(kRegained * missing, 0.25 * q_.voxel_size) : missing;
+    row.bound -= row.normal.dot(to_device);
+    rows.push_back(row);
+  }
+  if (q_.workspace.limited) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 face = H_WS_before_.rotation.conjugate()._transformVector(Vector3::Unit(axis));
+      const double here = H_WS_before_.translation[axis];
+      const Vector6 normal = stacked(face, Vector3::Zero());
+      rows.push_back({normal, q_.workspace.low[axis] - here - normal.dot(to_device)});
+      rows.push_back({-normal, here - q_.workspace.high[axis] + normal.dot(to_device)});
+    }
+  }
+  const LeastDistance best = least_distance(rows);
+  if (!best.feasible || !best.converged) {
+    ++findings_.not_converged;
+    return;
+  }
+  const Vector6 expected = best.x + to_device;
+  const Vector6 moved = stretch(H_WS_before_, H_WS_);
+  // The rows are those of the points within half a voxel. So this share of the motion was possible, whatever lies
+  // beyond, and the motion of the cycle must end at least as near to the device.
+  const double travel = expected.head<3>().norm() + q_.mass.radius / gyration_ * expected.tail<3>().norm();
+  const double share = std::min(1.0, 0.4 * q_.voxel_size / travel);
+  const double excess = (moved - to_device).norm() - (share * expected - to_device).norm();
+  judge(Property::kOptimum, excess, 4.0 * q_.margin + 0.1 * travelled_ + session_.rounding, [&] {
+    return fmt::format("{} m farther from the device than a motion of {} m", excess, share * expected.norm());
+  });
+  if (share < 1.0) return;
+  judge(Property::kOptimum, std::min((moved - expected).norm(), 10.0 * std::max(0.0, excess)),
+        0.5 * expected.norm() + 16.0 * q_.margin + session_.rounding, [&] {
+          return fmt::format("moved {} m, the reference {} m, {} m apart; {} m farther from the device", moved.norm(),
+                             expected.norm(), (moved - expected).norm(), excess);
+        });
+}
+
+/// Under a device at rest the god object must not be cut short for long, unless it comes nearer by a ten thousandth of
+/// its distance in each cycle.
+void Watch::check_lag(const WatchedCycle& cycle) {
+  constexpr double kMostCycles = 50.0;
+  constexpr double kLeastProgress = 1e-4;
+  const Pose H_WD = clamped(cycle.H_WD);
+  const double before = stretch(H_WS_before_, H_WD).norm();
+  const bool approaches = stretch(H_WS_, H_WD).norm() < (1.0 - kLeastProgress) * before;
+  behind_ = cycle.report.outcome == Outcome::kCut && !approaches ? behind_ + 1 : 0;
+  judge(Property::kLag, behind_, kMostCycles,
+        [&] { return fmt::format("cut short for {} cycles under a device at rest", behind_); });
+}
+
+}  // namespace godobject::watch
