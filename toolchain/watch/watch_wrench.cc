@@ -94,9 +94,9 @@ void Watch::check_friction(const WatchedCycle& cycle, const std::vector<Contact>
   const Vector3 turn = rotation_vector(report.H_WS.rotation * H_WS_before_.rotation.conjugate());
   const Vector3 moved = report.H_WS.translation - H_WS_before_.translation + turn.cross(first->lever_W);
   const Vector3 slip = moved - n.dot(moved) * n;
-  const double viscous = session_.friction ? q_.friction.viscous * (slip.norm() + 2.0 * bend) / q_.period : 0.0;
   // the law holds for the linear motion; a turn bends the path of the point by this much
   const double bend = turn.squaredNorm() * first->lever_W.norm();
+  const double viscous = session_.friction ? q_.friction.viscous * (slip.norm() + 2.0 * bend) / q_.period : 0.0;
   const double ratio = session_.friction ? q_.friction.static_ratio : 0.0;
   judge(Property::kFriction, -normal, tiny, [&] { return fmt::format("the only contact pulls by {} N", -normal); });
   const bool slips_elsewhere = count > 1 && viscous > 0.0;

@@ -396,6 +396,13 @@ Pose placement(const Setup& setup) {
   return H_WO;
 }
 
+Vector3 inner_place(const Setup& setup) {
+  if (setup.world != "heap") return {0.0, 0.0, -0.5 * setup.scale};
+  Draw draw(setup.seed + 2);
+  static_cast<void>(draw.between(0.0, 4.0));  // the number of solids
+  return draw.in_cube(1.5 * setup.scale) - Vector3(0.0, 0.0, 1.5 * setup.scale);
+}
+
 bool is_compiled(const Setup& setup) { return setup.world.starts_with("mesh"); }
 
 std::unique_ptr<Rig> make_rig(const Setup& setup, const std::filesystem::path& work) {

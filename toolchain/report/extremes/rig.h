@@ -30,4 +30,7 @@ bool is_compiled(const Setup& setup);
 /// Returns the pose of the world's frame O in W.
 Pose placement(const Setup& setup);
 
+/// Returns a place inside of the still body, in O, or at its middle.
+Vector3 inner_place(const Setup& setup);
+
 }  // namespace godobject::report

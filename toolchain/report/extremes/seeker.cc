@@ -8,7 +8,7 @@
 namespace godobject::report {
 namespace {
 
-constexpr int kPatience = 15;  // cycles without contact
+constexpr int kPatience = 6;  // cycles without contact
 
 /// Returns a number between low and high with an even logarithm.
 double spread(Draw& draw, double low, double high) { return low * std::pow(high / low, draw.between(0.0, 1.0)); }
@@ -57,7 +57,7 @@ void Seeker::choose_mode() {
 Vector3 Seeker::away_from_world(const Pose& H_WS) {
   const Pose H_WO = placement(setup_);
   const Vector3 p_O = H_WO.inverse() * H_WS.translation;
-  Vector3 away = p_O + Vector3(0.0, 0.0, (setup_.world == "heap" ? 1.5 : 0.5) * setup_.scale);
+  Vector3 away = p_O - inner_place(setup_) + 0.1 * setup_.scale * draw_.in_cube(1.0);
   if (setup_.world == "plane" || setup_.world == "groove") away = Vector3::UnitZ();
   if (setup_.world == "plate" || setup_.world == "mesh-plate" || setup_.world == "mesh-shell") {
     away = Vector3(0.0, 0.0, p_O.z() < 0.0 ? -1.0 : 1.0);
@@ -89,11 +89,11 @@ Pose Seeker::next(const Pose& H_WS, const watch::Nearest& nearest) {
   if (nearest.normal_W.squaredNorm() > 0.5) {
     normal_W_ = nearest.normal_W;
     without_contact_ = 0;
-  } else if (++without_contact_ % kPatience == 0) {
+  } else if (++without_contact_ % kPatience == 0 && mode_ != Mode::kLeave) {
     normal_W_ = away_from_world(H_WS);
     mode_ = Mode::kSlide;
     depth_ = std::max(depth_, 0.1 * setup_.scale);
-    left_ = total_ = 4 * kPatience;
+    left_ = total_ = 60;
   }
   switch (mode_) {
     case Mode::kSlide:

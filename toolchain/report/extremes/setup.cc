@@ -38,7 +38,7 @@ Setup any_setup(std::mt19937& random) {
   setup.row = "fuzzer";
   setup.world = choice.of({"plane", "slot", "groove", "bore", "plate", "heap", "heap", "compiled"});
   setup.body = choice.of({"ball", "box", "box", "ell", "needle", "flat", "line", "point"});
-  setup.motion = choice.one_in(16) ? choice.of({"press", "dash", "jump", "spin", "rest"}) : "seek";
+  setup.motion = choice.one_in(40) ? choice.of({"press", "dash", "jump", "spin", "rest"}) : "seek";
   setup.seed = choice.seed();
   setup.solver = choice.one_in(8) ? (choice.one_in(2) ? format::Solver::kPaper : format::Solver::kCorrected)
                                   : format::Solver::kContact;
@@ -61,7 +61,7 @@ Setup any_setup(std::mt19937& random) {
   setup.friction_kinetic = choice.between(0.0, 1.0) * setup.friction_static;
   setup.friction_viscous = choice.one_in(4) ? choice.spread(0.1, 30.0) : 0.0;
   setup.body_scale = choice.one_in(3) ? choice.spread(0.2, 3.0) : 1.0;
-  setup.workspace = choice.one_in(4) ? choice.between(0.2, 3.0) : 0.0;
+  setup.workspace = choice.one_in(4) ? choice.between(0.5, 3.0) : 0.0;
   setup.period = choice.one_in(3) ? choice.spread(1.25e-4, 1e-2) : 1e-3;
   setup.point_budget = choice.one_in(6) ? static_cast<int>(choice.spread(4.0, 200.0)) : 0;
   setup.remembers = !choice.one_in(8);
