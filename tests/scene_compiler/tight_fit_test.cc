@@ -38,17 +38,6 @@ TriangleMesh block_with_hole(const Vector3d& block, const Vector3d& hole) {
   return mesh;
 }
 
-/// Returns the mesh as an OBJ file, whose numbers are read in single precision.
-std::string obj_text(const TriangleMesh& mesh, const Vector3d& at) {
-  std::string text;
-  for (const Vector3d& vertex : mesh.vertices) {
-    const Vector3d p = vertex + at;
-    text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x(), p.y(), p.z());
-  }
-  for (const auto& t : mesh.triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return text;
-}
-
 TEST(TightFit, CompilesToAnImageThatTheCoreOpens) {
   const ScratchFolder folder;
   test::Random random(5);
@@ -59,8 +48,8 @@ TEST(TightFit, CompilesToAnImageThatTheCoreOpens) {
     const Vector3d hole(peg.x() + clearance, peg.y() + clearance, 0.0);
     const Vector3d block = Vector3d(hole.x(), hole.y(), 8.0 * voxel_size) + 10.0 * voxel_size * Vector3d(1.0, 1.0, 0.0);
     const Vector3d at = random.in_cube(0.02);
-    folder.write("peg.obj", obj_text(test::box_mesh(peg), at));
-    folder.write("hole.obj", obj_text(block_with_hole(block, hole), at));
+    folder.write("peg.obj", test::obj_text(test::box_mesh(peg), at));
+    folder.write("hole.obj", test::obj_text(block_with_hole(block, hole), at));
     const std::string scene = fmt::format(
         "[still]\nmesh = \"hole.obj\"\nvoxel_size = {:.9g}\n[moving]\nmesh = \"peg.obj\"\npoints = 300\n"
         "[contact]\nbetween_points = {:.9g}\n[friction]\nstatic = 0.2\n",

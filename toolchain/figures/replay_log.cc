@@ -37,6 +37,15 @@ bool split(std::string_view line, std::array<double, kNumbers>& numbers, std::st
   return !line.empty() && line.find(',') == std::string_view::npos;
 }
 
+/// Cuts the last field off a line. Returns false if it is no finite number.
+bool cut_last_number(std::string_view& line) {
+  const std::size_t comma = line.rfind(',');
+  double number = 0.0;
+  if (comma == std::string_view::npos || !files::read_number(line.substr(comma + 1), number)) return false;
+  line = line.substr(0, comma);
+  return std::isfinite(number);
+}
+
 ReplayRow make_row(const std::array<double, kNumbers>& v, std::string status) {
   ReplayRow row;
   row.t = v[0];
@@ -76,11 +85,13 @@ ReplayLog read_replay_log(const std::filesystem::path& file) {
                     fmt::format("{}: no cycle rendered a force; see the mode and the fault of the run", file.string()));
     return log;
   }
-  if (text != replay::kColumns) refuse(1, "not the header of a replay");
+  const bool has_overlap = text == fmt::format("{},{}", replay::kColumns, replay::kOverlapColumn);
+  if (text != replay::kColumns && !has_overlap) refuse(1, "not the header of a replay");
   std::array<double, kNumbers> numbers{};
   std::string status;
   while (lines.next(text)) {
     const std::size_t line = lines.number();
+    if (has_overlap && !cut_last_number(text)) refuse(line, "not a number at its end");
     if (!split(text, numbers, status)) refuse(line, fmt::format("not {} numbers and a status", kNumbers));
     if (!finite(numbers, status)) refuse(line, "a number is not finite");
     if (!log.empty() && numbers[0] <= log.back().t) refuse(line, "t does not increase");
