@@ -17,7 +17,7 @@
 #include "toolchain/files/stiffness.h"
 #include "toolchain/precision/mesh_overlap.h"
 #include "toolchain/replay/replay.h"
-#include "toolchain/scene_compiler/image/image_meshes.h"
+#include "toolchain/scene_compiler/image_meshes.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace {

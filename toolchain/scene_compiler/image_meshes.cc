@@ -1,4 +1,4 @@
-#include "toolchain/scene_compiler/image/image_meshes.h"
+#include "toolchain/scene_compiler/image_meshes.h"
 
 #include <string_view>
 
