@@ -41,9 +41,9 @@ POSES.csv has the columns t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the
 millisecond. OUT.csv gets one row for each cycle: device pose d; god-object pose g after the cycle; spring force f [N]
 and torque t [Nm] on the device in W about the moving body's centre of mass; point_depth [m] of the god object's deepest
 sample point in the stored distances (positive inside, negative: no sample point is inside and the nearest is that far
-from the surface; at most the stored band); contacts (contact: rows that carry a force,
-two for a point seen from two sides; otherwise: colliding points); substeps; time of the look-ups (step #1 and, with
-contact, its certificate) and of the other steps #2-#7; and a status:
+from the surface; at most the stored band); contacts (contact: rows that carry a force, two for a point seen from two
+sides; otherwise: colliding points); substeps; time of the look-ups (step #1 and, with contact, its certificate) and of
+the other steps #2-#7; and a status:
   free          nothing holds the god object: it is at the device pose
   contact       constrained; with contact: rows are active in the solution
   start_inside  the first pose penetrated and the god object is still moving out. Where the field has a direction it
