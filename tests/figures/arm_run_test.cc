@@ -56,11 +56,11 @@ TEST(ArmRun, CountsFromTheFirstRenderedCycleToTheLast) {
 }
 
 TEST(ArmRun, InOrderHoldsAllThatIsClaimed) {
-  EXPECT_EQ(
-      verdict(judged(run_in_order())),
-      "HOLDS in every scene, closed loop: rendering without interruption, end without a fault; no penetration, the "
-      "smallest gap is 0.0200 mm; joint torques of at most 60 % of their limits; the hand never receives more "
-      "work than it did");
+  EXPECT_EQ(verdict(judged(run_in_order())),
+            "HOLDS in every scene, closed loop: rendering without interruption, end without a fault; no sample "
+            "point inside, the nearest is 0.0200 mm from the surface; joint torques of at most 60 % of their limits; "
+            "the hand never receives more "
+            "work than it did");
   EXPECT_TRUE(judge_arm_runs({}).empty());
 }
 
@@ -85,7 +85,7 @@ TEST(ArmRun, WithoutContactShowsNothing) {
 TEST(ArmRun, ThatPenetratesPopsThroughOverloadsOrPushesIsMissed) {
   ArmLog log = run_in_order();
   log.cycles[2].cycle.depth = 0.0001;
-  EXPECT_NE(verdict(judged(log)).find("penetrates up to 0.100 mm, 0.05 voxels, at 0.002 s"), std::string::npos);
+  EXPECT_NE(verdict(judged(log)).find("is up to 0.100 mm, 0.05 voxels, inside, at 0.002 s"), std::string::npos);
   ArmRun run = judged(run_in_order());
   run.crossing = Crossing{.distance = 0.1, .t = 1.5};
   EXPECT_NE(verdict(run).find("goes 100.0 mm behind the surface, at 1.500 s"), std::string::npos);

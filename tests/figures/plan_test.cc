@@ -78,6 +78,10 @@ TEST_F(Plan, IsRefusedNamingTheKey) {
   expect_refused(kScene + "barrier = [0, 0, 1]\n", ExitCode::kBadConfig, "scene.barrier");
   expect_refused(kScene + "barrier = [0, 0, 1, 0, 0, 0]\n", ExitCode::kBadConfig, "scene.barrier");
   expect_refused("", ExitCode::kBadConfig, "scene");
+  std::string key = "a";
+  for (int i = 0; i < 50'000; ++i) key += ".a";
+  expect_refused(kScene + key + " = 1\n", ExitCode::kBadConfig, "plan.toml:6: tables and arrays nest deeper");
+  EXPECT_THROW((void)read_plan("/dev/zero"), Failure);
 }
 
 TEST_F(Plan, BecomesAPageWithThePicturesThatAreThere) {

@@ -72,6 +72,19 @@ TEST_F(ReplayLogFile, MayHoldABadDevicePoseInARowThatSaysSo) {
   EXPECT_EQ(read_replay_log(holding(kFirst + bad)).size(), 2u);
 }
 
+TEST_F(ReplayLogFile, MayHoldTheOverlapOfTheMeshes) {
+  const auto holding_overlap = [&](const std::string& overlap) {
+    std::ofstream(file_) << replay::kColumns << "," << replay::kOverlapColumn << "\n"
+                         << kFirst.substr(0, kFirst.size() - 1) << overlap << "\n";
+  };
+  holding_overlap(",0.00025");
+  EXPECT_EQ(read_replay_log(file_).at(0).status, "contact");
+  for (const char* bad : {"", ",", ",x", ",nan", ",1,2"}) {
+    holding_overlap(bad);
+    EXPECT_THROW((void)read_replay_log(file_), Failure) << bad;
+  }
+}
+
 TEST_F(ReplayLogFile, IsRefusedWithoutHeaderOrRows) {
   expect_refused("", ":2:");
   std::ofstream(file_) << kFirst;

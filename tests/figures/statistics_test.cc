@@ -135,10 +135,12 @@ TEST(Claims, ThatHoldAreSaidToHoldSolverBySolver) {
   const auto verdicts = judge({entry(-0.001, 1.0, 0), kept, other});
   ASSERT_EQ(verdicts.size(), 3u);
   EXPECT_EQ(verdicts[1],
-            "HOLDS in every scene, solver paper: penetration below one voxel; #2-#7 within 5 us (99th percentile); "
+            "HOLDS in every scene, solver paper: sample points less than one voxel inside; #2-#7 within 5 us (99th "
+            "percentile); "
             "every cycle below 1 ms");
   EXPECT_EQ(verdicts[2],
-            "HOLDS in every scene, solver contact: no penetration, the smallest gap is 0.0155 mm; no pop-through; "
+            "HOLDS in every scene, solver contact: no sample point inside, the nearest is 0.0155 mm from the surface; "
+            "no pop-through; "
             "every cycle below 1 ms");
 }
 
@@ -146,7 +148,7 @@ TEST(Claims, OfContactAreThatNothingPenetratesAtAll) {
   Entry e = entry(0.000001, 1.0, 0);
   EXPECT_EQ(judge({e}).front().rfind("HOLDS", 0), 0u);
   e.solver = "contact";
-  EXPECT_NE(judge({e}).front().find("MISSED peg, solver contact: the god object penetrates up to 0.001 mm"),
+  EXPECT_NE(judge({e}).front().find("MISSED peg, solver contact: a sample point of the god object is up to 0.001 mm"),
             std::string::npos);
   e.statistics.penetration_max = 0.0;
   EXPECT_EQ(judge({e}).front().rfind("HOLDS", 0), 0u);

@@ -60,6 +60,10 @@ rotation_deg = [0, 90, 0]
 
 TEST(Keyframes, RefuseWhatIsNotToml) {
   expect_refused("[[keyframe]]\nt = = 1\n", ExitCode::kBadConfig, "motion.toml:2");
+  std::string key = "a";
+  for (int i = 0; i < 50'000; ++i) key += ".a";
+  expect_refused("\n" + key + " = 1\n", ExitCode::kBadConfig, "motion.toml:2: tables and arrays nest deeper");
+  EXPECT_THROW((void)read_keyframes("/dev/zero"), Failure);
 }
 
 TEST(Keyframes, RefuseAnUnknownKeyByName) {
@@ -86,6 +90,8 @@ TEST(Keyframes, RefuseTimesThatDoNotAscend) {
 }
 
 TEST(Keyframes, RefuseNumbersOutOfRange) {
+  expect_refused(kTwo + "[[keyframe]]\nt = 4e9\nposition = [0, 0, 0]\n", ExitCode::kBadConfig,
+                 "keyframe[3].t must be at most 4000 s after the first keyframe; split the motion");
   expect_refused("[[keyframe]]\nt = nan\nposition = [0, 0, 0]\n", ExitCode::kBadConfig, "keyframe[1].t");
   expect_refused("[[keyframe]]\nt = 0\nposition = [0, 0]\n", ExitCode::kBadConfig, "keyframe[1].position");
   expect_refused("[[keyframe]]\nt = 0\nposition = [0, inf, 0]\n", ExitCode::kBadConfig, "keyframe[1].position");

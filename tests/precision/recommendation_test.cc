@@ -1,4 +1,6 @@
 // The choice for a budget, with made-up costs and errors.
+#include <new>
+
 #include <gtest/gtest.h>
 
 #include "toolchain/command_line/failure.h"
@@ -59,6 +61,49 @@ TEST(Recommendation, TakesNothingWhereAllCostMore) {
   const Recommendation found = recommend(candidate_images(scene()), 100.0, made_up);
   EXPECT_FALSE(found.chosen);
   EXPECT_TRUE(json(found, 100.0)["chosen"].is_null());
+}
+
+TEST(Recommendation, ListsRefusedImagesAndChoosesAmongTheOthers) {
+  const auto images = candidate_images(scene());
+  const Recommendation all = recommend(images, 10'000.0, made_up);
+  for (std::size_t refused = 0; refused < images.size(); ++refused) {
+    const auto evaluate = [&](const ImageSetting& image) {
+      if (name(image) == name(images[refused])) {
+        if (refused % 2 == 0) throw command::Failure(command::ExitCode::kBadData, "a wall is too thin; refine");
+        throw std::bad_alloc();
+      }
+      return made_up(image);
+    };
+    const Recommendation found = recommend(images, 10'000.0, evaluate);
+    EXPECT_EQ(found.tried.size(), all.tried.size() - 2);
+    ASSERT_EQ(found.refused.size(), 1u);
+    ASSERT_TRUE(found.chosen);
+    EXPECT_NE(name(found.tried[*found.chosen].setting.image), name(images[refused]));
+    const std::string words = text(found, 10'000.0);
+    EXPECT_NE(words.find("refused: " + name(images[refused]) + ": " + found.refused[0].reason), std::string::npos)
+        << words;
+    EXPECT_EQ(json(found, 10'000.0)["refused"][0]["points"], images[refused].points);
+  }
+  EXPECT_FALSE(json(all, 10'000.0).contains("refused"));
+}
+
+TEST(Recommendation, SaysWhyNothingIsChosen) {
+  const auto images = candidate_images(scene());
+  const auto refuse = [&](const ImageSetting& image) -> std::vector<Result> {
+    throw command::Failure(command::ExitCode::kBadData, image.refined ? "thin wall; refine" : "no inside; cut");
+  };
+  const Recommendation none = recommend(images, 1e9, refuse);
+  EXPECT_FALSE(none.chosen);
+  EXPECT_EQ(none.refused.size(), images.size());
+  EXPECT_EQ(reason_for_nothing(none), "the compiler refused all 8 images: thin wall; refine | no inside; cut");
+  EXPECT_NE(reason_for_nothing(recommend(images, 100.0, made_up)).find("none of the 16 settings"), std::string::npos);
+}
+
+TEST(Recommendation, EndsWhereAFileFails) {
+  const auto fail = [&](const ImageSetting&) -> std::vector<Result> {
+    throw command::Failure(command::ExitCode::kIo, "the disk is full");
+  };
+  EXPECT_THROW(recommend(candidate_images(scene()), 1e9, fail), command::Failure);
 }
 
 TEST(Setting, ChangesOneThingAtATimeAndLengthsWithTheVoxels) {

@@ -92,10 +92,10 @@ TEST_F(ReplayTest, WritesOneRowACycleWithTheColumnsOfTheContract) {
   ASSERT_EQ(table.size(), 301u);
   std::string header;
   for (const std::string& name : table[0]) header += name + ",";
-  EXPECT_EQ(
-      header,
-      "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
-      "solve_ns,status,");
+  EXPECT_EQ(header,
+            "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,point_depth,contacts,substeps,"
+            "step1_ns,"
+            "solve_ns,status,");
   EXPECT_EQ(table[1][kStatus], "free");
   EXPECT_EQ(table[151][kStatus], "contact");
   EXPECT_GT(std::stod(table[151][kForceZ]), 2000.0 * 0.009);
@@ -116,7 +116,8 @@ TEST_F(ReplayTest, KeepsAGapWithTheSolverContactWhichIsTheScenesDefault) {
     gap = std::min(gap, -std::stod(table[i][kDepth]));
     ASSERT_TRUE(table[i][kStatus] == "contact" || table[i][kStatus] == "free") << table[i][kStatus];
   }
-  EXPECT_NE(output_.find(fmt::format("no point inside, smallest gap {:.4f} mm", 1e3 * gap)), std::string::npos)
+  EXPECT_NE(output_.find(fmt::format("no sample point inside, the nearest {:.4f} mm from the surface", 1e3 * gap)),
+            std::string::npos)
       << output_;
   EXPECT_EQ(table[1][kStatus], "free");
   EXPECT_EQ(table[300][kStatus], "free");
@@ -221,14 +222,14 @@ TEST_F(ReplayTest, TakesAnotherStiffness) {
 TEST_F(ReplayTest, SaysWhenNothingCameNear) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.5,1,0,0,0\n";
   ASSERT_EQ(run(""), 0) << output_;
-  EXPECT_NE(output_.find("no point within the stored band"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("no sample point within the stored band"), std::string::npos) << output_;
 }
 
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.02,1,0,0,0\n";
   for (const std::string solver : kSolvers) {
     ASSERT_EQ(run("--solver " + solver), 0) << output_;
-    EXPECT_NE(output_.find("deepest at least "), std::string::npos) << output_;
+    EXPECT_NE(output_.find("deepest sample point at least "), std::string::npos) << output_;
     EXPECT_NE(output_.find("(the stored band)"), std::string::npos) << output_;
   }
 }

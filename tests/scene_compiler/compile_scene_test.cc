@@ -220,7 +220,7 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
   expect_limit([](CompileReport& r) { r.field.seams.cells = 1; }, "the mesh is open");
   expect_limit([](CompileReport& r) { r.second.sought = false; }, "the depth between the points is not bounded");
   expect_limit([](CompileReport& r) { r.second.between.bound = 0.006 - r.second.slack; },
-               "6 mm deep between the points (4 mm");
+               "between the points meshes may overlap by up to 6 mm (4 mm");
   expect_limit([](CompileReport& r) { r.second.between.bound = std::numeric_limits<double>::infinity(); },
                "no bound is known");
 }

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -53,6 +56,15 @@ inline TriangleMesh ball_mesh(double radius, std::uint32_t rings) {
     mesh.triangles.push_back({at(rings - 1, j), bottom, at(rings - 1, j + 1)});
   }
   return mesh;
+}
+
+/// Returns the mesh, moved by `by`, as an OBJ file. Its numbers are read in single precision.
+inline std::string obj_text(const TriangleMesh& mesh, const Eigen::Vector3d& by = Eigen::Vector3d::Zero()) {
+  std::ostringstream text;
+  text << std::setprecision(9);
+  for (const Eigen::Vector3d& vertex : mesh.vertices) text << "v " << (vertex + by).transpose() << "\n";
+  for (const auto& t : mesh.triangles) text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  return text.str();
 }
 
 /// An open square sheet in the plane z = 0 about the origin, normal +z: 2 triangles.

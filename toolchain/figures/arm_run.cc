@@ -44,7 +44,7 @@ std::string penetration(const ArmRun& run) {
   const Statistics& s = run.statistics;
   if (s.contact_cycles == 0) return "there was no contact";
   if (s.penetration_max <= 0.0) return "";
-  return fmt::format("the god object penetrates {} {:.3f} mm, {:.2f} voxels, at {:.3f} s",
+  return fmt::format("a sample point of the god object is {} {:.3f} mm, {:.2f} voxels, inside, at {:.3f} s",
                      s.depth_is_bound ? "at least" : "up to", 1e3 * s.penetration_max,
                      s.penetration_max / run.voxel_size, s.penetration_at);
 }
@@ -70,7 +70,7 @@ constexpr Claim kClaims[] = {
      [](const std::vector<ArmRun>&) { return std::string("rendering without interruption, end without a fault"); }},
     {penetration,
      [](const std::vector<ArmRun>& runs) {
-       return fmt::format("no penetration, the smallest gap is {:.4f} mm",
+       return fmt::format("no sample point inside, the nearest is {:.4f} mm from the surface",
                           -1e3 * largest(runs, [](const ArmRun& r) { return r.statistics.penetration_max; }));
      }},
     {pop_through,

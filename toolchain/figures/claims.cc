@@ -26,9 +26,9 @@ struct Claim {
 std::string penetration(const Entry& e) {
   const Statistics& s = e.statistics;
   if (e.solver == "contact" ? s.penetration_max <= 0.0 : s.penetration_max < e.voxel_size) return "";
-  return fmt::format("the god object penetrates {} {:.3f} mm, {:.2f} voxels, at {:.3f} s ({})",
+  return fmt::format("a sample point of the god object is {} {:.3f} mm, {:.2f} voxels, inside, at {:.3f} s ({})",
                      s.depth_is_bound ? "at least" : "up to", 1e3 * s.penetration_max, s.penetration_max / e.voxel_size,
-                     s.penetration_at, e.solver == "contact" ? "contact: a gap is kept" : "paper: below one voxel");
+                     s.penetration_at, e.solver == "contact" ? "contact: none is inside" : "paper: below one voxel");
 }
 
 std::string penetration_holds(const std::vector<const Entry*>& entries) {
@@ -36,8 +36,8 @@ std::string penetration_holds(const std::vector<const Entry*>& entries) {
     return a->statistics.penetration_max < b->statistics.penetration_max;
   };
   const double deepest = (*std::max_element(entries.begin(), entries.end(), deeper))->statistics.penetration_max;
-  if (deepest > 0.0) return "penetration below one voxel";
-  return fmt::format("no penetration, the smallest gap is {:.4f} mm", -1e3 * deepest);
+  if (deepest > 0.0) return "sample points less than one voxel inside";
+  return fmt::format("no sample point inside, the nearest is {:.4f} mm from the surface", -1e3 * deepest);
 }
 
 std::string pop_through(const Entry& e) {

@@ -29,12 +29,12 @@ dt { font-weight: bold } figure { margin: 0 } figcaption { font-size: 13px; colo
 </style></head><body>
 <h1>God object: results of this run</h1>
 <p>In the pictures the voxelised object is green. The moving object is red at the device pose and blue at the pose of
-the god object. Depths are those of the god object. Times are those of this run, over the cycles in contact. All
+the god object. Depths are those of the sample points of the god object. Times are those of this run, over the cycles in contact. All
 solvers get the same device path:</p>
 <dl>
 <dt>contact</dt><dd>The default. It computes the least-constraint motion over all contact points at once, by a small
 quadratic programme with Coulomb friction at each point, in sub-steps that are certified not to meet the surface. It
-keeps a gap of a hundredth of a voxel.</dd>
+keeps all points a hundredth of a voxel off the surface.</dd>
 <dt>corrected</dt><dd>One projection in closed form from one wrench for all contacts. It is exact for a single
 contact, not for several.</dd>
 <dt>paper</dt><dd>The published heuristic as printed, for comparison.</dd>
@@ -57,8 +57,10 @@ std::string cells_html(const std::vector<Column>& columns, const std::vector<Row
 
 std::string table_html(const std::vector<Entry>& entries) {
   return cells_html(columns(), entries) +
-         "<p>Depth: deepest sample point in contact; below 0: a gap. Behind: distance behind the plate. Force step: "
-         "largest change of the force from one cycle to the next. Points: colliding points (paper, corrected), or "
+         "<p>Depth: deepest sample point in contact, in the stored distances; below 0: none is inside, and the "
+         "nearest is that far from the surface. Edges and faces between the points may overlap. Behind: distance "
+         "behind the plate. Force step: largest change of the force from one cycle to the next. Points: colliding "
+         "points (paper, corrected), or "
          "rows with a force (contact). Cut: cycles whose motion could not be finished. Overflow: cycles with more "
          "near points than the solver has room for. Infeasible: cycles whose constraints have no solution. #1: "
          "look-ups. #2-#7: the rest of a cycle. p50, p99: median and 99th percentile over the cycles in contact. The "
@@ -147,8 +149,9 @@ pose of the god object. For times see the replays.</p>
 )";
 
 const char* const kArmColumns =
-    R"(<p>In contact: number of cycles. Depth: deepest sample point in contact; below 0: a gap. Behind: distance
-behind the plate. Device: largest distance of the god object from the device. Force: largest force at the hand. Step:
+    R"(<p>In contact: number of cycles. Depth: deepest sample point in contact, in the stored distances; below
+0: none is inside, and the nearest is that far from the surface. Edges and faces between the points may overlap. Behind:
+distance behind the plate. Device: largest distance of the god object from the device. Force: largest force at the hand. Step:
 largest change of that force from one cycle to the next. Cut: cycles whose motion could not be finished. Ovf: cycles
 with more near points than the solver has room for. Torque: largest share of a joint's limit; most of it holds the
 arm. Work: work of the hand on the tool from the first to the last cycle that rendered; friction and dampers absorb

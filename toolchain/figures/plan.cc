@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -14,7 +12,8 @@
 #include <toml++/toml.h>
 
 #include "toolchain/command_line/failure.h"
-#include "toolchain/files/input_file.h"
+#include "toolchain/files/text_file.h"
+#include "toolchain/files/toml_file.h"
 
 namespace godobject::figures {
 namespace {
@@ -24,18 +23,6 @@ using command::Failure;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const toml::node& where, std::string_view what) {
   throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: {}", file.string(), where.source().begin.line, what));
-}
-
-toml::table parse(const std::filesystem::path& file) {
-  files::require_input(file);
-  std::ifstream stream(file);
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw Failure(ExitCode::kBadConfig,
-                  fmt::format("{}:{}: not TOML: {}", file.string(), error.source().begin.line, error.description()));
-  }
 }
 
 /// A table [[KIND]] of a plan.
@@ -115,7 +102,7 @@ std::vector<Source> tables(const std::filesystem::path& file, const toml::table&
 Plan read_plan(const std::filesystem::path& file) {
   static constexpr std::array<std::string_view, 7> kKeys = {"name",    "image",   "title", "text",
                                                             "markers", "barrier", "device"};
-  const toml::table root = parse(file);
+  const toml::table root = files::parse_toml(files::read_text(file), file.string());
   for (const auto& [key, node] : root) {
     if (key != "scene" && key != "run")
       refuse(file, node, fmt::format("{}: unknown; known are [[scene]] and [[run]]", key.str()));

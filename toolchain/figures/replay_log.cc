@@ -4,13 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/figures/telemetry_log.h"
+#include "toolchain/files/csv_lines.h"
 #include "toolchain/files/input_file.h"
 #include "toolchain/replay/replay.h"
 
@@ -37,6 +37,15 @@ bool split(std::string_view line, std::array<double, kNumbers>& numbers, std::st
   return !line.empty() && line.find(',') == std::string_view::npos;
 }
 
+/// Cuts the last field off a line. Returns false if it is no finite number.
+bool cut_last_number(std::string_view& line) {
+  const std::size_t comma = line.rfind(',');
+  double number = 0.0;
+  if (comma == std::string_view::npos || !files::read_number(line.substr(comma + 1), number)) return false;
+  line = line.substr(0, comma);
+  return std::isfinite(number);
+}
+
 ReplayRow make_row(const std::array<double, kNumbers>& v, std::string status) {
   ReplayRow row;
   row.t = v[0];
@@ -61,14 +70,14 @@ bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
 
 ReplayLog read_replay_log(const std::filesystem::path& file) {
   files::require_input(file, "make it with godobject-replay or godobject-controller, or check the path");
-  std::ifstream stream(file);
+  files::CsvLines lines(file);
   const auto refuse = [&](std::size_t line, std::string_view what) {
     throw Failure(ExitCode::kBadData,
                   fmt::format("{}:{}: {}; make it again with godobject-replay", file.string(), line, what));
   };
-  std::string text;
-  std::getline(stream, text);
+  std::string_view text;
   ReplayLog log;
+  if (!lines.next(text)) refuse(1, "is empty");
   if (text.starts_with(kTelemetryBegin)) {
     log = rendered(read_telemetry_log(file));
     if (log.empty())
@@ -76,17 +85,19 @@ ReplayLog read_replay_log(const std::filesystem::path& file) {
                     fmt::format("{}: no cycle rendered a force; see the mode and the fault of the run", file.string()));
     return log;
   }
-  if (text != replay::kColumns) refuse(1, "not the header of a replay");
+  const bool has_overlap = text == fmt::format("{},{}", replay::kColumns, replay::kOverlapColumn);
+  if (text != replay::kColumns && !has_overlap) refuse(1, "not the header of a replay");
   std::array<double, kNumbers> numbers{};
   std::string status;
-  for (std::size_t line = 2; std::getline(stream, text); ++line) {
+  while (lines.next(text)) {
+    const std::size_t line = lines.number();
+    if (has_overlap && !cut_last_number(text)) refuse(line, "not a number at its end");
     if (!split(text, numbers, status)) refuse(line, fmt::format("not {} numbers and a status", kNumbers));
     if (!finite(numbers, status)) refuse(line, "a number is not finite");
     if (!log.empty() && numbers[0] <= log.back().t) refuse(line, "t does not increase");
     log.push_back(make_row(numbers, std::move(status)));
   }
-  if (stream.bad()) throw Failure(ExitCode::kIo, fmt::format("{}: could not be read to its end", file.string()));
-  if (log.empty()) refuse(2, "holds no cycle");
+  if (log.empty()) refuse(lines.number() + 1, "holds no cycle");
   return log;
 }
 

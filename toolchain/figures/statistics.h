@@ -25,7 +25,7 @@ struct Times {
 struct Statistics {
   std::size_t cycles = 0;
   std::size_t contact_cycles = 0;
-  double penetration_max = 0.0;   ///< over the cycles in contact; negative: a gap remained. 0 without contact [m]
+  double penetration_max = 0.0;   ///< of a sample point in contact; negative: none was inside. 0 without contact [m]
   double penetration_at = 0.0;    ///< its time [s]
   bool depth_is_bound = false;    ///< it reaches the limit of the stored distances; the true depth may be larger
   double penetration_mean = 0.0;  ///< over the cycles in contact, depths below zero counted as zero [m]

@@ -8,13 +8,13 @@ namespace godobject::figures {
 namespace {
 
 constexpr const char* kColumnsExplained =
-    "depth: deepest sample point in contact (below 0: a gap); behind: distance behind the plate; step: largest\n"
+    "depth: deepest sample point in contact (below 0: none inside); behind: distance behind the plate; step: largest\n"
     "change of the force in a cycle; points: colliding points (paper, corrected) or rows with a force (contact);\n"
     "cycles that were cut, had an overflow (ovf), were infeasible (inf) or took over 1 ms; times of #1 and #2-#7 in us";
 
 std::string us(double time) { return fmt::format("{:.2f}", time); }
 
-/// Returns the largest penetration [mm]; negative: a gap remained.
+/// Returns the largest depth of a sample point [mm]; negative: none was inside.
 std::string depth(const Entry& e) { return fmt::format("{:.3f}", 1e3 * e.statistics.penetration_max); }
 
 /// Returns the largest distance behind the scene's barrier [mm], or "-".

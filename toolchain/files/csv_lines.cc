@@ -26,17 +26,30 @@ bool read_number(std::string_view word, double& value) {
   return error == std::errc{} && end == word.data() + word.size();
 }
 
-CsvLines::CsvLines(const std::filesystem::path& file) : file_(file) {
+CsvLines::CsvLines(const std::filesystem::path& file, std::size_t most)
+    : file_(file), line_(kLongest + 1), most_(most) {
   require_input(file);
   stream_.open(file);
 }
 
 bool CsvLines::next(std::string_view& content) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  while (std::getline(stream_, line_)) {
-    bytes_ += line_.size() + 1;
-    content = line_;
-    if (++number_ == 1 && content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
+  while (stream_.getline(line_.data(), static_cast<std::streamsize>(line_.size())) || stream_.gcount() > 0) {
+    ++number_;
+    if (number_ > most_)
+      refuse(fmt::format("more than {} lines are not read; split the file, or end the pipe earlier", most_));
+    // the count includes the end of the line, which the last line may lack
+    const auto read = static_cast<std::size_t>(stream_.gcount());
+    if (stream_.bad()) break;
+    if (stream_.fail()) {
+      refuse(
+          fmt::format("the line is longer than {} bytes; check that this is the CSV file, and end each row with a "
+                      "line break",
+                      kLongest));
+    }
+    bytes_ += read;
+    content = std::string_view(line_.data(), stream_.eof() ? read : read - 1);
+    if (number_ == 1 && content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
     content = trimmed(content);
     if (!content.empty() && content.front() != '#') return true;
   }

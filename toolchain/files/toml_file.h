@@ -8,8 +8,12 @@
 
 namespace godobject::files {
 
-/// Returns the content of a TOML file. Throws Failure: kNoInput if it cannot be read, kBadConfig naming the line if it
-/// is not TOML.
+/// Returns the content of a TOML text; `name` stands for it in messages. Throws Failure (kBadConfig) naming the line if
+/// it is not TOML, or if tables and arrays nest deeper than kMostNested.
+toml::table parse_toml(std::string_view text, std::string_view name);
+
+/// Returns the content of a TOML file. Throws Failure as parse_toml does, kNoInput if the file cannot be read, and
+/// kBadData if it is too long.
 toml::table parse_toml_file(const std::filesystem::path& file);
 
 /// Throws Failure (kBadConfig) for the first top-level entry that is not in `tables`.

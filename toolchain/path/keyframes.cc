@@ -1,25 +1,21 @@
 #include "toolchain/path/keyframes.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <string>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include "toolchain/command_line/failure.h"
-#include "toolchain/files/input_file.h"
+#include "toolchain/files/text_file.h"
+#include "toolchain/files/toml_file.h"
 #include "toolchain/files/toml_table.h"
 
 namespace godobject::path {
 namespace {
 
-using command::ExitCode;
-using command::Failure;
 using files::TomlTable;
 
+constexpr double kLongest = 4000.0;  // duration [s]; a replay reads the rows of 4194 s
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 Vector3 vector(const TomlTable& table, std::string_view key) {
@@ -73,19 +69,10 @@ Oscillation oscillation(const TomlTable& table) {
   return wave;
 }
 
-toml::table parse(std::string_view text, std::string_view name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw Failure(ExitCode::kBadConfig, fmt::format("{}:{}: not TOML: {}; correct the line", name,
-                                                    error.source().begin.line, error.description()));
-  }
-}
-
 }  // namespace
 
 Keyframes parse_keyframes(std::string_view text, std::string_view name) {
-  const toml::table file = parse(text, name);
+  const toml::table file = files::parse_toml(text, name);
   const std::string file_name(name);
   const TomlTable top = TomlTable::top(file, file_name);
   top.allow({"pivot", "keyframe", "oscillation"});
@@ -95,6 +82,8 @@ Keyframes parse_keyframes(std::string_view text, std::string_view name) {
     const Keyframe next = keyframe(table);
     if (!motion.keyframes.empty() && next.t <= motion.keyframes.back().t)
       table.complain("t", "must be later than the time of the keyframe before it");
+    if (!motion.keyframes.empty() && !(next.t - motion.keyframes.front().t <= kLongest))
+      table.complain("t", fmt::format("must be at most {:g} s after the first keyframe; split the motion", kLongest));
     motion.keyframes.push_back(next);
   }
   if (motion.keyframes.size() < 2)
@@ -106,10 +95,7 @@ Keyframes parse_keyframes(std::string_view text, std::string_view name) {
 }
 
 Keyframes read_keyframes(const std::filesystem::path& file) {
-  files::require_input(file);
-  std::ifstream stream(file);
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  return parse_keyframes(text, file.string());
+  return parse_keyframes(files::read_text(file), file.string());
 }
 
 }  // namespace godobject::path

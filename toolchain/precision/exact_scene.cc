@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/pipeline/penalty/penalty_contacts.h"
-#include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/precision/body_surface.h"
 #include "toolchain/scene_compiler/points/sample_elimination.h"
 
 namespace godobject::precision {
@@ -14,11 +14,6 @@ using scene_compiler::OuterSurface;
 using scene_compiler::SolidSurface;
 
 constexpr std::uint32_t kLevels = 8;  // chosen: the tree of 6000 points grows by 2.6 from level to level
-
-SolidSurface read_surface(const scene_compiler::SceneConfig::Mesh& mesh, double thickness) {
-  scene_compiler::MeshReport report;
-  return {scene_compiler::import_mesh(mesh.file, mesh.scale, report), mesh.surface, thickness};
-}
 
 scene_compiler::MovingSampling sampled(const OuterSurface& outer, std::uint32_t points) {
   return scene_compiler::sample_moving_body(outer, points, std::min(kLevels, scene_compiler::most_levels(points)), {});

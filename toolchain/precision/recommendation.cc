@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <new>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/precision/press_path.h"
@@ -39,6 +41,12 @@ std::string line(const Result& result) {
                      1e3 * result.penetration.deepest, name(result.setting));
 }
 
+/// True if a file cannot be read or written: another image would meet that too.
+bool is_of_a_file(const Failure& failure) {
+  const ExitCode code = failure.exit_code();
+  return code == ExitCode::kNoInput || code == ExitCode::kIo || code == ExitCode::kNoPermission;
+}
+
 /// Returns the best result of `paper` at no more than `budget_ns`, or nothing.
 const Result* best_of_paper(const std::vector<Result>& tried, double budget_ns) {
   std::vector<Trade> trades;
@@ -50,19 +58,24 @@ const Result* best_of_paper(const std::vector<Result>& tried, double budget_ns) 
   return best ? &tried[*best] : nullptr;
 }
 
+nlohmann::ordered_json json(const ImageSetting& image) {
+  return {{"voxel_size", image.voxel_size},
+          {"refined", image.refined},
+          {"both_directions", image.both_directions},
+          {"points", image.points},
+          {"levels", image.levels}};
+}
+
 nlohmann::ordered_json json(const Result& result) {
-  return {{"solver", format::kSolverNames[static_cast<std::size_t>(result.setting.solver)]},
-          {"friction", result.setting.friction},
-          {"voxel_size", result.setting.image.voxel_size},
-          {"refined", result.setting.image.refined},
-          {"both_directions", result.setting.image.both_directions},
-          {"points", result.setting.image.points},
-          {"levels", result.setting.image.levels},
-          {"margin", result.setting.margin},
-          {"wrench_error", result.wrench.relative},
-          {"wrench_error_rms", result.wrench.rms},
-          {"deepest_penetration", result.penetration.deepest},
-          {"image_bytes", result.image_bytes}};
+  nlohmann::ordered_json all{{"solver", format::kSolverNames[static_cast<std::size_t>(result.setting.solver)]},
+                             {"friction", result.setting.friction}};
+  all.update(json(result.setting.image));
+  all["margin"] = result.setting.margin;
+  all["wrench_error"] = result.wrench.relative;
+  all["wrench_error_rms"] = result.wrench.rms;
+  all["deepest_penetration"] = result.penetration.deepest;
+  all["image_bytes"] = result.image_bytes;
+  return all;
 }
 
 }  // namespace
@@ -162,10 +175,16 @@ Recommendation recommend(const std::vector<ImageSetting>& images, double budget_
                          const std::function<std::vector<Result>(const ImageSetting&)>& evaluate) {
   Recommendation recommendation;
   for (const ImageSetting& image : images) {
-    std::vector<Result> results = evaluate(image);
-    for (Result& result : results) {
-      result.cycles.clear();  // only the numbers are stored
-      recommendation.tried.push_back(std::move(result));
+    try {
+      for (Result& result : evaluate(image)) {
+        result.cycles.clear();  // only the numbers are stored
+        recommendation.tried.push_back(std::move(result));
+      }
+    } catch (const Failure& failure) {
+      if (is_of_a_file(failure)) throw;
+      recommendation.refused.push_back({image, failure.what()});
+    } catch (const std::bad_alloc&) {
+      recommendation.refused.push_back({image, "not enough memory; increase voxel_size or decrease moving.points"});
     }
   }
   std::vector<Trade> trades;
@@ -187,6 +206,22 @@ double parse_budget_ns(std::string_view text) {
   return scale * value;
 }
 
+std::string reason_for_nothing(const Recommendation& recommendation) {
+  const std::vector<RefusedImage>& refused = recommendation.refused;
+  if (recommendation.tried.empty()) {
+    std::vector<std::string> reasons;
+    for (const RefusedImage& image : refused) {
+      if (std::find(reasons.begin(), reasons.end(), image.reason) == reasons.end()) reasons.push_back(image.reason);
+    }
+    return fmt::format("the compiler refused all {} images: {}", refused.size(), fmt::join(reasons, " | "));
+  }
+  const std::string without = refused.empty() ? "" : fmt::format(" ({} images were refused)", refused.size());
+  return fmt::format(
+      "none of the {} settings that were tried is that quick{}; give a larger budget, a coarser mesh or a larger "
+      "voxel_size",
+      recommendation.tried.size(), without);
+}
+
 std::string text(const Recommendation& recommendation, double budget_ns) {
   const std::vector<Result>& tried = recommendation.tried;
   std::vector<std::size_t> by_cost(tried.size());
@@ -200,6 +235,8 @@ std::string text(const Recommendation& recommendation, double budget_ns) {
   for (const std::size_t i : by_cost) {
     text += fmt::format("  {} {}\n", recommendation.chosen == i ? '*' : ' ', line(tried[i]));
   }
+  for (const RefusedImage& image : recommendation.refused)
+    text += fmt::format("  - refused: {}: {}\n", name(image.setting), image.reason);
   if (!recommendation.chosen) return text;
   const Result& chosen = tried[*recommendation.chosen];
   text += fmt::format("chosen   {}: the smallest wrench error, {:.3g} %, at {} or less\n", name(chosen.setting),
@@ -215,6 +252,7 @@ nlohmann::ordered_json json(const Recommendation& recommendation, double budget_
   nlohmann::ordered_json all{{"budget_ns", budget_ns}, {"chosen", nullptr}, {"tried", nlohmann::ordered_json::array()}};
   if (recommendation.chosen) all["chosen"] = json(recommendation.tried[*recommendation.chosen]);
   for (const Result& result : recommendation.tried) all["tried"].push_back(json(result));
+  for (const RefusedImage& image : recommendation.refused) all["refused"].push_back(json(image.setting));
   return all;
 }
 

@@ -94,23 +94,34 @@ class Trial {
   std::array<std::vector<TracedCycle>, 2> reference_;  ///< without and with friction, once requested
 };
 
-struct Recommendation {
-  std::vector<Result> tried;
-  std::optional<std::size_t> chosen;  ///< index into `tried`; nothing: all cost more than the budget
+/// An image that the compiler refuses.
+struct RefusedImage {
+  ImageSetting setting;
+  std::string reason;
 };
 
-/// Evaluates the images and chooses the best_within() of `budget_ns`.
+struct Recommendation {
+  std::vector<Result> tried;
+  std::vector<RefusedImage> refused;  ///< without results
+  std::optional<std::size_t> chosen;  ///< index into `tried`; nothing: all cost more than the budget, or are refused
+};
+
+/// Evaluates the images and chooses the best_within() of `budget_ns`. An image whose evaluation throws Failure or
+/// std::bad_alloc counts as refused. A Failure of a file (kNoInput, kIo, kNoPermission) is thrown on.
 Recommendation recommend(const std::vector<ImageSetting>& images, double budget_ns,
                          const std::function<std::vector<Result>(const ImageSetting&)>& evaluate);
 
 /// Returns "20us", "0.5 ms" or "20000ns" as nanoseconds. Throws Failure (kUsage).
 double parse_budget_ns(std::string_view text);
 
-/// Returns the tried settings, cheapest first, the choice and its reason, and the best that `paper` does at the same
-/// cost.
+/// Returns the reason why nothing was chosen, and the cure.
+std::string reason_for_nothing(const Recommendation& recommendation);
+
+/// Returns the tried settings, cheapest first, the refused images with their reasons, the choice and its reason, and
+/// the best that `paper` does at the same cost.
 std::string text(const Recommendation& recommendation, double budget_ns);
 
-/// Returns the same for an image's provenance, without times: equal choices give equal images.
+/// Returns the same for an image's provenance, without times and reasons: equal choices give equal images.
 nlohmann::ordered_json json(const Recommendation& recommendation, double budget_ns);
 
 }  // namespace godobject::precision

@@ -43,7 +43,8 @@ void append_row(std::string& text, std::string_view point_text, const FieldSampl
 
 std::uint64_t query_points(const SceneView& scene, const std::filesystem::path& points,
                            const std::filesystem::path& output, const parallel::Progress& progress) {
-  files::CsvLines lines(points);
+  constexpr std::size_t kMostLines = 100'000'000;  // a cube of 464 points a side; their rows take no memory
+  files::CsvLines lines(points, kMostLines);
   std::error_code unknown;  // of a pipe: no progress is shown
   const std::uintmax_t size = std::filesystem::file_size(points, unknown);
   files::AtomicFile file(output);

@@ -30,11 +30,13 @@ void append(std::string& row, const Pose& pose) {
 }  // namespace
 
 const char* const kColumns =
-    "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,depth,contacts,substeps,step1_ns,"
+    "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,point_depth,contacts,substeps,step1_"
+    "ns,"
     "solve_ns,status";
+const char* const kOverlapColumn = "mesh_overlap";
 
 Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
-               const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress) {
+               const Outputs& outputs) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
   OwnedGodObject god_object;
@@ -44,8 +46,9 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
                   "--only-solver, or with a [friction] table");
   }
   Summary summary;
-  std::string row = std::string(kColumns) + "\n";
-  write_row(row);
+  std::string row = kColumns;
+  if (outputs.overlap) row += std::string(",") + kOverlapColumn;
+  outputs.write_row(row + "\n");
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     StepTimes times{.now_ns = timing::stopwatch()};
     CycleReport report;
@@ -73,10 +76,18 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
     append(row, god_object->mesh_pose());
     append(row, report.force.spring_W.force);
     append(row, report.force.spring_W.torque);
-    fmt::format_to(std::back_inserter(row), ",{},{},{},{},{},{}\n", depth, report.contacts, report.substeps,
+    fmt::format_to(std::back_inserter(row), ",{},{},{},{},{},{}", depth, report.contacts, report.substeps,
                    times.step1_ns, times.solve_ns, name(report.outcome));
-    write_row(row);
-    if (i % kProgressEvery == 0) progress(static_cast<double>(i) / static_cast<double>(path.poses.size()));
+    if (outputs.overlap) {
+      const double overlap = state.started ? outputs.overlap(god_object->mesh_pose()) : 0.0;
+      if (overlap > summary.overlap) {
+        summary.overlap = overlap;
+        summary.overlap_at = path.t[i];
+      }
+      fmt::format_to(std::back_inserter(row), ",{}", overlap);
+    }
+    outputs.write_row(row + "\n");
+    if (i % kProgressEvery == 0) outputs.progress(static_cast<double>(i) / static_cast<double>(path.poses.size()));
   }
   return summary;
 }

@@ -18,8 +18,11 @@ struct Summary {
   std::array<std::size_t, static_cast<std::size_t>(Outcome::kInfeasible) + 1> by_outcome{};  ///< cycles of each outcome
   std::size_t bad_rows = 0;                                                                  ///< rows that were no pose
   std::size_t first_bad_line = 0;
-  /// Largest depth of the god object; negative: the smallest gap. Limited to the stored band [m].
+  /// Largest depth of a sample point of the god object in the stored distances; negative: none is inside, the smallest
+  /// distance. Limited to the stored band [m].
   double deepest = -std::numeric_limits<double>::infinity();
+  double overlap = 0.0;            ///< largest depth at which the meshes overlap, if it is measured [m]
+  double overlap_at = 0.0;         ///< its time [s]
   double peak_force = 0.0;         ///< [N]
   std::size_t unconverged = 0;     ///< cycles whose friction did not converge to the tolerance
   std::uint32_t most_dropped = 0;  ///< largest number of near points left out in a cycle
@@ -29,13 +32,21 @@ struct Summary {
   std::size_t count(Outcome outcome) const { return by_outcome[static_cast<std::size_t>(outcome)]; }
 };
 
-/// The names of a replay's columns, in their order, separated by commas.
+/// The names of a replay's columns, in their order, separated by commas; kOverlapColumn follows if it is measured.
 extern const char* const kColumns;
+extern const char* const kOverlapColumn;
 
-/// Runs the god object along the path, one cycle for each pose. Passes the header and then one CSV row for each cycle
-/// to `write_row`. Everything except the two timing columns depends on the input alone, to the last bit. Throws Failure
-/// (kBadData) if the image lacks the solver or friction.
+/// Where the results of a replay go, and what is measured beside them.
+struct Outputs {
+  std::function<void(const std::string&)> write_row;  ///< the header, and then one CSV row for each cycle
+  std::function<void(double)> progress;               ///< 0 .. 1
+  /// Returns the depth at which the meshes overlap at a pose of the moving mesh's frame [m]; may be empty.
+  std::function<double(const Pose&)> overlap;
+};
+
+/// Runs the god object along the path, one cycle for each pose. Everything except the two timing columns depends on the
+/// input alone, to the last bit. Throws Failure (kBadData) if the image lacks the solver or friction.
 Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
-               const std::function<void(const std::string&)>& write_row, const std::function<void(double)>& progress);
+               const Outputs& outputs);
 
 }  // namespace godobject::replay

@@ -119,8 +119,9 @@ std::string second_direction_text(const CompileReport& report) {
   const double bound = between.bound + second.slack;
   if (std::isfinite(bound)) {
     text += fmt::format(
-        "between  the points bodies meet no deeper than {} ({} wanted): {} from the moving surface, {} from the still "
-        "one, {} from the moving body's field\n",
+        "between  the points meshes, their edges too, may overlap by up to {} ({} wanted): {} from the moving surface, "
+        "{} "
+        "from the still one, {} from the moving body's field\n",
         millimetres(bound), millimetres(report.config.between_points), millimetres(between.moving_fall),
         millimetres(between.still_fall), millimetres(second.slack));
   } else {
@@ -249,7 +250,7 @@ std::vector<std::string> limits(const CompileReport& report) {
   } else if (!second.sought) {
     found.push_back("the depth between the points is not bounded");
   } else if (bound > config.between_points) {
-    found.push_back(std::isfinite(bound) ? fmt::format("bodies may meet {} deep between the points ({} wanted)",
+    found.push_back(std::isfinite(bound) ? fmt::format("between the points meshes may overlap by up to {} ({} wanted)",
                                                        millimetres(bound), millimetres(config.between_points))
                                          : std::string("no bound is known between the points"));
   }
@@ -264,9 +265,9 @@ std::string verdict_text(const CompileReport& report) {
   if (!found.empty()) return fmt::format("ready, with limits: {}", fmt::join(found, "; "));
   if (report.ball) return "ready: the field is within its tolerance near the surface at the ball's radius";
   return fmt::format(
-      "ready: the field is within its tolerance near the surface, no wall or gap is too thin, bodies meet no deeper "
-      "than {} "
-      "between the points",
+      "ready: the field is within its tolerance near the surface, no wall or gap is too thin; between the points "
+      "meshes, "
+      "their edges too, may overlap by up to {} and the field's error",
       millimetres(report.second.between.bound + report.second.slack));
 }
 

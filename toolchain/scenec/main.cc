@@ -62,8 +62,8 @@ The report lists walls and gaps of the still mesh thinner than two voxels. A wal
 one at a time. Each setting is compiled and run on this machine, with the scene's friction, along --path, or along
 generated motions that press the body from four sides and slide it. Among the settings whose 99th percentile of a
 cycle's time is within the budget, it chooses the one whose wrench is nearest to that of the solver `contact` on the
-exact meshes. It takes some ten times as long as compiling and needs an idle machine. The image records the settings
-that were tried.
+exact meshes. A setting that the compiler refuses is listed with the reason, and the others are tried. It takes some ten
+times as long as compiling and needs an idle machine. The image records the settings that were tried.
 
 Exit codes: 0 done, 64 usage, 65 bad mesh or image, or nothing fits the budget, 66 an input is missing or cannot be
 read, 74 cannot write, 77 no permission to write, 78 bad scene file.)";
@@ -118,9 +118,8 @@ void choose_within_budget(const Options& options, CompileRequest& request) {
   const precision::Recommendation found = tried();
   fmt::print("{}", precision::text(found, budget_ns));
   if (!found.chosen) {
-    throw Failure(ExitCode::kBadData, fmt::format("--budget {}: none of the {} settings that were tried is that quick; "
-                                                  "give a larger budget, a coarser mesh or a larger voxel_size",
-                                                  options.budget, found.tried.size()));
+    throw Failure(ExitCode::kBadData,
+                  fmt::format("--budget {}: {}", options.budget, precision::reason_for_nothing(found)));
   }
   const precision::Setting& chosen = found.tried[*found.chosen].setting;
   request.config = precision::with(config, chosen.image);

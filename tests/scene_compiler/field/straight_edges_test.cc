@@ -104,6 +104,22 @@ TEST(StraightEdges, AreTheTwelveOfABoxInSinglePrecision) {
   }
 }
 
+/// Eleven steps from a square end the allowed radius is the end radius exactly, but for the rounding of the vertices.
+TEST(StraightEdges, HaveRadiiThatAnImageTakesHoweverVerticesAreRounded) {
+  test::Random random(17);
+  for (int i = 0; i < 60; ++i) {
+    TriangleMesh mesh = test::box_mesh({8.0 * kVoxel, 9.0 * kVoxel, 11.0 * kVoxel});
+    const double rounding = kVoxel * std::pow(10.0, random.between(-9.0, -5.0));
+    for (Vector3d& vertex : mesh.vertices) vertex += random.in_cube(rounding);
+    const auto edges = straight_edges(SolidSurface(mesh, SurfaceKind::kSolid, kVoxel), kVoxel, kLargestRadius);
+    EXPECT_EQ(edges.size(), 12u) << rounding;
+    for (const format::Edge& edge : edges) {
+      EXPECT_GE(edge.radius, edge.end_radius) << rounding;
+      EXPECT_TRUE(edge.slope >= 0.0 && edge.slope <= 1.0) << edge.slope;
+    }
+  }
+}
+
 TEST(StraightEdges, AreExactOrNotAtAllWhereSolidsLieInOrOnSolids) {
   const TriangleMesh box = test::box_mesh({0.06, 0.08, 0.1});
   const auto expect = [&box](const TriangleMesh& other, const char* what, SurfaceKind kind = SurfaceKind::kSolid) {

@@ -201,6 +201,17 @@ TEST(MeshImport, RefusesWhatIsNoMeshWithFileAndCure) {
   expect(refusal("mesh.off", "OFF\n"), command::ExitCode::kBadData, "PLY, STL or OBJ");
   expect(refusal("noise.stl", "this is no mesh"), command::ExitCode::kBadData, "noise.stl");
   expect(refusal("noise.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"), command::ExitCode::kBadData, "noise.obj");
+  for (const char* name : {"sparse.ply", "sparse.stl", "sparse.obj"}) {
+    const ScratchFolder folder;
+    std::filesystem::resize_file(folder.write(name, "ply\n"), std::uintmax_t{1} << 36);
+    MeshReport report;
+    try {
+      import_mesh(folder.file(name), 1.0, report);
+      FAIL() << "read 64 GiB";
+    } catch (const command::Failure& failure) {
+      expect({failure.exit_code(), failure.what()}, command::ExitCode::kBadData, "is larger than 4 GiB");
+    }
+  }
   MeshReport report;
   try {
     import_mesh("/nowhere/a.ply", 1.0, report);

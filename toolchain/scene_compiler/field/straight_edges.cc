@@ -235,15 +235,21 @@ class Surroundings {
   TriangleTree tree_;
 };
 
-/// The widest tube between two places: R at every sample is at most the allowed one.
+/// Returns the least allowed R at which a stretch goes on: the end radius, less the rounding of equals [m].
+double least_radius(double voxel_size) { return (kEndRadius - kTie) * voxel_size; }
+
+/// A tube between two places: R at every sample is at most the allowed one.
 struct Tube {
   double radius = 0.0;
   double slope = 0.0;
   double volume = -1.0;  ///< sum of R over the samples
 };
 
-Tube widest_tube(std::span<const double> allowed, double step, double end_radius, double largest_radius) {
-  const double slack = kTie * end_radius;
+/// Finds the widest tube. There is one, the one of the end radius, if no `allowed` is less than least_radius().
+Tube widest_tube(std::span<const double> allowed, double voxel_size, double largest_radius) {
+  const double step = kStep * voxel_size;
+  const double end_radius = kEndRadius * voxel_size;
+  const double slack = end_radius - least_radius(voxel_size);
   Tube best;
   for (const double share : kRadii) {
     const double radius = std::max(share * largest_radius, end_radius);
@@ -263,7 +269,7 @@ Tube widest_tube(std::span<const double> allowed, double step, double end_radius
 std::vector<format::Edge> stretches(const Surroundings& surroundings, const Crease& crease, double voxel_size,
                                     double largest_radius) {
   const double end_radius = kEndRadius * voxel_size;
-  const double least = end_radius - kTie * voxel_size;
+  const double least = least_radius(voxel_size);
   const double step = kStep * voxel_size;
   std::vector<format::Edge> edges;
   if (crease.to - crease.from < kShortest * voxel_size) return edges;
@@ -285,7 +291,7 @@ std::vector<format::Edge> stretches(const Surroundings& surroundings, const Crea
     }
     std::size_t end = begin;
     while (end < count && allowed[end] >= least) ++end;
-    const Tube tube = widest_tube(std::span(allowed).subspan(begin, end - begin), step, end_radius, largest_radius);
+    const Tube tube = widest_tube(std::span(allowed).subspan(begin, end - begin), voxel_size, largest_radius);
     format::Edge edge = crease.wedge;
     edge.begin = crease.from + step * static_cast<double>(begin);
     edge.end = crease.from + step * static_cast<double>(end - 1);

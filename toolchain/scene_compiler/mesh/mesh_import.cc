@@ -30,6 +30,11 @@ void check_readable(const std::filesystem::path& file, const std::string& extens
         fmt::format("{}: has no name of a PLY, STL or OBJ file; export the mesh as one of them", file.string()));
   }
   files::require_regular_input(file, "check `mesh` in the scene file: the path is relative to that file");
+  if (std::filesystem::file_size(file) > kMaxMeshBytes) {
+    throw command::Failure(command::ExitCode::kBadData,
+                           fmt::format("{}: is larger than {} GiB; decimate the mesh, or export it as binary PLY",
+                                       file.string(), kMaxMeshBytes >> 30));
+  }
   std::ifstream stream(file, std::ios::binary);
   if (stream.peek() == std::ifstream::traits_type::eof()) {
     throw command::Failure(command::ExitCode::kBadData,

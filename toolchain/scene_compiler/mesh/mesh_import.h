@@ -34,11 +34,12 @@ struct MeshReport {
 /// single-precision coordinates, which STL and OBJ have, are 8 mm apart.
 inline constexpr std::uint64_t kMaxTriangles = 1u << 25;
 inline constexpr double kMaxCoordinate = 1e5;
+inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{4} << 30;  ///< of a file, which is read as a whole
 
 /// Reads a PLY, STL or OBJ file, scales it to metres and cleans it: welds coincident vertices (within 1e-6 of the
 /// bounding box's diagonal), drops degenerate and duplicate triangles and unused vertices. Coordinates of STL and OBJ
 /// files have single precision. Throws Failure naming the file and the cure: kNoInput if it cannot be read, kBadData if
-/// it contains no usable mesh.
+/// it is larger than kMaxMeshBytes or contains no usable mesh.
 TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshReport& report);
 
 /// Does the cleaning only. `name` stands for the mesh in messages.

@@ -34,8 +34,9 @@
 /// distance from the edge, and points at most 2 h apart along it serve the faces that meet there.
 ///
 /// R and L are measured on the meshes themselves (Relief), at other places than those for which points were added. The
-/// bound does not cover bodies thinner than 2 D, where surface on the far side meets, nor the surface between the
-/// places.
+/// bound holds up to the errors of the stored fields. Where a body is thinner than 2 D no point is D deep in it anyway,
+/// but bodies may pass through each other, for surface on the far side meets. Surface between the places is not
+/// covered.
 namespace godobject::scene_compiler {
 
 /// The reason why the search for points ended.

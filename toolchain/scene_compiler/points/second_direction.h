@@ -16,7 +16,7 @@ namespace godobject::scene_compiler {
 inline constexpr std::uint32_t kMostPointsForOne = 4;
 inline constexpr std::uint32_t kMostFeatures = 1u << 15;
 
-/// Points for contact in both directions, with which the bodies meet no deeper than a wanted bound between points.
+/// Points for contact in both directions, with which the bodies overlap by no more than a wanted bound between points.
 struct BothDirections {
   std::vector<SurfaceSample> features;  ///< of the still body, in W
   double area = 0.0;                    ///< of the still body's outer surface [m^2]
