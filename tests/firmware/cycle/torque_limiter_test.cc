@@ -95,8 +95,8 @@ TEST(TorqueLimiter, NeverLetsANumberPassThatIsNotFinite) {
   }
 }
 
-/// Every pair of inputs and limits, as numbers that are none or too large: whatever produced the torques, the last step
-/// before the drives gives numbers.
+/// Every pair of inputs and limits, as NaN, infinite, too large or negative: whatever produced the torques, the last step
+/// before the drives gives finite ones.
 TEST(TorqueLimiter, GivesFiniteTorquesWhateverItsInputsAndLimitsAre) {
   const std::array bad = {std::nan(""), std::numeric_limits<double>::infinity(),
                           -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max(), -1.0};
