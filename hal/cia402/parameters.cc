@@ -74,9 +74,7 @@ void read_back(ParameterSteps& steps) noexcept {
   for (std::size_t i = 0; i < before.size(); ++i) {
     ParameterStep step = before[i];
     if (step.kind != Kind::kWrite && step.kind != Kind::kWriteIfThere) continue;
-    const auto same = [&step](const ParameterStep& later) {
-      return later.index == step.index && later.subindex == step.subindex;
-    };
+    const auto same = [&step](const ParameterStep& later) { return later.is_of_same_object(step); };
     if (std::ranges::any_of(before.subspan(i + 1), same)) continue;
     step.mask = kept_bits(step);
     step.value &= step.mask;

@@ -28,6 +28,9 @@ struct ParameterStep {
   bool or_more = false;             ///< the value read may be larger
 
   bool accepts(std::uint32_t found) const noexcept;
+  bool is_of_same_object(const ParameterStep& other) const noexcept {
+    return index == other.index && subindex == other.subindex;
+  }
 };
 
 /// A sequence of steps.
