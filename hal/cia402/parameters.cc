@@ -60,7 +60,8 @@ void map_pdo(ParameterSteps& steps, const Pdo& pdo) noexcept {
   write(steps, pdo.communication, 1, 4, pdo.cob);
 }
 
-/// Bits of an object that a node must keep as they were written. A node that switched a PDO off may keep another COB-ID.
+/// Bits of an object that a node must keep as they were written. A node that switched a PDO off may keep another
+/// COB-ID.
 std::uint32_t kept_bits(const ParameterStep& write) noexcept {
   const bool is_rpdo = write.index >= kRpdo1Communication && write.index <= kRpdoCommunicationLast;
   const bool is_tpdo = write.index >= kTpdo1Communication && write.index <= kTpdoCommunicationLast;

@@ -390,15 +390,35 @@ void each_number(ArmModel& arm, Each&& each) {
 /// Calls `each` with every number of the controller file and the scene that a cycle computes with.
 template <class Each>
 void each_number(CycleSetup& setup, JointTorqueParameters& torque, SceneView& scene, Each&& each) {
-  for (double* number :
-       {&torque.rotation_length, &torque.singular_none, &torque.singular_full, &torque.null_damping[2],
-        &torque.limit_band, &torque.limit_stiffness[3], &torque.limit_damping[3], &setup.mapping.scale,
-        &setup.mapping.fade_time, &setup.mapping.H_WR.translation[0], &setup.mapping.H_WR.rotation.coeffs()[0],
-        &setup.stuck_torque, &setup.passivity.most_damping, &setup.passivity.period, &setup.passivity.rotation_length,
-        &setup.hand.force, &setup.hand.torque, &setup.hand.speed, &setup.hand.speed_stop, &setup.hand.turn,
-        &setup.hand.turn_stop, &setup.torque.rate, &setup.torque.joint_speed, &setup.torque.joint_speed_stop,
-        &setup.supervisor.engage_force, &scene.settings.stiffness, &scene.settings.damping, &scene.settings.coupling_rotation,
-        &scene.H_MB.translation[1]}) {
+  for (double* number : {&torque.rotation_length,
+                         &torque.singular_none,
+                         &torque.singular_full,
+                         &torque.null_damping[2],
+                         &torque.limit_band,
+                         &torque.limit_stiffness[3],
+                         &torque.limit_damping[3],
+                         &setup.mapping.scale,
+                         &setup.mapping.fade_time,
+                         &setup.mapping.H_WR.translation[0],
+                         &setup.mapping.H_WR.rotation.coeffs()[0],
+                         &setup.stuck_torque,
+                         &setup.passivity.most_damping,
+                         &setup.passivity.period,
+                         &setup.passivity.rotation_length,
+                         &setup.hand.force,
+                         &setup.hand.torque,
+                         &setup.hand.speed,
+                         &setup.hand.speed_stop,
+                         &setup.hand.turn,
+                         &setup.hand.turn_stop,
+                         &setup.torque.rate,
+                         &setup.torque.joint_speed,
+                         &setup.torque.joint_speed_stop,
+                         &setup.supervisor.engage_force,
+                         &scene.settings.stiffness,
+                         &scene.settings.damping,
+                         &scene.settings.coupling_rotation,
+                         &scene.H_MB.translation[1]}) {
     each(*number);
   }
 }

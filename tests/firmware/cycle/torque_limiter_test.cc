@@ -95,8 +95,8 @@ TEST(TorqueLimiter, NeverLetsANumberPassThatIsNotFinite) {
   }
 }
 
-/// Every pair of inputs and limits, as NaN, infinite, too large or negative: whatever produced the torques, the last step
-/// before the drives gives finite ones.
+/// Every pair of inputs and limits, as NaN, infinite, too large or negative: whatever produced the torques, the last
+/// step before the drives gives finite ones.
 TEST(TorqueLimiter, GivesFiniteTorquesWhateverItsInputsAndLimitsAre) {
   const std::array bad = {std::nan(""), std::numeric_limits<double>::infinity(),
                           -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max(), -1.0};
@@ -108,10 +108,16 @@ TEST(TorqueLimiter, GivesFiniteTorquesWhateverItsInputsAndLimitsAre) {
       ComputedTorque computed{joints(0.3, 0.0), joints(0.1, 0.0)};
       Decision decision = running();
       JointVector qd = joints(1.8, 0.0);
-      const std::array<double*, kPlaces> places = {
-          &arm.joints[0].torque,   &arm.joints[0].velocity,  &limits.rate,          &limits.joint_speed,
-          &limits.joint_speed_stop, &computed.holding[0],     &computed.rendered[0], &decision.test_torque[0],
-          &decision.share,         &qd[0]};
+      const std::array<double*, kPlaces> places = {&arm.joints[0].torque,
+                                                   &arm.joints[0].velocity,
+                                                   &limits.rate,
+                                                   &limits.joint_speed,
+                                                   &limits.joint_speed_stop,
+                                                   &computed.holding[0],
+                                                   &computed.rendered[0],
+                                                   &decision.test_torque[0],
+                                                   &decision.share,
+                                                   &qd[0]};
       *places.at(static_cast<std::size_t>(pair / kPlaces)) = value;
       *places.at(static_cast<std::size_t>(pair % kPlaces)) = value;
       TorqueLimiter limiter(arm, limits);
