@@ -80,6 +80,7 @@ class BringUp {
   bool boot_is_over_ = false;
   int asked_ = -1;  // station whose response is awaited; -1: none
   const ParameterStep* step_ = nullptr;
+  bool absent_ = false;  // the station lacks the object of the last step
   bool answered_ = false;
   SdoResponse response_;
   BringUpResult result_;
@@ -216,6 +217,7 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
   const int node = stations_.node(station);
   step_ = &step;
   result_ = BringUpResult();
+  absent_ = false;
   const bool reads = step.kind == Kind::kExpect || step.kind == Kind::kExpectIfThere;
   const bool may_be_absent = step.kind == Kind::kExpectIfThere || step.kind == Kind::kWriteIfThere;
   const CanFrame request = reads ? sdo_read(node, step.index, step.subindex)
@@ -224,8 +226,8 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
   result_.expected = step.value;
   result_.found = response_.value;
   if (response_.kind == SdoResponse::Kind::kAborted) {
-    const bool absent = response_.value == kAbortNoObject || response_.value == kAbortNoSubindex;
-    return (may_be_absent && absent) || fail_at(BringUpStatus::kRefused, station);
+    absent_ = response_.value == kAbortNoObject || response_.value == kAbortNoSubindex;
+    return (may_be_absent && absent_) || fail_at(BringUpStatus::kRefused, station);
   }
   if (!reads) return response_.kind == SdoResponse::Kind::kWritten || fail_at(BringUpStatus::kNoAnswer, station);
   const int size = response_.kind == SdoResponse::Kind::kRead ? response_.size : 0;
@@ -244,7 +246,7 @@ bool BringUp::check_ratio(int station, std::uint16_t index, double expected, dou
   constexpr std::uint32_t kAny = 0;  // mask
   const ParameterStep over{Kind::kExpectIfThere, index, 1, 4, 0, kAny};
   if (!do_step(station, over)) return false;
-  if (response_.kind == SdoResponse::Kind::kAborted) return true;
+  if (absent_) return true;
   const double numerator = response_.value;
   const ParameterStep under{Kind::kExpect, index, 2, 4, 0, kAny};
   if (!do_step(station, under)) return false;
@@ -267,7 +269,15 @@ bool BringUp::set_up(int station) noexcept {
     done = check_ratio(station, kEncoderResolution, drive.counts, drive.counts) &&
            check_ratio(station, kGearRatio, std::fabs(drive.gear), 1.0);
   }
-  done = done && std::ranges::all_of(steps.all(), [&](const ParameterStep& step) { return do_step(station, step); });
+  std::array<bool, cia402::ParameterSteps::kCapacity> lacks{};
+  const std::span<const ParameterStep> all = steps.all();
+  for (std::size_t i = 0; done && i < all.size(); ++i) {
+    // an object that could not be written is not read back
+    for (std::size_t k = 0; k < i; ++k) lacks[i] = lacks[i] || (lacks[k] && all[k].is_of_same_object(all[i]));
+    if (lacks[i]) continue;
+    done = do_step(station, all[i]);
+    lacks[i] = absent_;
+  }
   step_ = nullptr;
   return done;
 }

@@ -52,7 +52,7 @@ const char* describe(BringUpStatus status) noexcept;
 ///
 /// Steps: listen for 100 ms and refuse a second master; reset communication; wait up to `boot_timeout` for the boot-up
 /// of each node; identify, set up and read back each node by SDO (cia402/parameters.h); start the nodes; wait until
-/// each is operational and each drive has sent its mode by TPDO2. This takes 0.15 s plus 0.08 s a node if nodes answer
+/// each is operational and each drive has sent its mode by TPDO2. This takes 0.15 s plus 0.09 s a node if nodes answer
 /// within a millisecond. Encoder resolution (608F) and gear (6091) of drives that have them must equal the layout's
 /// `counts` and `gear`; 6091 may be 1, for a gear that the drive does not know of.
 ///

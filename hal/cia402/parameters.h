@@ -28,13 +28,16 @@ struct ParameterStep {
   bool or_more = false;             ///< the value read may be larger
 
   bool accepts(std::uint32_t found) const noexcept;
+  bool is_of_same_object(const ParameterStep& other) const noexcept {
+    return index == other.index && subindex == other.subindex;
+  }
 };
 
 /// A sequence of steps.
 class ParameterSteps {
  public:
-  /// Derived: drive_steps adds 104 steps at most; asserted in `add` and counted by tests/hal/bring_up_test.cc.
-  static constexpr std::size_t kCapacity = 112;
+  /// Derived: drive_steps adds 86 steps; asserted in `add` and counted by tests/hal/bring_up_test.cc.
+  static constexpr std::size_t kCapacity = 96;
 
   void add(const ParameterStep& step) noexcept {
     assert(count_ < kCapacity);
@@ -56,11 +59,11 @@ class ParameterSteps {
 /// - heartbeats in both directions; cyclic synchronous torque mode
 /// - reaction to a lost controller and to a quick stop: the joint comes to rest by the drive's own ramp, then without
 /// power
-/// - all written values are read back.
+/// - all written objects are read back.
 void drive_steps(const BusLayout& layout, const DriveConfig& drive, ParameterSteps& steps) noexcept;
 
 /// The steps for the operator's panel: no inverted inputs (6002), TPDO1 {6000:1} on each SYNC, heartbeats in both
-/// directions.
+/// directions; all written objects are read back.
 void panel_steps(const BusLayout& layout, ParameterSteps& steps) noexcept;
 
 inline constexpr int kWatchedCount = 6;

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "tests/figures/replay_rows.h"
@@ -117,7 +119,7 @@ TEST(ArmRun, IsDrawnWithItsModesAndItsJoints) {
 }
 
 TEST(ArmRun, WantsTheDeviceFileOfItsArm) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "arm_run_test";
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("arm_run_test_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "telemetry.csv")
       << "t_s,mode,fault,share,outcome,contacts,torque1_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,"

@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "tests/figures/replay_rows.h"
@@ -46,7 +48,8 @@ TEST(Figure, NamesEachSolverOnceWithAColourOfItsOwn) {
 
 TEST(Figure, IsDrawnByGnuplot) {
   if (!command::find_program("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
-  const auto png = std::filesystem::path(testing::TempDir()) / "godobject_figure_test.png";
+  const auto png =
+      std::filesystem::path(testing::TempDir()) / ("godobject_figure_test_" + std::to_string(::getpid()) + ".png");
   std::filesystem::remove(png);
   draw(three_solvers(), png);
   std::string head(8, '\0');

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "tests/figures/replay_rows.h"
@@ -38,7 +40,8 @@ class Plan : public testing::Test {
 
   const std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) /
-      (std::string("plan_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+      (std::string("plan_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+       std::to_string(::getpid()));
   const std::string kScene = "[[scene]]\nname = 'peg'\nimage = 'hole'\ntitle = 'A < B'\ntext = 'words'\n";
 };
 

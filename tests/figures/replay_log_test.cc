@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "toolchain/command_line/failure.h"
@@ -38,9 +40,9 @@ class ReplayLogFile : public testing::Test {
     }
   }
 
-  const std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  const std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
+                                      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                                       "_" + std::to_string(::getpid()) + ".csv");
 };
 
 TEST_F(ReplayLogFile, IsReadColumnByColumn) {

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "toolchain/command_line/failure.h"
@@ -44,7 +46,8 @@ class TelemetryLogFile : public testing::Test {
 
   const std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) /
-      (std::string("telemetry_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
+      (std::string("telemetry_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+       std::to_string(::getpid()) + ".csv");
 };
 
 TEST_F(TelemetryLogFile, IsReadByTheNamesOfItsColumns) {

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "hal/cia402/parameters.h"
 #include "tests/hal/scripted_node.h"
@@ -243,6 +246,59 @@ TEST_F(BringUpTest, NamesTheObjectThatIsNotAsItMustBe) {
   EXPECT_TRUE(sent_no_command());
 }
 
+/// Adds the objects that a start writes only to drives and panels that have them.
+void add_optional_objects(ScriptedNode& drive, ScriptedNode& panel) {
+  drive.objects.insert({{{0x1006, 0}, {4, 0}},
+                        {{0x1401, 1}, {4, 0x301}},
+                        {{0x1402, 1}, {4, 0x401}},
+                        {{0x1403, 1}, {4, 0x501}},
+                        {{0x1801, 3}, {2, 50}},
+                        {{0x1802, 1}, {4, 0x381}},
+                        {{0x1803, 1}, {4, 0x481}},
+                        {{0x60C2, 1}, {1, 0}},
+                        {{0x60C2, 2}, {1, 0}}});
+  panel.objects.insert({{0x1016, 1}, {4, 0}});
+}
+
+/// Bits that a node must keep as they were written. Of a PDO's COB-ID: the identifier, and that the PDO is off; of a
+/// PDO that is off, only the latter.
+std::uint32_t bits_to_keep(int index, int subindex, int size, std::uint32_t written) {
+  const bool is_cob = subindex == 1 && (index >> 8 == 0x14 || index >> 8 == 0x18);
+  if (is_cob) return written >= 0x80000000 ? 0x80000000 : 0x800007FF;
+  return size == 4 ? 0xFFFFFFFF : (1u << 8 * size) - 1;
+}
+
+/// Each written object in turn acknowledges the write, but then reads with one other bit: the highest or the lowest.
+TEST_F(BringUpTest, ReadsBackEveryObjectThatItWrites) {
+  add_optional_objects(joint_1_, panel_);
+  for (ScriptedNode* node : {&joint_1_, &panel_}) {
+    const ScriptedNode fresh = *node;
+    ASSERT_EQ(start().status, BringUpStatus::kOk);
+    std::map<std::pair<int, int>, std::uint32_t> written;
+    for (const auto& [key, value] : node->writes) written[key] = value;  // the last write remains
+    EXPECT_EQ(written.size(), node == &panel_ ? 6u : 33u);
+    for (const auto& [key, value] : written) {
+      // 6060 is a request; the drive answers with 6061
+      const std::pair read = key == std::pair(0x6060, 0) ? std::pair(0x6061, 0) : key;
+      const int size = fresh.objects.at(key).size;
+      const std::uint32_t keep = bits_to_keep(key.first, key.second, size, value);
+      for (const std::uint32_t bit : {std::bit_floor(keep), keep & ~(keep - 1)}) {
+        *node = fresh;
+        node->reads[read] = value ^ bit;
+        const BringUpResult result = start();
+        SCOPED_TRACE(testing::Message() << std::hex << read.first << ':' << read.second << ' ' << bit);
+        EXPECT_EQ(result.status, BringUpStatus::kWrongValue);
+        EXPECT_EQ(result.index, read.first);
+        EXPECT_EQ(result.subindex, read.second);
+        EXPECT_EQ(result.expected, value & keep);
+        EXPECT_EQ(result.found, value ^ bit);
+      }
+    }
+    *node = fresh;
+  }
+  EXPECT_TRUE(sent_no_command());
+}
+
 TEST_F(BringUpTest, RefusesADriveThatGivesLessTorqueThanItsJointMayTake) {
   layout_.drives[1].gear = 20.0;
   layout_.drives[1].torque_limit = 45.0;  // of 30 Nm rated: 1500 permille
@@ -425,9 +481,16 @@ TEST(Parameters, PeriodOf60C2) {
     cia402::drive_steps(layout, {.rated_torque = 1.0}, steps);
     for (const cia402::ParameterStep& step : steps.all()) {
       if (step.index != 0x60C2) continue;
-      EXPECT_EQ(step.value, step.subindex == 1 ? count : static_cast<std::uint32_t>(exponent)) << period;
+      EXPECT_EQ(step.value, step.subindex == 1 ? count : static_cast<std::uint8_t>(exponent)) << period;
     }
   }
+}
+
+TEST(Parameters, OfADriveFitIntoTheirCapacity) {
+  cia402::ParameterSteps steps;
+  cia402::drive_steps(BusLayout(), {.rated_torque = 1.0}, steps);
+  EXPECT_EQ(steps.all().size(), 86u);
+  EXPECT_LT(steps.all().size(), cia402::ParameterSteps::kCapacity);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ class ScriptedNode {
   }
 
   std::map<std::pair<int, int>, Object> objects;
+  std::map<std::pair<int, int>, std::uint32_t> reads;  ///< objects that read with another value than their own
   std::vector<std::pair<std::pair<int, int>, std::uint32_t>> writes;
   std::vector<int> nmt;
   std::function<void(FakeBus&)> before_answer = [](FakeBus&) {};
@@ -91,7 +92,10 @@ class ScriptedNode {
     if (found == objects.end()) return respond(0x80, 0x06020000);
     Object& object = found->second;
     const int unused = (4 - object.size) << 2;
-    if (command == 0x40) return respond(object.size > 4 ? 0x41 : 0x43 | unused, object.value);
+    if (command == 0x40) {
+      const auto other = reads.find(key);
+      return respond(object.size > 4 ? 0x41 : 0x43 | unused, other == reads.end() ? object.value : other->second);
+    }
     if (command != (0x23 | unused)) return respond(0x80, 0x06070010);
     std::uint32_t value = 0;
     for (int i = 0; i < object.size; ++i) {

@@ -1,13 +1,17 @@
-# Functions for the cases, which source this file: the simulated arm and the controller as two processes on three buses.
+# Functions for the cases, which source this file: the simulated arm and the controller as two processes on SocketCAN.
 set -euo pipefail
 
-buses=(vcan0 vcan1 vcan2)
-devices=$(IFS=,; echo "${buses[*]}")
 config=tests/hil/controller.toml
 log=$HIL_WORK/log
 device="" controller=""
 trap 'kill -9 $device $controller 2>/dev/null || true' EXIT
-for bus in "${buses[@]}"; do ip link set "$bus" up; done
+
+use_buses() {  # NAME ...
+  local bus
+  for bus in "$@"; do ip link set "$bus" up; done
+  devices=$(IFS=,; echo "$*")
+}
+use_buses vcan0 vcan1 vcan2
 
 fail() {
   echo "FAILED: $1"
@@ -51,6 +55,19 @@ start_running() {
   start_device
   start_controller
   until_mode running 15
+}
+
+# Kills the controller and waits until the drives have noticed.
+kill_controller() {
+  kill -KILL "$controller"
+  wait "$controller" || true
+  controller=""
+  sleep 0.6
+}
+
+# Checks that each drive has stopped by itself. After end_device.
+all_have_stopped() {  # JOINTS
+  [ "$(grep -cE '^joint .* [1-9] trips, (switch on disabled|fault)$' "$HIL_WORK/device")" -eq "$1" ] || fail "not all drives have stopped"
 }
 
 # Checks the telemetry after the last row in the mode running: no later mode may power the arm again.

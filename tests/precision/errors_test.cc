@@ -1,4 +1,8 @@
 // Errors calculated by hand, and the exact scene against a box and a plane.
+#include <string>
+
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +34,7 @@ TEST(WrenchError, IsThatOfHand) {
 class ExactSceneTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "godobject_exact_scene";
+    folder_ = std::filesystem::path(testing::TempDir()) / ("godobject_exact_scene_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
     write_box("block.ply", Vector3(-0.1, -0.1, -0.05), Vector3(0.1, 0.1, 0.0));
     write_box("box.ply", Vector3::Constant(-0.02), Vector3::Constant(0.02));

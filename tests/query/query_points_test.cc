@@ -2,37 +2,27 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "tests/scene_compiler/compiled_once.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
-#include "toolchain/scene_compiler/compile_scene.h"
 
 namespace godobject::query {
 namespace {
-
-std::string slurp(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// Queries against the image of a cube of 100 mm with voxels of 4 mm.
 class QueryPoints : public testing::Test {
  protected:
   files::SceneImage compiled() {
     const std::string mesh = "mesh = \"" + scene_compiler::mesh_file("cube_100mm").string() + "\"\n";
-    scene_compiler::CompileRequest request;
-    request.scene_file =
-        folder_.write("scene.toml", "[still]\n" + mesh + "voxel_size = 0.004\n[moving]\n" + mesh +
-                                        "scale = 0.3\npoints = 300\nlevels = 3\n[contact]\nboth_directions = false\n");
-    request.output = folder_.file("out.scene");
-    scene_compiler::compile_scene(request);
-    return files::SceneImage::read(request.output);
+    scene_compiler::compile_once("[still]\n" + mesh + "voxel_size = 0.004\n[moving]\n" + mesh +
+                                     "scale = 0.3\npoints = 300\nlevels = 3\n[contact]\nboth_directions = false\n",
+                                 folder_, "out.scene");
+    return files::SceneImage::read(folder_.file("out.scene"));
   }
 
   scene_compiler::ScratchFolder folder_;
@@ -43,7 +33,7 @@ TEST_F(QueryPoints, GivesDistancesNormalsAndTheBand) {
   const auto points = folder_.write("p.csv", "x,y,z\r\n0.0,0.0,0.053\n0, 0 ,0\n1e3,0,0\n\n");
   const std::uint64_t rows = query_points(image.scene, points, folder_.file("d.csv"), {});
   EXPECT_EQ(rows, 3u);
-  std::istringstream lines(slurp(folder_.file("d.csv")));
+  std::istringstream lines(scene_compiler::bytes_of(folder_.file("d.csv")));
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line, "x,y,z,distance,nx,ny,nz,known");

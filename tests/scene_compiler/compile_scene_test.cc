@@ -1,15 +1,15 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
 #include <cstring>
-#include <fstream>
 #include <iomanip>
-#include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/scene_compiler/compiled_once.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/report_json.h"
@@ -17,11 +17,6 @@
 
 namespace godobject::scene_compiler {
 namespace {
-
-std::string slurp(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// A scene of two meshes, scaled by `size`.
 struct SceneText {
@@ -48,11 +43,7 @@ class CompileScene : public testing::Test {
  protected:
   CompileReport compile(const SceneText& scene, const char* output = "out.scene",
                         std::optional<format::Solver> only = {}) {
-    CompileRequest request;
-    request.scene_file = folder_.write("scene.toml", scene.text());
-    request.output = folder_.file(output);
-    request.only_solver = only;
-    return compile_scene(request);
+    return compile_once(scene.text(), folder_, output, only);
   }
 
   ScratchFolder folder_;
@@ -86,10 +77,10 @@ TEST_F(CompileScene, LeavesTheSecondDirectionOutWhereNobodyReadsIt) {
 
 TEST_F(CompileScene, GivesTheSameBytesEveryTime) {
   compile({}, "a.scene");
-  compile({}, "b.scene");
-  const std::string a = slurp(folder_.file("a.scene"));
+  compile_anew(SceneText().text(), folder_, "b.scene");
+  const std::string a = bytes_of(folder_.file("a.scene"));
   EXPECT_FALSE(a.empty());
-  EXPECT_EQ(a, slurp(folder_.file("b.scene")));
+  EXPECT_EQ(a, bytes_of(folder_.file("b.scene")));
 }
 
 TEST_F(CompileScene, OnlySolverStripsNormalsAndSaysSo) {
@@ -173,7 +164,7 @@ TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
 TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
   const CompileReport report = compile({.still = "cube_100mm"});
   ASSERT_GT(report.field.refinement.refined, 0u);
-  const std::string image = slurp(folder_.file("out.scene"));
+  const std::string image = bytes_of(folder_.file("out.scene"));
   const Json index = inspect_json(files::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];
   std::uint64_t positions = 0;
   std::uint64_t stored = 0;
@@ -249,7 +240,7 @@ TEST_F(CompileScene, RefusesABodyThatLeavesNothingInside) {
 
 TEST_F(CompileScene, DamageIsSeen) {
   compile({});
-  std::string bytes = slurp(folder_.file("out.scene"));
+  std::string bytes = bytes_of(folder_.file("out.scene"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   EXPECT_THROW(files::SceneImage::read(folder_.write("bad.scene", bytes)), command::Failure);
   EXPECT_THROW(files::SceneImage::read(folder_.write("short.scene", bytes.substr(0, 100))), command::Failure);

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 namespace godobject::test {
@@ -25,7 +27,8 @@ class FolderTest : public testing::Test {
  private:
   static std::string name() {
     const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("godobject_") + test.test_suite_name() + "_" + test.name();
+    std::string name = std::string("godobject_") + test.test_suite_name() + "_" + test.name() + "_" +
+                       std::to_string(::getpid());     // another tree may run the same test
     std::replace(name.begin(), name.end(), '/', '_');  // of parameterised tests
     return name;
   }

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "tests/viewer/boxes.h"
@@ -76,7 +78,8 @@ TEST(PovText, CutsTheStillBodyWhenAsked) {
 
 TEST(Render, MakesAPngOfATinyScene) {
   if (!command::find_program("povray")) GTEST_SKIP() << "povray is not installed";
-  const auto png = std::filesystem::path(testing::TempDir()) / "godobject_picture_test.png";
+  const auto png =
+      std::filesystem::path(testing::TempDir()) / ("godobject_picture_test_" + std::to_string(::getpid()) + ".png");
   std::filesystem::remove(png);
   const Picture p = picture();
   render(pov_text(kPlate, kBody, p), p.width, p.height, png);
@@ -90,7 +93,8 @@ TEST(Render, MakesAPngOfATinyScene) {
 
 TEST(Render, SaysWhatPovRaySaidAndLeavesNothingBehind) {
   if (!command::find_program("povray")) GTEST_SKIP() << "povray is not installed";
-  const auto png = std::filesystem::path(testing::TempDir()) / "godobject_broken_picture.png";
+  const auto png =
+      std::filesystem::path(testing::TempDir()) / ("godobject_broken_picture_" + std::to_string(::getpid()) + ".png");
   try {
     render("this is no scene", 32, 24, png);
     FAIL();

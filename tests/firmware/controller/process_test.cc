@@ -79,7 +79,7 @@ class Process {
 class ControllerProcessTest : public ControllerFolderTest {
  protected:
   /// A condition that is not seen within this time counts as never seen. The value measures nothing else.
-  static constexpr std::chrono::seconds kNever{60};
+  static constexpr std::chrono::seconds kNever{600};
 
   bool see(const std::function<bool()>& what) const {
     const auto end = std::chrono::steady_clock::now() + kNever;

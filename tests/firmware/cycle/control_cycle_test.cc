@@ -372,6 +372,89 @@ TEST_F(ControlCycleTest, StopsInTheCycleOfAReadingThatIsNotFinite) {
   }
 }
 
+/// Calls `each` with every number of the arm that a cycle computes with.
+template <class Each>
+void each_number(ArmModel& arm, Each&& each) {
+  for (ArmJoint* joint : {&arm.joints[1], &arm.joints[6]}) {
+    for (double* number : {&joint->a, &joint->alpha, &joint->d, &joint->offset, &joint->lower, &joint->upper,
+                           &joint->velocity, &joint->torque, &joint->link.mass, &joint->link.com[0]}) {
+      each(*number);
+    }
+  }
+  for (double* number : {&arm.gravity_R[2], &arm.payload.mass, &arm.payload.com[1], &arm.H_RA.translation[0],
+                         &arm.H_FM.translation[1], &arm.H_FM.rotation.coeffs()[2]}) {
+    each(*number);
+  }
+}
+
+/// Calls `each` with every number of the controller file and the scene that a cycle computes with.
+template <class Each>
+void each_number(CycleSetup& setup, JointTorqueParameters& torque, SceneView& scene, Each&& each) {
+  for (double* number : {&torque.rotation_length,
+                         &torque.singular_none,
+                         &torque.singular_full,
+                         &torque.null_damping[2],
+                         &torque.limit_band,
+                         &torque.limit_stiffness[3],
+                         &torque.limit_damping[3],
+                         &setup.mapping.scale,
+                         &setup.mapping.fade_time,
+                         &setup.mapping.H_WR.translation[0],
+                         &setup.mapping.H_WR.rotation.coeffs()[0],
+                         &setup.stuck_torque,
+                         &setup.passivity.most_damping,
+                         &setup.passivity.period,
+                         &setup.passivity.rotation_length,
+                         &setup.hand.force,
+                         &setup.hand.torque,
+                         &setup.hand.speed,
+                         &setup.hand.speed_stop,
+                         &setup.hand.turn,
+                         &setup.hand.turn_stop,
+                         &setup.torque.rate,
+                         &setup.torque.joint_speed,
+                         &setup.torque.joint_speed_stop,
+                         &setup.supervisor.engage_force,
+                         &scene.settings.stiffness,
+                         &scene.settings.damping,
+                         &scene.settings.coupling_rotation,
+                         &scene.H_MB.translation[1]}) {
+    each(*number);
+  }
+}
+
+/// The property is that of the last place before the bus: whatever a cycle computes, the drives get numbers. The start
+/// refuses these values; here they stand for any error in the computation.
+TEST_F(ControlCycleTest, SendsOnlyFiniteTorquesWhateverItComputes) {
+  std::vector<JointVector> path;
+  for (int i = 0; i <= 40; ++i) path.push_back(moved(Vector3(0.0, 0.0, -0.033 * i / 40.0)));
+  int values = 0;
+  int faults = 0;
+  const auto runs_with = [&](double& number) {
+    const double good = number;
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308}) {
+      drives_ = FakeDrives(7);
+      drives_.reading.position = q0_;
+      number = bad;
+      setup_.memory = memory_.span();
+      cycle_ = std::make_unique<ControlCycle>(setup_, drives_);
+      const Status started = cycle_->start();
+      for (int i = 0; i < 260; ++i) {
+        drives_.reading.position = path[static_cast<std::size_t>(std::clamp(i - 210, 0, 40))];
+        cycle_->run_once({});
+        ASSERT_TRUE(drives_.sent.torque.allFinite()) << "value " << values << " as " << bad << ", cycle " << i;
+      }
+      faults += started != Status::kOk || cycle_->record().fault != Fault::kNone ? 1 : 0;
+    }
+    number = good;
+    ++values;
+  };
+  each_number(arm_.model, runs_with);
+  each_number(setup_, arm_.parameters, scene_, runs_with);
+  std::printf("%d values, each as 4 that are impossible: %d runs stopped\n", values, faults);
+  EXPECT_GT(faults, values) << "these values reach the computation";
+}
+
 TEST_F(ControlCycleTest, PredictsOverOneJumpAndStopsAtTheSecond) {
   make();
   run_to(Mode::kRunning);

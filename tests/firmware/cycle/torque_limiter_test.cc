@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -90,6 +91,43 @@ TEST(TorqueLimiter, NeverLetsANumberPassThatIsNotFinite) {
       decision.test_torque = joints(value, 0.0);
       EXPECT_TRUE(is_harmless(limiter.apply(decision, {joints(0.3, 0.0), joints(0.1, 0.1)}, JointVector::Zero())));
       EXPECT_TRUE(is_harmless(limiter.apply(decision, {joints(0.3, 0.0), joints(0.1, 0.1)}, joints(value, 0))));
+    }
+  }
+}
+
+/// Every pair of inputs and limits, as NaN, infinite, too large or negative: whatever produced the torques, the last
+/// step before the drives gives finite ones.
+TEST(TorqueLimiter, GivesFiniteTorquesWhateverItsInputsAndLimitsAre) {
+  const std::array bad = {std::nan(""), std::numeric_limits<double>::infinity(),
+                          -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max(), -1.0};
+  constexpr int kPlaces = 10;
+  for (int pair = 0; pair < kPlaces * kPlaces; ++pair) {
+    for (const double value : bad) {
+      ArmModel arm = two_joints();
+      TorqueLimits limits;
+      ComputedTorque computed{joints(0.3, 0.0), joints(0.1, 0.0)};
+      Decision decision = running();
+      JointVector qd = joints(1.8, 0.0);
+      const std::array<double*, kPlaces> places = {&arm.joints[0].torque,
+                                                   &arm.joints[0].velocity,
+                                                   &limits.rate,
+                                                   &limits.joint_speed,
+                                                   &limits.joint_speed_stop,
+                                                   &computed.holding[0],
+                                                   &computed.rendered[0],
+                                                   &decision.test_torque[0],
+                                                   &decision.share,
+                                                   &qd[0]};
+      *places.at(static_cast<std::size_t>(pair / kPlaces)) = value;
+      *places.at(static_cast<std::size_t>(pair % kPlaces)) = value;
+      TorqueLimiter limiter(arm, limits);
+      for (int cycle = 0; cycle < 8; ++cycle) {
+        decision.rate_limited = cycle % 2 == 0;
+        decision.of_last = cycle % 4 >= 2;
+        decision.holds_arm = cycle < 6;
+        EXPECT_TRUE(limiter.apply(decision, computed, qd).allFinite()) << pair << ' ' << value << ' ' << cycle;
+        EXPECT_TRUE(limiter.pushed().allFinite()) << pair << ' ' << value << ' ' << cycle;
+      }
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/scene_compiler/compiled_once.h"
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
@@ -174,22 +175,19 @@ class BallScene : public testing::Test {
     std::string more = "";
   };
 
-  std::filesystem::path scene(const Text& text) {
+  /// Returns the scene file's text, and writes its ball.
+  std::string scene(const Text& text) {
     Eigen::Isometry3d to_center = Eigen::Isometry3d::Identity();
     to_center.translation() = kCenter;
     folder_.write("ball.obj", as_obj(test::moved(test::ball_mesh(kRadius, 60), to_center)));
-    return folder_.write("scene.toml",
-                         fmt::format("[still]\nmesh = \"{}\"\nvoxel_size = {:.9g}\nfield_tolerance = {:.9g}\n[moving]\n"
-                                     "mesh = \"{}\"\npoints = 1000\nlevels = 4\nball = {}\n{}",
-                                     text.still, text.voxel_size, text.tolerance, text.moving, text.ball, text.more));
+    return fmt::format(
+        "[still]\nmesh = \"{}\"\nvoxel_size = {:.9g}\nfield_tolerance = {:.9g}\n[moving]\n"
+        "mesh = \"{}\"\npoints = 1000\nlevels = 4\nball = {}\n{}",
+        text.still, text.voxel_size, text.tolerance, text.moving, text.ball, text.more);
   }
 
   CompileReport compile(const Text& text, const char* output = "out.scene", std::optional<format::Solver> only = {}) {
-    CompileRequest request;
-    request.scene_file = scene(text);
-    request.output = folder_.file(output);
-    request.only_solver = only;
-    return compile_scene(request);
+    return compile_once(scene(text), folder_, output, only);
   }
 
   void expect_refused(const Text& text, command::ExitCode code, const std::string& words,

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/scene_compiler/compiled_once.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/compile_scene.h"
@@ -52,11 +53,7 @@ std::string table(const format::Workspace& w) {
 class LeavesOut : public testing::Test {
  protected:
   CompileReport compile(const std::string& text, const char* output, bool timed = false) {
-    CompileRequest request;
-    request.scene_file = folder_.write("scene.toml", text);
-    request.output = folder_.file(output);
-    request.times_left_out = timed;
-    return compile_scene(request);
+    return compile_once(text, folder_, output, {}, timed);
   }
   files::SceneImage image(const char* name) { return files::SceneImage::read(folder_.file(name)); }
 
