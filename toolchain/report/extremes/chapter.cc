@@ -11,6 +11,9 @@
 #include "toolchain/files/input_file.h"
 #include "toolchain/files/output_target.h"
 #include "toolchain/files/work_folder.h"
+#include "toolchain/report/extremes/bad_input.h"
+#include "toolchain/report/extremes/bounds.h"
+#include "toolchain/report/extremes/faulty_rig.h"
 #include "toolchain/report/extremes/rows.h"
 #include "toolchain/report/extremes/run.h"
 #include "toolchain/report/extremes/setup.h"
@@ -41,22 +44,16 @@ class Tally {
 
   CaseResult result() const {
     CaseResult result;
-    const auto note = [&](const char* what, std::int64_t value, const std::string& first) {
-      result.findings.push_back({.row = row_,
-                                 .what = what,
-                                 .unit = "",
-                                 .value = static_cast<double>(value),
-                                 .most = 0.0,
-                                 .where = value > 0 ? first : ""});
-    };
     Violations both = contact_;
     both.add(others_);
-    note("NaN in pose or force", both.not_finite, both.first);
-    note("rotations not of unit length", both.not_unit, both.first);
-    note("forces beyond spring and damper", both.unbounded, both.first);
-    note("valid poses refused, or invalid ones accepted", both.bad_status, both.first);
-    note("contact: points that crossed a surface", contact_.crossings, contact_.first);
-    note("contact: farther from the device than without motion", contact_.pulled_away, contact_.first);
+    // in the order of kViolationNames
+    const std::int64_t counts[] = {both.not_finite, both.not_unit,      both.unbounded,
+                                   both.bad_status, contact_.crossings, contact_.pulled_away};
+    for (std::size_t name = 0; name < std::size(counts); ++name) {
+      const std::string& first = name < 4 ? both.first : contact_.first;
+      result.findings.push_back(judged(extremes_bound::of_violation(row_, name), static_cast<double>(counts[name]),
+                                       counts[name] > 0 ? first : ""));
+    }
     Sheet cycles{.name = kCycles, .columns = {"row", "cycles", "cycles_of_contact"}, .rows = {}};
     cycles.rows.push_back({row_, std::to_string(both.cycles), std::to_string(contact_.cycles)});
     result.sheets = {sheet_, cycles};
@@ -71,7 +68,7 @@ class Tally {
 };
 
 CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t seed, bool meshes,
-                   const std::filesystem::path& work) {
+                   const ExtremesFault& fault, const std::filesystem::path& work) {
   std::mt19937 random(seed);
   Tally tally(row);
   bool compiled = !meshes;
@@ -94,7 +91,8 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
       setup.world = "heap";
     }
     const auto rig = make_rig(setup, work);
-    tally.add(setup, run_setup(setup, *rig));
+    FaultyRig faulty(*rig, fault);
+    tally.add(setup, run_setup(setup, faulty));
   }
   return tally.result();
 }
@@ -134,10 +132,10 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
 
 Chapter extremes_chapter(const ExtremesRequest& request) {
   const std::int64_t cycles = request.cycles > 0 ? request.cycles : request.quick ? 20'000 : 100'000;
-  const std::int64_t row_cycles = request.quick ? 2'000 : 100'000;
+  const std::int64_t row_cycles = request.one_place ? 1'000 : request.quick ? 2'000 : 100'000;
   const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, kMostStretches);
   const bool quick = request.quick;
-  const std::int64_t long_cycles = quick ? 100'000 : std::max<std::int64_t>(10'000'000, cycles);
+  const std::int64_t long_cycles = request.one_place ? 10'000 : quick ? 100'000 : std::max<std::int64_t>(10'000'000, cycles);
   Chapter chapter{
       .name = "extremes",
       .title = "Numerical extremes",
@@ -147,29 +145,35 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
           "the field jumps, with and without its supervisor; for comparison, the torques that the solvers alone would "
           "command there. For stiffness, mass and delay on the stable side of A4 see the random loops of the chapter "
           "on stability.</p>",
+      .bounds = extremes_bound::all(),
       .cases = {},
       .conclude = conclude};
+  const RowRequest row{quick, request.seed, request.fault, request.one_place};
   const auto add = [&](const std::string& name, const std::string& inputs,
                        std::function<CaseResult(const std::filesystem::path&)> run, double seconds) {
     chapter.cases.push_back({.name = "extremes." + name, .inputs = inputs, .run = std::move(run), .seconds = seconds});
   };
-  const std::string inputs = fmt::format("quick {}", quick);
+  const std::string inputs = fmt::format("quick {} seed {}", quick, request.seed);
   add(
-      "bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); }, quick ? 10.0 : 30.0);
+      "bad-meshes", inputs, [row](const auto& work) { return bad_meshes(row, work); }, quick ? 10.0 : 30.0);
   add(
-      "gap", inputs, [quick](const auto& work) { return gap_near_the_voxel(quick, work); }, quick ? 10.0 : 20.0);
+      "gap", inputs, [row](const auto& work) { return gap_near_the_voxel(row, work); }, quick ? 10.0 : 20.0);
   add(
-      "scale", inputs, [quick](const auto&) { return same_at_every_scale(quick); }, quick ? 2.0 : 15.0);
+      "scale", inputs, [row](const auto&) { return same_at_every_scale(row); }, quick ? 2.0 : 15.0);
   add(
       "long-run", fmt::format("{} cycles {}", inputs, long_cycles),
-      [long_cycles](const auto&) { return long_run(long_cycles); }, 1e-5 * static_cast<double>(long_cycles));
+      [row, long_cycles](const auto&) { return long_run(long_cycles, row); }, 1e-5 * static_cast<double>(long_cycles));
   add(
-      "closed-path", inputs, [quick](const auto&) { return closed_path(quick); }, quick ? 1.0 : 5.0);
+      "closed-path", inputs, [row](const auto&) { return closed_path(row); }, quick ? 1.0 : 5.0);
+  const std::int64_t bad_inputs = request.one_place ? 1'000 : quick ? 20'000 : 100'000;
+  add(
+      "bad-input", inputs,
+      [row, bad_inputs](const auto& work) { return bad_input(bad_inputs, row.fault, work); }, quick ? 3.0 : 10.0);
   for (std::size_t i = 0; i < kRowCount; ++i) {
     add(
         fmt::format("row-{}", i + 1), inputs,
-        [i, of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
-          return run_row(kRows[i], of_row, static_cast<std::uint32_t>(1000 + i), true, work);
+        [i, row, meshes = !request.one_place, of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
+          return run_row(kRows[i], of_row, static_cast<std::uint32_t>(1000 + i + 100 * row.seed), meshes, row.fault, work);
         },
         quick              ? 1.0
         : i == kSlenderRow ? 100.0
@@ -180,8 +184,8 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   for (std::size_t i = 0; i < kPlaceCount; ++i) {
     add(
         fmt::format("torque-{}", i + 1), fmt::format("{} device {}", inputs, file_digest(device)),
-        [i, device, row_cycles](const auto& work) {
-          return torque_rate(static_cast<Place>(i), device, row_cycles, work);
+        [i, device, row, row_cycles](const auto& work) {
+          return torque_rate(static_cast<Place>(i), device, row_cycles, row, work);
         },
         quick ? 3.0 : 15.0);
   }
@@ -189,8 +193,8 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
     const auto seed = request.seed * kMostStretches + static_cast<std::uint32_t>(i);
     add(
         fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {} seed {}", quick, cycles / stretches, seed),
-        [seed, quick, each = cycles / stretches](const auto& work) {
-          return run_row("fuzzer", each, seed, !quick, work);
+        [seed, row, each = cycles / stretches](const auto& work) {
+          return run_row("fuzzer", each, seed, !row.quick, row.fault, work);
         },
         1e-4 * static_cast<double>(cycles / stretches));
   }

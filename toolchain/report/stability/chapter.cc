@@ -7,6 +7,7 @@
 
 #include "core/device/stability.h"
 #include "toolchain/report/stability/axis_theory.h"
+#include "toolchain/report/stability/bounds.h"
 #include "toolchain/report/study/plot.h"
 
 namespace godobject::report {
@@ -224,11 +225,19 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
 
 }  // namespace
 
+std::string inputs_of(const StabilityRequest& request) {
+  return fmt::format("quick {} seed {}", request.quick, request.seed);
+}
+
 Chapter stability_chapter(const StabilityRequest& request) {
-  Chapter chapter{
-      .name = "stability", .title = "Stability", .introduction = kIntroduction, .cases = {}, .conclude = conclude};
+  Chapter chapter{.name = "stability",
+                  .title = "Stability",
+                  .introduction = kIntroduction,
+                  .bounds = stability_bound::all(),
+                  .cases = {},
+                  .conclude = conclude};
   for (auto&& cases :
-       {axis_cases(request.quick), passivity_cases(request.quick), pipeline_cases(request.quick), arm_cases(request)}) {
+       {axis_cases(request), passivity_cases(request), pipeline_cases(request), arm_cases(request)}) {
     chapter.cases.insert(chapter.cases.end(), cases.begin(), cases.end());
   }
   for (StudyCase& study_case : chapter.cases) study_case.seconds = seconds(study_case.name, request.quick);

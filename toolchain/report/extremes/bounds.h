@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "toolchain/report/study/bound.h"
+
+/// The judged quantities of the chapter on extremes. Most are counts of violations, which must be zero. Other bounds
+/// are three to five times the largest value of the whole run over several seeds.
+namespace godobject::report::extremes_bound {
+
+inline const Bound kNotFinite{"bad meshes", "look-ups that are not finite", "", 0.0};
+inline const Bound kWrongSign{"bad meshes", "look-ups with the wrong sign beyond a voxel", "", 0.0};
+inline const Bound kNotReported{"bad meshes", "bad triangles not reported", "", 0.0};
+inline const Bound kRefused{"bad meshes", "repairable meshes refused", "", 0.0};
+inline const Bound kGap{"gap near the voxel", "gaps below two voxels neither refused nor flagged, wider ones refused", "",
+                        0.0};
+inline const Bound kScale{"scale and place", "god object's deviation from that at 1 m", "voxels", 1e-9};
+inline const Bound kOffUnit{"long run", "rotations off unit length", "", 1e-15};
+inline const Bound kDrift{"long run", "drift of a periodic motion", "voxels", 4e-11};
+inline const Bound kNetWork{"closed path", "net work on the hand over the peak stored energy", "", 1e-3};
+inline const Bound kReplay{"closed path", "cycles that differ in a replay", "", 0.0};
+inline const Bound kAccepted{"bad input", "invalid inputs accepted, or valid ones refused", "", 0.0};
+inline const Bound kForce{"bad input", "invalid inputs with a force", "", 0.0};
+inline const Bound kChanged{"bad input", "cycles that an invalid input before them has changed", "", 0.0};
+
+/// Quantities of the generated rows and of the fuzzer, in the order of `violations`.
+inline constexpr std::array kViolationNames = {"NaN in pose or force",
+                                               "rotations not of unit length",
+                                               "forces beyond spring and damper",
+                                               "valid poses refused, or invalid ones accepted",
+                                               "contact: points that crossed a surface",
+                                               "contact: farther from the device than without motion"};
+
+/// Returns the bound of a generated row.
+Bound of_violation(const std::string& row, std::size_t name);
+
+/// Return the bounds at a place of the torque rate: the sent torque, runs that did not reach the place, and the torque
+/// that `contact` requests before the limiter.
+Bound sent_torque(const std::string& place);
+Bound idle_runs(const std::string& place);
+Bound computed_torque(const std::string& place);
+
+/// Returns all of them.
+std::vector<Bound> all();
+
+}  // namespace godobject::report::extremes_bound

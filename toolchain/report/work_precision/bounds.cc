@@ -1,0 +1,73 @@
+#include "toolchain/report/work_precision/bounds.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace godobject::report {
+namespace {
+
+struct Errors {
+  const char* scene;
+  const char* setting;
+  double force, torque;  ///< [%]
+  double penetration;    ///< [mm]
+};
+
+constexpr Errors kErrorsOf[] = {
+    {"bunny-teapot", "as written", 100.0, 100.0, 1.0}, {"bunny-teapot", "plain", 100.0, 100.0, 1.0},
+    {"bunny-teapot", kRecommended, 100.0, 100.0, 1.0}, {"bunny-plate", "as written", 100.0, 100.0, 1.0},
+    {"bunny-plate", "plain", 100.0, 100.0, 1.0},       {"bunny-plate", kRecommended, 100.0, 100.0, 1.0},
+    {"peg-hole", "as written", 100.0, 100.0, 1.0},     {"peg-hole", "plain", 100.0, 100.0, 1.0},
+    {"peg-hole", kRecommended, 100.0, 100.0, 1.0},
+};
+
+/// Largest error of `contact` over that of `paper`.
+struct OfPaper {
+  const char* scene;
+  double most;
+};
+constexpr OfPaper kOfPaper[] = {{"bunny-teapot", 0.15}, {"bunny-plate", 1.0}, {"peg-hole", 1.0}};
+
+ErrorBounds bounds_of(const Errors& errors) {
+  const bool timed = std::string(errors.setting) == kRecommended;  // the clock chooses it
+  const auto bound = [&](const char* what, const char* unit, double most) {
+    return Bound{errors.scene, fmt::format("{} setting: {}", errors.setting, what), unit, most, timed};
+  };
+  return {bound("force error", "%", errors.force), bound("torque error", "%", errors.torque),
+          bound("deepest penetration", "mm", errors.penetration)};
+}
+
+}  // namespace
+
+ErrorBounds error_bounds(const std::string& scene, const std::string& setting) {
+  return bounds_of(*std::find_if(std::begin(kErrorsOf), std::end(kErrorsOf), [&](const Errors& errors) {
+    return errors.scene == scene && errors.setting == setting;
+  }));
+}
+
+Bound cost_bound(const std::string& scene) {
+  return {scene, "p99 of the recommended setting, measured again", "us", kBudget_us, true};
+}
+
+Bound paper_bound(const std::string& scene) {
+  const OfPaper& found = *std::find_if(std::begin(kOfPaper), std::end(kOfPaper),
+                                       [&](const OfPaper& each) { return each.scene == scene; });
+  return {scene, "wrench error of contact over that of paper at the same cost or less", "", found.most, true};
+}
+
+std::vector<Bound> precision_bounds() {
+  std::vector<Bound> bounds;
+  for (const Errors& errors : kErrorsOf) {
+    const ErrorBounds of_setting = bounds_of(errors);
+    bounds.insert(bounds.end(), {of_setting.force, of_setting.torque, of_setting.penetration});
+  }
+  for (const OfPaper& each : kOfPaper) {
+    bounds.push_back(cost_bound(each.scene));
+    bounds.push_back(paper_bound(each.scene));
+  }
+  return bounds;
+}
+
+}  // namespace godobject::report
