@@ -86,10 +86,6 @@ std::vector<Measurement> measurements_of(const Sheet& sheet) {
   return measurements;
 }
 
-Bound bound_of(const QuantitySpec& quantity) {
-  return {quantity.title, "contact", quantity.unit, *quantity.target, std::string_view(quantity.unit) == "us"};
-}
-
 Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder) {
   const std::vector<Measurement> measurements = measurements_of(gathered(outcomes, kSheet));
   Section section;

@@ -21,9 +21,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 GodObject::Input valid_input(std::int64_t k) {
   const double t = 1e-3 * static_cast<double>(k);
   GodObject::Input input;
-  input.H_WM.translation = {0.01 * std::sin(7.0 * t), 0.008 * std::sin(5.0 * t), 0.009 + 0.006 * std::cos(3.0 * t)};
+  input.H_WM.translation = {0.01 * std::sin(7.0 * t), 0.008 * std::sin(5.0 * t), 0.009 + 0.006 * std::cos(20.0 * t)};
   input.H_WM.rotation = exp_rotation({0.1 * std::sin(4.0 * t), 0.1 * std::sin(6.0 * t), 0.2 * std::sin(2.0 * t)});
-  input.velocity_W.translation = {0.07 * std::cos(7.0 * t), 0.04 * std::cos(5.0 * t), -0.018 * std::sin(3.0 * t)};
+  input.velocity_W.translation = {0.07 * std::cos(7.0 * t), 0.04 * std::cos(5.0 * t), -0.12 * std::sin(20.0 * t)};
   return input;
 }
 

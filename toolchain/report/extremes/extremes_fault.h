@@ -14,7 +14,7 @@ struct ExtremesFault {
   bool hides_flaws = false;          ///< the scene compiler reports no flaw of a mesh
   bool refuses_meshes = false;       ///< the scene compiler refuses every mesh
   firmware::TorqueLimits limits = {};  ///< of the controller; the rows always judge by 5 %
-  double lift = 0.0;                 ///< height by which a led arm misses its place [m]
+  double jump = 0.0;                 ///< sudden displacement of a led arm in the middle of its path [m]
 };
 
 }  // namespace godobject::report

@@ -159,7 +159,7 @@ void TorqueSteps::add(const TorqueSteps& other) {
 TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver,
                          bool friction, const ExtremesFault& fault, std::uint32_t seed) {
   std::vector<Pose> path = place_path(place, scene, seed);
-  for (Pose& H_WM : path) H_WM.translation.z() += fault.lift;
+  for (std::size_t k = path.size() / 2; k < path.size(); ++k) path[k].translation.x() += fault.jump;
   const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, fault.limits, fault.cycle}, path);
   TorqueSteps found{.cycles = static_cast<std::int64_t>(cycles.size())};
   LedCycle before = cycles.front();  // the arm's weight, which comes at once, does not count as a change
@@ -192,6 +192,7 @@ CaseResult torque_rate(Place place, const std::filesystem::path& device_file, st
               .rows = {}};
   const std::string at = kPlaceNames[static_cast<std::size_t>(place)];
   constexpr int kVariants = 2 * static_cast<int>(format::kSolverCount);
+  const std::uint32_t least_runs = request.one_place ? 1 : 2;
   for (int variant = request.one_place ? kVariants - 1 : 0; variant < kVariants; ++variant) {
     const auto solver = static_cast<Solver>(variant / 2);
     const bool friction = variant % 2 == 1;
@@ -200,7 +201,7 @@ CaseResult torque_rate(Place place, const std::filesystem::path& device_file, st
     TorqueSteps all;
     std::uint32_t worst = 0;  // seed of the largest computed change
     const std::uint32_t first = 1000 * request.seed;
-    for (std::uint32_t seed = first; all.cycles * kVariants < cycles || seed < first + 2; ++seed) {
+    for (std::uint32_t seed = first; all.cycles * kVariants < cycles || seed < first + least_runs; ++seed) {
       const double before = all.computed;
       all.add(torque_steps(place, image.scene, device, solver, friction, request.fault, seed));
       if (all.computed != before) worst = seed;

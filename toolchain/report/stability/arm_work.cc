@@ -33,7 +33,7 @@ class LeadingHand {
 
   /// Returns the torque [Nm] at `time` [s].
   JointVector torque(double time, const sim::Plant& plant) const {
-    constexpr double kServo = 300.0;  // [1/s]: the servo's natural frequency
+    constexpr double kServo = 2000.0;  // [1/s]: its natural frequency, far above that of the coupling
     const double angle = kRate * time;
     const JointVector q = middle_ + kAmplitude * std::sin(angle) * way_;
     const JointVector qd = kAmplitude * kRate * std::cos(angle) * way_;

@@ -350,7 +350,7 @@ CaseResult frame_loss(const StabilityRequest& request) {
 
 /// A11 for the control law alone, a one-sided wall with an encoder: the hand makes random motions from outside. The
 /// energy that it supplies, by its exact positions, must cover that of the exact spring, K x^2 / 2. Theory: the staircase
-/// of the encoder stores up to K h^2 / 8 less, a quarter of K h^2 / 2.
+/// of the encoder stores up to K h^2 / 8 less, a quarter of the bound.
 CaseResult observer(const StabilityRequest& request) {
   constexpr double kStiffness = 2000.0;
   constexpr double kQuantum = 5e-6;

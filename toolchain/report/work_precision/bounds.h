@@ -19,8 +19,8 @@ struct ErrorBounds {
   Bound penetration;  ///< [mm]
 };
 
-/// `setting`: "as written", "plain" (not refined, one direction), or kRecommended.
-ErrorBounds error_bounds(const std::string& scene, const std::string& setting);
+/// `setting`: "as written", "plain" (not refined, one direction), or kRecommended, which has friction.
+ErrorBounds error_bounds(const std::string& scene, const std::string& setting, bool friction);
 
 /// Returns the bound of the recommended setting's cost, measured for a second time.
 Bound cost_bound(const std::string& scene);

@@ -169,7 +169,7 @@ void judge_chosen(const Field& field, const std::optional<std::size_t>& chosen, 
     return chosen ? value(field.rows[*chosen], column) : std::nan("");
   };
   const std::string where = chosen ? words(field.rows[*chosen]) : "all settings cost more";
-  const ErrorBounds bounds = error_bounds(field.scene, kRecommended);
+  const ErrorBounds bounds = error_bounds(field.scene, kRecommended, true);
   section.findings.push_back(judged(cost_bound(field.scene), measured("p99_again_us"), where));
   section.findings.push_back(judged(bounds.force, 100.0 * measured("force_error"), where));
   section.findings.push_back(judged(bounds.torque, 100.0 * measured("torque_error"), where));

@@ -198,11 +198,10 @@ CaseResult image_errors(const ImageTrial& trial) {
          static_cast<double>(result.image_bytes)});
     const bool usual = result.setting.solver == Solver::kContact && result.setting.margin == config.settings.margin;
     if (trial.image.judged_as.empty() || !usual) continue;
-    const std::string friction = result.setting.friction ? "friction on" : "friction off";
-    const ErrorBounds bounds = error_bounds(trial.scene.name, trial.image.judged_as);
-    made.findings.push_back(judged(bounds.force, 100.0 * result.wrench.force, friction));
-    made.findings.push_back(judged(bounds.torque, 100.0 * result.wrench.torque, friction));
-    made.findings.push_back(judged(bounds.penetration, 1e3 * result.penetration.deepest, friction));
+    const ErrorBounds bounds = error_bounds(trial.scene.name, trial.image.judged_as, result.setting.friction);
+    made.findings.push_back(judged(bounds.force, 100.0 * result.wrench.force));
+    made.findings.push_back(judged(bounds.torque, 100.0 * result.wrench.torque));
+    made.findings.push_back(judged(bounds.penetration, 1e3 * result.penetration.deepest));
   }
   made.sheets = {errors};
   return made;
