@@ -24,7 +24,7 @@ inline std::string without_fault(const std::vector<Bound>& bounds, const std::ve
   return missing;
 }
 
-/// Runs cases of a chapter, each in a folder of its own, and returns the findings of the chapter.
+/// Runs cases of a chapter, each in a folder of its own, which stays, and returns the findings of the chapter.
 inline std::vector<Finding> findings(const Chapter& chapter, const std::vector<std::string>& cases,
                                      const std::filesystem::path& folder) {
   std::vector<CaseResult> results;
@@ -32,8 +32,7 @@ inline std::vector<Finding> findings(const Chapter& chapter, const std::vector<s
   std::vector<CaseOutcome> outcomes;
   for (const std::string& name : cases) {
     const std::filesystem::path work = folder / name;
-    std::filesystem::remove_all(work);
-    std::filesystem::create_directories(work);
+    std::filesystem::create_directories(work);  // a second run uses the images of the first
     const auto found = std::find_if(chapter.cases.begin(), chapter.cases.end(),
                                     [&](const StudyCase& study_case) { return study_case.name == name; });
     if (found == chapter.cases.end()) {

@@ -217,11 +217,12 @@ CaseResult image_costs(const ImageTrial& trial) {
   const std::vector<precision::CycleCost> again = precision::costs_of(image.scene, tried, paths, passes);
   double load = 0.0;
   ::getloadavg(&load, 1);
+  const double us = 1e-3 * trial.fault.time_gain;
   Sheet costs = sheet(kCosts, {"p50_us", "p99_us", "max_us", "p99_again_us", "instructions_a_cycle", "load"});
   for (std::size_t i = 0; i < tried.size(); ++i) {
     const precision::CycleCost& cost = found[i];
     add(costs, key_of(trial.scene.name, tried[i]),
-        {1e-3 * cost.p50_ns, 1e-3 * cost.p99_ns, 1e-3 * cost.max_ns, 1e-3 * trial.fault.slower * again[i].p99_ns,
+        {us * cost.p50_ns, us * cost.p99_ns, us * cost.max_ns, us * trial.fault.slower * again[i].p99_ns,
          cost.instructions, load});
   }
   return {.findings = {}, .sheets = {costs}};
