@@ -42,8 +42,8 @@ class PrecisionRow : public test::FolderTest, public testing::WithParamInterface
     std::ofstream(folder_ / "paths" / "peg-hole.toml") << motion_toml();
     std::ofstream csv(folder_ / "paths" / "bunny-teapot.csv");
     csv << "t,px,py,pz,qw,qx,qy,qz\n";
-    for (int k = 0; k < 60; ++k) csv << 1e-3 * k << ',' << 5e-5 * k << ",0.004," << 0.0126 - 5e-5 * k
-                                        << ",0.968912,0.123701,0.206169,0.0494805\n";
+    for (int k = 0; k < 60; ++k)
+      csv << 1e-3 * k << ',' << 5e-5 * k << ",0.004," << 0.0126 - 5e-5 * k << ",0.968912,0.123701,0.206169,0.0494805\n";
   }
 
   /// Returns the motion of the CSV file.
@@ -57,7 +57,7 @@ class PrecisionRow : public test::FolderTest, public testing::WithParamInterface
         work_precision_chapter({.scenes = folder_, .kept = folder_ / "kept", .quick = false, .fault = fault});
     const std::string scene = std::string("precision.") + GetParam();
     return planting::findings(chapter, {scene + "-as-written", scene + "-as-written-times", scene + "-voxel-1-plain"},
-                             folder_);
+                              folder_);
   }
 };
 

@@ -102,8 +102,8 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   for (const QuantitySpec& quantity : quantities()) {
     const auto verdict = judge(measurements, quantity.id, Solver::kContact);
     if (!quantity.target || !verdict) continue;
-    section.findings.push_back(judged(bound_of(quantity), verdict->value,
-                                      quantity.median ? "median of the scenes" : verdict->worst_scene));
+    section.findings.push_back(
+        judged(bound_of(quantity), verdict->value, quantity.median ? "median of the scenes" : verdict->worst_scene));
   }
   return section;
 }

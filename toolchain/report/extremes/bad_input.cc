@@ -94,10 +94,9 @@ Flaws run(const SceneView& scene, Solver solver, bool friction, std::int64_t cyc
 CaseResult bad_input(std::int64_t cycles, const ExtremesFault& fault, const std::filesystem::path& work) {
   const std::filesystem::path body = work / "body.ply";
   write_ply(box_mesh({-0.01, -0.008, -0.006}, {0.01, 0.008, 0.006}), body);
-  const files::SceneImage image =
-      compile("bad-input", {.still = {.mesh = box_mesh({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.0})}, .body = body,
-                            .points = 60},
-              work);
+  const files::SceneImage image = compile(
+      "bad-input", {.still = {.mesh = box_mesh({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.0})}, .body = body, .points = 60},
+      work);
   CaseResult result;
   constexpr std::int64_t kVariants = 2 * format::kSolverCount;
   for (std::int64_t variant = 0; variant < kVariants; ++variant) {
@@ -105,10 +104,9 @@ CaseResult bad_input(std::int64_t cycles, const ExtremesFault& fault, const std:
     const bool friction = variant % 2 == 1;
     const std::int64_t each = (cycles + kVariants - 1) / kVariants;
     const Flaws flaws = run(image.scene, solver, friction, each, fault);
-    const std::string where =
-        fmt::format("{}, friction {}, {} invalid inputs, {:.0f} valid ones in contact",
-                    format::kSolverNames[static_cast<std::size_t>(solver)], friction ? "on" : "off", each,
-                    flaws.contacts);
+    const std::string where = fmt::format("{}, friction {}, {} invalid inputs, {:.0f} valid ones in contact",
+                                          format::kSolverNames[static_cast<std::size_t>(solver)],
+                                          friction ? "on" : "off", each, flaws.contacts);
     result.findings.push_back(judged(extremes_bound::kAccepted, flaws.contacts > 0.0 ? flaws.accepted : kNan, where));
     result.findings.push_back(judged(extremes_bound::kForce, flaws.with_force, where));
     result.findings.push_back(judged(extremes_bound::kChanged, flaws.changed, where));

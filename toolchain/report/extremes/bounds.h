@@ -14,8 +14,8 @@ inline const Bound kNotFinite{"bad meshes", "look-ups that are not finite", "", 
 inline const Bound kWrongSign{"bad meshes", "look-ups with the wrong sign beyond a voxel", "", 0.0};
 inline const Bound kNotReported{"bad meshes", "bad triangles not reported", "", 0.0};
 inline const Bound kRefused{"bad meshes", "repairable meshes refused", "", 0.0};
-inline const Bound kGap{"gap near the voxel", "gaps below two voxels neither refused nor flagged, wider ones refused", "",
-                        0.0};
+inline const Bound kGap{"gap near the voxel", "gaps below two voxels neither refused nor flagged, wider ones refused",
+                        "", 0.0};
 inline const Bound kScale{"scale and place", "god object's deviation from that at 1 m", "voxels", 0.0};
 inline const Bound kOffUnit{"long run", "rotations off unit length", "", 1e-15};
 inline const Bound kDrift{"long run", "drift of a periodic motion in 10^7 cycles", "voxels", 6e-9};

@@ -135,7 +135,9 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   const std::int64_t row_cycles = request.one_place ? 1'000 : request.quick ? 2'000 : 100'000;
   const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, kMostStretches);
   const bool quick = request.quick;
-  const std::int64_t long_cycles = request.one_place ? 10'000 : quick ? 100'000 : std::max<std::int64_t>(10'000'000, cycles);
+  const std::int64_t long_cycles = request.one_place ? 10'000
+                                   : quick           ? 100'000
+                                                     : std::max<std::int64_t>(10'000'000, cycles);
   Chapter chapter{
       .name = "extremes",
       .title = "Numerical extremes",
@@ -167,13 +169,15 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
       "closed-path", inputs, [row](const auto&) { return closed_path(row); }, quick ? 1.0 : 5.0);
   const std::int64_t bad_inputs = request.one_place ? 1'000 : quick ? 20'000 : 100'000;
   add(
-      "bad-input", inputs,
-      [row, bad_inputs](const auto& work) { return bad_input(bad_inputs, row.fault, work); }, quick ? 3.0 : 10.0);
+      "bad-input", inputs, [row, bad_inputs](const auto& work) { return bad_input(bad_inputs, row.fault, work); },
+      quick ? 3.0 : 10.0);
   for (std::size_t i = 0; i < kRowCount; ++i) {
     add(
         fmt::format("row-{}", i + 1), inputs,
-        [i, row, meshes = !request.one_place, of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
-          return run_row(kRows[i], of_row, static_cast<std::uint32_t>(1000 + i + 100 * row.seed), meshes, row.fault, work);
+        [i, row, meshes = !request.one_place,
+         of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
+          return run_row(kRows[i], of_row, static_cast<std::uint32_t>(1000 + i + 100 * row.seed), meshes, row.fault,
+                         work);
         },
         quick              ? 1.0
         : i == kSlenderRow ? 100.0

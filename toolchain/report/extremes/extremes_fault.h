@@ -7,14 +7,14 @@ namespace godobject::report {
 
 /// Faults that a test plants in the parts that the chapter checks. The default changes nothing.
 struct ExtremesFault {
-  CycleFault cycle = {};             ///< results of a solver
-  bool refuses_poses = false;        ///< a solver refuses every tenth valid pose
-  bool accepts_poses = false;        ///< a solver runs with a pose 1 mm aside in place of an invalid one
-  double distance_gain = 1.0;        ///< of the distances that are looked up
-  bool hides_flaws = false;          ///< the scene compiler reports no flaw of a mesh
-  bool refuses_meshes = false;       ///< the scene compiler refuses every mesh
+  CycleFault cycle = {};               ///< results of a solver
+  bool refuses_poses = false;          ///< a solver refuses every tenth valid pose
+  bool accepts_poses = false;          ///< a solver runs with a pose 1 mm aside in place of an invalid one
+  double distance_gain = 1.0;          ///< of the distances that are looked up
+  bool hides_flaws = false;            ///< the scene compiler reports no flaw of a mesh
+  bool refuses_meshes = false;         ///< the scene compiler refuses every mesh
   firmware::TorqueLimits limits = {};  ///< of the controller; the rows always judge by 5 %
-  double jump = 0.0;                 ///< sudden displacement of a led arm in the middle of its path [m]
+  double jump = 0.0;                   ///< sudden displacement of a led arm in the middle of its path [m]
 };
 
 }  // namespace godobject::report

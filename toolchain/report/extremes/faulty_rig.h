@@ -18,9 +18,7 @@ class FaultyRig final : public Rig {
     reports_.spoil(report);
     return fault_.refuses_poses && ++cycle_ % 10 == 0 ? Status::kOutOfRange : status;
   }
-  double smallest_gap(const Pose& H_WS) const override {
-    return fault_.distance_gain * rig_.smallest_gap(H_WS);
-  }
+  double smallest_gap(const Pose& H_WS) const override { return fault_.distance_gain * rig_.smallest_gap(H_WS); }
   std::vector<Touch> touches(const Pose& H_WS) const override { return rig_.touches(H_WS); }
   const Parameters& parameters() const override { return rig_.parameters(); }
 

@@ -65,7 +65,8 @@ JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
 /// The controller without its supervisor; it renders fully from the first cycle on.
 class Unsupervised {
  public:
-  Unsupervised(const LedArm& arm, const CycleSetup& setup) : setup_(setup), limiter_(*setup.arm, setup.torque), reports_(arm.fault) {
+  Unsupervised(const LedArm& arm, const CycleSetup& setup)
+      : setup_(setup), limiter_(*setup.arm, setup.torque), reports_(arm.fault) {
     if (god_object_.start(*arm.scene, arm.solver, arm.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kInternal, "the scene lacks the solver");
     }

@@ -39,8 +39,7 @@ struct LookUps {
   std::int64_t wrong_sign = 0;  ///< only where the exact distance exceeds a voxel
 };
 
-LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open,
-                double distance_gain) {
+LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open, double distance_gain) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   LookUps found;
@@ -99,9 +98,9 @@ CaseResult bad_meshes(const RowRequest& request, const std::filesystem::path& wo
   const auto note = [&](const Bound& bound, double value, const std::string& where) {
     result.findings.push_back(judged(bound, value, where));
   };
-  const std::vector<std::string> kinds = request.one_place ? std::vector<std::string>{"degenerate"}
-                                                           : std::vector<std::string>{"sound", "degenerate",
-                                                                                      "duplicate", "flipped", "open"};
+  const std::vector<std::string> kinds =
+      request.one_place ? std::vector<std::string>{"degenerate"}
+                        : std::vector<std::string>{"sound", "degenerate", "duplicate", "flipped", "open"};
   for (const std::string& kind : kinds) {
     const std::string of_each = fmt::format("{}, {} look-ups", kind, look_ups);
     const bool is_repairable = kind != "flipped" && kind != "open";
@@ -130,10 +129,9 @@ CaseResult gap_near_the_voxel(const RowRequest& request, const std::filesystem::
   constexpr double kVoxel = 0.002;
   CaseResult result;
   Sheet sheet{.name = "extremes_gap", .columns = {"gap_over_voxel", "outcome"}, .rows = {}};
-  const std::vector<double> gaps =
-      request.one_place ? std::vector<double>{1.5}
-      : request.quick   ? std::vector<double>{0.9, 1.5, 2.5}
-                        : std::vector<double>{0.5, 0.9, 1.1, 1.5, 1.9, 2.5, 4.0};
+  const std::vector<double> gaps = request.one_place ? std::vector<double>{1.5}
+                                   : request.quick   ? std::vector<double>{0.9, 1.5, 2.5}
+                                                     : std::vector<double>{0.5, 0.9, 1.1, 1.5, 1.9, 2.5, 4.0};
   for (const double gap : gaps) {
     const double half = 0.5 * gap * kVoxel;
     const std::vector<double> x = {-0.02, -half, half, 0.02};
@@ -224,7 +222,8 @@ CaseResult long_run(std::int64_t cycles, const RowRequest& request) {
     }
   }
   result.findings.push_back(judged(bound::kOffUnit, off_unit, fmt::format("{} cycles", cycles)));
-  result.findings.push_back(judged(bound::kDrift, drift * std::min(1.0, 1e7 / static_cast<double>(cycles)), fmt::format("{} cycles", cycles)));
+  result.findings.push_back(judged(bound::kDrift, drift * std::min(1.0, 1e7 / static_cast<double>(cycles)),
+                                   fmt::format("{} cycles", cycles)));
   return result;
 }
 
@@ -268,8 +267,8 @@ ClosedPath run_closed_path(const Setup& setup, const CycleFault& fault) {
                    0.5 * (force.torque + force_before.torque).dot(turned);
     }
     const Motion x = get_motion(report.H_WS.inverse() * H_WD);
-    path.peak = std::max(path.peak, 0.5 * q.stiffness *
-                                        (x.translation.squaredNorm() + q.coupling_rotation * x.rotation.squaredNorm()));
+    path.peak = std::max(
+        path.peak, 0.5 * q.stiffness * (x.translation.squaredNorm() + q.coupling_rotation * x.rotation.squaredNorm()));
     before = H_WD;
     force_before = force;
   }

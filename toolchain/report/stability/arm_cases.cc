@@ -226,8 +226,8 @@ CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling,
       rule.diagonal() += loop.damping.head(n);
       JointVector way = JointVector::Zero();
       way.head(n) = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rule).eigenvectors().col(0);
-      const double measured = work_along(model, q, way, planted(spring, request.fault),
-                                         delay + request.fault.late * kPeriod);
+      const double measured =
+          work_along(model, q, way, planted(spring, request.fault), delay + request.fault.late * kPeriod);
       const double stated = passivity_excess(loop);
       // relative to the larger of both terms, which cancel if the joints absorb the energy of the delay
       const double taken = way.dot(loop.damping.cwiseProduct(way));

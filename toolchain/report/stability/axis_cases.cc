@@ -331,8 +331,7 @@ CaseResult frame_loss(const StabilityRequest& request) {
        {Stated{0.0, 0.0}, {0.01, 0.005}, {0.02, std::nan("")}, {0.05, 0.035}, {0.10, 0.068}, {0.2, std::nan("")}}) {
     const double late = kPeriod * stated.loss / (1.0 - stated.loss);
     const double expected = 1.0 - stability_boundary(theory_of({.delay = kPeriod + late})) / whole;
-    const double falls =
-        1.0 - boundary_with_loss(request.fault.loss_gain * stated.loss, whole, request) / whole;
+    const double falls = 1.0 - boundary_with_loss(request.fault.loss_gain * stated.loss, whole, request) / whole;
     sheet.rows.push_back({cell(stated.loss), cell(stated.falls), cell(falls), cell(expected)});
     const std::string where = fmt::format("{:.0f} % lost: falls by {:.2f} %, {:.2f} % of the mean delay",
                                           kPercent * stated.loss, kPercent * falls, kPercent * expected);
@@ -349,8 +348,8 @@ CaseResult frame_loss(const StabilityRequest& request) {
 }
 
 /// A11 for the control law alone, a one-sided wall with an encoder: the hand makes random motions from outside. The
-/// energy that it supplies, by its exact positions, must cover that of the exact spring, K x^2 / 2. Theory: the staircase
-/// of the encoder stores up to K h^2 / 8 less, a quarter of the bound.
+/// energy that it supplies, by its exact positions, must cover that of the exact spring, K x^2 / 2. Theory: the
+/// staircase of the encoder stores up to K h^2 / 8 less, a quarter of the bound.
 CaseResult observer(const StabilityRequest& request) {
   constexpr double kStiffness = 2000.0;
   constexpr double kQuantum = 5e-6;

@@ -13,12 +13,38 @@ Bound z_width(format::Solver solver) {
 }
 
 std::vector<Bound> all() {
-  std::vector<Bound> bounds{
-      kNeededDamping, kNeededDelayed,  kNeededOfSpring, kRule,      kTable,         kAxis,          kWrongSide,
-      kNoneStable,    kRandomGrow,     kRandomDecay,    kArm,       kArmWrongSide,  kDampingStated, kDampingExact,
-      kQuantised,     kRestless,       kEnergyOfSpring, kEnergyDamped, kDelay,      kLossStated,    kLossExact,
-      kLossStable,    kLaw,            kPlate,          kGainsInUse, kLeastPassive, kBus,           kBusDelay,
-      kControlled,    kControlledForce, kTilt,          kPlateExact};
+  std::vector<Bound> bounds{kNeededDamping,
+                            kNeededDelayed,
+                            kNeededOfSpring,
+                            kRule,
+                            kTable,
+                            kAxis,
+                            kWrongSide,
+                            kNoneStable,
+                            kRandomGrow,
+                            kRandomDecay,
+                            kArm,
+                            kArmWrongSide,
+                            kDampingStated,
+                            kDampingExact,
+                            kQuantised,
+                            kRestless,
+                            kEnergyOfSpring,
+                            kEnergyDamped,
+                            kDelay,
+                            kLossStated,
+                            kLossExact,
+                            kLossStable,
+                            kLaw,
+                            kPlate,
+                            kGainsInUse,
+                            kLeastPassive,
+                            kBus,
+                            kBusDelay,
+                            kControlled,
+                            kControlledForce,
+                            kTilt,
+                            kPlateExact};
   for (std::uint32_t s = 0; s < format::kSolverCount; ++s) bounds.push_back(z_width(static_cast<format::Solver>(s)));
   return bounds;
 }

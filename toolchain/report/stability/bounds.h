@@ -33,8 +33,8 @@ inline const Bound kLossStable{"A10", "fall at up to 10 % loss: 0.85 K_crit is s
 inline const Bound kLaw{"A11", "energy in the exact spring that the hand did not supply, over K h^2 / 2", "", 1.0};
 inline const Bound kPlate{"A11", "contact over a plate: energy in the coupling that the hand did not supply", "%", 0.0};
 inline const Bound kGainsInUse{"A13", "gains in use: stiffness over its boundary", "", 1.0};
-inline const Bound kLeastPassive{"A13", "work on the simulated arm along the least passive motion against the rule", "%",
-                                 2.0};
+inline const Bound kLeastPassive{"A13", "work on the simulated arm along the least passive motion against the rule",
+                                 "%", 2.0};
 inline const Bound kBus{"bus schedule", "boundary over CAN against A4 at the plan's delay", "%", 0.6};
 inline const Bound kBusDelay{"bus schedule", "longest delay of the plan", "periods", 2.0};
 inline const Bound kControlled{"passivity controller",

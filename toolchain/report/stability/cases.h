@@ -13,9 +13,9 @@ namespace godobject::report {
 struct StabilityRequest {
   std::filesystem::path devices = {};  ///< folder of the device files
   bool quick = false;
-  std::uint32_t seed = 0;   ///< of random loops, postures, motions and losses
-  LoopFault fault = {};     ///< for tests of the rows
-  bool one_place = false;   ///< for such tests: rows with many expensive places are measured in one of them
+  std::uint32_t seed = 0;  ///< of random loops, postures, motions and losses
+  LoopFault fault = {};    ///< for tests of the rows
+  bool one_place = false;  ///< for such tests: rows with many expensive places are measured in one of them
 };
 
 /// Returns the cases with one degree of freedom, by closed forms: rows A1 to A6, A9 to A11, and random loops.

@@ -35,7 +35,8 @@ const char* const kIntroduction =
     "10 %; 0.85 K_crit is stable. With a share p of losses the mean age of the force grows by T p / (1 - p), and the "
     "boundary is that of this longer delay</td></tr>\n"
     "<tr><td>A11</td><td>the control law generates no energy: the hand has supplied the energy of the exact spring, "
-    "-&Sigma; f<sub>k</sub> (x<sub>k</sub> - x<sub>k-1</sub>) &ge; K x<sup>2</sup>/2 - K h<sup>2</sup>/2 per axis, with "
+    "-&Sigma; f<sub>k</sub> (x<sub>k</sub> - x<sub>k-1</sub>) &ge; K x<sup>2</sup>/2 - K h<sup>2</sup>/2 per axis, "
+    "with "
     "exact positions x</td></tr>\n"
     "<tr><td>A13</td><td>an arm is passive if its joint damping minus (T/2 + t<sub>d</sub>) J<sup>T</sup> K J is "
     "positive definite, and stable by A4 on the whole matrix</td></tr></table></div>";
@@ -238,8 +239,7 @@ Chapter stability_chapter(const StabilityRequest& request) {
                   .bounds = stability_bound::all(),
                   .cases = {},
                   .conclude = conclude};
-  for (auto&& cases :
-       {axis_cases(request), passivity_cases(request), pipeline_cases(request), arm_cases(request)}) {
+  for (auto&& cases : {axis_cases(request), passivity_cases(request), pipeline_cases(request), arm_cases(request)}) {
     chapter.cases.insert(chapter.cases.end(), cases.begin(), cases.end());
   }
   for (StudyCase& study_case : chapter.cases) study_case.seconds = seconds(study_case.name, request.quick);

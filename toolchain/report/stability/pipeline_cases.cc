@@ -263,12 +263,13 @@ CaseResult z_width(Solver solver, double delay, const StabilityRequest& request,
     if (solver == Solver::kContact) {
       result.findings.push_back(judged(stability_bound::kPlateExact, off, where));
     } else {
-      result.findings.push_back({.row = "Z-width",
-                                 .what = fmt::format("{}: stiffest stable plate, distance from the exact boundary", name),
-                                 .unit = "%",
-                                 .value = off,
-                                 .most = {},
-                                 .where = where});
+      result.findings.push_back(
+          {.row = "Z-width",
+           .what = fmt::format("{}: stiffest stable plate, distance from the exact boundary", name),
+           .unit = "%",
+           .value = off,
+           .most = {},
+           .where = where});
     }
   }
   result.sheets.push_back(sheet);
@@ -372,8 +373,8 @@ class HandOverPlate {
 /// Returns the energy of the coupling between the god object S and the device D [J].
 double stored_energy(const Pose& H_WS, const Pose& H_WD, const Parameters& q) {
   const Motion x = get_motion(H_WS.inverse() * H_WD);
-  return 0.5 * q.stiffness * (q.coupling_translation * x.translation.squaredNorm() +
-                              q.coupling_rotation * x.rotation.squaredNorm());
+  return 0.5 * q.stiffness *
+         (q.coupling_translation * x.translation.squaredNorm() + q.coupling_rotation * x.rotation.squaredNorm());
 }
 
 /// A run of the energy's account.
@@ -408,8 +409,8 @@ Account account(const SceneView& scene, Solver solver, unsigned seed, const Loop
   return all;
 }
 
-/// A11 through the pipeline, for random motions of the hand in all six axes together: the coupling, whose energy follows
-/// from the poses, never contains more than the hand has supplied against the force.
+/// A11 through the pipeline, for random motions of the hand in all six axes together: the coupling, whose energy
+/// follows from the poses, never contains more than the hand has supplied against the force.
 CaseResult pipeline_observer(const StabilityRequest& request, const std::filesystem::path& work) {
   const SceneView& scene = Press::slab(work).scene();
   CaseResult result;
@@ -456,10 +457,9 @@ std::vector<StudyCase> pipeline_cases(const StabilityRequest& request) {
   std::vector<StudyCase> cases;
   for (std::uint32_t s = 0; s < format::kSolverCount; ++s) {
     for (const double delay : request.quick ? std::vector<double>{1e-3} : std::vector<double>{0.5e-3, 1e-3, 2e-3}) {
-      cases.push_back(
-          {.name = fmt::format("stability.z-width-{}-{}ms", format::kSolverNames[s], 1e3 * delay),
-           .inputs = inputs,
-           .run = [=](const auto& work) { return z_width(static_cast<Solver>(s), delay, request, work); }});
+      cases.push_back({.name = fmt::format("stability.z-width-{}-{}ms", format::kSolverNames[s], 1e3 * delay),
+                       .inputs = inputs,
+                       .run = [=](const auto& work) { return z_width(static_cast<Solver>(s), delay, request, work); }});
     }
   }
   cases.push_back({.name = "stability.gyration", .inputs = inputs, .run = [request](const auto& work) {

@@ -70,7 +70,7 @@ struct CaseOutcome {
 struct Chapter {
   std::string name;
   std::string title;
-  std::string introduction;  ///< HTML
+  std::string introduction;        ///< HTML
   std::vector<Bound> bounds = {};  ///< of all judged quantities, also of those that a run omits
   std::vector<StudyCase> cases;
   /// Writes the chapter's files into the folder. `outcomes` are those of `cases`, in their order.

@@ -59,8 +59,8 @@ Bound cost_bound(const std::string& scene) {
 }
 
 Bound paper_bound(const std::string& scene) {
-  const OfPaper& found = *std::find_if(std::begin(kOfPaper), std::end(kOfPaper),
-                                       [&](const OfPaper& each) { return each.scene == scene; });
+  const OfPaper& found =
+      *std::find_if(std::begin(kOfPaper), std::end(kOfPaper), [&](const OfPaper& each) { return each.scene == scene; });
   return {scene, "wrench error of contact over that of paper at the same cost or less", "", found.most, true};
 }
 

@@ -165,9 +165,7 @@ std::string front_table(const Field& field) {
 
 /// Judges the recommended setting: its cost in a second measurement, and its errors.
 void judge_chosen(const Field& field, const std::optional<std::size_t>& chosen, Section& section) {
-  const auto measured = [&](const char* column) {
-    return chosen ? value(field.rows[*chosen], column) : std::nan("");
-  };
+  const auto measured = [&](const char* column) { return chosen ? value(field.rows[*chosen], column) : std::nan(""); };
   const std::string where = chosen ? words(field.rows[*chosen]) : "all settings cost more";
   const ErrorBounds bounds = error_bounds(field.scene, kRecommended, true);
   section.findings.push_back(judged(cost_bound(field.scene), measured("p99_again_us"), where));

@@ -111,8 +111,8 @@ scene_compiler::SceneConfig scene_config(const ImageTrial& trial) {
 files::SceneImage image_of(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
   scene_compiler::SceneConfig compiled = precision::with(config, trial.image.setting);
   compiled.moving.scale *= trial.fault.body_scale;
-  return kept_image(trial.kept,
-                    fmt::format("{} image {} scale {}", trial.inputs, trial.image.name, compiled.moving.scale), compiled);
+  return kept_image(
+      trial.kept, fmt::format("{} image {} scale {}", trial.inputs, trial.image.name, compiled.moving.scale), compiled);
 }
 
 /// Returns all solvers, each with and without friction.
@@ -185,14 +185,15 @@ CaseResult image_errors(const ImageTrial& trial) {
   const std::vector<precision::Result> results = judge.errors(image_of(trial, config), settings(trial, config));
 
   CaseResult made;
-  Sheet errors = sheet(kErrors, {"wrench_error", "wrench_error_N", "force_error", "torque_error", "force_magnitude_N", "force_direction_rad",
-                                 "penetration_deepest_mm", "penetration_rms_mm", "optimum_distance_mm",
-                                 "friction_ratio", "chatter_N", "chatter_of_reference_N", "image_bytes"});
+  Sheet errors =
+      sheet(kErrors, {"wrench_error", "wrench_error_N", "force_error", "torque_error", "force_magnitude_N",
+                      "force_direction_rad", "penetration_deepest_mm", "penetration_rms_mm", "optimum_distance_mm",
+                      "friction_ratio", "chatter_N", "chatter_of_reference_N", "image_bytes"});
   const std::vector<std::size_t> checked = checkpoints(judge.reference(false), trial.quick ? 1 : 3);
   for (const precision::Result& result : results) {
     add(errors, key_of(trial.scene.name, result.setting),
-        {result.wrench.relative, result.wrench.rms, result.wrench.force, result.wrench.torque, result.wrench.magnitude, result.wrench.direction,
-         1e3 * result.penetration.deepest, 1e3 * result.penetration.rms,
+        {result.wrench.relative, result.wrench.rms, result.wrench.force, result.wrench.torque, result.wrench.magnitude,
+         result.wrench.direction, 1e3 * result.penetration.deepest, 1e3 * result.penetration.rms,
          1e3 * optimum_distance(judge.exact(), path, checked, result), friction_ratio(trial.scene, result),
          chatter(forces(result.cycles)), chatter(forces(judge.reference(result.setting.friction))),
          static_cast<double>(result.image_bytes)});

@@ -36,7 +36,7 @@ struct TriedImage {
   std::string name;  ///< name of the case
   precision::ImageSetting setting;
   std::string judged_as = {};  ///< name of its rows; empty: the errors are not judged
-  bool margins = false;  ///< `contact` also with a tenth of its margin and with ten times its margin
+  bool margins = false;        ///< `contact` also with a tenth of its margin and with ten times its margin
 };
 std::vector<TriedImage> tried_images(const precision::ImageSetting& written, bool quick, bool finest_refined);
 
