@@ -9,6 +9,7 @@
 #include "core/pipeline/contact/contact_cycle.h"
 #include "core/pipeline/contact/contact_memory.h"
 #include "core/pipeline/contact/contact_scene.h"
+#include "core/pipeline/contact/substep_path.h"
 #include "core/pipeline/corrected/corrected_cycle.h"
 #include "core/pipeline/cycle/parameters.h"
 #include "core/pipeline/cycle/scene_traits.h"
@@ -94,7 +95,7 @@ class Session {
 
  private:
   static constexpr bool kHasSearch = kSceneTraits.contact && kSceneTraits.points;
-  /// What a build for a ball alone keeps of ContactMemory.
+  /// The part of ContactMemory that a build for a ball alone keeps.
   struct BallMemory {
     SubstepPath path;
     void reset() noexcept { path.clear(); }

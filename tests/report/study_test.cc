@@ -87,8 +87,14 @@ class StudyTest : public test::FolderTest {
   }
 
   static Chapter chapter(std::vector<StudyCase> cases) {
-    return {
-        .name = "things", .title = "Things & more", .introduction = "", .cases = std::move(cases), .conclude = gather};
+    std::vector<Bound> bounds;
+    for (const StudyCase& each : cases) bounds.push_back({each.name, "value", "mm", 1.0});
+    return {.name = "things",
+            .title = "Things & more",
+            .introduction = "",
+            .bounds = std::move(bounds),
+            .cases = std::move(cases),
+            .conclude = gather};
   }
 
   std::string text_of(const std::filesystem::path& file) const {

@@ -22,7 +22,7 @@ class AtPlace : public testing::TestWithParam<Place> {
   ~AtPlace() override { std::filesystem::remove_all(work_); }
 
   TorqueSteps steps(const SceneView& scene, Solver solver, const firmware::TorqueLimits& used, std::uint32_t seed) {
-    return torque_steps(GetParam(), scene, device_, solver, true, used, seed);
+    return torque_steps(GetParam(), scene, device_, solver, true, {.limits = used}, seed);
   }
 
   std::filesystem::path work_;

@@ -17,7 +17,7 @@ namespace {
 using report::Rig;
 using report::Setup;
 
-/// What a planted fault may change after a correct cycle.
+/// The values that a planted fault may change after a correct cycle.
 struct Faulty {
   const Setup& setup;
   Pose H_WD;
@@ -109,15 +109,12 @@ struct Planted {
   Fault fault;
 };
 
+using Plant = std::function<void(const char* name, Property property, const Setup& setup, const Fault& fault)>;
+
 Vector3 tangential_of(const Vector3& v) { return {v.x(), v.y(), 0.0}; }
 
 /// The plane of these setups is z = 0, so that the normal is z.
-std::vector<Planted> planted_faults() {
-  const double voxel = 0.1 * 0.02;
-  std::vector<Planted> all;
-  const auto plant = [&all](const char* name, Property property, const Setup& setup, const Fault& fault) {
-    all.push_back({name, property, setup, fault});
-  };
+void plant_in_the_wrench(const Plant& plant) {
   plant("NanTorque", Property::kFinite, pressed(false),
         [](const Faulty& f) { f.report.force.total_W.torque.y() = std::nan(""); });
   plant("LongRotation", Property::kFinite, pressed(false),
@@ -142,6 +139,11 @@ std::vector<Planted> planted_faults() {
   });
   plant("NoDamping", Property::kDamping, one_point(false),
         [](const Faulty& f) { f.report.force.total_W = f.report.force.spring_W; });
+}
+
+/// The same plane.
+void plant_in_the_motion(const Plant& plant) {
+  const double voxel = 0.1 * 0.02;
   Setup through = one_point(false);
   through.world = "plate";
   through.motion = "dash";
@@ -200,6 +202,10 @@ std::vector<Planted> planted_faults() {
     f.report.outcome = Outcome::kCut;
     f.move_to(f.H_WS_before);
   });
+}
+
+void plant_in_the_report(const Plant& plant) {
+  const double voxel = 0.1 * 0.02;
   plant("WrongPenetration", Property::kReport, pressed(false),
         [voxel](const Faulty& f) { f.report.penetration += 0.01 * voxel; });
   plant("FreeWithContacts", Property::kReport, pressed(false),
@@ -209,6 +215,16 @@ std::vector<Planted> planted_faults() {
   plant("StartInsideWhileOutside", Property::kReport, pressed(false),
         [](const Faulty& f) { f.report.outcome = Outcome::kStartInside; });
   plant("PathThatEndsElsewhere", Property::kReport, pressed(false), [](const Faulty& f) { f.path.assign(1, Pose{}); });
+}
+
+std::vector<Planted> planted_faults() {
+  std::vector<Planted> all;
+  const Plant plant = [&all](const char* name, Property property, const Setup& setup, const Fault& fault) {
+    all.push_back({name, property, setup, fault});
+  };
+  plant_in_the_wrench(plant);
+  plant_in_the_motion(plant);
+  plant_in_the_report(plant);
   return all;
 }
 

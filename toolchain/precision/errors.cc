@@ -22,6 +22,10 @@ WrenchError wrench_error(std::span<const Wrench> wrenches, std::span<const Wrenc
   double difference = 0.0;
   double whole = 0.0;
   double magnitude = 0.0;
+  double force = 0.0;
+  double whole_force = 0.0;
+  double torque = 0.0;
+  double whole_torque = 0.0;
   double angle = 0.0;
   double pushing = 0.0;
   for (std::size_t k = 0; k < reference.size(); ++k) {
@@ -29,6 +33,10 @@ WrenchError wrench_error(std::span<const Wrench> wrenches, std::span<const Wrenc
     const Vector3& f_ref = reference[k].force;
     difference += squared({f - f_ref, wrenches[k].torque - reference[k].torque}, squared_gyration);
     whole += squared(reference[k], squared_gyration);
+    force += (f - f_ref).squaredNorm();
+    whole_force += f_ref.squaredNorm();
+    torque += (wrenches[k].torque - reference[k].torque).squaredNorm();
+    whole_torque += reference[k].torque.squaredNorm();
     magnitude += std::pow(f.norm() - f_ref.norm(), 2);
     if (std::min(f.norm(), f_ref.norm()) <= kPushing * largest) continue;
     angle += std::pow(std::atan2(f.cross(f_ref).norm(), f.dot(f_ref)), 2);
@@ -38,6 +46,8 @@ WrenchError wrench_error(std::span<const Wrench> wrenches, std::span<const Wrenc
   error.rms = std::sqrt(difference / count);
   error.relative = std::sqrt(difference / whole);
   error.magnitude = std::sqrt(magnitude / count);
+  error.force = std::sqrt(force / whole_force);
+  error.torque = std::sqrt(torque / whole_torque);
   error.direction = pushing > 0.0 ? std::sqrt(angle / pushing) : 0.0;
   return error;
 }

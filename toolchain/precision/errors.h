@@ -15,6 +15,8 @@ struct WrenchError {
   double rms = 0.0;        ///< of the difference [N]
   double relative = 0.0;   ///< the same over the rms of the reference; infinity if the reference never pushes
   double magnitude = 0.0;  ///< rms of |f| - |f_ref| [N]
+  double force = 0.0;      ///< rms of the difference of the forces over the rms of the reference's
+  double torque = 0.0;     ///< the same of the torques
   double direction = 0.0;  ///< rms of the angle between the forces where both are above 1 % of the largest [rad]
 };
 

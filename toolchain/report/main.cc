@@ -71,9 +71,12 @@ std::vector<Chapter> chapters(const Options& options) {
   if (wanted(options, "faults")) all.push_back(fault_chapter(options.tests));
   if (wanted(options, "precision"))
     all.push_back(work_precision_chapter({options.scenes, kept_folder(options.output), options.contact.quick}));
-  if (wanted(options, "stability")) all.push_back(stability_chapter({options.devices, options.contact.quick}));
+  if (wanted(options, "stability"))
+    all.push_back(
+        stability_chapter({.devices = options.devices, .quick = options.contact.quick, .seed = options.seed}));
   if (wanted(options, "extremes"))
-    all.push_back(extremes_chapter({options.devices, options.cycles, options.contact.quick, options.seed}));
+    all.push_back(extremes_chapter(
+        {.devices = options.devices, .cycles = options.cycles, .quick = options.contact.quick, .seed = options.seed}));
   return all;
 }
 
@@ -129,7 +132,8 @@ int main(int argc, char** argv) {
   app.add_option("--cycles", options.cycles, "total cycles of the fuzzer; default: 100000, with --quick 20000")
       ->check(CLI::Range(std::int64_t{1000}, std::int64_t{1'000'000'000'000}))
       ->option_text("N");
-  app.add_option("--seed", options.seed, "seed of the fuzzer")
+  app.add_option("--seed", options.seed,
+                 "seed of the fuzzer, and of the random loops, postures and motions of other rows")
       ->check(CLI::Range(0u, 1'000'000u))
       ->option_text("N")
       ->capture_default_str();

@@ -16,7 +16,7 @@ double squared_distance_to_box(const Vector3& low, const Vector3& high, const Ve
   return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
 }
 
-/// Whether the segment p + t d, 0 <= t <= 1, meets the box.
+/// Tells whether the segment p + t d, 0 <= t <= 1, meets the box.
 bool meets_box(const Vector3& low, const Vector3& high, const Vector3& p, const Vector3& d) {
   double begin = 0.0, end = 1.0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -22,7 +22,7 @@ class MeshSurface final : public Oracle {
   Vector3 gradient(const Vector3& p) const override;
   double lipschitz() const override { return 1.0; }
 
-  /// Whether the segment meets a triangle.
+  /// Tells whether the segment meets a triangle.
   bool meets(const Vector3& p0, const Vector3& p1) const;
 
   const std::vector<Vector3>& vertices() const { return vertices_; }

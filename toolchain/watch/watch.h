@@ -27,7 +27,7 @@ struct Direction {
   double mesh_accuracy = 0.0;        ///< largest depth of the stored surface inside the mesh [m]
 };
 
-/// The session that the watch observes. What the pointers refer to must outlive the watch.
+/// The session that the watch observes. The objects that it points to must outlive the watch.
 struct WatchedSession {
   std::vector<Direction> directions = {};
   Parameters parameters = {};
@@ -119,6 +119,7 @@ class Watch {
   void check_distance(const WatchedCycle& cycle);
   void check_reference(const WatchedCycle& cycle);
   void check_pushes(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
+  const Contact* one_normal(const WatchedCycle& cycle, const std::vector<Contact>& contacts, int& count) const;
   void check_friction(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
   void check_damping(const WatchedCycle& cycle, const Contact& contact, double turned);
   void check_work(const WatchedCycle& cycle);

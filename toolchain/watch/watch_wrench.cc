@@ -1,4 +1,4 @@
-// What the watch knows of the displayed wrench: spring, damping and friction.
+// Checks of the displayed wrench: spring, damping and friction.
 #include "toolchain/watch/watch.h"
 
 #include <algorithm>
@@ -67,25 +67,38 @@ Vector6 Watch::load(const CycleReport& report) const {
   return stacked(report.force.spring_W.force, report.force.spring_W.torque / gyration_);
 }
 
-/// Contacts that all have one normal: size of the friction. One contact that slips: its direction, and the damping.
-void Watch::check_friction(const WatchedCycle& cycle, const std::vector<Contact>& contacts) {
+/// Returns the nearest of the touching points if they, and the points about to touch, had one normal all through the
+/// cycle, and no face of the workspace carries force; null otherwise. `count`: the touching points.
+const Watch::Contact* Watch::one_normal(const WatchedCycle& cycle, const std::vector<Contact>& contacts,
+                                        int& count) const {
   const CycleReport& report = cycle.report;
-  if (report.outcome != Outcome::kContact || report.unconverged || report.outside || report.substeps > 1) return;
-  if (travelled_ > 0.125 * q_.voxel_size) return;
+  if (report.outcome != Outcome::kContact || report.unconverged || report.outside || report.substeps > 1)
+    return nullptr;
+  if (travelled_ > 0.125 * q_.voxel_size) return nullptr;
   const double touching = 2.0 * q_.margin;
   const Contact* first = nullptr;
-  int count = 0;
+  count = 0;
   for (const Contact& contact : contacts) {
-    if (first != nullptr && (contact.normal_W - first->normal_W).norm() > 1e-6) return;  // also those about to touch
+    if (first != nullptr && (contact.normal_W - first->normal_W).norm() > 1e-6) return nullptr;
     if (first == nullptr || contact.gap < first->gap) first = &contact;
     count += contact.gap < touching ? 1 : 0;
   }
-  if (count == 0) return;
+  if (count == 0) return nullptr;
   for (const Contact& contact : contacts_at(H_WS_before_, 0.25 * q_.voxel_size, 0.1 * q_.voxel_size)) {
-    if ((contact.normal_W - first->normal_W).norm() > 1e-3) return;
+    if ((contact.normal_W - first->normal_W).norm() > 1e-3) return nullptr;
   }
-  if (q_.workspace.limited && (report.H_WS.translation - q_.workspace.low).cwiseAbs().minCoeff() < q_.margin) return;
-  if (q_.workspace.limited && (report.H_WS.translation - q_.workspace.high).cwiseAbs().minCoeff() < q_.margin) return;
+  if (!q_.workspace.limited) return first;
+  const Vector3& p = report.H_WS.translation;
+  const double to_face = std::min((p - q_.workspace.low).minCoeff(), (q_.workspace.high - p).minCoeff());
+  return to_face < q_.margin ? nullptr : first;
+}
+
+/// Contacts that all have one normal: size of the friction. One contact that slips: its direction, and the damping.
+void Watch::check_friction(const WatchedCycle& cycle, const std::vector<Contact>& contacts) {
+  int count = 0;
+  const Contact* const first = one_normal(cycle, contacts, count);
+  if (first == nullptr) return;
+  const CycleReport& report = cycle.report;
   const Vector3& n = first->normal_W;
   const Vector3& F = report.force.spring_W.force;
   const double normal = n.dot(F);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/pipeline/contact/contact_lengths.h"
+#include "core/pipeline/contact/substep_path.h"
 #include "core/pipeline/cycle/parameters.h"
 #include "core/pipeline/cycle/state.h"
 #include "core/scene/voxelmap.h"

@@ -10,7 +10,7 @@
 #include "core/pipeline/contact/qp/least_constraint.h"
 #include "core/pipeline/contact/search/near_points.h"
 #include "core/pipeline/contact/search/near_search.h"
-#include "core/pipeline/cycle/state.h"
+#include "core/pipeline/contact/substep_path.h"
 
 namespace godobject {
 

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 
-#include "core/pipeline/contact/contact_limits.h"
 #include "godobject/pose.h"
 #include "godobject/report.h"
 
@@ -30,23 +27,5 @@ struct ProxyState {
 /// with `corrected` (through the plate). With 4 it waits in 19 and 92. With 16 it never waits, but the largest force
 /// step in the hole rises from 8.6 to 13.0 N.
 inline constexpr std::uint32_t kMaxSubsteps = 8;
-
-/// The god object's poses at the ends of the sub-steps of the last cycle of `contact`. Between two of them, and from
-/// the cycle's first pose to the first of them, every point moved along a straight chord that the certificate checked.
-/// Tools and tests read it; no cycle depends on it.
-class SubstepPath {
- public:
-  static constexpr std::uint32_t kCapacity = kMaxSubsteps + kMostFreeSubsteps;
-
-  void clear() noexcept { count_ = 0; }
-  void push(const Pose& H_WS) noexcept {
-    if (count_ < kCapacity) poses_[count_++] = H_WS;
-  }
-  std::span<const Pose> poses() const noexcept { return {poses_.data(), count_}; }
-
- private:
-  std::array<Pose, kCapacity> poses_;
-  std::uint32_t count_ = 0;
-};
 
 }  // namespace godobject

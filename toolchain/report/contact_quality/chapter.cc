@@ -102,18 +102,21 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   for (const QuantitySpec& quantity : quantities()) {
     const auto verdict = judge(measurements, quantity.id, Solver::kContact);
     if (!quantity.target || !verdict) continue;
-    section.findings.push_back({.row = quantity.title,
-                                .what = "contact",
-                                .unit = quantity.unit,
-                                .value = verdict->value,
-                                .most = quantity.target,
-                                .where = quantity.median ? "median of the scenes" : verdict->worst_scene,
-                                .timed = std::string_view(quantity.unit) == "us"});
+    section.findings.push_back(
+        judged(bound_of(quantity), verdict->value, quantity.median ? "median of the scenes" : verdict->worst_scene));
   }
   return section;
 }
 
 }  // namespace
+
+std::vector<Bound> contact_bounds() {
+  std::vector<Bound> bounds;
+  for (const QuantitySpec& quantity : quantities()) {
+    if (quantity.target) bounds.push_back(bound_of(quantity));
+  }
+  return bounds;
+}
 
 Chapter contact_chapter(const ContactQualityRequest& request) {
   const std::vector<SceneSpec> chosen = chosen_scenes(request);
@@ -123,6 +126,7 @@ Chapter contact_chapter(const ContactQualityRequest& request) {
                   .introduction =
                       "<p>The three solvers run in the same scenes along the same device paths. The targets are those "
                       "of <code>contact</code>. Times grow if cases run side by side.</p>",
+                  .bounds = contact_bounds(),
                   .cases = {},
                   .conclude = conclude};
   for (const SceneSpec& scene : chosen) {

@@ -39,7 +39,7 @@ scene_compiler::CompileReport compile_image(const std::string& name, const Scene
 }
 
 files::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder) {
-  static_cast<void>(compile_image(name, scene, folder));
+  if (!std::filesystem::exists(folder / (name + ".scene"))) static_cast<void>(compile_image(name, scene, folder));
   return files::SceneImage::read(folder / (name + ".scene"));
 }
 

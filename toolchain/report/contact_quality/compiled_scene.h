@@ -48,7 +48,8 @@ std::filesystem::path still_file(const std::string& name, const std::filesystem:
 scene_compiler::CompileReport compile_image(const std::string& name, const SceneText& scene,
                                             const std::filesystem::path& folder);
 
-/// Writes mesh and scene file NAME to `folder`, compiles them and reads the image.
+/// Writes mesh and scene file NAME to `folder`, compiles them and reads the image. An image NAME that is already there
+/// is used.
 files::SceneImage compile(const std::string& name, const SceneText& scene, const std::filesystem::path& folder);
 
 }  // namespace godobject::report

@@ -6,6 +6,7 @@
 
 #include "core/scene/format.h"
 #include "godobject/scene.h"
+#include "toolchain/report/study/bound.h"
 
 namespace godobject::report {
 
@@ -54,6 +55,9 @@ struct QuantitySpec {
 
 const std::vector<QuantitySpec>& quantities();
 const QuantitySpec& spec(Quantity id);
+
+/// Returns the bound of a quantity with a target: that of `contact`.
+Bound bound_of(const QuantitySpec& quantity);
 
 /// The worst value of a quantity within a scene.
 struct Measurement {

@@ -11,6 +11,8 @@
 #include "toolchain/files/input_file.h"
 #include "toolchain/files/output_target.h"
 #include "toolchain/files/work_folder.h"
+#include "toolchain/report/extremes/bad_input.h"
+#include "toolchain/report/extremes/bounds.h"
 #include "toolchain/report/extremes/rows.h"
 #include "toolchain/report/extremes/run.h"
 #include "toolchain/report/extremes/setup.h"
@@ -48,13 +50,8 @@ class Tally {
     for (std::size_t i = 0; i < watch::kPropertyCount; ++i) {
       const auto property = static_cast<watch::Property>(i);
       const watch::Tally& tally = all_[property];
-      if (tally.judged == 0) continue;
-      result.findings.push_back({.row = row_,
-                                 .what = watch::describe(property),
-                                 .unit = "",
-                                 .value = static_cast<double>(tally.violated),
-                                 .most = 0.0,
-                                 .where = tally.first});
+      result.findings.push_back(
+          judged(extremes_bound::of_property(row_, property), static_cast<double>(tally.violated), tally.first));
       properties.rows.push_back({row_, watch::describe(property), std::to_string(tally.judged),
                                  std::to_string(tally.violated), cell(tally.worst)});
     }
@@ -89,7 +86,7 @@ void choose_mesh(Setup& setup, std::int64_t cycles) {
 }
 
 CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t seed, bool meshes,
-                   const std::filesystem::path& work) {
+                   const ExtremesFault& fault, const std::filesystem::path& work) {
   std::mt19937 random(seed);
   Tally tally(row);
   bool compiled = !meshes;
@@ -102,7 +99,12 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
       setup.world = "heap";
     }
     const auto rig = make_rig(setup, work);
-    tally.add(setup, run_setup(setup, *rig));
+    watch::Findings found = run_setup(setup, *rig);
+    if (fault.violated) {
+      ++found[*fault.violated].violated;
+      found[*fault.violated].first = "planted";
+    }
+    tally.add(setup, found);
   }
   return tally.result();
 }
@@ -147,10 +149,12 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
 
 Chapter extremes_chapter(const ExtremesRequest& request) {
   const std::int64_t cycles = request.cycles > 0 ? request.cycles : request.quick ? 20'000 : 100'000;
-  const std::int64_t row_cycles = request.quick ? 2'000 : 100'000;
+  const std::int64_t row_cycles = request.one_place ? 1'000 : request.quick ? 2'000 : 100'000;
   const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, kMostStretches);
   const bool quick = request.quick;
-  const std::int64_t long_cycles = quick ? 100'000 : std::max<std::int64_t>(10'000'000, cycles);
+  const std::int64_t long_cycles = request.one_place ? 10'000
+                                   : quick           ? 100'000
+                                                     : std::max<std::int64_t>(10'000'000, cycles);
   Chapter chapter{
       .name = "extremes",
       .title = "Numerical extremes",
@@ -160,30 +164,37 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
           "the field jumps, with and without its supervisor; for comparison, the torques that the solvers alone would "
           "command there. For stiffness, mass and delay on the stable side of A4 see the random loops of the chapter "
           "on stability.</p>",
+      .bounds = extremes_bound::all(),
       .cases = {},
       .conclude = conclude};
+  const RowRequest row{quick, request.seed, request.fault, request.one_place};
   const auto add = [&](const std::string& name, const std::string& inputs,
                        std::function<CaseResult(const std::filesystem::path&)> run, double seconds) {
     chapter.cases.push_back({.name = "extremes." + name, .inputs = inputs, .run = std::move(run), .seconds = seconds});
   };
-  const std::string inputs = fmt::format("quick {}", quick);
+  const std::string inputs = fmt::format("quick {} seed {}", quick, request.seed);
   add(
-      "bad-meshes", inputs, [quick](const auto& work) { return bad_meshes(quick, work); }, quick ? 10.0 : 30.0);
+      "bad-meshes", inputs, [row](const auto& work) { return bad_meshes(row, work); }, quick ? 10.0 : 30.0);
   add(
-      "gap", inputs, [quick](const auto& work) { return gap_near_the_voxel(quick, work); }, quick ? 10.0 : 20.0);
+      "gap", inputs, [row](const auto& work) { return gap_near_the_voxel(row, work); }, quick ? 10.0 : 20.0);
   add(
-      "scale", inputs, [quick](const auto&) { return same_at_every_scale(quick); }, quick ? 2.0 : 15.0);
+      "scale", inputs, [row](const auto&) { return same_at_every_scale(row); }, quick ? 2.0 : 15.0);
   add(
       "long-run", fmt::format("{} cycles {}", inputs, long_cycles),
-      [long_cycles](const auto&) { return long_run(long_cycles); }, 1e-5 * static_cast<double>(long_cycles));
+      [row, long_cycles](const auto&) { return long_run(long_cycles, row); }, 1e-5 * static_cast<double>(long_cycles));
   add(
-      "closed-path", inputs, [quick](const auto&) { return closed_path(quick); }, quick ? 1.0 : 5.0);
+      "closed-path", inputs, [row](const auto&) { return closed_path(row); }, quick ? 1.0 : 5.0);
+  const std::int64_t bad_inputs = request.one_place ? 1'000 : quick ? 20'000 : 100'000;
+  add(
+      "bad-input", inputs, [row, bad_inputs](const auto& work) { return bad_input(bad_inputs, row.fault, work); },
+      quick ? 3.0 : 10.0);
   for (std::size_t i = 0; i < kRowCount; ++i) {
     add(
         fmt::format("row-{}", i + 1), inputs,
-        [i, quick, of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles,
-         seed = 1000 * (request.seed + 1) + static_cast<std::uint32_t>(i)](const auto& work) {
-          return run_row(kRows[i], of_row, seed, !quick, work);
+        [i, row, meshes = !request.one_place && !quick,
+         of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
+          return run_row(kRows[i], of_row, 1000 * (row.seed + 1) + static_cast<std::uint32_t>(i), meshes, row.fault,
+                         work);
         },
         quick              ? 1.0
         : i == kSlenderRow ? 100.0
@@ -194,8 +205,8 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   for (std::size_t i = 0; i < kPlaceCount; ++i) {
     add(
         fmt::format("torque-{}", i + 1), fmt::format("{} device {}", inputs, file_digest(device)),
-        [i, device, row_cycles](const auto& work) {
-          return torque_rate(static_cast<Place>(i), device, row_cycles, work);
+        [i, device, row, row_cycles](const auto& work) {
+          return torque_rate(static_cast<Place>(i), device, row_cycles, row, work);
         },
         quick ? 3.0 : 15.0);
   }
@@ -203,8 +214,8 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
     const auto seed = request.seed * kMostStretches + static_cast<std::uint32_t>(i);
     add(
         fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {} seed {}", quick, cycles / stretches, seed),
-        [seed, quick, each = cycles / stretches](const auto& work) {
-          return run_row("fuzzer", each, seed, !quick, work);
+        [seed, row, each = cycles / stretches](const auto& work) {
+          return run_row("fuzzer", each, seed, !row.quick, row.fault, work);
         },
         1e-4 * static_cast<double>(cycles / stretches));
   }

@@ -65,7 +65,8 @@ JointVector reached(const ArmModel& model, JointVector q, const Pose& H_RM) {
 /// The controller without its supervisor; it renders fully from the first cycle on.
 class Unsupervised {
  public:
-  Unsupervised(const LedArm& arm, const CycleSetup& setup) : setup_(setup), limiter_(*setup.arm, setup.torque) {
+  Unsupervised(const LedArm& arm, const CycleSetup& setup)
+      : setup_(setup), limiter_(*setup.arm, setup.torque), reports_(arm.fault) {
     if (god_object_.start(*arm.scene, arm.solver, arm.friction) != Status::kOk) {
       throw command::Failure(command::ExitCode::kInternal, "the scene lacks the solver");
     }
@@ -79,7 +80,9 @@ class Unsupervised {
     request.kinematics = forward_kinematics(*setup_.arm, request.q);
     request.p_RP = request.kinematics.H_RM * setup_.scene->H_MB.translation;
     const Motion velocity = tool_velocity(geometric_jacobian(request.kinematics, request.p_RP), request.qd);
-    if (god_object_->update({cycle.record.H_WM, velocity}, report_) == Status::kOk) {
+    const Status status = god_object_->update({cycle.record.H_WM, velocity}, report_);
+    reports_.spoil(report_);
+    if (status == Status::kOk) {
       const Wrench& F_G_R = report_.force.total_W;  // this workspace is neither turned nor scaled
       request.F_P_R = limit_at_hand(setup_.hand, F_G_R, velocity).F_G_R;
     }
@@ -99,6 +102,7 @@ class Unsupervised {
   CycleSetup setup_;
   OwnedGodObject god_object_;
   TorqueLimiter limiter_;
+  FaultyReports reports_;
   CycleReport report_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "firmware/configuration/controller_file.h"
 #include "firmware/cycle/control_cycle.h"
+#include "toolchain/report/contact_quality/cycle_fault.h"
 #include "toolchain/session/owned_god_object.h"
 
 namespace godobject::report {
@@ -17,6 +18,7 @@ struct LedArm {
   Solver solver = Solver::kContact;
   bool friction = false;
   firmware::TorqueLimits torque = {};
+  CycleFault fault = {};  ///< of the solver that runs without a supervisor
 };
 
 /// A cycle of the controller.

@@ -10,11 +10,14 @@
 #include "toolchain/report/analytic/field.h"
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/meshes.h"
+#include "toolchain/report/extremes/bounds.h"
 #include "toolchain/report/extremes/run.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
 namespace godobject::report {
 namespace {
+
+namespace bound = extremes_bound;
 
 constexpr double kPeriod = 1e-3;
 
@@ -36,14 +39,15 @@ struct LookUps {
   std::int64_t wrong_sign = 0;  ///< only where the exact distance exceeds a voxel
 };
 
-LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open) {
+LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open, double distance_gain) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   LookUps found;
   for (int i = 0; i < count; ++i) {
     const double reach = i % 10 == 0 ? 100.0 : 1.3;  // some far outside the grid
     const Vector3 p = reach * half.cwiseProduct(Vector3(unit(random), unit(random), unit(random)));
-    const FieldSample sample = scene.voxelmap.sample(p);
+    FieldSample sample = scene.voxelmap.sample(p);
+    sample.distance *= distance_gain;
     const LayerSample layer = scene.voxelmap.layer(p);
     if (!std::isfinite(sample.distance) || !sample.gradient.allFinite() || !layer.to_center.allFinite())
       ++found.not_finite;
@@ -55,61 +59,79 @@ LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool ope
   return found;
 }
 
+/// Returns the compiler's report, or one without flaws if a fault hides them.
+scene_compiler::MeshReport told_flaws(const scene_compiler::MeshReport& report, const ExtremesFault& fault) {
+  return fault.hides_flaws ? scene_compiler::MeshReport{} : report;
+}
+
+/// Returns a mesh of the box with a flaw of this kind.
+TriangleMesh flawed_box(const std::string& kind, const Vector3& half) {
+  TriangleMesh mesh = box_mesh(-half, half);
+  auto& triangles = mesh.triangles;
+  const auto first = triangles.front();
+  if (kind == "degenerate") {
+    for (int i = 0; i < 5; ++i) triangles.push_back({first[0], first[1], first[1]});
+  } else if (kind == "duplicate") {
+    for (int i = 0; i < 5; ++i) triangles.push_back(first);
+  } else if (kind == "flipped") {
+    std::swap(triangles.front()[0], triangles.front()[1]);
+  } else if (kind == "open") {
+    triangles.pop_back();
+  }
+  return mesh;
+}
+
+/// Tells if the report contains the flaw of this kind.
+bool is_reported(const std::string& kind, const scene_compiler::MeshReport& report) {
+  if (kind == "degenerate") return report.degenerate_triangles == 5;
+  if (kind == "duplicate") return report.duplicate_triangles == 5;
+  if (kind == "flipped") return report.misoriented_edges != 0;
+  return kind != "open" || report.boundary_edges != 0;
+}
+
 }  // namespace
 
-CaseResult bad_meshes(bool quick, const std::filesystem::path& work) {
+CaseResult bad_meshes(const RowRequest& request, const std::filesystem::path& work) {
   const Vector3 half(0.03, 0.02, 0.01);
-  const int look_ups = quick ? 100'000 : 20'000'000;
+  const int look_ups = request.quick ? 100'000 : 20'000'000;
   CaseResult result;
-  const auto note = [&](const std::string& what, double value, const std::string& where) {
-    result.findings.push_back(
-        {.row = "bad meshes", .what = what, .unit = "", .value = value, .most = 0.0, .where = where});
+  const auto note = [&](const Bound& bound, double value, const std::string& where) {
+    result.findings.push_back(judged(bound, value, where));
   };
-  for (const char* kind : {"sound", "degenerate", "duplicate", "flipped", "open"}) {
-    CompiledStill still{.mesh = box_mesh(-half, half)};
-    auto& triangles = still.mesh.triangles;
-    const auto first = triangles.front();
-    const std::string name = kind;
-    const std::string of_each = fmt::format("{}, {} look-ups", name, look_ups);
-    if (name == "degenerate") {
-      for (int i = 0; i < 5; ++i) triangles.push_back({first[0], first[1], first[1]});
-    } else if (name == "duplicate") {
-      for (int i = 0; i < 5; ++i) triangles.push_back(first);
-    } else if (name == "flipped") {
-      std::swap(triangles.front()[0], triangles.front()[1]);
-    } else if (name == "open") {
-      triangles.pop_back();
-    }
-    const std::filesystem::path folder = work / name;
+  const std::vector<std::string> kinds =
+      request.one_place ? std::vector<std::string>{"degenerate"}
+                        : std::vector<std::string>{"sound", "degenerate", "duplicate", "flipped", "open"};
+  for (const std::string& kind : kinds) {
+    const std::string of_each = fmt::format("{}, {} look-ups", kind, look_ups);
+    const bool is_repairable = kind != "flipped" && kind != "open";
+    const std::filesystem::path folder = work / kind;
     std::filesystem::create_directories(folder);
-    const SceneText text = with_a_body(still, 0.002, folder);
+    const SceneText text = with_a_body({.mesh = flawed_box(kind, half)}, 0.002, folder);
     try {
-      const auto told = compile_image(name, text, folder);
-      const auto image = files::SceneImage::read(folder / (name + ".scene"));
-      const LookUps found = look_up(image.scene, half, look_ups, name == "open");
-      note("look-ups that are not finite", static_cast<double>(found.not_finite), of_each);
-      if (name != "flipped" && name != "open")
-        note("look-ups with the wrong sign beyond a voxel", static_cast<double>(found.wrong_sign), of_each);
-      const auto& report = told.still.report;
-      if (name == "degenerate") note("bad triangles not reported", to_double(report.degenerate_triangles != 5), name);
-      if (name == "duplicate") note("bad triangles not reported", to_double(report.duplicate_triangles != 5), name);
-      if (name == "flipped") note("bad triangles not reported", to_double(report.misoriented_edges == 0), name);
-      if (name == "open") note("bad triangles not reported", to_double(report.boundary_edges == 0), name);
+      const auto told = compile_image(kind, text, folder);
+      if (request.fault.refuses_meshes) throw command::Failure(command::ExitCode::kBadData, "planted");
+      const auto image = files::SceneImage::read(folder / (kind + ".scene"));
+      const LookUps found = look_up(image.scene, half, look_ups, kind == "open", request.fault.distance_gain);
+      note(bound::kNotFinite, static_cast<double>(found.not_finite), of_each);
+      if (is_repairable) note(bound::kWrongSign, static_cast<double>(found.wrong_sign), of_each);
+      const bool reported = is_reported(kind, told_flaws(told.still.report, request.fault));
+      if (kind != "sound") note(bound::kNotReported, to_double(!reported), kind);
+      if (is_repairable) note(bound::kRefused, 0.0, kind);
     } catch (const command::Failure& failure) {
       // a refusal is as good, except for a mesh that can be repaired
-      note("repairable meshes refused", to_double(name == "sound" || name == "degenerate" || name == "duplicate"),
-           fmt::format("{}: {}", name, failure.what()));
+      note(bound::kRefused, to_double(is_repairable), fmt::format("{}: {}", kind, failure.what()));
     }
   }
   return result;
 }
 
-CaseResult gap_near_the_voxel(bool quick, const std::filesystem::path& work) {
+CaseResult gap_near_the_voxel(const RowRequest& request, const std::filesystem::path& work) {
   constexpr double kVoxel = 0.002;
   CaseResult result;
   Sheet sheet{.name = "extremes_gap", .columns = {"gap_over_voxel", "outcome"}, .rows = {}};
-  const std::vector<double> gaps =
-      quick ? std::vector<double>{0.9, 1.5, 2.5} : std::vector<double>{0.5, 0.9, 1.1, 1.5, 1.9, 2.5, 4.0};
+  const std::vector<double> gaps = request.one_place ? std::vector<double>{1.5}
+                                   : request.quick   ? std::vector<double>{0.9, 1.5, 2.5}
+                                                     : std::vector<double>{0.5, 0.9, 1.1, 1.5, 1.9, 2.5, 4.0};
   for (const double gap : gaps) {
     const double half = 0.5 * gap * kVoxel;
     const std::vector<double> x = {-0.02, -half, half, 0.02};
@@ -122,39 +144,36 @@ CaseResult gap_near_the_voxel(bool quick, const std::filesystem::path& work) {
     std::string outcome;
     try {
       const auto told = compile_image(name, text, folder);
-      outcome = told.thin.gaps.samples > 0 ? "flagged" : "taken";
+      outcome = told.thin.gaps.samples > 0 && !request.fault.hides_flaws ? "flagged" : "taken";
     } catch (const command::Failure& failure) {
       outcome = "refused";
     }
     sheet.rows.push_back({cell(gap), outcome});
     const bool wrong = gap < 2.0 ? outcome == "taken" : outcome == "refused";
-    result.findings.push_back({.row = "gap near the voxel",
-                               .what = "gaps below two voxels neither refused nor flagged, wider ones refused",
-                               .unit = "",
-                               .value = to_double(wrong),
-                               .most = 0.0,
-                               .where = fmt::format("{} voxels: {}", gap, outcome)});
+    result.findings.push_back(judged(bound::kGap, to_double(wrong), fmt::format("{} voxels: {}", gap, outcome)));
   }
   result.sheets.push_back(sheet);
   return result;
 }
 
-CaseResult same_at_every_scale(bool quick) {
+CaseResult same_at_every_scale(const RowRequest& request) {
   CaseResult result;
-  std::mt19937 random(11);
-  for (int i = 0; i < (quick ? 5 : 40); ++i) {
+  std::mt19937 random(11 + request.seed);
+  for (int i = 0; i < (request.quick ? 5 : 40); ++i) {
     Setup setup = setup_of(kRows[0], random);
     setup.motion = "press";
     setup.world = i % 2 == 0 ? "plane" : "heap";
     setup.far = 0.0;
     setup.friction = false;
     setup.cycles = 400;
-    const auto god_objects = [](const Setup& at) {
+    const auto god_objects = [&request](const Setup& at) {
       const auto rig = make_rig(at, {});
+      FaultyReports reports(request.fault.cycle);
       std::vector<Pose> poses;
       CycleReport report;
       for (const Pose& H_WD : device_path(at)) {
         if (rig->update(H_WD, {}, report) != Status::kOk) report.H_WS.translation.setConstant(std::nan(""));
+        reports.spoil(report);
         poses.push_back(report.H_WS);
       }
       return poses;
@@ -172,22 +191,19 @@ CaseResult same_at_every_scale(bool quick) {
         worst = std::isnan(off) ? off : std::max(worst, off);
         if (std::isnan(off)) break;
       }
-      result.findings.push_back({.row = kRows[0],
-                                 .what = "god object's deviation from that at 1 m",
-                                 .unit = "voxels",
-                                 .value = worst / setup.voxel,
-                                 .most = 0.01,
-                                 .where = fmt::format("{}, {}, scale {} m", setup.world, setup.body, scale)});
+      result.findings.push_back(judged(bound::kScale, worst / setup.voxel,
+                                       fmt::format("{}, {}, scale {} m", setup.world, setup.body, scale)));
     }
   }
   return result;
 }
 
-CaseResult long_run(std::int64_t cycles) {
+CaseResult long_run(std::int64_t cycles, const RowRequest& request) {
   CaseResult result;
   Setup setup{.row = "long run", .world = "plane", .body = "box", .motion = "spin", .points = 60, .depth = 0.2};
   // the whole motion repeats every second; poses one second apart are compared
   const auto rig = make_rig(setup, {});
+  FaultyReports reports(request.fault.cycle);
   CycleReport report;
   double off_unit = 0.0;
   double drift = 0.0;
@@ -198,32 +214,74 @@ CaseResult long_run(std::int64_t cycles) {
     H_WD.translation = setup.scale * Vector3(0.3 * std::sin(w), 0.3 * std::cos(w), 0.1 * std::sin(2.0 * w));
     H_WD.rotation = exp_rotation({0.3 * std::sin(w), 0.2 * std::cos(w), 0.0}) * exp_rotation({0.0, 0.0, w});
     if (rig->update(H_WD, {}, report) != Status::kOk) off_unit = std::nan("");
+    reports.spoil(report);
     off_unit = std::max(off_unit, std::fabs(report.H_WS.rotation.norm() - 1.0));
     if (k == 2999) first = report.H_WS;
     if (k > 2999 && k % 1000 == 999) {
       drift = std::max(drift, (report.H_WS.translation - first.translation).norm() / (setup.voxel * setup.scale));
     }
   }
-  result.findings.push_back({.row = "long run",
-                             .what = "rotations off unit length",
-                             .unit = "",
-                             .value = off_unit,
-                             .most = 1e-12,
-                             .where = fmt::format("{} cycles", cycles)});
-  result.findings.push_back({.row = "long run",
-                             .what = "drift of a periodic motion",
-                             .unit = "voxels",
-                             .value = drift,
-                             .most = 1e-3,
-                             .where = fmt::format("{} cycles", cycles)});
+  result.findings.push_back(judged(bound::kOffUnit, off_unit, fmt::format("{} cycles", cycles)));
+  result.findings.push_back(judged(bound::kDrift, drift * std::min(1.0, 1e7 / static_cast<double>(cycles)),
+                                   fmt::format("{} cycles", cycles)));
   return result;
 }
 
-CaseResult closed_path(bool quick) {
+namespace {
+
+/// The account of a closed path.
+struct ClosedPath {
+  double work = 0.0;  ///< on the hand [J]
+  double peak = 0.0;  ///< largest energy in the coupling [J]
+  std::int64_t different = 0;
+};
+
+/// Runs the path and its replay. A planted fault is in the first run only.
+ClosedPath run_closed_path(const Setup& setup, const CycleFault& fault) {
+  const auto rig = make_rig(setup, {});
+  const auto again = make_rig(setup, {});
+  const Parameters q = rig->watched().parameters;
+  FaultyReports reports(fault);
+  CycleReport report;
+  CycleReport repeated;
+  Pose before;
+  Wrench force_before;
+  ClosedPath path;
+  for (int k = 0; k < setup.cycles; ++k) {
+    // from above down and back, slowly, twice around: 3 s each
+    const double w = 2.0 * M_PI * k / 3000.0;
+    Pose H_WD;
+    H_WD.translation = setup.scale * Vector3(0.3 * std::sin(w), 0.2 * std::sin(2.0 * w),
+                                             2.0 * std::cos(0.5 * w) * std::cos(0.5 * w) - 0.3);
+    H_WD.rotation = exp_rotation({0.2 * std::sin(w), 0.1 * std::sin(2.0 * w), 0.0});
+    const Status status = rig->update(H_WD, {}, report);
+    reports.spoil(report);
+    if (status != Status::kOk || again->update(H_WD, {}, repeated) != status) ++path.different;
+    if (report.H_WS.rotation.coeffs() != repeated.H_WS.rotation.coeffs() ||
+        report.H_WS.translation != repeated.H_WS.translation)
+      ++path.different;
+    const Wrench& force = report.force.spring_W;
+    if (k > 0) {
+      const Vector3 turned = H_WD.rotation._transformVector(log_rotation(before.rotation.conjugate() * H_WD.rotation));
+      path.work += 0.5 * (force.force + force_before.force).dot(H_WD.translation - before.translation) +
+                   0.5 * (force.torque + force_before.torque).dot(turned);
+    }
+    const Motion x = get_motion(report.H_WS.inverse() * H_WD);
+    path.peak = std::max(
+        path.peak, 0.5 * q.stiffness * (x.translation.squaredNorm() + q.coupling_rotation * x.rotation.squaredNorm()));
+    before = H_WD;
+    force_before = force;
+  }
+  return path;
+}
+
+}  // namespace
+
+CaseResult closed_path(const RowRequest& request) {
   CaseResult result;
-  std::mt19937 random(12);
+  std::mt19937 random(12 + request.seed);
   for (const char* world : {"plane", "groove", "heap"}) {
-    for (int i = 0; i < (quick ? 2 : 10); ++i) {
+    for (int i = 0; i < (request.quick ? 2 : 10); ++i) {
       Setup setup = setup_of(kRows[0], random);
       setup.world = world;
       setup.body = i % 2 == 0 ? "box" : "ball";
@@ -232,54 +290,11 @@ CaseResult closed_path(bool quick) {
       setup.scale = 0.02;
       setup.far = 0.0;
       setup.cycles = 6000;
-      const auto rig = make_rig(setup, {});
-      const auto again = make_rig(setup, {});
-      const Parameters q = rig->watched().parameters;
-      CycleReport report;
-      CycleReport repeated;
-      Pose before;
-      Wrench force_before;
-      double work = 0.0;
-      double peak = 0.0;
-      std::int64_t different = 0;
-      for (int k = 0; k < setup.cycles; ++k) {
-        // from above down and back, slowly, twice around: 3 s each
-        const double w = 2.0 * M_PI * k / 3000.0;
-        Pose H_WD;
-        H_WD.translation = setup.scale * Vector3(0.3 * std::sin(w), 0.2 * std::sin(2.0 * w),
-                                                 2.0 * std::cos(0.5 * w) * std::cos(0.5 * w) - 0.3);
-        H_WD.rotation = exp_rotation({0.2 * std::sin(w), 0.1 * std::sin(2.0 * w), 0.0});
-        const Status status = rig->update(H_WD, {}, report);
-        if (status != Status::kOk || again->update(H_WD, {}, repeated) != status) ++different;
-        if (report.H_WS.rotation.coeffs() != repeated.H_WS.rotation.coeffs() ||
-            report.H_WS.translation != repeated.H_WS.translation)
-          ++different;
-        const Wrench& force = report.force.spring_W;
-        if (k > 0) {
-          const Vector3 turned =
-              H_WD.rotation._transformVector(log_rotation(before.rotation.conjugate() * H_WD.rotation));
-          work += 0.5 * (force.force + force_before.force).dot(H_WD.translation - before.translation) +
-                  0.5 * (force.torque + force_before.torque).dot(turned);
-        }
-        const Motion x = get_motion(report.H_WS.inverse() * H_WD);
-        peak = std::max(
-            peak, 0.5 * q.stiffness * (x.translation.squaredNorm() + q.coupling_rotation * x.rotation.squaredNorm()));
-        before = H_WD;
-        force_before = force;
-      }
+      const ClosedPath path = run_closed_path(setup, request.fault.cycle);
       const std::string where = fmt::format("{}, {}, {}", world, setup.body, i);
-      result.findings.push_back({.row = "closed path",
-                                 .what = "net work on the hand over the peak stored energy",
-                                 .unit = "",
-                                 .value = peak > 0.0 ? std::max(0.0, work) / peak : 0.0,
-                                 .most = 1e-3,
-                                 .where = where});
-      result.findings.push_back({.row = "closed path",
-                                 .what = "cycles that differ in a replay",
-                                 .unit = "",
-                                 .value = static_cast<double>(different),
-                                 .most = 0.0,
-                                 .where = where});
+      result.findings.push_back(
+          judged(bound::kNetWork, path.peak > 0.0 ? std::max(0.0, path.work) / path.peak : 0.0, where));
+      result.findings.push_back(judged(bound::kReplay, static_cast<double>(path.different), where));
     }
   }
   return result;

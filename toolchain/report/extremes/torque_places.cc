@@ -10,6 +10,7 @@
 
 #include "toolchain/report/contact_quality/compiled_scene.h"
 #include "toolchain/report/contact_quality/meshes.h"
+#include "toolchain/report/extremes/bounds.h"
 #include "toolchain/report/extremes/led_arm.h"
 
 namespace godobject::report {
@@ -156,8 +157,10 @@ void TorqueSteps::add(const TorqueSteps& other) {
 }
 
 TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver,
-                         bool friction, const firmware::TorqueLimits& used, std::uint32_t seed) {
-  const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, used}, place_path(place, scene, seed));
+                         bool friction, const ExtremesFault& fault, std::uint32_t seed) {
+  std::vector<Pose> path = place_path(place, scene, seed);
+  for (std::size_t k = path.size() / 2; k < path.size(); ++k) path[k].translation.x() += fault.jump;
+  const std::vector<LedCycle> cycles = lead({&scene, &device, solver, friction, fault.limits, fault.cycle}, path);
   TorqueSteps found{.cycles = static_cast<std::int64_t>(cycles.size())};
   LedCycle before = cycles.front();  // the arm's weight, which comes at once, does not count as a change
   before.sent.setZero();
@@ -178,7 +181,7 @@ TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::De
 }
 
 CaseResult torque_rate(Place place, const std::filesystem::path& device_file, std::int64_t cycles,
-                       const std::filesystem::path& work) {
+                       const RowRequest& request, const std::filesystem::path& work) {
   const firmware::Device device = firmware::read_device_file(device_file);
   files::SceneImage image = place_scene(place, work);
   firmware::set_gains({.stiffness = 2000.0, .damping = 5.0, .rotational = 0.003}, image.scene);
@@ -187,31 +190,36 @@ CaseResult torque_rate(Place place, const std::filesystem::path& device_file, st
               .columns = {"place", "solver", "friction", "cycles", "cycles_there", "cycles_rendered", "sent_of_allowed",
                           "computed_of_allowed", "force_step_N"},
               .rows = {}};
-  const std::string row = fmt::format("torque rate, {}", kPlaceNames[static_cast<std::size_t>(place)]);
-  const auto note = [&](const std::string& what, double value, std::optional<double> most, const std::string& where) {
-    result.findings.push_back({.row = row, .what = what, .unit = "", .value = value, .most = most, .where = where});
-  };
+  const std::string at = kPlaceNames[static_cast<std::size_t>(place)];
   constexpr int kVariants = 2 * static_cast<int>(format::kSolverCount);
-  for (int variant = 0; variant < kVariants; ++variant) {
+  const std::uint32_t least_runs = request.one_place ? 1 : 2;
+  for (int variant = request.one_place ? kVariants - 1 : 0; variant < kVariants; ++variant) {
     const auto solver = static_cast<Solver>(variant / 2);
     const bool friction = variant % 2 == 1;
-    TorqueSteps all;
-    for (std::uint32_t seed = 0; all.cycles * kVariants < cycles || seed < 2; ++seed) {
-      all.add(torque_steps(place, image.scene, device, solver, friction, {}, seed));
-    }
     const std::string name = format::kSolverNames[static_cast<std::size_t>(solver)];
     const std::string where = fmt::format("{}, friction {}", name, friction ? "on" : "off");
-    constexpr double kRounding = 1e-9;
-    const char* const kSent = "change of a joint torque in a cycle, as sent, over the 5 % of its limit";
-    note(kSent, all.sent, 1.0 + kRounding, where);
-    note(kSent, all.sent_at_once, 1.0 + kRounding, where + ", without supervisor");
-    note("runs that stopped, or did not reach the place", static_cast<double>(all.idle_runs), 0.0, where);
-    note(fmt::format("{}: the same as computed, before the torque limiter",
-                     solver == Solver::kContact ? name : "paper, corrected"),
-         all.computed, {}, fmt::format("{}: {:.2g} N", where, all.force));
-    sheet.rows.push_back({kPlaceNames[static_cast<std::size_t>(place)], name, friction ? "on" : "off",
-                          std::to_string(all.cycles), std::to_string(all.there), std::to_string(all.rendered),
-                          cell(std::max(all.sent, all.sent_at_once)), cell(all.computed), cell(all.force)});
+    TorqueSteps all;
+    std::uint32_t worst = 0;  // seed of the largest computed change
+    const std::uint32_t first = 1000 * request.seed;
+    for (std::uint32_t seed = first; all.cycles * kVariants < cycles || seed < first + least_runs; ++seed) {
+      const double before = all.computed;
+      all.add(torque_steps(place, image.scene, device, solver, friction, request.fault, seed));
+      if (all.computed != before) worst = seed;
+    }
+    const Bound sent = extremes_bound::sent_torque(at);
+    result.findings.push_back(judged(sent, all.sent, where));
+    result.findings.push_back(judged(sent, all.sent_at_once, where + ", without supervisor"));
+    result.findings.push_back(judged(extremes_bound::idle_runs(at), static_cast<double>(all.idle_runs), where));
+    Finding computed = judged(extremes_bound::computed_torque(at), all.computed,
+                              fmt::format("{}: {:.2g} N, seed {}", where, all.force, worst));
+    if (solver != Solver::kContact) {
+      computed.what = "paper, corrected: the same as computed, before the torque limiter";
+      computed.most.reset();
+    }
+    result.findings.push_back(computed);
+    sheet.rows.push_back({at, name, friction ? "on" : "off", std::to_string(all.cycles), std::to_string(all.there),
+                          std::to_string(all.rendered), cell(std::max(all.sent, all.sent_at_once)), cell(all.computed),
+                          cell(all.force)});
   }
   result.sheets.push_back(sheet);
   return result;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "firmware/configuration/device_file.h"
-#include "firmware/cycle/torque_limiter.h"
 #include "godobject/god_object.h"
 #include "godobject/pose.h"
 #include "toolchain/files/scene_image.h"
+#include "toolchain/report/extremes/rows.h"
 #include "toolchain/report/study/case.h"
 
 namespace godobject::report {
@@ -47,12 +47,12 @@ struct TorqueSteps {
   void add(const TorqueSteps& other);
 };
 
-/// Runs one path. `used`: limits of the controller; the judgement always uses 5 %.
+/// Runs one path. The judgement always uses 5 %, whatever limits the controller has by a planted fault.
 TorqueSteps torque_steps(Place place, const SceneView& scene, const firmware::Device& device, Solver solver,
-                         bool friction, const firmware::TorqueLimits& used, std::uint32_t seed);
+                         bool friction, const ExtremesFault& fault, std::uint32_t seed);
 
 /// Runs all solvers, with and without friction, for `cycles` or a little more.
 CaseResult torque_rate(Place place, const std::filesystem::path& device_file, std::int64_t cycles,
-                       const std::filesystem::path& work);
+                       const RowRequest& request, const std::filesystem::path& work);
 
 }  // namespace godobject::report

@@ -77,13 +77,13 @@ std::map<std::string, TestResult> results_of(const Sheet& sheet) {
   return results;
 }
 
+Bound bound_of(const Requirement& requirement) {
+  return {requirement.fault, "injections with another reaction than: " + requirement.reaction, "", 0.0};
+}
+
 Finding finding_of(const FaultRow& row) {
-  Finding finding{.row = row.requirement.fault,
-                  .what = "injections with another reaction than: " + row.requirement.reaction,
-                  .unit = "",
-                  .value = row.verdict == FaultVerdict::kMissed ? 1.0 : 0.0,
-                  .most = 0.0,
-                  .where = row.verdict == FaultVerdict::kMissed ? row.result.test : ""};
+  const bool missed = row.verdict == FaultVerdict::kMissed;
+  Finding finding = judged(bound_of(row.requirement), missed ? 1.0 : 0.0, missed ? row.result.test : "");
   if (row.verdict == FaultVerdict::kNotRun || row.verdict == FaultVerdict::kNotCovered) {
     finding.not_judged = name(row.verdict);
   }
@@ -131,6 +131,7 @@ Chapter fault_chapter(const std::filesystem::path& tests) {
       .introduction = "<p>Reactions of the controller to faults, measured by the tests that inject them.</p>",
       .cases = {},
       .conclude = conclude};
+  for (const Requirement& requirement : requirements()) chapter.bounds.push_back(bound_of(requirement));
   for (const auto& [program, names] : programs()) {
     if (program != kVirtualMachine) {
       files::require_regular_input(tests / program, "build it, and name its folder with --tests");

@@ -7,6 +7,7 @@
 #include "core/device/passivity.h"
 #include "toolchain/report/stability/axis_loop.h"
 #include "toolchain/report/stability/axis_theory.h"
+#include "toolchain/report/stability/bounds.h"
 #include "toolchain/report/stability/cases.h"
 
 namespace godobject::report {
@@ -62,21 +63,22 @@ double watched_growth(const AxisSetup& setup, double stiffness, double most_damp
   });
 }
 
-CaseResult boundary_with_controller(bool quick) {
+CaseResult boundary_with_controller(const StabilityRequest& request) {
   CaseResult result;
   Sheet sheet{.name = "stability_passivity_controller",
               .columns = {"t_d_ms", "B_Ns_per_m", "b_max_Ns_per_m", "K_without", "K_with", "K_with_B_plus_b_max"},
               .rows = {}};
   const std::vector<double> dampings =
-      quick ? std::vector<double>{0, 20, 200, 400} : std::vector<double>{0, 5, 10, 20, 50, 100, 200, 300, 400};
+      request.quick ? std::vector<double>{0, 20, 200, 400} : std::vector<double>{0, 5, 10, 20, 50, 100, 200, 300, 400};
   for (const double delay : {0.5e-3, 1e-3, 2e-3}) {
     for (const double damping : dampings) {
-      AxisSetup setup{.virtual_damping = damping, .delay = delay, .periods = quick ? 10000 : 40000};
+      AxisSetup setup{.virtual_damping = damping, .delay = delay, .periods = request.quick ? 10000 : 40000};
       const double most = 0.25 * (damping_boundary(theory_of(setup)) - damping);
       if (!(most > 0.0)) continue;
       const double without = simulated_boundary(setup);
-      const double with =
-          boundary(0.5 * without, [&](double stiffness) { return watched_growth(setup, stiffness, most) < 0.0; });
+      const double with = boundary(0.25 * without, [&](double stiffness) {
+        return watched_growth(planted(setup, request.fault), request.fault.gain * stiffness, most) < 0.0;
+      });
       AxisSetup damped = setup;
       damped.virtual_damping += most;
       const double of_damped = stability_boundary(theory_of(damped));
@@ -84,12 +86,8 @@ CaseResult boundary_with_controller(bool quick) {
           {cell(kMilli * delay), cell(damping), cell(most), cell(without), cell(with), cell(of_damped)});
       const std::string where = fmt::format("t_d {} ms B {} b_max {:.0f}: {:.4g} to {:.4g} N/m", kMilli * delay,
                                             damping, most, without, with);
-      result.findings.push_back({.row = "passivity controller",
-                                 .what = "boundary with controller below those without it and of B + b_max",
-                                 .unit = "%",
-                                 .value = kPercent * std::max(0.0, 1.0 - with / std::min(without, of_damped)),
-                                 .most = 2.0,
-                                 .where = where});
+      result.findings.push_back(judged(stability_bound::kControlled,
+                                       kPercent * std::max(0.0, 1.0 - with / std::min(without, of_damped)), where));
       // more damping than that of the highest boundary lowers the boundary, from any source
       result.findings.push_back({.row = "passivity controller",
                                  .what = "boundary with controller below that without it",
@@ -110,16 +108,17 @@ CaseResult boundary_with_controller(bool quick) {
 }
 
 /// The controller's change of the force, for a hand that moves randomly into the wall and out again.
-CaseResult force_with_controller(bool quick) {
+CaseResult force_with_controller(const StabilityRequest& request) {
   constexpr double kPeriod = 1e-3;
   constexpr double kStiffness = 2000.0;
   CaseResult result;
-  for (const double damping : {20.0, 0.0}) {
+  for (const double stated : {20.0, 0.0}) {
+    const double damping = stated * request.fault.damping_gain;
     double change = 0.0;
     double largest = 0.0;
     double lowest = 0.0;
-    for (unsigned seed = 1; seed <= (quick ? 5u : 50u); ++seed) {
-      std::mt19937 random(seed);
+    for (unsigned seed = 1; seed <= (request.quick ? 5u : 50u); ++seed) {
+      std::mt19937 random(seed + 100 * request.seed);
       std::uniform_real_distribution<double> unit(0.0, 1.0);
       const double slow = 1.0 + 3.0 * unit(random);
       const double quick_wave = 5.0 + 45.0 * unit(random);
@@ -138,29 +137,34 @@ CaseResult force_with_controller(bool quick) {
         lowest = std::min(lowest, account.absorbed());
       }
     }
-    const bool passive = damping > 0.0;
+    const double share = kPercent * change / largest;
+    const std::string where =
+        fmt::format("{} N/m, {} Ns/m, t_d 1 ms, b_max 100 Ns/m: {:.3g} of {:.3g} N, energy down to {:.2g} J",
+                    kStiffness, damping, change, largest, lowest);
+    if (stated > 0.0) {
+      result.findings.push_back(judged(stability_bound::kControlledForce, share, where));
+      continue;
+    }
     result.findings.push_back(
         {.row = "passivity controller",
-         .what = passive ? "change of the force of a passive wall over the largest force"
-                         : "change of the force of a spring, made active by the delay, over the largest force",
+         .what = "change of the force of a spring, made active by the delay, over the largest force",
          .unit = "%",
-         .value = kPercent * change / largest,
-         .most = passive ? std::optional<double>{0.1} : std::nullopt,
-         .where = fmt::format("{} N/m, {} Ns/m, t_d 1 ms, b_max 100 Ns/m: {:.3g} of {:.3g} N, energy down to {:.2g} J",
-                              kStiffness, damping, change, largest, lowest)});
+         .value = share,
+         .most = {},
+         .where = where});
   }
   return result;
 }
 
 }  // namespace
 
-std::vector<StudyCase> passivity_cases(bool quick) {
-  const std::string inputs = fmt::format("quick {}", quick);
+std::vector<StudyCase> passivity_cases(const StabilityRequest& request) {
+  const std::string inputs = inputs_of(request);
   return {{.name = "stability.passivity-controller",
            .inputs = inputs,
-           .run = [quick](const auto&) { return boundary_with_controller(quick); }},
-          {.name = "stability.passivity-force", .inputs = inputs, .run = [quick](const auto&) {
-             return force_with_controller(quick);
+           .run = [request](const auto&) { return boundary_with_controller(request); }},
+          {.name = "stability.passivity-force", .inputs = inputs, .run = [request](const auto&) {
+             return force_with_controller(request);
            }}};
 }
 

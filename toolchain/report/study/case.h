@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "toolchain/report/study/bound.h"
 #include "toolchain/report/study/finding.h"
 
 namespace godobject::report {
@@ -69,7 +70,8 @@ struct CaseOutcome {
 struct Chapter {
   std::string name;
   std::string title;
-  std::string introduction;  ///< HTML
+  std::string introduction;        ///< HTML
+  std::vector<Bound> bounds = {};  ///< of all judged quantities, also of those that a run omits
   std::vector<StudyCase> cases;
   /// Writes the chapter's files into the folder. `outcomes` are those of `cases`, in their order.
   std::function<Section(const std::vector<CaseOutcome>& outcomes, const std::filesystem::path& folder)> conclude;

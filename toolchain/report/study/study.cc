@@ -61,6 +61,9 @@ PageChapter concluded(const Chapter& chapter, const std::filesystem::path& folde
     outcomes.push_back({&study_case, stored.back() ? &stored.back()->result : nullptr});
   }
   entry.section = chapter.conclude(outcomes, folder);
+  if (const std::string text = without_bound(entry.section.findings, chapter.bounds); !text.empty()) {
+    throw command::Failure(command::ExitCode::kInternal, fmt::format("{}: {}", chapter.name, text));
+  }
   for (const Picture& picture : entry.section.pictures) {
     const std::filesystem::path png = folder / (picture.name + ".png");
     figures::draw_with_gnuplot(picture.program, png);

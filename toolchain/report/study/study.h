@@ -32,7 +32,8 @@ struct Merged {
 };
 
 /// Reads the result files of FOLDER that match the present inputs, and writes each chapter's files, the pictures,
-/// FOLDER/verdicts.csv and FOLDER/report.html. Throws Failure.
+/// FOLDER/verdicts.csv and FOLDER/report.html. Throws Failure, also if a judged finding is not among its chapter's
+/// bounds.
 Merged merge(const std::vector<Chapter>& chapters, const std::filesystem::path& folder,
              const std::string& what_was_run);
 

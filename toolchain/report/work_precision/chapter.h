@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "toolchain/report/study/case.h"
+#include "toolchain/report/work_precision/settings_tried.h"
 
 namespace godobject::report {
 
@@ -10,6 +11,7 @@ struct WorkPrecisionRequest {
   std::filesystem::path scenes;  ///< folder of the scene files; their motions in its folder `paths`
   std::filesystem::path kept;    ///< folder of images and references that several cases share; created if missing
   bool quick = false;
+  PrecisionFault fault = {};  ///< for tests of the rows
 };
 
 /// Returns the chapter on error against run time. Throws Failure (kNoInput) if a scene file or motion is missing.

@@ -10,6 +10,7 @@
 #include "toolchain/path/pose_file.h"
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/contact_quality/signals.h"
+#include "toolchain/report/work_precision/bounds.h"
 #include "toolchain/report/work_precision/kept.h"
 #include "toolchain/scene_compiler/points/sample_elimination.h"
 
@@ -108,8 +109,10 @@ scene_compiler::SceneConfig scene_config(const ImageTrial& trial) {
 }
 
 files::SceneImage image_of(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
-  return kept_image(trial.kept, fmt::format("{} image {}", trial.inputs, trial.image.name),
-                    precision::with(config, trial.image.setting));
+  scene_compiler::SceneConfig compiled = precision::with(config, trial.image.setting);
+  compiled.moving.scale *= trial.fault.body_scale;
+  return kept_image(
+      trial.kept, fmt::format("{} image {} scale {}", trial.inputs, trial.image.name, compiled.moving.scale), compiled);
 }
 
 /// Returns all solvers, each with and without friction.
@@ -139,12 +142,13 @@ std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick, bo
     ImageSetting setting = written;
     change(setting);
     setting.levels = std::min(setting.levels, scene_compiler::most_levels(setting.points));
-    images.push_back({name, setting, name == "as-written"});
+    const bool as_written = name == "as-written";
+    images.push_back({name, setting, as_written ? "as written" : name == "voxel-1-plain" ? "plain" : "", as_written});
   };
   const auto plain = [](ImageSetting& setting) { setting.refined = setting.both_directions = false; };
   if (quick) {
     add("voxel-1-points-1000-plain", [&](ImageSetting& s) { plain(s), s.points = 1000; });
-    add("voxel-1-plain", plain);
+    add("voxel-1-plain", plain);  // also in the whole run
     return images;
   }
   add("as-written", [](ImageSetting&) {});
@@ -157,7 +161,10 @@ std::vector<TriedImage> tried_images(const ImageSetting& written, bool quick, bo
   add("one-direction", [](ImageSetting& s) { s.both_directions = false; });
   for (const double ratio : {2.0, 1.0, 0.5, 0.25}) {
     for (const std::uint32_t points : {1000u, written.points, 20000u}) {
-      add(fmt::format("voxel-{:g}-points-{}-plain", ratio, points), [&](ImageSetting& s) {
+      const bool written_size = ratio == 1.0 && points == written.points;
+      const std::string name =
+          written_size ? "voxel-1-plain" : fmt::format("voxel-{:g}-points-{}-plain", ratio, points);
+      add(name, [&](ImageSetting& s) {
         plain(s);
         s.voxel_size *= ratio;
         s.points = points;
@@ -177,19 +184,28 @@ CaseResult image_errors(const ImageTrial& trial) {
   }
   const std::vector<precision::Result> results = judge.errors(image_of(trial, config), settings(trial, config));
 
-  Sheet errors = sheet(kErrors, {"wrench_error", "wrench_error_N", "force_magnitude_N", "force_direction_rad",
-                                 "penetration_deepest_mm", "penetration_rms_mm", "optimum_distance_mm",
-                                 "friction_ratio", "chatter_N", "chatter_of_reference_N", "image_bytes"});
+  CaseResult made;
+  Sheet errors =
+      sheet(kErrors, {"wrench_error", "wrench_error_N", "force_error", "torque_error", "force_magnitude_N",
+                      "force_direction_rad", "penetration_deepest_mm", "penetration_rms_mm", "optimum_distance_mm",
+                      "friction_ratio", "chatter_N", "chatter_of_reference_N", "image_bytes"});
   const std::vector<std::size_t> checked = checkpoints(judge.reference(false), trial.quick ? 1 : 3);
   for (const precision::Result& result : results) {
     add(errors, key_of(trial.scene.name, result.setting),
-        {result.wrench.relative, result.wrench.rms, result.wrench.magnitude, result.wrench.direction,
-         1e3 * result.penetration.deepest, 1e3 * result.penetration.rms,
+        {result.wrench.relative, result.wrench.rms, result.wrench.force, result.wrench.torque, result.wrench.magnitude,
+         result.wrench.direction, 1e3 * result.penetration.deepest, 1e3 * result.penetration.rms,
          1e3 * optimum_distance(judge.exact(), path, checked, result), friction_ratio(trial.scene, result),
          chatter(forces(result.cycles)), chatter(forces(judge.reference(result.setting.friction))),
          static_cast<double>(result.image_bytes)});
+    const bool usual = result.setting.solver == Solver::kContact && result.setting.margin == config.settings.margin;
+    if (trial.image.judged_as.empty() || !usual) continue;
+    const ErrorBounds bounds = error_bounds(trial.scene.name, trial.image.judged_as, result.setting.friction);
+    made.findings.push_back(judged(bounds.force, 100.0 * result.wrench.force));
+    made.findings.push_back(judged(bounds.torque, 100.0 * result.wrench.torque));
+    made.findings.push_back(judged(bounds.penetration, 1e3 * result.penetration.deepest));
   }
-  return {.findings = {}, .sheets = {errors}};
+  made.sheets = {errors};
+  return made;
 }
 
 CaseResult image_costs(const ImageTrial& trial) {
@@ -197,14 +213,18 @@ CaseResult image_costs(const ImageTrial& trial) {
   const std::vector<precision::Setting> tried = settings(trial, config);
   const files::SceneImage image = image_of(trial, config);
   const precision::Paths paths{path::read_poses(path_file(trial))};
-  const std::vector<precision::CycleCost> found = precision::costs_of(image.scene, tried, paths, trial.quick ? 3 : 5);
+  const std::size_t passes = trial.quick ? 3 : 5;
+  const std::vector<precision::CycleCost> found = precision::costs_of(image.scene, tried, paths, passes);
+  const std::vector<precision::CycleCost> again = precision::costs_of(image.scene, tried, paths, passes);
   double load = 0.0;
   ::getloadavg(&load, 1);
-  Sheet costs = sheet(kCosts, {"p50_us", "p99_us", "max_us", "instructions_a_cycle", "load"});
+  const double us = 1e-3 * trial.fault.time_gain;
+  Sheet costs = sheet(kCosts, {"p50_us", "p99_us", "max_us", "p99_again_us", "instructions_a_cycle", "load"});
   for (std::size_t i = 0; i < tried.size(); ++i) {
     const precision::CycleCost& cost = found[i];
     add(costs, key_of(trial.scene.name, tried[i]),
-        {1e-3 * cost.p50_ns, 1e-3 * cost.p99_ns, 1e-3 * cost.max_ns, cost.instructions, load});
+        {us * cost.p50_ns, us * cost.p99_ns, us * cost.max_ns, us * trial.fault.slower * again[i].p99_ns,
+         cost.instructions, load});
   }
   return {.findings = {}, .sheets = {costs}};
 }

@@ -35,13 +35,21 @@ const std::vector<PrecisionScene>& precision_scenes();
 struct TriedImage {
   std::string name;  ///< name of the case
   precision::ImageSetting setting;
-  bool margins = false;  ///< `contact` also with a tenth of its margin and with ten times its margin
+  std::string judged_as = {};  ///< name of its rows; empty: the errors are not judged
+  bool margins = false;        ///< `contact` also with a tenth of its margin and with ten times its margin
 };
 std::vector<TriedImage> tried_images(const precision::ImageSetting& written, bool quick, bool finest_refined);
 
 /// Names of the sheets of a case: errors are the same in every run, costs differ.
 inline constexpr const char* kErrors = "work_precision_errors";
 inline constexpr const char* kCosts = "work_precision_costs";
+
+/// A fault that a test plants. The default changes nothing.
+struct PrecisionFault {
+  double body_scale = 1.0;  ///< of the moving mesh in the image, but not in the reference
+  double time_gain = 1.0;   ///< of all measured times; a small one makes the choice independent of the machine
+  double slower = 1.0;      ///< of the second measurement of a cycle's time, in addition
+};
 
 /// An image setting with its scene and inputs.
 struct ImageTrial {
@@ -51,6 +59,7 @@ struct ImageTrial {
   std::filesystem::path kept;    ///< folder of images and references that several cases share
   std::string inputs;            ///< scene file, meshes and motion, as text
   bool quick = false;
+  PrecisionFault fault = {};
 };
 
 /// Measures the errors of all solvers with and without friction along the scene's motion.
