@@ -20,11 +20,12 @@ Vector6 damping_change(const Vector6* rows, std::uint32_t count, const Vector6& 
     if (!(violation > tolerance) || !cone.add(worst)) break;
   }
   // -load projects to 0, and the residuals of two projections are no farther apart than the two points: so the change
-  // is at most `damping`. Rows that contradict each other up to rounding carry loads whose sum is only rounding; there
-  // the projection is not valid.
-  constexpr double kRoundedUp = 1.0 + 1e-9;  // derived: more than the projection's rounding
+  // is at most `damping`, and takes power from the velocity. Rows that contradict each other up to rounding carry loads
+  // whose sum is only rounding; there the projection is not valid.
+  constexpr double kRounding = 1e-9;  // derived: more than the projection's
   const Vector6 change = cone.z() - damping;
-  if (!(change.norm() <= kRoundedUp * damping.norm())) return Vector6::Zero();
+  if (!(change.norm() <= (1.0 + kRounding) * damping.norm())) return Vector6::Zero();
+  if (!(change.dot(damping) <= kRounding * damping.squaredNorm())) return Vector6::Zero();
   return change;
 }
 
