@@ -180,7 +180,7 @@ void plant_in_the_motion(const Plant& plant) {
   plant("DrivenByItsForce", Property::kNoWork, pressed(false), [](const Faulty& f) {
     if (f.report.contacts == 0) return;
     Pose moved = f.report.H_WS;
-    moved.translation.z() += 0.2 * 0.1 * f.setup.scale;
+    moved.translation.z() += 0.24 * 0.1 * f.setup.scale;
     f.move_to(moved);
   });
   Setup free = pressed(false);

@@ -166,16 +166,19 @@ void Center::push_contact() noexcept {
 /// Computes the motion nearest to `free` that all half spaces and the workspace allow. Half spaces that contradict each
 /// other drop their required gap increase.
 void Center::constrain(const Vector3& free) noexcept {
-  const int contacts = spaces_.count;
-  if (box_.limited) {
-    push_faces(box_, {Quaternion::Identity(), at_},
-               [&](const Vector3& normal, double gain) noexcept { spaces_.push(normal, gain); });
-  }
-  if (!project(spaces_, free, lengths_.metric.tolerance, motion_, held)) {
+  const auto solve = [&]() noexcept {
+    if (project(spaces_, free, lengths_.metric.tolerance, motion_, held)) return;
     infeasible = true;
     for (double& gain : spaces_.gain) gain = std::min(gain, 0.0);
     project(spaces_, free, lengths_.metric.tolerance, motion_, held);
-  }
+  };
+  solve();
+  if (!box_.limited || box_.contains(at_ + motion_)) return;
+  const int contacts = spaces_.count;
+  push_faces(box_, {Quaternion::Identity(), at_}, [&](const Vector3& normal, double gain) noexcept {
+    spaces_.push(normal, gain);
+  });
+  solve();
   spaces_.count = contacts;
   int kept = 0;  // the faces are no contacts
   for (int i = 0; i < held.count; ++i) {

@@ -95,7 +95,14 @@ class ContactSubsteps {
     const WorkspaceBox& box = scene_.parameters->workspace;
     const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
     if (!box.limited) return least_constraint(rows_, free_, lengths_.metric, friction, last_motion_, step_);
-    if (!kFriction) return constrain_within(box);
+    if (!kFriction) {
+      least_constraint(rows_, free_, lengths_.metric, nullptr, last_motion_, step_);
+      if (box.contains(H0_ * step_.motion.translation)) return;
+      const bool contradictory = step_.infeasible;
+      constrain_within(box);
+      step_.infeasible |= contradictory;
+      return;
+    }
     bool infeasible = false;
     const bool met = push_within(box, lengths_.metric.tolerance, [&](const Vector3& push_W) noexcept {
       Motion pushed = free_;
