@@ -76,6 +76,8 @@ class Tree:
         self.owners = {}
 
     def files(self):
+        if not (self.root / '.git').exists():
+            return [str(path.relative_to(self.root)) for path in self.root.rglob('*') if path.is_file()]
         listed = subprocess.run(['git', '-C', str(self.root), 'ls-files', '-co', '--exclude-standard', '-z'],
                                 check=True, capture_output=True).stdout.decode().split('\0')
         return [name for name in listed if name and (self.root / name).is_file()]
