@@ -461,6 +461,55 @@ TEST(ContactCycle, DampsByNoMoreThanThatWhateverTheLoads) {
   EXPECT_GT(damped, 5000);
 }
 
+/// A body of one sample point off its centre, on a plane in any position: spring and damping push at that point along
+/// the plane's normal, and damping takes power from the velocity that the point has towards the plane.
+TEST(ContactCycle, PushesAtTheContactPointAlongTheNormal) {
+  std::mt19937 random(21);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  int towards = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Vector3 n = vector().normalized();
+    const HalfSpace plane{n, 0.3};
+    const AnalyticField<HalfSpace> field(plane, kVoxel);
+    const Vector3 point = 0.03 * vector().normalized();
+    const SampledBody body({{point}, {-point.normalized()}}, Vector3::Constant(1e-4));
+    const Vector3 turn = vector();
+    const Vector3 lever_of_device = exp_rotation(turn)._transformVector(point);
+    const auto with_point_at = [&](double height) {
+      return at(height * n + 0.1 * n.unitOrthogonal() - lever_of_device, turn);
+    };
+    ContactRun<HalfSpace> run(field, body, with_point_at(0.301));
+    const Pose device = with_point_at(0.298);
+    for (int cycle = 0; cycle < 300; ++cycle) ASSERT_EQ(run.step(device), Status::kOk);
+    const Vector3 lever = run.state.H_WS.rotation._transformVector(point);
+    const Wrench spring = run.report.force.spring_W;
+    ASSERT_NEAR(plane.distance(run.state.H_WS * point), kMargin, 1e-6) << i;
+    ASSERT_GT(spring.force.dot(n), 0.1) << i;
+    ASSERT_LT((spring.force - spring.force.dot(n) * n).norm(), 0.01 * spring.force.norm()) << i;
+    ASSERT_LT((spring.torque - lever.cross(spring.force)).norm(), 0.01 * lever.norm() * spring.force.norm()) << i;
+
+    const Motion velocity{0.02 * vector(), 0.5 * vector()};
+    ASSERT_EQ(run.step(device, velocity), Status::kOk);
+    const Vector3 force = run.report.force.total_W.force - run.report.force.spring_W.force;
+    const Vector3 torque = run.report.force.total_W.torque - run.report.force.spring_W.torque;
+    const double approach = -n.dot(velocity.translation + velocity.rotation.cross(lever));  // [m/s]
+    const double rho = std::sqrt(run.parameters.coupling_rotation / run.parameters.coupling_translation);
+    const double counts = 1.0 + (lever.cross(n) / rho).squaredNorm();  // a turn moves the point, too
+    const double push = run.parameters.damping * approach / counts;
+    if (approach < 0.0) {
+      ASSERT_LE(force.dot(n), 0.0) << "away from the plane";
+      ASSERT_GE(run.report.force.total_W.force.dot(n), -1e-9) << "never a pull";
+      continue;
+    }
+    ++towards;
+    ASSERT_LT((force - push * n).norm(), 0.01 * push) << i;
+    ASSERT_LT((torque - lever.cross(force)).norm(), 0.01 * lever.norm() * push) << i;
+    ASSERT_LT(force.dot(velocity.translation) + torque.dot(velocity.rotation), 0.0) << "damping takes power";
+  }
+  EXPECT_GT(towards, 5);
+}
+
 /// Moves the world by a rotation and ten metres. Nothing else may change.
 TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
   const SampledBody body = box_body(7);

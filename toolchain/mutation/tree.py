@@ -1,0 +1,208 @@
+"""The mutated copy of the tree: its files, its build and the mutants that it holds."""
+import concurrent.futures
+import dataclasses
+import hashlib
+import json
+import multiprocessing
+import os
+import pathlib
+import pickle
+import re
+import shutil
+import subprocess
+import sys
+
+import places
+import schemata
+
+HERE = pathlib.Path(__file__).resolve().parent
+BLOCK = 4096  # numbers of places that a file may use
+ROUNDS = 8  # builds until all mutants that do not compile are dropped
+
+
+@dataclasses.dataclass
+class Mutant:
+    id: str
+    path: str
+    line: int
+    function: str
+    operator: str
+    before: str
+    after: str
+    number: int  # of the place in the whole tree
+    alternative: int
+
+    @property
+    def room(self):
+        return self.path.split('/')[0]
+
+
+def say(text):
+    print(f'mutation: {text}', file=sys.stderr, flush=True)
+
+
+def write_if_changed(path, data):
+    """Writes a file unless it has this content already, so that the build does not compile it again."""
+    if path.exists() and path.read_bytes() == data:
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(path.name + '.partial')
+    partial.write_bytes(data)
+    partial.replace(path)
+
+
+def places_of(arguments):
+    """Parses one unit; headers that a unit with the same processor options has shown are not walked again."""
+    entry, root, rooms, seen = arguments
+    prefixes = tuple(f'{root}/{room}/' for room in rooms)
+    options = ' '.join(word for word in entry['command'].split() if word.startswith('-m'))
+    known = set(seen.get(options, ()))
+    found, errors = places.places_of_unit(
+        entry, lambda path: os.path.normpath(path).startswith(prefixes) and path not in known)
+    if not errors:
+        seen[options] = tuple(known | set(found))
+    return found, errors
+
+
+class Tree:
+    """A mutated copy of `root` in `work`/tree, built in `work`/build."""
+
+    def __init__(self, root, work, rooms, jobs):
+        self.root, self.work, self.rooms, self.jobs = root, work, rooms, jobs
+        self.copy, self.build = work / 'tree', work / 'build'
+        self.object = work / 'schemata.o'
+        self.found = {}
+        self.dropped = {}  # path -> {(place, alternative)}
+        self.owners = {}
+
+    def files(self):
+        if not (self.root / '.git').exists():
+            return [str(path.relative_to(self.root)) for path in self.root.rglob('*') if path.is_file()]
+        listed = subprocess.run(['git', '-C', str(self.root), 'ls-files', '-co', '--exclude-standard', '-z'],
+                                check=True, capture_output=True).stdout.decode().split('\0')
+        return [name for name in listed if name and (self.root / name).is_file()]
+
+    def is_mutated(self, name):
+        return name.startswith(tuple(room + '/' for room in self.rooms)) and name.endswith(('.h', '.cc'))
+
+    def prepare(self):
+        names = self.files()
+        for name in names:
+            source, target = self.root / name, self.copy / name
+            if self.is_mutated(name) and target.exists():
+                continue
+            write_if_changed(target, source.read_bytes())
+            shutil.copymode(source, target)
+        listed = set(names)
+        for path in [p for p in self.copy.rglob('*') if p.is_file()]:
+            if str(path.relative_to(self.copy)) not in listed:
+                path.unlink()
+        self.sources = sorted(name for name in names if self.is_mutated(name))
+        self.base = {name: at * BLOCK for at, name in enumerate(self.sources)}
+        self.size = len(self.sources) * BLOCK
+        flags = ['g++', '-O1', '-std=c++20', f'-DMUTANT_PLACES={self.size}', '-c', str(HERE / 'schemata.cc'), '-o', str(self.object)]
+        mark = self.work / 'schemata.key'
+        key = ' '.join(flags) + (HERE / 'schemata.cc').read_text() + (HERE / 'schemata.h').read_text()
+        if not self.object.exists() or not mark.exists() or mark.read_text() != key:
+            subprocess.run(flags, check=True)
+            mark.write_text(key)
+            write_if_changed(self.work / 'schemata.h', (HERE / 'schemata.h').read_bytes())
+        subprocess.run(['cmake', '-S', str(self.copy), '-B', str(self.build), '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release',
+                        '-DCMAKE_CXX_FLAGS=-w -fdiagnostics-color=never -fno-diagnostics-show-caret',
+                        '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG', f'-DCMAKE_EXE_LINKER_FLAGS={self.object}'],
+                       check=True, stdout=subprocess.DEVNULL)
+
+    def find(self):
+        """Finds the places of all files; units whose files have not changed are not parsed again."""
+        entries = json.loads((self.build / 'compile_commands.json').read_text())
+        entries = [{**e, 'command': e['command'].replace(str(self.copy), str(self.root)),
+                    'file': e['file'].replace(str(self.copy), str(self.root))} for e in entries]
+        wanted = {str(self.root / name) for name in self.sources}
+        entries = [e for e in entries if e['file'] in wanted]
+        digest = hashlib.sha256((HERE / 'places.py').read_bytes())
+        for name in self.sources:
+            digest.update((self.root / name).read_bytes())
+        cache = self.work / 'places.pickle'
+        if cache.exists():
+            key, found = pickle.loads(cache.read_bytes())
+            if key == digest.hexdigest():
+                self.found = found
+                return
+        with multiprocessing.Manager() as manager, concurrent.futures.ProcessPoolExecutor(self.jobs) as pool:
+            seen = manager.dict()
+            jobs = [(entry, str(self.root), self.rooms, seen) for entry in entries]
+            for done, (found, errors) in enumerate(pool.map(places_of, jobs), 1):
+                say(f'{done}/{len(jobs)} files parsed')
+                if errors:
+                    say(f'{entries[done - 1]["file"]}: {errors[0]}')
+                for path, list_ in found.items():
+                    name = os.path.relpath(os.path.normpath(path), self.root)
+                    merged = self.found.setdefault(name, {})
+                    for place in list_:
+                        merged.setdefault((place.start, place.end), place)
+        self.found = {name: schemata.ordered(merged.values()) for name, merged in self.found.items()}
+        cache.write_bytes(pickle.dumps((digest.hexdigest(), self.found)))
+
+    def write(self):
+        """Writes the mutated files."""
+        for name in self.sources:
+            text = (self.root / name).read_bytes().decode('latin-1')
+            places_ = self.found.get(name, [])
+            if len(places_) > BLOCK:
+                raise SystemExit(f'mutation: {name} has {len(places_)} places, more than {BLOCK}; split the file')
+            if not places_:
+                write_if_changed(self.copy / name, text.encode('latin-1'))
+                continue
+            writer = schemata.Writer(text, places_, self.base[name], self.dropped.get(name, set()))
+            rendered = writer.render(self.work / 'schemata.h')
+            self.owners[str(self.copy / name)] = writer.owner
+            write_if_changed(self.copy / name, rendered.encode('latin-1'))
+
+    def compile(self, programs):
+        """Builds the test programs; drops mutants that do not compile and builds again."""
+        kept = self.work / 'dropped.pickle'
+        key = hashlib.sha256(pickle.dumps(sorted(self.found.items(), key=lambda x: x[0]))).hexdigest()
+        if kept.exists():
+            old, dropped = pickle.loads(kept.read_bytes())
+            if old == key:
+                self.dropped = dropped
+        for number in range(1, ROUNDS + 1):
+            self.write()
+            say(f'building, round {number}')
+            log = self.work / 'build.log'
+            with log.open('w') as output:
+                built = subprocess.run(['cmake', '--build', str(self.build), '--parallel', str(self.jobs), '--target', *programs,
+                                        '--', '-k', '0'], stdout=output, stderr=subprocess.STDOUT)
+            if built.returncode == 0:
+                return
+            found, unresolved = schemata.culprits(log.read_text(errors='replace'), self.owners)
+            if not found:
+                raise SystemExit(f'mutation: the mutated tree does not compile: {(unresolved or ["see " + str(log)])[0]}')
+            for path, place, alternative in found:
+                name = os.path.relpath(path, self.copy)
+                known = self.dropped.setdefault(name, set())
+                if alternative > 0:
+                    known.add((place, alternative))
+                else:
+                    known.update((place, at) for at in range(1, len(self.found[name][place].alternatives) + 1))
+            kept.write_bytes(pickle.dumps((key, self.dropped)))
+            say(f'{sum(map(len, self.dropped.values()))} mutants dropped that do not compile')
+        raise SystemExit(f'mutation: does not compile after {ROUNDS} rounds; see {log}')
+
+    def programs(self, pattern):
+        listed = subprocess.run(['ninja', '-C', str(self.build), '-t', 'targets', 'all'], check=True,
+                                capture_output=True, text=True).stdout
+        names = re.findall(r'(?m)^(\w+): phony$', listed)
+        return sorted(name for name in names if re.fullmatch(pattern, name))
+
+    def mutants(self):
+        found = []
+        for name in self.sources:
+            text = (self.root / name).read_bytes().decode('latin-1')
+            for id_, number, at, place, (operator, before, after, _) in schemata.identify(name, self.found.get(name, [])):
+                if (number, at) in self.dropped.get(name, set()):
+                    continue
+                found.append(Mutant(id_, name, text.count('\n', 0, place.start) + 1, place.function, operator,
+                                    ' '.join(before.split()), ' '.join(after.split()), self.base[name] + number, at))
+        return found
+
