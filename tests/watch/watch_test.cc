@@ -177,10 +177,10 @@ void plant_in_the_motion(const Plant& plant) {
     moved.translation.x() += 0.2 * std::fabs(moved.translation.z() - f.H_WD.translation.z());
     f.move_to(moved);
   });
-  plant("DrivenByItsForce", Property::kNoWork, pressed(false), [](const Faulty& f) {
+  plant("DrivenByItsForce", Property::kNoWork, pressed(false), [voxel, cycle = 0](const Faulty& f) mutable {
     if (f.report.contacts == 0) return;
     Pose moved = f.report.H_WS;
-    moved.translation.z() += 0.24 * 0.1 * f.setup.scale;
+    moved.translation.z() += 0.05 * voxel * (++cycle % 5);  // up by four steps, then down at once
     f.move_to(moved);
   });
   Setup free = pressed(false);

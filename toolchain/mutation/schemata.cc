@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "schemata.h"
+#include "toolchain/mutation/schemata.h"
 
 #ifndef MUTANT_PLACES
 #error "define MUTANT_PLACES: the number of places of the mutated tree"

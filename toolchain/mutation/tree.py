@@ -100,7 +100,7 @@ class Tree:
         self.sources = sorted(name for name in names if self.is_mutated(name))
         self.base = {name: at * BLOCK for at, name in enumerate(self.sources)}
         self.size = len(self.sources) * BLOCK
-        flags = ['g++', '-O1', '-std=c++20', f'-DMUTANT_PLACES={self.size}', '-c', str(HERE / 'schemata.cc'), '-o', str(self.object)]
+        flags = ['g++', '-O1', '-std=c++20', f'-DMUTANT_PLACES={self.size}', f'-I{HERE.parent.parent}', '-c', str(HERE / 'schemata.cc'), '-o', str(self.object)]
         mark = self.work / 'schemata.key'
         key = ' '.join(flags) + (HERE / 'schemata.cc').read_text() + (HERE / 'schemata.h').read_text()
         if not self.object.exists() or not mark.exists() or mark.read_text() != key:

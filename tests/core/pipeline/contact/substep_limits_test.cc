@@ -46,7 +46,7 @@ TEST(AllowedShare, TurnsByATenthOfARadianAtMostWhereRowsHold) {
   EXPECT_EQ(share(turn(1.0), 10.0, 1.0, false), 1.0) << "without rows nothing is linear in the turn";
 }
 
-/// What the rows neglect of a turn, angle^2 R_max / 2, stays below half of the search radius.
+/// The part of a turn that the rows neglect, angle^2 R_max / 2, stays below half of the search radius.
 TEST(AllowedShare, TurnsByLessInASmallSearchRadius) {
   for (const double search_radius : {1e-5, 1e-4, 5e-4}) {
     const double allowed = share(turn(1.0), 10.0, search_radius, true);
