@@ -1,6 +1,7 @@
 """Runs mutants against the tests that reach them, and stores the results so that a stopped run continues."""
 import collections
 import concurrent.futures
+import itertools
 import json
 import threading
 import time
@@ -10,11 +11,12 @@ from tree import say
 
 
 class Results:
-    """One line of JSON a mutant. A result counts only for the test programs that it was measured with; with other
-    programs it tells which test to try first."""
+    """One line of JSON a mutant. A killed mutant stays killed while the program that killed it is unchanged. One that
+    survived is run again with other programs, or with tests of more `seconds`. An old result tells which test to try
+    first."""
 
-    def __init__(self, path, digest):
-        self.path, self.digest = path, digest
+    def __init__(self, path, suite, seconds):
+        self.path, self.suite, self.digest = path, suite, suite.digest_of_all()
         self.lock = threading.Lock()
         self.valid, self.earlier = {}, {}
         for line in path.read_text().splitlines() if path.exists() else ():
@@ -23,19 +25,24 @@ class Results:
             except ValueError:
                 continue  # the run was stopped while it wrote this line
             self.earlier[entry['id']] = entry
-            if entry['digest'] == digest:
+            if self.is_valid(entry, seconds):
                 self.valid[entry['id']] = entry
 
+    def is_valid(self, entry, seconds):
+        if entry['state'] == 'killed':
+            return entry['digest'] == self.suite.digests.get(entry['by'].split()[0])
+        return entry['digest'] == self.digest and entry.get('seconds', float('inf')) >= seconds
+
     def store(self, entry):
-        entry['digest'] = self.digest
+        entry['digest'] = self.suite.digests[entry['by'].split()[0]] if entry['state'] == 'killed' else self.digest
         with self.lock, self.path.open('a') as file:
             file.write(json.dumps(entry) + '\n')
             self.valid[entry['id']] = entry
 
 
 class Runner:
-    def __init__(self, suite, results):
-        self.suite, self.results = suite, results
+    def __init__(self, suite, results, seconds):
+        self.suite, self.results, self.seconds = suite, results, seconds
         self.killers = collections.defaultdict(collections.Counter)
         self.by_label = {test.label: test for test in suite.tests}
         for entry in results.earlier.values():
@@ -58,9 +65,16 @@ class Runner:
             return self.results.valid[mutant.id]
         reaching = self.suite.by_place.get(mutant.number, [])
         entry = {'id': mutant.id, 'path': mutant.path, 'state': 'survived' if reaching else 'not reached', 'tests': len(reaching)}
+        if self.seconds < float('inf'):
+            entry['seconds'] = self.seconds
         first = self.first(mutant, reaching)
         others = [test for test in reaching if test not in first]
+        left = self.seconds
         for program, tests in [(test.program, [test]) for test in first] + list(suites.batches(others)):
+            tests = [test for test, sum_ in zip(tests, itertools.accumulate(t.seconds for t in tests)) if sum_ <= left]
+            if not tests:
+                continue
+            left -= sum(test.seconds for test in tests)
             killed = suites.kills(self.suite, mutant, program, tests)
             if killed:
                 label = f'{program} {killed[0]}'
