@@ -13,8 +13,6 @@
 namespace godobject::watch {
 namespace {
 
-using report::Setup;
-
 struct World {
   const char* name;
   bool is_compiled;
@@ -29,9 +27,9 @@ constexpr int kCompiledSessions = 2;   // with and without friction
 class WatchedSessions : public test::FolderTest, public ::testing::WithParamInterface<std::tuple<int, int>> {};
 
 /// Returns the session number `number` in a world. Even numbers have friction.
-Setup session_in(const World& world, std::size_t at, int number) {
+report::Setup session_in(const World& world, std::size_t at, int number) {
   std::mt19937 random(static_cast<std::uint32_t>(1000 * at + 31 * static_cast<std::size_t>(number) + 17));
-  Setup setup = report::any_setup(random);
+  report::Setup setup = report::any_setup(random);
   setup.world = world.name;
   setup.friction = number % 2 == 0;
   setup.solver = format::Solver::kContact;
@@ -52,7 +50,7 @@ Setup session_in(const World& world, std::size_t at, int number) {
 TEST_P(WatchedSessions, HoldEveryProperty) {
   const auto [at, number] = GetParam();
   const World& world = kWorlds[at];
-  const Setup setup = session_in(world, static_cast<std::size_t>(at), number);
+  const report::Setup setup = session_in(world, static_cast<std::size_t>(at), number);
   const Findings found = run_setup(setup, *make_rig(setup, folder_));
   EXPECT_EQ(found.violations(), 0) << case_file(setup, found.first());
   EXPECT_GT(found.touching, 0) << "the session never touches";
