@@ -72,7 +72,7 @@ Vector6 Watch::load(const CycleReport& report) const {
 const Watch::Contact* Watch::one_normal(const WatchedCycle& cycle, const std::vector<Contact>& contacts,
                                         int& count) const {
   const CycleReport& report = cycle.report;
-  if (report.outcome != Outcome::kContact || report.unconverged || report.outside || report.substeps > 1)
+  if (report.outcome != Outcome::kContact || report.unconverged || report.outside || cycle.path.size() > 1)
     return nullptr;
   if (travelled_ > 0.125 * q_.voxel_size) return nullptr;
   const double touching = 2.0 * q_.margin;

@@ -15,23 +15,49 @@ struct Arrival {
   double overshoot = 0.0;  ///< rise of the coupling's energy at the end over its fall at the start, see `arrive` [1]
 };
 
+/// Tells whether another force at the point of force `i` has a normal that is closer to `normal` [unit, in S]: in the
+/// valley between two faces the gradient is that of one of them.
+inline bool is_of_other_face(const ConstrainedStep& step, std::uint32_t i, const Vector3& normal) noexcept {
+  const double fit = step.forces[i].normal.dot(normal);
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    if (step.forces[j].id == step.forces[i].id && step.forces[j].normal.dot(normal) > fit) return true;
+  }
+  return false;
+}
+
+/// Returns by how much the coupling's energy rises because the points move along arcs in the motion (x, r) =
+/// step.motion [m^2]. A row takes the path of its point P for straight; in second order it misses
+///     (r x (r x P)) / 2   for a sample point,   -r x x - (r x (r x P)) / 2   for a feature point.
+/// The force, multiplier lambda and normal n, has to make up for what is lost along n, which takes the energy
+///     -2 sum of lambda n . (...).
+/// Cost: six forces. Real-time safe.
+inline double arc_energy(const ConstrainedStep& step) noexcept {
+  const Vector3& r = step.motion.rotation;
+  double energy = 0.0;
+  for (std::uint32_t i = 0; i < step.force_count; ++i) {
+    const ContactForce& force = step.forces[i];
+    const Vector3 half = 0.5 * r.cross(r.cross(force.point));
+    const Vector3 missed = (force.id & kFeature) == 0 ? half : Vector3(-r.cross(step.motion.translation) - half);
+    energy -= 2.0 * force.multiplier * force.normal.dot(missed);
+  }
+  return energy;
+}
+
 /// Looks up the holding points at the end of the motion v = step.motion from H0 to H1.
 ///
 /// Overshoot: at the start of v the energy of the coupling falls by |v|^2 per unit of the motion. Where the contact
 /// forces at the end (the multipliers lambda of the rows times the normals n_1 there) point backwards, it rises there
 /// by
-///     -sum of lambda (n_1 - n_0) . (p_1 - p_0) = overshoot |v|^2.
-/// By the secant the energy is least at 1 / (1 + overshoot) of the motion. Cost: one look-up for each force, at most
-/// six. Real-time safe.
+///     arcs - sum of lambda (n_1 - n_0) . (p_1 - p_0) = overshoot |v|^2.
+/// By the secant the energy is least at 1 / (1 + overshoot) of the motion. `squared_length`: |v|^2 in the metric in
+/// which `step` was solved; `arcs`: energy of the arcs (`arc_energy`), less the part that this metric contains [m^2].
+/// Cost: one look-up for each force, at most six. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>
-Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
-               const ConstrainedStep& step) noexcept {
-  const Motion& v = step.motion;
-  const double gyration = scene.lengths.metric.gyration;
-  const double squared_length = v.translation.squaredNorm() + gyration * gyration * v.rotation.squaredNorm();
+Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1, const ConstrainedStep& step,
+               double squared_length, double arcs) noexcept {
   const double open = scene.lengths.margin + scene.lengths.opening;
   Arrival arrival;
-  double rise = 0.0;
+  double rise = arcs;
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
     const ContactForce& force = step.forces[i];
     const Vector3 normal_W = H0.rotation._transformVector(force.normal);
@@ -56,7 +82,10 @@ Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, cons
     }
     arrival.opened |= distance > open;
     const double steepness = gradient_W.norm();
-    if (steepness > kFlat) rise -= force.multiplier * (gradient_W / steepness - normal_W).dot(displacement_W);
+    if (!(steepness > kFlat)) continue;
+    const Vector3 end_normal_W = gradient_W / steepness;
+    if (is_of_other_face(step, i, H0.rotation.conjugate()._transformVector(end_normal_W))) continue;
+    rise -= force.multiplier * (end_normal_W - normal_W).dot(displacement_W);
   }
   if (rise > 0.0 && squared_length > 0.0) arrival.overshoot = rise / squared_length;
   return arrival;

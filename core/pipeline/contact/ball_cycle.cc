@@ -209,7 +209,7 @@ bool Center::push_obstacle(const Vector3& end) noexcept {
   if (spaces_.count == HalfSpaces::kContacts || !seen.known || !(steepness > kFlat)) return false;
   const Vector3 displacement = obstacle_.share * (end - at_);
   spaces_.push(seen.gradient / steepness,
-               detail::second_look_gain(lengths_, seen, displacement, here_.distance, steepness));
+               detail::second_look_gain(lengths_, seen, displacement, here_.distance, steepness, 0.0));
   return true;
 }
 

@@ -25,8 +25,9 @@ namespace godobject {
 ///
 /// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged.
 /// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps
-/// sub-steps with a near point, each with at most kMostAttempts look-ups of a near point and 1 + kMostSecondLooks
-/// solves; kMostFreeSubsteps sub-steps without one; kMostBallsOfCycle further look-ups a cycle. Real-time safe.
+/// sub-steps with a near point, each with at most kMostAttempts look-ups of a near point and 2 + 4 kMostSecondLooks
+/// solves (a second look solves with and without arcs, each in one or two metrics); kMostFreeSubsteps sub-steps without
+/// one; kMostBallsOfCycle further look-ups a cycle. Real-time safe.
 template <bool kFriction, DistanceField Field, DistanceField BodyField>
 Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInput& input, ContactMemory& memory,
                      ProxyState& state, CycleReport& report, StepTimes* times = nullptr) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -92,32 +93,10 @@ class ContactSubsteps {
 
   /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4.
   void constrain() noexcept {
-    const WorkspaceBox& box = scene_.parameters->workspace;
-    const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
-    if (!box.limited) return least_constraint(rows_, free_, lengths_.metric, friction, last_motion_, step_);
-    if (!kFriction) {
-      least_constraint(rows_, free_, lengths_.metric, nullptr, last_motion_, step_);
-      if (box.contains(H0_ * step_.motion.translation)) return;
-      const bool contradictory = step_.infeasible;
-      constrain_within(box);
-      step_.infeasible |= contradictory;
-      return;
-    }
-    bool infeasible = false;
-    const bool met = push_within(box, lengths_.metric.tolerance, [&](const Vector3& push_W) noexcept {
-      Motion pushed = free_;
-      pushed.translation -= H0_.rotation.conjugate()._transformVector(push_W);
-      least_constraint(rows_, pushed, lengths_.metric, friction, last_motion_, step_);
-      infeasible |= step_.infeasible;
-      step_.follows &= push_W.isZero(0.0);
-      return H0_ * step_.motion.translation;
-    });
-    // the push reduces the target, so that friction may hold the body farther from the device than rest would
-    if (!met || is_farther_than_rest()) {
-      constrain_within(box);
-      step_.unconverged = true;
-    }
-    step_.infeasible |= infeasible;
+    metric_ = lengths_.metric;
+    aim_ = free_;
+    solve();
+    if (arc_energy(step_) > kMostOvershoot * squared(step_.motion)) stiffen();
   }
 
   /// Tells whether after a start inside no direction leads out; then moves the god object to the device, without force.
@@ -132,6 +111,9 @@ class ContactSubsteps {
   /// Tries the motion, or a share of it, until the certificate holds. Sets `motion_` and `H1_`.
   void certify() noexcept {
     share_ = MotionShare(allowed_share(step_.motion, around_, search_radius_, lengths_, rows_.count > 0));
+    // by the triangle inequality the distance grows by at most a margin
+    most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared(aim_));
+    limit_arcs();
     at_sample_ = at_feature_ = Obstacle{};
     opened_ = false;
     while (share_.next()) {
@@ -145,7 +127,7 @@ class ContactSubsteps {
       const bool is_free = samples_free && features_free;
       Arrival arrival;
       if (is_free && share_.is_whole() && travel(lengths_.sphere, motion_) > lengths_.metric.tolerance) {
-        arrival = arrive(scene_, H0_, H1_, step_);
+        arrival = arrive(scene_, H0_, H1_, step_, squared(step_.motion), excess_arc_energy());
       }
       end(times_, &StepTimes::step1_ns);
       if (arrival.overshoot > kMostOvershoot) {
@@ -204,15 +186,73 @@ class ContactSubsteps {
     memory_.path.push(H_WS);
   }
 
-  /// Tells whether the step ends farther from the device than rest, in the coupling's metric.
-  bool is_farther_than_rest() const noexcept {
-    const double gyration = lengths_.metric.gyration;
-    const auto squared = [gyration](const Vector3& x, const Vector3& r) noexcept {
-      return x.squaredNorm() + gyration * gyration * r.squaredNorm();
-    };
-    const Motion& motion = step_.motion;
-    return squared(motion.translation - free_.translation, motion.rotation - free_.rotation) >
-           squared(free_.translation, free_.rotation);
+  /// Returns the squared length of a motion in `metric_` [m^2].
+  double squared(const Motion& motion) const noexcept {
+    return motion.translation.squaredNorm() + metric_.gyration * metric_.gyration * motion.rotation.squaredNorm();
+  }
+
+  /// Returns by how much the squared distance from the aim is larger after the step than at rest [m^2].
+  double distance_gain() const noexcept {
+    const Motion remainder{step_.motion.translation - aim_.translation, step_.motion.rotation - aim_.rotation};
+    return squared(remainder) - squared(aim_);
+  }
+
+  /// Solves again for a coupling that is stiffer in rotation, by the energy of the arcs on which the points move: else
+  /// forces with long levers turn the body too far (Newton's method in place of the steepest descent). At rest both
+  /// couplings have the same forces.
+  void stiffen() noexcept {
+    const double turn = step_.motion.rotation.norm();
+    const double squared_gyration = metric_.gyration * metric_.gyration;
+    const double stiffer = squared_gyration + arc_energy(step_) / (turn * turn);
+    if (!(turn > 0.0) || !std::isfinite(stiffer)) return;
+    metric_.gyration = std::sqrt(stiffer);
+    aim_.rotation = squared_gyration / stiffer * free_.rotation;
+    const bool infeasible = step_.infeasible;
+    solve();
+    step_.infeasible |= infeasible;
+    step_.follows = false;
+  }
+
+  /// Returns the energy of the arcs, less the part that `metric_` contains [m^2].
+  double excess_arc_energy() const noexcept {
+    const double added = metric_.gyration * metric_.gyration - lengths_.metric.gyration * lengths_.metric.gyration;
+    return arc_energy(step_) - added * step_.motion.rotation.squaredNorm();
+  }
+
+  /// Shortens a motion that would raise the coupling's energy again because the points move along arcs.
+  void limit_arcs() noexcept {
+    const double excess = excess_arc_energy() / squared(step_.motion);
+    if (excess > kMostOvershoot) share_.limit_to(1.0 / (1.0 + excess));
+  }
+
+  /// Computes the motion nearest to `aim_` in `metric_` that all rows and the workspace allow.
+  void solve() noexcept {
+    const WorkspaceBox& box = scene_.parameters->workspace;
+    const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
+    if (!box.limited) return least_constraint(rows_, aim_, metric_, friction, last_motion_, step_);
+    if (!kFriction) {
+      least_constraint(rows_, aim_, metric_, nullptr, last_motion_, step_);
+      if (box.contains(H0_ * step_.motion.translation)) return;
+      const bool contradictory = step_.infeasible;
+      constrain_within(box);
+      step_.infeasible |= contradictory;
+      return;
+    }
+    bool infeasible = false;
+    const bool met = push_within(box, metric_.tolerance, [&](const Vector3& push_W) noexcept {
+      Motion pushed = aim_;
+      pushed.translation -= H0_.rotation.conjugate()._transformVector(push_W);
+      least_constraint(rows_, pushed, metric_, friction, last_motion_, step_);
+      infeasible |= step_.infeasible;
+      step_.follows &= push_W.isZero(0.0);
+      return H0_ * step_.motion.translation;
+    });
+    // the push reduces the target, so that friction may hold the body farther from the device than rest would
+    if (!met || distance_gain() > 0.0) {
+      constrain_within(box);
+      step_.unconverged = true;
+    }
+    step_.infeasible |= infeasible;
   }
 
   /// Computes the motion nearest to the unconstrained one without friction, with the faces of the box as rows. Their
@@ -225,7 +265,7 @@ class ContactSubsteps {
     push_faces(box, H0_, [&](const Vector3& normal_S, double gain) noexcept {
       rows_.push(kFaceOfWorkspace, normal_S, Vector3::Zero(), gain);
     });
-    least_constraint(rows_, free_, lengths_.metric, nullptr, last_motion_, step_);
+    least_constraint(rows_, aim_, metric_, nullptr, last_motion_, step_);
     rows_.count = contacts;
     drop_forces(kFaceOfWorkspace, step_);
   }
@@ -300,23 +340,44 @@ class ContactSubsteps {
           std::min(at_sample_.exhausted ? at_sample_.share : 1.0, at_feature_.exhausted ? at_feature_.share : 1.0));
       return;
     }
-    if (!push_obstacles(samples_free, features_free)) return share_.shrink_at_obstacle();
-    const bool infeasible = step_.infeasible;
-    constrain();
-    step_.infeasible |= infeasible;
-    share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
+    if (!look_again(samples_free, features_free)) share_.shrink_at_obstacle();
   }
 
-  /// Adds the rows of the second look. False: none was added.
-  bool push_obstacles(bool samples_free, bool features_free) noexcept {
+  /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, then without. False: they
+  /// cannot become rows, or would drive the god object away from the device; then the step is as before.
+  bool look_again(bool samples_free, bool features_free) noexcept {
+    const ConstrainedStep tried = step_;
+    const CouplingMetric metric = metric_;
+    const Motion aim = aim_;
+    const std::uint32_t rows = rows_.count;
+    for (const bool is_arc : {true, false}) {
+      if (!push_obstacles(samples_free, features_free, tried.motion, is_arc)) return false;
+      constrain();
+      if (distance_gain() <= most_gain_) {
+        step_.infeasible |= tried.infeasible;
+        share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
+        limit_arcs();
+        return true;
+      }
+      rows_.count = rows;
+      step_ = tried;
+      metric_ = metric;
+      aim_ = aim;
+    }
+    return false;
+  }
+
+  /// Adds the rows of the second look after a motion in S. `is_arc`: as in Attempt. False: none was added.
+  bool push_obstacles(bool samples_free, bool features_free, const Motion& step, bool is_arc) noexcept {
     if (share_.looks_left() == 0) return false;
     bool pushed = false;
     if (!samples_free) {
-      pushed = push_obstacle<SampleDirection>(H0_, H1_, lengths_, memory_.workspace.samples, at_sample_, rows_);
+      const Attempt attempt{H0_, H1_, step, share_.value(), is_arc};
+      pushed = push_obstacle<SampleDirection>(attempt, lengths_, memory_.workspace.samples, at_sample_, rows_);
     }
     if (scene_.has_features() && !features_free) {
-      pushed |= push_obstacle<FeatureDirection>(H0_features_, H1_features_, lengths_, memory_.workspace.features,
-                                                at_feature_, rows_);
+      const Attempt attempt{H0_features_, H1_features_, step, share_.value(), is_arc};
+      pushed |= push_obstacle<FeatureDirection>(attempt, lengths_, memory_.workspace.features, at_feature_, rows_);
     }
     return pushed;
   }
@@ -346,6 +407,9 @@ class ContactSubsteps {
   Pose H0_;
   Pose H0_features_;
   Motion free_;
+  Motion aim_;                      // of the solver: `free_` in `metric_`
+  CouplingMetric metric_;           // in which the step is solved
+  double most_gain_ = 0.0;          // bound of `distance_gain` after second looks [m^2]
   double free_displacement_ = 0.0;  // upper bound of a point's displacement in `free_` [m]
   double search_radius_ = 0.0;
   Surroundings around_{};

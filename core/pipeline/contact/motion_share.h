@@ -33,6 +33,10 @@ class MotionShare {
     value_ = share;
     overshoots_ = true;
   }
+  /// Shortens the motion to at most this share.
+  void limit_to(double share) noexcept {
+    if (share < value_) shrink(share / value_);
+  }
   /// Halves the share: points that are not near do not allow more.
   void halve() noexcept { shrink(0.5); }
   /// Shortens the motion to the share of a chord that is proved free; beyond it nothing is known.

@@ -15,28 +15,51 @@ namespace godobject::detail {
 
 /// Returns the required gap increase of the new row [m]. `displacement`: from the start of the chord to the obstacle,
 /// in the field's frame [m]; `start_distance`: stored distance at the start [m]; `steepness`: length of the gradient at
-/// the obstacle [1]. The row requires no more than the point's row at the start, so that rest remains feasible.
+/// the obstacle [1]; `loss`: gap increase at the obstacle that the row promises and the motion does not keep [m].
+///
+/// Without a loss the row requires no more than the point's row at the start, so that rest remains feasible. A point on
+/// a long lever moves along an arc, which the row takes for its tangent; the row must promise what the arc loses
+/// (second-order correction of sequential quadratic programming, Nocedal and Wright, Numerical Optimization, 18.3).
 inline double second_look_gain(const ContactLengths& lengths, const FieldSample& at_obstacle,
-                               const Vector3& displacement, double start_distance, double steepness) noexcept {
+                               const Vector3& displacement, double start_distance, double steepness,
+                               double loss) noexcept {
   // extrapolated to the start, the distance differs by the gradient times the displacement
   const double gain = (lengths.margin - at_obstacle.distance + at_obstacle.gradient.dot(displacement)) / steepness;
-  return std::min(gain, std::max(0.0, kRecovery * (lengths.margin - start_distance)));
+  return std::min(gain, std::max(0.0, kRecovery * (lengths.margin - start_distance))) + std::max(0.0, loss);
 }
 
-/// Adds the row of an obstacle in a motion from H0 to H1. False: there is no room for a row, or the field has no
-/// gradient at the obstacle. Real-time safe.
+/// The motion that met an obstacle, as the frame of one direction has it.
+struct Attempt {
+  const Pose& H0;       ///< start
+  const Pose& H1;       ///< end, at a share of the motion
+  const Motion& step;   ///< whole motion in S
+  double share = 1.0;   ///< share that was tried
+  bool is_arc = false;  ///< the row makes up for the arc on which the point moves
+};
+
+/// Adds the row of an obstacle that a motion met. False: there is no room for a row, or the field has no gradient at the
+/// obstacle. Real-time safe.
 template <class Direction>
-bool push_obstacle(const Pose& H0, const Pose& H1, const ContactLengths& lengths, const NearPoints& near,
+bool push_obstacle(const Attempt& attempt, const ContactLengths& lengths, const NearPoints& near,
                    const Obstacle& obstacle, ContactRows& rows) noexcept {
   if (rows.full() || !obstacle.sample.known || !(obstacle.sample.gradient.norm() > kFlat)) return false;
-  const Matrix3 R0 = H0.rotation.toRotationMatrix();
+  const Matrix3 R0 = attempt.H0.rotation.toRotationMatrix();
   const Vector3 p = near.point(obstacle.near);
-  const Vector3 p0 = R0 * p + H0.translation;
-  const Vector3 displacement = obstacle.share * (H1 * p - p0);
+  const Vector3 p0 = R0 * p + attempt.H0.translation;
+  const Vector3 displacement = obstacle.share * (attempt.H1 * p - p0);
   const ContactPoint contact = Direction::contact(p, p0, obstacle.sample.gradient, R0);
   const double steepness = contact.gradient_S.norm();
-  rows.push(Direction::kId | near.index[obstacle.near], contact.gradient_S / steepness, contact.point_S,
-            second_look_gain(lengths, obstacle.sample, displacement, near.distance[obstacle.near], steepness));
+  const Vector3 normal_S = contact.gradient_S / steepness;
+  double loss = 0.0;
+  if (attempt.is_arc) {
+    const Motion& step = attempt.step;
+    const double promised =
+        attempt.share * obstacle.share * normal_S.dot(step.translation + step.rotation.cross(contact.point_S));
+    // the row promises for the whole step; the loss grows with the square of the share
+    loss = (promised - obstacle.sample.gradient.dot(displacement) / steepness) / attempt.share;
+  }
+  rows.push(Direction::kId | near.index[obstacle.near], normal_S, contact.point_S,
+            second_look_gain(lengths, obstacle.sample, displacement, near.distance[obstacle.near], steepness, loss));
   return true;
 }
 
