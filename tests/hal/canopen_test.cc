@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
+#include <tuple>
+
 #include "hal/canopen/emergency.h"
 #include "hal/canopen/little_endian.h"
 #include "hal/canopen/network.h"
 #include "hal/canopen/pdo.h"
 #include "hal/canopen/sdo.h"
 #include "tests/hal/frames.h"
+#include "tests/support/random.h"
 
 namespace godobject::hal::canopen {
 namespace {
@@ -18,6 +23,25 @@ TEST(LittleEndian, LeastSignificantByteFirst) {
   EXPECT_EQ(load(bytes, 2, 2), 0x3456u);
   store(bytes, 7, 1, 0xABCD);
   EXPECT_EQ(bytes[7], 0xCD);
+}
+
+TEST(LittleEndian, LoadsWhatItStoresAndTouchesNothingElse) {
+  test::Random random(2);
+  for (int k = 0; k < 2000; ++k) {
+    std::array<std::uint8_t, 12> bytes{};
+    bytes.fill(0xA5);
+    const auto size = static_cast<std::size_t>(random.integer(0, 4));
+    const auto at = static_cast<std::size_t>(random.integer(0, 8));
+    const auto value = static_cast<std::uint32_t>(random.integer(0, 0xFFFF) << 16 | random.integer(0, 0xFFFF));
+    store(bytes, at, size, value);
+    const std::uint32_t kept = size == 4 ? value : value & ((1u << 8 * size) - 1);
+    ASSERT_EQ(load(bytes, at, size), kept);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      if (i < at || i >= at + size) {
+        ASSERT_EQ(bytes[i], 0xA5) << i;
+      }
+    }
+  }
 }
 
 TEST(Network, FramesOfTheMaster) {
@@ -58,6 +82,19 @@ TEST(Network, IdentifiersThatOnlyAMasterSends) {
   int count = 0;
   for (int id = 0; id < 0x800; ++id) count += is_of_master(static_cast<std::uint16_t>(id)) ? 1 : 0;
   EXPECT_EQ(count, 5 + 4 * 127 + 127);
+}
+
+TEST(Network, NodeOfAnIdentifier) {
+  for (const int base : {0x080, 0x180, 0x580, 0x700}) {
+    const auto of = [base](int id) {
+      return node_of(static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(base));
+    };
+    for (int node = 1; node <= 127; ++node) EXPECT_EQ(of(base + node), node);
+    EXPECT_EQ(of(base), 0);
+    EXPECT_EQ(of(base - 1), 0);
+    EXPECT_EQ(of(base + 128), 0);
+    EXPECT_EQ(of(0), 0);
+  }
 }
 
 TEST(Sdo, RequestsByteForByte) {
@@ -105,6 +142,39 @@ TEST(Sdo, ResponsesByteForByte) {
   EXPECT_FALSE(parse_sdo_response(frame(0x583, {0x60, 0x17, 0x10}), response));
   EXPECT_FALSE(parse_sdo_response(frame(0x603, {0x60, 0x17, 0x10, 0x00, 0, 0, 0, 0}), response));
   EXPECT_FALSE(parse_sdo_response(frame(0x580, {0x60, 0x17, 0x10, 0x00, 0, 0, 0, 0}), response));
+}
+
+/// Upload and download of segments, blocks, and the specifier that has no meaning.
+TEST(Sdo, ResponsesOfLongerTransfersHaveNoValue) {
+  for (const int command : {0x00, 0x0F, 0x20, 0x30, 0xA0, 0xA4, 0xC0, 0xC6, 0xE0, 0x40, 0x41}) {
+    SdoResponse response;
+    ASSERT_TRUE(parse_sdo_response(frame(0x583, {command, 0x08, 0x10, 0x02, 1, 2, 3, 4}), response)) << command;
+    EXPECT_EQ(response.kind, SdoResponse::Kind::kLong) << command;
+    EXPECT_EQ(response.size, 0);
+    EXPECT_EQ(response.value, 0u);
+    EXPECT_EQ(response.node, 3);
+    EXPECT_EQ(response.index, 0x1008);
+    EXPECT_EQ(response.subindex, 2);
+  }
+}
+
+/// The result depends on the eight bytes only: not on those behind them, nor on what `response` held before.
+TEST(Sdo, ResponsesDependOnNothingElse) {
+  test::Random random(3);
+  for (int k = 0; k < 5000; ++k) {
+    CanFrame clean{static_cast<std::uint16_t>(0x580 + random.integer(1, 127)), 8};
+    for (std::size_t i = 0; i < 8; ++i) clean.data[i] = static_cast<std::uint8_t>(random.integer(0, 255));
+    CanFrame dirty = clean;
+    for (std::size_t i = 8; i < dirty.data.size(); ++i) dirty.data[i] = 0xFF;
+    SdoResponse one;
+    SdoResponse two{77, SdoResponse::Kind::kRead, 0x7777, 7, 3, 0x77777777};
+    ASSERT_TRUE(parse_sdo_response(clean, one));
+    ASSERT_TRUE(parse_sdo_response(dirty, two));
+    const auto all = [](const SdoResponse& r) {
+      return std::tuple(r.node, r.kind, r.index, r.subindex, r.size, r.value);
+    };
+    ASSERT_EQ(all(one), all(two)) << clean;
+  }
 }
 
 TEST(Sdo, TellsWritesFromReads) {
