@@ -27,7 +27,9 @@ TEST(AlarmLatch, KeepsOverAResetOnlyWhatANewStartCures) {
     const auto alarm = static_cast<Alarm>(number);
     AlarmLatch latch;
     EXPECT_EQ(latch.first().alarm, Alarm::kNone);
+    latch.raise({});
     latch.raise({.alarm = alarm, .bus = 2, .joint = 3, .id = 0x85});
+    latch.raise({});
     EXPECT_EQ(latch.first().alarm, alarm);
     latch.reset();
     EXPECT_EQ(latch.first().alarm, needs_a_new_start(alarm) ? alarm : Alarm::kNone) << number;
