@@ -199,14 +199,16 @@ TEST_F(BringUpAnswersTest, ModesOfOtherNodesDisturbNothing) {
     };
   }
   EXPECT_EQ(start().status, BringUpStatus::kOk);
+  layout_.panel.bus = -1;
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
 }
 
 // ---------------------------------------------------------------- answers
 
-/// Bad answers to another object, sub-index or node come before each good one.
+/// Bad answers to another object, sub-index or node come before each good one, and behind it.
 TEST_F(BringUpAnswersTest, TakesOnlyTheAnswerToItsRequest) {
   for (ScriptedNode* node : {&joint_0_, &joint_1_, &joint_2_, &panel_}) {
-    node->before_answer_to = [](const CanFrame& request, FakeBus& bus) {
+    const auto mislead = [](const CanFrame& request, FakeBus& bus) {
       CanFrame bad = request;  // an abort of the request
       bad.data[0] = 0x80;
       bad.id = static_cast<std::uint16_t>(request.id - 0x80);
@@ -218,6 +220,8 @@ TEST_F(BringUpAnswersTest, TakesOnlyTheAnswerToItsRequest) {
       bad.id = 0x5FE;
       bus.receive_next(bad);
     };
+    node->before_answer_to = mislead;
+    node->after_answer_to = mislead;
   }
   EXPECT_EQ(start().status, BringUpStatus::kOk);
 }

@@ -116,6 +116,10 @@ TEST_F(CanDrivesCountsTest, RoundTripIsFromTheEchoToTheLastSample) {
   EXPECT_EQ(counts().longest_round_trip_ns, 400'000);
   cycle_of({});
   EXPECT_EQ(counts().round_trip_ns, 0);
+  cycle_of({tpdo(5, kOff, 0, 0)});
+  bus_.echoes = false;
+  cycle_of({tpdo(5, kOff, 0, 0)});
+  EXPECT_EQ(counts().round_trip_ns, 0) << "of this cycle, not of the one before";
 }
 
 TEST_F(CanDrivesCountsTest, ARoundTripNeedsTimeStamps) {
@@ -269,6 +273,20 @@ TEST_F(CanDrivesCountsTest, AStartForgetsAllThatWasBefore) {
     EXPECT_EQ(a.late, b.late);
     EXPECT_EQ(a.longest_round_trip_ns, b.longest_round_trip_ns);
   }
+}
+
+/// Power requests are levels; the first one after a start begins, whatever the last one before it was.
+TEST_F(CanDrivesCountsTest, AResetMayBeTheFirstRequestAfterAStart) {
+  cycle(kOff, PowerRequest::kReset);
+  SleepingClock clock;
+  EXPECT_EQ(drives_.bring_up(clock).status, BringUpStatus::kNoBootUp);
+  bus_.waiting.clear();
+  bus_.take_sent();
+  bus_.receive_next(frame(0x083, {0x10, 0x23, 1, 0, 0, 0, 0, 0}));
+  cycle(kOff, PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kDriveError);
+  cycle(kOff, PowerRequest::kReset);
+  EXPECT_EQ(reading_.alarm, Alarm::kNone);
 }
 
 // ---------------------------------------------------------------- the first cycles

@@ -16,13 +16,12 @@ namespace {
 /// Two buses: joint 0 as node 5 on the first; joint 1 as node 3 and the panel as node 32 on the second.
 class TwoBusesTest : public testing::Test {
  protected:
-  static constexpr int kInterval = 10;
   static constexpr int kHeartbeat = 20;  // cycles
 
   TwoBusesTest() {
     layout_.bus_count = 2;
     layout_.joint_count = 2;
-    layout_.read_back_interval = kInterval;
+    layout_.read_back_interval = 10;
     layout_.drives[0] = {.bus = 0, .node = 5, .counts = 1000, .rated_torque = 2.0};
     layout_.drives[1] = {.bus = 1, .node = 3, .counts = 1000, .rated_torque = 2.0};
     layout_.panel = {.bus = 1, .node = 32};
@@ -70,14 +69,14 @@ class TwoBusesTest : public testing::Test {
 
   /// The cycles by the rules: an interval after the last request, not in a cycle of the controller's heartbeat, nor
   /// where one of a node of this bus is due, unless it has waited for a period of heartbeats.
-  static std::vector<int> expected(const std::vector<int>& phases, int cycles) {
+  std::vector<int> expected(const std::vector<int>& phases, int cycles) const {
     std::vector<int> found;
     int last = -1;
     for (int k = 0; k < cycles; ++k) {
-      if (k % kHeartbeat == 0 || k - last < kInterval) continue;
+      if (k % kHeartbeat == 0 || k - last < layout_.read_back_interval) continue;
       bool due = false;
       for (const int phase : phases) due = due || is_due(phase, k);
-      if (due && k - last < kInterval + kHeartbeat) continue;
+      if (due && k - last < layout_.read_back_interval + kHeartbeat) continue;
       found.push_back(k);
       last = k;
     }
@@ -103,17 +102,29 @@ TEST_F(TwoBusesTest, SdoRequestsKeepAwayFromTheHeartbeatsOfTheirBus) {
 }
 
 TEST_F(TwoBusesTest, SdoRequestsWaitAPeriodForOverdueHeartbeatsAndNotLonger) {
+  const int interval = layout_.read_back_interval;
   const std::array<std::vector<int>, 2> found = requests({-1, -1, -1}, 200);
   EXPECT_EQ(found[0], expected({-1}, 200));
   EXPECT_EQ(found[1], expected({-1, -1}, 200));
   for (std::size_t i = 1; i < found[0].size(); ++i) {
-    EXPECT_GE(found[0][i] - found[0][i - 1], kInterval + kHeartbeat);
-    EXPECT_LE(found[0][i] - found[0][i - 1], kInterval + kHeartbeat + 1);
+    EXPECT_GE(found[0][i] - found[0][i - 1], interval + kHeartbeat);
+    EXPECT_LE(found[0][i] - found[0][i - 1], interval + kHeartbeat + 1);
   }
   // a silent panel holds up its own bus only
   const std::array<std::vector<int>, 2> one = requests({3, 3, -1}, 200);
   EXPECT_EQ(one[0], expected({3}, 200));
   EXPECT_EQ(one[1], expected({3, -1}, 200));
+}
+
+/// A node that nobody has heard yet is due 18 cycles after the start: 17 cycles after it the wire is still free.
+TEST_F(TwoBusesTest, SdoRequestsGoOutJustBeforeAHeartbeatIsDue) {
+  for (const int interval : {17, 18, 19}) {
+    layout_.read_back_interval = interval;
+    const std::array<std::vector<int>, 2> found = requests({-1, 19, 19}, 200);
+    EXPECT_EQ(found[0], expected({-1}, 200)) << interval;
+    EXPECT_EQ(found[1], expected({19, 19}, 200)) << interval;
+    EXPECT_EQ(found[1].at(0) == interval - 1, interval < 19);
+  }
 }
 
 /// Without a panel on it, a bus does not wait for the panel's heartbeats.

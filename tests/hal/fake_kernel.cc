@@ -86,7 +86,7 @@ int receive(FakeKernel& kernel, mmsghdr* headers, unsigned count) {
   return taken > 0 ? static_cast<int>(taken) : fail(EAGAIN);
 }
 
-bool is_fake(int descriptor) { return present != nullptr && descriptor >= FakeKernel::kSocket; }
+bool is_fake(int descriptor) { return present != nullptr && descriptor >= present->first_socket; }
 
 }  // namespace
 }  // namespace godobject::hal
@@ -101,7 +101,7 @@ int socket(int domain, int type, int protocol) noexcept {
   if (present == nullptr) return static_cast<int>(::syscall(SYS_socket, domain, type, protocol));
   present->socket_arguments = {domain, type, protocol};
   if (present->socket_error != 0) return godobject::hal::fail(present->socket_error);
-  return FakeKernel::kSocket + present->open_sockets++;
+  return present->first_socket + present->open_sockets++;
 }
 
 int close(int descriptor) {
@@ -133,7 +133,8 @@ int getsockopt(int descriptor, int level, int name, void* value, socklen_t* size
   if (!godobject::hal::is_fake(descriptor)) {
     return static_cast<int>(::syscall(SYS_getsockopt, descriptor, level, name, value, size));
   }
-  if (level != SOL_SOCKET || name != SO_RCVBUF || *size != sizeof(int)) return godobject::hal::fail(EINVAL);
+  if (present->buffer_is_unknown || level != SOL_SOCKET || name != SO_RCVBUF || *size != sizeof(int))
+    return godobject::hal::fail(EINVAL);
   int granted = 212'992;  // nobody has asked
   for (const int asked : {SO_RCVBUF, SO_RCVBUFFORCE}) {
     const std::vector<std::uint8_t> bytes = present->option(SOL_SOCKET, asked);

@@ -37,7 +37,7 @@ class FakeKernel {
     int flags = 0;
   };
 
-  static constexpr int kSocket = 1000;  ///< the first descriptor that socket() returns
+  static constexpr int kSocket = 1000;
 
   FakeKernel();
   ~FakeKernel();
@@ -48,6 +48,8 @@ class FakeKernel {
   std::vector<std::uint8_t> option(int level, int name) const;
 
   std::map<std::string, Interface> interfaces;
+  int first_socket = kSocket;                ///< the first descriptor that socket() returns
+  bool buffer_is_unknown = false;            ///< getsockopt fails
   int socket_error = 0;                      ///< of socket(); 0: it works
   std::set<unsigned long> failing_requests;  ///< of ioctl, with ENODEV
   std::set<std::pair<int, int>> refused;     ///< options (level, name), with EPERM

@@ -99,6 +99,11 @@ TEST_F(JointChannelTest, CountsOperationOnlySincePowerWasRequested) {
   EXPECT_TRUE(channel_.left_torque_mode());
 }
 
+TEST_F(JointChannelTest, ADriveMayBeEnabledByTheFirstRequest) {
+  take(kOff);
+  EXPECT_EQ(controlword(PowerRequest::kEnable), 0x06);
+}
+
 /// Outside operation bit 12 tells nothing of the mode.
 TEST_F(JointChannelTest, LeavesTorqueModeOnlyInOperation) {
   controlword(PowerRequest::kEnable);
@@ -114,7 +119,7 @@ TEST_F(JointChannelTest, LeavesTorqueModeOnlyInOperation) {
 /// Every reset begins with eight cycles of a low bit, however the one before ended.
 TEST_F(JointChannelTest, EveryResetHoldsTheBitLowAndThenHighForEightCycles) {
   take(kFault);
-  for (const int cycles : {3, 8, 12, 16, 20, 40}) {
+  for (const int cycles : {16, 3, 8, 12, 16, 20, 40}) {
     for (int k = 0; k < cycles; ++k) {
       EXPECT_EQ(controlword(PowerRequest::kReset), k / 8 % 2 == 1 ? 0x80 : 0x00) << k << " of " << cycles;
     }

@@ -39,11 +39,11 @@ std::string text(const ParameterStep& step) {
 
 bool is_write(const ParameterStep& step) { return step.kind == kWrite || step.kind == kWriteIfThere; }
 
-/// Node 5 with a motor of 3.21 Nm rated, at a gear of -20 with a joint limit of 96.3 Nm: 64.2 Nm are 1000 permille.
+/// Node 5 with a motor of 32.1 Nm rated, at a gear of -20 with a joint limit of 963 Nm: 642 Nm are 1000 permille.
 BusLayout layout_of_drive() {
   BusLayout layout;
   layout.joint_count = 1;
-  layout.drives[0] = {.bus = 0, .node = 5, .gear = -20.0, .rated_torque = 3.21, .torque_limit = 96.3};
+  layout.drives[0] = {.bus = 0, .node = 5, .gear = -20.0, .rated_torque = 32.1, .torque_limit = 963.0};
   layout.command_deadline = 1e-3;
   layout.drive_heartbeat = 25e-3;
   layout.heartbeat_timeout = 70e-3;
@@ -58,7 +58,7 @@ std::vector<ParameterStep> steps_of_drive() {
   return {
       {kExpect, 0x1000, 0, 4, 402, 0xFFFF},                 // profile
       {kExpect, 0x6502, 0, 4, 1u << 9, 1u << 9},            // cyclic synchronous torque mode
-      {kExpect, 0x6076, 0, 4, 3210, kAll, 32},              // mNm, within a hundredth
+      {kExpect, 0x6076, 0, 4, 32100, kAll, 321},            // mNm, within a hundredth
       {kExpect, 0x6071, 0, 2, 0, 0},                        // any value of this size
       {kExpect, 0x6077, 0, 2, 0, 0},                        //
       {kExpect, 0x6064, 0, 4, 0, 0},                        //

@@ -36,7 +36,10 @@ class ScriptedNode {
         mode_at_ns = now_ns + first_mode_ns;
       }
     }
-    if (frame.id == 0x600 + node_ && answers) answer(frame, bus);
+    if (frame.id == 0x600 + node_ && answers) {
+      answer(frame, bus);
+      after_answer_to(frame, bus);
+    }
   }
 
   void run(std::int64_t now_ns, FakeBus& bus) {
@@ -62,6 +65,7 @@ class ScriptedNode {
   std::vector<int> nmt;
   std::function<void(FakeBus&)> before_answer = [](FakeBus&) {};
   std::function<void(const CanFrame&, FakeBus&)> before_answer_to = [](const CanFrame&, FakeBus&) {};
+  std::function<void(const CanFrame&, FakeBus&)> after_answer_to = [](const CanFrame&, FakeBus&) {};
   /// Changes an answer to a request, before it is sent.
   std::function<void(const CanFrame&, CanFrame&)> change_answer = [](const CanFrame&, CanFrame&) {};
   std::uint32_t absent = 0x06020000;  ///< abort code for an object that the node lacks

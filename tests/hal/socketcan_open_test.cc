@@ -38,6 +38,7 @@ class SocketCanOpenTest : public testing::Test {
   SocketCanOpenTest() { kernel_.interfaces["can3"] = {}; }
 
   void expect_end(OpenStatus status, int error, const SocketCanOptions& options = {}) {
+    errno = EIO;  // of an earlier call
     const OpenResult result = bus_.open("can3", options);
     EXPECT_EQ(result.status, status) << describe(result.status);
     EXPECT_EQ(result.error, error);
@@ -122,6 +123,7 @@ TEST_F(SocketCanOpenTest, RefusesANameThatNoInterfaceHas) {
   const OpenResult longer = bus_.open((longest + 'c').c_str(), {});
   EXPECT_EQ(longer.status, OpenStatus::kNoInterface) << "and not the one whose name is the beginning";
   EXPECT_EQ(longer.error, 0);
+  EXPECT_EQ(longer.receive_buffer, 0);
 }
 
 TEST_F(SocketCanOpenTest, AnInterfaceThatGoesWhileItIsAskedIsNoInterface) {
@@ -178,6 +180,8 @@ TEST_F(SocketCanOpenTest, NamesARefusedAddress) {
 TEST_F(SocketCanOpenTest, TellsTheGrantedReceiveBuffer) {
   EXPECT_EQ(bus_.open("can3", {}).receive_buffer, 1 << 20);
   EXPECT_EQ(bus_.open("can3", {.receive_buffer = 4096}).receive_buffer, 4096);
+  EXPECT_EQ(number(kernel_.option(SOL_SOCKET, SO_RCVBUFFORCE)), 2048);
+  EXPECT_TRUE(kernel_.option(SOL_SOCKET, SO_RCVBUF).empty()) << "that one is bounded";
   kernel_.options.clear();
   kernel_.refused = {{SOL_SOCKET, SO_RCVBUFFORCE}};
   kernel_.largest_buffer = 425'984;
@@ -186,6 +190,8 @@ TEST_F(SocketCanOpenTest, TellsTheGrantedReceiveBuffer) {
   kernel_.options.clear();
   kernel_.refused.insert({SOL_SOCKET, SO_RCVBUF});
   EXPECT_EQ(bus_.open("can3", {}).receive_buffer, 212'992) << "what it has anyway";
+  kernel_.buffer_is_unknown = true;
+  EXPECT_EQ(bus_.open("can3", {}).receive_buffer, 0);
 }
 
 /// As the kernel compares: an identifier passes if it equals a filter's in the bits of its mask.
@@ -240,6 +246,22 @@ TEST_F(SocketCanOpenTest, ClosesEverySocketOnce) {
   SocketCan zero(0);
   EXPECT_EQ(zero.open("can3", {}).status, OpenStatus::kOk);
   EXPECT_EQ(kernel_.closed, std::vector<int>{0});
+}
+
+/// A process without standard input gets 0.
+TEST_F(SocketCanOpenTest, ADescriptorMayBeZero) {
+  kernel_.first_socket = 0;
+  expect_end(OpenStatus::kOk, 0);
+  EXPECT_EQ(bus_.descriptor(), 0);
+}
+
+TEST_F(SocketCanOpenTest, ASocketThatWasGivenCountsDropsFromZero) {
+  SocketCan given(kSocket);
+  kernel_.messages = {message(0x181, 8)};
+  add_control(kernel_.messages[0], SO_RXQ_OVFL, std::uint32_t{3});
+  ReceivedFrame received;
+  ASSERT_TRUE(given.receive(received));
+  EXPECT_EQ(given.health().dropped, 3u);
 }
 
 TEST_F(SocketCanOpenTest, ForgetsWhatWasBeforeItWasOpened) {
@@ -375,6 +397,17 @@ TEST_F(SocketCanOpenTest, DropsAMessageThatWasCutOff) {
   EXPECT_EQ(bus_.health().malformed, 1u);
 }
 
+/// A part of an error frame tells nothing of the bus.
+TEST_F(SocketCanOpenTest, AnErrorFrameMustBeWhole) {
+  expect_end(OpenStatus::kOk, 0);
+  kernel_.messages = {message(CAN_ERR_FLAG | CAN_ERR_BUSOFF, CAN_ERR_DLC, 15)};
+  ReceivedFrame received;
+  EXPECT_FALSE(bus_.receive(received));
+  EXPECT_EQ(bus_.health().malformed, 1u);
+  EXPECT_EQ(bus_.health().errors, 0u);
+  EXPECT_FALSE(bus_.health().bus_off);
+}
+
 TEST_F(SocketCanOpenTest, ReadsTimeStampAndDropCounterInAnyOrder) {
   expect_end(OpenStatus::kOk, 0);
   const timespec time{.tv_sec = 1'700'000'000, .tv_nsec = 123'456'789};
@@ -386,7 +419,8 @@ TEST_F(SocketCanOpenTest, ReadsTimeStampAndDropCounterInAnyOrder) {
     sum += more;
     FakeKernel::Message one = message(0x181, 8);
     if (k % 2 == 0) add_control(one, SCM_TIMESTAMPNS, time);
-    if (k % 4 == 3) add_control(one, SO_RXQ_OVFL, std::uint32_t{77}, SOL_CAN_RAW);  // of another level
+    if (k == 3) add_control(one, SO_RXQ_OVFL, std::uint32_t{77}, SOL_CAN_RAW);  // of another level
+    if (k == 7) add_control(one, SO_MARK, std::uint32_t{77});                   // of another type
     add_control(one, SO_RXQ_OVFL, drops);
     if (k % 4 == 2) std::rotate(one.control.begin(), one.control.begin() + CMSG_SPACE(sizeof time), one.control.end());
     if (k % 4 == 1) one.control.clear();
