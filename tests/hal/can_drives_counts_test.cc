@@ -297,7 +297,9 @@ TEST_F(CanDrivesCountsTest, ASampleThatNobodyAskedForIsLate) {
   EXPECT_EQ(reading_.state[0], DriveState::kUnavailable);
   EXPECT_EQ(reading_.age[0], 1u);
   EXPECT_EQ(counts().late[0], 1u);
+  EXPECT_EQ(counts().lost[0], 1u);
   EXPECT_TRUE(reading_.emergency_stop);
+  EXPECT_TRUE(drives_.send({})) << "no SYNC has failed";
 }
 
 TEST_F(CanDrivesCountsTest, TheFirstThreeBadFramesAreAnAlarm) {
