@@ -121,6 +121,21 @@ TEST_F(BringUpAnswersTest, TakesAModeAndAStateUntilTheDeadline) {
   EXPECT_EQ(start().status, BringUpStatus::kOk);
 }
 
+/// The last boot-up, of a node that takes its time, and the first request to any node are 50 ms apart.
+TEST_F(BringUpAnswersTest, SettlesForFiftyMillisecondsAfterTheLastBootUp) {
+  joint_1_.boot_delay_ns = 200 * kMillisecond_ns;
+  std::int64_t booted_ns = -1;
+  std::int64_t asked_ns = -1;
+  world_.each_sleep = [&] {
+    if (booted_ns < 0 && !joint_1_.nmt.empty() && joint_1_.boot_at_ns < 0) booted_ns = world_.now_ns();
+    if (asked_ns < 0 && std::ranges::any_of(first_.sent, [](const CanFrame& f) { return f.id > 0x600; })) {
+      asked_ns = world_.now_ns();
+    }
+  };
+  EXPECT_EQ(start().status, BringUpStatus::kOk);
+  EXPECT_NEAR(static_cast<double>(asked_ns - booted_ns), 50e6, 1.5e6);
+}
+
 // ---------------------------------------------------------------- boot and start
 
 /// A boot-up before the reset of communication is that of another start.

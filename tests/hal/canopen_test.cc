@@ -51,6 +51,21 @@ TEST(Network, FramesOfTheMaster) {
   EXPECT_EQ(heartbeat_frame(127, kNmtOperational), frame(0x77F, {0x05}));
 }
 
+TEST(Network, NumbersOfTheStandard) {
+  EXPECT_EQ(nmt_frame(kNmtStop, 3), frame(0x000, {0x02, 0x03}));
+  EXPECT_EQ(nmt_frame(kNmtPreOperational, 3), frame(0x000, {0x80, 0x03}));
+  EXPECT_EQ(nmt_frame(kNmtResetNode, 3), frame(0x000, {0x81, 0x03}));
+  EXPECT_EQ(heartbeat_frame(5, kNmtStopped), frame(0x705, {0x04}));
+  EXPECT_EQ(heartbeat_frame(5, kNmtPreOperationalState), frame(0x705, {0x7F}));
+  EXPECT_EQ(kRpdoTimeout, 0x8250);
+  EXPECT_EQ(kAbortTimeout, 0x05040000u);
+  EXPECT_EQ(kAbortWriteOnly, 0x06010001u);
+  EXPECT_EQ(kAbortReadOnly, 0x06010002u);
+  EXPECT_EQ(kAbortNoObject, 0x06020000u);
+  EXPECT_EQ(kAbortLength, 0x06070010u);
+  EXPECT_EQ(kAbortNoSubindex, 0x06090011u);
+}
+
 TEST(Network, HeartbeatOfEachStateAndNothingElse) {
   Heartbeat heartbeat;
   ASSERT_TRUE(parse_heartbeat(frame(0x703, {0x00}), heartbeat));
