@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -158,6 +158,59 @@ TEST_F(TwoBusesTest, NothingIsQueuedOnABusThatHoldsWhateverIsDue) {
       bus.take_sent();
     }
   }
+}
+
+/// The first alarm of an object that was given frames of the second bus in one cycle.
+TEST_F(TwoBusesTest, AlarmsNameTheirBus) {
+  struct Row {
+    CanFrame frame;
+    Alarm alarm;
+    int joint;
+  };
+  for (const Row& row :
+       {Row{frame(0x703, {0x00}), Alarm::kNodeReset, 1}, Row{frame(0x720, {0x7F}), Alarm::kWrongMode, -1},
+        Row{frame(0x283, {0x03}), Alarm::kWrongMode, 1},
+        Row{frame(0x083, {0x50, 0x82, 1, 0, 0, 0, 0, 0}), Alarm::kDriveError, 1},
+        Row{frame(0x0A0, {0x50, 0x82, 1, 0, 0, 0, 0, 0}), Alarm::kDriveError, -1},
+        Row{frame(0x603, {0x40, 0, 0x10, 0, 0, 0, 0, 0}), Alarm::kForeignMaster, 1},
+        Row{frame(0x603, {0x2F, 0, 0x10, 0, 0, 0, 0, 0}), Alarm::kForeignWrite, 1},
+        Row{frame(0x000, {0x02, 0x03}), Alarm::kForeignWrite, 1}, Row{frame(0x080, {}), Alarm::kForeignMaster, -1},
+        Row{frame(0x705, {0x00}), Alarm::kNone, -1}}) {
+    CanDrives drives(layout_, wires_, {});
+    drives.request();
+    buses_[1].receive_next(row.frame);
+    JointReading reading;
+    drives.receive(reading);
+    EXPECT_EQ(reading.alarm, row.alarm) << row.frame;
+    EXPECT_EQ(reading.alarm_joint, row.joint) << row.frame;
+    EXPECT_EQ(drives.alarm_detail().bus, row.alarm == Alarm::kNone ? -1 : 1) << row.frame;
+  }
+}
+
+TEST_F(TwoBusesTest, AnAlarmOfMissingFramesNamesItsBus) {
+  layout_.read_back_interval = 100;  // nobody answers them
+  const auto run = [this](int cycles, bool panel, bool heartbeats) {
+    CanDrives drives(layout_, wires_, {});
+    JointReading reading;
+    for (int k = 0; k < cycles && reading.alarm == Alarm::kNone; ++k) {
+      drives.request();
+      if (panel) buses_[1].receive_next(frame(0x1A0, {0x03}));
+      buses_[0].receive_next(frame(0x705, {0x05}));
+      if (heartbeats) buses_[1].receive_next(frame(0x703, {0x05}));
+      drives.receive(reading);
+      drives.send({});
+    }
+    for (FakeBus& bus : buses_) bus.waiting.clear();
+    return std::tuple(reading.alarm, reading.alarm_joint, drives.alarm_detail().bus);
+  };
+  EXPECT_EQ(run(60, true, true), std::tuple(Alarm::kNone, -1, -1));
+  EXPECT_EQ(run(60, false, true), std::tuple(Alarm::kPanelSilent, -1, 1));
+  EXPECT_EQ(run(60, true, false), std::tuple(Alarm::kHeartbeatLost, 1, 1));
+  buses_[1].state.bus_off = true;
+  EXPECT_EQ(run(1, true, true), std::tuple(Alarm::kBusDown, -1, 1));
+  buses_[1].state.bus_off = false;
+  buses_[1].result = SendResult::kDown;
+  EXPECT_EQ(run(1, true, true), std::tuple(Alarm::kBusDown, -1, 1));
 }
 
 /// A SYNC is given up after ten cycles, and the next one as well; their echoes may come in the end.

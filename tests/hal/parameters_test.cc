@@ -188,7 +188,7 @@ TEST(Parameters, OfADriveFitIntoTheirCapacity) {
   EXPECT_LT(steps.all().size(), ParameterSteps::kCapacity);
 }
 
-/// What is watched is what the start has written.
+/// The watch expects the values that the start has written.
 TEST(Parameters, WatchedOnesReadAsTheStartLeftThem) {
   const BusLayout layout = layout_of_drive();
   const std::array<ParameterStep, kWatchedCount> watched = watched_parameters(layout);
