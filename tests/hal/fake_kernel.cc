@@ -94,7 +94,6 @@ bool is_fake(int descriptor) { return present != nullptr && descriptor >= presen
 using godobject::hal::FakeKernel;
 using godobject::hal::present;
 
-// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name): the C library's names are reserved ones
 extern "C" {
 
 int socket(int domain, int type, int protocol) noexcept {
@@ -193,4 +192,3 @@ int clock_nanosleep(clockid_t clock, int flags, const timespec* until, timespec*
 }
 
 }  // extern "C"
-// NOLINTEND(readability-inconsistent-declaration-parameter-name)

@@ -16,8 +16,9 @@ namespace godobject::hal {
 namespace {
 
 TEST(RecordRing, IsAQueueThatLosesTheNewestRecords) {
-  RecordRing<int, 8> ring;
-  EXPECT_EQ(ring.kCapacity, 8u);
+  using Ring = RecordRing<int, 8>;
+  Ring ring;
+  EXPECT_EQ(Ring::kCapacity, 8u);
   EXPECT_EQ(ring.lost(), 0u);
   int record = -1;
   EXPECT_FALSE(ring.pop(record));
