@@ -116,6 +116,30 @@ TEST_F(TwoBusesTest, SdoRequestsWaitAPeriodForOverdueHeartbeatsAndNotLonger) {
   EXPECT_EQ(one[1], expected({3, -1}, 200));
 }
 
+TEST_F(TwoBusesTest, SevenJointsWaitForTheHeartbeatsOfTheirBusOnly) {
+  layout_.joint_count = 7;
+  layout_.panel.bus = -1;
+  for (int i = 0; i < 7; ++i) {
+    layout_.drives[static_cast<std::size_t>(i)] = {.bus = 0, .node = 10 + i, .counts = 1000, .rated_torque = 2.0};
+  }
+  CanDrives drives(layout_, wires_, {});
+  std::vector<int> found;
+  for (int k = 0; k < 200; ++k) {
+    drives.request();
+    for (const CanFrame& sent : buses_[0].take_sent()) {
+      if (sent.id > 0x600 && sent.id < 0x680) found.push_back(k);
+    }
+    for (int i = 0; i < 7; ++i) {
+      buses_[0].receive_next(tpdo(10 + i, kOff, 100 + i, 10));
+      if (beats(5, k)) buses_[0].receive_next(frame(static_cast<std::uint16_t>(0x70A + i), {0x05}));
+    }
+    JointReading reading;
+    drives.receive(reading);
+    drives.send({});
+  }
+  EXPECT_EQ(found, expected({5}, 200));
+}
+
 /// A node that nobody has heard yet is due 18 cycles after the start: 17 cycles after it the wire is still free.
 TEST_F(TwoBusesTest, SdoRequestsGoOutJustBeforeAHeartbeatIsDue) {
   for (const int interval : {17, 18, 19}) {
