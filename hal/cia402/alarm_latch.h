@@ -22,6 +22,7 @@ struct AlarmDetail {
 /// restarted, or another node has written to it.
 class AlarmLatch {
  public:
+  /// Latches an alarm. kNone changes nothing.
   void raise(const AlarmDetail& detail) noexcept {
     if (first_.alarm == Alarm::kNone) first_ = detail;
     if (lasting_.alarm == Alarm::kNone && lasts(detail.alarm)) lasting_ = detail;

@@ -169,7 +169,7 @@ bool BringUp::send(int bus, const CanFrame& frame) noexcept {
     sent = wire.send(frame);
     return sent != SendResult::kFull;
   });
-  if (over && sent == SendResult::kSent) return true;
+  if (sent == SendResult::kSent) return true;
   if (result_.status != BringUpStatus::kOk) return false;
   return fail(over ? BringUpStatus::kBusDown : BringUpStatus::kCannotSend, bus);
 }
@@ -230,10 +230,9 @@ bool BringUp::do_step(int station, const ParameterStep& step) noexcept {
     return (may_be_absent && absent_) || fail_at(BringUpStatus::kRefused, station);
   }
   if (!reads) return response_.kind == SdoResponse::Kind::kWritten || fail_at(BringUpStatus::kNoAnswer, station);
-  const int size = response_.kind == SdoResponse::Kind::kRead ? response_.size : 0;
-  if (response_.kind != SdoResponse::Kind::kRead || (size != 0 && size != step.size)) {
+  if (response_.kind != SdoResponse::Kind::kRead || (response_.size != 0 && response_.size != step.size)) {
     result_.expected = static_cast<std::uint32_t>(step.size);
-    result_.found = static_cast<std::uint32_t>(size);
+    result_.found = static_cast<std::uint32_t>(response_.size);
     return fail_at(BringUpStatus::kWrongSize, station);
   }
   return step.accepts(response_.value) ||

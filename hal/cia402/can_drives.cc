@@ -47,7 +47,6 @@ void CanDrives::restart() noexcept {
   alarm_.clear();
   statistics_ = CanStatistics();
   power_ = PowerRequest::kOff;
-  sync_failed_ = false;
   probe_ = to_heartbeat_ = 0;
   withheld_ = -1;
 }
@@ -122,8 +121,8 @@ void CanDrives::check_health() noexcept {
     // a bus without an acknowledging node does not become bus-off; its frames only do not return
     const bool unheard = health.unreturned > kMostUnreturned;
     if (health.down || health.bus_off || unheard) alarm_.raise({.alarm = Alarm::kBusDown, .bus = b});
-    if (bus.watch.finding().alarm != Alarm::kNone) alarm_.raise(bus.watch.finding());
-    if (bus.sample_ns > 0 && bus.echo_ns > 0) {
+    alarm_.raise(bus.watch.finding());
+    if (bus.echo_ns > 0) {  // without a sample the difference is negative
       statistics_.round_trip_ns = std::max(statistics_.round_trip_ns, bus.sample_ns - bus.echo_ns);
       statistics_.longest_round_trip_ns = std::max(statistics_.longest_round_trip_ns, statistics_.round_trip_ns);
     }
@@ -157,10 +156,7 @@ void CanDrives::take_own(Bus& bus, const ReceivedFrame& received) noexcept {
 void CanDrives::take(int bus, const ReceivedFrame& received) noexcept {
   const CanFrame& frame = received.frame;
   if (is_of_master(frame.id)) return take_foreign_master(bus, frame);
-  const auto station = [&](std::uint16_t base) {
-    const int node = node_of(frame.id, base);
-    return node == 0 ? -1 : stations_.at(bus, node);
-  };
+  const auto station = [&](std::uint16_t base) { return stations_.at(bus, node_of(frame.id, base)); };
   if (const int i = station(kCobTpdo1); i >= 0) return take_sample(bus, i, received);
   if (const int i = joint_of(station(kCobTpdo2)); i >= 0) return take_mode(i, frame);
   if (const int i = station(kCobEmergency); i >= 0) return take_emergency(bus, i, frame);
@@ -335,7 +331,7 @@ bool CanDrives::send(const JointCommand& command) noexcept {
 /// True if a heartbeat on this bus is due in this cycle or the next one, or overdue: together with an SDO exchange it
 /// would delay samples beyond their collection.
 bool CanDrives::heartbeat_is_near(int bus) const noexcept {
-  const auto is_near = [this](int silent) { return silent < 1 || silent > heartbeat_cycles_ - 3; };
+  const auto is_near = [this](int silent) { return silent > heartbeat_cycles_ - 3; };
   for (int i = 0; i < layout_.joint_count; ++i) {
     if (stations_.bus(i) == bus && is_near(joints_[static_cast<std::size_t>(i)].silent)) return true;
   }

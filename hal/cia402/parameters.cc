@@ -85,16 +85,15 @@ void read_back(ParameterSteps& steps) noexcept {
   }
 }
 
-/// Adds 60C2: period = sub1 * 10^sub2 s.
+/// Adds 60C2: period = sub1 * 10^sub2 s, exact if a byte can hold it, else the nearest. `period`: at most 255 ms.
 void set_interpolation_period(ParameterSteps& steps, double period) noexcept {
   int exponent = -3;
   double count = period * 1e3;
-  while (exponent > -6 && std::fabs(count - std::round(count)) > 1e-6) {
+  while (10.0 * count < 255.5 && std::fabs(count - std::round(count)) > 1e-6) {
     --exponent;
     count *= 10.0;
   }
-  const auto sub1 = static_cast<std::uint32_t>(std::lround(std::fmin(count, 255.0)));
-  steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 1, 1, sub1});
+  steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 1, 1, static_cast<std::uint32_t>(std::lround(count))});
   steps.add({Kind::kWriteIfThere, kInterpolationPeriod, 2, 1, static_cast<std::uint8_t>(exponent)});
 }
 

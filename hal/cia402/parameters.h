@@ -36,7 +36,7 @@ struct ParameterStep {
 /// A sequence of steps.
 class ParameterSteps {
  public:
-  /// Derived: drive_steps adds 86 steps; asserted in `add` and counted by tests/hal/bring_up_test.cc.
+  /// Derived: drive_steps adds 86 steps; asserted in `add` and counted by tests/hal/parameters_test.cc.
   static constexpr std::size_t kCapacity = 96;
 
   void add(const ParameterStep& step) noexcept {

@@ -24,7 +24,7 @@ class Stations {
     if (layout.panel.bus >= 0) add(kPanelStation, layout.panel.bus, layout.panel.node);
   }
 
-  /// The station of a node: its joint, kPanelStation, or -1: another node.
+  /// The station of a node, 0 to 127: its joint, kPanelStation, or -1: another node, or 0.
   int at(int bus, int node) const noexcept {
     return stations_[static_cast<std::size_t>(bus)][static_cast<std::size_t>(node)];
   }

@@ -165,7 +165,6 @@ bool SocketCan::fetch() noexcept {
   fetched_ = taken_ = 0;
   for (std::size_t i = 0; i < kBatch; ++i) {
     vectors_[i] = {&frames_[i], sizeof(canfd_frame)};
-    messages_[i] = {};
     messages_[i].msg_hdr.msg_iov = &vectors_[i];
     messages_[i].msg_hdr.msg_iovlen = 1;
     messages_[i].msg_hdr.msg_control = controls_[i].data();

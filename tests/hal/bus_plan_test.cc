@@ -117,6 +117,18 @@ TEST(FrameLength, FdIsTheSumOfItsFields) {
   EXPECT_EQ(longest_frame_ns(0, true, layout), 40'600);
 }
 
+/// Without the stuff bits that depend on the contents: 17 bits from SOF to BRS and 13 from the CRC delimiter to the gap
+/// at 1 Mbit/s; ESI, DLC, data, stuff count and a CRC of 17 bits with 6 fixed stuff bits, or 21 with 7, at 5 Mbit/s.
+TEST(FrameLength, ShortestFdByHand) {
+  const BusLayout layout;
+  for (const int bytes : {0, 1, 8, 12, 16}) {
+    EXPECT_EQ(shortest_frame_ns(bytes, true, layout), 30'000 + 200 * (1 + 4 + 8 * bytes + 4 + 17 + 6)) << bytes;
+  }
+  for (const int bytes : {20, 24, 32, 48, 64}) {
+    EXPECT_EQ(shortest_frame_ns(bytes, true, layout), 30'000 + 200 * (1 + 4 + 8 * bytes + 4 + 21 + 7)) << bytes;
+  }
+}
+
 TEST(FrameLength, GroupedFdFramesOfSixAndSevenJoints) {
   // one torque frame of 16 bytes for all joints, 12 bytes a sample
   const BusLayout layout;
@@ -269,6 +281,97 @@ TEST(BusPlan, TorqueStepIsAPermilleOfTheRatedTorqueAtTheJoint) {
   layout.drives[0].gear = -100.0;
   EXPECT_NEAR(plan_buses(layout).torque_step[0], 0.176, 1e-15);
   EXPECT_EQ(plan_buses(layout).torque_step[1], 0.0);
+}
+
+TEST(BusPlan, RoundsTimesUpToANanosecond) {
+  BusLayout layout = layout_of({1});
+  const std::int64_t end_ns = plan_buses(layout).buses[0].end_ns;
+  layout.compute = 120e-6 + 0.0005e-9;
+  EXPECT_EQ(plan_buses(layout).buses[0].end_ns, end_ns + 1);
+  layout.compute = 120e-6 + 1e-9;
+  EXPECT_EQ(plan_buses(layout).buses[0].end_ns, end_ns + 1);
+  layout.compute = 120e-6 * (1.0 + 1e-15);  // a rounding error
+  EXPECT_EQ(plan_buses(layout).buses[0].end_ns, end_ns);
+}
+
+/// A heartbeat is a classical frame of 65 bits. A mode is an FD frame: 34 us + 43 bits at the data rate.
+TEST(BusPlan, TheLongerOfHeartbeatAndModeBlocks) {
+  BusLayout layout = layout_of({1});
+  layout.fd = true;
+  EXPECT_EQ(plan_buses(layout).buses[0].blocking_ns, 65'000);
+  layout.data_rate = 1e6;
+  EXPECT_EQ(plan_buses(layout).buses[0].blocking_ns, 77'000);
+}
+
+/// FD frames without a higher data rate: SYNC 34 + 33, sample 34 + 113, torque 34 + 73, mode 34 + 43 us. The torques of
+/// a cycle then end later than those after an SDO frame of 135 us, less the blocking.
+TEST(BusPlan, TheTorquesMayEndWithThePeriodButNotLater) {
+  BusLayout layout = layout_of({1});
+  layout.fd = true;
+  layout.data_rate = 1e6;
+  layout.compute = 525e-6;
+  const BusPlan plan = plan_buses(layout);
+  EXPECT_EQ(plan.timing.collect_ns, (77 + 67 + 147) * 1000);
+  EXPECT_EQ(plan.buses[0].end_ns, (291 + 525 + 77 + 107) * 1000);
+  EXPECT_EQ(plan.buses[0].slot_ns, (291 + 525 + 135 + 107 - 77) * 1000);
+  EXPECT_TRUE(plan.buses[0].fits);
+  EXPECT_TRUE(plan.fits);
+  layout.compute = 525.001e-6;
+  EXPECT_LT(plan_buses(layout).buses[0].slot_ns, 1'000'000);
+  EXPECT_FALSE(plan_buses(layout).buses[0].fits);
+  EXPECT_FALSE(plan_buses(layout).fits);
+}
+
+/// A cycle: SYNC 55, two samples 270, the panel's 65, two torques 190 us. Heartbeats of two drives, the panel and the
+/// controller each 40 ms; two modes each 250 ms; an SDO exchange of two frames each 25 cycles.
+TEST(BusPlan, UtilisationCountsEveryFrame) {
+  BusLayout layout = layout_of({2});
+  layout.panel.bus = 0;
+  layout.drive_heartbeat = 40e-3;
+  layout.mode_refresh = 0.25;
+  layout.read_back_interval = 25;
+  EXPECT_NEAR(plan_buses(layout).buses[0].utilisation, 0.580 + 4 * 65 / 40e3 + 2 * 65 / 250e3 + 270 / 25e3, 1e-12);
+  layout.period = 2e-3;
+  EXPECT_NEAR(plan_buses(layout).buses[0].utilisation, 0.290 + 4 * 65 / 40e3 + 2 * 65 / 250e3 + 270 / 50e3, 1e-12);
+}
+
+TEST(BusPlan, FitsOnlyIfEveryBusFits) {
+  for (const auto& joints : {std::vector{3, 1}, std::vector{1, 3}, std::vector{1, 3, 1}}) {
+    BusLayout layout = layout_of(joints);
+    layout.compute = 120.001e-6;
+    const BusPlan plan = plan_buses(layout);
+    EXPECT_FALSE(plan.fits);
+    for (std::size_t bus = 0; bus < joints.size(); ++bus) EXPECT_EQ(plan.buses[bus].fits, joints[bus] < 3);
+  }
+}
+
+TEST(BusPlan, HasNothingOnBusesThatTheLayoutLacks) {
+  const BusPlan plan = plan_buses(layout_of({3, 2}));
+  for (std::size_t bus = 2; bus < plan.buses.size(); ++bus) {
+    const BusLoad& load = plan.buses[bus];
+    EXPECT_EQ(load.joints, 0);
+    EXPECT_FALSE(load.panel || load.fits);
+    EXPECT_EQ(load.sync_ns, 0);
+    EXPECT_EQ(load.samples_ns, 0);
+    EXPECT_EQ(load.torques_ns, 0);
+    EXPECT_EQ(load.blocking_ns, 0);
+    EXPECT_EQ(load.end_ns, 0);
+    EXPECT_EQ(load.slot_ns, 0);
+    EXPECT_EQ(load.late_ns, 0);
+    EXPECT_EQ(load.utilisation, 0.0);
+  }
+  for (std::size_t joint = 5; joint < plan.unblocked_ns.size(); ++joint) EXPECT_EQ(plan.unblocked_ns[joint], 0);
+  EXPECT_FALSE(BusPlan().fits) << "nobody has planned";
+}
+
+TEST(BusPlan, WithoutJointsOnlyTheDrivesDelayRemains) {
+  BusLayout layout;
+  layout.panel.bus = 0;
+  layout.drive_delay = 0.5e-3;
+  const BusPlan plan = plan_buses(layout);
+  EXPECT_EQ(plan.timing.delay_s, 0.5e-3);
+  EXPECT_TRUE(plan.fits);
+  EXPECT_EQ(plan.buses[0].samples_ns, 65'000);
 }
 
 // ---------------------------------------------------------------- the plan against a wire

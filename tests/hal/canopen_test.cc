@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
+#include <tuple>
+
 #include "hal/canopen/emergency.h"
 #include "hal/canopen/little_endian.h"
 #include "hal/canopen/network.h"
 #include "hal/canopen/pdo.h"
 #include "hal/canopen/sdo.h"
 #include "tests/hal/frames.h"
+#include "tests/support/random.h"
 
 namespace godobject::hal::canopen {
 namespace {
@@ -20,11 +25,45 @@ TEST(LittleEndian, LeastSignificantByteFirst) {
   EXPECT_EQ(bytes[7], 0xCD);
 }
 
+TEST(LittleEndian, LoadsWhatItStoresAndTouchesNothingElse) {
+  test::Random random(2);
+  for (int k = 0; k < 2000; ++k) {
+    std::array<std::uint8_t, 12> bytes{};
+    bytes.fill(0xA5);
+    const auto size = static_cast<std::size_t>(random.integer(0, 4));
+    const auto at = static_cast<std::size_t>(random.integer(0, 8));
+    const auto value = static_cast<std::uint32_t>(random.integer(0, 0xFFFF) << 16 | random.integer(0, 0xFFFF));
+    store(bytes, at, size, value);
+    const std::uint32_t kept = size == 4 ? value : value & ((1u << 8 * size) - 1);
+    ASSERT_EQ(load(bytes, at, size), kept);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      if (i < at || i >= at + size) {
+        ASSERT_EQ(bytes[i], 0xA5) << i;
+      }
+    }
+  }
+}
+
 TEST(Network, FramesOfTheMaster) {
   EXPECT_EQ(nmt_frame(kNmtStart, 0x05), frame(0x000, {0x01, 0x05}));
   EXPECT_EQ(nmt_frame(kNmtResetCommunication, 0), frame(0x000, {0x82, 0x00}));
   EXPECT_EQ(sync_frame(), frame(0x080, {}));
   EXPECT_EQ(heartbeat_frame(127, kNmtOperational), frame(0x77F, {0x05}));
+}
+
+TEST(Network, NumbersOfTheStandard) {
+  EXPECT_EQ(nmt_frame(kNmtStop, 3), frame(0x000, {0x02, 0x03}));
+  EXPECT_EQ(nmt_frame(kNmtPreOperational, 3), frame(0x000, {0x80, 0x03}));
+  EXPECT_EQ(nmt_frame(kNmtResetNode, 3), frame(0x000, {0x81, 0x03}));
+  EXPECT_EQ(heartbeat_frame(5, kNmtStopped), frame(0x705, {0x04}));
+  EXPECT_EQ(heartbeat_frame(5, kNmtPreOperationalState), frame(0x705, {0x7F}));
+  EXPECT_EQ(kRpdoTimeout, 0x8250);
+  EXPECT_EQ(kAbortTimeout, 0x05040000u);
+  EXPECT_EQ(kAbortWriteOnly, 0x06010001u);
+  EXPECT_EQ(kAbortReadOnly, 0x06010002u);
+  EXPECT_EQ(kAbortNoObject, 0x06020000u);
+  EXPECT_EQ(kAbortLength, 0x06070010u);
+  EXPECT_EQ(kAbortNoSubindex, 0x06090011u);
 }
 
 TEST(Network, HeartbeatOfEachStateAndNothingElse) {
@@ -58,6 +97,19 @@ TEST(Network, IdentifiersThatOnlyAMasterSends) {
   int count = 0;
   for (int id = 0; id < 0x800; ++id) count += is_of_master(static_cast<std::uint16_t>(id)) ? 1 : 0;
   EXPECT_EQ(count, 5 + 4 * 127 + 127);
+}
+
+TEST(Network, NodeOfAnIdentifier) {
+  for (const int base : {0x080, 0x180, 0x580, 0x700}) {
+    const auto of = [base](int id) {
+      return node_of(static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(base));
+    };
+    for (int node = 1; node <= 127; ++node) EXPECT_EQ(of(base + node), node);
+    EXPECT_EQ(of(base), 0);
+    EXPECT_EQ(of(base - 1), 0);
+    EXPECT_EQ(of(base + 128), 0);
+    EXPECT_EQ(of(0), 0);
+  }
 }
 
 TEST(Sdo, RequestsByteForByte) {
@@ -105,6 +157,39 @@ TEST(Sdo, ResponsesByteForByte) {
   EXPECT_FALSE(parse_sdo_response(frame(0x583, {0x60, 0x17, 0x10}), response));
   EXPECT_FALSE(parse_sdo_response(frame(0x603, {0x60, 0x17, 0x10, 0x00, 0, 0, 0, 0}), response));
   EXPECT_FALSE(parse_sdo_response(frame(0x580, {0x60, 0x17, 0x10, 0x00, 0, 0, 0, 0}), response));
+}
+
+/// Upload and download of segments, blocks, and the specifier that has no meaning.
+TEST(Sdo, ResponsesOfLongerTransfersHaveNoValue) {
+  for (const int command : {0x00, 0x0F, 0x20, 0x30, 0xA0, 0xA4, 0xC0, 0xC6, 0xE0, 0x40, 0x41}) {
+    SdoResponse response;
+    ASSERT_TRUE(parse_sdo_response(frame(0x583, {command, 0x08, 0x10, 0x02, 1, 2, 3, 4}), response)) << command;
+    EXPECT_EQ(response.kind, SdoResponse::Kind::kLong) << command;
+    EXPECT_EQ(response.size, 0);
+    EXPECT_EQ(response.value, 0u);
+    EXPECT_EQ(response.node, 3);
+    EXPECT_EQ(response.index, 0x1008);
+    EXPECT_EQ(response.subindex, 2);
+  }
+}
+
+/// The result depends on the eight bytes only: not on those behind them, nor on what `response` held before.
+TEST(Sdo, ResponsesDependOnNothingElse) {
+  test::Random random(3);
+  for (int k = 0; k < 5000; ++k) {
+    CanFrame clean{static_cast<std::uint16_t>(0x580 + random.integer(1, 127)), 8};
+    for (std::size_t i = 0; i < 8; ++i) clean.data[i] = static_cast<std::uint8_t>(random.integer(0, 255));
+    CanFrame dirty = clean;
+    for (std::size_t i = 8; i < dirty.data.size(); ++i) dirty.data[i] = 0xFF;
+    SdoResponse one;
+    SdoResponse two{77, SdoResponse::Kind::kRead, 0x7777, 7, 3, 0x77777777};
+    ASSERT_TRUE(parse_sdo_response(clean, one));
+    ASSERT_TRUE(parse_sdo_response(dirty, two));
+    const auto all = [](const SdoResponse& r) {
+      return std::tuple(r.node, r.kind, r.index, r.subindex, r.size, r.value);
+    };
+    ASSERT_EQ(all(one), all(two)) << clean;
+  }
 }
 
 TEST(Sdo, TellsWritesFromReads) {

@@ -94,5 +94,25 @@ TEST(JointScaling, BeginsAtThePositionNearestToZero) {
   }
 }
 
+/// A zero that is a million wraps of the counter away is no zero: the count is taken as it is. 2^28 turns of 16 counts
+/// are a wrap; at these sizes a count is still more than the rounding of a double.
+TEST(JointScaling, TakesNoWrapsOffAZeroOutOfProportion) {
+  const double turn = 2.0 * M_PI;
+  const double wrap = 268435456.0 * turn;
+  for (const double sign : {1.0, -1.0}) {
+    for (const double wraps : {1.05e6, 1.9e6}) {
+      const double zero = sign * wraps * wrap;
+      JointScaling far(DriveConfig{.counts = 16, .zero = zero});
+      EXPECT_EQ(far.position(1000), zero + turn / 16 * 1000.0) << wraps;
+      JointScaling none(DriveConfig{.counts = 16, .zero = sign * HUGE_VAL});
+      EXPECT_EQ(none.position(1000), sign * HUGE_VAL);
+    }
+    for (const double wraps : {0.55e6, 0.95e6}) {
+      JointScaling near(DriveConfig{.counts = 16, .zero = sign * wraps * wrap});
+      EXPECT_LE(std::fabs(near.position(1000)), wrap / 2) << wraps;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace godobject::hal::cia402

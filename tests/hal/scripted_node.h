@@ -36,7 +36,10 @@ class ScriptedNode {
         mode_at_ns = now_ns + first_mode_ns;
       }
     }
-    if (frame.id == 0x600 + node_ && answers) answer(frame, bus);
+    if (frame.id == 0x600 + node_ && answers) {
+      answer(frame, bus);
+      after_answer_to(frame, bus);
+    }
   }
 
   void run(std::int64_t now_ns, FakeBus& bus) {
@@ -61,6 +64,11 @@ class ScriptedNode {
   std::vector<std::pair<std::pair<int, int>, std::uint32_t>> writes;
   std::vector<int> nmt;
   std::function<void(FakeBus&)> before_answer = [](FakeBus&) {};
+  std::function<void(const CanFrame&, FakeBus&)> before_answer_to = [](const CanFrame&, FakeBus&) {};
+  std::function<void(const CanFrame&, FakeBus&)> after_answer_to = [](const CanFrame&, FakeBus&) {};
+  /// Changes an answer to a request, before it is sent.
+  std::function<void(const CanFrame&, CanFrame&)> change_answer = [](const CanFrame&, CanFrame&) {};
+  std::uint32_t absent = 0x06020000;  ///< abort code for an object that the node lacks
   bool boots = true;
   bool starts = true;
   bool answers = true;
@@ -80,16 +88,19 @@ class ScriptedNode {
 
   void answer(const CanFrame& request, FakeBus& bus) {
     before_answer(bus);
+    before_answer_to(request, bus);
     const int command = request.data[0];
     const std::pair<int, int> key = {request.data[1] | request.data[2] << 8, request.data[3]};
     const auto id = static_cast<std::uint16_t>(0x580 + node_);
     const auto respond = [&](int first, std::uint32_t value) {
       const auto byte = [value](int i) { return static_cast<int>(value >> (8 * i) & 0xFF); };
-      bus.receive_next(
-          frame(id, {first, request.data[1], request.data[2], request.data[3], byte(0), byte(1), byte(2), byte(3)}));
+      CanFrame response =
+          frame(id, {first, request.data[1], request.data[2], request.data[3], byte(0), byte(1), byte(2), byte(3)});
+      change_answer(request, response);
+      bus.receive_next(response);
     };
     const auto found = objects.find(key);
-    if (found == objects.end()) return respond(0x80, 0x06020000);
+    if (found == objects.end()) return respond(0x80, absent);
     Object& object = found->second;
     const int unused = (4 - object.size) << 2;
     if (command == 0x40) {

@@ -160,6 +160,9 @@ TEST_F(SocketCanTest, ErrorFramesBecomeHealth) {
   put_error(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE);
   drain();
   EXPECT_FALSE(bus_->health().passive);
+  put_error(CAN_ERR_PROT, CAN_ERR_CRTL_TX_PASSIVE);  // that byte is the controller's only in frames of its class
+  drain();
+  EXPECT_FALSE(bus_->health().passive);
   EXPECT_FALSE(bus_->health().bus_off);
   put_error(CAN_ERR_BUSOFF);
   drain();
@@ -167,7 +170,7 @@ TEST_F(SocketCanTest, ErrorFramesBecomeHealth) {
   put_error(CAN_ERR_RESTARTED);
   drain();
   EXPECT_TRUE(bus_->health().bus_off);
-  EXPECT_EQ(bus_->health().errors, 6u);
+  EXPECT_EQ(bus_->health().errors, 7u);
   EXPECT_EQ(bus_->health().malformed, 0u);
   EXPECT_FALSE(bus_->health().down);
 }
