@@ -409,6 +409,20 @@ TEST_F(PositionCheckTest, FindsAnAbruptRestBeyondEachThreshold) {
   }
 }
 
+/// A start is no motion from zero: a joint that reads a little more in the first cycles, and then rests, is not stuck.
+TEST_F(PositionCheckTest, TakesTheFirstReadingForNoMotion) {
+  for (const int moving : {1, 2, 3}) {
+    check_.restart();
+    reading_.position[0] = 1.0;
+    step();
+    for (int i = 0; i < moving; ++i) {
+      reading_.position[0] += 1e-6;
+      step();
+    }
+    for (int i = 0; i < 200; ++i) ASSERT_FALSE(step().stuck) << moving;
+  }
+}
+
 /// Motion in bursts, with a rest in between, is no steady motion that could end abruptly.
 TEST_F(PositionCheckTest, TakesMotionInBurstsForNoAbruptRest) {
   const auto move = [&](int cycles) {
