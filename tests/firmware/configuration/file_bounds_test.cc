@@ -177,6 +177,12 @@ TEST_F(ControllerKeyTest, RangesAndDefaultsFollowTheKeysThatTheyDependOn) {
   EXPECT_NE(refusal(with("limits", "force = 5.0\n[engage]\nforce = 5.001")), "");
 }
 
+/// A force limit below the default of engage.force is a limit of that, too.
+TEST_F(ControllerKeyTest, EngagesAtNoMoreThanTheForceLimit) {
+  EXPECT_EQ(read(with("limits", "force = 0.2")).engage.force, 0.2);
+  EXPECT_EQ(read(with("limits", "force = 0.6")).engage.force, 0.5);
+}
+
 TEST_F(ControllerKeyTest, ReadsEveryFlagAndPath) {
   struct Flag {
     const char* table;
@@ -608,6 +614,16 @@ TEST_F(DeviceKeyTest, HasTheDefaultsOfTheBusThatAreDocumented) {
   EXPECT_EQ(bus.drive_heartbeat, 0.02);
   EXPECT_EQ(bus.heartbeat_timeout, 0.05);
   EXPECT_EQ(bus.boot_timeout, 5.0);
+}
+
+/// The timeout is at least two heartbeats, also where the file names the heartbeat alone.
+TEST_F(DeviceKeyTest, NeverTimesOutBeforeTheSecondHeartbeat) {
+  const DeviceKey heartbeat{"[bus]", "drive_heartbeat", 0.0, 0.0};
+  ASSERT_EQ(refusal(with(heartbeat, "drive_heartbeat = 0.1")), "");
+  EXPECT_EQ(read_device_file(file_).bus.heartbeat_timeout, 0.2);
+  ASSERT_EQ(refusal(with(heartbeat, "drive_heartbeat = 0.01")), "");
+  EXPECT_EQ(read_device_file(file_).bus.heartbeat_timeout, 0.05);
+  EXPECT_NE(refusal(with(heartbeat, "drive_heartbeat = 0.1\nheartbeat_timeout = 0.19")), "");
 }
 
 }  // namespace
