@@ -51,7 +51,9 @@ void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
   bus.command_deadline = table.number("command_deadline", {2e-3, 0.01}, bus.command_deadline);
   bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);
-  bus.heartbeat_timeout = table.number("heartbeat_timeout", {2.0 * bus.drive_heartbeat, 0.5}, bus.heartbeat_timeout);
+  const double two_heartbeats = 2.0 * bus.drive_heartbeat;
+  bus.heartbeat_timeout =
+      table.number("heartbeat_timeout", {two_heartbeats, 0.5}, std::max(bus.heartbeat_timeout, two_heartbeats));
   bus.boot_timeout = table.number("boot_timeout", {0.1, 60.0}, bus.boot_timeout);
   bus.panel.bus = static_cast<int>(table.whole_number("panel_bus", {-1, hal::kMaxBuses - 1}, bus.panel.bus));
   bus.panel.node = static_cast<int>(table.whole_number("panel_node", {1, 126}, bus.panel.node));

@@ -1,5 +1,6 @@
 #include "firmware/configuration/controller_file.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -127,7 +128,8 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
 
   const TomlTable engage = table("engage");
   engage.allow({"force", "ramp"});
-  config.engage.force = engage.number("force", {1e-3, config.limits.force}, config.engage.force);
+  config.engage.force =
+      engage.number("force", {1e-3, config.limits.force}, std::min(config.engage.force, config.limits.force));
   config.engage.ramp = engage.number("ramp", {0.02, 10.0}, config.engage.ramp);
 
   read_start(table("start"), config.start);

@@ -30,6 +30,8 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
       accepted_[i] = q_[i] = position;
       fresh_[i] = position;
       periods_[joint] = jumps_[joint] = predicted_[joint] = 0;
+      motion_[joint] = Motion();
+      motion_[joint].last.fill(position);  // no motion from zero to the first position
       continue;
     }
     periods_[joint] += periods;
@@ -40,11 +42,11 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
       accepted_[i] = q_[i] = position;
       periods_[joint] = jumps_[joint] = predicted_[joint] = 0;
     } else {
-      const double first = fresh_[i] - accepted_[i];
+      const double first = fresh_[i] - accepted_[i];  // zero without a jump before
       const double second = position - fresh_[i];
       const double far = largest_step_[i] * periods;
       const bool far_on = std::fabs(first) > far && std::fabs(second) > far && first * second > 0.0;
-      checked.runs_away = checked.runs_away || (fresh && jumps_[joint] > 0 && far_on);
+      checked.runs_away = checked.runs_away || (fresh && far_on);
       if (fresh) ++jumps_[joint];
       ++predicted_[joint];
       q_[i] += qd[i] * period_ * periods;
@@ -54,7 +56,6 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
     checked.predicted = std::max(checked.predicted, predicted_[joint]);
   }
   checked.predicted = std::max(checked.predicted, checked.lost);
-  if (!started_) motion_.fill(Motion());
   started_ = checked.finite;
   checked.q = q_;
   const bool abruptly = stops_abruptly(reading);
@@ -77,7 +78,6 @@ bool PositionCheck::stops_abruptly(const hal::JointReading& reading) noexcept {
     } else {
       ++motion.moving;
       motion.still = 0;
-      motion.abrupt = false;
     }
     for (std::size_t k = kMoving; k > 0; --k) motion.last[k] = motion.last[k - 1];
     motion.last[0] = position;

@@ -6,81 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/firmware/cycle/supervisor_bench.h"
+
 namespace godobject::firmware {
 namespace {
 
 using hal::PowerRequest;
-
-/// Three joints of 1 Nm; the sign test is left out unless asked for.
-ArmModel three_joints() {
-  ArmModel arm;
-  arm.joint_count = 3;
-  for (int i = 0; i < 3; ++i) arm.joints[static_cast<std::size_t>(i)].torque = 1.0;
-  return arm;
-}
-
-Supervisor::Parameters parameters(bool sign_test = false) {
-  Supervisor::Parameters p;
-  p.boot_cycles = 300;
-  p.engage_cycles = 10;
-  p.sign_test = sign_test;
-  return p;
-}
-
-/// A supervisor among drives that do what they are asked a cycle later.
-class Bench {
- public:
-  explicit Bench(const Supervisor::Parameters& p = parameters()) : supervisor(three_joints(), p) {
-    seen.drives = {true, false, true, false, true};
-    seen.enable_switch = true;
-  }
-
-  const Decision& step() {
-    Observation shown = seen;
-    // the operator releases the switch for one cycle when the supervisor enters the mode IDLE
-    if (lets_go && supervisor.mode() == Mode::kIdle && !was_idle_) shown.enable_switch = false;
-    was_idle_ = supervisor.mode() == Mode::kIdle;
-    decision = supervisor.step(shown);
-    ++cycles;
-    if (!obeys) return decision;
-    switch (decision.power) {
-      case PowerRequest::kEnable:
-        seen.drives.all_enabled = true;
-        seen.drives.none_moves = false;
-        break;
-      case PowerRequest::kReset: seen.drives.any_fault = false; [[fallthrough]];
-      case PowerRequest::kOff:
-      case PowerRequest::kQuickStop:
-        seen.drives.all_enabled = false;
-        seen.drives.none_moves = true;
-        break;
-    }
-    return decision;
-  }
-
-  /// Steps until the mode is reached; how many it took, or -1 after 5000.
-  int run_to(Mode mode) {
-    for (int i = 0; i < 5000; ++i) {
-      if (supervisor.mode() == mode) return i;
-      step();
-    }
-    return -1;
-  }
-
-  Supervisor supervisor;
-  Observation seen;
-  Decision decision;
-  bool obeys = true;
-  bool lets_go = true;
-  int cycles = 0;
-
- private:
-  bool was_idle_ = false;
-};
-
-bool is_stop(const Decision& decision) {
-  return decision.share == 0.0 && !decision.of_last && !decision.rate_limited && decision.test_torque.isZero(0.0);
-}
 
 TEST(Supervisor, RunsFromBootToRunningWhenAllIsWell) {
   Bench bench;
@@ -534,7 +465,7 @@ TEST(Supervisor, AsksForNothingWhereADriveFallsSilentBeforeThereIsPower) {
 TEST(Supervisor, HoldsTheArmBeforeItAsksForPower) {
   Bench bench;
   bench.run_to(Mode::kEnabling);
-  for (std::uint32_t i = 1; i < parameters().prepare_cycles; ++i) {
+  for (std::uint32_t i = 1; i < short_start().prepare_cycles; ++i) {
     EXPECT_TRUE(bench.step().holds_arm);
     EXPECT_EQ(bench.decision.power, PowerRequest::kOff);
   }
@@ -550,7 +481,7 @@ TEST(Supervisor, StopsWhenADriveDoesNotBecomeEnabled) {
     bench.step();
     ++cycles;
   }
-  EXPECT_EQ(cycles, static_cast<int>(parameters().prepare_cycles + Supervisor::kEnableCycles));
+  EXPECT_EQ(cycles, static_cast<int>(short_start().prepare_cycles + Supervisor::kEnableCycles));
   EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
 }
 
@@ -728,7 +659,7 @@ TEST(Supervisor, StaysStoppedWithoutAReset) {
 }
 
 TEST(Supervisor, StopsWhenAJointMovesAwayInTheSignTest) {
-  Bench bench(parameters(/*sign_test=*/true));
+  Bench bench(short_start(/*sign_test=*/true));
   ASSERT_GE(bench.run_to(Mode::kSignTest), 0);
   bench.step();
   bench.seen.q[1] = 0.21;
@@ -738,7 +669,7 @@ TEST(Supervisor, StopsWhenAJointMovesAwayInTheSignTest) {
 
 /// A bench with joints that follow their torque, armed after a sign test that passed.
 Bench tested_bench() {
-  Bench bench(parameters(/*sign_test=*/true));
+  Bench bench(short_start(/*sign_test=*/true));
   bench.run_to(Mode::kSignTest);
   for (int i = 0; i < 5000 && bench.supervisor.mode() == Mode::kSignTest; ++i) {
     bench.seen.q += 1e-2 * bench.step().test_torque;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "firmware/cycle/overrun_watch.h"
@@ -172,6 +173,116 @@ TEST(OverrunWatch, CountsInARowInAWindowAndTheLongOnes) {
   bool tripped = false;
   for (int i = 0; i < 1000; ++i) tripped |= more.update(i % 90 == 0 ? 1 : 0);
   EXPECT_TRUE(tripped);
+}
+
+/// Every number below 16 has a bucket of its own; above, a bucket ends at most 1/16 of its beginning later.
+TEST(DurationHistogram, RoundsUpToTheEndOfABucketAndNoFurther) {
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t ns = 0; ns < 5000; ++ns) numbers.push_back(ns);
+  for (int bit = 13; bit < 62; ++bit) {
+    for (const std::int64_t more : {-1, 0, 1, 12345}) numbers.push_back((std::int64_t{1} << bit) + more);
+  }
+  const auto end_of = [](std::int64_t ns) {
+    DurationHistogram histogram;
+    histogram.add(ns);
+    histogram.add(INT64_MAX);
+    return histogram.quantile_ns(0.5);
+  };
+  for (const std::int64_t ns : numbers) {
+    const std::int64_t last = end_of(ns);
+    ASSERT_GE(last, ns);
+    ASSERT_LE(last - ns, ns / 16) << ns;
+    ASSERT_EQ(end_of(last), last) << "the end belongs to its own bucket";
+    ASSERT_GT(end_of(last + 1), last) << "the next number does not";
+  }
+}
+
+TEST(DurationHistogram, CountsTheShareOfDurationsThatAreNoLonger) {
+  DurationHistogram histogram;
+  EXPECT_EQ(histogram.count(), 0u);
+  EXPECT_EQ(histogram.largest_ns(), 0);
+  for (const std::int64_t ns : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) histogram.add(ns);
+  EXPECT_EQ(histogram.count(), 10u);
+  EXPECT_EQ(histogram.largest_ns(), 10);
+  EXPECT_EQ(histogram.quantile_ns(0.0), 1) << "the shortest";
+  EXPECT_EQ(histogram.quantile_ns(0.1), 1);
+  EXPECT_EQ(histogram.quantile_ns(0.11), 2);
+  EXPECT_EQ(histogram.quantile_ns(0.5), 5);
+  EXPECT_EQ(histogram.quantile_ns(0.51), 6);
+  EXPECT_EQ(histogram.quantile_ns(1.0), 10);
+  EXPECT_EQ(histogram.quantile_ns(1.1), 10);
+}
+
+/// A clock that wakes its sleepers late by a script, a number a sleep.
+class LateClock final : public hal::Clock {
+ public:
+  explicit LateClock(std::vector<std::int64_t> late) : late_(std::move(late)) {}
+  std::int64_t now_ns() noexcept override { return now; }
+  void sleep_until(std::int64_t ns) noexcept override {
+    now = std::max(now, ns) + (slept_ < late_.size() ? late_[slept_] : 0);
+    ++slept_;
+  }
+  std::int64_t now = 0;
+
+ private:
+  std::vector<std::int64_t> late_;
+  std::size_t slept_ = 0;
+};
+
+/// Three cycles by hand: samples 300 us after waking; the second one wakes 20 us late, and for the samples 7 us.
+TEST(PeriodicLoop, MeasuresLatenessAndComputingTimeOfEachCycle) {
+  LateClock clock({0, 0, 20'000, 7'000, 0, 0});
+  clock.now = 4'000'001;
+  LoopStatistics statistics;
+  std::vector<std::int64_t> requested, ran;
+  std::vector<CycleTimes> times;
+  run_periodically(
+      clock, kPeriod_ns, 300'000, statistics, [&] { requested.push_back(clock.now); },
+      [&](const LoopEvents& events) {
+        EXPECT_EQ(events.overrun_ns, 0);
+        EXPECT_EQ(events.skipped, 0u);
+        EXPECT_FALSE(events.end_requested || events.reset_requested);
+        ran.push_back(clock.now);
+        clock.now += 100'000 * static_cast<std::int64_t>(ran.size());
+        return ran.size() < 3;
+      },
+      [&](const CycleTimes& t) {
+        times.push_back(t);
+        clock.now += 50'000;  // records are no computing time
+      });
+  EXPECT_EQ(requested, (std::vector<std::int64_t>{5'000'000, 6'020'000, 7'000'000}));
+  EXPECT_EQ(ran, (std::vector<std::int64_t>{5'300'000, 6'327'000, 7'300'000}));
+  ASSERT_EQ(times.size(), 3u);
+  const std::int64_t expected[3][4] = {
+      {5'000'000, 0, 0, 100'000}, {6'000'000, 20'000, 7'000, 200'000}, {7'000'000, 0, 0, 300'000}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(times[i].deadline_ns, expected[i][0]);
+    EXPECT_EQ(times[i].late_ns, expected[i][1]);
+    EXPECT_EQ(times[i].collect_late_ns, expected[i][2]);
+    EXPECT_EQ(times[i].compute_ns, expected[i][3]);
+  }
+  EXPECT_EQ(statistics.lateness.count(), 3u);
+  EXPECT_EQ(statistics.lateness.largest_ns(), 20'000);
+  EXPECT_EQ(statistics.collect_lateness.count(), 3u);
+  EXPECT_EQ(statistics.collect_lateness.largest_ns(), 7'000);
+  EXPECT_EQ(statistics.compute.count(), 3u);
+  EXPECT_EQ(statistics.compute.largest_ns(), 300'000);
+}
+
+/// The first deadline is the next whole period, also where the clock shows one already.
+TEST(PeriodicLoop, BeginsAtTheNextWholePeriod) {
+  for (const auto& [now, first] : std::initializer_list<std::array<std::int64_t, 2>>{
+           {0, 0}, {1, 1'000'000}, {999'999, 1'000'000}, {1'000'000, 1'000'000}, {1'000'001, 2'000'000}}) {
+    FakeClock clock;
+    clock.now = now;
+    LoopStatistics statistics;
+    std::int64_t deadline = -1;
+    run_periodically(
+        clock, kPeriod_ns, 0, statistics, [] {}, [](const LoopEvents& events) { return events.skipped != 0; },
+        [&](const CycleTimes& times) { deadline = times.deadline_ns; });
+    EXPECT_EQ(deadline, first) << now;
+    EXPECT_EQ(clock.now, first) << now;
+  }
 }
 
 }  // namespace

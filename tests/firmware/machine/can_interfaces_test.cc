@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
+#include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace godobject::firmware {
@@ -166,14 +169,14 @@ TEST(CanInterface, EachLackHasItsCure) {
        "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
       {[](CanInterface& i) { i.transmit_queue = 10; }, "can0: txqueuelen 10 is short; a burst may fill it",
        "ip link set can0 txqueuelen 1000", false},
-      {[](CanInterface& i) { i.restart_ms = 100; },
-       "can0: restarts by itself 100 ms after bus-off",
+      {[](CanInterface& i) { i.restart_ms = 100; }, "can0: restarts by itself 100 ms after bus-off",
        "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0", true},
       {[](CanInterface& i) { i.echoes = false; }, "can0: its driver does not report when a frame was on the wire",
        "use an adapter whose driver has IFF_ECHO; slcan of old kernels does not", true},
       {[](CanInterface& i) { i.listen_only = true; }, "can0: listens only",
        "ip link set can0 down; ip link set can0 up type can listen-only off", true},
-      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface", "ip link show type can lists CAN interfaces", true},
+      {[](CanInterface& i) { i.can = false; }, "can0: not a CAN interface",
+       "ip link show type can lists CAN interfaces", true},
   };
   for (const Case& test : cases) {
     CanInterface interface = ready();
@@ -235,6 +238,173 @@ TEST(CanInterface, TheKernelsOwnSimulatedOneIsReady) {
   EXPECT_TRUE(interface->can);
   EXPECT_EQ(interface->mtu, 72);
   EXPECT_TRUE(all_good(examine_can_interface(*interface, {})));
+}
+
+/// One finding, as one line.
+std::string told(const Finding& finding) {
+  return std::string(finding.good ? "ok " : "LACK ") + (finding.needed ? "needed " : "") + finding.what + " -> " +
+         finding.cure;
+}
+std::vector<std::string> told(const std::vector<Finding>& findings) {
+  std::vector<std::string> lines;
+  for (const Finding& finding : findings) lines.push_back(told(finding));
+  return lines;
+}
+using Lines = std::vector<std::string>;
+
+const std::string kSetUp =
+    "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 restart-ms 0";
+const std::string kSetUpFd =
+    "ip link set can0 down; ip link set can0 up txqueuelen 1000 type can bitrate 1000000 dbitrate 5000000 fd on "
+    "restart-ms 0";
+
+TEST(CanInterface, FindingsOfTheControllerHaveTheirCures) {
+  CanInterface off = ready();
+  off.bus_off = true;
+  EXPECT_EQ(told(examine_can_interface(off, {})),
+            Lines{"LACK needed can0: its controller is bus-off after errors -> check wires, termination (120 ohm at "
+                  "both ends) and bit rate; then " +
+                  kSetUp});
+  CanInterface passive = ready();
+  passive.passive = true;
+  EXPECT_EQ(told(examine_can_interface(passive, {})),
+            Lines{"LACK can0: its controller is error-passive -> check wires, termination (120 ohm at both ends) and "
+                  "bit rate, and that a drive is switched on"});
+  EXPECT_EQ(told(examine_can_interface(ready(), {})), Lines{"ok can0: up, 1000 kbit/s, txqueuelen 1000 -> "});
+  CanInterface longer = ready();
+  longer.transmit_queue = 999;
+  EXPECT_FALSE(all_good(examine_can_interface(longer, {})));
+  longer.transmit_queue = 1001;
+  EXPECT_TRUE(all_good(examine_can_interface(longer, {})));
+  longer.restart_ms = 1;
+  EXPECT_FALSE(all_good(examine_can_interface(longer, {})));
+}
+
+TEST(CanInterface, FdFindingsHaveTheirCures) {
+  hal::BusLayout layout;
+  layout.fd = true;
+  EXPECT_EQ(told(examine_can_interface(ready(), layout)),
+            (Lines{"LACK needed can0: has no FD frames -> " + kSetUpFd,
+                   "LACK needed can0: 0 kbit/s for the data of FD frames; the device file has 5000 -> " + kSetUpFd}));
+  CanInterface simulated;
+  simulated.name = "vcan0";
+  simulated.kind = "vcan";
+  simulated.can = true;
+  simulated.mtu = 71;
+  EXPECT_EQ(told(examine_can_interface(simulated, layout)),
+            (Lines{"LACK needed vcan0: down -> ip link set vcan0 up",
+                   "LACK needed vcan0: has no FD frames -> ip link set vcan0 down; ip link set vcan0 mtu 72 up"}));
+  simulated.mtu = 72;
+  simulated.up = true;
+  EXPECT_EQ(told(examine_can_interface(simulated, layout)), Lines{"ok vcan0: up, simulated (vcan) -> "});
+}
+
+/// A controller divides its clock: its rate may be off by a thousandth.
+TEST(CanInterface, ARateMayBeOffByAThousandth) {
+  hal::BusLayout layout;
+  layout.fd = true;
+  for (const auto& [rate, good] : std::initializer_list<std::pair<std::uint32_t, bool>>{
+           {1'000'000, true}, {1'001'000, true}, {999'000, true}, {1'001'001, false}, {998'999, false}}) {
+    CanInterface interface = ready();
+    interface.mtu = 72;
+    interface.data_rate = 5'000'000;
+    interface.bit_rate = rate;
+    EXPECT_EQ(all_good(examine_can_interface(interface, layout)), good) << rate;
+    interface.bit_rate = 1'000'000;
+    interface.data_rate = 5 * rate;
+    EXPECT_EQ(all_good(examine_can_interface(interface, layout)), good) << rate;
+  }
+}
+
+/// can0 with one attribute of its controller.
+std::optional<CanInterface> with_controller(std::uint16_t type, const std::vector<std::uint8_t>& payload,
+                                            const std::string& kind = "can") {
+  Message data(0, 0, 0);
+  data.attribute(type, payload);
+  Message info(0, 0, 0);
+  info.attribute(2, data.nested()).attribute(1, Message::text(kind));  // in the other order
+  Message message(kNewLink, kHardwareCan, 1);
+  message.attribute(99, {1, 2, 3, 4, 5}).attribute(3, Message::text("can0")).attribute(18, info.nested());
+  return parse_link(message.bytes());
+}
+
+TEST(CanInterface, EachAttributeOfAControllerIsReadAlone) {
+  const auto expect = [](const std::optional<CanInterface>& read, auto&& set) {
+    CanInterface expected;
+    set(expected);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->name, "can0");
+    EXPECT_EQ(read->bit_rate, expected.bit_rate);
+    EXPECT_EQ(read->data_rate, expected.data_rate);
+    EXPECT_EQ(read->restart_ms, expected.restart_ms);
+    EXPECT_EQ(read->listen_only, expected.listen_only);
+    EXPECT_EQ(read->passive, expected.passive);
+    EXPECT_EQ(read->bus_off, expected.bus_off);
+    EXPECT_EQ(read->mtu, 0);
+    EXPECT_EQ(read->transmit_queue, 0);
+    EXPECT_TRUE(read->up);
+    EXPECT_FALSE(read->echoes);
+  };
+  const auto nothing = [](CanInterface&) {};
+  expect(with_controller(1, bit_timing(7)), [](CanInterface& i) { i.bit_rate = 7; });
+  expect(with_controller(9, bit_timing(8)), [](CanInterface& i) { i.data_rate = 8; });
+  expect(with_controller(6, Message::number(9)), [](CanInterface& i) { i.restart_ms = 9; });
+  expect(with_controller(5, {0xFF, 0, 0, 0, 2, 0, 0, 0}), [](CanInterface& i) { i.listen_only = true; });
+  expect(with_controller(5, {0xFF, 0, 0, 0, 0xFD, 0, 0, 0}), nothing);
+  for (std::uint32_t state = 0; state <= 5; ++state) {
+    expect(with_controller(4, Message::number(state)), [state](CanInterface& i) {
+      i.passive = state == 2;
+      i.bus_off = state == 3;
+    });
+  }
+  expect(with_controller(7, Message::number(9)), nothing);          // another attribute
+  expect(with_controller(6, {1, 2, 3}), nothing);                   // too short for its number
+  expect(with_controller(6, Message::number(9), "vcan"), nothing);  // no controller
+}
+
+TEST(CanInterface, FlagsAndHardwareAreReadBitByBit) {
+  for (int bit = 0; bit < 20; ++bit) {
+    const std::optional<CanInterface> read = parse_link(Message(kNewLink, kHardwareCan, 1u << bit).bytes());
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(read->can);
+    EXPECT_EQ(read->up, bit == 0) << bit;
+    EXPECT_EQ(read->echoes, bit == 18) << bit;
+  }
+  for (const std::uint16_t hardware : std::initializer_list<std::uint16_t>{1, 279, 281, 772})
+    EXPECT_FALSE(parse_link(Message(kNewLink, hardware, 1).bytes())->can);
+}
+
+/// The length in the header bounds the message; a broken attribute ends its list and keeps those before it.
+TEST(CanInterface, LengthsBoundWhatIsRead) {
+  Message message(kNewLink, kHardwareCan, 1);
+  message.attribute(3, Message::text("can0"));
+  std::vector<std::uint8_t> longer = message.bytes();
+  const std::size_t whole = longer.size();
+  for (const std::uint8_t byte : Message(0, 0, 0).attribute(4, Message::number(72)).nested()) longer.push_back(byte);
+  ASSERT_TRUE(parse_link(longer));
+  EXPECT_EQ(parse_link(longer)->mtu, 0) << "behind the message";
+  longer[0] = static_cast<std::uint8_t>(longer.size());
+  EXPECT_EQ(parse_link(longer)->mtu, 72);
+  for (const std::uint8_t length : std::initializer_list<std::uint8_t>{0, 3, 9, 200}) {
+    longer[whole] = length;  // of the second attribute, of 8 bytes
+    ASSERT_TRUE(parse_link(longer));
+    EXPECT_EQ(parse_link(longer)->name, "can0");
+    EXPECT_EQ(parse_link(longer)->mtu, 0) << static_cast<int>(length);
+  }
+  std::vector<std::uint8_t> bare = Message(kNewLink, kHardwareCan, 1).bytes();
+  EXPECT_TRUE(parse_link(bare)) << "without an attribute";
+  bare[0] = static_cast<std::uint8_t>(bare.size() - 1);
+  EXPECT_FALSE(parse_link(bare));
+}
+
+TEST(CanInterface, NamesThatNoInterfaceCanHaveAreNotAskedFor) {
+  EXPECT_FALSE(read_can_interface(""));
+  EXPECT_FALSE(read_can_interface("sixteen-letters-"));
+  EXPECT_FALSE(read_can_interface(std::string(100, 'x')));
+  EXPECT_EQ(told(examine_can_interfaces(Lines{"can77"}, {})),
+            Lines{"LACK needed can77: no such interface -> ip link show type can lists the existing ones; for a "
+                  "simulated one: ip link add dev can77 type vcan"});
+  EXPECT_TRUE(examine_can_interfaces({}, {}).empty());
 }
 
 }  // namespace

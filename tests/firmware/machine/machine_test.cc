@@ -1,25 +1,34 @@
 // Tests the examination of a machine for real-time work, and the real-time setup of the loop.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/device/kinematics.h"
 #include "firmware/cycle/control_cycle.h"
 #include "firmware/machine/doctor.h"
 #include "firmware/machine/rt_setup.h"
+#include "firmware/machine/signals.h"
 #include "hal/linux/monotonic_clock.h"
 #include "tests/firmware/cycle/fake_drives.h"
 #include "tests/support/arms.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/ordinary_user.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/files/aligned_bytes.h"
 
@@ -102,6 +111,178 @@ TEST_F(DoctorTest, TakesCapabilitiesForRightsAndNotTheNameOfRoot) {
   EXPECT_EQ(find("memlock").what, "memlock: by CAP_IPC_LOCK");
   EXPECT_TRUE(find("memlock").good);
   ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &locked), 0);
+}
+
+/// One finding, as one line.
+std::string told(const Finding& finding) {
+  return std::string(finding.good ? "ok " : "LACK ") + (finding.needed ? "needed " : "") + finding.what + " -> " +
+         finding.cure;
+}
+
+TEST_F(DoctorTest, TellsEachStateOfTheKernel) {
+  const std::string cure = " -> " + find("kernel").cure;
+  EXPECT_TRUE(cure.starts_with(" -> apt-get install linux-image-rt-") && cure.ends_with(" and boot it")) << cure;
+  for (const auto& [version, state] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"Linux #1 SMP PREEMPT_DYNAMIC Debian", "LACK needed kernel: PREEMPT_DYNAMIC, not PREEMPT_RT" + cure},
+           {"Linux #1 SMP PREEMPT Debian", "LACK needed kernel: PREEMPT, not PREEMPT_RT" + cure},
+           {"Linux #1 SMP Debian", "LACK needed kernel: not PREEMPT_RT" + cure},
+           {"Linux #1 SMP PREEMPT_RT Debian", "ok needed kernel: PREEMPT_RT -> "}}) {
+    put("proc/version", version);
+    EXPECT_EQ(told(find("kernel")), state);
+  }
+  put("proc/version", "Linux #1 SMP Debian");
+  put("sys/kernel/realtime", "0");
+  EXPECT_FALSE(find("kernel").good);
+  put("sys/kernel/realtime", "1");
+  EXPECT_EQ(told(find("kernel")), "ok needed kernel: PREEMPT_RT -> ");
+}
+
+TEST_F(DoctorTest, TellsEachStateOfTheProcessors) {
+  EXPECT_EQ(told(find("isolated")),
+            "LACK isolated processors: none -> boot with isolcpus=N nohz_full=N rcu_nocbs=N and set loop.cpu = N, N "
+            "not 0");
+  put("sys/devices/system/cpu/isolated", "");
+  EXPECT_EQ(find("isolated").what, "isolated processors: none");
+  put("sys/devices/system/cpu/isolated", "1,4-6,9");
+  EXPECT_EQ(told(find("isolated", -1)),
+            "LACK isolated processors: 1,4-6,9, but the loop is bound to none -> set loop.cpu to one of them");
+  for (int cpu = 0; cpu <= 11; ++cpu) {
+    const bool among = cpu == 1 || (cpu >= 4 && cpu <= 6) || cpu == 9;
+    EXPECT_EQ(told(find("isolated", cpu)),
+              among ? "ok isolated processors: 1,4-6,9, the loop has " + std::to_string(cpu) + " -> "
+                    : "LACK isolated processors: 1,4-6,9, the loop's " + std::to_string(cpu) +
+                          " is not among them -> set loop.cpu to one of them");
+  }
+  put("sys/devices/system/cpu/isolated", "0-2");
+  for (int cpu = 0; cpu <= 3; ++cpu) EXPECT_EQ(find("isolated", cpu).good, cpu <= 2) << cpu;
+  put("sys/devices/system/cpu/isolated", "x,3");
+  EXPECT_TRUE(find("isolated", 3).good);
+  EXPECT_FALSE(find("isolated", 0).good);
+}
+
+TEST_F(DoctorTest, TellsEachStateOfTheClocks) {
+  EXPECT_EQ(told(find("clock rate")), "ok clock rate: not scaled here -> ");
+  const std::string governor = "sys/devices/system/cpu/cpu0/cpufreq/scaling_governor";
+  put(governor, "powersave");
+  EXPECT_EQ(told(find("clock rate", 3)), "ok clock rate: not scaled here -> ") << "processor 3 is the loop's";
+  for (const int cpu : {-1, 0}) {
+    EXPECT_EQ(told(find("clock rate", cpu)),
+              "LACK clock rate: governor powersave -> echo performance > " + (folder_ / governor).string());
+  }
+  put(governor, "performance");
+  EXPECT_EQ(told(find("clock rate", 0)), "ok clock rate: governor performance -> ");
+
+  const std::string cure = ", which is slow to read -> boot with tsc=reliable if the processor's counter is";
+  EXPECT_EQ(told(find("clock source")), "LACK clock source: unknown" + cure);
+  for (const char* source : {"tsc", "arch_sys_counter", "kvm-clock"}) {
+    put("sys/devices/system/clocksource/clocksource0/current_clocksource", source);
+    EXPECT_EQ(told(find("clock source")), std::string("ok clock source: ") + source + " -> ");
+  }
+  put("sys/devices/system/clocksource/clocksource0/current_clocksource", "hpet");
+  EXPECT_EQ(told(find("clock source")), "LACK clock source: hpet" + cure);
+}
+
+TEST_F(DoctorTest, TellsEachStateOfThrottlingAndCan) {
+  const std::string file = (folder_ / "proc/sys/kernel/sched_rt_runtime_us").string();
+  EXPECT_EQ(told(find("real-time throttling")),
+            "LACK real-time throttling: " + file + " cannot be read -> mount /proc");
+  put("proc/sys/kernel/sched_rt_runtime_us", "-1");
+  EXPECT_EQ(told(find("real-time throttling")), "ok real-time throttling: off -> ");
+  put("proc/sys/kernel/sched_rt_runtime_us", "0");
+  EXPECT_EQ(told(find("real-time throttling")),
+            "LACK needed real-time throttling: real-time threads get no time -> echo 950000 > " + file);
+  put("proc/sys/kernel/sched_rt_runtime_us", "900000");
+  put("proc/sys/kernel/sched_rt_period_us", "2000000");
+  EXPECT_EQ(told(find("real-time throttling")),
+            "ok real-time throttling: 900000 of 2000000 us for all real-time threads, the loop needs less -> ");
+  EXPECT_EQ(told(find("CAN")),
+            "LACK CAN: not in the kernel, or its module is not loaded -> modprobe can can_raw; for a simulated bus "
+            "vcan");
+  put("proc/net/can/stats", "");
+  EXPECT_EQ(told(find("CAN")), "ok CAN: in the kernel -> ");
+}
+
+/// A limit of this process, lowered for a test.
+class LoweredLimit {
+ public:
+  LoweredLimit(decltype(RLIMIT_RTPRIO) which, rlim_t value) : which_(which) {
+    EXPECT_EQ(::getrlimit(which_, &before_), 0);
+    rlimit lowered = before_;
+    lowered.rlim_cur = std::min(before_.rlim_cur, value);
+    EXPECT_EQ(::setrlimit(which_, &lowered), 0);
+  }
+  ~LoweredLimit() { EXPECT_EQ(::setrlimit(which_, &before_), 0); }
+
+ private:
+  decltype(RLIMIT_RTPRIO) which_;
+  rlimit before_{};
+};
+
+TEST_F(DoctorTest, TellsEachStateOfTheRights) {
+  const LoweredLimit rtprio(RLIMIT_RTPRIO, 0);
+  const LoweredLimit memlock(RLIMIT_MEMLOCK, 65536);
+  const auto right = [&](const std::string& begin, int priority) {
+    for (const Finding& finding : examine_machine(3, priority, folder_)) {
+      if (finding.what.starts_with(begin)) return finding;
+    }
+    return Finding{};
+  };
+  const auto limits = [](const std::string& what) {
+    return "put '@realtime - " + what +
+           "' into /etc/security/limits.d/godobject.conf, groupadd -f realtime, usermod -aG realtime USER, and log in "
+           "again";
+  };
+  /// Calls `expect(root)` with this status of the process, as this user and as an ordinary one.
+  const auto with = [&](const std::string& status, auto&& expect) {
+    put("proc/self/status", status);
+    expect(::geteuid() == 0);
+    const test::AsOrdinaryUser user;
+    expect(::geteuid() == 0);
+  };
+  with("Name:\tx\nCapEff:\t0000000000000000", [&](bool root) {
+    EXPECT_EQ(told(right("rtprio", 0)), "ok needed rtprio: 0 -> ");
+    EXPECT_EQ(told(right("rtprio", 1)),
+              root ? "LACK needed rtprio: 0, and root without CAP_SYS_NICE -> give CAP_SYS_NICE back, a container's "
+                     "with --cap-add"
+                   : "LACK needed rtprio: 0 -> " + limits("rtprio 1"));
+    EXPECT_EQ(told(right("memlock", 1)),
+              root ? "LACK needed memlock: 65536, and root without CAP_IPC_LOCK -> give CAP_IPC_LOCK back, a "
+                     "container's with --cap-add"
+                   : "LACK needed memlock: 65536 -> " + limits("memlock unlimited"));
+  });
+  for (int bit = 0; bit < 40; ++bit) {
+    const std::string bits = fmt::format("CapPrm:\tffffffffffffffff\nCapEff:\t{:016x}", std::uint64_t{1} << bit);
+    with(bits, [&](bool) {
+      EXPECT_EQ(right("rtprio", 1).good, bit == 23) << bit;
+      EXPECT_EQ(right("memlock", 1).good, bit == 14) << bit;
+    });
+  }
+  with("CapEff:\t0000000000804000", [&](bool) {
+    EXPECT_EQ(told(right("rtprio", 1)), "ok needed rtprio: by CAP_SYS_NICE -> ");
+    EXPECT_EQ(told(right("memlock", 1)), "ok needed memlock: by CAP_IPC_LOCK -> ");
+  });
+}
+
+TEST(Signals, SetTheRequestsThatTheyStandFor) {
+  RunRequests& requests = signal_requests();
+  EXPECT_FALSE(requests.end || requests.reset);
+  catch_end_signals();
+  catch_reset_signal();
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    requests.end = false;
+    std::raise(signal);
+    EXPECT_TRUE(requests.end) << signal;
+    EXPECT_FALSE(requests.reset) << signal;
+    std::signal(signal, SIG_DFL);
+  }
+  requests.end = false;
+  std::raise(SIGUSR1);
+  EXPECT_TRUE(requests.reset);
+  EXPECT_FALSE(requests.end);
+  requests.reset = false;
+  ignore_write_signals();
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::raise(signal);  // would end the process
+  for (const int signal : {SIGUSR1, SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_DFL);
 }
 
 TEST(MonotonicClock, NeverWakesBeforeItsTimeAndTellsAtOnceWhatHasPassed) {

@@ -114,6 +114,46 @@ TEST_F(BusLogTest, WritesAllBusesAsTextAndEachAsPackets) {
   EXPECT_EQ(content("vcan1.pcap"), second);
 }
 
+/// Any number of frames, also at the number that one write call takes; a drain without frames writes nothing.
+TEST_F(BusLogTest, WritesEveryFrameOnceWhateverTheirNumber) {
+  BusLogWriter writer(folder_, {"vcan0", "vcan1"}, *ring_);
+  EXPECT_EQ(writer.file(), folder_ / "can.log");
+  std::string text;
+  std::string first = pcap_header();
+  int next = 0;
+  for (const int count : {0, 1, 255, 256, 257, 511, 512, 513, 0, 2}) {
+    for (int i = 0; i < count; ++i, ++next) {
+      ring_->on_frame(0, frame(next));
+      append_candump_line(frame(next), "vcan0", text);
+      append_pcap_packet(frame(next), first);
+    }
+    writer.drain();
+    ASSERT_EQ(content("can.log"), text) << count;
+    ASSERT_EQ(content("vcan0.pcap"), first) << count;
+    ASSERT_EQ(content("vcan1.pcap"), pcap_header()) << count;
+    ASSERT_EQ(writer.written(), static_cast<std::uint64_t>(next));
+  }
+}
+
+/// The larger of both losses: a frame that is in neither file is lost once.
+TEST_F(BusLogTest, CountsAFrameThatNeitherFileHasOnce) {
+  std::filesystem::create_symlink("/dev/full", folder_ / "vcan0.pcap");
+  std::filesystem::create_symlink("/dev/full", folder_ / "vcan1.pcap");
+  {
+    BusLogWriter writer(folder_, {"vcan0", "vcan1"}, *ring_);
+    for (int i = 0; i < 100; ++i) ring_->on_frame(i % 4 == 0 ? 1 : 0, frame(i));
+    writer.drain();
+    EXPECT_EQ(writer.written(), 100u);
+    EXPECT_EQ(writer.lost(), 100u) << "of both buses";
+  }
+  std::filesystem::remove(folder_ / "can.log");
+  std::filesystem::create_symlink("/dev/full", folder_ / "can.log");
+  BusLogWriter writer(folder_, {"vcan0", "vcan1"}, *ring_);
+  for (int i = 0; i < 100; ++i) ring_->on_frame(0, frame(i));
+  writer.drain();
+  EXPECT_EQ(writer.lost(), 100u) << "lost in both";
+}
+
 /// Reads a log back by its published format, written apart from the writer.
 TEST_F(BusLogTest, EveryFrameCanBeReadBack) {
   std::mt19937 random(11);

@@ -75,6 +75,60 @@ TEST_F(TelemetryTest, WritesAHeaderWithUnitsAndARowARecord) {
   EXPECT_TRUE(all[43].ends_with(",-0.125,7.5"));
 }
 
+TEST_F(TelemetryTest, HasEachNumberInItsColumn) {
+  TelemetryRecord record;
+  record.times = {1'234'567'000, 2'500, 99'999, 3'250};
+  CycleRecord& cycle = record.cycle;
+  cycle.mode = Mode::kFade;
+  cycle.fault = Fault::kPositionLost;
+  cycle.share = 0.4;
+  cycle.outcome = Outcome::kContact;
+  cycle.contacts = 6;
+  cycle.lost = 7;
+  cycle.q.head<3>() << 1.5, -2.5, 99.0;
+  cycle.qd.head<3>() << 3.5, -4.5, 99.0;
+  cycle.torque.head<3>() << 5.5, -6.5, 99.0;
+  cycle.H_WM = {Quaternion(0.5, -0.5, 0.25, 0.75), Vector3(0.1, 0.2, 0.3)};
+  cycle.god_object_W = {Quaternion(1.0, 2.0, 3.0, 4.0), Vector3(-0.1, -0.2, -0.3)};
+  cycle.F_G_R = {Vector3(11, 12, 13), Vector3(14, 15, 16)};
+  cycle.penetration = 0.001;
+  cycle.absorbed = -0.02;
+  cycle.injected_damping = 21.0;
+  {
+    TelemetryWriter writer(folder_, 2, *ring_);
+    EXPECT_EQ(writer.file(), folder_ / "telemetry.csv");
+    ring_->push(record);
+    writer.drain();
+    writer.drain();
+    EXPECT_EQ(writer.written(), 1u);
+  }
+  const std::vector<std::string> all = lines();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0],
+            "t_s,late_us,compute_us,mode,fault,share,outcome,contacts,lost,q1_rad,q2_rad,qd1_rad_s,qd2_rad_s,"
+            "torque1_Nm,torque2_Nm,dpx_m,dpy_m,dpz_m,dqw,dqx,dqy,dqz,gpx_m,gpy_m,gpz_m,gqw,gqx,gqy,gqz,fx_N,fy_N,"
+            "fz_N,tx_Nm,ty_Nm,tz_Nm,depth_m,absorbed_J,injected_Ns_per_m");
+  EXPECT_EQ(all[1],
+            "1.234567,2.500,3.250,fade,3,0.4,contact,6,7,1.5,-2.5,3.5,-4.5,5.5,-6.5,0.1,0.2,0.3,0.5,-0.5,0.25,0.75,"
+            "-0.1,-0.2,-0.3,1,2,3,4,11,12,13,14,15,16,0.001,-0.02,21");
+}
+
+/// Any number of rows, also at the number that one write call takes.
+TEST_F(TelemetryTest, WritesEveryRowOnceWhateverTheirNumber) {
+  std::int64_t next = 0;
+  TelemetryWriter writer(folder_, 1, *ring_);
+  for (const int rows : {0, 1, 63, 64, 65, 127, 128, 129, 200}) {
+    for (int i = 0; i < rows; ++i) ring_->push(record(static_cast<int>(next++)));
+    writer.drain();
+    const std::vector<std::string> all = lines();
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(1 + next)) << rows;
+    EXPECT_EQ(writer.written(), static_cast<std::uint64_t>(next));
+    for (std::int64_t i = 0; i < next; ++i) {
+      ASSERT_NEAR(std::stod(all[static_cast<std::size_t>(1 + i)]), 1e-3 * static_cast<double>(i), 1e-9) << rows;
+    }
+  }
+}
+
 TEST_F(TelemetryTest, CarriesEveryRecordInOrderBetweenTwoThreads) {
   constexpr int kRecords = 200'000;
   std::thread reader([&] {

@@ -54,5 +54,61 @@ TEST(BusPlanTable, NamesBothRatesOfCanFd) {
   EXPECT_EQ(bus_plan_table(layout, hal::plan_buses(layout)).substr(0, 27), "bus plan: CAN FD 1/5 Mbit/s");
 }
 
+/// A plan of hand-made numbers: each stands in the place of its name.
+TEST(BusPlanTable, HasEachNumberInItsPlace) {
+  hal::BusLayout layout;
+  layout.bus_count = 2;
+  layout.joint_count = 2;
+  layout.fd = true;
+  layout.bit_rate = 500e3;
+  layout.data_rate = 2e6;
+  layout.period = 2e-3;
+  layout.answer = 30e-6;
+  layout.compute = 250e-6;
+  layout.drives[0].bus = 1;
+  layout.drives[0].node = 9;
+  layout.drives[1].bus = 0;
+  layout.drives[1].node = 8;
+  hal::BusPlan plan;
+  hal::BusLoad& first = plan.buses[0];
+  first.joints = 1;
+  first.panel = true;
+  first.sync_ns = 51'000;
+  first.samples_ns = 102'000;
+  first.torques_ns = 203'000;
+  first.end_ns = 504'000;
+  first.slot_ns = 605'000;
+  first.utilisation = 0.25;
+  first.fits = true;
+  plan.buses[1] = first;
+  plan.buses[1].panel = false;
+  plan.buses[1].end_ns = 2'504'000;
+  plan.buses[1].fits = false;
+  plan.timing.collect_ns = 321'000;
+  plan.timing.delay_s = 1.5e-3;
+  plan.torque_step[0] = 0.25;
+  plan.torque_step[1] = 0.125;
+  EXPECT_EQ(bus_plan_table(layout, plan),
+            "bus plan: CAN FD 0.5/2 Mbit/s, cycle 2000 us, drives answer within 30 us, computing 250 us; worst case "
+            "in us\n"
+            "bus joints panel   SYNC  TPDOs  RPDOs    end  with SDO  wire busy\n"
+            "  0      1   yes     51    102    203    504       605     25.0 %\n"
+            "  1      1    no     51    102    203   2504       605     25.0 %  does not fit\n"
+            "samples collected 321 us after SYNC; from sample to torque at most 1500 us\n"
+            "joint 1: bus 1, node 9, torque in steps of 0.25 Nm, 0.5 N at 0.5 m\n"
+            "joint 2: bus 0, node 8, torque in steps of 0.125 Nm, 0.25 N at 0.5 m\n");
+  EXPECT_EQ(bus_plan_objection(layout, plan),
+            "bus 1: a cycle needs 2504 us of 2000 with 1 joint; put fewer on it, raise bus.bit_rate, lower "
+            "loop.compute (250 us) or use CAN FD");
+  plan.buses[1].slot_ns = 2'600'000;
+  plan.buses[1].joints = 0;
+  layout.bit_rate = 1e6;
+  EXPECT_EQ(bus_plan_objection(layout, plan),
+            "bus 1: a cycle needs 2600 us of 2000 with 0 joints; put fewer on it, lower loop.compute (250 us) or use "
+            "CAN FD");
+  plan.buses[0].fits = false;
+  EXPECT_EQ(bus_plan_objection(layout, plan).substr(0, 52), "bus 0: a cycle needs 605 us of 2000 with 1 joint and");
+}
+
 }  // namespace
 }  // namespace godobject::firmware

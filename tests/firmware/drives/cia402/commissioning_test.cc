@@ -22,9 +22,10 @@ using command::Failure;
 /// The drives of the light-weight robot, started; what a test has spoilt in them acts in the trial.
 class CommissioningTest : public testing::Test {
  protected:
-  void start(std::span<const sim::DriveFault> faults = {}) {
+  void start(std::span<const sim::DriveFault> faults = {}, std::span<const sim::BusFault> bus_faults = {}) {
     plant_.emplace(arm_, JointVector::Constant(0.3));
-    device_ = std::make_unique<sim::CanDevice>(*plant_, layout_, hardware_, sim::CanScript{.faults = faults});
+    device_ =
+        std::make_unique<sim::CanDevice>(*plant_, layout_, hardware_, sim::CanScript{.faults = faults}, bus_faults);
     clock_ = std::make_unique<sim::VirtualClock>(*device_);
     wires_ = {&device_->bus(0), &device_->bus(1), &device_->bus(2)};
     drives_.emplace(layout_, wires_, hal::plan_buses(layout_).timing);
@@ -32,6 +33,17 @@ class CommissioningTest : public testing::Test {
   }
   std::vector<JointTrial> run() {
     return try_drives(*drives_, layout_, wires_, *clock_, {"can0", "can1", "can2"}, end_);
+  }
+  std::int64_t now_ms() const { return device_->now_ns() / 1'000'000; }
+  /// The message with which a trial ends; empty if it does not.
+  std::string failure() {
+    try {
+      run();
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kUnavailable);
+      return failure.what();
+    }
+    return {};
   }
   hal::canopen::NmtState state(int joint) { return device_->nodes().drive(joint).nmt_state(); }
 
@@ -129,6 +141,130 @@ TEST_F(CommissioningTest, IsNoProofWhenItIsEnded) {
   start();
   end_ = true;
   EXPECT_THROW(run(), Failure);
+}
+
+TEST_F(CommissioningTest, CountsWithTheDeadlineOfTheLayout) {
+  layout_.command_deadline = 7e-3;
+  start();
+  const std::vector<JointTrial> trials = run();
+  for (const JointTrial& trial : trials) EXPECT_EQ(trial.after_ms, 8);
+  EXPECT_NE(trial_table(layout_, trials).find("7 ms  emergency 8250 after 8 ms\n"), std::string::npos);
+}
+
+/// A drive whose objects cannot be read or written is still tried; its line says so.
+TEST_F(CommissioningTest, TriesTheDeadlineOfADriveThatRefusesObjects) {
+  start();
+  const std::int64_t begin = now_ms();
+  const int node = layout_.drives[0].node;
+  const sim::BusFault refuses[] = {{.kind = sim::BusFaultKind::kSdoRefused,
+                                    .bus = layout_.drives[0].bus,
+                                    .first_cycle = begin,
+                                    .cycles = 20,
+                                    .node = node,
+                                    .value = 0x06010000}};
+  start({}, refuses);
+  ASSERT_EQ(now_ms(), begin);
+  const std::vector<JointTrial> trials = run();
+  EXPECT_FALSE(trials[0].device_type || trials[0].vendor || trials[0].product || trials[0].rated_torque);
+  EXPECT_TRUE(trials[0].mode_refused);
+  EXPECT_EQ(trials[0].mode_after_ms, -1);
+  EXPECT_TRUE(trials[0].in_time);
+  EXPECT_TRUE(trials[1].device_type && trials[1].vendor && trials[1].product && trials[1].rated_torque);
+  EXPECT_FALSE(trials[1].mode_refused);
+  EXPECT_NE(trial_table(layout_, trials).find("    1   0    1        -        -        -        - "), std::string::npos)
+      << trial_table(layout_, trials);
+}
+
+TEST_F(CommissioningTest, WantsAllDrivesOffBeforeTheTest) {
+  start();
+  for (const int joint : {0, 6}) {
+    start();
+    device_->nodes().drive(joint).trip(sim::kOverCurrent, device_->now_ns());
+    const std::string message = failure();
+    EXPECT_NE(message.find("joint " + std::to_string(joint + 1)), std::string::npos) << message;
+  }
+}
+
+/// Another error of the drive under test, here one that does not watch its deadline, is shown with its code and is no
+/// reaction to the deadline. At any other time it ends the test.
+TEST_F(CommissioningTest, TakesNoOtherErrorForTheDeadline) {
+  start();
+  const std::int64_t begin = now_ms();
+  run();
+  const std::int64_t whole = now_ms() - begin;
+  int shown = 0;
+  for (std::int64_t ms = 200; ms < whole; ms += 25) {  // a trial without a reaction takes 54 ms
+    const sim::BusFault emergency[] = {{.kind = sim::BusFaultKind::kEmergency,
+                                        .bus = layout_.drives[0].bus,
+                                        .first_cycle = begin + ms,
+                                        .cycles = 1,
+                                        .node = layout_.drives[0].node,
+                                        .value = 0x5000}};
+    start({}, emergency);
+    device_->nodes().drive(0).ignore_deadline();
+    try {
+      const std::vector<JointTrial> trials = run();
+      EXPECT_EQ(trials[0].emergency, 0x5000);
+      EXPECT_GT(trials[0].after_ms, 0);
+      EXPECT_FALSE(trials[0].in_time || trials[0].fault);
+      EXPECT_TRUE(trials[1].in_time);
+      ++shown;
+    } catch (const Failure& failure) {
+      EXPECT_NE(std::string(failure.what()).find("joint 1"), std::string::npos) << failure.what();
+      EXPECT_NE(std::string(failure.what()).find("5000"), std::string::npos) << failure.what();
+    }
+  }
+  EXPECT_GE(shown, 1);
+  EXPECT_LE(shown, 3);
+}
+
+TEST(CommissioningTable, HasEachNumberInItsPlace) {
+  hal::BusLayout layout;
+  layout.joint_count = 3;
+  layout.command_deadline = 6e-3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    layout.drives[i].bus = static_cast<int>(2 - i);
+    layout.drives[i].node = static_cast<int>(10 + i);
+    layout.drives[i].sign = i == 1 ? -1.0 : 1.0;
+    layout.drives[i].zero = 0.25 * static_cast<double>(i);
+  }
+  std::vector<JointTrial> trials(3);
+  trials[0].device_type = 0x20192;
+  trials[0].vendor = 0xAB;
+  trials[0].product = 0xCD;
+  trials[0].rated_torque = 1760;
+  trials[0].position = 1.5;
+  trials[0].mode_after_ms = 0;
+  trials[0].after_ms = 0;
+  trials[0].emergency = 0x8250;
+  trials[0].fault = true;
+  trials[0].in_time = true;
+  trials[1].mode_refused = true;
+  trials[1].after_ms = 9;
+  trials[1].fault = true;
+  trials[1].in_time = true;
+  EXPECT_EQ(trial_table(layout, trials),
+            "joint bus node     type   vendor  product rated Nm sign     zero position  mode told  expected within  "
+            "seen\n"
+            "    1   2   10 00020192 000000AB 000000CD     1.76    1   0.0000   1.5000       0 ms             6 ms  "
+            "emergency 8250, fault after 0 ms\n"
+            "    2   1   11        -        -        -        -   -1   0.2500   0.0000    refused             6 ms  "
+            "fault after 9 ms\n"
+            "    3   0   12        -        -        -        -    1   0.5000   0.0000         no             6 ms  "
+            "nothing\n");
+  const std::string late = ": neither emergency 8250 nor a fault in time after the last RPDO;";
+  const std::string untold = ": TPDO2 does not show a change of mode at once,";
+  EXPECT_EQ(trial_objection(trials).rfind("joint 3" + late, 0), 0u);
+  EXPECT_NE(trial_objection(trials).find("firmware/README.md; joint 3" + untold), std::string::npos);
+  trials[2].mode_after_ms = 0;
+  EXPECT_EQ(trial_objection(trials).find(untold), std::string::npos);
+  trials[2].in_time = true;
+  EXPECT_EQ(trial_objection(trials), "");
+  trials[0].mode_after_ms = kModeAtOnce_ms + 1;
+  trials[1].mode_refused = false;
+  EXPECT_EQ(trial_objection(trials).rfind("joint 1, 2" + untold, 0), 0u) << trial_objection(trials);
+  trials[0].in_time = trials[1].in_time = trials[2].in_time = false;
+  EXPECT_EQ(trial_objection(trials).rfind("joint 1, 2, 3" + late, 0), 0u);
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+#include "firmware/controller/operator_notice.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
+#include <thread>
+
+namespace godobject::firmware {
+namespace {
+
+class OperatorNoticeTest : public testing::Test {
+ protected:
+  /// The line that the operator gets for this state; empty: none.
+  std::string told(Mode mode, std::uint32_t waiting, Fault fault = Fault::kNone, hal::Alarm alarm = hal::Alarm::kNone,
+                   int joint = -1) {
+    report_.standing = Standing{mode, fault, alarm, static_cast<std::int8_t>(joint)};
+    report_.waiting = waiting;
+    testing::internal::CaptureStderr();
+    notice_.look();
+    return testing::internal::GetCapturedStderr();
+  }
+
+  RunReport report_;
+  OperatorNotice notice_{report_};
+};
+
+const std::string kIdle = "godobject-controller: waits for the enable switch: release it, then hold it\n";
+const std::string kArmed =
+    "godobject-controller: waits with the arm held: the moving body touches or penetrates the still body; move the "
+    "tool away\n";
+
+TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
+  for (const auto& [mode, line] : {std::pair{Mode::kIdle, kIdle}, {Mode::kArmed, kArmed}}) {
+    EXPECT_EQ(told(mode, 0), "");
+    EXPECT_EQ(told(mode, 3000), "");
+    EXPECT_EQ(told(mode, 3001), line);
+    EXPECT_EQ(told(mode, 9000), "") << "once";
+    EXPECT_EQ(told(Mode::kRunning, 0), "");
+    EXPECT_EQ(told(mode, 3001), line) << "another occasion";
+    told(Mode::kRunning, 0);
+  }
+}
+
+TEST_F(OperatorNoticeTest, SaysOnceWhyItHasStoppedAndHowToGoOn) {
+  const auto line = [](const std::string& why) {
+    return "godobject-controller: stopped: " + why +
+           "; to go on, release enable switch and emergency stop, then kill -USR1 " + std::to_string(::getpid()) + "\n";
+  };
+  EXPECT_EQ(told(Mode::kStopping, 0, Fault::kTooFast), "") << "the arm still moves";
+  EXPECT_EQ(told(Mode::kStopped, 0, Fault::kTooFast), line(describe(Fault::kTooFast)));
+  EXPECT_EQ(told(Mode::kStopped, 0, Fault::kTooFast), "") << "once";
+  EXPECT_EQ(told(Mode::kBoot, 0), "");
+  const std::string alarm = describe(hal::Alarm::kNodeReset);
+  EXPECT_EQ(told(Mode::kStopped, 0, Fault::kAlarm, hal::Alarm::kNodeReset, 0), line("joint 1: " + alarm));
+  told(Mode::kBoot, 0);
+  EXPECT_EQ(told(Mode::kStopped, 0, Fault::kAlarm, hal::Alarm::kNodeReset, 6), line("joint 7: " + alarm));
+  told(Mode::kBoot, 0);
+  EXPECT_EQ(told(Mode::kStopped, 0, Fault::kAlarm, hal::Alarm::kNodeReset), line(alarm));
+  told(Mode::kBoot, 0);
+  EXPECT_EQ(told(Mode::kStopped, 0, Fault::kSignWrong), "") << "the run ends with this fault and says so itself";
+}
+
+TEST_F(OperatorNoticeTest, RunsUntilItIsAskedToStop) {
+  report_.standing = Standing{Mode::kIdle, Fault::kNone, hal::Alarm::kNone, -1};
+  report_.waiting = 4000;
+  testing::internal::CaptureStderr();
+  std::stop_source stop;
+  stop.request_stop();
+  notice_.run(stop.get_token());
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "asked before it looked";
+}
+
+}  // namespace
+}  // namespace godobject::firmware

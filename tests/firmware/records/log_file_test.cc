@@ -1,0 +1,246 @@
+#include "firmware/records/log_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "firmware/records/hand_log.h"
+#include "firmware/records/run_records.h"
+#include "tests/support/folder_test.h"
+#include "toolchain/command_line/failure.h"
+
+namespace godobject::firmware {
+namespace {
+
+class LogFileTest : public test::FolderTest {
+ protected:
+  std::string content(const std::filesystem::path& name) const {
+    std::ifstream stream(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  /// Descriptors of this process that are open on the file.
+  static std::vector<int> descriptors_on(const std::filesystem::path& file) {
+    std::vector<int> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      std::error_code gone;
+      if (std::filesystem::read_symlink(entry.path(), gone) == file)
+        found.push_back(std::atoi(entry.path().filename().c_str()));
+    }
+    return found;
+  }
+};
+
+TEST_F(LogFileTest, HoldsItsBlocksInTheirOrderAndCountsTheirRecords) {
+  LogFile file(folder_ / "new" / "a.log");
+  EXPECT_EQ(file.path(), folder_ / "new" / "a.log");
+  EXPECT_EQ(content("new/a.log"), "");
+  file.write("one\n", 1);
+  EXPECT_EQ(content("new/a.log"), "one\n") << "nothing is kept back";
+  file.write("", 0);
+  file.write("two\nthree\n", 2);
+  EXPECT_EQ(content("new/a.log"), "one\ntwo\nthree\n");
+  EXPECT_EQ(file.written(), 3u);
+  EXPECT_EQ(file.lost(), 0u);
+}
+
+/// The file of an earlier run is emptied. A file that another program empties goes on at its new end, without a hole.
+TEST_F(LogFileTest, BeginsEmptyAndGoesOnAtTheEndOfTheFile) {
+  std::ofstream(folder_ / "a.log") << "of an earlier run\n";
+  LogFile file(folder_ / "a.log");
+  EXPECT_EQ(content("a.log"), "");
+  file.write("one\n", 1);
+  std::filesystem::resize_file(folder_ / "a.log", 0);
+  file.write("two\n", 1);
+  EXPECT_EQ(content("a.log"), "two\n");
+}
+
+/// A program that the controller starts does not get the file, and the end closes it.
+TEST_F(LogFileTest, KeepsItsDescriptorToItself) {
+  {
+    const LogFile file(folder_ / "a.log");
+    const std::vector<int> open = descriptors_on(folder_ / "a.log");
+    ASSERT_EQ(open.size(), 1u);
+    EXPECT_NE(::fcntl(open[0], F_GETFD) & FD_CLOEXEC, 0);
+    EXPECT_EQ(::fcntl(open[0], F_GETFL) & O_ACCMODE, O_WRONLY);
+  }
+  EXPECT_TRUE(descriptors_on(folder_ / "a.log").empty());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a.log"));
+}
+
+TEST_F(LogFileTest, SaysWhichFileOrFolderCannotBeMade) {
+  std::filesystem::create_directory(folder_ / "a.log");
+  std::ofstream(folder_ / "file") << "x";
+  const auto refusal = [](const std::filesystem::path& file) {
+    try {
+      const LogFile log(file);
+    } catch (const command::Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(folder_ / "a.log"),
+            (folder_ / "a.log").string() + ": cannot be written (Is a directory); check the folder");
+  EXPECT_EQ(refusal(folder_ / "file" / "a.log"),
+            (folder_ / "file").string() + ": cannot make this folder (Not a directory); name another one");
+}
+
+/// A pipe whose reader goes away in the middle of a block: the part cannot be removed, so nothing follows it.
+TEST_F(LogFileTest, WritesNothingMoreBehindAPartThatItCannotRemove) {
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  int reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  LogFile file(folder_ / "pipe");
+  std::thread leaves([reader] {
+    char byte = 0;
+    while (::read(reader, &byte, 1) <= 0) std::this_thread::yield();
+    ::close(reader);
+  });
+  file.write(std::string(1 << 20, 'x'), 5);  // more than a pipe holds
+  leaves.join();
+  EXPECT_EQ(file.written(), 0u);
+  EXPECT_EQ(file.lost(), 5u);
+  reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  file.write("more\n", 1);
+  EXPECT_EQ(file.lost(), 6u);
+  std::string left;
+  char bytes[4096];
+  for (ssize_t got; (got = ::read(reader, bytes, sizeof bytes)) > 0;) left.append(bytes, static_cast<std::size_t>(got));
+  EXPECT_EQ(left.find("more"), std::string::npos);
+  ::close(reader);
+  std::signal(SIGPIPE, before);
+}
+
+/// Without a byte written there is no part: the next block finds the file as it was.
+TEST_F(LogFileTest, GoesOnAfterABlockOfWhichNothingWasWritten) {
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  int reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  LogFile file(folder_ / "pipe");
+  ::close(reader);
+  file.write("lost\n", 2);
+  EXPECT_EQ(file.lost(), 2u);
+  reader = ::open((folder_ / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  file.write("kept\n", 3);
+  EXPECT_EQ(file.lost(), 2u);
+  EXPECT_EQ(file.written(), 3u);
+  char text[16] = {};
+  EXPECT_EQ(::read(reader, text, sizeof text), 5);
+  EXPECT_STREQ(text, "kept\n");
+  ::close(reader);
+  std::signal(SIGPIPE, before);
+}
+
+TEST_F(LogFileTest, IsDrainedOnceMoreWhenItIsAskedToStop) {
+  struct Writer {
+    int drained = 0;
+    std::stop_source* stop = nullptr;
+    void drain() {
+      if (++drained == 2 && stop != nullptr) stop->request_stop();
+    }
+  };
+  std::stop_source stop;
+  Writer writer{0, &stop};
+  drain_until_stopped(writer, stop.get_token());
+  EXPECT_EQ(writer.drained, 3);
+  Writer late;
+  drain_until_stopped(late, stop.get_token());
+  EXPECT_EQ(late.drained, 1) << "what came before the stop";
+}
+
+TEST_F(LogFileTest, OfTheHandHasARowACycle) {
+  HandLog log(folder_);
+  log.write_row(1'000'000, 0.25);
+  log.write_row(2'500'000'000, -1.23456789012);
+  log.close();
+  EXPECT_EQ(content("hand.csv"), "t_s,hand_J\n0.001000,0.25\n2.500000,-1.23456789\n");
+  try {
+    HandLog(folder_ / "nowhere");
+    FAIL();
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kIo);
+    EXPECT_EQ(failure.what(), (folder_ / "nowhere" / "hand.csv").string() + ": cannot be written; check the folder");
+  }
+  std::filesystem::create_directory(folder_ / "full");
+  std::filesystem::create_symlink("/dev/full", folder_ / "full" / "hand.csv");
+  HandLog full(folder_ / "full");
+  full.write_row(0, 1.0);
+  EXPECT_THROW(full.close(), command::Failure);
+}
+
+class RunRecordsTest : public LogFileTest {
+ protected:
+  static constexpr std::uint64_t kTooMany = 5;
+  void fill() {
+    for (std::uint64_t i = 0; i < TelemetryRing::kCapacity + kTooMany; ++i) ring_->push({});
+    for (std::uint64_t i = 0; i < hal::CanLogRing::kCapacity + kTooMany + 1; ++i) bus_ring_->on_frame(0, {});
+  }
+  std::unique_ptr<TelemetryRing> ring_ = std::make_unique<TelemetryRing>();
+  std::unique_ptr<hal::CanLogRing> bus_ring_ = std::make_unique<hal::CanLogRing>();
+};
+
+TEST_F(RunRecordsTest, WritesNothingWithoutAFolder) {
+  const RunRecords records({.folder = "", .joint_count = 2, .buses = true, .bus_names = {"can0"}}, *ring_, *bus_ring_);
+  fill();
+  records.drain();
+  EXPECT_EQ(records.telemetry(), nullptr);
+  EXPECT_EQ(records.buses(), nullptr);
+  EXPECT_EQ(records.summary(), "");
+}
+
+TEST_F(RunRecordsTest, WritesTheTelemetryAloneUnlessTheBusesAreAskedFor) {
+  const RunRecords records({.folder = folder_, .joint_count = 2, .bus_names = {"can0"}}, *ring_, *bus_ring_);
+  fill();
+  records.drain();
+  EXPECT_EQ(records.buses(), nullptr);
+  EXPECT_EQ(records.summary(),
+            (folder_ / "telemetry.csv").string() + ": " + std::to_string(TelemetryRing::kCapacity) + " rows, 5 lost\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "can.log"));
+  const std::string text = content("telemetry.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), 1 + TelemetryRing::kCapacity);
+  EXPECT_NE(text.find(",q2_rad,qd1_rad_s,"), std::string::npos);
+}
+
+/// What the rings lost and what the disk did not take counts together.
+TEST_F(RunRecordsTest, CountsWhatWasLostOnTheWayAndByTheDisk) {
+  std::filesystem::create_symlink("/dev/full", folder_ / "telemetry.csv");
+  std::filesystem::create_symlink("/dev/full", folder_ / "can.log");
+  const RunRecords records({.folder = folder_, .joint_count = 2, .buses = true, .bus_names = {"can0"}}, *ring_,
+                           *bus_ring_);
+  fill();
+  records.drain();
+  ASSERT_NE(records.telemetry(), nullptr);
+  ASSERT_NE(records.buses(), nullptr);
+  EXPECT_EQ(records.summary(), (folder_ / "telemetry.csv").string() + ": 0 rows, " +
+                                   std::to_string(TelemetryRing::kCapacity + 5) + " lost\n" +
+                                   (folder_ / "can.log").string() + ": 0 frames, " +
+                                   std::to_string(hal::CanLogRing::kCapacity + 6) + " lost\n");
+}
+
+TEST_F(RunRecordsTest, DrainsBothRings) {
+  const RunRecords records({.folder = folder_, .joint_count = 1, .buses = true, .bus_names = {"can0"}}, *ring_,
+                           *bus_ring_);
+  ring_->push({});
+  bus_ring_->on_frame(0, {});
+  records.drain();
+  EXPECT_EQ(records.summary(), (folder_ / "telemetry.csv").string() + ": 1 rows, 0 lost\n" +
+                                   (folder_ / "can.log").string() + ": 1 frames, 0 lost\n");
+}
+
+}  // namespace
+}  // namespace godobject::firmware
