@@ -181,6 +181,7 @@ TEST(Voxelmap, ReproducesALinearFieldToItsQuantum) {
       still_body([&](const Vector3& p) { return slope.dot(p) - 0.003; }, Vector3::Constant(0.02), 0.0017, 0.017);
   const test::SceneImage image = test::build_scene_image(description);
   const Voxelmap map = test::open_scene(image).voxelmap;
+  const double quantum = quantum_of(image);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> anywhere(-0.008, 0.008);
   for (int i = 0; i < 10000; ++i) {
@@ -188,7 +189,6 @@ TEST(Voxelmap, ReproducesALinearFieldToItsQuantum) {
     const FieldSample sample = map.sample(p);
     ASSERT_TRUE(sample.known);
     // each node is off by half a quantum at most; a gradient uses two nodes a voxel apart along each axis
-    const double quantum = quantum_of(image);
     ASSERT_NEAR(sample.distance, slope.dot(p) - 0.003, 0.5 * quantum + 1e-9) << p.transpose();
     ASSERT_LT((sample.gradient - slope).norm(), 1.7321 * quantum / 0.0017) << p.transpose();
     ASSERT_LT(quantum, 1e-3 * map.voxel_size());
@@ -315,7 +315,10 @@ constexpr unsigned kCoarseFrom = 11;
 class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
  protected:
   VoxelmapOfRandomShapes()
-      : shapes_(GetParam()), image_(image_of(GetParam(), *this)), map_(test::open_scene(image_).voxelmap) {}
+      : shapes_(GetParam()),
+        image_(image_of(GetParam(), *this)),
+        scene_(test::open_scene(image_)),
+        map_(scene_.voxelmap) {}
 
   /// Returns the image of a seed; it is built once.
   static const test::SceneImage& image_of(unsigned seed, const VoxelmapOfRandomShapes& fixture) {
@@ -343,7 +346,7 @@ class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
     return description;
   }
 
-  double steepest() const { return test::open_scene(image_).grid.lipschitz_seam * (1.0 + 1e-6); }
+  double steepest() const { return scene_.grid.lipschitz_seam * (1.0 + 1e-6); }
 
   Vector3 random_point(double reach) {
     return reach * Vector3(shapes_.uniform(), shapes_.uniform(), shapes_.uniform());
@@ -351,6 +354,7 @@ class VoxelmapOfRandomShapes : public ::testing::TestWithParam<unsigned> {
 
   RandomShapes shapes_;
   const test::SceneImage& image_;
+  SceneView scene_;
   Voxelmap map_;
 };
 

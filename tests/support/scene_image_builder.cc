@@ -415,42 +415,37 @@ std::vector<float> by_axis(const std::vector<Vector3>& vectors, const std::vecto
   return values;
 }
 
-struct Part {
-  SectionId id;
-  std::vector<std::byte> bytes;
-};
-
 template <class T>
-Part part(SectionId id, std::span<const T> items) {
+ImageSection section(SectionId id, std::span<const T> items) {
   const auto bytes = std::as_bytes(items);
   return {id, {bytes.begin(), bytes.end()}};
 }
 
-SceneImage assemble(const std::vector<Part>& parts) {
+}  // namespace
+
+SceneImage assemble_image(const std::vector<ImageSection>& sections) {
   format::Header header{};
   std::memcpy(header.magic, format::kMagic, sizeof(header.magic));
   header.byte_order = format::kByteOrder;
   header.version = format::kVersion;
-  header.section_count = static_cast<std::uint32_t>(parts.size());
-  header.header_bytes = static_cast<std::uint32_t>(padded(sizeof(header) + parts.size() * sizeof(format::Section)));
+  header.section_count = static_cast<std::uint32_t>(sections.size());
+  header.header_bytes = static_cast<std::uint32_t>(padded(sizeof(header) + sections.size() * sizeof(format::Section)));
   header.total_bytes = header.header_bytes;
-  for (const Part& part : parts) header.total_bytes += padded(part.bytes.size());
+  for (const ImageSection& section : sections) header.total_bytes += padded(section.bytes.size());
 
   SceneImage image(header.total_bytes);
   std::byte* const begin = image.bytes().data();
   std::memcpy(begin, &header, sizeof(header));
   std::uint64_t offset = header.header_bytes;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const format::Section section{parts[i].id, 0, offset, parts[i].bytes.size(), 0};
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const format::Section section{sections[i].id, 0, offset, sections[i].bytes.size(), 0};
     std::memcpy(begin + sizeof(header) + i * sizeof(section), &section, sizeof(section));
-    std::copy(parts[i].bytes.begin(), parts[i].bytes.end(), begin + offset);
+    std::copy(sections[i].bytes.begin(), sections[i].bytes.end(), begin + offset);
     offset += padded(section.bytes);
   }
   seal(image);
   return image;
 }
-
-}  // namespace
 
 SceneImage build_scene_image(const SceneDescription& description) {
   if (!description.distance) throw std::invalid_argument("SceneDescription::distance is empty: give a function");
@@ -463,25 +458,25 @@ SceneImage build_scene_image(const SceneDescription& description) {
   const format::Settings settings = complete_settings(description);
   const std::vector<float> points = by_axis(description.points, stored.order);
 
-  std::vector<Part> parts;
-  parts.push_back(part(SectionId::kSettings, std::span(&settings, 1)));
-  if (description.workspace) parts.push_back(part(SectionId::kWorkspace, std::span(&*description.workspace, 1)));
-  parts.push_back(part(SectionId::kGrid, std::span(&field.grid, 1)));
-  parts.push_back(part(SectionId::kBrickIndex, std::span(field.index)));
+  std::vector<ImageSection> sections;
+  sections.push_back(section(SectionId::kSettings, std::span(&settings, 1)));
+  if (description.workspace) sections.push_back(section(SectionId::kWorkspace, std::span(&*description.workspace, 1)));
+  sections.push_back(section(SectionId::kGrid, std::span(&field.grid, 1)));
+  sections.push_back(section(SectionId::kBrickIndex, std::span(field.index)));
   const std::vector<format::Brick> bricks = rounded_bricks(description, field);
-  parts.push_back(part(SectionId::kBricks, std::span(bricks)));
-  if (!field.refined.empty()) parts.push_back(part(SectionId::kRefined, std::span(field.refined)));
-  if (description.edge) parts.push_back(part(SectionId::kEdges, std::span(&*description.edge, 1)));
-  parts.push_back(part(SectionId::kBody, std::span(&stored.body, 1)));
-  parts.push_back(part(SectionId::kPoints, std::span(points)));
+  sections.push_back(section(SectionId::kBricks, std::span(bricks)));
+  if (!field.refined.empty()) sections.push_back(section(SectionId::kRefined, std::span(field.refined)));
+  if (description.edge) sections.push_back(section(SectionId::kEdges, std::span(&*description.edge, 1)));
+  sections.push_back(section(SectionId::kBody, std::span(&stored.body, 1)));
+  sections.push_back(section(SectionId::kPoints, std::span(points)));
   if (!description.normals.empty()) {
     const std::vector<float> normals = by_axis(description.normals, stored.order);
-    parts.push_back(part(SectionId::kNormals, std::span(normals)));
+    sections.push_back(section(SectionId::kNormals, std::span(normals)));
   }
-  parts.push_back(part(SectionId::kNodes, std::span(stored.nodes)));
-  parts.push_back(
-      part(SectionId::kProvenance, std::span(description.provenance.data(), description.provenance.size())));
-  return assemble(parts);
+  sections.push_back(section(SectionId::kNodes, std::span(stored.nodes)));
+  sections.push_back(
+      section(SectionId::kProvenance, std::span(description.provenance.data(), description.provenance.size())));
+  return assemble_image(sections);
 }
 
 std::span<std::byte> section_bytes(SceneImage& image, SectionId id) {

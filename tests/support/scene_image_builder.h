@@ -64,6 +64,15 @@ struct SceneDescription {
 /// names the wrong member.
 SceneImage build_scene_image(const SceneDescription& description);
 
+/// A section of an image, without padding.
+struct ImageSection {
+  format::SectionId id;
+  std::vector<std::byte> bytes;
+};
+
+/// Returns the image of these sections, in this order, with checksums.
+SceneImage assemble_image(const std::vector<ImageSection>& sections);
+
 /// Returns the bytes of a section, without padding. Empty if the image lacks the section.
 std::span<std::byte> section_bytes(SceneImage& image, format::SectionId id);
 

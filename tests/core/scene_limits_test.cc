@@ -1,0 +1,460 @@
+// Every number of a scene image at its limits: accepted there, refused one step beyond.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene_view.h"
+#include "tests/support/image_parts.h"
+#include "tests/support/whole_image.h"
+
+namespace godobject {
+
+/// Prints a status in messages of GoogleTest.
+inline void PrintTo(Status status, std::ostream* out) { *out << describe(status); }
+
+namespace {
+
+using format::SectionId;
+using test::ImageParts;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargest = 1e9;   // of gains and lengths of the settings
+constexpr double kFarthest = 1e7;  // of coordinates [m]
+
+/// The bodies as one point each, at their origins: then no sphere and no radius is too small. Every double of the
+/// settings is 0 or in the middle of its range.
+ImageParts point_image() {
+  ImageParts image = test::whole_image({{Vector3::Zero()}, {Vector3::UnitX()}});
+  image.item<format::Body>(SectionId::kBody).radius = 0.01;
+  image.item<format::Features>(SectionId::kFeatures).radius = 0.01;
+  return image;
+}
+
+/// The structures of an image that limits refer to.
+struct Structures {
+  explicit Structures(ImageParts& image, bool of_body = false)
+      : settings(image.item<format::Settings>(SectionId::kSettings)),
+        body(image.item<format::Body>(SectionId::kBody)),
+        workspace(image.item<format::Workspace>(SectionId::kWorkspace)),
+        features(image.item<format::Features>(SectionId::kFeatures)),
+        grid(image.item<format::Grid>(of_body ? SectionId::kBodyGrid : SectionId::kGrid)),
+        edge(image.item<format::Edge>(of_body ? SectionId::kBodyEdges : SectionId::kEdges)),
+        node(image.item<format::Node>(of_body ? SectionId::kFeatureNodes : SectionId::kNodes)) {}
+
+  /// Shrinks the surface's box to a point and the safety distance to its least, so that they fit into any grid.
+  void shrink() {
+    settings.safety_distance = 1e-12;
+    for (int axis = 0; axis < 3; ++axis) grid.surface_min[axis] = grid.surface_max[axis] = grid.origin[axis];
+  }
+  /// Makes the grid so large that it holds every accepted length of the settings.
+  void grow() {
+    grid.voxel_size = 1e6;
+    grid.band = 1e12;
+  }
+
+  format::Settings& settings;
+  format::Body& body;
+  format::Workspace& workspace;
+  format::Features& features;
+  format::Grid& grid;
+  format::Edge& edge;
+  format::Node& node;
+};
+
+/// A number with its range.
+struct Limits {
+  std::string name;
+  std::function<void(Structures& s, double value)> set;
+  double low, high;
+};
+
+#define LIMITS(LOW, HIGH, SET) \
+  Limits { #SET, [=](Structures & s, double v) { SET; }, LOW, HIGH }
+
+Status status_of(const ImageParts& image) {
+  const test::SceneImage bytes = image.assemble();
+  SceneView scene;
+  return SceneView::open(bytes.bytes(), scene);
+}
+
+void expect_limits(const ImageParts& valid, const std::vector<Limits>& table, bool of_body = false) {
+  ASSERT_EQ(status_of(valid), Status::kOk);
+  const auto status_at = [&](const Limits& limits, double value) {
+    ImageParts image = valid;
+    Structures structures(image, of_body);
+    limits.set(structures, value);
+    return status_of(image);
+  };
+  for (const Limits& limits : table) {
+    SCOPED_TRACE(limits.name);
+    EXPECT_EQ(status_at(limits, limits.low), Status::kOk) << "at " << limits.low;
+    EXPECT_EQ(status_at(limits, limits.high), Status::kOk) << "at " << limits.high;
+    EXPECT_EQ(status_at(limits, std::nextafter(limits.low, -kInfinity)), Status::kImageValue) << "below " << limits.low;
+    EXPECT_EQ(status_at(limits, std::nextafter(limits.high, kInfinity)), Status::kImageValue) << "above " << limits.high;
+    for (const double value : {kNaN, kInfinity, -kInfinity}) EXPECT_EQ(status_at(limits, value), Status::kImageValue) << value;
+  }
+}
+
+TEST(SceneLimits, OfTheSettingsHoldToTheLastBit) {
+  expect_limits(point_image(), {
+      LIMITS(1e-12, kLargest, s.grow(); s.settings.safety_distance = v),
+      LIMITS(1e-12, kLargest, s.settings.margin = v),
+      LIMITS(1e-12, kLargest, s.settings.stiffness = v),
+      LIMITS(0.0, kLargest, s.settings.damping = v),
+      LIMITS(1e-12, kLargest, s.settings.coupling_translation = v),
+      LIMITS(1e-18, kLargest, s.settings.coupling_rotation = v),
+      LIMITS(0.0, 10.0, s.settings.friction_static = v),
+      LIMITS(0.0, 3.0, s.settings.friction_static = 3.0; s.settings.friction_kinetic = v),
+      LIMITS(0.25, 10.0, s.settings.friction_kinetic = 0.25; s.settings.friction_static = v),
+      LIMITS(0.0, kLargest, s.settings.friction_viscous = v),
+      LIMITS(0.0, 10.0, s.settings.paper_rotation_static = v),
+      LIMITS(0.0, 3.0, s.settings.paper_rotation_static = 3.0; s.settings.paper_rotation_kinetic = v),
+      LIMITS(0.25, 10.0, s.settings.paper_rotation_kinetic = 0.25; s.settings.paper_rotation_static = v),
+      LIMITS(0.0, 10.0, s.settings.paper_viscous = v),
+  });
+}
+
+/// Contacts begin at the safety distance: there the field must be known.
+TEST(SceneLimits, OfTheSafetyDistanceIsTheBand) {
+  expect_limits(point_image(), {LIMITS(1e-12, 0.0125, s.grid.band = 0.0125; s.settings.safety_distance = v)});
+}
+
+std::vector<Limits> grid_limits() {
+  const double steepest = 2.0 + 2.0 * 8.0 * 0.01 * 16.0;  // a brick's slope and the rounding of the coarsest nodes
+  std::vector<Limits> table = {
+      LIMITS(1e-9, 1e6, s.shrink(); s.grid.voxel_size = v; s.grid.band = 2.0 * v; s.grid.quantum = std::min(1e-3, 1e-2 * v)),
+      LIMITS(0.03125, 0.03125 * 1e6, s.settings.safety_distance = 1e-3; s.grid.voxel_size = 0.03125; s.grid.band = v),
+      LIMITS(0.0, steepest, s.grid.lipschitz_seam = 1e6; s.grid.lipschitz = v),
+      LIMITS(0.75, 1e6, s.grid.lipschitz = 0.75; s.grid.lipschitz_seam = v),
+      LIMITS(1.0, 1e6, s.grid.clearance_slope = v),
+      LIMITS(0.0, kFarthest, s.grid.outside_loss = v),
+      LIMITS(1e-15, 0.03125 * 1e-2, s.grid.voxel_size = 0.03125; s.grid.band = 1.0; s.grid.quantum = v),
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = -0.25;
+    const double edge = 1.0;  // of a brick: four voxels of 1/4 m
+    table.push_back(LIMITS(-kFarthest, kFarthest, s.grid.origin[axis] = v; s.shrink()));
+    table.push_back(LIMITS(low, 0.5, s.shrink(); s.grid.voxel_size = 0.25; s.grid.band = 0.25; s.grid.origin[axis] = low;
+                           s.grid.surface_max[axis] = 0.5; s.grid.surface_min[axis] = v));
+    table.push_back(LIMITS(-0.125, low + 2.0 * edge, s.shrink(); s.grid.voxel_size = 0.25; s.grid.band = 0.25;
+                           s.grid.origin[axis] = low; s.grid.surface_min[axis] = -0.125; s.grid.surface_max[axis] = v));
+  }
+  return table;
+}
+
+TEST(SceneLimits, OfTheGridHoldToTheLastBit) {
+  const ImageParts image = point_image();
+  expect_limits(image, grid_limits());
+  expect_limits(image, grid_limits(), true);
+}
+
+TEST(SceneLimits, OfAnEdgeHoldToTheLastBit) {
+  constexpr double kEnd = 1e8;
+  std::vector<Limits> table = {
+      LIMITS(-kEnd, kEnd, s.edge.offset = v),
+      LIMITS(-kEnd, kEnd, s.edge.end = kEnd; s.edge.begin = v),
+      LIMITS(-0.5, kEnd, s.edge.begin = -0.5; s.edge.end = v),
+      LIMITS(1e-12, kEnd, s.edge.ramp = v),
+      LIMITS(1e-12, kEnd, s.edge.radius = kEnd; s.edge.end_radius = v),
+      LIMITS(1e-12, 0.25, s.edge.radius = 0.25; s.edge.end_radius = v),
+      LIMITS(0.25, kEnd, s.edge.end_radius = 0.25; s.edge.radius = v),
+      LIMITS(0.0, 1.0, s.edge.slope = v),
+  };
+  for (int axis = 0; axis < 3; ++axis) table.push_back(LIMITS(-kEnd, kEnd, s.edge.point[axis] = v));
+  for (int word = 0; word < 6; ++word) table.push_back(LIMITS(0.0, 0.0, s.edge.reserved[word] = v));
+  const ImageParts image = point_image();
+  expect_limits(image, table);
+  expect_limits(image, table, true);
+}
+
+TEST(SceneLimits, OfTheBodyHoldToTheLastBit) {
+  std::vector<Limits> table = {
+      LIMITS(0.0, 2.0, s.body.inertia[1] = 2.0; s.body.inertia[2] = 3.0; s.body.inertia[0] = v),
+      LIMITS(1.0, 3.0, s.body.inertia[0] = 1.0; s.body.inertia[2] = 3.0; s.body.inertia[1] = v),
+      LIMITS(2.0, 1e12, s.body.inertia[0] = 1.0; s.body.inertia[1] = 2.0; s.body.inertia[2] = v),
+      LIMITS(0.0, 1e12, std::fill_n(s.body.inertia, 3, v)),
+      LIMITS(0.0, 1e12, s.body.inertia[1] = s.body.inertia[2] = 1e12; s.body.inertia[0] = v),
+      LIMITS(1e-12, 1e6, s.body.radius = v),
+      LIMITS(1e-12, 1e6, s.body.sphere_radius = v),
+      LIMITS(0.0, 1e18, s.body.volume = v),
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    table.push_back(LIMITS(-kFarthest, kFarthest, s.body.translation_MB[axis] = v));
+    table.push_back(LIMITS(-1e6, 1e6, s.body.sphere_radius = 1e6; s.body.sphere_center[axis] = v));
+  }
+  expect_limits(point_image(), table);
+}
+
+TEST(SceneLimits, OfWorkspaceAndFeaturesHoldToTheLastBit) {
+  std::vector<Limits> table = {LIMITS(1e-12, 1e6, s.features.radius = v)};
+  for (int axis = 0; axis < 3; ++axis) {
+    table.push_back(LIMITS(-kFarthest, 0.5, s.workspace.high[axis] = 0.5; s.workspace.low[axis] = v));
+    table.push_back(LIMITS(-kFarthest, kFarthest, s.workspace.high[axis] = kFarthest; s.workspace.low[axis] = v));
+    table.push_back(LIMITS(-0.5, kFarthest, s.workspace.low[axis] = -0.5; s.workspace.high[axis] = v));
+    table.push_back(LIMITS(-kFarthest, kFarthest, s.features.origin[axis] = v));
+  }
+  expect_limits(point_image(), table);
+}
+
+/// Returns the value one step of single precision beyond `limit`, away from 0.
+float beyond(float limit) { return std::nextafter(limit, limit < 0.0f ? -HUGE_VALF : HUGE_VALF); }
+
+TEST(SceneLimits, OfANodesSphereHoldToTheLastBit) {
+  const ImageParts valid = point_image();
+  const auto status_at = [&valid](bool of_body, auto set) {
+    ImageParts image = valid;
+    set(Structures(image, of_body).node);
+    return status_of(image);
+  };
+  for (const bool of_body : {false, true}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = [&](float center) {
+        return status_at(of_body, [=](format::Node& node) { node.radius = 1e7f, node.center[axis] = center; });
+      };
+      for (const float end : {-1e7f, 1e7f}) {
+        EXPECT_EQ(at(end), Status::kOk) << axis;
+        EXPECT_EQ(at(beyond(end)), Status::kImageValue) << axis;
+      }
+      EXPECT_EQ(at(std::numeric_limits<float>::quiet_NaN()), Status::kImageValue) << axis;
+    }
+    const auto at = [&](float radius) {
+      return status_at(of_body, [=](format::Node& node) { node.radius = radius; });
+    };
+    EXPECT_EQ(at(0.0f), Status::kOk);
+    EXPECT_EQ(at(1e7f), Status::kOk);
+    EXPECT_EQ(at(beyond(1e7f)), Status::kImageValue);
+    EXPECT_EQ(at(-1e-30f), Status::kImageValue);
+    EXPECT_EQ(at(std::numeric_limits<float>::quiet_NaN()), Status::kImageValue);
+  }
+}
+
+/// A count at its limit passes the check of values. Then the sections do not have the size that it says.
+TEST(SceneLimits, OfCountsComeBeforeTheSizesOfSections) {
+  const ImageParts valid = point_image();
+  const auto status_with = [&valid](auto set, bool of_body = false) {
+    ImageParts image = valid;
+    Structures structures(image, of_body);
+    set(structures);
+    return status_of(image);
+  };
+  for (const bool of_body : {false, true}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto bricks = [&](std::int32_t count) {
+        return status_with([=](Structures& s) { s.shrink(), s.grid.bricks[axis] = count; }, of_body);
+      };
+      EXPECT_EQ(bricks(-1), Status::kImageValue);
+      EXPECT_EQ(bricks(0), Status::kImageValue);
+      EXPECT_EQ(bricks(1), Status::kImageLayout);
+      EXPECT_EQ(bricks(2), Status::kOk);
+      EXPECT_EQ(bricks(3), Status::kImageLayout);
+      EXPECT_EQ(bricks(4096), Status::kImageLayout);
+      EXPECT_EQ(bricks(4097), Status::kImageValue);
+    }
+  }
+  const auto expect_tree = [&](std::uint32_t points, std::uint32_t nodes, std::uint32_t levels, Status expected) {
+    const auto set = [=](auto& tree) {
+      tree.point_count = points;
+      tree.node_count = nodes;
+      tree.level_count = levels;
+    };
+    SCOPED_TRACE(std::to_string(points) + " points, " + std::to_string(nodes) + " nodes, " + std::to_string(levels));
+    EXPECT_EQ(status_with([&](Structures& s) { set(s.body); }), expected);
+    EXPECT_EQ(status_with([&](Structures& s) { set(s.features); }), expected);
+  };
+  expect_tree(1, 1, 1, Status::kOk);
+  expect_tree(1, 1, 16, Status::kOk);
+  expect_tree(1, 1, 17, Status::kImageValue);
+  expect_tree(1, 1, 0, Status::kImageValue);
+  expect_tree(1, 0, 1, Status::kImageValue);
+  expect_tree(0, 0, 1, Status::kImageValue);
+  expect_tree(0, 1, 1, Status::kImageValue);
+  expect_tree(1, 2, 1, Status::kImageLayout);
+  expect_tree(1, 3, 1, Status::kImageValue);
+  expect_tree(2, 1, 1, Status::kImageLayout);
+  expect_tree(2, 4, 1, Status::kImageLayout);
+  expect_tree(2, 5, 1, Status::kImageValue);
+  expect_tree(4194304, 1, 1, Status::kImageLayout);
+  expect_tree(4194305, 1, 1, Status::kImageValue);
+}
+
+TEST(SceneLimits, OfFlagsAndSolversAreChecked) {
+  const ImageParts valid = point_image();
+  const auto status_with = [&valid](auto set) {
+    ImageParts image = valid;
+    Structures structures(image);
+    set(structures);
+    return status_of(image);
+  };
+  for (std::uint32_t solvers = 0; solvers < 16; ++solvers) {
+    for (std::uint32_t chosen = 0; chosen < 5; ++chosen) {
+      const bool held = chosen < 3 && (solvers >> chosen & 1) != 0;
+      EXPECT_EQ(status_with([=](Structures& s) {
+                  s.settings.solvers = solvers;
+                  s.settings.default_solver = chosen;
+                }),
+                held && solvers < 8 ? Status::kOk : Status::kImageValue)
+          << solvers << ", default " << chosen;
+    }
+  }
+  for (const std::uint32_t flag : {0u, 1u, 2u, 0xffffffffu}) {
+    const Status expected = flag <= 1 ? Status::kOk : Status::kImageValue;
+    EXPECT_EQ(status_with([=](Structures& s) { s.settings.friction = flag; }), expected) << flag;
+    EXPECT_EQ(status_with([=](Structures& s) { s.body.inertia_from_points = flag; }), expected) << flag;
+  }
+  EXPECT_EQ(status_with([](Structures& s) { s.features.reserved = 1; }), Status::kImageValue);
+  EXPECT_EQ(status_with([](Structures& s) { s.edge.side = -1.0; }), Status::kOk);
+  for (const double side : {0.0, 0.999, 1.001, 2.0, -0.999, -1.001, -2.0, kNaN}) {
+    EXPECT_EQ(status_with([=](Structures& s) { s.edge.side = side; }), Status::kImageValue) << side;
+  }
+}
+
+TEST(SceneLimits, OfTheQuaternionsLengthAreAMillionthOfItsSquare) {
+  const ImageParts valid = point_image();
+  for (const Quaternion& q : {Quaternion(1.0, 0.0, 0.0, 0.0), Quaternion(0.5, 0.5, -0.5, 0.5), Quaternion(0.0, 0.6, 0.0, 0.8)}) {
+    for (const double excess : {-1.1e-6, -0.9e-6, 0.0, 0.9e-6, 1.1e-6}) {
+      ImageParts image = valid;
+      const double length = std::sqrt(1.0 + excess);
+      const double rotation[4] = {length * q.w(), length * q.x(), length * q.y(), length * q.z()};
+      std::copy_n(rotation, 4, Structures(image).body.rotation_MB);
+      const test::SceneImage bytes = image.assemble();
+      SceneView scene;
+      const Status status = SceneView::open(bytes.bytes(), scene);
+      EXPECT_EQ(status, std::fabs(excess) < 1e-6 ? Status::kOk : Status::kImageValue) << excess;
+      if (status != Status::kOk) continue;
+      EXPECT_NEAR(scene.H_MB.rotation.norm(), 1.0, 1e-15) << "the view has the rotation itself";
+      EXPECT_NEAR(scene.H_MB.rotation.angularDistance(q), 0.0, 1e-7);
+    }
+  }
+}
+
+/// Unit vectors of an edge in any direction: each component counts, and so does each pair.
+TEST(SceneLimits, OfAnEdgesFrameAreABillionth) {
+  const ImageParts valid = point_image();
+  const Matrix3 turns[] = {Matrix3::Identity(), exp_rotation(Vector3(0.3, -1.1, 0.7)).toRotationMatrix(),
+                           exp_rotation(Vector3(-2.0, 0.4, 1.3)).toRotationMatrix()};
+  struct Frame {
+    Vector3 along, normal[2], face[2];
+  };
+  const auto status_of_frame = [&valid](const Matrix3& turn, const Frame& frame) {
+    ImageParts image = valid;
+    format::Edge& edge = Structures(image).edge;
+    const auto store = [&turn](const Vector3& v, double* to) {
+      const Vector3 turned = turn * v;
+      std::copy_n(turned.data(), 3, to);
+    };
+    store(frame.along, edge.along);
+    for (int i = 0; i < 2; ++i) store(frame.normal[i], edge.normal[i]), store(frame.face[i], edge.face[i]);
+    return status_of(image);
+  };
+  const double a = 1.2;  // between the faces
+  const Frame exact{Vector3::UnitZ(), {Vector3::UnitX(), Vector3(std::cos(a), std::sin(a), 0.0)},
+                    {-Vector3::UnitY(), Vector3(std::sin(a), -std::cos(a), 0.0)}};
+  for (const Matrix3& turn : turns) {
+    EXPECT_EQ(status_of_frame(turn, exact), Status::kOk);
+    for (const double off : {-1.1e-9, -0.9e-9, 0.9e-9, 1.1e-9}) {
+      const Status expected = std::fabs(off) < 1e-9 ? Status::kOk : Status::kImageValue;
+      const double length = std::sqrt(1.0 + off);
+      const auto expect = [&](auto change, const char* what) {
+        Frame frame = exact;
+        change(frame);
+        EXPECT_EQ(status_of_frame(turn, frame), expected) << what << " off by " << off;
+      };
+      expect([=](Frame& f) { f.along *= length; }, "length of the direction");
+      for (int i = 0; i < 2; ++i) {
+        expect([=](Frame& f) { f.normal[i] *= length; }, "length of a normal");
+        expect([=](Frame& f) { f.face[i] *= length; }, "length of a face");
+        expect([=](Frame& f) { f.normal[i] += off * f.along; }, "normal and direction");
+        expect([=](Frame& f) { f.face[i] += off * f.along; }, "face and direction");
+        expect([=](Frame& f) { f.normal[i] += off * f.face[i]; }, "normal and face");
+      }
+    }
+  }
+}
+
+/// Sample points may leave R_max and the spheres of their nodes by the rounding of single precision, a millionth.
+TEST(SceneLimits, OfPointsAreTheirSpheres) {
+  const ImageParts valid = test::whole_image({{Vector3(0.0, 0.0, 0.5)}, {Vector3::UnitX()}});
+  const auto status_with = [&valid](auto set, bool of_body = false) {
+    ImageParts image = valid;
+    Structures structures(image, of_body);
+    structures.body.radius = structures.features.radius = structures.body.sphere_radius = 1.0;
+    set(structures);
+    return status_of(image);
+  };
+  EXPECT_EQ(status_with([](Structures&) {}), Status::kOk);
+  const double slight = 0.5 / (1.0 + 0.9e-6);
+  const double much = 0.5 / (1.0 + 1.1e-6);
+  EXPECT_EQ(status_with([=](Structures& s) { s.body.radius = slight; }), Status::kOk);
+  EXPECT_EQ(status_with([=](Structures& s) { s.body.radius = much; }), Status::kImageValue);
+  EXPECT_EQ(status_with([=](Structures& s) { s.features.radius = slight; }), Status::kOk);
+  EXPECT_EQ(status_with([=](Structures& s) { s.features.radius = much; }), Status::kImageValue);
+  // the bound on a body's displacement uses this sphere without any allowance
+  EXPECT_EQ(status_with([](Structures& s) { s.body.sphere_center[2] = 0.25, s.body.sphere_radius = 0.25; }), Status::kOk);
+  EXPECT_EQ(status_with([](Structures& s) {
+              s.body.sphere_center[2] = 0.25, s.body.sphere_radius = std::nextafter(0.25, 0.0);
+            }),
+            Status::kImageValue);
+  for (const bool of_body : {false, true}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = [&](float reach) {
+        return status_with(
+            [=](Structures& s) {
+              std::fill_n(s.node.center, 3, 0.0f);
+              s.node.center[2] = 0.5f;
+              s.node.center[axis] += 0.25f;
+              s.node.radius = reach;
+            },
+            of_body);
+      };
+      EXPECT_EQ(at(0.25f), Status::kOk);
+      EXPECT_EQ(at(static_cast<float>(0.25 / (1.0 + 0.9e-6))), Status::kOk);
+      EXPECT_EQ(at(static_cast<float>(0.25 / (1.0 + 1.1e-6))), Status::kImageValue);
+    }
+  }
+}
+
+TEST(SceneLimits, OfANormalsLengthAreAThousandth) {
+  ImageParts image = point_image();
+  const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ(), Vector3(0.48, -0.6, 0.64)};
+  for (const Vector3& direction : directions) {
+    for (const double squared : {0.9979, 0.9981, 1.0, 1.0019, 1.0021}) {
+      const Vector3 normal = std::sqrt(squared) * direction;
+      for (int axis = 0; axis < 3; ++axis) {
+        image.item<float>(SectionId::kNormals, static_cast<std::size_t>(axis)) = static_cast<float>(normal[axis]);
+      }
+      EXPECT_EQ(status_of(image), std::fabs(squared - 1.0) < 0.002 ? Status::kOk : Status::kImageValue) << squared;
+    }
+  }
+}
+
+TEST(SceneLimits, OfAFarClearanceIsAHundredThousandKilometres) {
+  const auto status_at = [](bool inside, float clearance, std::uint32_t more) {
+    ImageParts image = point_image();
+    // a grid of one position, which is far, and no brick
+    Structures s(image);
+    s.shrink();
+    std::fill_n(s.grid.bricks, 3, 1);
+    s.grid.brick_count = 0;
+    image.set<std::uint32_t>(SectionId::kBrickIndex, {format::index_entry::encode_far(inside, clearance) + more});
+    image[SectionId::kBricks].clear();
+    image[SectionId::kRefined].clear();
+    return status_of(image);
+  };
+  for (const bool inside : {false, true}) {
+    EXPECT_EQ(status_at(inside, 0.0f, 0), Status::kOk);
+    EXPECT_EQ(status_at(inside, 1e8f, 0), Status::kOk);
+    EXPECT_EQ(status_at(inside, 1e8f, 1), Status::kImageValue);
+    EXPECT_EQ(status_at(inside, HUGE_VALF, 0), Status::kImageValue);
+    EXPECT_EQ(status_at(inside, HUGE_VALF, 1), Status::kImageValue) << "NaN";
+  }
+}
+
+}  // namespace
+}  // namespace godobject

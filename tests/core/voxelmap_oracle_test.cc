@@ -1,0 +1,321 @@
+// Voxelmap against a slow reader of the format in double precision, in random maps without symmetry.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/scene/sample_bits.h"
+#include "core/scene/voxelmap.h"
+#include "tests/support/random.h"
+#include "tests/support/slow_field.h"
+
+namespace godobject {
+namespace {
+
+using test::FieldParts;
+using test::RandomField;
+using test::SlowField;
+
+/// Maps of all kinds: with and without refinements, edges and far positions, and with different numbers of positions.
+std::vector<FieldParts> random_fields(test::Random& random, double noise) {
+  std::vector<FieldParts> fields;
+  fields.push_back(test::random_field({.bricks = {1, 1, 1}, .noise = noise, .refined = false, .far = false}, random));
+  fields.push_back(test::random_field({.bricks = {3, 2, 4}, .noise = noise, .refined = false}, random));
+  fields.push_back(test::random_field({.bricks = {2, 5, 3}, .voxel_size = 0.25, .noise = noise}, random));
+  fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = noise, .edge_count = 6}, random));
+  return fields;
+}
+
+Vector3 vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+/// Returns a point in the grid or up to two voxels outside; every third is on a plane of the lattice or of a refinement.
+Vector3 any_point(const format::Grid& grid, test::Random& random, double beyond = 2.0) {
+  Vector3 voxels;
+  const bool on_plane = random.integer(0, 2) == 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    voxels[axis] = random.between(-beyond, 4.0 * grid.bricks[axis] + beyond);
+    if (on_plane && random.integer(0, 1) == 0) voxels[axis] = std::round(voxels[axis] * 32.0) / 32.0;
+  }
+  return vector(grid.origin) + grid.voxel_size * voxels;
+}
+
+constexpr double kQuanta = 1e-3;  // of single precision, with up to 3e4 quanta: less than this part of one
+
+TEST(VoxelmapOracle, AgreesAboutDistanceAndClearance) {
+  test::Random random(1);
+  for (const FieldParts& parts : random_fields(random, 0.2)) {
+    const SlowField slow(parts);
+    const Voxelmap map = parts.map();
+    int known = 0, outside = 0;
+    for (int i = 0; i < 8000; ++i) {
+      const Vector3 p = any_point(parts.grid, random);
+      const FieldSample expected = slow.sample(p);
+      const FieldSample sample = map.sample(p);
+      const double rounding = kQuanta * parts.grid.quantum;
+      ASSERT_NEAR(sample.distance, expected.distance, rounding) << p.transpose();
+      ASSERT_NEAR(sample.clearance, expected.clearance, rounding) << p.transpose();
+      if (!expected.known) {
+        ASSERT_TRUE(!sample.known || parts.grid.band - std::fabs(sample.distance) < rounding) << p.transpose();
+        ++outside;
+        continue;
+      }
+      if (parts.grid.band - std::fabs(expected.distance) < rounding) continue;
+      ++known;
+      ASSERT_TRUE(sample.known) << p.transpose();
+      if (slow.place(p).edged) continue;
+      ASSERT_LE((sample.gradient - expected.gradient).norm(), 1e-5) << p.transpose();
+    }
+    EXPECT_GT(known, 500);
+    EXPECT_GT(outside, 1000);
+  }
+}
+
+/// In a brick with an edge the gradient is that of the slow reader's differences, where these have no crease.
+TEST(VoxelmapOracle, AgreesAboutTheGradientAtAnEdge) {
+  test::Random random(2);
+  int compared = 0;
+  for (int k = 0; k < 4; ++k) {
+    const FieldParts parts = test::random_field({.bricks = {3, 4, 2}, .edge_count = 8, .refined = k > 1}, random);
+    const SlowField slow(parts);
+    const Voxelmap map = parts.map();
+    const double step = 1e-4 * parts.grid.voxel_size;
+    for (int i = 0; i < 6000; ++i) {
+      const Vector3 p = any_point(parts.grid, random, 0.0);
+      const SlowField::Place place = slow.place(p);
+      const FieldSample sample = map.sample(p);
+      if (!place.edged || !sample.known) continue;
+      const Vector3 direction = random.direction();
+      const SlowField::Place ahead = slow.place(p + step * direction);
+      const SlowField::Place behind = slow.place(p - step * direction);
+      if (ahead.brick != place.brick || behind.brick != place.brick || ahead.cell != place.cell || behind.cell != place.cell) {
+        continue;
+      }
+      const double high = slow.stored(ahead, p + step * direction);
+      const double low = slow.stored(behind, p - step * direction);
+      if (std::fabs(high - 2.0 * slow.stored(place, p) + low) > 4e-3 * step) continue;  // a crease
+      ++compared;
+      ASSERT_NEAR(sample.gradient.dot(direction), (high - low) / (2.0 * step), 5e-3) << p.transpose();
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST(VoxelmapOracle, AgreesAboutLayersAndBounds) {
+  test::Random random(3);
+  for (const FieldParts& parts : random_fields(random, 0.2)) {
+    const SlowField slow(parts);
+    const Voxelmap map = parts.map();
+    const double s = parts.grid.voxel_size;
+    int bounds = 0;
+    for (int i = 0; i < 8000; ++i) {
+      const Vector3 p = any_point(parts.grid, random, 10.0);
+      const SlowField::Place place = slow.place(p);
+      // half way between two nodes single precision decides
+      const Vector3 of_half = (place.in_position.array() - place.in_position.array().floor() - 0.5).abs();
+      if ((of_half.array() == 0.0 || of_half.array() > 1e-6).all()) {
+        const LayerSample layer = map.layer(p);
+        ASSERT_EQ(layer.layer, slow.layer(p).layer) << p.transpose();
+        ASSERT_LE((layer.to_center - slow.layer(p).to_center).norm(), 2e-7 * s) << p.transpose();
+      }
+      const double radius = i % 5 == 0 ? 0.0 : s * std::exp(random.between(-5.0, 2.0));
+      const double expected = slow.lower_bound(p, radius);
+      const double bound = map.lower_bound(p, radius);
+      const double rounding = place.stored ? 5e-4 * parts.grid.quantum : place.in_grid ? 1e-7 * s : 1e-12;
+      if (expected >= 0.0 && expected < 2.0 * rounding) continue;
+      if (expected < 0.0) {
+        ASSERT_TRUE(bound == expected || bound < rounding) << p.transpose();
+        continue;
+      }
+      ASSERT_NEAR(bound, expected, rounding) << p.transpose() << " radius " << radius;
+      ++bounds;
+    }
+    EXPECT_GT(bounds, 300);
+  }
+}
+
+TEST(VoxelmapOracle, HasTheConstantsOfItsGrid) {
+  test::Random random(4);
+  for (const FieldParts& parts : random_fields(random, 0.2)) {
+    const Voxelmap map = parts.map();
+    EXPECT_EQ(map.voxel_size(), parts.grid.voxel_size);
+    EXPECT_EQ(map.band(), parts.grid.band);
+    EXPECT_EQ(map.lipschitz(), parts.grid.clearance_slope);
+    EXPECT_DOUBLE_EQ(map.assured_clearance(), SlowField(parts).assured());
+    const Vector3 center = random.in_cube(3.0);
+    double farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vector3 p;
+      for (int axis = 0; axis < 3; ++axis) {
+        p[axis] = (corner >> axis & 1) == 0 ? parts.grid.surface_min[axis] : parts.grid.surface_max[axis];
+      }
+      farthest = std::max(farthest, (p - center).norm());
+    }
+    EXPECT_DOUBLE_EQ(map.surface_radius(center), farthest);
+  }
+}
+
+/// The kernels address index and nodes with 32 bits. A map too large for that is looked up one by one.
+TEST(VoxelmapOracle, UsesItsKernelsWhereTheirAddressesSuffice) {
+  test::Random random(5);
+  const FieldParts parts = test::random_field({}, random);
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  const auto in_batches = [&parts](std::size_t index, std::size_t bricks, std::size_t refined) {
+    return Voxelmap(parts.grid, std::span(parts.index.data(), index), std::span(parts.bricks.data(), bricks),
+                    std::span(parts.refined.data(), refined))
+        .in_batches();
+  };
+  EXPECT_TRUE(in_batches(1, 1, 0));
+  EXPECT_FALSE(in_batches(1, 0, 0)) << "without bricks there is nothing to gather from";
+  EXPECT_TRUE(in_batches(kMost - 1, 1, 0));
+  EXPECT_FALSE(in_batches(kMost, 1, 0));
+  EXPECT_TRUE(in_batches(1, kMost / 128 - 1, 0)) << "128 words a brick";
+  EXPECT_FALSE(in_batches(1, kMost / 128, 0));
+  EXPECT_TRUE(in_batches(1, 1, kMost / 9 - 1)) << "9 words a refinement";
+  EXPECT_FALSE(in_batches(1, 1, kMost / 9));
+}
+
+Pose any_pose(const format::Grid& grid, test::Random& random) {
+  return {exp_rotation(3.0 * random.direction()), vector(grid.origin) + random.in_cube(8.0 * grid.voxel_size)};
+}
+
+/// Fills the batch with points that H moves to the grid or near it.
+template <class Batch>
+void fill(Batch& batch, const format::Grid& grid, const Pose& H, test::Random& random, std::uint32_t count) {
+  batch.count = count;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vector3 p = H.inverse() * any_point(grid, random);
+    batch.x[i] = static_cast<float>(p.x());
+    batch.y[i] = static_cast<float>(p.y());
+    batch.z[i] = static_cast<float>(p.z());
+  }
+}
+template <class Batch>
+Vector3 point(const Batch& batch, std::uint32_t i) {
+  return {static_cast<double>(batch.x[i]), static_cast<double>(batch.y[i]), static_cast<double>(batch.z[i])};
+}
+
+/// Tells whether a place is near the border of its position, where rounding decides, or in the midst of it.
+bool near_border(const SlowField::Place& place) {
+  return (place.in_position.array() < 1e-4 || place.in_position.array() > 4.0 - 1e-4).any();
+}
+
+/// A batch's clearance is the exact one less a millionth of the sum of the point's coordinates and the translation's.
+/// The millionth is more than the rounding, so no clearance is too large.
+TEST(VoxelmapOracle, AgreesAboutClearancesInBatches) {
+  test::Random random(6);
+  const double noise = 0.02;  // so that the rounding of positions moves the distance by little more than itself
+  for (int k = 0; k < 3; ++k) {
+    for (const FieldParts& parts : random_fields(random, noise)) {
+      const SlowField slow(parts);
+      const Voxelmap map = parts.map();
+      for (int i = 0; i < 40; ++i) {
+        const Pose H = any_pose(parts.grid, random);
+        PointBatch batch;
+        fill(batch, parts.grid, H, random, PointBatch::kCapacity);
+        const double s = parts.grid.voxel_size;
+        const Vector3 shift = (H.translation - vector(parts.grid.origin)) / s;
+        for (const detail::ClearanceKernel& kernel : detail::clearance_kernels()) {
+          SCOPED_TRACE(kernel.name);
+          kernel.look_up(map.in_cells(H), batch.x, batch.y, batch.z, batch.clearance, batch.count);
+          for (std::uint32_t n = 0; n < batch.count; ++n) {
+            const Vector3 p = H * point(batch, n);
+            const SlowField::Place place = slow.place(p);
+            if (place.in_grid ? near_border(place) : near_border(slow.place(p.cwiseMax(vector(parts.grid.origin))))) continue;
+            const Vector3 voxels = (p - vector(parts.grid.origin)) / s;
+            const double millionth = 1e-6 * s * (voxels.cwiseAbs().sum() + shift.cwiseAbs().sum());
+            const double exact = slow.batch_clearance(p);
+            const double found = static_cast<double>(batch.clearance[n]);
+            ASSERT_LE(found, exact + 1e-7 * exact) << p.transpose();
+            ASSERT_GE(found, exact - 1.6 * millionth - 3e-6 * exact) << p.transpose();
+          }
+        }
+      }
+    }
+  }
+}
+
+/// The map chooses the widest kernel. It looks up a whole number of vectors, and leaves the batch's other points alone.
+TEST(VoxelmapOracle, LooksUpBatchesOfAnySize) {
+  test::Random random(7);
+  const FieldParts parts = test::random_field({}, random);
+  const Voxelmap map = parts.map();
+  const detail::ClearanceKernel& widest = detail::clearance_kernels().front();
+  for (std::uint32_t count = 0; count <= PointBatch::kCapacity; ++count) {
+    const Pose H = any_pose(parts.grid, random);
+    PointBatch batch;
+    fill(batch, parts.grid, H, random, PointBatch::kCapacity);
+    std::fill_n(batch.clearance, PointBatch::kCapacity, -7.0f);
+    PointBatch whole = batch;
+    widest.look_up(map.in_cells(H), whole.x, whole.y, whole.z, whole.clearance, PointBatch::kCapacity);
+    batch.count = count;
+    map.clearances(H, batch);
+    for (std::uint32_t i = 0; i < PointBatch::kCapacity; ++i) {
+      if (i < count) {
+        ASSERT_EQ(batch.clearance[i], whole.clearance[i]) << i << " of " << count;
+      } else if (i >= (count + widest.lanes - 1) / widest.lanes * widest.lanes) {
+        ASSERT_EQ(batch.clearance[i], -7.0f) << i << " of " << count;
+      }
+    }
+  }
+}
+
+TEST(VoxelmapOracle, LooksUpOneByOneWhereNothingIsStored) {
+  test::Random random(8);
+  FieldParts parts = test::random_field({.refined = false}, random);
+  parts.bricks.clear();
+  for (std::uint32_t& entry : parts.index) entry = format::index_entry::encode_far(false, 0.25f);
+  const Voxelmap map = parts.map();
+  const Pose H = any_pose(parts.grid, random);
+  PointBatch batch;
+  fill(batch, parts.grid, H, random, 21);
+  map.clearances(H, batch);
+  SampleBatch samples;
+  fill(samples, parts.grid, H, random, 21);
+  map.samples(H, samples);
+  for (std::uint32_t i = 0; i < 21; ++i) {
+    const double exact = map.sample(H * point(batch, i)).clearance;
+    EXPECT_LE(static_cast<double>(batch.clearance[i]), exact);
+    EXPECT_GE(static_cast<double>(batch.clearance[i]), exact * (1.0 - 2e-6));
+    EXPECT_EQ(stored_sample(samples, i).clearance, map.sample(stored_position(samples, i)).clearance);
+  }
+  EXPECT_EQ(map.free_chords(H, H, samples), 0u);
+}
+
+/// Every kernel gives the bits of `sample`, in maps whose axes differ, for batches of every size.
+TEST(VoxelmapOracle, GivesTheSameBitsInBatches) {
+  test::Random random(9);
+  std::vector<const detail::SampleKernel*> kernels{nullptr};
+  for (const detail::SampleKernel& kernel : detail::sample_kernels()) kernels.push_back(&kernel);
+  for (const FieldParts& parts : random_fields(random, 0.3)) {
+    const Voxelmap map = parts.map();
+    for (int i = 0; i < 192; ++i) {
+      const Pose H = i % 2 == 0 ? Pose{} : any_pose(parts.grid, random);
+      SampleBatch batch;
+      fill(batch, parts.grid, H, random, SampleBatch::kCapacity);
+      batch.count = 1 + static_cast<std::uint32_t>(i) % SampleBatch::kCapacity;
+      batch.known = ~std::uint64_t{0};
+      const SampleBatch before = batch;
+      for (const detail::SampleKernel* kernel : kernels) {
+        SCOPED_TRACE(kernel != nullptr ? kernel->name : "one by one");
+        batch = before;
+        map.samples_by(kernel, H, batch);
+        for (std::uint32_t k = 0; k < batch.count; ++k) {
+          const Vector3 p = stored_position(batch, k);
+          ASSERT_LE((p - H * point(before, k)).norm(), 1e-14);
+          const FieldSample found = stored_sample(batch, k);
+          const FieldSample single = map.sample(p);
+          ASSERT_EQ(found.known, single.known) << p.transpose();
+          ASSERT_EQ(found.distance, single.distance) << p.transpose();
+          ASSERT_EQ(found.clearance, single.clearance) << p.transpose();
+          ASSERT_EQ(found.gradient, single.gradient) << p.transpose();
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace godobject

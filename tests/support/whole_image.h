@@ -1,0 +1,65 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scene/format.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/image_parts.h"
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject::test {
+
+/// Returns a convex edge along z.
+inline format::Edge edge_along_z() {
+  format::Edge edge{};
+  edge.along[2] = edge.normal[0][0] = edge.normal[1][1] = 1.0;
+  edge.face[0][1] = edge.face[1][0] = -1.0;
+  edge.side = 1.0;
+  edge.begin = -0.01;
+  edge.end = 0.01;
+  edge.ramp = 0.002;
+  edge.radius = 0.005;
+  edge.end_radius = 0.002;
+  edge.slope = 0.5;
+  return edge;
+}
+
+/// Returns a ball of 10 mm with a refined position, an edge and a workspace. The moving body is the same ball, with the
+/// box of `points` as its sample points; feature points of the still body are these, shifted by (0.1, 0.2, 0.3) m. So
+/// the image has every section of the format.
+inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(0.01, 0.02, 0.03), 3)) {
+  using format::SectionId;
+  SceneDescription description;
+  description.distance = [](const Vector3& p) { return ball_distance(p, 0.01); };
+  description.surface_min = Vector3::Constant(-0.01);
+  description.surface_max = Vector3::Constant(0.01);
+  description.voxel_size = 0.01;
+  description.band = 0.01;
+  description.settings.safety_distance = 0.005;
+  description.points = points.points;
+  description.normals = points.normals;
+  description.level_count = points.points.size() > 4 ? 3 : 1;
+  description.refined = [](const Vector3& center, double size) { return size > 0.03 && center.maxCoeff() < 0.0; };
+  description.edge = edge_along_z();
+  description.workspace = format::Workspace{{-1.0, -2.0, -3.0}, {1.0, 2.0, -3.0}};
+  description.H_MB.rotation = Quaternion(0.5, 0.5, -0.5, 0.5);
+  description.H_MB.translation = Vector3(0.1, 0.2, 0.3);
+  description.provenance = R"({"still": "ball"})";
+  ImageParts image(build_scene_image(description));
+  const auto copy = [&image](SectionId from, SectionId to) {
+    const std::vector<std::byte> bytes = image[from];
+    image[to] = bytes;
+  };
+  copy(SectionId::kGrid, SectionId::kBodyGrid);
+  copy(SectionId::kBrickIndex, SectionId::kBodyBrickIndex);
+  copy(SectionId::kBricks, SectionId::kBodyBricks);
+  copy(SectionId::kRefined, SectionId::kBodyRefined);
+  copy(SectionId::kEdges, SectionId::kBodyEdges);
+  copy(SectionId::kPoints, SectionId::kFeaturePoints);
+  copy(SectionId::kNodes, SectionId::kFeatureNodes);
+  const auto& body = image.item<format::Body>(SectionId::kBody);
+  image.set<format::Features>(SectionId::kFeatures, {{{0.1, 0.2, 0.3}, body.radius, body.point_count, body.node_count, body.level_count, 0}});
+  return image;
+}
+
+}  // namespace godobject::test
