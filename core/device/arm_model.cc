@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/device/symmetric_eigen.h"
+
 namespace godobject {
 namespace {
 
@@ -10,27 +12,23 @@ bool is_finite(const LinkMass& body) noexcept {
 }
 
 bool is_finite(const ArmJoint& joint) noexcept {
-  const double sum = joint.a + joint.alpha + joint.d + joint.offset + joint.lower + joint.upper + joint.velocity +
-                     joint.torque + joint.rotor + joint.damping;
-  return std::isfinite(sum) && is_finite(joint.link);
+  for (const double number : {joint.a, joint.alpha, joint.d, joint.offset, joint.lower, joint.upper, joint.velocity,
+                              joint.torque, joint.rotor, joint.damping}) {
+    if (!std::isfinite(number)) return false;
+  }
+  return is_finite(joint.link);
 }
 
 bool is_unit(const Quaternion& rotation) noexcept { return std::fabs(rotation.norm() - 1.0) < 1e-6; }
 
-bool is_positive_semidefinite(const Matrix3& matrix, double tolerance) noexcept {
-  const auto minor = [&](int i, int j) { return matrix(i, i) * matrix(j, j) - matrix(i, j) * matrix(j, i); };
-  return matrix.diagonal().minCoeff() >= -tolerance && minor(0, 1) >= -tolerance * tolerance &&
-         minor(0, 2) >= -tolerance * tolerance && minor(1, 2) >= -tolerance * tolerance &&
-         matrix.determinant() >= -tolerance * tolerance * tolerance;
-}
-
 /// The second moments of the mass, trace(I)/2 - I, are positive semidefinite. This implies both conditions on I.
 bool is_inertia(const Matrix3& inertia) noexcept {
-  const double size = inertia.cwiseAbs().maxCoeff();
-  const double tolerance = 1e-6 * size;
+  const double tolerance = 1e-6 * inertia.cwiseAbs().maxCoeff();
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > tolerance) return false;
-  const Matrix3 second_moments = 0.5 * inertia.trace() * Matrix3::Identity() - inertia;
-  return is_positive_semidefinite(second_moments, tolerance);
+  const Matrix3 symmetric = 0.5 * (inertia + inertia.transpose());
+  SymmetricEigen<3> moments;
+  return symmetric_eigen<3>(symmetric, moments) &&
+         moments.values.maxCoeff() <= 0.5 * moments.values.sum() + tolerance;
 }
 
 }  // namespace

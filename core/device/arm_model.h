@@ -48,7 +48,8 @@ struct ArmModel {
 /// Checks that the numbers describe a possible arm. Every function on an ArmModel relies on this check.
 /// `kNotFinite`: a number is not finite. `kArmShape`: the joint count, or a rotation that is not of unit length (1e-6).
 /// `kArmMass`: a link without mass, a negative payload, rotor inertia or damping, or an impossible inertia tensor: it
-/// must be symmetric and positive semidefinite, with no principal moment larger than the sum of the other two.
+/// must be symmetric and positive semidefinite, with no principal moment larger than the sum of the other two, all to a
+/// millionth of its largest element.
 /// `kArmLimits`: lower limit not below the upper one, velocity or torque limit not positive.
 /// Cost: at start-up, microseconds.
 Status validate(const ArmModel& model) noexcept;

@@ -1,7 +1,5 @@
 #include "core/pipeline/cycle/workspace_limit.h"
 
-#include <algorithm>
-
 namespace godobject {
 
 DeviceForce workspace_push(const Vector3& back_W, const Vector3& velocity_W, const Parameters& parameters) noexcept {
@@ -9,11 +7,10 @@ DeviceForce workspace_push(const Vector3& back_W, const Vector3& velocity_W, con
   const double damping = parameters.damping * parameters.coupling_translation;
   DeviceForce push;
   push.spring_W.force = stiffness * back_W;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (back_W[axis] == 0.0) continue;
-    const double side = back_W[axis] > 0.0 ? 1.0 : -1.0;
-    const double size = side * push.spring_W.force[axis] - damping * side * velocity_W[axis];
-    push.total_W.force[axis] = side * std::max(0.0, size);
+  for (const int axis : {0, 1, 2}) {
+    const double spring = push.spring_W.force[axis];
+    const double damped = spring - damping * velocity_W[axis];
+    if (spring * damped > 0.0) push.total_W.force[axis] = damped;  // neither a pull nor a force along the face
   }
   return push;
 }

@@ -31,7 +31,7 @@ inline Pose clipped_to(const WorkspaceBox& box, const Pose& H0, const Pose& H1) 
   const Vector3 displacement = H1.translation - H0.translation;
   const Vector3 room = box.nearest(H1.translation) - H0.translation;
   double share = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (const int axis : {0, 1, 2}) {
     if (std::fabs(room[axis]) < share * std::fabs(displacement[axis])) share = room[axis] / displacement[axis];
   }
   Motion motion = get_motion(H0.inverse() * H1);
@@ -58,8 +58,9 @@ bool push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noex
   // the distance beyond the face, and along a pushed axis also the distance that is missing to it
   const auto beyond = [&](const Vector3& end) noexcept {
     Vector3 out = end - box.nearest(end);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (push[axis] != 0.0) out[axis] = end[axis] - (push[axis] > 0.0 ? box.high[axis] : box.low[axis]);
+    for (const int axis : {0, 1, 2}) {
+      if (push[axis] > 0.0) out[axis] = end[axis] - box.high[axis];
+      if (push[axis] < 0.0) out[axis] = end[axis] - box.low[axis];
     }
     return out;
   };
@@ -69,12 +70,12 @@ bool push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noex
     const Vector3 before = out;
     const Vector3 last = push;
     push += out.cwiseQuotient(yield);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (const int axis : {0, 1, 2}) {
       if (push[axis] * last[axis] < 0.0) push[axis] = 0.0;  // a face does not pull
     }
     out = beyond(end_of(push));
     const Vector3 step = push - last;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (const int axis : {0, 1, 2}) {
       if (step[axis] == 0.0 || out[axis] == 0.0) continue;
       yield[axis] = std::clamp((before[axis] - out[axis]) / step[axis], kLeastYield, 1.0);
     }
@@ -87,7 +88,7 @@ bool push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noex
 template <class Push>
 void push_faces(const WorkspaceBox& box, const Pose& H_WS, const Push& push) noexcept {
   const Matrix3 R_SW = H_WS.rotation.toRotationMatrix().transpose();
-  for (int axis = 0; axis < 3; ++axis) {
+  for (const int axis : {0, 1, 2}) {
     push(Vector3(R_SW.col(axis)), box.low[axis] - H_WS.translation[axis]);
     push(Vector3(-R_SW.col(axis)), H_WS.translation[axis] - box.high[axis]);
   }

@@ -1,15 +1,14 @@
 #include "core/pipeline/paper/constrained_motion.h"
 
-#include <algorithm>
-
 namespace godobject {
 
 Vector3 constrained_motion(const Vector3& unconstrained, const Vector3& u, double delta, double penetration) noexcept {
   const SplitMotion motion = split(unconstrained, u);  // (34), (35)
   const double along = unconstrained.dot(u);
-  if (along >= 0.0) return motion.perpendicular + motion.parallel;  // (37), (38), (39): away from the surface
-  if (penetration >= 0.0) return motion.perpendicular;              // (38): region A
-  return motion.perpendicular - std::min(-along, delta) * u;        // (39): region B
+  if (along >= 0.0) return unconstrained;               // (37), (38), (39): away from the surface
+  if (penetration >= 0.0) return motion.perpendicular;  // (38): region A
+  if (-along <= delta) return unconstrained;            // (39): region B, short of contact
+  return motion.perpendicular - delta * u;              // (39): as far as contact
 }
 
 Vector3 paper_friction(const Vector3& restricted, const Vector3& perpendicular, double mu_static, double mu_kinetic,

@@ -21,7 +21,7 @@ inline SplitMotion split(const Vector3& motion, const Vector3& u) noexcept {
 /// Returns the constrained part of the motion `unconstrained` [m or rad]. Step #4 of `paper` for translations or
 /// rotations alone, equations (36)-(40), (47). u: the constrained direction; `delta`: the step that would reach
 /// contact, eq (7) [m or rad]; `penetration`: p of eq (6) [m], region A if >= 0, region B otherwise. (38) treats
-/// translation and rotation separately, as printed.
+/// translation and rotation separately, as printed. A motion that is not restricted is returned to the last bit.
 Vector3 constrained_motion(const Vector3& unconstrained, const Vector3& u, double delta, double penetration) noexcept;
 
 /// Returns the motion x_fr of eq (48) by Algorithm 1: add it to the constrained motion. `restricted` is x_r,|| of eq

@@ -39,15 +39,15 @@ Status paper_cycle(const Field& field, const Pointshell& shell, const Parameters
     Motion step{constrained_motion(free.translation, u_x, c.delta.translation.norm(), c.penetration),  // #4 (36)-(39)
                 constrained_motion(free.rotation, u_r, c.delta.rotation.norm(), c.penetration)};
     if constexpr (kFriction) {
-      const SplitMotion x = split(free.translation, u_x);
-      const SplitMotion r = split(free.rotation, u_r);
+      const Vector3 x_across = split(free.translation, u_x).perpendicular;  //    (35)
+      const Vector3 r_across = split(free.rotation, u_r).perpendicular;
+      // (40): exactly zero where all of the motion is allowed; a rounding error would bring the viscous friction about
+      const Vector3 x_restricted = free.translation - step.translation;
+      const Vector3 r_restricted = free.rotation - step.rotation;
       const PaperFriction& mu = q.paper_friction;
-      const Vector3 x_restricted = x.parallel - split(step.translation, u_x).parallel;  //    (40)
-      const Vector3 r_restricted = r.parallel - split(step.rotation, u_r).parallel;
       step.translation +=
-          paper_friction(x_restricted, x.perpendicular, mu.translation_static, mu.translation_kinetic, mu.viscous);
-      step.rotation +=
-          paper_friction(r_restricted, r.perpendicular, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
+          paper_friction(x_restricted, x_across, mu.translation_static, mu.translation_kinetic, mu.viscous);
+      step.rotation += paper_friction(r_restricted, r_across, mu.rotation_static, mu.rotation_kinetic, mu.viscous);
     }                                                       //    (47), (48)
     const Pose H_WS_unfiltered = H_WSc * set_matrix(step);  //    (41), (42)
     result.H_WS = clipped_to(q.workspace, state.H_WS,
