@@ -4,13 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "tests/support/analytic_worlds.h"
+#include "tests/support/small_scenes.h"
 
 namespace godobject::test {
 namespace {
@@ -197,6 +202,131 @@ TEST(DueCalendar, GoesBackAndVisitsNothingTwice) {
   calendar.take_due(50, [&](std::uint32_t) { ++taken; });
   EXPECT_EQ(taken, 1);
 }
+
+/// All items are at most 2000 ticks ahead, so that each is in the list of its own tick.
+TEST(DueCalendar, KnowsTheNextDueTick) {
+  const SceneImage image = ball_over_plate();
+  const Pointshell& shell = open_scene(image).pointshell;
+  const auto items = static_cast<std::uint32_t>(shell.nodes.size() + shell.size);
+  std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+  DueCalendar calendar;
+  calendar.start(memory, shell);
+  EXPECT_EQ(calendar.certain(), 0u) << "the root is due at once";
+  calendar.take(0);
+  EXPECT_EQ(calendar.certain(), 2047u) << "nothing is filed: all ticks that have a list";
+  std::mt19937_64 random(5);
+  std::map<std::uint32_t, std::uint64_t> due;
+  std::uint64_t now = 0;
+  for (int step = 0; step < 5000; ++step) {
+    const std::uint64_t most = step % 3 == 0 ? 2000 : 20;
+    for (std::uint64_t k = random() % 4; k > 0; --k) {
+      const auto item = static_cast<std::uint32_t>(random() % items);
+      if (calendar.is_filed(item)) continue;
+      due[item] = now + 1 + random() % most;
+      calendar.file(item, due[item]);
+    }
+    if (!due.empty() && random() % 4 == 0) {
+      auto at = due.begin();
+      std::advance(at, static_cast<std::ptrdiff_t>(random() % due.size()));
+      calendar.take(at->first);
+      ASSERT_FALSE(calendar.is_filed(at->first));
+      due.erase(at);
+    }
+    std::uint64_t least = now + 2047;
+    for (const auto& [item, tick] : due) least = std::min(least, tick);
+    ASSERT_EQ(calendar.certain(), least) << step;
+    now += random() % 60;
+    calendar.take_due(now, [&](std::uint32_t item) {
+      ASSERT_LE(due.at(item), now);
+      due.erase(item);
+    });
+    for (const auto& [item, tick] : due) ASSERT_GT(tick, now);
+  }
+}
+
+/// A chain is last in, first out; an item is in it once, and is not filed meanwhile.
+TEST(DueCalendar, ChainsItemsOnce) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  std::uint32_t chain = DueCalendar::kNone;
+  for (const std::uint32_t item : {5u, 9u, 5u, 7u, 9u, 7u}) calendar.push(chain, item);
+  for (const std::uint32_t expected : {7u, 9u, 5u}) {
+    EXPECT_FALSE(calendar.is_filed(expected));
+    ASSERT_EQ(calendar.pop(chain), expected);
+    EXPECT_FALSE(calendar.is_filed(expected));
+  }
+  EXPECT_EQ(chain, DueCalendar::kNone);
+  calendar.push(chain, 9);
+  EXPECT_EQ(calendar.pop(chain), 9u) << "an item that left may come again";
+  calendar.file(9, 3);
+  EXPECT_TRUE(calendar.is_filed(9));
+}
+
+/// The memory may begin at any address. The calendar writes all of it at most, and nothing beside it.
+TEST(DueCalendar, WritesOnlyIntoItsMemory) {
+  constexpr std::uint32_t kGuard = 0xabad1deau;
+  const SceneImage image = ball_over_plate();
+  const Pointshell& shell = open_scene(image).pointshell;
+  const auto points = static_cast<std::uint32_t>(shell.size);
+  const auto nodes = static_cast<std::uint32_t>(shell.nodes.size());
+  const std::size_t size = DueCalendar::memory(shell);
+  for (std::size_t offset = 0; offset < 16; ++offset) {
+    std::vector<std::uint32_t> words(offset + size + 16, kGuard);
+    DueCalendar calendar;
+    calendar.start(std::span(words).subspan(offset, size), shell);
+    calendar.take(0);
+    for (std::uint32_t i = 0; i < nodes + points; ++i) calendar.file(i, 1 + i % 100);
+    for (std::uint32_t i = 0; i < points; ++i) calendar.mark(i);
+    EXPECT_EQ(calendar.marked(), points);
+    int taken = 0;
+    calendar.take_due(1000, [&](std::uint32_t) { ++taken; });
+    EXPECT_EQ(taken, static_cast<int>(nodes + points));
+    std::uint32_t next = 0;
+    calendar.for_each_marked([&](std::uint32_t point) {
+      ASSERT_EQ(point, next++);
+      calendar.unmark(point);
+    });
+    EXPECT_EQ(next, points);
+    EXPECT_EQ(calendar.marked(), 0u);
+    calendar.for_each_marked([](std::uint32_t) { FAIL() << "all are unmarked"; });
+    for (std::size_t i = 0; i < offset; ++i) ASSERT_EQ(words[i], kGuard) << "written in front of it";
+    for (std::size_t i = offset + size; i < words.size(); ++i) ASSERT_EQ(words[i], kGuard) << "written behind it";
+  }
+}
+
+/// The memory of another session does not matter.
+TEST(DueCalendar, StartsAnewWithUsedMemory) {
+  const SceneImage image = ball_over_plate();
+  const Pointshell& shell = open_scene(image).pointshell;
+  for (const std::uint32_t old : {0u, 1u, 0xfffffffeu, ~0u}) {
+    std::vector<std::uint32_t> memory(DueCalendar::memory(shell), old);
+    DueCalendar calendar;
+    calendar.start(memory, shell);
+    for (int again = 0; again < 2; ++again) {
+      EXPECT_EQ(calendar.marked(), 0u);
+      calendar.for_each_marked([](std::uint32_t) { FAIL() << "no point is marked yet"; });
+      EXPECT_EQ(calendar.parent_of(0), DueCalendar::kNone);
+      for (std::uint32_t item = 0; item < shell.nodes.size() + shell.size; ++item) {
+        ASSERT_EQ(calendar.is_filed(item), item == 0) << item;
+      }
+      int taken = 0;
+      calendar.take_due(0, [&](std::uint32_t item) {
+        EXPECT_EQ(item, 0u);
+        ++taken;
+      });
+      EXPECT_EQ(taken, 1) << "the root is due";
+      for (const std::uint32_t item : {0u, 3u, 4u}) calendar.file(item, 100 * item);
+      calendar.mark(7);
+      calendar.mark(300);
+      calendar.take_due(350, [](std::uint32_t) {});
+      calendar.start(memory, shell);
+    }
+  }
+}
+
+TEST(DueCalendar, NeedsNoMemoryForAnEmptyShell) { EXPECT_EQ(DueCalendar::memory(Pointshell{}), 0u); }
 
 }  // namespace
 }  // namespace godobject::test

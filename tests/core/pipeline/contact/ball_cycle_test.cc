@@ -1,0 +1,412 @@
+// The cycle of a ball that its centre represents: cases that can be computed by hand on a plane, in a groove and in a
+// corner, dense samples of its path, and the cycle for any body with the same one point.
+
+#include "core/pipeline/contact/ball_cycle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/pipeline/contact/contact_cycle.h"
+#include "tests/support/analytic_worlds.h"
+#include "tests/support/random.h"
+#include "tests/support/scene_image_builder.h"
+
+namespace godobject::test {
+namespace {
+
+constexpr double kHalf = 0.04;  // of the region with a surface [m]
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+using Distance = std::function<double(const Vector3&)>;
+
+/// A solid that the planes bound: where n . p < 0 for one of the normals n.
+Distance planes(const std::vector<Vector3>& normals) {
+  return [normals](const Vector3& p) {
+    double least = kInfinity;
+    for (const Vector3& n : normals) least = std::min(least, n.dot(p));
+    return least;
+  };
+}
+const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
+SceneImage image_of(const Distance& distance, double voxel_size) {
+  SceneDescription d;
+  d.distance = distance;
+  d.surface_min = Vector3::Constant(-kHalf);
+  d.surface_max = Vector3::Constant(kHalf);
+  d.voxel_size = voxel_size;
+  d.points = {Vector3::Zero()};
+  d.normals = {kZ};
+  d.inertia = {1e-4, 1e-4, 1e-4};
+  SceneImage image = build_scene_image(d);
+  section_item<format::Body>(image, format::SectionId::kBody).radius = 0.01;
+  seal(image);
+  return image;
+}
+
+const SceneImage& plane() {
+  static const SceneImage image = image_of(planes({kZ}), 0.004);
+  return image;
+}
+const SceneImage& slope() {
+  static const SceneImage image = image_of(planes({Vector3(0.6, 0.0, 0.8)}), 0.004);
+  return image;
+}
+const SceneImage& groove() {
+  static const SceneImage image = image_of(planes({(kZ + kX).normalized(), (kZ - kX).normalized()}), 0.004);
+  return image;
+}
+const SceneImage& corner() {
+  static const SceneImage image = image_of(planes({kX, kY, kZ}), 0.004);
+  return image;
+}
+
+/// A solid with thin parts, edges and a slot that the centre cannot pass.
+const SceneImage& maze() {
+  static const SceneImage image = image_of(
+      [](const Vector3& p) {
+        const double plate = analytic::box_distance(p, {0.04, 0.04, 0.0031});
+        const double wall = analytic::box_distance(p - Vector3(0.01, 0.0, 0.012), {0.0031, 0.03, 0.012});
+        const double roof = analytic::box_distance(p - Vector3(-0.01, 0.0, 0.013), {0.012, 0.02, 0.0031});
+        return std::min({plate, wall, roof});
+      },
+      0.003);
+  return image;
+}
+
+/// The centre of a ball over a still body, whose distances are those of the centre.
+class BallRun {
+ public:
+  BallRun(const SceneImage& image, const Vector3& start) : scene_(open_scene(image)) {
+    q = Parameters::make(scene_);
+    q.damping = 20.0;
+    state.H_WS.translation = start;
+    state.started = true;
+  }
+
+  Status step(const Vector3& goal, const Vector3& velocity = Vector3::Zero()) {
+    CycleInput input;
+    input.H_WD.translation = goal;
+    input.H_WD.rotation = rotation;
+    input.velocity_W.translation = velocity;
+    return ball_cycle(scene_.voxelmap, q, lengths(), input, path, state, report, nullptr);
+  }
+  ContactLengths lengths() const { return ContactLengths::make(q); }
+  const Vector3& center() const { return state.H_WS.translation; }
+  const Voxelmap& field() const { return scene_.voxelmap; }
+  double gap() const { return field().sample(center()).distance; }
+  double stiffness() const { return q.stiffness * q.coupling_translation; }
+
+  Parameters q;
+  Quaternion rotation = Quaternion::Identity();
+  ProxyState state;
+  CycleReport report;
+  SubstepPath path;
+
+ private:
+  SceneView scene_;
+};
+
+TEST(BallCycle, FollowsTheDeviceWhereNothingIsNear) {
+  BallRun run(plane(), {0.0, 0.0, 0.03});
+  run.rotation = exp_rotation({0.1, -0.2, 0.3});
+  const Vector3 goal(0.01, -0.005, 0.025);
+  ASSERT_EQ(run.step(goal, {1.0, 2.0, 3.0}), Status::kOk);
+  EXPECT_EQ(run.center(), goal);
+  EXPECT_EQ(run.state.H_WS.rotation.coeffs(), run.rotation.coeffs());
+  EXPECT_EQ(run.report.H_WS.translation, goal);
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
+  EXPECT_EQ(run.report.force.spring_W.force, Vector3::Zero());
+  EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
+  EXPECT_EQ(run.report.contacts, 0u);
+  EXPECT_EQ(run.report.substeps, 1u);
+  EXPECT_EQ(run.report.penetration, -run.lengths().shortest_search_radius);
+  ASSERT_EQ(run.path.poses().size(), 1u);
+  EXPECT_EQ(run.path.poses()[0].translation, goal);
+}
+
+/// The god object stays over the device at the margin; the spring pushes along the normal.
+TEST(BallCycle, LiesOnAPlaneAtTheMargin) {
+  BallRun run(plane(), {0.0, 0.0, 0.002});
+  const Vector3 goal(0.003, -0.001, -0.004);
+  for (int i = 0; i < 30; ++i) ASSERT_EQ(run.step(goal), Status::kOk);
+  const double tolerance = 2.0 * run.lengths().metric.tolerance;
+  EXPECT_LT((run.center() - Vector3(0.003, -0.001, run.q.margin)).norm(), tolerance);
+  EXPECT_EQ(run.report.outcome, Outcome::kContact);
+  EXPECT_EQ(run.report.contacts, 1u);
+  EXPECT_EQ(run.report.substeps, 1u);
+  EXPECT_EQ(run.report.dropped, 0u);
+  EXPECT_FALSE(run.report.unconverged);
+  EXPECT_NEAR(run.report.penetration, -run.q.margin, tolerance);
+  EXPECT_LT((run.report.force.spring_W.force - run.stiffness() * (run.center() - goal)).norm(), 1e-12);
+  EXPECT_EQ(run.report.force.spring_W.torque, Vector3::Zero());
+  EXPECT_EQ(run.report.force.total_W.force, run.report.force.spring_W.force);
+  ASSERT_EQ(run.path.poses().size(), 1u);
+  EXPECT_EQ(run.path.poses()[0].translation, run.center());
+  // and it slides along without delay
+  ASSERT_EQ(run.step(goal + Vector3(0.004, 0.002, -0.001)), Status::kOk);
+  EXPECT_LT((run.center() - Vector3(0.007, 0.001, run.q.margin)).norm(), tolerance);
+  // away from the plane it goes with the device at once
+  ASSERT_EQ(run.step(goal + Vector3(0.0, 0.0, 0.01)), Status::kOk);
+  EXPECT_LT((run.center() - (goal + Vector3(0.0, 0.0, 0.01))).norm(), 1e-15);
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
+}
+
+TEST(BallCycle, LiesInAGrooveAndInACornerAtTheMargins) {
+  BallRun in_groove(groove(), {0.0, 0.0, 0.01});
+  const Vector3 deep(0.001, 0.005, -0.006);
+  for (int i = 0; i < 30; ++i) ASSERT_EQ(in_groove.step(deep), Status::kOk);
+  const double rounding = 4e-6 * in_groove.q.voxel_size + 4.0 * in_groove.lengths().metric.tolerance;
+  EXPECT_EQ(in_groove.report.contacts, 2u);
+  EXPECT_EQ(in_groove.report.outcome, Outcome::kContact);
+  EXPECT_NEAR(in_groove.center().y(), 0.005, rounding) << "nothing holds it along the groove";
+  EXPECT_LT((in_groove.report.force.spring_W.force - in_groove.stiffness() * (in_groove.center() - deep)).norm(),
+            1e-12);
+}
+
+/// Where the field is curved, as in the corner of three planes, no place near the rest keeps the margin and is nearer
+/// to the device.
+TEST(BallCycle, RestsAtTheNearestPlaceThatKeepsTheMargin) {
+  Random random(3);
+  for (const SceneImage* image : {&corner(), &groove(), &maze()}) {
+    for (int trial = 0; trial < 6; ++trial) {
+      BallRun run(*image, {0.02, 0.02, 0.025});
+      const Vector3 goal(random.between(-0.02, 0.02), random.between(-0.02, 0.02), random.between(-0.01, 0.015));
+      for (int i = 0; i < 60; ++i) ASSERT_EQ(run.step(goal), Status::kOk);
+      const double here = (run.center() - goal).norm();
+      EXPECT_LT((run.report.force.spring_W.force - run.stiffness() * (run.center() - goal)).norm(), 1e-9);
+      EXPECT_EQ(run.report.outcome, here > 0.0 ? Outcome::kContact : Outcome::kFree);
+      for (int i = 0; i < 300; ++i) {
+        const Vector3 other = run.center() + std::pow(10.0, random.between(-6.0, -4.0)) * random.direction();
+        if (run.field().sample(other).distance < run.q.margin) continue;
+        ASSERT_GT((other - goal).norm(), here - 2e-6) << trial;
+      }
+    }
+  }
+}
+
+/// Damping takes the velocity towards the faces that carry load, never more than their load, and nothing of the motion
+/// along them.
+TEST(BallCycle, DampsTheVelocityTowardsTheFaces) {
+  const auto damping_in = [](const SceneImage& image, const Vector3& start, const Vector3& goal,
+                             const Vector3& velocity) {
+    BallRun run(image, start);
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(run.step(goal), Status::kOk);
+    EXPECT_EQ(run.step(goal, velocity), Status::kOk);
+    const Vector3 force = run.report.force.total_W.force - run.report.force.spring_W.force;
+    return Vector3(force / (run.q.damping * run.q.coupling_translation));
+  };
+  const Vector3 over(0.0, 0.0, 0.002), below(0.0, 0.0, -0.004);
+  EXPECT_LT((damping_in(plane(), over, below, {0.1, 0.2, -0.05}) - Vector3(0.0, 0.0, 0.05)).norm(), 1e-9);
+  EXPECT_LT((damping_in(plane(), over, below, {0.1, 0.2, 0.05}) - Vector3(0.0, 0.0, -0.05)).norm(), 1e-9)
+      << "the load exceeds the damping";
+  const Vector3 n(0.6, 0.0, 0.8);
+  EXPECT_LT((damping_in(slope(), {0.0, 0.0, 0.01}, -0.004 * n, {0.1, 0.2, -0.05}) + n.dot(Vector3(0.1, 0.2, -0.05)) * n)
+                .norm(),
+            1e-6);
+  // both faces of the groove carry load: nothing is left but the velocity along it
+  EXPECT_LT(
+      (damping_in(groove(), {0.0, 0.0, 0.01}, {0.0, 0.0, -0.006}, {0.01, 0.02, -0.03}) - Vector3(-0.01, 0.0, 0.03))
+          .norm(),
+      1e-3);
+  // away from the plane faster than the load: the sum is no pull
+  BallRun run(plane(), over);
+  const Vector3 just_below(0.0, 0.0, -1e-5);
+  for (int i = 0; i < 30; ++i) ASSERT_EQ(run.step(just_below), Status::kOk);
+  ASSERT_EQ(run.step(just_below, {0.0, 0.0, 10.0}), Status::kOk);
+  EXPECT_GT(run.report.force.spring_W.force.z(), 0.0);
+  EXPECT_NEAR(run.report.force.total_W.force.z(), 0.0, 1e-9);
+}
+
+TEST(BallCycle, StaysInItsWorkspaceWhoseFacesAreNoContacts) {
+  BallRun run(plane(), {0.0, 0.0, 0.002});
+  run.q.workspace = {true, {-0.01, -kInfinity, 0.0}, {0.004, kInfinity, 0.02}};
+  // the device is within the box, but the push of the plane's slope would lead out of it
+  BallRun held(slope(), {0.0, 0.0, 0.01});
+  held.q.workspace = {true, {-0.01, -kInfinity, -0.02}, {0.001, kInfinity, 0.02}};
+  const Vector3 goal(0.001, 0.002, -0.008);
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(held.step(goal), Status::kOk);
+    ASSERT_TRUE(held.q.workspace.contains(held.center()));
+    ASSERT_GT(held.gap(), 0.0);
+  }
+  // on the face x = 1 mm, at the margin of the slope: 0.6 x + 0.8 z = margin
+  const double z = (held.q.margin - 0.6 * 0.001) / 0.8;
+  EXPECT_LT((held.center() - Vector3(0.001, 0.002, z)).norm(), 1e-6);
+  EXPECT_EQ(held.report.contacts, 1u);
+  // the normal's multiplier gives only its own share of the force; the damping is along it
+  ASSERT_EQ(held.step(goal, {0.0, 0.0, -0.05}), Status::kOk);
+  const Vector3 damping = held.report.force.total_W.force - held.report.force.spring_W.force;
+  EXPECT_LT((damping - held.q.damping * 0.05 * 0.8 * Vector3(0.6, 0.0, 0.8)).norm(), 1e-6);
+
+  ASSERT_EQ(run.step({0.004, 0.001, 0.0}), Status::kOk);
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(run.step({0.004, 0.001, 0.0}), Status::kOk);
+  EXPECT_LT((run.center() - Vector3(0.004, 0.001, run.q.margin)).norm(), 1e-6);
+}
+
+TEST(BallCycle, StaysWhereANumberIsNotFinite) {
+  BallRun run(plane(), {0.0, 0.0, 0.002});
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(run.step({0.0, 0.0, -0.004}), Status::kOk);
+  const Vector3 before = run.center();
+  const CycleReport report = run.report;
+  EXPECT_EQ(run.step({0.0, std::nan(""), 0.0}), Status::kNotFinite);
+  EXPECT_EQ(run.center(), before);
+  EXPECT_EQ(run.report.contacts, report.contacts);
+  EXPECT_EQ(run.report.H_WS.translation, before);
+}
+
+// -- starts inside
+
+TEST(BallCycle, ComesOutAlongTheGradientByAShareOfTheDepth) {
+  BallRun run(plane(), {0.0, 0.0, -0.003});
+  run.state.started = false;
+  run.state.inside = true;
+  const ContactLengths lengths = run.lengths();
+  const Vector3 device = run.center();
+  for (int i = 0; i < 40 && run.center().z() <= 0.0; ++i) {
+    const double depth = -run.center().z();
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+    const double gain = std::min(0.3 * (depth + lengths.margin), lengths.largest_gain);
+    EXPECT_NEAR(run.center().z() + depth, gain, 1e-4 * gain + 2.0 * lengths.metric.tolerance) << i;
+  }
+  ASSERT_GT(run.center().z(), 0.0);
+  ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_EQ(run.report.outcome, Outcome::kContact) << "it has come out";
+  EXPECT_FALSE(run.state.inside);
+}
+
+TEST(BallCycle, FollowsTheDeviceWithoutForceWhereTheFieldEnds) {
+  BallRun run(plane(), {0.0, 0.0, -0.03});
+  run.state.started = false;
+  run.state.inside = true;
+  ASSERT_FALSE(run.field().sample(run.center()).known) << "deeper than the band";
+  for (const double z : {-0.031, -0.029}) {
+    ASSERT_EQ(run.step({0.001, 0.0, z}), Status::kOk);
+    EXPECT_EQ(run.center(), Vector3(0.001, 0.0, z));
+    EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
+    EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+    EXPECT_EQ(run.report.substeps, 1u);
+    ASSERT_EQ(run.path.poses().size(), 1u);
+    EXPECT_EQ(run.path.poses()[0].translation, run.center());
+  }
+  // out with the device: then it is free, for good
+  ASSERT_EQ(run.step({0.0, 0.0, 0.02}), Status::kOk);
+  ASSERT_EQ(run.step({0.0, 0.0, 0.02}), Status::kOk);
+  EXPECT_FALSE(run.state.inside);
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
+}
+
+// -- whatever the device does
+
+/// Along the whole path, from pose to pose, no distance is <= 0, and the pose at the end is the last of the path.
+TEST(BallCycle, LetsTheCentreThroughNothing) {
+  for (const unsigned seed : {1u, 2u}) {
+    Random random(seed);
+    BallRun run(maze(), {-0.02, 0.0, 0.025});
+    Vector3 goal = run.center();
+    Vector3 velocity = Vector3::Zero();
+    int held = 0, cut = 0, gaps_lost = 0;
+    const double least_gap = run.lengths().least_margin - run.lengths().rounding;
+    for (int cycle = 0; cycle < 400; ++cycle) {
+      if (cycle % 25 == 0) velocity = std::pow(10.0, random.between(-5.0, -2.0)) * random.direction();
+      if (cycle % 100 == 0) goal = random.in_cube(0.03);
+      goal += velocity;
+      if (goal.norm() > 0.04) velocity = -velocity.norm() * goal.normalized();
+      Vector3 from = run.center();
+      const double gap = run.gap();
+      ASSERT_EQ(run.step(goal), Status::kOk);
+      ASSERT_LE(run.path.poses().size(), static_cast<std::size_t>(kMaxSubsteps));
+      ASSERT_LE(run.report.substeps, kMaxSubsteps);
+      for (const Pose& pose : run.path.poses()) {
+        for (int i = 0; i <= 40; ++i) {
+          const Vector3 p = from + i / 40.0 * (pose.translation - from);
+          ASSERT_GT(run.field().sample(p).distance, 0.0) << "seed " << seed << " cycle " << cycle;
+        }
+        from = pose.translation;
+      }
+      ASSERT_EQ(from, run.center());
+      gaps_lost += run.gap() < std::min(gap, least_gap) ? 1 : 0;
+      const Vector3 force = run.report.force.spring_W.force;
+      ASSERT_LT((force - run.stiffness() * (run.center() - goal)).norm(), 1e-9);
+      held += run.report.outcome == Outcome::kContact ? 1 : 0;
+      cut += run.report.outcome == Outcome::kCut ? 1 : 0;
+      ASSERT_EQ(run.report.outcome == Outcome::kFree, run.center() == goal) << "it is at the device or held";
+    }
+    EXPECT_EQ(gaps_lost, 0) << "no gap shrinks below the least margin";
+    EXPECT_GT(held, 100);
+    EXPECT_LT(cut, 50) << "mostly the second look finds the way on";
+    std::printf("[ measured ] held %d cut %d\n", held, cut);
+  }
+}
+
+/// In steady contact the motion is the nearest to the device that the field's faces allow: the distance from the device
+/// never grows while the device rests.
+TEST(BallCycle, ComesNearerToADeviceThatRests) {
+  Random random(9);
+  int compared = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    BallRun run(maze(), {-0.02, 0.0, 0.025});
+    const Vector3 goal = random.in_cube(0.03);
+    double last = kInfinity;
+    for (int cycle = 0; cycle < 40; ++cycle) {
+      ASSERT_EQ(run.step(goal), Status::kOk);
+      const double here = (run.center() - goal).norm();
+      // a gap below the margin is regained by at most the margin
+      ASSERT_LE(here, last + run.q.margin) << trial;
+      last = here;
+    }
+    // at rest
+    const Vector3 before = run.center();
+    for (int cycle = 0; cycle < 10; ++cycle) ASSERT_EQ(run.step(goal), Status::kOk);
+    EXPECT_LT((run.center() - before).norm(), 1e-4);
+    ++compared;
+  }
+  EXPECT_EQ(compared, 8);
+}
+
+/// The cycle for any body gives the same motions where the body is one point at its centre.
+TEST(BallCycle, DoesAsTheCycleForAnyBodyDoes) {
+  for (const unsigned seed : {1u, 2u}) {
+    Random random(seed);
+    BallRun run(maze(), {-0.02, 0.0, 0.025});
+    const SampledBody body({{Vector3::Zero()}, {-kZ}}, Vector3::Constant(1e-4));
+    const Pointshell shell = body.pointshell();
+    Parameters q = run.q;
+    q.mass = body.mass;
+    const ContactScene<Voxelmap, NoBodyField> scene(run.field(), shell, {}, q);
+    const auto memory = std::make_unique<ContactMemory>();
+    Vector3 goal = run.center(), velocity = Vector3::Zero();
+    int compared = 0, differ = 0;
+    for (int cycle = 0; cycle < 1000; ++cycle) {
+      if (cycle % 25 == 0) velocity = std::pow(10.0, random.between(-5.0, -3.3)) * random.direction();
+      goal += velocity;
+      if (goal.norm() > 0.03) velocity = -velocity.norm() * goal.normalized();
+      ProxyState other = run.state;
+      CycleReport report;
+      memory->search.start(scene, {});
+      CycleInput input;
+      input.H_WD.translation = goal;
+      input.velocity_W.translation = velocity * 1e3;
+      ASSERT_EQ(contact_cycle<false>(scene, input, *memory, other, report), Status::kOk);
+      ASSERT_EQ(run.step(goal, velocity * 1e3), Status::kOk);
+      if (run.report.outcome != Outcome::kContact || report.outcome != Outcome::kContact) continue;
+      ++compared;
+      const bool same = (other.H_WS.translation - run.center()).norm() < 2e-6 &&
+                        (report.force.total_W.force - run.report.force.total_W.force).norm() < 0.02 &&
+                        report.contacts == run.report.contacts;
+      differ += same ? 0 : 1;
+    }
+    std::printf("[ measured ] compared %d, differ %d\n", compared, differ);
+    EXPECT_GT(compared, 60);
+    EXPECT_LE(differ, compared / 20);
+  }
+}
+
+}  // namespace
+}  // namespace godobject::test

@@ -1,0 +1,358 @@
+// The certificate against dense samples of the chords: thin plates, needles, slots and balls, in both directions of the
+// answer.
+
+#include "core/pipeline/contact/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/pipeline/contact/qp/contact_rows.h"
+#include "core/scene/sample_bits.h"
+#include "tests/support/analytic_worlds.h"
+#include "tests/support/random.h"
+
+namespace godobject::test {
+namespace {
+
+using detail::Budget;
+using detail::Certificate;
+using detail::chord_is_free;
+using detail::Obstacle;
+
+constexpr double kVoxel = 0.002;
+constexpr double kRounding = 1e-9;
+
+/// A straight wire about the z axis.
+struct Wire {
+  double radius = 5e-5;
+  double distance(const Vector3& p) const noexcept { return std::hypot(p.x(), p.y()) - radius; }
+  Vector3 gradient(const Vector3& p) const noexcept { return Vector3(p.x(), p.y(), 0.0).normalized(); }
+};
+
+/// A field that counts its look-ups. `proves`: the bits that the kernel for whole chords returns.
+template <class Shape>
+struct Counted {
+  AnalyticField<Shape> field;
+  std::uint64_t proves = 0;
+  mutable int looks = 0;
+  mutable int batches = 0;
+
+  FieldSample sample(const Vector3& p) const noexcept {
+    ++looks;
+    return field.sample(p);
+  }
+  void clearances(const Pose& H, PointBatch& batch) const noexcept { field.clearances(H, batch); }
+  void samples(const Pose& H, SampleBatch& batch) const noexcept {
+    ++batches;
+    field.samples(H, batch);
+  }
+  std::uint64_t free_chords(const Pose&, const Pose&, SampleBatch&) const noexcept { return proves; }
+  LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
+  double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
+  double lipschitz() const noexcept { return field.lipschitz(); }
+  double assured_clearance() const noexcept { return field.assured_clearance(); }
+  double voxel_size() const noexcept { return field.voxel_size(); }
+  double band() const noexcept { return field.band(); }
+};
+
+/// Returns the least distance on the chord from p0 to share p1, of 300 samples.
+template <class Shape>
+double least_on_chord(const Shape& shape, const Vector3& p0, const Vector3& p1, double share = 1.0) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 300; ++i) least = std::min(least, shape.distance(p0 + share * i / 300.0 * (p1 - p0)));
+  return least;
+}
+
+// -- one chord
+
+template <class Shape>
+void expect_chords_as_sampled(const Shape& shape, unsigned seed) {
+  Random random(seed);
+  const Counted<Shape> field{AnalyticField<Shape>(shape, kVoxel)};
+  int free = 0, blocked = 0, exhausted = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const double size = std::pow(10.0, random.between(-4.0, -1.5));
+    const Vector3 p0 = random.in_cube(size),
+                  p1 = trial % 3 == 0 ? Vector3(p0 + random.in_cube(0.1 * size)) : random.in_cube(size);
+    if (shape.distance(p0) <= 0.0) continue;
+    const double length = (p1 - p0).norm();
+    const int balls = trial % 4 == 0 ? random.integer(0, 5) : 1000;
+    Budget budget{balls};
+    Obstacle obstacle;
+    field.looks = 0;
+    const bool is_free =
+        chord_is_free(field, p0, shape.distance(p0), p1, std::max(0.0, shape.distance(p1)), budget, obstacle);
+    const int looks = balls - budget.balls;
+    ASSERT_EQ(looks, field.looks) << "the budget counts look-ups";
+    ASSERT_LE(looks, kMostBallsOfChord);
+    if (is_free) {
+      ++free;
+      ASSERT_GT(least_on_chord(shape, p0, p1), -1e-12) << trial;
+      continue;
+    }
+    ASSERT_LT(least_on_chord(shape, p0, p1), length / 40.0 + (looks == balls ? 1.0 : 0.0))
+        << "a chord with room is proved free";
+    ASSERT_GT(least_on_chord(shape, p0, p1, obstacle.share), -1e-12) << "free up to the obstacle";
+    ASSERT_GE(obstacle.share, 0.0);
+    ASSERT_LT(obstacle.share, 1.0);
+    if (obstacle.exhausted) {
+      ++exhausted;
+      ASSERT_TRUE(looks == kMostBallsOfChord || looks == balls) << trial;
+      // every ball leads on: without it the share would be that of the first ball
+      ASSERT_GE(obstacle.share * length, std::min(length, shape.distance(p0)) * (1.0 - 1e-12));
+    } else {
+      ++blocked;
+      const FieldSample there = field.field.sample(p0 + obstacle.share * (p1 - p0));
+      ASSERT_EQ(obstacle.sample.distance, there.distance) << "the sample is that at the obstacle";
+      ASSERT_LE(obstacle.sample.distance, 0.0);
+    }
+  }
+  EXPECT_GT(free, 100);
+  EXPECT_GT(blocked + exhausted, 50);
+}
+
+TEST(ChordIsFree, IsAsDenseSamplesTellOfAPlate) { expect_chords_as_sampled(Plate{1e-4}, 1); }
+TEST(ChordIsFree, IsAsDenseSamplesTellOfAWire) { expect_chords_as_sampled(Wire{}, 2); }
+TEST(ChordIsFree, IsAsDenseSamplesTellOfASlot) { expect_chords_as_sampled(Slot{1e-3}, 3); }
+TEST(ChordIsFree, IsAsDenseSamplesTellOfABall) { expect_chords_as_sampled(Ball{{1e-3, 0.0, 0.0}, 8e-4}, 4); }
+
+/// Beside a plane at the height h, each ball has the radius h: a chord of length l needs l / h - 2 of them.
+TEST(ChordIsFree, TakesAsManyBallsAsTheGapAsksFor) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  for (const double h : {0.001, 0.002, 0.005}) {
+    for (int balls = 0; balls < 8; ++balls) {
+      const double length = (balls + 1.999) * h;
+      Budget budget{10};
+      Obstacle obstacle;
+      EXPECT_TRUE(chord_is_free(field, {0.0, 0.0, h}, h, {length, 0.0, h}, h, budget, obstacle));
+      EXPECT_EQ(budget.balls, 10 - balls);
+      budget.balls = balls;
+      EXPECT_TRUE(chord_is_free(field, {0.0, 0.0, h}, h, {length, 0.0, h}, h, budget, obstacle)) << "just enough";
+      if (balls == 0) continue;
+      budget.balls = balls - 1;
+      obstacle = {};
+      EXPECT_FALSE(chord_is_free(field, {0.0, 0.0, h}, h, {length, 0.0, h}, h, budget, obstacle));
+      EXPECT_TRUE(obstacle.exhausted);
+      EXPECT_NEAR(obstacle.share, balls * h / length, 1e-12);
+      EXPECT_EQ(budget.balls, 0);
+    }
+  }
+}
+
+TEST(ChordIsFree, TakesAtMostTheBallsOfAChord) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  constexpr double kHeight = 0.001;
+  for (const int more : {0, 1}) {
+    const double length = (kMostBallsOfChord - 1 + 1.999 + more) * kHeight;
+    Budget budget{1000};
+    Obstacle obstacle;
+    EXPECT_EQ(chord_is_free(field, {0.0, 0.0, kHeight}, kHeight, {length, 0.0, kHeight}, kHeight, budget, obstacle),
+              more == 0);
+    EXPECT_EQ(budget.balls, 1000 - kMostBallsOfChord + 1 - more);
+    EXPECT_EQ(obstacle.exhausted, more == 1);
+  }
+}
+
+// -- all near points
+
+/// The near points of random points at a pose.
+template <class Shape>
+std::unique_ptr<NearPoints> near_points(const AnalyticField<Shape>& field, const std::vector<Vector3>& points,
+                                        const Pose& H) {
+  auto near = std::make_unique<NearPoints>();
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    SampleBatch batch;
+    batch.count = 1;
+    batch.x[0] = static_cast<float>(points[i].x());
+    batch.y[0] = static_cast<float>(points[i].y());
+    batch.z[0] = static_cast<float>(points[i].z());
+    field.samples(H, batch);
+    near->push(&i, batch, 1);
+  }
+  near->pad();
+  return near;
+}
+
+/// The motion of one near point between two poses.
+struct Chord {
+  Vector3 p0, p1;
+};
+Chord chord_of(const NearPoints& near, std::uint32_t k, const Pose& H0, const Pose& H1) {
+  return {H0 * near.point(k), H1 * near.point(k)};
+}
+
+template <class Shape>
+void expect_motions_as_sampled(const Shape& shape, unsigned seed) {
+  Random random(seed);
+  const Counted<Shape> field{AnalyticField<Shape>(shape, kVoxel)};
+  int held = 0, failed = 0, by_gap = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<Vector3> points(static_cast<std::size_t>(random.integer(0, trial % 5 == 0 ? 200 : 8)));
+    for (Vector3& p : points) p = random.in_cube(0.01);
+    Pose H0, H1;
+    H0.translation = random.in_cube(0.01);
+    H0.rotation = exp_rotation(random.in_cube(2.0));
+    const double step = std::pow(10.0, random.between(-4.5, -1.8));
+    H1.translation = H0.translation + step * random.in_cube(1.0);
+    H1.rotation = (exp_rotation(50.0 * step * random.in_cube(1.0)) * H0.rotation).normalized();
+    const double least_gap = random.integer(0, 2) == 0 ? 0.0 : std::pow(10.0, random.between(-5.0, -2.0));
+    const auto near = near_points(field.field, points, H0);
+    Budget budget;
+    Obstacle obstacle;
+    const bool holds = Certificate(field, H0, H1, least_gap, kRounding, *near, budget, obstacle).holds();
+    bool all_have_room = true;
+    for (std::uint32_t k = 0; k < near->count; ++k) {
+      if (near->distance[k] <= 0.0) continue;  // a point inside moves freely
+      const auto [p0, p1] = chord_of(*near, k, H0, H1);
+      const double least = least_on_chord(shape, p0, p1);
+      const double end = shape.distance(p1);
+      if (holds) {
+        ASSERT_GT(least, -1e-12) << trial << ' ' << k;
+        ASSERT_GT(end, 0.0);
+        ASSERT_GE(end + kRounding + 1e-12, std::min(near->distance[k], least_gap)) << trial << ' ' << k;
+      }
+      all_have_room &= least > (p1 - p0).norm() / 40.0 && end > std::min(near->distance[k], least_gap);
+    }
+    ASSERT_TRUE(holds || !all_have_room) << "a motion with room is accepted, trial " << trial;
+    (holds ? held : failed) += 1;
+    if (holds) continue;
+    ASSERT_LT(obstacle.near, near->count);
+    ASSERT_GT(near->distance[obstacle.near], 0.0);
+    const auto [p0, p1] = chord_of(*near, obstacle.near, H0, H1);
+    ASSERT_GT(least_on_chord(shape, p0, p1, 0.999 * obstacle.share), -1e-12);
+    if (obstacle.share == 1.0) {
+      ++by_gap;
+      ASSERT_LT(shape.distance(p1) + kRounding, std::min(near->distance[obstacle.near], least_gap) + 1e-12);
+      ASSERT_NEAR(obstacle.sample.distance, shape.distance(p1), 1e-9);
+    } else {
+      ASSERT_LT(least_on_chord(shape, p0, p1), (p1 - p0).norm() / 40.0);
+      if (!obstacle.exhausted) {
+        ASSERT_NEAR(obstacle.sample.distance, shape.distance(p0 + obstacle.share * (p1 - p0)), 1e-9);
+      }
+    }
+    // the same motion fails again at once, with the one point that failed
+    const Obstacle first = obstacle;
+    field.batches = 0;
+    ASSERT_FALSE(Certificate(field, H0, H1, least_gap, kRounding, *near, budget, obstacle).holds());
+    ASSERT_EQ(obstacle.near, first.near);
+    ASSERT_EQ(obstacle.share, first.share);
+    ASSERT_EQ(field.batches, 1);
+  }
+  EXPECT_GT(held, 40);
+  EXPECT_GT(failed, 40);
+  EXPECT_GT(by_gap, 3);
+}
+
+TEST(Certificate, HoldsAsDenseSamplesTellOfAPlate) { expect_motions_as_sampled(Plate{1e-4}, 11); }
+TEST(Certificate, HoldsAsDenseSamplesTellOfAWire) { expect_motions_as_sampled(Wire{2e-3}, 12); }
+TEST(Certificate, HoldsAsDenseSamplesTellOfASlot) { expect_motions_as_sampled(Slot{6e-3}, 13); }
+TEST(Certificate, HoldsAsDenseSamplesTellOfABall) { expect_motions_as_sampled(Ball{{0.004, 0.0, 0.0}, 0.005}, 14); }
+
+/// Any point may be the suspect: the answer is the same, since the others are tested, too.
+TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
+  Random random(15);
+  const Counted<Plate> field{AnalyticField<Plate>(Plate{1e-4}, kVoxel)};
+  int held = 0, failed = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<Vector3> points(static_cast<std::size_t>(random.integer(1, 150)));
+    for (Vector3& p : points) p = random.in_cube(0.01);
+    Pose H0, H1;
+    H0.translation.z() = 0.011;
+    // some points may pass the plate, or only one
+    H1.translation.z() = H0.translation.z() - random.between(0.0005, 0.0012);
+    const auto near = near_points(field.field, points, H0);
+    Budget budget;
+    Obstacle plain;
+    const bool holds = Certificate(field, H0, H1, 0.0, kRounding, *near, budget, plain).holds();
+    (holds ? held : failed) += 1;
+    for (const std::uint32_t suspect : {0u, near->count / 2, near->count - 1, near->count, near->count + 63}) {
+      Obstacle obstacle;
+      obstacle.near = suspect;
+      EXPECT_EQ(Certificate(field, H0, H1, 0.0, kRounding, *near, budget, obstacle).holds(), holds) << suspect;
+      if (holds) continue;
+      const auto [p0, p1] = chord_of(*near, obstacle.near, H0, H1);
+      EXPECT_LT(least_on_chord(Plate{1e-4}, p0, p1), 1e-12);
+      if (suspect >= near->count) continue;
+      const Chord of_suspect = chord_of(*near, suspect, H0, H1);
+      if (least_on_chord(Plate{1e-4}, of_suspect.p0, of_suspect.p1) < -1e-7) {
+        EXPECT_EQ(obstacle.near, suspect) << "tested first";
+      }
+    }
+  }
+  EXPECT_GT(held, 20);
+  EXPECT_GT(failed, 20);
+}
+
+TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
+  Random random(16);
+  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  std::vector<Vector3> points(200);
+  for (Vector3& p : points) p = random.in_cube(0.001) + Vector3(0.0, 0.0, 0.003);
+  const auto near = near_points(field.field, points, Pose{});
+  Pose H1;
+  H1.translation.x() = 0.0019;
+  Budget budget;
+  Obstacle obstacle;
+  EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds());
+  EXPECT_EQ(field.batches, 0);
+  EXPECT_EQ(field.looks, 0);
+  H1.translation.x() = 0.0039;  // beyond each ball, but within the balls of both ends of some chords
+  EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds());
+  EXPECT_GE(field.batches, 2);
+  EXPECT_LE(field.batches, 4) << "64 points a batch";
+}
+
+/// A chord that the field's kernel proves free needs no ball; but the gap at its end counts all the same.
+TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
+  Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const std::vector<Vector3> points = {{0.0, 0.0, 1e-4}};
+  const auto near = near_points(field.field, points, Pose{});
+  Pose along, down;
+  along.translation.x() = 0.004;  // some forty balls
+  down.translation = Vector3(0.004, 0.0, -5e-5);
+  Budget budget;
+  Obstacle obstacle;
+  EXPECT_TRUE(Certificate(field, Pose{}, along, 1e-5, kRounding, *near, budget, obstacle).holds());
+  EXPECT_GT(field.looks, 30);
+  field.looks = 0;
+  field.proves = ~std::uint64_t{0};
+  EXPECT_TRUE(Certificate(field, Pose{}, along, 1e-5, kRounding, *near, budget, obstacle).holds());
+  EXPECT_EQ(field.looks, 0);
+  EXPECT_TRUE(Certificate(field, Pose{}, down, 4.9e-5, kRounding, *near, budget, obstacle).holds());
+  EXPECT_EQ(field.looks, 0);
+  EXPECT_FALSE(Certificate(field, Pose{}, down, 5.1e-5, kRounding, *near, budget, obstacle).holds());
+  EXPECT_EQ(obstacle.near, 0u);
+  EXPECT_EQ(obstacle.share, 1.0);
+  EXPECT_NEAR(obstacle.sample.distance, 5e-5, 1e-9);
+}
+
+TEST(MotionIsFree, IsTrueWithoutNearPointsAndForgetsThatLookUpsWereUsedUp) {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const ContactLengths lengths = ContactLengths::make({});
+  const auto near = std::make_unique<NearPoints>();
+  Pose H1;
+  H1.translation.z() = -1.0;
+  Budget budget;
+  Obstacle obstacle;
+  obstacle.exhausted = true;
+  EXPECT_TRUE(detail::motion_is_free(field, Pose{}, H1, 1e-5, lengths, *near, budget, obstacle));
+  EXPECT_FALSE(obstacle.exhausted);
+  const auto one = near_points(field, {{0.0, 0.0, 0.5}}, Pose{});
+  obstacle.exhausted = true;
+  EXPECT_FALSE(detail::motion_is_free(field, Pose{}, H1, 1e-5, lengths, *one, budget, obstacle));
+  EXPECT_FALSE(obstacle.exhausted);
+  EXPECT_EQ(obstacle.near, 0u);
+  // a gap that shrinks by no more than the rounding of stored distances is kept
+  H1.translation.z() = -0.5 + 1e-5 - 0.5 * lengths.rounding;
+  EXPECT_TRUE(detail::motion_is_free(field, Pose{}, H1, 1e-5, lengths, *one, budget, obstacle));
+  H1.translation.z() = -0.5 + 1e-5 - 2.0 * lengths.rounding;
+  EXPECT_FALSE(detail::motion_is_free(field, Pose{}, H1, 1e-5, lengths, *one, budget, obstacle));
+}
+
+}  // namespace
+}  // namespace godobject::test

@@ -1,0 +1,197 @@
+// The warm start with friction, and the number of failures and additions in series of problems.
+
+#include "core/pipeline/contact/qp/friction_solver.h"
+
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/pipeline/contact/qp/contact_set.h"
+#include "tests/support/random.h"
+
+namespace godobject::test {
+namespace {
+
+using detail::ContactSet;
+
+const CouplingMetric kMetric;
+constexpr double kBody = 0.03;
+
+struct Problem {
+  std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
+  Motion wanted, last;
+  ContactFriction friction{0.5, 0.25, 0.0};
+
+  void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
+  ContactSet set() { return {*rows, wanted, kMetric, &friction, last}; }
+  void solve(ConstrainedStep& step) { least_constraint(*rows, wanted, kMetric, &friction, last, step); }
+};
+
+Vector6 six(const Motion& m) {
+  Vector6 z;
+  z << m.translation, kMetric.gyration * m.rotation;
+  return z;
+}
+
+// -- warm start
+
+/// The forces of the last step become half spaces of the same contacts; a force along a turned normal stays across it.
+TEST(GuessCone, StartsFromTheLastForce) {
+  Random random(1);
+  for (int trial = 0; trial < 100; ++trial) {
+    Problem p;
+    for (int i = 0; i < 3; ++i) p.push(random.direction(), random.in_cube(kBody), -1e-3 * i);
+    p.last = random.motion(1e-3, 0.01);
+    ContactSet set = p.set();
+    const Vector3 old_normal = (p.rows->normal(1) + 0.2 * random.in_cube(1.0)).normalized();
+    ContactForce force;
+    force.normal = old_normal;
+    force.slip = old_normal.cross(random.direction()).normalized();
+    detail::guess_cone(1, force, set);
+    detail::guess_cone(1, {.slip = -force.slip}, set);
+    detail::guess_cone(2, {}, set);
+    ASSERT_EQ(set.contact_count(), 2) << "one contact a row";
+    ASSERT_EQ(set.active().size(), 3);
+    EXPECT_EQ(set.contact(0).row, 1u);
+    EXPECT_EQ(set.contact(1).row, 2u);
+    EXPECT_EQ(p.rows->required_gain[1], -FLT_MAX);
+    const detail::Slip slip = set.slip_of(set.contact(0), p.last);
+    EXPECT_EQ(set.contact(0).shift, slip.speed) << "the shift is the slip of the last motion";
+    EXPECT_EQ(set.contact(0).ratio, slip.speed > kMetric.still ? 0.25 : 0.5);
+    const Vector3 d = set.active()[0].tag.slip;
+    EXPECT_NEAR(d.norm(), 1.0, 1e-12);
+    EXPECT_NEAR(d.dot(set.contact(0).normal), 0.0, 1e-12);
+    EXPECT_GT(d.dot(force.slip), 0.8);
+    EXPECT_LT((set.active()[1].tag.slip + d).norm(), 1e-12);
+    EXPECT_EQ(set.active()[2].tag.slip, Vector3::Zero()) << "a force without friction";
+    EXPECT_EQ(set.active()[1].tag.contact, 0);
+    EXPECT_EQ(set.active()[2].tag.contact, 1);
+    set.close_all();
+  }
+}
+
+/// A slip that points out of the new surface is of no use: the guess is the normal alone.
+TEST(GuessCone, ForgetsADirectionThatTheSurfaceHasTurnedAwayFrom) {
+  Problem p;
+  p.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
+  for (const double angle : {0.0, 0.3, 1.0, 1.1, 1.5}) {
+    ContactSet set = p.set();
+    detail::guess_cone(0, {.slip = {std::cos(angle), 0.0, std::sin(angle)}}, set);
+    const Vector3 expected = (std::cos(angle) > 0.5 ? 1.0 : 0.0) * Vector3::UnitX();
+    EXPECT_LT((set.active()[0].tag.slip - expected).norm(), 1e-12) << angle;
+    set.close_all();
+  }
+}
+
+/// Solved again from its own result, a problem needs nothing new, at rest and in motion.
+TEST(SolveWithFriction, NeedsNothingNewFromItsOwnResult) {
+  Random random(2);
+  int compared = 0, again = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Problem p;
+    const double mu = random.between(0.05, 0.6);
+    p.friction = {mu, mu, 0.0};
+    for (int i = 0; i < 4; ++i)
+      p.push(Vector3::UnitZ(), {random.between(-kBody, kBody), random.between(-kBody, kBody), -kBody}, 0.0);
+    p.wanted = {{random.between(-0.005, 0.005), random.between(-0.005, 0.005), -0.005}, 0.05 * random.in_cube(1.0)};
+    ConstrainedStep step;
+    p.solve(step);
+    if (step.unconverged || step.force_count == 0) continue;
+    ++compared;
+    p.last = step.motion;
+    ConstrainedStep warm = step;
+    p.solve(warm);
+    again += warm.iterations > 0 ? 1 : 0;
+    EXPECT_FALSE(warm.unconverged);
+    EXPECT_LT((six(warm.motion) - six(step.motion)).norm(), 5.0 * kMetric.tolerance) << trial;
+  }
+  std::printf("[ measured ] %d of %d needed an addition\n", again, compared);
+  EXPECT_GT(compared, 200);
+  EXPECT_LE(again, compared / 10);
+}
+
+// -- how often and how long
+
+struct Series {
+  const char* name;
+  int kind;      ///< 0: random points; 1: a box on three planes; 2: points in wedges
+  double ratio;  ///< mu_k
+  double viscous;
+  int unconverged;  ///< most of the 800 solutions
+  long additions;   ///< most in all
+};
+
+Problem problem_of(const Series& series, int trial, Random& random) {
+  Problem p;
+  p.friction = {1.2 * series.ratio, series.ratio, series.viscous};
+  p.wanted = random.motion(0.01, 0.2);
+  p.last = trial % 2 == 0 ? Motion{} : random.motion(0.001, 0.01);
+  const Motion hidden = random.motion(0.002, 0.05);
+  switch (series.kind) {
+    case 0:
+      for (int i = 0; i < 2 + trial % 20; ++i) {
+        const Vector3 normal = random.direction(), point = random.in_cube(kBody);
+        const double room = normal.dot(hidden.translation + hidden.rotation.cross(point));
+        p.push(normal, point, std::min(random.between(-0.002, 1e-5), room - 1e-6));
+      }
+      break;
+    case 1:
+      for (int i = 0; i < 48; ++i) {
+        const int axis = i / 16;
+        Vector3 point;
+        point[axis] = -kBody;
+        point[(axis + 1) % 3] = kBody * (2.0 * (i % 4) / 3.0 - 1.0);
+        point[(axis + 2) % 3] = kBody * (2.0 * (i % 16 / 4) / 3.0 - 1.0);
+        p.push(Vector3::Unit(axis), point, trial % 3 == 0 ? random.between(-3e-4, 0.0) : 0.0);
+      }
+      break;
+    default:
+      for (int i = 0; i < random.integer(1, 3); ++i) {
+        const Vector3 point = random.in_cube(kBody), normal = random.direction();
+        p.push(normal, point, random.between(-1e-5, 0.0));
+        p.push((0.5 * random.direction() - normal).normalized(), point, random.between(-1e-5, 0.0));
+      }
+  }
+  return p;
+}
+
+class FrictionSeries : public ::testing::TestWithParam<Series> {};
+
+/// Each part of the solver makes failures rarer and additions fewer. The limits are some percent above the measured
+/// numbers, which hardly change with the compiler.
+TEST_P(FrictionSeries, SeldomFailsAndTakesFewAdditions) {
+  Random random(50);
+  int unconverged = 0;
+  long additions = 0, warm_additions = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    Problem p = problem_of(GetParam(), trial, random);
+    ConstrainedStep step;
+    p.solve(step);
+    ASSERT_FALSE(step.infeasible);
+    unconverged += step.unconverged ? 1 : 0;
+    additions += step.iterations;
+    p.last = step.motion;
+    p.wanted.translation += 1e-4 * random.direction();
+    p.solve(step);
+    unconverged += step.unconverged ? 1 : 0;
+    warm_additions += step.iterations;
+  }
+  std::printf("[ measured ] %s: %d unconverged, %ld additions, %ld warm\n", GetParam().name, unconverged, additions,
+              warm_additions);
+  EXPECT_LE(unconverged, GetParam().unconverged);
+  EXPECT_LE(additions + warm_additions, GetParam().additions);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, FrictionSeries,
+    ::testing::Values(Series{"random, 0.2", 0, 0.2, 0.0, 4, 5500}, Series{"random, 0.6", 0, 0.6, 0.0, 27, 10380},
+                      Series{"random, viscous", 0, 0.3, 1.0, 27, 7770}, Series{"box, 0.2", 1, 0.2, 0.0, 8, 4250},
+                      Series{"box, 0.6", 1, 0.6, 0.0, 20, 9670}, Series{"wedge, 0.5", 2, 0.5, 0.0, 270, 17620},
+                      Series{"wedge, 1.5", 2, 1.5, 0.0, 144, 12190}));
+
+}  // namespace
+}  // namespace godobject::test
