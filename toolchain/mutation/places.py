@@ -266,7 +266,7 @@ class Walk:
         if self.text[start - 1:start] == '<' or self.text[end:end + 1] == '>' or not text[:1].isdigit() and text[:1] != '.':
             return
         place = self.expression(cursor)
-        suffix = re.search(r'(?i)[ul]*$|f$', text).group() if cursor.kind == KIND.INTEGER_LITERAL else \
+        suffix = re.search(r'(?i)[ul]*$', text).group() if cursor.kind == KIND.INTEGER_LITERAL else \
             ('f' if text[-1] in 'fF' and not text.startswith('0x') else '')
         try:
             if cursor.kind == KIND.INTEGER_LITERAL:
