@@ -155,16 +155,17 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
     const format::Refined* refined;
     std::size_t next_child;
   };
+  constexpr std::size_t kOctants = std::size(format::Refined{}.child);
   std::array<Open, format::kMaxRefinement> open{};
   std::size_t next = 0;
   std::size_t named = 0;
   for (const std::uint32_t position : index) {
-    if ((position & format::index_entry::kFar) != 0) continue;
     std::uint32_t entry = position;
     std::size_t depth = 0;
     while (true) {
-      const bool coarse = (entry & format::index_entry::kFar) != 0;  // valid_own_nodes has checked it
-      if (!coarse) {
+      // a position that is far, or a coarse octant: valid_clearances and valid_own_nodes have checked it
+      const bool stored = (entry & format::index_entry::kFar) == 0;
+      if (stored) {
         if ((entry & format::index_entry::kInside) != 0) return false;
         const std::uint32_t number = entry & format::index_entry::kNumber;
         if ((entry & format::index_entry::kRefined) == 0) {
@@ -178,7 +179,7 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
           open[depth++] = {&refined[next++], 0};
         }
       }
-      while (depth > 0 && open[depth - 1].next_child == std::size(open[depth - 1].refined->child)) --depth;
+      while (depth > 0 && open[depth - 1].next_child == kOctants) --depth;
       if (depth == 0) break;
       Open& parent = open[depth - 1];
       entry = parent.refined->child[parent.next_child++];
@@ -197,9 +198,10 @@ bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count)
 bool valid_edges(std::span<const format::Edge> edges) noexcept {
   constexpr double kSlack = 1e-9;  // rounding of products of unit vectors
   constexpr double kFarthest = 1e8;
-  const auto dot = [](const double(&a)[3], const double(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto unit = [&](const double(&a)[3]) { return in_range(dot(a, a), 1.0 - kSlack, 1.0 + kSlack); };
-  const auto square = [&](const double(&a)[3], const double(&b)[3]) { return in_range(dot(a, b), -kSlack, kSlack); };
+  using Row = double[3];
+  const auto dot = [](const Row& a, const Row& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto unit = [&](const Row& a) { return in_range(dot(a, a), 1.0 - kSlack, 1.0 + kSlack); };
+  const auto square = [&](const Row& a, const Row& b) { return in_range(dot(a, b), -kSlack, kSlack); };
   for (const format::Edge& edge : edges) {
     for (const double x : edge.point) {
       if (!in_range(x, -kFarthest, kFarthest)) return false;
@@ -257,7 +259,8 @@ struct TreeSize {
   double radius;
 
   bool valid() const noexcept {
-    return in_range(radius, 1e-12, 1e6) && point_count >= 1 && point_count <= format::kMaxPoints && node_count >= 1 &&
+    // with a node there is a point
+    return in_range(radius, 1e-12, 1e6) && point_count <= format::kMaxPoints && node_count >= 1 &&
            node_count <= 2 * point_count && level_count >= 1 && level_count <= format::kMaxLevels;
   }
 };
@@ -270,11 +273,10 @@ struct OpenNode {
 };
 
 /// The numbers of a node by itself, at index i and depth `depth`.
-bool valid_node(const format::Node& node, std::uint32_t i, std::uint32_t depth, std::uint32_t count) noexcept {
+bool valid_node(const format::Node& node, std::uint32_t i, std::uint32_t depth) noexcept {
   if (!(node.radius >= 0.0f && node.radius <= 1e7f) || !all_finite(node.center, 3, 1e7f)) return false;
-  if (node.level != depth || node.leaf > 1 || node.point_count == 0) return false;
-  if (node.skip <= i || node.skip > count) return false;
-  return node.leaf == (node.skip == i + 1 ? 1 : 0);
+  if (node.level != depth || node.point_count == 0) return false;
+  return node.skip > i && node.leaf == (node.skip == i + 1 ? 1 : 0);
 }
 
 /// Adds a child to its parent: it lies within the parent's subtree, and continues the parent's points.
@@ -301,12 +303,12 @@ bool valid_nodes(std::span<const format::Node> nodes, const TreeSize& size) noex
   };
   for (std::uint32_t i = 0; i < count; ++i) {
     const format::Node& node = nodes[i];
-    if (!close_parents(i) || depth >= size.level_count || !valid_node(node, i, depth, count)) return false;
-    const bool second_root = i > 0 && depth == 0;
-    if (second_root || (i > 0 && !add_child(node, open[depth - 1]))) return false;
+    if (!close_parents(i) || depth >= size.level_count || !valid_node(node, i, depth)) return false;
+    // the root's subtree ends at the last node, and a child's not after its parent's: every other node has a parent
+    if (i > 0 && !add_child(node, open[depth - 1])) return false;
     if (node.leaf == 0) open[depth++] = {node.skip, node.first_point + node.point_count, node.first_point};
   }
-  return close_parents(count) && depth == 0;
+  return close_parents(count);
 }
 
 bool valid_points(const Pointshell& shell, double radius) noexcept {

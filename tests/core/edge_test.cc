@@ -100,6 +100,21 @@ TEST(Edge, KnowsTheDistanceToAReentrantOneByHand) {
   EXPECT_TRUE(wedge_distance(edge, {0.3, 0.4, 0.0}).gradient.isApprox(Vector3(-0.6, -0.8, 0.0)));
 }
 
+/// On the faces the distance is 0, and at the edge the gradient stays finite.
+TEST(Edge, KnowsItsFacesAndItself) {
+  format::Edge edge = edge_of(0.5 * std::numbers::pi, 1.0);
+  store(-Vector3::UnitX(), edge.face[1]);  // without the rounding of pi
+  store(Vector3::UnitY(), edge.normal[1]);
+  EXPECT_EQ(wedge_distance(edge, {0.0, -0.5, 0.25}).value, 0.0);
+  EXPECT_EQ(wedge_distance(edge, {-0.5, 0.0, 0.25}).value, 0.0);
+  EXPECT_EQ(wedge_distance(edge, {0.0, 0.0, 0.25}).value, 0.0);
+  for (const double tiny : {0.0, 1e-300, 1e-200, 1e-160, 1e-20}) {
+    const ValueAndGradient g = wedge_distance(edge, {tiny, tiny, 0.25});
+    EXPECT_LE(g.value, 2.0 * tiny);
+    EXPECT_LE(g.gradient.norm(), 1.001) << tiny;  // of numbers whose squares have few digits
+  }
+}
+
 TEST(Edge, AgreesWithASlowSearchAndItsOwnDifferences) {
   test::Random random(1);
   for (int i = 0; i < 3000; ++i) {

@@ -131,7 +131,9 @@ class KernelWalk {
     }
     batch.from_clearance[lane] = chord.free_from;
     batch.clearance[lane] = chord.free_to;
-    return (map_.free_chords_by(&kernel_, H0, H1, batch) >> lane & 1) != 0;
+    const std::uint64_t free = map_.free_chords_by(&kernel_, H0, H1, batch);
+    EXPECT_EQ(map_.free_chords(H0, H1, batch) >> lane & 1, free >> lane & 1) << "the map's own choice of a kernel";
+    return (free >> lane & 1) != 0;
   }
 
  private:
@@ -269,6 +271,27 @@ TEST_F(FreeChords, NeedNoFieldWhereTheBallsMeet) {
       chord.free_to = (1.0 - share) * sum;
       for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
         ASSERT_EQ(KernelWalk(map, kernel).is_free(p_, H0_, H1_, chord, 2), excess > 1.0) << kernel.name << " " << i;
+      }
+    }
+  }
+}
+
+/// The grid's lower faces belong to it: a chord that begins there is walked.
+TEST_F(FreeChords, BeginOnTheLowerFacesOfTheGrid) {
+  FieldParts parts = test::random_field({.bricks = {1, 1, 1}, .refined = false, .far = false}, random_);
+  std::fill(std::begin(parts.bricks[0].value), std::end(parts.bricks[0].value), std::int16_t{700});
+  const Voxelmap map = parts.map();
+  const double s = parts.grid.voxel_size;
+  Pose H0;
+  H0.translation = Vector3(parts.grid.origin[0], parts.grid.origin[1], parts.grid.origin[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::uint32_t lane = 0; lane < 16; ++lane) {
+      Eigen::Vector3f p = Eigen::Vector3f::Constant(static_cast<float>(1.5 * s));
+      p[axis] = 0.0f;
+      Pose H1 = H0;
+      H1.translation += 0.5 * s * Vector3::Ones();
+      for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
+        EXPECT_TRUE(KernelWalk(map, kernel).is_free(p, H0, H1, {}, lane)) << kernel.name << " " << axis << " " << lane;
       }
     }
   }

@@ -192,6 +192,23 @@ TEST(SceneLimits, OfTheBodyHoldToTheLastBit) {
   expect_limits(point_image(), table);
 }
 
+/// The sphere's centre has a limit of its own, also where the points are far enough for it.
+TEST(SceneLimits, OfTheSpheresCentreHoldWhereverThePointsAre) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double end : {-1e6, 1e6}) {
+      ImageParts image = point_image();
+      Structures s(image);
+      image.item<float>(SectionId::kPoints, static_cast<std::size_t>(axis)) = static_cast<float>(end);
+      s.node.center[axis] = static_cast<float>(end);
+      s.body.radius = s.body.sphere_radius = 1e6;
+      s.body.sphere_center[axis] = end;
+      EXPECT_EQ(status_of(image), Status::kOk) << axis;
+      s.body.sphere_center[axis] = std::nextafter(end, 2.0 * end);
+      EXPECT_EQ(status_of(image), Status::kImageValue) << axis;
+    }
+  }
+}
+
 TEST(SceneLimits, OfWorkspaceAndFeaturesHoldToTheLastBit) {
   std::vector<Limits> table = {LIMITS(1e-12, 1e6, s.features.radius = v)};
   for (int axis = 0; axis < 3; ++axis) {
@@ -278,6 +295,7 @@ TEST(SceneLimits, OfCountsComeBeforeTheSizesOfSections) {
   expect_tree(1, 2, 1, Status::kImageLayout);
   expect_tree(1, 3, 1, Status::kImageValue);
   expect_tree(2, 1, 1, Status::kImageLayout);
+  expect_tree(2, 1, 0, Status::kImageValue);
   expect_tree(2, 4, 1, Status::kImageLayout);
   expect_tree(2, 5, 1, Status::kImageValue);
   expect_tree(4194304, 1, 1, Status::kImageLayout);
@@ -293,7 +311,7 @@ TEST(SceneLimits, OfFlagsAndSolversAreChecked) {
     return status_of(image);
   };
   for (std::uint32_t solvers = 0; solvers < 16; ++solvers) {
-    for (std::uint32_t chosen = 0; chosen < 5; ++chosen) {
+    for (const std::uint32_t chosen : {0u, 1u, 2u, 3u, 4u, 31u, 32u, 33u, 34u, 64u, 0xffffffffu}) {
       const bool held = chosen < 3 && (solvers >> chosen & 1) != 0;
       EXPECT_EQ(status_with([=](Structures& s) {
                   s.settings.solvers = solvers;
@@ -328,6 +346,7 @@ TEST(SceneLimits, OfTheQuaternionsLengthAreAMillionthOfItsSquare) {
       const Status status = SceneView::open(bytes.bytes(), scene);
       EXPECT_EQ(status, std::fabs(excess) < 1e-6 ? Status::kOk : Status::kImageValue) << excess;
       if (status != Status::kOk) continue;
+      EXPECT_TRUE(scene.has_features()) << "one point suffices";
       EXPECT_NEAR(scene.H_MB.rotation.norm(), 1.0, 1e-15) << "the view has the rotation itself";
       EXPECT_NEAR(scene.H_MB.rotation.angularDistance(q), 0.0, 1e-7);
     }

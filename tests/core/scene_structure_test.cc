@@ -136,6 +136,15 @@ TEST(SceneStructure, MayHaveSectionsThatItDoesNotKnow) {
   }
 }
 
+TEST(SceneStructure, HasEverySectionOnce) {
+  ImageParts image = test::whole_image();
+  image[id_of(21)].resize(8);
+  image[id_of(22)].resize(8);
+  EXPECT_EQ(status_of(image), Status::kOk);
+  image.rename(id_of(22), id_of(21));
+  EXPECT_EQ(status_of(image), Status::kImageLayout);
+}
+
 format::Header& header_of(SceneImage& image) { return *reinterpret_cast<format::Header*>(image.bytes().data()); }
 
 /// Writes the checksum of header and table alone.
@@ -186,6 +195,14 @@ TEST(SceneStructure, JudgesTheHeaderBeforeItUsesIt) {
     h.header_bytes = 832;
   };
   EXPECT_EQ(status_with_header(set, false), Status::kImageChecksum);
+  // a table of 24 is not read, although its first section's checksum does not hold
+  SceneImage many = test::whole_image().assemble();
+  header_of(many).section_count = 24;
+  header_of(many).header_bytes = 832;
+  reinterpret_cast<format::Section*>(many.bytes().data() + 64)->offset = 832;
+  seal_header(many, 832);
+  EXPECT_EQ(status_of(many.bytes()), Status::kImageLayout);
+  EXPECT_EQ(status_of(std::span<const std::byte>()), Status::kImageTruncated);
   // a file that ends in its table
   for (const std::uint32_t count : {1u, 2u, 3u, 4u}) {
     SceneImage image(64);
@@ -196,6 +213,38 @@ TEST(SceneStructure, JudgesTheHeaderBeforeItUsesIt) {
     header.total_bytes = 64;
     EXPECT_EQ(status_of(image.bytes()), Status::kImageTruncated) << count;
   }
+}
+
+TEST(SceneStructure, HasNoGapAfterItsTable) {
+  const SceneImage whole = test::whole_image().assemble();
+  SceneImage image(whole.bytes().size() + 64);
+  const std::size_t head = reinterpret_cast<const format::Header*>(whole.bytes().data())->header_bytes;
+  std::ranges::copy(whole.bytes().first(head), image.bytes().begin());
+  std::ranges::copy(whole.bytes().subspan(head), image.bytes().begin() + static_cast<std::ptrdiff_t>(head) + 64);
+  header_of(image).header_bytes += 64;
+  header_of(image).total_bytes += 64;
+  auto* sections = reinterpret_cast<format::Section*>(image.bytes().data() + 64);
+  for (std::size_t i = 0; i < kSectionCount; ++i) sections[i].offset += 64;
+  seal_header(image, header_of(image).header_bytes);
+  EXPECT_EQ(status_of(image.bytes()), Status::kImageLayout);
+}
+
+/// The least files: a header alone, and one with a section without bytes.
+TEST(SceneStructure, IsMoreThanAHeader) {
+  SceneImage image(128);
+  std::ranges::copy(test::whole_image().assemble().bytes().first(64), image.bytes().begin());
+  format::Header& header = header_of(image);
+  header.section_count = 0;
+  header.header_bytes = 64;
+  header.total_bytes = 64;
+  seal_header(image, 64);
+  EXPECT_EQ(status_of(image.bytes().first(64)), Status::kImageLayout);
+  header.section_count = 1;
+  header.header_bytes = 128;
+  header.total_bytes = 128;
+  *reinterpret_cast<format::Section*>(image.bytes().data() + 64) = {id_of(21), 0, 128, 0, format::kChecksumSeed};
+  seal_header(image, 128);
+  EXPECT_EQ(status_of(image.bytes()), Status::kImageLayout);
 }
 
 /// Returns the table of an image.
@@ -241,12 +290,14 @@ TEST(SceneStructure, EndsWithItsLastSection) {
   parts.leave_out(SectionId::kProvenance);
   parts[SectionId::kProvenance].resize(65);
   const SceneImage whole = parts.assemble();
-  for (const int by : {-63, -62, -1, 0, 1, 64}) {
-    SceneImage image(whole.bytes().size() + static_cast<std::size_t>(by));
-    std::ranges::copy(whole.bytes().first(std::min(whole.bytes().size(), image.bytes().size())), image.bytes().begin());
-    header_of(image).total_bytes = image.bytes().size();
-    seal_header(image, header_of(image).header_bytes);
-    EXPECT_EQ(status_of(image.bytes()), by == 0 ? Status::kOk : Status::kImageLayout) << by;
+  for (const int by : {-63, -62, -1, 0, 1, 10, 64}) {
+    const std::size_t bytes = whole.bytes().size() + static_cast<std::size_t>(by);
+    SceneImage room(whole.bytes().size() + 128);
+    std::ranges::fill(room.bytes(), std::byte{0xff});  // nothing after the end counts
+    std::ranges::copy(whole.bytes().first(std::min(whole.bytes().size(), bytes)), room.bytes().begin());
+    header_of(room).total_bytes = bytes;
+    seal_header(room, header_of(room).header_bytes);
+    EXPECT_EQ(status_of(room.bytes().first(bytes)), by == 0 ? Status::kOk : Status::kImageLayout) << by;
   }
 }
 
@@ -416,6 +467,21 @@ TEST(SceneStructure, OfATreeCountsPointsWithoutOverflow) {
     second.point_count = both - points;
     EXPECT_EQ(status_of(image), Status::kImageValue) << points;
   }
+  first.radius = second.radius = 1.0f;  // no sphere is too small
+  for (const std::uint32_t points : {0u, 1u, both - 1, both}) {
+    first.point_count = points;
+    second.first_point = points;
+    second.point_count = both - points;
+    EXPECT_EQ(status_of(image), points == 0 || points == both ? Status::kImageValue : Status::kOk) << points;
+  }
+}
+
+TEST(SceneStructure, OfATreeEndsWithALeaf) {
+  ImageParts image = test::whole_image();
+  auto& last = image.item<format::Node>(SectionId::kNodes, 6);
+  last.skip = 6;
+  last.leaf = 0;
+  EXPECT_EQ(status_of(image), Status::kImageValue);
 }
 
 /// Returns parts of a ball whose refinements are nested and have coarse octants; no second direction.

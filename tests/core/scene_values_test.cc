@@ -84,6 +84,7 @@ TEST(SceneValues, BeginAsNothing) {
   const FieldSample nowhere = map.sample(Vector3::Zero());  // a grid without cells: everything is outside
   EXPECT_FALSE(nowhere.known);
   EXPECT_EQ(nowhere.distance, 0.0);
+  EXPECT_EQ(map.sample(Vector3(3.0, 0.0, -4.0)).clearance, 5.0);
 }
 
 TEST(WorkspaceBox, IsEverywhereUntilItIsLimited) {
@@ -138,7 +139,12 @@ TEST(SceneFormat, CodesABoundThatIsNotSmaller) {
   for (std::uint32_t code = 0; code < 0x10000; code += 7) {
     const float bound = format::decode_lipschitz(static_cast<std::uint16_t>(code));
     ASSERT_EQ(format::encode_lipschitz(bound), code);
-    if (code > 0) ASSERT_EQ(format::encode_lipschitz(std::nextafter(bound, 0.0f)), code) << "rounded up";
+    if (code > 0) {
+      ASSERT_EQ(format::encode_lipschitz(std::nextafter(bound, 0.0f)), code) << "rounded up";
+    }
+    if (code < 0xffff) {
+      ASSERT_EQ(format::encode_lipschitz(std::nextafter(bound, 1e9f)), code + 1) << "rounded up";
+    }
   }
 }
 
@@ -248,6 +254,7 @@ TEST(SceneObject, ShowsItsImageInEveryCopy) {
     EXPECT_EQ(shown->gains().rotational, 17.0);
     EXPECT_EQ(shown->view().features_origin, Vector3(0.1, 0.2, 0.3));
     EXPECT_TRUE(shown->view().has_features());
+    EXPECT_EQ(shown->view().features.normal_y, nullptr) << "feature points have no normals";
   }
   EXPECT_EQ(Scene::open(image.bytes().first(100), scene), Status::kImageTruncated);
   EXPECT_EQ(scene.gains().stiffness, 11.0) << "a refused image has changed the scene";

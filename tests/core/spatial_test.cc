@@ -52,7 +52,8 @@ TEST(Rotation, OfAQuarterTurnIsKnownByHand) {
 /// The angles reach from vanishing squares to just below half a turn, across the switch to the series (1e-4 rad).
 TEST(Rotation, LogUndoesExpForEveryAngle) {
   Random random(1);
-  for (const double angle : {1e-300, 1e-160, 1e-30, 1e-12, 1e-8, 9.9e-6, 1.9e-5, 2.1e-5, 9.999e-5, 1.0001e-4, 1e-3, 0.1,
+  for (const double angle : {1e-300, 1e-160, 1e-30, 1e-12, 1e-8, 9.9e-6, 1.9e-5, 2.1e-5, 9.999e-5, 1.0001e-4, 1e-3, 3e-3,
+                             0.1,
                              1.0, 2.0, 3.0, kPi - 1e-3, kPi - 1e-8}) {
     for (int i = 0; i < 100; ++i) {
       const Vector3 r = angle * random.direction();
@@ -90,6 +91,10 @@ TEST(Rotation, LogOfHalfATurnHasLengthPi) {
     EXPECT_NEAR(r.norm(), kPi, 1e-15) << w;
     EXPECT_NEAR(std::fabs(r.normalized().dot(Vector3(0.6, 0.0, 0.8))), 1.0, 1e-15) << w;
   }
+}
+
+TEST(Rotation, LogOfAnExactHalfTurnKeepsItsAxis) {
+  EXPECT_LT((log_rotation(Quaternion(0.0, 0.6, 0.0, 0.8)) - kPi * Vector3(0.6, 0.0, 0.8)).norm(), 1e-15);
 }
 
 TEST(Rotation, LogStandsALengthSlightlyOff) {
@@ -162,6 +167,17 @@ TEST(Pose, GetMotionUndoesSetMatrix) {
   }
 }
 
+TEST(Pose, EqualsOnlyAPoseWithTheSameSevenNumbers) {
+  Random random(8);
+  const Pose pose = random.pose();
+  EXPECT_EQ(pose, Pose(pose));
+  for (int i = 0; i < 7; ++i) {
+    Pose other = pose;
+    (i < 3 ? other.translation[i] : other.rotation.coeffs()[i - 3]) += 1e-9;
+    EXPECT_FALSE(pose == other) << i;
+  }
+}
+
 TEST(Pose, KnowsWhatIsNotFinite) {
   EXPECT_TRUE(Pose().is_finite());
   for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -204,7 +220,7 @@ TEST(BoundingSphere, GoesAsFarAsItsCentreWhereNothingTurns) {
   Pose H0;
   Pose H1;
   H1.translation = Vector3(3e-3, 0.0, 4e-3);
-  EXPECT_NEAR(farthest_way(sphere, H0, H1), 5e-3, 1e-8);
+  EXPECT_NEAR(farthest_way(sphere, H0, H1), 5e-3 + 1e-9 * (5e-3 + 0.5), 1e-15);  // a billionth against rounding
   EXPECT_NEAR(travel(sphere, {H1.translation, Vector3::Zero()}), 5e-3, 1e-15);
   // a rotation about the centre
   const double turn = 0.5;

@@ -110,7 +110,7 @@ FieldParts random_field(const RandomField& of, Random& random) {
   grid.lipschitz = 1.5, grid.lipschitz_seam = 1.75, grid.clearance_slope = 1.25, grid.outside_loss = 0.5 * of.voxel_size;
   for (int axis = 0; axis < 3; ++axis) {
     grid.bricks[axis] = of.bricks[static_cast<std::size_t>(axis)];
-    grid.origin[axis] = of.voxel_size * random.integer(-20, 20);
+    grid.origin[axis] = of.voxel_size * random.integer(-5, 5);
     grid.surface_min[axis] = grid.origin[axis] + of.voxel_size * random.between(1.0, 2.0);
     grid.surface_max[axis] = grid.origin[axis] + of.voxel_size * (4.0 * grid.bricks[axis] - random.between(1.0, 2.0));
   }
@@ -123,6 +123,20 @@ FieldParts random_field(const RandomField& of, Random& random) {
   }
   grid.brick_count = static_cast<std::uint32_t>(parts.bricks.size());
   return parts;
+}
+
+void renumber_bricks(FieldParts& parts) {
+  const auto last = static_cast<std::uint32_t>(parts.bricks.size() - 1);
+  const auto renumber = [last](std::uint32_t& entry) {
+    if ((entry >> 31) == 1 || (entry >> 29) == 1) return;
+    entry = (entry & ~format::index_entry::kNumber) + (last - (entry & format::index_entry::kNumber));
+  };
+  for (std::uint32_t& entry : parts.index) renumber(entry);
+  for (format::Refined& refined : parts.refined) {
+    renumber(refined.brick);
+    for (std::uint32_t& child : refined.child) renumber(child);
+  }
+  std::reverse(parts.bricks.begin(), parts.bricks.end());
 }
 
 double slow_lipschitz(std::uint16_t code) { return std::ldexp(1.0 + (code % 4096) / 4096.0, code / 4096); }

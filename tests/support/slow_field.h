@@ -35,6 +35,9 @@ struct RandomField {
 /// core/scene/format.h and is no field of a body: it is not continuous.
 FieldParts random_field(const RandomField& of, Random& random);
 
+/// Numbers the bricks from the other end. The field stays the same.
+void renumber_bricks(FieldParts& parts);
+
 /// A slow second reader of core/scene/format.h in double precision. It shares no code with Voxelmap.
 class SlowField {
  public:
