@@ -133,10 +133,14 @@ bool is_finite(const TorqueRequest& request, int joint_count) noexcept {
 }  // namespace
 
 Status validate(const JointTorqueParameters& parameters, const ArmModel& model) noexcept {
-  const double sum = parameters.rotation_length + parameters.singular_none + parameters.singular_full +
-                     parameters.limit_band + parameters.null_damping.sum() + parameters.limit_stiffness.sum() +
-                     parameters.limit_damping.sum();
-  if (!std::isfinite(sum)) return Status::kNotFinite;
+  for (const double number :
+       {parameters.rotation_length, parameters.singular_none, parameters.singular_full, parameters.limit_band}) {
+    if (!std::isfinite(number)) return Status::kNotFinite;
+  }
+  if (!parameters.null_damping.allFinite() || !parameters.limit_stiffness.allFinite() ||
+      !parameters.limit_damping.allFinite()) {
+    return Status::kNotFinite;
+  }
   if (!(parameters.rotation_length > 0.0) || !(parameters.limit_band > 0.0)) return Status::kArmControl;
   if (!(parameters.singular_none > 0.0) || !(parameters.singular_none < parameters.singular_full)) {
     return Status::kArmControl;

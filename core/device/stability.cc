@@ -49,12 +49,18 @@ struct ScaledLoop {
   Matrix tool_damping;  // r x r
 };
 
+bool is_possible(const LoopTiming& timing) noexcept {
+  return timing.period > 0.0 && timing.delay >= 0.0 && timing.delay < 100.0 * timing.period &&
+         timing.velocity_window >= 2 && timing.velocity_window <= 100;
+}
+
 bool is_possible(const ArmLoop& loop) noexcept {
-  const LoopTiming& timing = loop.timing;
-  return loop.joint_count >= 1 && loop.joint_count <= kMaxJoints && timing.period > 0.0 && timing.delay >= 0.0 &&
-         timing.delay < 100.0 * timing.period && timing.velocity_window >= 2 && timing.velocity_window <= 100 &&
-         loop.mass.allFinite() && loop.damping.allFinite() && loop.jacobian.allFinite() &&
-         std::isfinite(loop.stiffness + loop.rotation_stiffness + loop.tool_damping + loop.rotation_tool_damping) &&
+  for (const double number :
+       {loop.stiffness, loop.rotation_stiffness, loop.tool_damping, loop.rotation_tool_damping}) {
+    if (!std::isfinite(number)) return false;
+  }
+  return is_possible(loop.timing) && loop.joint_count >= 1 && loop.joint_count <= kMaxJoints && loop.mass.allFinite() &&
+         loop.damping.allFinite() && loop.jacobian.allFinite() &&
          loop.mass.diagonal().head(loop.joint_count).minCoeff() > 0.0;
 }
 

@@ -19,11 +19,17 @@ constexpr unsigned char at(unsigned place) noexcept {
   return __builtin_expect(alternative == kRecord, 0) ? reached(place) : alternative;
 }
 
-/// Returns a value that holds no reference to a temporary: an Eigen expression as its matrix, others as a copy.
+/// Tells whether T is a block of a matrix, or its transpose, that can be assigned to (Eigen::LvalueBit).
+template <class T>
+concept Target = requires { requires(T::Flags & 0x20) != 0; } &&
+                 (requires(const T& x) { x.startRow(); } || requires(const T& x) { x.nestedExpression().startRow(); });
+
+/// Returns a value that holds no reference to a temporary: an Eigen expression as its matrix, others as a copy. A block
+/// of a matrix stays one: it may be the target of an assignment.
 template <class T>
 constexpr auto value(T&& x) {
   using Plain = std::remove_cvref_t<T>;
-  if constexpr (requires { typename Plain::PlainObject; }) {
+  if constexpr (!Target<Plain> && requires { typename Plain::PlainObject; }) {
     return typename Plain::PlainObject(std::forward<T>(x));
   } else {
     return Plain(std::forward<T>(x));

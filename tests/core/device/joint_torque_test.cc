@@ -503,25 +503,5 @@ TEST(JointTorque, DoesNotAllocate) {
   EXPECT_EQ(guard.allocations(), 0) << sum;
 }
 
-TEST(JointTorqueParameters, RefusesWhatCannotBe) {
-  const Arm good = test::lwr();
-  const auto after = [&](auto change) {
-    Arm arm = good;
-    change(arm.parameters);
-    return validate(arm.parameters, arm.model);
-  };
-  using P = JointTorqueParameters;
-  EXPECT_EQ(after([](P& p) { p.rotation_length = 0.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.singular_none = 0.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.singular_full = p.singular_none; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.limit_band = 0.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.limit_band = 2.2; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.null_damping[3] = -1.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.limit_stiffness[3] = -1.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.limit_damping[3] = -1.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.limit_damping[3] = std::nan(""); }), Status::kNotFinite);
-  EXPECT_EQ(after([](P&) {}), Status::kOk);
-}
-
 }  // namespace
 }  // namespace godobject

@@ -117,7 +117,7 @@ void expect_plain_loop(unsigned seed) {
     draw(random, start.translation, run.parameters);
     const double size = std::pow(10.0, random.between(-5.0, -1.3));
     CycleInput input;
-    input.H_WD = start * set_matrix(random.motion(size, 10.0 * size));
+    input.H_WD = start * set_matrix(random.motion(size, i % 5 == 0 ? 3.0 : 10.0 * size));
     input.H_WD.translation = run.parameters.workspace.nearest(input.H_WD.translation);
     run.state.inside = i % 4 == 0;
     run.cycle.memory.slipping = random.integer(0, 1) == 1;
@@ -132,6 +132,9 @@ void expect_plain_loop(unsigned seed) {
     ASSERT_EQ(run.report.contacts, expected.contacts) << i;
     if (expected.contacts > 0) {
       ASSERT_NEAR(run.report.penetration, expected.depth - run.parameters.safety_distance, 1e-10) << i;
+    }
+    if (!expected.cut && expected.depth <= 0.0) {
+      ASSERT_TRUE(run.state.H_WS == input.H_WD) << i << ": the device's pose to the last bit";
     }
     if (!run.state.inside) {
       ASSERT_EQ(run.report.outcome == Outcome::kCut, expected.cut) << i;
@@ -152,6 +155,22 @@ void expect_plain_loop(unsigned seed) {
 
 TEST(Corrected, IsAPlainLoopOverAllPoints) { expect_plain_loop<false>(1); }
 TEST(Corrected, IsAPlainLoopOverAllPointsWithFriction) { expect_plain_loop<true>(2); }
+
+/// A point exactly on the safety layer, 0.25 m above the floor, does not touch it.
+TEST(Corrected, FollowsTheDeviceToTheLastBitOnTheEdgeOfTheLayer) {
+  const AnalyticField<HalfSpace> floor(HalfSpace{}, kVoxel);
+  const SampledBody point({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero());
+  Pose start;
+  start.translation = Vector3(0.1, 0.2, 0.25);
+  start.rotation = exp_rotation(Vector3(0.3, 0.2, 0.1));
+  AnalyticRun<AnalyticField<HalfSpace>, CorrectedCycle<false>> run(floor, point, start);
+  run.parameters.safety_distance = 0.25;
+  const Pose device = start * set_matrix({Vector3(0.001, 0.002, -0.003), Vector3(0.01, 0.02, 0.03)});
+  ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_TRUE(run.state.H_WS == device);
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
+  EXPECT_EQ(run.report.contacts, 0u);
+}
 
 /// By hand: free air 13 mm below the ball, d = 3 mm. The device dives through the floor: 1.5 mm plus the distance to the
 /// layer in the first sub-step, then 1.5 mm at most in each of seven.

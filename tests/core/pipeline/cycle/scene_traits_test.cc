@@ -40,6 +40,8 @@ TEST(SceneTraits, LackExactlyThePartsThatAPipelineNeeds) {
 }
 
 TEST(SceneTraits, OfThisBuildAreAll) {
+  const SceneTraits first;
+  EXPECT_TRUE(first.paper && first.corrected && first.contact && first.friction && first.features && first.points);
   EXPECT_TRUE(kSceneTraits.paper && kSceneTraits.corrected && kSceneTraits.contact);
   EXPECT_TRUE(kSceneTraits.friction && kSceneTraits.features && kSceneTraits.points);
   EXPECT_EQ(missing_part(SceneTraits{}, Solver::kContact, true, true), Part::kNone);

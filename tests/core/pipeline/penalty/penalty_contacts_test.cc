@@ -299,6 +299,21 @@ TEST(PenaltyContacts, HaveNoNormalWhereTheFieldIsFlat) {
   }
 }
 
+/// A point exactly on the safety layer does not touch. All numbers are exact in binary.
+TEST(PenaltyContacts, BeginWithinTheLayer) {
+  const AnalyticField<HalfSpace> floor(HalfSpace{}, kVoxel);
+  const SampledBody point({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero());
+  Pose pose;
+  pose.translation.z() = 0.25;
+  const auto contacts = [&](double d) {
+    return penalty_contacts<DistancePenetration>(floor, point.pointshell(), pose, d, 1.0);
+  };
+  EXPECT_EQ(contacts(0.25).count, 0u);
+  EXPECT_EQ(contacts(0.25).depth, 0.0);
+  EXPECT_EQ(contacts(std::nextafter(0.25, 1.0)).count, 1u);
+  EXPECT_EQ(PointPenetration{}.value, 0.0);
+}
+
 TEST(SmallestDistance, IsThatOfAllPoints) {
   Random random(6);
   for (int i = 0; i < 500; ++i) {
