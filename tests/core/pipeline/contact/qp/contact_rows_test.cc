@@ -119,5 +119,51 @@ TEST(ContactRows, FindTheNextRowOfAPoint) {
   }
 }
 
+/// Rows of an earlier cycle may stand behind the last one, violated by any motion.
+TEST(ContactRows, DoNotSeeRowsBehindTheLastOne) {
+  for (std::uint32_t count = 1; count < 140; ++count) {
+    const auto rows = std::make_unique<ContactRows>();
+    for (std::uint32_t i = 0; i < 256; ++i) rows->push(i, Vector3::UnitZ(), Vector3::Zero(), 5.0);
+    rows->count = 0;
+    for (std::uint32_t most = 0; most < count; most += 7) {
+      rows->count = 0;
+      for (std::uint32_t i = 0; i < count; ++i) rows->push(i, Vector3::UnitZ(), Vector3::Zero(), i == most ? 2.0 : 1.0);
+      const ContactRows::Violated found = rows->most_violated(Motion{}, 1e-8);
+      ASSERT_EQ(found.row, most) << "of " << count;
+      ASSERT_EQ(found.violation, 2.0);
+      ASSERT_EQ(rows->find(200, 0), count) << "a row of an earlier cycle";
+    }
+  }
+}
+
+/// Of rows that are violated alike, the first one of the block counts.
+TEST(ContactRows, FindTheFirstOfEqualRows) {
+  const auto rows = std::make_unique<ContactRows>();
+  for (std::uint32_t i = 0; i < 200; ++i) rows->push(7, Vector3::UnitZ(), Vector3::Zero(), i < 5 ? 0.0 : 1.0);
+  EXPECT_EQ(rows->most_violated(Motion{}, 1e-8).row, 5u);
+  for (std::uint32_t begin = 0; begin < 200; ++begin) ASSERT_EQ(rows->find(7, begin), begin);
+}
+
+/// A gap that differs from the margin by exactly the tolerance counts as the margin.
+TEST(ContactRows, TakeAGapAtTheToleranceForTheMargin) {
+  const GapLaw gap{0.0, 0.25, 0.5, 10.0};
+  const double distances[] = {-0.25, 0.25, -0.375, 0.375, -100.0, -20.0};
+  ContactRows::Batch batch;
+  EXPECT_EQ(batch.count, 0u);
+  batch.count = 6;
+  for (std::uint32_t i = 0; i < batch.count; ++i) {
+    batch.id[i] = i;
+    batch.point_x[i] = batch.point_y[i] = batch.point_z[i] = 0.0;
+    batch.gradient_x[i] = batch.gradient_y[i] = 0.0;
+    batch.gradient_z[i] = 1.0;
+    batch.distance[i] = distances[i];
+  }
+  const auto rows = std::make_unique<ContactRows>();
+  ASSERT_EQ(rows->push(batch, Matrix3::Identity(), gap), 0u);
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(static_cast<double>(rows->required_gain[i]), gap.required_gain(-distances[i])) << distances[i];
+  }
+}
+
 }  // namespace
 }  // namespace godobject

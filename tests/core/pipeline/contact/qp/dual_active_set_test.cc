@@ -180,5 +180,56 @@ TEST(DualActiveSet, KeepsNoTwoInequalitiesThatDependOnEachOther) {
   EXPECT_EQ(set.z(), Vector6::Unit(0));
 }
 
+/// A gradient within a millionth of the span of the others counts as dependent. Here a member leaves before the
+/// inequality is refused: it returns, and the others have their multipliers again.
+TEST(DualActiveSet, RestoresTheMembersThatLeftBeforeARefusal) {
+  Set set;
+  set.start(Vector6::Zero());
+  ASSERT_TRUE(set.add(half_space(Vector6::Unit(0), 1.0)));
+  ASSERT_TRUE(set.add(half_space(Vector6::Unit(1), 2.0)));
+  ASSERT_TRUE(set.add(half_space(Vector6::Unit(2), 3.0)));
+  const Vector6 z = set.z();
+  EXPECT_FALSE(set.add(half_space(-Vector6::Unit(0) + 1e-7 * Vector6::Unit(1), 0.0)));
+  ASSERT_EQ(set.size(), 3);
+  EXPECT_LT((set.z() - z).norm(), 1e-15);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(set[i].gradient, Vector6::Unit(i));
+    EXPECT_EQ(set[i].rhs, i + 1.0);
+    EXPECT_NEAR(set[i].multiplier, i + 1.0, 1e-14);
+  }
+  ASSERT_TRUE(set.add(half_space(Vector6::Unit(3), 4.0))) << "and the set goes on";
+  EXPECT_NEAR(set.z()[3], 4.0, 1e-15);
+}
+
+/// One inequality may make all six others idle: six exchanges, then the addition.
+TEST(DualActiveSet, ReplacesAllSixByOne) {
+  Set set;
+  set.start(Vector6::Zero());
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(set.add(half_space(Vector6::Unit(i), 1.0 + 0.1 * i)));
+  ASSERT_TRUE(set.add(half_space(Vector6::Ones(), 60.0)));
+  ASSERT_EQ(set.size(), 1);
+  EXPECT_LT((set.z() - Vector6::Constant(10.0)).norm(), 1e-13);
+  EXPECT_NEAR(set[0].multiplier, 10.0, 1e-13);
+}
+
+/// As equalities both guesses pull, by 2 and by 1. Without the stronger one the other pushes by 0.6; without the other
+/// the stronger one pulls still, and none would be left.
+TEST(DualActiveSet, RemovesTheStrongestPullFirst) {
+  const Vector6 a = Vector6::Unit(0);
+  const Vector6 b = -0.8 * Vector6::Unit(0) + 0.6 * Vector6::Unit(1);
+  for (const bool a_first : {true, false}) {
+    Set set;
+    set.start(Vector6::Zero());
+    const Set::Inequality stronger = half_space(a, -1.2), other = half_space(b, 0.6);
+    ASSERT_TRUE(set.guess(a_first ? stronger : other));
+    ASSERT_TRUE(set.guess(a_first ? other : stronger));
+    set.resolve();
+    ASSERT_EQ(set.size(), 1);
+    EXPECT_EQ(set[0].gradient, b);
+    EXPECT_NEAR(set[0].multiplier, 0.6, 1e-15);
+    EXPECT_LT((set.z() - 0.6 * b).norm(), 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace godobject::test

@@ -114,6 +114,76 @@ TEST(SolveWithFriction, NeedsNothingNewFromItsOwnResult) {
   EXPECT_LE(again, compared / 10);
 }
 
+/// Flags and forces of an earlier step do not matter.
+TEST(SolveWithFriction, SetsAllFlagsOfTheStep) {
+  for (const bool with_friction : {true, false}) {
+    for (const double z : {-0.005, 0.005}) {
+      for (const bool with_rows : {true, false}) {
+        Problem p;
+        if (with_rows) p.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
+        p.wanted.translation = Vector3(0.0, 0.0, z);
+        ConstrainedStep step;
+        step.force_count = step.contact_count = 3;
+        for (std::uint32_t j = 0; j < 3; ++j) step.forces[j] = {9 + j, {}, Vector3::UnitZ(), {}, 0.5, 1.0};
+        step.iterations = 77;
+        step.follows = step.infeasible = step.unconverged = true;
+        least_constraint(*p.rows, p.wanted, kMetric, with_friction ? &p.friction : nullptr, p.last, step);
+        const bool touches = with_rows && z < 0.0;
+        EXPECT_EQ(step.force_count, touches ? 1u : 0u);
+        EXPECT_EQ(step.contact_count, touches ? 1u : 0u);
+        EXPECT_EQ(step.iterations, touches ? 1u : 0u);
+        EXPECT_EQ(step.follows, !touches);
+        EXPECT_FALSE(step.infeasible);
+        EXPECT_FALSE(step.unconverged);
+        EXPECT_EQ(step.motion.translation.z(), touches ? 0.0 : z);
+      }
+    }
+  }
+}
+
+TEST(ConstrainedStep, StartsEmptyCopiesAllAndReleasesItsForces) {
+  const ConstrainedStep empty;
+  EXPECT_EQ(empty.force_count + empty.contact_count + empty.iterations, 0u);
+  EXPECT_FALSE(empty.follows || empty.infeasible || empty.unconverged);
+  EXPECT_EQ(ContactForce{}.id, 0u);
+  EXPECT_EQ(ContactForce{}.ratio, 0.0);
+  EXPECT_EQ(ContactForce{}.multiplier, 0.0);
+  const ContactFriction none;
+  EXPECT_EQ(none.static_ratio + none.kinetic_ratio + none.viscous_step, 0.0);
+  for (unsigned flags = 0; flags < 8; ++flags) {
+    ConstrainedStep step;
+    step.motion = {Vector3(1.0, 2.0, 3.0), Vector3(4.0, 5.0, 6.0)};
+    step.force_count = 5;
+    for (std::uint32_t j = 0; j < 5; ++j) step.forces[j].id = 40 + j;
+    step.contact_count = 4;
+    step.iterations = 17;
+    step.follows = (flags & 1) != 0;
+    step.infeasible = (flags & 2) != 0;
+    step.unconverged = (flags & 4) != 0;
+    ConstrainedStep copy;
+    copy.forces[5].id = 99;
+    copy.follows = !step.follows;
+    copy.infeasible = !step.infeasible;
+    copy.unconverged = !step.unconverged;
+    copy = step;
+    EXPECT_EQ(copy.motion.translation, step.motion.translation);
+    EXPECT_EQ(copy.motion.rotation, step.motion.rotation);
+    EXPECT_EQ(copy.force_count, 5u);
+    for (std::uint32_t j = 0; j < 5; ++j) EXPECT_EQ(copy.forces[j].id, 40 + j);
+    EXPECT_EQ(copy.forces[5].id, 99u) << "only the active forces";
+    EXPECT_EQ(copy.contact_count, 4u);
+    EXPECT_EQ(copy.iterations, 17u);
+    EXPECT_EQ(copy.follows, step.follows);
+    EXPECT_EQ(copy.infeasible, step.infeasible);
+    EXPECT_EQ(copy.unconverged, step.unconverged);
+    copy.release();
+    EXPECT_EQ(copy.force_count + copy.contact_count + copy.iterations, 0u);
+    EXPECT_TRUE(copy.follows);
+    EXPECT_FALSE(copy.infeasible || copy.unconverged);
+    EXPECT_EQ(copy.motion.translation, step.motion.translation);
+  }
+}
+
 // -- how often and how long
 
 struct Series {
@@ -159,6 +229,31 @@ Problem problem_of(const Series& series, int trial, Random& random) {
   return p;
 }
 
+/// Converged or not: all rows are met, no force pulls, the forces turn the wanted motion into the result (without
+/// viscous friction), and it leads no farther from the wanted motion than rest does, up to the lost gaps.
+void expect_valid(const Problem& p, const ConstrainedStep& step, bool viscous) {
+  for (std::uint32_t i = 0; i < p.rows->count; ++i) {
+    const Vector3 v = step.motion.translation + step.motion.rotation.cross(p.rows->point(i));
+    EXPECT_GE(p.rows->normal(i).dot(v), static_cast<double>(p.rows->required_gain[i]) - 1.5 * kMetric.tolerance);
+  }
+  Vector6 sum = six(p.wanted) - six(step.motion);
+  double load = 0.0;
+  for (std::uint32_t j = 0; j < step.force_count; ++j) {
+    const ContactForce& f = step.forces[j];
+    EXPECT_GE(f.multiplier, 0.0);
+    const Vector3 force = f.multiplier * (f.normal - f.ratio * f.slip);
+    Vector6 push;
+    push << force, f.point.cross(force) / kMetric.gyration;
+    sum += push;
+    load += f.multiplier;
+  }
+  if (!viscous) {
+    EXPECT_LE(sum.norm(), kMetric.tolerance + 2e-7 * load);
+  }
+  EXPECT_LE((six(step.motion) - six(p.wanted)).norm(), 1.0006 * six(p.wanted).norm() + 4e-5);
+  EXPECT_EQ(step.follows, step.force_count == 0 && !step.unconverged);
+}
+
 class FrictionSeries : public ::testing::TestWithParam<Series> {};
 
 /// Each part of the solver makes failures rarer and additions fewer. The limits are some percent above the measured
@@ -172,11 +267,14 @@ TEST_P(FrictionSeries, SeldomFailsAndTakesFewAdditions) {
     ConstrainedStep step;
     p.solve(step);
     ASSERT_FALSE(step.infeasible);
+    expect_valid(p, step, GetParam().viscous > 0.0);
     unconverged += step.unconverged ? 1 : 0;
     additions += step.iterations;
     p.last = step.motion;
     p.wanted.translation += 1e-4 * random.direction();
     p.solve(step);
+    expect_valid(p, step, GetParam().viscous > 0.0);
+    if (HasFailure()) FAIL() << "problem " << trial;
     unconverged += step.unconverged ? 1 : 0;
     warm_additions += step.iterations;
   }

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "tests/support/random.h"
 
@@ -56,6 +58,71 @@ TEST(SmallSystem, SaysThatColumnsDependInAnyUnits) {
       for (auto& row : system.matrix) row[column] = scale * row[(column + 1) % kSize];
       EXPECT_FALSE(system.solve()) << scale << ", problem " << problem;
     }
+  }
+}
+
+/// Without an exchange of rows the elimination would divide by zero, or by a pivot of rounding size.
+TEST(SmallSystem, ExchangesRowsWhereAPivotIsSmall) {
+  Random random(43);
+  EXPECT_EQ(SmallSystem<kSize>{}.size, 0);
+  int order[kSize] = {0, 1, 2, 3, 4};
+  int permutations = 0;
+  do {
+    for (const double small : {0.0, 1e-17, -1e-13}) {
+      SmallSystem<kSize> system;
+      system.size = kSize;
+      double x[kSize];
+      for (double& value : x) value = random.between(-1.0, 1.0);
+      for (int i = 0; i < kSize; ++i) {
+        system.rhs[i] = 0.0;
+        for (int j = 0; j < kSize; ++j) {
+          system.matrix[i][j] = j == order[i] ? (i % 2 == 0 ? -2.0 : 2.0) : small * random.between(0.5, 1.0);
+          system.rhs[i] += system.matrix[i][j] * x[j];
+        }
+      }
+      ASSERT_TRUE(system.solve());
+      for (int i = 0; i < kSize; ++i) EXPECT_NEAR(system.rhs[i], x[i], 1e-14);
+    }
+    ++permutations;
+  } while (std::next_permutation(std::begin(order), std::end(order)));
+  EXPECT_EQ(permutations, 120);
+}
+
+/// Of a larger array only the first rows and columns count.
+TEST(SmallSystem, SolvesSystemsOfEachSize) {
+  Random random(44);
+  for (int size = 0; size <= kSize; ++size) {
+    for (int trial = 0; trial < 100; ++trial) {
+      SmallSystem<kSize> system;
+      system.size = size;
+      double x[kSize] = {};
+      for (int i = 0; i < kSize; ++i) {
+        system.rhs[i] = 1e300;
+        for (int j = 0; j < kSize; ++j) system.matrix[i][j] = 1e300;
+      }
+      for (int i = 0; i < size; ++i) x[i] = random.between(-1.0, 1.0);
+      for (int i = 0; i < size; ++i) {
+        system.rhs[i] = 0.0;
+        for (int j = 0; j < size; ++j) {
+          system.matrix[i][j] = random.between(-1.0, 1.0) + (i == (j + 1) % size ? -3.0 : 0.0);
+          system.rhs[i] += system.matrix[i][j] * x[j];
+        }
+      }
+      ASSERT_TRUE(system.solve()) << size;
+      for (int i = 0; i < size; ++i) EXPECT_NEAR(system.rhs[i], x[i], 1e-12) << size;
+    }
+  }
+}
+
+TEST(SmallSystem, RefusesAColumnOfZeros) {
+  for (int column = 0; column < 3; ++column) {
+    SmallSystem<kSize> system;
+    system.size = 3;
+    for (int i = 0; i < 3; ++i) {
+      system.rhs[i] = 1.0;
+      for (int j = 0; j < 3; ++j) system.matrix[i][j] = j == column ? 0.0 : (i == j ? 2.0 : 0.5);
+    }
+    EXPECT_FALSE(system.solve()) << column;
   }
 }
 
