@@ -309,7 +309,7 @@ TEST(NearestFirst, TakesTheSmallestBoundsAndNoMoreThanTheBudget) {
         continue;
       }
       ++others;
-      chosen += taken[i] ? 1 : 0;
+      if (taken[i]) ++chosen;
       if (taken[i]) largest_taken = std::max(largest_taken, bounds[i]);
       if (!taken[i]) smallest_left = std::min(smallest_left, bounds[i]);
     }
