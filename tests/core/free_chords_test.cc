@@ -85,7 +85,8 @@ class SlowWalk {
  private:
   /// Near a face of the cell rounding may choose the other cell.
   void note_faces(const Vector3& p, const SlowField::Place& place, Verdict& verdict) const {
-    const Vector3 voxels = (p - Vector3(parts_.grid.origin[0], parts_.grid.origin[1], parts_.grid.origin[2])) / parts_.grid.voxel_size;
+    const Vector3 voxels =
+        (p - Vector3(parts_.grid.origin[0], parts_.grid.origin[1], parts_.grid.origin[2])) / parts_.grid.voxel_size;
     for (int axis = 0; axis < 3; ++axis) {
       const double end = 4.0 * parts_.grid.bricks[axis];
       verdict.doubt = std::min({verdict.doubt, std::fabs(voxels[axis]), std::fabs(voxels[axis] - end)});
@@ -187,7 +188,8 @@ TEST_F(FreeChords, AreThoseOfASlowWalk) {
       const double length = (chord_.to - chord_.from).norm();
       if (i % 4 == 1) chord_.free_from = field.sample(chord_.from).clearance;
       if (i % 4 == 2) chord_.free_to = field.sample(chord_.to).clearance;
-      if (i % 4 == 3) chord_.free_from = random_.between(0.0, 0.6) * length, chord_.free_to = random_.between(0.0, 0.6) * length;
+      if (i % 4 == 3)
+        chord_.free_from = random_.between(0.0, 0.6) * length, chord_.free_to = random_.between(0.0, 0.6) * length;
       const Verdict verdict = slow.walk(chord_);
       if (verdict.doubt < kRounding) continue;
       ++judged;

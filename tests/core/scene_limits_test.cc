@@ -75,8 +75,10 @@ struct Limits {
   double low, high;
 };
 
-#define LIMITS(LOW, HIGH, SET) \
-  Limits { #SET, [=](Structures & s, double v) { SET; }, LOW, HIGH }
+#define LIMITS(LOW, HIGH, SET)                              \
+  Limits {                                                  \
+#SET, [=](Structures & s, double v) { SET; }, LOW, HIGH \
+  }
 
 Status status_of(const ImageParts& image) {
   const test::SceneImage bytes = image.assemble();
@@ -97,52 +99,51 @@ void expect_limits(const ImageParts& valid, const std::vector<Limits>& table, bo
     EXPECT_EQ(status_at(limits, limits.low), Status::kOk) << "at " << limits.low;
     EXPECT_EQ(status_at(limits, limits.high), Status::kOk) << "at " << limits.high;
     EXPECT_EQ(status_at(limits, std::nextafter(limits.low, -kInfinity)), Status::kImageValue) << "below " << limits.low;
-    EXPECT_EQ(status_at(limits, std::nextafter(limits.high, kInfinity)), Status::kImageValue) << "above " << limits.high;
-    for (const double value : {kNaN, kInfinity, -kInfinity}) EXPECT_EQ(status_at(limits, value), Status::kImageValue) << value;
+    EXPECT_EQ(status_at(limits, std::nextafter(limits.high, kInfinity)), Status::kImageValue)
+        << "above " << limits.high;
+    for (const double value : {kNaN, kInfinity, -kInfinity})
+      EXPECT_EQ(status_at(limits, value), Status::kImageValue) << value;
   }
 }
 
 TEST(SceneLimits, OfTheSettingsHoldToTheLastBit) {
   expect_limits(point_image(), {
-      LIMITS(1e-12, kLargest, s.grow(); s.settings.safety_distance = v),
-      LIMITS(1e-12, kLargest, s.settings.margin = v),
-      LIMITS(1e-12, kLargest, s.settings.stiffness = v),
-      LIMITS(0.0, kLargest, s.settings.damping = v),
-      LIMITS(1e-12, kLargest, s.settings.coupling_translation = v),
-      LIMITS(1e-18, kLargest, s.settings.coupling_rotation = v),
-      LIMITS(0.0, 10.0, s.settings.friction_static = v),
-      LIMITS(0.0, 3.0, s.settings.friction_static = 3.0; s.settings.friction_kinetic = v),
-      LIMITS(0.25, 10.0, s.settings.friction_kinetic = 0.25; s.settings.friction_static = v),
-      LIMITS(0.0, kLargest, s.settings.friction_viscous = v),
-      LIMITS(0.0, 10.0, s.settings.paper_rotation_static = v),
-      LIMITS(0.0, 3.0, s.settings.paper_rotation_static = 3.0; s.settings.paper_rotation_kinetic = v),
-      LIMITS(0.25, 10.0, s.settings.paper_rotation_kinetic = 0.25; s.settings.paper_rotation_static = v),
-      LIMITS(0.0, 10.0, s.settings.paper_viscous = v),
+    LIMITS(1e-12, kLargest, s.grow(); s.settings.safety_distance = v), LIMITS(1e-12, kLargest, s.settings.margin = v),
+        LIMITS(1e-12, kLargest, s.settings.stiffness = v), LIMITS(0.0, kLargest, s.settings.damping = v),
+        LIMITS(1e-12, kLargest, s.settings.coupling_translation = v),
+        LIMITS(1e-18, kLargest, s.settings.coupling_rotation = v), LIMITS(0.0, 10.0, s.settings.friction_static = v),
+        LIMITS(0.0, 3.0, s.settings.friction_static = 3.0; s.settings.friction_kinetic = v),
+        LIMITS(0.25, 10.0, s.settings.friction_kinetic = 0.25; s.settings.friction_static = v),
+        LIMITS(0.0, kLargest, s.settings.friction_viscous = v), LIMITS(0.0, 10.0, s.settings.paper_rotation_static = v),
+        LIMITS(0.0, 3.0, s.settings.paper_rotation_static = 3.0; s.settings.paper_rotation_kinetic = v),
+        LIMITS(0.25, 10.0, s.settings.paper_rotation_kinetic = 0.25; s.settings.paper_rotation_static = v),
+        LIMITS(0.0, 10.0, s.settings.paper_viscous = v),
   });
 }
 
 /// Contacts begin at the safety distance: there the field must be known.
 TEST(SceneLimits, OfTheSafetyDistanceIsTheBand) {
-  expect_limits(point_image(), {LIMITS(1e-12, 0.0125, s.grid.band = 0.0125; s.settings.safety_distance = v)});
+  expect_limits(point_image(), { LIMITS(1e-12, 0.0125, s.grid.band = 0.0125; s.settings.safety_distance = v) });
 }
 
 std::vector<Limits> grid_limits() {
   const double steepest = 2.0 + 2.0 * 8.0 * 0.01 * 16.0;  // a brick's slope and the rounding of the coarsest nodes
   std::vector<Limits> table = {
-      LIMITS(1e-9, 1e6, s.shrink(); s.grid.voxel_size = v; s.grid.band = 2.0 * v; s.grid.quantum = std::min(1e-3, 1e-2 * v)),
-      LIMITS(0.03125, 0.03125 * 1e6, s.settings.safety_distance = 1e-3; s.grid.voxel_size = 0.03125; s.grid.band = v),
-      LIMITS(0.0, steepest, s.grid.lipschitz_seam = 1e6; s.grid.lipschitz = v),
-      LIMITS(0.75, 1e6, s.grid.lipschitz = 0.75; s.grid.lipschitz_seam = v),
-      LIMITS(1.0, 1e6, s.grid.clearance_slope = v),
-      LIMITS(0.0, kFarthest, s.grid.outside_loss = v),
-      LIMITS(1e-15, 0.03125 * 1e-2, s.grid.voxel_size = 0.03125; s.grid.band = 1.0; s.grid.quantum = v),
+    LIMITS(1e-9, 1e6, s.shrink(); s.grid.voxel_size = v; s.grid.band = 2.0 * v;
+           s.grid.quantum = std::min(1e-3, 1e-2 * v)),
+    LIMITS(0.03125, 0.03125 * 1e6, s.settings.safety_distance = 1e-3; s.grid.voxel_size = 0.03125; s.grid.band = v),
+    LIMITS(0.0, steepest, s.grid.lipschitz_seam = 1e6; s.grid.lipschitz = v),
+    LIMITS(0.75, 1e6, s.grid.lipschitz = 0.75; s.grid.lipschitz_seam = v),
+    LIMITS(1.0, 1e6, s.grid.clearance_slope = v),
+    LIMITS(0.0, kFarthest, s.grid.outside_loss = v),
+    LIMITS(1e-15, 0.03125 * 1e-2, s.grid.voxel_size = 0.03125; s.grid.band = 1.0; s.grid.quantum = v),
   };
   for (int axis = 0; axis < 3; ++axis) {
     const double low = -0.25;
     const double edge = 1.0;  // of a brick: four voxels of 1/4 m
     table.push_back(LIMITS(-kFarthest, kFarthest, s.grid.origin[axis] = v; s.shrink()));
-    table.push_back(LIMITS(low, 0.5, s.shrink(); s.grid.voxel_size = 0.25; s.grid.band = 0.25; s.grid.origin[axis] = low;
-                           s.grid.surface_max[axis] = 0.5; s.grid.surface_min[axis] = v));
+    table.push_back(LIMITS(low, 0.5, s.shrink(); s.grid.voxel_size = 0.25; s.grid.band = 0.25;
+                           s.grid.origin[axis] = low; s.grid.surface_max[axis] = 0.5; s.grid.surface_min[axis] = v));
     table.push_back(LIMITS(-0.125, low + 2.0 * edge, s.shrink(); s.grid.voxel_size = 0.25; s.grid.band = 0.25;
                            s.grid.origin[axis] = low; s.grid.surface_min[axis] = -0.125; s.grid.surface_max[axis] = v));
   }
@@ -158,14 +159,14 @@ TEST(SceneLimits, OfTheGridHoldToTheLastBit) {
 TEST(SceneLimits, OfAnEdgeHoldToTheLastBit) {
   constexpr double kEnd = 1e8;
   std::vector<Limits> table = {
-      LIMITS(-kEnd, kEnd, s.edge.offset = v),
-      LIMITS(-kEnd, kEnd, s.edge.end = kEnd; s.edge.begin = v),
-      LIMITS(-0.5, kEnd, s.edge.begin = -0.5; s.edge.end = v),
-      LIMITS(1e-12, kEnd, s.edge.ramp = v),
-      LIMITS(1e-12, kEnd, s.edge.radius = kEnd; s.edge.end_radius = v),
-      LIMITS(1e-12, 0.25, s.edge.radius = 0.25; s.edge.end_radius = v),
-      LIMITS(0.25, kEnd, s.edge.end_radius = 0.25; s.edge.radius = v),
-      LIMITS(0.0, 1.0, s.edge.slope = v),
+    LIMITS(-kEnd, kEnd, s.edge.offset = v),
+    LIMITS(-kEnd, kEnd, s.edge.end = kEnd; s.edge.begin = v),
+    LIMITS(-0.5, kEnd, s.edge.begin = -0.5; s.edge.end = v),
+    LIMITS(1e-12, kEnd, s.edge.ramp = v),
+    LIMITS(1e-12, kEnd, s.edge.radius = kEnd; s.edge.end_radius = v),
+    LIMITS(1e-12, 0.25, s.edge.radius = 0.25; s.edge.end_radius = v),
+    LIMITS(0.25, kEnd, s.edge.end_radius = 0.25; s.edge.radius = v),
+    LIMITS(0.0, 1.0, s.edge.slope = v),
   };
   for (int axis = 0; axis < 3; ++axis) table.push_back(LIMITS(-kEnd, kEnd, s.edge.point[axis] = v));
   for (int word = 0; word < 6; ++word) table.push_back(LIMITS(0.0, 0.0, s.edge.reserved[word] = v));
@@ -176,14 +177,14 @@ TEST(SceneLimits, OfAnEdgeHoldToTheLastBit) {
 
 TEST(SceneLimits, OfTheBodyHoldToTheLastBit) {
   std::vector<Limits> table = {
-      LIMITS(0.0, 2.0, s.body.inertia[1] = 2.0; s.body.inertia[2] = 3.0; s.body.inertia[0] = v),
-      LIMITS(1.0, 3.0, s.body.inertia[0] = 1.0; s.body.inertia[2] = 3.0; s.body.inertia[1] = v),
-      LIMITS(2.0, 1e12, s.body.inertia[0] = 1.0; s.body.inertia[1] = 2.0; s.body.inertia[2] = v),
-      LIMITS(0.0, 1e12, std::fill_n(s.body.inertia, 3, v)),
-      LIMITS(0.0, 1e12, s.body.inertia[1] = s.body.inertia[2] = 1e12; s.body.inertia[0] = v),
-      LIMITS(1e-12, 1e6, s.body.radius = v),
-      LIMITS(1e-12, 1e6, s.body.sphere_radius = v),
-      LIMITS(0.0, 1e18, s.body.volume = v),
+    LIMITS(0.0, 2.0, s.body.inertia[1] = 2.0; s.body.inertia[2] = 3.0; s.body.inertia[0] = v),
+    LIMITS(1.0, 3.0, s.body.inertia[0] = 1.0; s.body.inertia[2] = 3.0; s.body.inertia[1] = v),
+    LIMITS(2.0, 1e12, s.body.inertia[0] = 1.0; s.body.inertia[1] = 2.0; s.body.inertia[2] = v),
+    LIMITS(0.0, 1e12, std::fill_n(s.body.inertia, 3, v)),
+    LIMITS(0.0, 1e12, s.body.inertia[1] = s.body.inertia[2] = 1e12; s.body.inertia[0] = v),
+    LIMITS(1e-12, 1e6, s.body.radius = v),
+    LIMITS(1e-12, 1e6, s.body.sphere_radius = v),
+    LIMITS(0.0, 1e18, s.body.volume = v),
   };
   for (int axis = 0; axis < 3; ++axis) {
     table.push_back(LIMITS(-kFarthest, kFarthest, s.body.translation_MB[axis] = v));
@@ -241,9 +242,7 @@ TEST(SceneLimits, OfANodesSphereHoldToTheLastBit) {
       }
       EXPECT_EQ(at(std::numeric_limits<float>::quiet_NaN()), Status::kImageValue) << axis;
     }
-    const auto at = [&](float radius) {
-      return status_at(of_body, [=](format::Node& node) { node.radius = radius; });
-    };
+    const auto at = [&](float radius) { return status_at(of_body, [=](format::Node& node) { node.radius = radius; }); };
     EXPECT_EQ(at(0.0f), Status::kOk);
     EXPECT_EQ(at(1e7f), Status::kOk);
     EXPECT_EQ(at(beyond(1e7f)), Status::kImageValue);
@@ -335,7 +334,8 @@ TEST(SceneLimits, OfFlagsAndSolversAreChecked) {
 
 TEST(SceneLimits, OfTheQuaternionsLengthAreAMillionthOfItsSquare) {
   const ImageParts valid = point_image();
-  for (const Quaternion& q : {Quaternion(1.0, 0.0, 0.0, 0.0), Quaternion(0.5, 0.5, -0.5, 0.5), Quaternion(0.0, 0.6, 0.0, 0.8)}) {
+  for (const Quaternion& q :
+       {Quaternion(1.0, 0.0, 0.0, 0.0), Quaternion(0.5, 0.5, -0.5, 0.5), Quaternion(0.0, 0.6, 0.0, 0.8)}) {
     for (const double excess : {-1.1e-6, -0.9e-6, 0.0, 0.9e-6, 1.1e-6}) {
       ImageParts image = valid;
       const double length = std::sqrt(1.0 + excess);
@@ -373,7 +373,8 @@ TEST(SceneLimits, OfAnEdgesFrameAreABillionth) {
     return status_of(image);
   };
   const double a = 1.2;  // between the faces
-  const Frame exact{Vector3::UnitZ(), {Vector3::UnitX(), Vector3(std::cos(a), std::sin(a), 0.0)},
+  const Frame exact{Vector3::UnitZ(),
+                    {Vector3::UnitX(), Vector3(std::cos(a), std::sin(a), 0.0)},
                     {-Vector3::UnitY(), Vector3(std::sin(a), -std::cos(a), 0.0)}};
   for (const Matrix3& turn : turns) {
     EXPECT_EQ(status_of_frame(turn, exact), Status::kOk);
@@ -415,7 +416,8 @@ TEST(SceneLimits, OfPointsAreTheirSpheres) {
   EXPECT_EQ(status_with([=](Structures& s) { s.features.radius = slight; }), Status::kOk);
   EXPECT_EQ(status_with([=](Structures& s) { s.features.radius = much; }), Status::kImageValue);
   // the bound on a body's displacement uses this sphere without any allowance
-  EXPECT_EQ(status_with([](Structures& s) { s.body.sphere_center[2] = 0.25, s.body.sphere_radius = 0.25; }), Status::kOk);
+  EXPECT_EQ(status_with([](Structures& s) { s.body.sphere_center[2] = 0.25, s.body.sphere_radius = 0.25; }),
+            Status::kOk);
   EXPECT_EQ(status_with([](Structures& s) {
               s.body.sphere_center[2] = 0.25, s.body.sphere_radius = std::nextafter(0.25, 0.0);
             }),

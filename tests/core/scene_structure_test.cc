@@ -98,8 +98,8 @@ TEST(SceneStructure, NeedsEverySectionsExactLength) {
 TEST(SceneStructure, NeedsEveryItemOfItsArrays) {
   const ImageParts whole = test::whole_image();
   const std::map<SectionId, std::size_t> item_bytes = {
-      {SectionId::kBrickIndex, 4},  {SectionId::kBricks, 256},      {SectionId::kPoints, 12},
-      {SectionId::kNormals, 12},    {SectionId::kNodes, 32},        {SectionId::kBodyBrickIndex, 4},
+      {SectionId::kBrickIndex, 4},   {SectionId::kBricks, 256},       {SectionId::kPoints, 12},
+      {SectionId::kNormals, 12},     {SectionId::kNodes, 32},         {SectionId::kBodyBrickIndex, 4},
       {SectionId::kBodyBricks, 256}, {SectionId::kFeaturePoints, 12}, {SectionId::kFeatureNodes, 32}};
   for (const auto& [id, bytes] : item_bytes) {
     for (const std::ptrdiff_t by : {-1, 1}) {
@@ -171,7 +171,9 @@ TEST(SceneStructure, HasAHeaderWithoutAWrongByte) {
     EXPECT_EQ(status_with_header([i](format::Header& h) { h.reserved[i] = ~0ull; }), Status::kImageLayout) << i;
   }
   for (const int by : {-64, -1, 1, 64}) {
-    const auto add = [by](auto& x) { x = static_cast<std::remove_reference_t<decltype(x)>>(x + static_cast<std::uint64_t>(by)); };
+    const auto add = [by](auto& x) {
+      x = static_cast<std::remove_reference_t<decltype(x)>>(x + static_cast<std::uint64_t>(by));
+    };
     EXPECT_EQ(status_with_header([=](format::Header& h) { add(h.header_bytes); }), Status::kImageLayout) << by;
     EXPECT_EQ(status_with_header([=](format::Header& h) { add(h.total_bytes); }), Status::kImageTruncated) << by;
     EXPECT_EQ(status_with_header([=](format::Header& h) { add(h.version); }), Status::kImageVersion) << by;
@@ -315,17 +317,25 @@ TEST(SceneStructure, OfATreeHasNoOtherNumbers) {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::uint32_t bit = 0; bit < 32; ++bit) {
         const std::uint32_t mask = 1u << bit;
-        expect_refused(i, [=](format::Node& n) { n.skip ^= mask; }, "skip");
-        expect_refused(i, [=](format::Node& n) { n.first_point ^= mask; }, "first point");
-        expect_refused(i, [=](format::Node& n) { n.point_count ^= mask; }, "points");
+        expect_refused(
+            i, [=](format::Node& n) { n.skip ^= mask; }, "skip");
+        expect_refused(
+            i, [=](format::Node& n) { n.first_point ^= mask; }, "first point");
+        expect_refused(
+            i, [=](format::Node& n) { n.point_count ^= mask; }, "points");
         if (bit >= 16) continue;
-        expect_refused(i, [=](format::Node& n) { n.level = static_cast<std::uint16_t>(n.level ^ mask); }, "level");
-        expect_refused(i, [=](format::Node& n) { n.leaf = static_cast<std::uint16_t>(n.leaf ^ mask); }, "leaf");
+        expect_refused(
+            i, [=](format::Node& n) { n.level = static_cast<std::uint16_t>(n.level ^ mask); }, "level");
+        expect_refused(
+            i, [=](format::Node& n) { n.leaf = static_cast<std::uint16_t>(n.leaf ^ mask); }, "leaf");
       }
       for (const std::uint32_t by : {1u, 2u, 3u, 0u - 1u, 0u - 2u, 0u - 3u}) {
-        expect_refused(i, [=](format::Node& n) { n.skip += by; }, "skip");
-        expect_refused(i, [=](format::Node& n) { n.first_point += by; }, "first point");
-        expect_refused(i, [=](format::Node& n) { n.point_count += by; }, "points");
+        expect_refused(
+            i, [=](format::Node& n) { n.skip += by; }, "skip");
+        expect_refused(
+            i, [=](format::Node& n) { n.first_point += by; }, "first point");
+        expect_refused(
+            i, [=](format::Node& n) { n.point_count += by; }, "points");
       }
     }
   }

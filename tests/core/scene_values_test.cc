@@ -170,7 +170,8 @@ TEST(SceneFormat, SumsWordsAsDescribed) {
   EXPECT_EQ(format::checksum(bytes.data(), 0), 0xcbf29ce484222325u);
   EXPECT_EQ(format::checksum(bytes.data(), 8), 0x45415e97ba6c7963u);
   EXPECT_EQ(format::checksum(bytes.data(), 16), 0xe9c31aceecc4d57cu);
-  EXPECT_EQ(format::checksum(bytes.data() + 8, 8, format::checksum(bytes.data(), 8)), format::checksum(bytes.data(), 16));
+  EXPECT_EQ(format::checksum(bytes.data() + 8, 8, format::checksum(bytes.data(), 8)),
+            format::checksum(bytes.data(), 16));
   for (std::size_t i = 0; i < 16; ++i) bytes[i] = static_cast<std::byte>(240 + i);
   EXPECT_EQ(format::checksum(bytes.data(), 16), 0x02b94dfe2e387bd7u);
 }
@@ -318,7 +319,8 @@ TEST(SceneObject, TakesGainsWithinTheirLimitsOnly) {
     for (const auto member : members) EXPECT_EQ(scene.gains().*member, fine.*member);
   }
   for (const auto member : members) {
-    for (const double value : {std::nextafter(lowest.*member, -1.0), std::nextafter(1e9, 2e9), kInfinity, std::nan("")}) {
+    for (const double value :
+         {std::nextafter(lowest.*member, -1.0), std::nextafter(1e9, 2e9), kInfinity, std::nan("")}) {
       Gains bad = between;
       bad.*member = value;
       EXPECT_EQ(scene.set_gains(bad), Status::kOutOfRange) << value;

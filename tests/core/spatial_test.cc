@@ -52,9 +52,8 @@ TEST(Rotation, OfAQuarterTurnIsKnownByHand) {
 /// The angles reach from vanishing squares to just below half a turn, across the switch to the series (1e-4 rad).
 TEST(Rotation, LogUndoesExpForEveryAngle) {
   Random random(1);
-  for (const double angle : {1e-300, 1e-160, 1e-30, 1e-12, 1e-8, 9.9e-6, 1.9e-5, 2.1e-5, 9.999e-5, 1.0001e-4, 1e-3, 3e-3,
-                             0.1,
-                             1.0, 2.0, 3.0, kPi - 1e-3, kPi - 1e-8}) {
+  for (const double angle : {1e-300, 1e-160, 1e-30, 1e-12, 1e-8, 9.9e-6, 1.9e-5, 2.1e-5, 9.999e-5, 1.0001e-4, 1e-3,
+                             3e-3, 0.1, 1.0, 2.0, 3.0, kPi - 1e-3, kPi - 1e-8}) {
     for (int i = 0; i < 100; ++i) {
       const Vector3 r = angle * random.direction();
       const Vector3 back = log_rotation(exp_rotation(r));

@@ -27,16 +27,17 @@ std::vector<FieldParts> random_fields(test::Random& random, double noise) {
   fields.push_back(test::random_field({.bricks = {1, 1, 1}, .noise = noise, .refined = false, .far = false}, random));
   fields.push_back(test::random_field({.bricks = {3, 2, 4}, .noise = noise, .refined = false}, random));
   fields.push_back(test::random_field({.bricks = {2, 5, 3}, .voxel_size = 0.25, .noise = noise}, random));
-  test::renumber_bricks(fields.back());                  // an octant has the first brick
-  fields.back().grid.band = 3.6 * 0.25;                  // no whole number of voxels
-  fields.back().grid.lipschitz_seam = 0.25;              // flatter than any distance: 1 counts
+  test::renumber_bricks(fields.back());      // an octant has the first brick
+  fields.back().grid.band = 3.6 * 0.25;      // no whole number of voxels
+  fields.back().grid.lipschitz_seam = 0.25;  // flatter than any distance: 1 counts
   fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = noise, .edge_count = 6}, random));
   return fields;
 }
 
 Vector3 vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-/// Returns a point in the grid or up to two voxels outside; every third is on a plane of the lattice or of a refinement.
+/// Returns a point in the grid or up to two voxels outside; every third is on a plane of the lattice or of a
+/// refinement.
 Vector3 any_point(const format::Grid& grid, test::Random& random, double beyond = 2.0) {
   Vector3 voxels;
   const bool on_plane = random.integer(0, 2) == 0;
@@ -95,7 +96,8 @@ TEST(VoxelmapOracle, AgreesAboutTheGradientAtAnEdge) {
       const Vector3 direction = random.direction();
       const SlowField::Place ahead = slow.place(p + step * direction);
       const SlowField::Place behind = slow.place(p - step * direction);
-      if (ahead.brick != place.brick || behind.brick != place.brick || ahead.cell != place.cell || behind.cell != place.cell) {
+      if (ahead.brick != place.brick || behind.brick != place.brick || ahead.cell != place.cell ||
+          behind.cell != place.cell) {
         continue;
       }
       const double high = slow.stored(ahead, p + step * direction);

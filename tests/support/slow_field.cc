@@ -41,9 +41,8 @@ class RandomEntries {
     for (unsigned octant = 0; octant < 8; ++octant) {
       const Vector3 side(octant & 1, octant >> 1 & 1, octant >> 2);
       const double half = 0.5 * format::kBrickCells / (1 << level);
-      const std::uint32_t child = coarse[octant]
-                                      ? format::index_entry::kCoarse | (own & format::index_entry::kEdged)
-                                      : stored(low + half * side, level + 1);
+      const std::uint32_t child = coarse[octant] ? format::index_entry::kCoarse | (own & format::index_entry::kEdged)
+                                                 : stored(low + half * side, level + 1);
       parts_.refined[number].child[octant] = child;
     }
     return format::index_entry::kRefined | number;
@@ -107,7 +106,8 @@ FieldParts random_field(const RandomField& of, Random& random) {
   grid.voxel_size = of.voxel_size;
   grid.band = 3.0 * of.voxel_size;
   grid.quantum = 0x1p-9 * of.voxel_size;
-  grid.lipschitz = 1.5, grid.lipschitz_seam = 1.75, grid.clearance_slope = 1.25, grid.outside_loss = 0.5 * of.voxel_size;
+  grid.lipschitz = 1.5, grid.lipschitz_seam = 1.75, grid.clearance_slope = 1.25,
+  grid.outside_loss = 0.5 * of.voxel_size;
   for (int axis = 0; axis < 3; ++axis) {
     grid.bricks[axis] = of.bricks[static_cast<std::size_t>(axis)];
     grid.origin[axis] = of.voxel_size * random.integer(-5, 5);
@@ -217,7 +217,8 @@ Vector3 SlowField::slope(const Place& place) const {
     Vector3 low = place.at, high = place.at;
     low[axis] = 0.0;
     high[axis] = 1.0;
-    slope[axis] = (quanta(place, high) - quanta(place, low)) * std::ldexp(parts_.grid.quantum / parts_.grid.voxel_size, place.level);
+    slope[axis] = (quanta(place, high) - quanta(place, low)) *
+                  std::ldexp(parts_.grid.quantum / parts_.grid.voxel_size, place.level);
   }
   return slope;
 }
@@ -239,7 +240,8 @@ double SlowField::stored(const Place& place, const Vector3& p) const {
     nearest = std::min(nearest, (across - along * vector(edge.face[i])).norm());
     inside = inside && vector(edge.normal[i]).dot(across) <= 0.0;
   }
-  // inside, the planes' distances bound the wedge; there the nearest point is on a face, as an angle is below 180 degrees
+  // inside, the planes' distances bound the wedge; there the nearest point is on a face, as an angle is below 180
+  // degrees
   if (inside) nearest = std::min(-vector(edge.normal[0]).dot(across), -vector(edge.normal[1]).dot(across));
   const double wedge = edge.side * (inside ? -nearest : nearest) + edge.offset;
   return (1.0 - weight) * interpolated + weight * wedge;

@@ -50,7 +50,7 @@ class SlowField {
     const format::Brick* brick = nullptr;
     int level = 0;
     std::array<int, 3> cell{};
-    Vector3 at = Vector3::Zero();  ///< in the cell, 0 .. 1
+    Vector3 at = Vector3::Zero();           ///< in the cell, 0 .. 1
     Vector3 in_position = Vector3::Zero();  ///< in the position [voxels]
   };
 

@@ -58,7 +58,8 @@ inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(
   copy(SectionId::kPoints, SectionId::kFeaturePoints);
   copy(SectionId::kNodes, SectionId::kFeatureNodes);
   const auto& body = image.item<format::Body>(SectionId::kBody);
-  image.set<format::Features>(SectionId::kFeatures, {{{0.1, 0.2, 0.3}, body.radius, body.point_count, body.node_count, body.level_count, 0}});
+  image.set<format::Features>(SectionId::kFeatures,
+                              {{{0.1, 0.2, 0.3}, body.radius, body.point_count, body.node_count, body.level_count, 0}});
   return image;
 }
 
