@@ -3,6 +3,7 @@
 #include "core/pipeline/contact/qp/contact_set.h"
 
 #include <cfloat>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -346,6 +347,8 @@ TEST(ContactForces, AreThoseOfTheHalfSpaces) {
   Bench bench;
   bench.push_random(random, 4);
   ContactSet set = bench.set();
+  ASSERT_TRUE(set.enter(0, bench.wanted));  // a contact that is no more does not matter
+  set.restart();
   set.active().guess(set.row_half_space(2));
   set.active().at(0).multiplier = 0.75;
   const ContactForce plain = detail::force_of(set, 0);
@@ -480,6 +483,34 @@ TEST(CombinedForces, CancelWhereTheyOpposeEachOther) {
   step.force_count = 6;
   detail::add_forces(set, step);
   EXPECT_LT(sum_of(step, kMetric.gyration).norm(), 1e-11);
+}
+
+/// More than six forces in one plane: fewer than six give their sum.
+TEST(CombinedForces, KeepTheSumOfForcesInOnePlane) {
+  Random random(14);
+  for (int problem = 0; problem < 50; ++problem) {
+    Bench bench;
+    const auto normal = [&] {
+      const double angle = random.between(-1.0, 1.0);
+      return Vector3(std::sin(angle), 0.0, std::cos(angle));
+    };
+    for (int i = 0; i < 5; ++i) bench.rows->push(static_cast<std::uint32_t>(10 + i), normal(), Vector3::Zero(), 0.0);
+    ContactSet set = bench.set();
+    for (std::uint32_t j = 0; j < 5; ++j) {
+      set.active().guess(set.row_half_space(j));
+      set.active().at(static_cast<int>(j)).multiplier = random.between(0.0, 1.0);
+    }
+    ConstrainedStep step, other;
+    for (std::uint32_t j = 0; j < 5; ++j) {
+      step.forces[j] = {j, Vector3::Zero(), normal(), Vector3::Zero(), 0.0, random.between(0.0, 1.0)};
+    }
+    step.force_count = 5;
+    detail::take_forces(set, other);
+    const Vector6 sum = sum_of(step, kMetric.gyration) + sum_of(other, kMetric.gyration);
+    detail::add_forces(set, step);
+    EXPECT_LE(step.force_count, 2u) << "two directions span a plane";
+    EXPECT_LT((sum_of(step, kMetric.gyration) - sum).norm(), 1e-11);
+  }
 }
 
 // -- rows

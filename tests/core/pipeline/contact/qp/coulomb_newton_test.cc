@@ -63,7 +63,8 @@ void expect_coulomb(const Problem& p, const ContactSet& set, const std::vector<f
     if (slip.speed > 2.0 * kMetric.still) {
       EXPECT_EQ(c.ratio, p.friction.kinetic_ratio);
       const double off = (friction[i] + c.ratio * load[i] * slip.direction).norm();
-      EXPECT_LE(std::min(off, slip.speed * off / std::max(1e-300, c.ratio * load[i])), 2.0 * kMetric.tolerance);
+      // near the solution the steps shrink quadratically: the last one leaves much less than the tolerance
+      EXPECT_LE(std::min(off, slip.speed * off / std::max(1e-300, c.ratio * load[i])), 0.25 * kMetric.tolerance);
     }
     const Vector3 force =
         load[i] * c.normal + friction[i] - p.friction.viscous_step * load[i] / all * slip.speed * slip.direction;
@@ -115,7 +116,7 @@ TEST_P(SolveCoulomb, ObeysTheLawOrLeavesTheSetAsItWas) {
     if (detail::solve_coulomb(set)) {
       ++solved;
       entered += set.additions();
-      expect_coulomb(p, set, gains, p.friction.viscous_step > 0.0 ? 4.0 * kMetric.tolerance : 1e-9);
+      expect_coulomb(p, set, gains, p.friction.viscous_step > 0.0 ? kMetric.tolerance : 1e-9);
       EXPECT_EQ(set.most_violated(set.motion()).row, ContactRows::kNone);
     } else {
       EXPECT_EQ(set.active().size(), 0);

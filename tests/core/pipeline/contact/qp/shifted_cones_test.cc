@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -172,7 +173,7 @@ TEST(Sticks, TellsWhetherForcesInTheConesHoldTheBody) {
     bench.wanted.translation = Vector3(0.5 * 0.004 * share, 0.0, -0.004);
     ContactSet set = bench.set();
     ASSERT_TRUE(set.enter(0, bench.wanted));
-    set.contact(0).shift = 1.0;  // of no importance
+    set.contact(0).shift = 1e-4;  // of no importance
     EXPECT_EQ(detail::sticks(set), share < 1.0) << share;
     if (share < 1.0) {
       EXPECT_LT(six(set.motion()).norm(), 1e-9);
@@ -245,6 +246,16 @@ TEST(Crawls, ComparesTheSlipWithTheMotionThatFrictionPrevented) {
     EXPECT_EQ(detail::crawls(set, step), share < 1.0) << share;
     step.force_count = 1;
     EXPECT_TRUE(detail::crawls(set, step)) << "the first point does not slip";
+    // the turn takes back the translation of the second point, not that of the first
+    step.force_count = 2;
+    bench.last = {Vector3(0.0, -0.001, 0.0), Vector3(0.0, 0.0, 0.1)};
+    EXPECT_FALSE(detail::crawls(set, step));
+    std::swap(step.forces[0], step.forces[1]);
+    step.force_count = 1;
+    EXPECT_TRUE(detail::crawls(set, step));
+    bench.last.rotation = -bench.last.rotation;
+    EXPECT_FALSE(detail::crawls(set, step));
+    std::swap(step.forces[0], step.forces[1]);
     step.force_count = 0;
     EXPECT_TRUE(detail::crawls(set, step));
   }
