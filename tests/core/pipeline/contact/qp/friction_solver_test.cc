@@ -124,12 +124,8 @@ TEST(SolveWithFriction, SetsAllFlagsOfTheStep) {
         p.wanted.translation = Vector3(0.0, 0.0, z);
         ConstrainedStep step;
         step.force_count = step.contact_count = 3;
-<<<<<<< HEAD
-        for (std::uint32_t j = 0; j < 3; ++j) step.forces[j] = {9 + j, Vector3::Zero(), Vector3::UnitZ(), Vector3::Zero(), 0.5, 1.0};
-=======
         for (std::uint32_t j = 0; j < 3; ++j)
           step.forces[j] = {9 + j, Vector3::Zero(), Vector3::UnitZ(), Vector3::Zero(), 0.5, 1.0};
->>>>>>> 241e1c573274229c43d8fd672536586846e8efa3
         step.iterations = 77;
         step.follows = step.infeasible = step.unconverged = true;
         least_constraint(*p.rows, p.wanted, kMetric, with_friction ? &p.friction : nullptr, p.last, step);
