@@ -13,6 +13,7 @@
 
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/scene_image_builder.h"
+#include "tests/support/whole_image.h"
 
 namespace godobject {
 namespace {
@@ -42,21 +43,6 @@ SceneImage small_image() {
   description.workspace = format::Workspace{{-1.0, -2.0, -3.0}, {1.0, 2.0, -3.0}};
   description.provenance = R"({"still": "ball"})";
   return test::build_scene_image(description);
-}
-
-/// Returns a convex edge along z.
-format::Edge any_edge() {
-  format::Edge edge{};
-  edge.along[2] = edge.normal[0][0] = edge.normal[1][1] = 1.0;
-  edge.face[0][1] = edge.face[1][0] = -1.0;
-  edge.side = 1.0;
-  edge.begin = -0.01;
-  edge.end = 0.01;
-  edge.ramp = 0.002;
-  edge.radius = 0.005;
-  edge.end_radius = 0.002;
-  edge.slope = 0.5;
-  return edge;
 }
 
 /// Returns the same ball with refinements at two positions, 0 and 2, and in the first one's last octant, 1. The lowest
@@ -432,7 +418,7 @@ INSTANTIATE_TEST_SUITE_P(Refinement, SceneRefusesRefinements, ::testing::ValuesI
 class SceneRefusesEdges : public ::testing::TestWithParam<Spoiled> {};
 
 TEST_P(SceneRefusesEdges, EvenWithRightChecksums) {
-  SceneImage image = refined_image(any_edge());
+  SceneImage image = refined_image(test::edge_along_z());
   EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
   GetParam().spoil(image);
   EXPECT_EQ(describe(open_over_another(image.bytes())), std::string(describe(GetParam().status)));
@@ -518,7 +504,7 @@ TEST(Scene, RefusesRefinementsTooDeep) {
 
 /// An image with a flipped bit and a correct checksum may open or not; if it opens, it must be safe. Sanitizers judge.
 TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
-  SceneImage image = refined_image(any_edge());
+  SceneImage image = refined_image(test::edge_along_z());
   const auto bytes = test::section_bytes(image, SectionId::kRefined);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};
