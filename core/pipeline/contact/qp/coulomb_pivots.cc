@@ -71,7 +71,9 @@ bool release(int contact, ContactSet& set) noexcept {
     return true;
   }
   const double length = carried.pull.norm();
-  const Vector3 along = length > 0.0 ? Vector3(carried.pull / length) : Vector3(active[carried.half_space[0]].tag.slip);
+  // rounding has no direction
+  const Vector3 along =
+      length > 1e-9 * carried.load ? Vector3(carried.pull / length) : Vector3(active[carried.half_space[0]].tag.slip);
   if (length > carried.load) {
     erase_from(1, carried, active);
     c.slips = true;

@@ -178,7 +178,7 @@ TEST_F(CoulombPivots, SpreadAForceInsideOfTheConeOverThreePushes) {
 }
 
 TEST_F(CoulombPivots, HoldAForceOnTheConeAndOneWithoutFriction) {
-  for (const bool on_cone : {true}) {
+  for (const bool on_cone : {true, false}) {
     ContactSet set = this->set();
     const int k = set.open(1);
     const Vector3 first = across(set.contact(k), 0.4);
