@@ -1,5 +1,5 @@
-// Sessions that the fuzzer's generator draws, each short, with the watch on every cycle. Analytic worlds and compiled
-// scenes, with and without friction, all options together.
+// Sessions that the fuzzer's generator draws, each short, with the watch on every cycle: analytic worlds, with and
+// without friction, all options together. The fuzzer's rows of godobject-report add compiled scenes.
 #include <algorithm>
 #include <random>
 #include <string>
@@ -7,56 +7,36 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/folder_test.h"
 #include "toolchain/report/extremes/run.h"
 
 namespace godobject::watch {
 namespace {
 
-struct World {
-  const char* name;
-  bool is_compiled;
-};
+constexpr const char* kWorlds[] = {"plane", "slot", "groove", "bore", "plate", "heap"};
+constexpr int kSessions = 14;  // of each world
 
-constexpr World kWorlds[] = {{"plane", false},      {"slot", false},      {"groove", false},     {"bore", false},
-                             {"plate", false},      {"heap", false},      {"mesh-box", true},    {"mesh-ball", true},
-                             {"mesh-turned", true}, {"mesh-plate", true}, {"mesh-cavity", true}, {"mesh-shell", true}};
-constexpr int kAnalyticSessions = 14;  // of each world
-constexpr int kCompiledSessions = 2;   // with and without friction
-
-class WatchedSessions : public test::FolderTest, public ::testing::WithParamInterface<std::tuple<int, int>> {};
+class WatchedSessions : public ::testing::TestWithParam<std::tuple<int, int>> {};
 
 /// Returns the session number `number` in a world, drawn for the `attempt`-th time. Even numbers have friction.
-report::Setup session_in(const World& world, std::size_t at, int number, int attempt) {
-  const auto seed = 1000 * at + 31 * static_cast<std::size_t>(number) + 17 + 500 * static_cast<std::size_t>(attempt);
+report::Setup session_in(int world, int number, int attempt) {
+  const int seed = 1000 * world + 31 * number + 17 + 500 * attempt;
   std::mt19937 random(static_cast<std::uint32_t>(seed));
   report::Setup setup = report::any_setup(random);
-  setup.world = world.name;
+  setup.world = kWorlds[world];
   setup.friction = number % 2 == 0;
   setup.solver = format::Solver::kContact;
   setup.cycles = 600;
   setup.points = std::min(setup.points, 100);
-  if (world.is_compiled) {
-    const char* const bodies[] = {"box", "ell", "ball"};
-    setup.body = bodies[(at + static_cast<std::size_t>(number)) % 3];
-    setup.points = std::max(setup.points, 41);  // as many as the tree's levels need
-    setup.voxel = std::max(setup.voxel, 0.15);
-    setup.scale = 0.02;
-    setup.far = 0.0;
-    setup.body_scale = 1.0;
-    setup.bad_every = 37;
-  }
   return setup;
 }
 
 TEST_P(WatchedSessions, HoldEveryProperty) {
-  const auto [at, number] = GetParam();
-  const World& world = kWorlds[at];
+  const auto [world, number] = GetParam();
   constexpr int kAttempts = 4;
   bool touches = false;
   for (int attempt = 0; attempt < kAttempts && !touches; ++attempt) {  // some drawn sessions never touch
-    const report::Setup setup = session_in(world, static_cast<std::size_t>(at), number, attempt);
-    const Findings found = run_setup(setup, *make_rig(setup, folder_));
+    const report::Setup setup = session_in(world, number, attempt);
+    const Findings found = run_setup(setup, *make_rig(setup, {}));
     EXPECT_EQ(found.violations(), 0) << case_file(setup, found.first());
     touches = found.touching > 0;
   }
@@ -64,15 +44,11 @@ TEST_P(WatchedSessions, HoldEveryProperty) {
 }
 
 std::string name_of(const ::testing::TestParamInfo<std::tuple<int, int>>& info) {
-  std::string name = kWorlds[std::get<0>(info.param)].name;
-  std::erase(name, '-');
-  return name + "_" + std::to_string(std::get<1>(info.param));
+  return std::string(kWorlds[std::get<0>(info.param)]) + "_" + std::to_string(std::get<1>(info.param));
 }
 
-INSTANTIATE_TEST_SUITE_P(Analytic, WatchedSessions,
-                         ::testing::Combine(::testing::Range(0, 6), ::testing::Range(0, kAnalyticSessions)), name_of);
-INSTANTIATE_TEST_SUITE_P(Compiled, WatchedSessions,
-                         ::testing::Combine(::testing::Range(6, 12), ::testing::Range(0, kCompiledSessions)), name_of);
+INSTANTIATE_TEST_SUITE_P(All, WatchedSessions,
+                         ::testing::Combine(::testing::Range(0, 6), ::testing::Range(0, kSessions)), name_of);
 
 }  // namespace
 }  // namespace godobject::watch
