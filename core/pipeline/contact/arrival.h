@@ -15,16 +15,6 @@ struct Arrival {
   double overshoot = 0.0;  ///< rise of the coupling's energy at the end over its fall at the start, see `arrive` [1]
 };
 
-/// Tells whether another force at the point of force `i` has a normal that is closer to `normal` [unit, in S]: in the
-/// valley between two faces the gradient is that of one of them.
-inline bool is_of_other_face(const ConstrainedStep& step, std::uint32_t i, const Vector3& normal) noexcept {
-  const double fit = step.forces[i].normal.dot(normal);
-  for (std::uint32_t j = 0; j < step.force_count; ++j) {
-    if (step.forces[j].id == step.forces[i].id && step.forces[j].normal.dot(normal) > fit) return true;
-  }
-  return false;
-}
-
 /// Returns by how much the coupling's energy rises because the points move along arcs in the motion (x, r) =
 /// step.motion [m^2]. A row takes the path of its point P for straight; in second order it misses
 ///     (r x (r x P)) / 2   for a sample point,   -r x x - (r x (r x P)) / 2   for a feature point.
@@ -82,10 +72,7 @@ Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, cons
     }
     arrival.opened |= distance > open;
     const double steepness = gradient_W.norm();
-    if (!(steepness > kFlat)) continue;
-    const Vector3 end_normal_W = gradient_W / steepness;
-    if (is_of_other_face(step, i, H0.rotation.conjugate()._transformVector(end_normal_W))) continue;
-    rise -= force.multiplier * (end_normal_W - normal_W).dot(displacement_W);
+    if (steepness > kFlat) rise -= force.multiplier * (gradient_W / steepness - normal_W).dot(displacement_W);
   }
   if (rise > 0.0 && squared_length > 0.0) arrival.overshoot = rise / squared_length;
   return arrival;

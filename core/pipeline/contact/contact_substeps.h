@@ -221,8 +221,9 @@ class ContactSubsteps {
 
   /// Shortens a motion that would raise the coupling's energy again because the points move along arcs.
   void limit_arcs() noexcept {
-    const double excess = excess_arc_energy() / squared(step_.motion);
-    if (excess > kMostOvershoot) share_.limit_to(1.0 / (1.0 + excess));
+    const double length = squared(step_.motion);
+    const double excess = excess_arc_energy();
+    if (excess > kMostOvershoot * length) share_.limit_to(length / (length + excess));
   }
 
   /// Computes the motion nearest to `aim_` in `metric_` that all rows and the workspace allow.

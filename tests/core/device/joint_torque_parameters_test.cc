@@ -68,7 +68,7 @@ TEST(JointTorqueParameters, MayBeZeroButNotNegativeAtEachJoint) {
 /// Two bands may meet in the middle of a joint's range, but not overlap.
 TEST(JointTorqueParameters, HaveABandThatFitsIntoTheRangeOfEachJoint) {
   for (int i = 0; i < 6; ++i) {
-    Arm arm = test::desktop6();  // the seventh joint is none: its range of zero does not count
+    Arm arm = test::desktop6();  // there is no seventh joint: its range of zero does not count
     ArmJoint& joint = arm.model.joints.at(static_cast<std::size_t>(i));
     joint.lower = 0.25;
     joint.upper = 0.75;

@@ -1,4 +1,4 @@
-// What a session makes of its input: frames, refusals, and what follows from the workspace.
+// A session and its input: frames, refusals, and the effects of the workspace.
 
 #include <gtest/gtest.h>
 

@@ -492,56 +492,96 @@ TEST_F(DeviceKeyTest, RefusesAKeyOrATableThatItDoesNotKnow) {
   EXPECT_NE(refusal(text_ + "\n[more]\na = 1\n").find("more is not a known table"), std::string::npos);
 }
 
+struct Value {
+  const char* section;
+  const char* line;
+};
+
+/// A value of each key that is not the default.
+constexpr Value kOtherValues[] = {
+    {"[[joint]]", "a = 0.01"},
+    {"[[joint]]", "alpha = 0.02"},
+    {"[[joint]]", "d = 0.03"},
+    {"[[joint]]", "offset = 0.04"},
+    {"[[joint]]", "lower = -1.3"},
+    {"[[joint]]", "upper = 1.4"},
+    {"[[joint]]", "velocity = 7.0"},
+    {"[[joint]]", "torque = 1.6"},
+    {"[[joint]]", "rotor = 0.0006"},
+    {"[[joint]]", "damping = 0.007"},
+    {"[[joint]]", "mass = 0.4"},
+    {"[[joint]]", "com = [0.05, 0.06, 0.07]"},
+    {"[[joint]]", "inertia = [0.0011, 0.0012, 0.0013, 0.0001, 0.0002, 0.0003]"},
+    {"[[joint]]", "null_damping = 0.08"},
+    {"[[joint]]", "limit_stiffness = 5.5"},
+    {"[[joint]]", "limit_damping = 0.09"},
+    {"[[joint]]", "bus = 1"},
+    {"[[joint]]", "node = 77"},
+    {"[[joint]]", "counts = 4096"},
+    {"[[joint]]", "gear = 12.0"},
+    {"[[joint]]", "rated_torque = 0.25"},
+    {"[[joint]]", "sign = -1"},
+    {"[[joint]]", "zero = 0.11"},
+    {"[arm]", "base = [0.1, 0.2, 0.3, 0.0, 0.6, 0.0, 0.8]"},
+    {"[arm]", "gravity = [1.0, 2.0, -9.0]"},
+    {"[torque]", "rotation_length = 0.06"},
+    {"[torque]", "singular_none = 0.005"},
+    {"[torque]", "singular_full = 0.017"},
+    {"[torque]", "limit_band = 0.12"},
+    {"[bus]", "bit_rate = 5e5"},
+    {"[bus]", "fd = true"},
+    {"[bus]", "data_rate = 2e6"},
+    {"[bus]", "answer = 0.0001"},
+    {"[bus]", "drive_delay = 0.0002"},
+    {"[bus]", "command_deadline = 0.005"},
+    {"[bus]", "drive_heartbeat = 0.03"},
+    {"[bus]", "heartbeat_timeout = 0.07"},
+    {"[bus]", "boot_timeout = 6.0"},
+    {"[bus]", "panel_bus = 0"},
+    {"[bus]", "panel_node = 99"},
+    {"[tool]", "pose = [0.4, 0.5, 0.6, 0.8, 0.0, 0.6, 0.0]"},
+    {"[payload]", "mass = 0.5"},
+    {"[payload]", "com = [0.01, 0.02, 0.03]"},
+    {"[payload]", "inertia = [0.0021, 0.0022, 0.0023, 0.0001, 0.0002, 0.0003]"},
+};
+
+/// Returns the numbers of a device, each with the one of kOtherValues.
+std::vector<std::pair<double, double>> other_numbers(const Device& device) {
+  const ArmJoint& joint = device.model.joints[0];
+  return {
+      {joint.a, 0.01},
+      {joint.alpha, 0.02},
+      {joint.d, 0.03},
+      {joint.offset, 0.04},
+      {joint.lower, -1.3},
+      {joint.upper, 1.4},
+      {joint.velocity, 7.0},
+      {joint.torque, 1.6},
+      {joint.rotor, 0.0006},
+      {joint.damping, 0.007},
+      {joint.link.mass, 0.4},
+      {device.torque.null_damping[0], 0.08},
+      {device.torque.limit_stiffness[0], 5.5},
+      {device.torque.limit_damping[0], 0.09},
+      {device.torque.rotation_length, 0.06},
+      {device.torque.singular_none, 0.005},
+      {device.torque.singular_full, 0.017},
+      {device.torque.limit_band, 0.12},
+      {device.bus.bit_rate, 5e5},
+      {device.bus.data_rate, 2e6},
+      {device.bus.answer, 0.0001},
+      {device.bus.drive_delay, 0.0002},
+      {device.bus.command_deadline, 0.005},
+      {device.bus.drive_heartbeat, 0.03},
+      {device.bus.heartbeat_timeout, 0.07},
+      {device.bus.boot_timeout, 6.0},
+      {device.model.payload.mass, 0.5},
+  };
+}
+
 /// Every number of the first joint is another one and comes out where it belongs.
 TEST_F(DeviceKeyTest, ReadsEveryKeyOfAJointAndOfTheTables) {
-  struct Value {
-    const char* section;
-    const char* line;
-  };
-  for (const Value& value : {Value{"[[joint]]", "a = 0.01"},
-                             {"[[joint]]", "alpha = 0.02"},
-                             {"[[joint]]", "d = 0.03"},
-                             {"[[joint]]", "offset = 0.04"},
-                             {"[[joint]]", "lower = -1.3"},
-                             {"[[joint]]", "upper = 1.4"},
-                             {"[[joint]]", "velocity = 7.0"},
-                             {"[[joint]]", "torque = 1.6"},
-                             {"[[joint]]", "rotor = 0.0006"},
-                             {"[[joint]]", "damping = 0.007"},
-                             {"[[joint]]", "mass = 0.4"},
-                             {"[[joint]]", "com = [0.05, 0.06, 0.07]"},
-                             {"[[joint]]", "inertia = [0.0011, 0.0012, 0.0013, 0.0001, 0.0002, 0.0003]"},
-                             {"[[joint]]", "null_damping = 0.08"},
-                             {"[[joint]]", "limit_stiffness = 5.5"},
-                             {"[[joint]]", "limit_damping = 0.09"},
-                             {"[[joint]]", "bus = 1"},
-                             {"[[joint]]", "node = 77"},
-                             {"[[joint]]", "counts = 4096"},
-                             {"[[joint]]", "gear = 12.0"},
-                             {"[[joint]]", "rated_torque = 0.25"},
-                             {"[[joint]]", "sign = -1"},
-                             {"[[joint]]", "zero = 0.11"},
-                             {"[arm]", "base = [0.1, 0.2, 0.3, 0.0, 0.6, 0.0, 0.8]"},
-                             {"[arm]", "gravity = [1.0, 2.0, -9.0]"},
-                             {"[torque]", "rotation_length = 0.06"},
-                             {"[torque]", "singular_none = 0.005"},
-                             {"[torque]", "singular_full = 0.017"},
-                             {"[torque]", "limit_band = 0.12"},
-                             {"[bus]", "bit_rate = 5e5"},
-                             {"[bus]", "fd = true"},
-                             {"[bus]", "data_rate = 2e6"},
-                             {"[bus]", "answer = 0.0001"},
-                             {"[bus]", "drive_delay = 0.0002"},
-                             {"[bus]", "command_deadline = 0.005"},
-                             {"[bus]", "drive_heartbeat = 0.03"},
-                             {"[bus]", "heartbeat_timeout = 0.07"},
-                             {"[bus]", "boot_timeout = 6.0"},
-                             {"[bus]", "panel_bus = 0"},
-                             {"[bus]", "panel_node = 99"},
-                             {"[tool]", "pose = [0.4, 0.5, 0.6, 0.8, 0.0, 0.6, 0.0]"},
-                             {"[payload]", "mass = 0.5"},
-                             {"[payload]", "com = [0.01, 0.02, 0.03]"},
-                             {"[payload]", "inertia = [0.0021, 0.0022, 0.0023, 0.0001, 0.0002, 0.0003]"}}) {
+  for (const Value& value : kOtherValues) {
     const std::string text = value.line;
     const std::string name = text.substr(0, text.find(' '));
     text_ = with({value.section, name.c_str(), 0.0, 0.0}, text);
@@ -549,33 +589,7 @@ TEST_F(DeviceKeyTest, ReadsEveryKeyOfAJointAndOfTheTables) {
   ASSERT_EQ(refusal(text_), "");
   const Device device = read_device_file(file_);
   const ArmJoint& joint = device.model.joints[0];
-  const std::vector<std::pair<double, double>> numbers = {{joint.a, 0.01},
-                                                          {joint.alpha, 0.02},
-                                                          {joint.d, 0.03},
-                                                          {joint.offset, 0.04},
-                                                          {joint.lower, -1.3},
-                                                          {joint.upper, 1.4},
-                                                          {joint.velocity, 7.0},
-                                                          {joint.torque, 1.6},
-                                                          {joint.rotor, 0.0006},
-                                                          {joint.damping, 0.007},
-                                                          {joint.link.mass, 0.4},
-                                                          {device.torque.null_damping[0], 0.08},
-                                                          {device.torque.limit_stiffness[0], 5.5},
-                                                          {device.torque.limit_damping[0], 0.09},
-                                                          {device.torque.rotation_length, 0.06},
-                                                          {device.torque.singular_none, 0.005},
-                                                          {device.torque.singular_full, 0.017},
-                                                          {device.torque.limit_band, 0.12},
-                                                          {device.bus.bit_rate, 5e5},
-                                                          {device.bus.data_rate, 2e6},
-                                                          {device.bus.answer, 0.0001},
-                                                          {device.bus.drive_delay, 0.0002},
-                                                          {device.bus.command_deadline, 0.005},
-                                                          {device.bus.drive_heartbeat, 0.03},
-                                                          {device.bus.heartbeat_timeout, 0.07},
-                                                          {device.bus.boot_timeout, 6.0},
-                                                          {device.model.payload.mass, 0.5}};
+  const auto numbers = other_numbers(device);
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i].first, numbers[i].second) << i;
   const auto inertia = [](double first) {
     Matrix3 matrix;

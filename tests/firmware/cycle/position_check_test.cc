@@ -362,7 +362,7 @@ TEST_F(PositionCheckTest, LooksForNumbersThatAreNotFiniteInTheJointsOfTheArm) {
   }
 }
 
-/// A start with a reading that is not finite is none: the next finite one is taken as it is.
+/// A reading that is not finite starts nothing: the next finite one is taken as it is.
 TEST_F(PositionCheckTest, StartsWithTheFirstFiniteReading) {
   reading_.position[0] = std::nan("");
   EXPECT_FALSE(step().finite);
@@ -516,8 +516,8 @@ TEST_F(PositionCheckTest, FindsAPushedJointThatRestsBeyondEachThreshold) {
   }
 }
 
-/// A joint that the arm has not got does not stick, and its motion is no other joint's.
-TEST_F(PositionCheckTest, IgnoresJointsThatTheArmHasNotGot) {
+/// A joint that the arm lacks does not stick, and its motion is no other joint's.
+TEST_F(PositionCheckTest, IgnoresJointsThatTheArmLacks) {
   pushed_.setConstant(1.0);
   for (int i = 0; i < 200; ++i) {
     reading_.position[2] += 1e-3;

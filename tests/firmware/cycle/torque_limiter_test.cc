@@ -188,7 +188,7 @@ struct OneJoint {
   }
 };
 
-/// Random decisions in random order: grant, stop, fade, hold. Joints that the arm has not got get no torque.
+/// Random decisions in random order: grant, stop, fade, hold. Joints that the arm lacks get no torque.
 TEST(TorqueLimiter, SendsWhatEachJointAloneWouldSend) {
   test::Random random(11);
   int at_rate = 0, faded = 0, slowed = 0;

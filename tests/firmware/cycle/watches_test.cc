@@ -43,7 +43,7 @@ TEST(OverrunWatch, FindsThreeInARowOneThatIsLongAndTooMany) {
   OverrunWatch row;
   for (const bool third : {false, false, true, true}) EXPECT_EQ(row.update(1), third);
   EXPECT_FALSE(row.update(0));
-  for (const bool third : {false, false, true}) EXPECT_EQ(row.update(1), third) << "counted anew";
+  for (const bool third : {false, false, true}) EXPECT_EQ(row.update(1), third) << "counted again";
 
   for (const std::int64_t longest : {std::int64_t{5'000'000}, std::int64_t{5'000'001}}) {
     OverrunWatch watch;

@@ -216,7 +216,7 @@ TEST_F(RunRecordsTest, WritesTheTelemetryAloneUnlessTheBusesAreAskedFor) {
   EXPECT_NE(text.find(",q2_rad,qd1_rad_s,"), std::string::npos);
 }
 
-/// What the rings lost and what the disk did not take counts together.
+/// Lines that the rings lost and lines that the disk did not take count together.
 TEST_F(RunRecordsTest, CountsWhatWasLostOnTheWayAndByTheDisk) {
   std::filesystem::create_symlink("/dev/full", folder_ / "telemetry.csv");
   std::filesystem::create_symlink("/dev/full", folder_ / "can.log");

@@ -38,7 +38,7 @@ void expect_equal(const DeviceForce& a, const DeviceForce& b) {
   EXPECT_EQ(a.total_W.torque, b.total_W.torque);
 }
 
-/// What `commit` is given and what it writes.
+/// The arguments of `commit`.
 struct Commit {
   CycleInput input;
   Pose H_WS{exp_rotation(Vector3(0.1, 0.2, 0.3)), Vector3(0.4, 0.5, 0.6)};

@@ -93,7 +93,7 @@ SlowCorrection slow_correction(const SlowBody& body, const Vector3& f, const Vec
 Vector3 slow_motion(const Vector3& wanted, const Vector3& u, double delta, double p, const Vector3& mu, bool friction) {
   const Vector3 parallel = u * u.transpose() * wanted;
   const Vector3 perpendicular = (Matrix3::Identity() - u * u.transpose()) * wanted;
-  // what is restricted of the motion towards the surface: all of it in region A, in region B the part beyond contact
+  // the restricted part of the motion towards the surface: all of it in region A, in region B the part beyond contact
   const double towards = std::max(0.0, -u.dot(wanted));
   const double restricted = p >= 0.0 ? towards : std::max(0.0, towards - delta);
   const Vector3 allowed = parallel + restricted * u;

@@ -26,7 +26,7 @@ using detail::Slip;
 
 const CouplingMetric kMetric;
 
-/// What a set refers to.
+/// The objects that a set refers to.
 struct Bench {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted{{0.001, -0.002, -0.005}, {0.01, 0.02, -0.03}};
