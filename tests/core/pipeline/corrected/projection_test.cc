@@ -43,15 +43,6 @@ struct Problem {
     inverse.bottomRightCorner<3, 3>() = mass.inertia.cwiseInverse().asDiagonal();
     return inverse;
   }
-  /// Rows of the tangential velocity at the point of the force line that is nearest to the centre of mass.
-  Eigen::Matrix<double, 3, 6> slip_rows() const {
-    const Vector3 lever = u().cross(tau());
-    Matrix3 cross;
-    cross << 0.0, -lever.z(), lever.y(), lever.z(), 0.0, -lever.x(), -lever.y(), lever.x(), 0.0;
-    Eigen::Matrix<double, 3, 6> rows;
-    rows << Matrix3::Identity(), -cross;
-    return (Matrix3::Identity() - u() * u().transpose()) * rows;
-  }
 };
 
 /// Motions so small that nothing is shortened.
@@ -66,21 +57,6 @@ Problem draw(Random& random) {
       random.between(0.0, 0.05) * problem.contacts.wrench_S.force.norm() * random.direction();
   problem.wanted = {random.in_cube(1e-4), random.in_cube(1e-3)};
   return problem;
-}
-
-/// The forces that have changed the motion: along the row, and along the tangents. Expects that there are no others.
-struct Forces {
-  double normal;
-  Vector3 tangential;
-};
-Forces forces_of(const Problem& problem, const Motion& got) {
-  const Vector6 wrench = problem.inverse_mass().inverse() * (stacked(got) - stacked(problem.wanted));
-  Eigen::Matrix<double, 6, 4> directions;
-  directions << problem.row(), problem.slip_rows().transpose();
-  const Eigen::Vector4d solution = directions.completeOrthogonalDecomposition().solve(wrench);
-  EXPECT_LT((directions * solution - wrench).norm(), 1e-12);
-  const Vector3 tangential = solution.tail<3>();
-  return {solution[0], tangential - tangential.dot(problem.u()) * problem.u()};
 }
 
 TEST(Projection, PushesAlongTheRowAloneAndOnlyAsFarAsItMust) {
