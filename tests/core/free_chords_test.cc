@@ -207,7 +207,7 @@ TEST_F(FreeChords, AreThoseOfASlowWalk) {
   for (const int count : free_after) EXPECT_GT(count, 50);
 }
 
-/// Where the answer of the slow walk changes along a path of chords, that of the kernel changes at the same place.
+/// The kernel changes its answer along a path of chords at the place where the slow walk changes its answer.
 TEST_F(FreeChords, ChangeWhereTheSlowWalkChanges) {
   const FieldParts parts = test::random_field({.bricks = {3, 2, 4}, .noise = 0.15, .far = false}, random_);
   const SlowField field(parts);

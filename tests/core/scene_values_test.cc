@@ -291,7 +291,7 @@ TEST(SceneObject, KnowsDistanceAndNormalOfABall) {
   }
 }
 
-/// Where the stored field is flat nothing is nearest, and there is no normal.
+/// A flat field has no normal and no nearest place.
 TEST(SceneObject, HasNoNormalWhereTheFieldIsFlat) {
   ImageParts parts = test::whole_image();
   const std::size_t bricks = parts.count<format::Brick>(SectionId::kBricks);

@@ -169,8 +169,7 @@ TEST(BallCycle, LiesInAGrooveAndInACornerAtTheMargins) {
             1e-12);
 }
 
-/// Where the field is curved, as in the corner of three planes, no place near the rest keeps the margin and is nearer
-/// to the device.
+/// The corner of three planes curves the field. No place near the rest keeps the margin and is nearer to the device.
 TEST(BallCycle, RestsAtTheNearestPlaceThatKeepsTheMargin) {
   Random random(3);
   for (const SceneImage* image : {&corner(), &groove(), &maze()}) {

@@ -211,7 +211,7 @@ TEST(DampingChange, ProjectsOnTheConeOfTheRows) {
   EXPECT_GT(pulling, 500);
 }
 
-/// Where the load is not of these rows, damping would add power or be too strong: it is zero.
+/// Damping is zero if the rows cannot carry the load: it would add power or be too strong.
 TEST(DampingChange, IsZeroForALoadThatTheRowsCannotCarry) {
   const Vector6 row = Vector6::Unit(2);
   EXPECT_TRUE(detail::damping_change(&row, 1, -0.01 * row, 0.001 * row).isZero(0.0)) << "a pull";
