@@ -6,13 +6,22 @@
 #include "core/pipeline/contact/contact_limits.h"
 #include "core/pipeline/contact/contact_scene.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
+#include "core/pipeline/contact/second_look.h"
 
 namespace godobject::detail {
 
-/// The state of the holding contacts at the end of a motion.
+/// The holding points at the end of a motion.
 struct Arrival {
-  bool opened = false;     ///< a holding point left the surface: it passed an edge, beyond which its row is not valid
-  double overshoot = 0.0;  ///< rise of the coupling's energy at the end over its fall at the start, see `arrive` [1]
+  bool opened = false;  ///< one left the surface: it passed an edge, beyond which its row is not valid
+  double rise = 0.0;    ///< energy by which their surfaces turn against the motion, see `arrive` [m^2]
+};
+
+/// The gaps of the holding points at the end of a motion.
+struct EndGaps {
+  double energy = 0.0;   ///< 2 sum of lambda (lost gap - promised increase of the gap) [m^2]
+  double most = 0.0;     ///< largest gap that a point lacks there [m]; 0: none
+  std::uint32_t id = 0;  ///< of its point
+  FieldSample sample;    ///< the field there
 };
 
 /// Returns by how much the coupling's energy rises because the points move along arcs in the motion (x, r) =
@@ -33,49 +42,86 @@ inline double arc_energy(const ConstrainedStep& step) noexcept {
   return energy;
 }
 
-/// Looks up the holding points at the end of the motion v = step.motion from H0 to H1.
+/// A holding point at the end of a motion.
+struct EndOfForce {
+  FieldSample at_start;                      ///< the field at its point before the motion, if asked for
+  FieldSample at_end;                        ///< the field at its point
+  Vector3 displacement_W = Vector3::Zero();  ///< of the point, or of the body at the point [m]
+  Vector3 gradient_W = Vector3::Zero();      ///< at the end, along which the gap grows [1]
+};
+
+/// Looks up the point of a force at the end of the motion from H0 to H1, and with `with_start` also before it.
+template <DistanceField Field, DistanceField BodyField>
+EndOfForce end_of(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
+                  const ContactForce& force, bool with_start) noexcept {
+  EndOfForce end;
+  if ((force.id & kFeature) == 0) {
+    const Vector3 p = scene.shell->point(force.id);
+    const Vector3 p0_W = H0 * p;
+    const Vector3 p1_W = H1 * p;
+    if (with_start) end.at_start = scene.field->sample(p0_W);
+    end.at_end = scene.field->sample(p1_W);
+    end.displacement_W = p1_W - p0_W;
+    end.gradient_W = end.at_end.gradient;
+  } else if (scene.has_features()) {
+    const Vector3 q_W = scene.features.origin_W + scene.features.points.point(force.id & ~kFeature);
+    const Vector3 q0_S = H0.inverse() * q_W;
+    if (with_start) end.at_start = scene.features.map->sample(q0_S);
+    end.at_end = scene.features.map->sample(H1.inverse() * q_W);
+    end.displacement_W = H1 * q0_S - q_W;
+    end.gradient_W = -H1.rotation._transformVector(end.at_end.gradient);
+  }
+  return end;
+}
+
+/// Looks up the holding points at the end of the motion v from H0 to H1.
 ///
-/// Overshoot: at the start of v the energy of the coupling falls by |v|^2 per unit of the motion. Where the contact
-/// forces at the end (the multipliers lambda of the rows times the normals n_1 there) point backwards, it rises there
-/// by
-///     arcs - sum of lambda (n_1 - n_0) . (p_1 - p_0) = overshoot |v|^2.
-/// By the secant the energy is least at 1 / (1 + overshoot) of the motion. `squared_length`: |v|^2 in the metric in
-/// which `step` was solved; `arcs`: energy of the arcs (`arc_energy`), less the part that this metric contains [m^2].
+/// At the start of v the energy of the coupling falls by 2 |v|^2 per unit of the motion, and it would be least at its
+/// end. Where the contact forces there (the multipliers lambda of the rows times the normals n_1) point backwards, it
+/// is higher by
+///     rise = -sum of lambda (n_1 - n_0) . (p_1 - p_0),
+/// to which the arcs of the points add (`arc_energy`). In the valley between two faces the field at a point knows only
+/// one of them, and its normal may turn although the other face still holds the point; `end_gaps` is exact there.
 /// Cost: one look-up for each force, at most six. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>
-Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1, const ConstrainedStep& step,
-               double squared_length, double arcs) noexcept {
-  const double open = scene.lengths.margin + scene.lengths.opening;
+Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
+               const ConstrainedStep& step) noexcept {
   Arrival arrival;
-  double rise = arcs;
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
     const ContactForce& force = step.forces[i];
+    const EndOfForce end = end_of(scene, H0, H1, force, false);
+    arrival.opened |= end.at_end.distance > scene.lengths.margin + scene.lengths.opening;
+    const double steepness = end.gradient_W.norm();
+    if (!(steepness > kFlat)) continue;
     const Vector3 normal_W = H0.rotation._transformVector(force.normal);
-    Vector3 displacement_W;
-    Vector3 gradient_W;
-    double distance = 0.0;
-    if ((force.id & kFeature) == 0) {
-      const Vector3 p = scene.shell->point(force.id);
-      const Vector3 p1_W = H1 * p;
-      const FieldSample sample = scene.field->sample(p1_W);
-      displacement_W = p1_W - H0 * p;
-      gradient_W = sample.gradient;
-      distance = sample.distance;
-    } else if (scene.has_features()) {
-      const Vector3 q_W = scene.features.origin_W + scene.features.points.point(force.id & ~kFeature);
-      const FieldSample sample = scene.features.map->sample(H1.inverse() * q_W);
-      displacement_W = H1 * (H0.inverse() * q_W) - q_W;
-      gradient_W = -H1.rotation._transformVector(sample.gradient);
-      distance = sample.distance;
-    } else {
-      continue;
-    }
-    arrival.opened |= distance > open;
-    const double steepness = gradient_W.norm();
-    if (steepness > kFlat) rise -= force.multiplier * (gradient_W / steepness - normal_W).dot(displacement_W);
+    arrival.rise -= force.multiplier * (end.gradient_W / steepness - normal_W).dot(end.displacement_W);
   }
-  if (rise > 0.0 && squared_length > 0.0) arrival.overshoot = rise / squared_length;
   return arrival;
+}
+
+/// Measures the gaps of the holding points at the end of the motion from H0 to H1, `share` of the step. A gap is lost
+/// as far as it is smaller than the row promised for the whole step. Cost: two look-ups for each force, at most twelve.
+/// Real-time safe.
+template <DistanceField Field, DistanceField BodyField>
+EndGaps end_gaps(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
+                 const ConstrainedStep& step, double share) noexcept {
+  EndGaps gaps;
+  for (std::uint32_t i = 0; i < step.force_count; ++i) {
+    const ContactForce& force = step.forces[i];
+    const EndOfForce end = end_of(scene, H0, H1, force, true);
+    const double steepness = end.gradient_W.norm();
+    if (!(steepness > kFlat)) continue;
+    const double start = end.at_start.distance;
+    const double promised = promised_gap(scene.lengths, start);
+    const double increase = force.normal.dot(step.motion.translation + step.motion.rotation.cross(force.point));
+    gaps.energy += 2.0 * force.multiplier * ((promised - end.at_end.distance) / steepness - increase);
+    const double lacks = start + share * (promised - start) - end.at_end.distance;
+    if (!(lacks > gaps.most)) continue;
+    gaps.most = lacks;
+    gaps.id = force.id;
+    gaps.sample = end.at_end;
+  }
+  return gaps;
 }
 
 }  // namespace godobject::detail

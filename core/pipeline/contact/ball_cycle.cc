@@ -124,7 +124,7 @@ class Center {
   void go(const Vector3& goal) noexcept {
     at_ = goal;
     held.count = 0;
-    cut = opened = false;
+    cut = opened = looked = false;
   }
 
   /// Runs one sub-step towards `goal`. False: no attempt was certified, and the centre stays.
@@ -133,14 +133,17 @@ class Center {
   Held held;
   bool cut = false;         ///< the motion was shortened so as not to jump over the surface
   bool opened = false;      ///< the centre passed an edge, beyond which the active half spaces are not valid
+  bool looked = false;      ///< half spaces of a second look directed the motion
   bool infeasible = false;  ///< the half spaces had no common point
 
  private:
   void push_contact() noexcept;
+  bool leads_far_away(const Vector3& free) const noexcept;
   void constrain(const Vector3& free) noexcept;
   bool certify(const Vector3& end, double least_gap) noexcept;
   bool push_obstacle(const Vector3& end) noexcept;
   double overshoot(const Vector3& motion) noexcept;
+  bool look_again(const Vector3& end, const Vector3& free, MotionShare& share) noexcept;
 
   const Voxelmap& field_;
   const WorkspaceBox& box_;
@@ -163,11 +166,18 @@ void Center::push_contact() noexcept {
   spaces_.push(here_.gradient / steepness, lengths_.gap_law().required_gain(lost));
 }
 
+/// Tells whether the motion ends farther from `free` than rest, by much more than any gap has to grow (kMostLever).
+bool Center::leads_far_away(const Vector3& free) const noexcept {
+  double most = lengths_.metric.tolerance;
+  for (int i = 0; i < spaces_.count; ++i) most = std::max(most, spaces_.gain[static_cast<std::size_t>(i)]);
+  return (motion_ - free).norm() > free.norm() + kMostLever * most;
+}
+
 /// Computes the motion nearest to `free` that all half spaces and the workspace allow. Half spaces that contradict each
 /// other drop their required gap increase.
 void Center::constrain(const Vector3& free) noexcept {
   const auto solve = [&]() noexcept {
-    if (project(spaces_, free, lengths_.metric.tolerance, motion_, held)) return;
+    if (project(spaces_, free, lengths_.metric.tolerance, motion_, held) && !leads_far_away(free)) return;
     infeasible = true;
     for (double& gain : spaces_.gain) gain = std::min(gain, 0.0);
     project(spaces_, free, lengths_.metric.tolerance, motion_, held);
@@ -175,9 +185,8 @@ void Center::constrain(const Vector3& free) noexcept {
   solve();
   if (!box_.limited || box_.contains(at_ + motion_)) return;
   const int contacts = spaces_.count;
-  push_faces(box_, {Quaternion::Identity(), at_}, [&](const Vector3& normal, double gain) noexcept {
-    spaces_.push(normal, gain);
-  });
+  push_faces(box_, {Quaternion::Identity(), at_},
+             [&](const Vector3& normal, double gain) noexcept { spaces_.push(normal, gain); });
   solve();
   spaces_.count = contacts;
   int kept = 0;  // the faces are no contacts
@@ -213,17 +222,23 @@ bool Center::push_obstacle(const Vector3& end) noexcept {
   return true;
 }
 
-/// Returns the overshoot as detail::arrive does, and sets `opened`.
+/// Returns the overshoot of the whole motion as ContactSubsteps does, and sets `opened`.
 double Center::overshoot(const Vector3& motion) noexcept {
   const double steepness = there_.gradient.norm();
   opened = held.count > 0 && there_.distance > lengths_.margin + lengths_.opening;
   if (!(steepness > kFlat)) return 0.0;
-  double rise = 0.0;
-  for (int i = 0; i < held.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    rise -= held.multiplier[k] * (there_.gradient / steepness - held.normal[k]).dot(motion);
-  }
-  return rise > 0.0 ? rise / motion.squaredNorm() : 0.0;
+  double load = 0.0;
+  for (int i = 0; i < held.count; ++i) load += held.multiplier[static_cast<std::size_t>(i)];
+  const double lost = (detail::promised_gap(lengths_, here_.distance) - there_.distance) / steepness;
+  return 2.0 * load * lost / motion.squaredNorm();
+}
+
+/// Solves again with the half space of the obstacle. False: there is none, or no second look is left.
+bool Center::look_again(const Vector3& end, const Vector3& free, MotionShare& share) noexcept {
+  if (share.looks_left() == 0 || !push_obstacle(end)) return false;
+  constrain(free);
+  share.look_again(1.0);
+  return true;
 }
 
 bool Center::step(const Vector3& goal) noexcept {
@@ -241,20 +256,18 @@ bool Center::step(const Vector3& goal) noexcept {
     if (certify(end, share.least_gap(lengths_))) {
       if (share.is_whole() && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
         if (const double over = overshoot(motion); over > kMostOvershoot) {
-          share.stop_at(1.0 / (1.0 + over));
+          if (!look_again(end, free, share)) share.stop_at(1.0 / (1.0 + over));
           continue;
         }
       }
       at_ = end;
       cut = share.is_cut();
+      looked = share.looks_left() < kMostSecondLooks && motion.norm() > lengths_.margin;
       return true;
     }
     if (obstacle_.exhausted) {
       share.shrink_to(obstacle_.share);
-    } else if (share.looks_left() > 0 && push_obstacle(end) && share.looks_left() > 1) {
-      constrain(free);
-      share.look_again(1.0);
-    } else {
+    } else if (!look_again(end, free, share)) {
       share.shrink_at_obstacle();
     }
   }
@@ -289,7 +302,7 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
     }
     if (!center.step(goal)) break;
     path.push({rotation, center.at()});
-  } while ((center.cut || center.opened) && !result.inside && result.substeps < kMaxSubsteps);
+  } while ((center.cut || center.opened || center.looked) && !result.inside && result.substeps < kMaxSubsteps);
   return result;
 }
 

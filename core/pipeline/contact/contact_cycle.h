@@ -15,10 +15,10 @@ namespace godobject {
 /// Guarantee: a point whose stored distance is positive never gets one <= 0, whatever the device does (certificate.h).
 /// After a first pose that penetrates, the guarantee begins when the god object has come out.
 ///
-/// The remainder of a shortened motion becomes the next sub-step. A motion that took a contact past an edge is followed
-/// by another sub-step. A motion that would pass the bottom of a valley of the field ends there. Points that the point
-/// budget leaves without a look-up limit the motion to the bound of their clearance: the god object may lag, which is
-/// counted, but crosses nothing.
+/// The remainder of a shortened motion becomes the next sub-step. Another sub-step also follows a motion that took a
+/// contact past an edge, and one that a second look directed. A motion that would pass the lowest energy, as at the
+/// bottom of a valley of the field, ends there. Points that the point budget leaves without a look-up limit the motion to
+/// the bound of their clearance: the god object may lag, which is counted, but crosses nothing.
 ///
 /// A first pose that penetrates is left along the gradients. Where these contradict each other, or the field has none
 /// (deeper than the band), the god object follows the device, without force, until it is free.

@@ -24,7 +24,13 @@ inline constexpr int kMostBallsOfChord = 64;
 /// face of a thousand points that slides by a millimetre a cycle takes 50000; with fewer the god object would fall
 /// behind for good.
 inline constexpr int kMostBallsOfCycle = 1 << 17;
-/// A motion that would raise the coupling's energy again beyond this share of its first decrease stops earlier
-/// (`Arrival`). At 1 the god object would swing in a valley of the field without end; 0.5 halves the swing each cycle.
+/// A motion that would raise the energy again beyond this share of its first decrease stops earlier
+/// (`passes_lowest_energy`). At 1 the god object would swing in a valley of the field without end; 0.5 halves the swing
+/// each cycle.
 inline constexpr double kMostOvershoot = 0.5;
+/// A motion that ends farther from the wanted one than rest may do so by this many times the largest required gain,
+/// else its rows count as contradictory: a ball that fits tightly into a bore could regain its margins only by leaving
+/// it. Chosen: rounding gives levers above 10^4; a flat box in a bore 0.07 % wider than the box regains its margin with
+/// a lever of some 80 (way_out_test).
+inline constexpr double kMostLever = 1000.0;
 }  // namespace godobject

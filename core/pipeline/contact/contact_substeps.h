@@ -125,16 +125,10 @@ class ContactSubsteps {
       const bool samples_free = are_samples_free();
       const bool features_free = are_features_free();
       const bool is_free = samples_free && features_free;
-      Arrival arrival;
-      if (is_free && share_.is_whole() && travel(lengths_.sphere, motion_) > lengths_.metric.tolerance) {
-        arrival = arrive(scene_, H0_, H1_, step_, squared(step_.motion), excess_arc_energy());
-      }
+      const bool arrives = is_free && !share_.is_stopped() && travel(lengths_.sphere, motion_) > metric_.tolerance &&
+                           passes_lowest_energy();
       end(times_, &StepTimes::step1_ns);
-      if (arrival.overshoot > kMostOvershoot) {
-        share_.stop_at(1.0 / (1.0 + arrival.overshoot));
-        continue;
-      }
-      opened_ = arrival.opened;
+      if (arrives) continue;
       if (is_free) return;
       react_to_obstacle(samples_free, features_free);
     }
@@ -146,6 +140,7 @@ class ContactSubsteps {
   /// Moves the god object to the certified pose and chooses the next sub-step's search radius.
   void advance() noexcept {
     const double remainder = (1.0 - share_.value()) * travel(lengths_.sphere, step_.motion);
+    is_nearer_ = distance_gain() < 0.0;
     step_.motion = motion_;
     last_motion_ = motion_;
     whole_.translation += motion_.translation;
@@ -163,8 +158,8 @@ class ContactSubsteps {
 
   /// Tells whether another sub-step follows.
   bool remain() const noexcept {
-    return share_.value() != 0.0 && (result_.cut || opened_) && !result_.inside && budget_.balls > 0 &&
-           result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
+    return share_.value() != 0.0 && (result_.cut || opened_ || is_provisional()) && !result_.inside &&
+           budget_.balls > 0 && result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
   }
 
   /// Ends the cycle: #6, #7 and the report. Statuses as those of `commit`.
@@ -179,6 +174,13 @@ class ContactSubsteps {
   }
 
  private:
+  /// Tells whether another motion may follow at once: rows of a second look directed this one, or it ended at the
+  /// lowest energy along its way. Not after a motion within a margin, nor after one that only regains lost margins.
+  bool is_provisional() const noexcept {
+    return (share_.looks_left() < kMostSecondLooks || share_.is_stopped()) && is_nearer_ &&
+           travel(lengths_.sphere, motion_) > lengths_.margin;
+  }
+
   bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
 
   void move_to(const Pose& H_WS) noexcept {
@@ -226,8 +228,29 @@ class ContactSubsteps {
     if (excess > kMostOvershoot * length) share_.limit_to(length / (length + excess));
   }
 
-  /// Computes the motion nearest to `aim_` in `metric_` that all rows and the workspace allow.
+  /// Computes the motion nearest to `aim_` in `metric_` that all rows and the workspace allow. Rows that contradict
+  /// each other up to rounding count as rows without a common solution.
   void solve() noexcept {
+    solve_rows();
+    if (!leads_far_away()) return;
+    for (std::uint32_t i = 0; i < rows_.count; ++i) rows_.required_gain[i] = std::min(rows_.required_gain[i], 0.0f);
+    step_.force_count = 0;
+    solve_rows();
+    step_.infeasible = true;
+  }
+
+  /// Tells whether the step ends farther from the aim than rest, by much more than any gap has to grow: a ball that
+  /// fits tightly into a bore could regain its margins only by leaving it.
+  bool leads_far_away() const noexcept {
+    const double gain = distance_gain();
+    if (!(gain > 0.0)) return false;
+    double most = metric_.tolerance;
+    for (std::uint32_t i = 0; i < rows_.count; ++i) most = std::max(most, static_cast<double>(rows_.required_gain[i]));
+    const double rest = squared(aim_);
+    return std::sqrt(rest + gain) > std::sqrt(rest) + kMostLever * most;
+  }
+
+  void solve_rows() noexcept {
     const WorkspaceBox& box = scene_.parameters->workspace;
     const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
     if (!box.limited) return least_constraint(rows_, aim_, metric_, friction, last_motion_, step_);
@@ -344,8 +367,52 @@ class ContactSubsteps {
     if (!look_again(samples_free, features_free)) share_.shrink_at_obstacle();
   }
 
-  /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, then without. False: they
-  /// cannot become rows, or would drive the god object away from the device; then the step is as before.
+  /// Tells whether a free motion goes far beyond the lowest energy of the coupling, and prepares another attempt: with
+  /// the surface at its end, or else shorter. Sets `opened_`.
+  ///
+  /// Along the motion v the energy of coupling and contact forces is M(t) = M(0) - 2 |v|^2 t + b t^2. Its value at the
+  /// end gives b; the lowest one is at |v|^2 / b = 1 / (1 + overshoot).
+  bool passes_lowest_energy() noexcept {
+    const Arrival arrival = arrive(scene_, H0_, H1_, step_);
+    opened_ = share_.is_whole() && arrival.opened;
+    const double share = share_.value();
+    const double rise = arrival.rise + share * share * excess_arc_energy();
+    if (!(rise > (1.0 + kMostOvershoot - share) * share * squared(step_.motion))) return false;
+    // measured again: surfaces that turn need not raise the energy
+    const EndGaps gaps = end_gaps(scene_, H0_, H1_, step_, share);
+    const double squared_gyration = lengths_.metric.gyration * lengths_.metric.gyration;
+    const auto energy = [squared_gyration](const Motion& m) noexcept {
+      return m.translation.squaredNorm() + squared_gyration * m.rotation.squaredNorm();
+    };
+    const double fall = energy(free_) - energy(unconstrained_motion(H1_, input_.H_WD)) - gaps.energy;
+    const double overshoot = 1.0 - fall / (share * squared(step_.motion));
+    if (!(overshoot > kMostOvershoot)) return false;
+    if (!look_at_end(gaps)) share_.stop_at(share / (1.0 + overshoot));
+    return true;
+  }
+
+  /// Solves again with the surface at the end of a motion that overshoots: that of the point that lacks most becomes a
+  /// row. False: as of `look_again`.
+  bool look_at_end(const EndGaps& gaps) noexcept {
+    if (!(gaps.most > 0.0)) return false;
+    const bool is_sample = (gaps.id & kFeature) == 0;
+    const NearPoints& near = is_sample ? memory_.workspace.samples : memory_.workspace.features;
+    Obstacle& end = is_sample ? at_sample_ : at_feature_;
+    const std::uint32_t* const begin = near.index;
+    end.near = static_cast<std::uint32_t>(std::find(begin, begin + near.count, gaps.id & ~kFeature) - begin);
+    if (end.near == near.count) return false;
+    end.share = 1.0;
+    end.sample = gaps.sample;
+    return look_again(!is_sample, is_sample);
+  }
+
+  bool differs(const Motion& a, const Motion& b) const noexcept {
+    return squared({a.translation - b.translation, a.rotation - b.rotation}) > metric_.tolerance * metric_.tolerance;
+  }
+
+  /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, then without. False:
+  /// they cannot become rows, change nothing, or would drive the god object away from the device; then the step is as
+  /// before.
   bool look_again(bool samples_free, bool features_free) noexcept {
     const ConstrainedStep tried = step_;
     const CouplingMetric metric = metric_;
@@ -354,7 +421,7 @@ class ContactSubsteps {
     for (const bool is_arc : {true, false}) {
       if (!push_obstacles(samples_free, features_free, tried.motion, is_arc)) return false;
       constrain();
-      if (distance_gain() <= most_gain_) {
+      if (distance_gain() <= most_gain_ && differs(step_.motion, tried.motion)) {
         step_.infeasible |= tried.infeasible;
         share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
         limit_arcs();
@@ -402,6 +469,7 @@ class ContactSubsteps {
   double most_search_radius_ = 0.0;
   double longest_displacement_ = 0.0;  // of a point in a sub-step [m]
   bool opened_ = false;
+  bool is_nearer_ = false;  // the last step leads nearer to the device
 
   // state of the sub-step
   bool is_first_ = true;

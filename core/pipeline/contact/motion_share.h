@@ -14,8 +14,10 @@ class MotionShare {
 
   double value() const noexcept { return value_; }
   bool is_whole() const noexcept { return value_ == 1.0; }
-  /// Tells whether the motion was shortened because of an obstacle, not because it would overshoot.
+  /// Tells whether the motion was shortened because of an obstacle, not only because it would overshoot.
   bool is_cut() const noexcept { return value_ < 1.0 && !overshoots_; }
+  /// Tells whether the motion ends at the lowest energy along its way.
+  bool is_stopped() const noexcept { return stopped_; }
   int looks_left() const noexcept { return looks_; }
   /// Returns the gap below which no gap may shrink [m]: the wanted margin while second looks remain, then the least
   /// margin.
@@ -28,10 +30,11 @@ class MotionShare {
 
   /// Sets the share to 0: the god object stays.
   void give_up() noexcept { value_ = 0.0; }
-  /// Sets the share at which the motion ends at the bottom of a valley.
+  /// Sets the share at which the motion ends at the lowest energy along its way, as at the bottom of a valley.
   void stop_at(double share) noexcept {
+    overshoots_ = is_whole();
     value_ = share;
-    overshoots_ = true;
+    stopped_ = true;
   }
   /// Shortens the motion to at most this share.
   void limit_to(double share) noexcept {
@@ -51,7 +54,7 @@ class MotionShare {
   /// Restarts with the share `first` after an obstacle became a row and the motion was computed again.
   void look_again(double first) noexcept {
     --looks_;
-    overshoots_ = false;
+    stopped_ = overshoots_ = false;
     value_ = first;
   }
 
@@ -61,14 +64,15 @@ class MotionShare {
   /// the peg's.
   bool is_early() const noexcept { return attempt_ <= kMostSecondLooks; }
   void shrink(double factor) noexcept {
-    overshoots_ = false;
+    stopped_ = overshoots_ = false;
     value_ *= factor;
   }
 
   double value_;
   int attempt_ = 0;
   int looks_ = kMostSecondLooks;
-  bool overshoots_ = false;
+  bool stopped_ = false;
+  bool overshoots_ = false;  // the whole motion would have been free
 };
 
 }  // namespace godobject::detail

@@ -28,6 +28,12 @@ inline double second_look_gain(const ContactLengths& lengths, const FieldSample&
   return std::min(gain, std::max(0.0, kRecovery * (lengths.margin - start_distance))) + std::max(0.0, loss);
 }
 
+/// Returns the stored distance that a row promises for the end of the motion, from the one at its start [m]: the
+/// margin, or the recovery of a lost one.
+inline double promised_gap(const ContactLengths& lengths, double at_start) noexcept {
+  return lengths.margin - (1.0 - kRecovery) * std::max(0.0, lengths.margin - at_start);
+}
+
 /// The motion that met an obstacle, as the frame of one direction has it.
 struct Attempt {
   const Pose& H0;       ///< start
@@ -37,8 +43,8 @@ struct Attempt {
   bool is_arc = false;  ///< the row makes up for the arc on which the point moves
 };
 
-/// Adds the row of an obstacle that a motion met. False: there is no room for a row, or the field has no gradient at the
-/// obstacle. Real-time safe.
+/// Adds the row of an obstacle that a motion met. False: there is no room for a row, or the field has no gradient at
+/// the obstacle. Real-time safe.
 template <class Direction>
 bool push_obstacle(const Attempt& attempt, const ContactLengths& lengths, const NearPoints& near,
                    const Obstacle& obstacle, ContactRows& rows) noexcept {

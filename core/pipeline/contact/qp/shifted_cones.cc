@@ -26,7 +26,9 @@ ViolatedCone most_violated_cone(const ContactSet& set, const Motion& m, double l
   for (int k = 0; k < set.contact_count(); ++k) {
     const Contact& c = set.contact(k);
     const Slip slip = set.slip_of(c, m);
-    const double violation = c.required_gain + c.ratio * (slip.speed - c.shift) - slip.approach;
+    // a slip below `still` has no direction: the half space that would be added is the one of no slip
+    const double speed = slip.speed > set.metric().still ? slip.speed : 0.0;
+    const double violation = c.required_gain + c.ratio * (speed - c.shift) - slip.approach;
     if (violation > limit) {
       limit = violation;
       worst = {k, slip};

@@ -177,6 +177,28 @@ TEST(ContactCycle, ComesToRestInAValleyThatIsMuchNarrowerThanTheCouplingIsStretc
   EXPECT_LT(std::cos(Ripples::kNumber * p.x()), -0.9);
 }
 
+/// A point on one side of a groove, and a device below the valley, in the cone of the two sides: the optimum is the
+/// bottom of the valley, where both gaps are the margin. One cycle reaches it, wherever the point starts.
+TEST(ContactCycle, ArrivesAtTheBottomOfAGrooveInOneCycle) {
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0.1, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const Groove groove{0.2 + 0.8 * share(random)};
+    const AnalyticField<Groove> field(groove, kVoxel);
+    const double x = (i % 2 == 0 ? 1.0 : -1.0) * 2.0 * kVoxel * share(random);
+    const Vector3 bottom(0.0, 0.0, kMargin / std::cos(groove.angle));
+    const Vector3 start = bottom + Vector3(x, 0.0, std::fabs(x) * std::tan(groove.angle));
+    ContactRun<Groove> run(field, body, at(start));
+    ASSERT_EQ(run.step(at(start)), Status::kOk);
+    const Vector3 along(0.0, 2.0 * kVoxel * (share(random) - 0.5), 0.0);
+    const Vector3 load = share(random) * groove.side(1.0) + share(random) * groove.side(-1.0);
+    ASSERT_EQ(run.step(at(bottom + along - 5e-3 * load)), Status::kOk);
+    EXPECT_LT((run.state.H_WS.translation - bottom - along).norm(), 0.2 * kMargin) << "run " << i;
+    EXPECT_EQ(run.report.outcome, Outcome::kContact);
+  }
+}
+
 TEST(ContactCycle, HoldsABallBetweenTwoWalls) {
   const AnalyticField<Slot> field(Slot{0.0202}, kVoxel);
   const SampledBody body = ball_body();
