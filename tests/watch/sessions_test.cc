@@ -13,7 +13,7 @@ namespace godobject::watch {
 namespace {
 
 constexpr const char* kWorlds[] = {"plane", "slot", "groove", "bore", "plate", "heap"};
-constexpr int kSessions = 14;  // of each world
+constexpr int kSessions = 40;  // of each world
 
 class WatchedSessions : public ::testing::TestWithParam<std::tuple<int, int>> {};
 

@@ -24,19 +24,24 @@ Eigen::VectorXd non_negative_least_squares(const Columns& columns, const Vector7
   constexpr double kTolerance = 1e-13;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(columns.cols());
   std::vector<Eigen::Index> passive;
+  std::vector<Eigen::Index> left_at_once;  // by rounding, since u last changed
   for (int round = 0; round < kMaxRounds; ++round) {
     Eigen::VectorXd gain = columns.transpose() * (target - columns * u);
     for (const Eigen::Index i : passive) gain[i] = 0.0;
+    for (const Eigen::Index i : left_at_once) gain[i] = 0.0;
     Eigen::Index best = 0;
     if (gain.maxCoeff(&best) <= kTolerance) return u;
     passive.push_back(best);
     bool added = true;
     while (!passive.empty()) {
       const Eigen::VectorXd trial = least_squares(columns, passive, target);
-      if (added && trial[trial.size() - 1] <= 0.0) {  // by rounding the new column would leave at once
-        return u;
+      if (added && trial[trial.size() - 1] <= 0.0) {
+        passive.pop_back();
+        left_at_once.push_back(best);
+        break;
       }
       added = false;
+      left_at_once.clear();
       if (trial.minCoeff() > 0.0) {
         u.setZero();
         for (std::size_t k = 0; k < passive.size(); ++k) u[passive[k]] = trial[static_cast<Eigen::Index>(k)];
@@ -90,6 +95,11 @@ LeastDistance least_distance(const std::vector<HalfPlane>& rows) {
     return result;
   }
   result.x = -scale * residual.head<6>() / residual[6];
+  constexpr double kViolated = 1e-6;
+  for (const HalfPlane& row : rows) {
+    const double missing = (row.bound - row.normal.dot(result.x)) / row.normal.norm();
+    if (missing > kViolated * (scale + result.x.norm())) result.converged = false;
+  }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     result.multiplier_sum += -scale * u[static_cast<Eigen::Index>(i)] / residual[6] / rows[i].normal.norm();
   }

@@ -16,7 +16,7 @@ struct HalfPlane {
 
 struct LeastDistance {
   bool feasible = false;
-  bool converged = true;  ///< false: the bound on rounds was met, and x is only near the solution
+  bool converged = true;  ///< false: x violates a row, or the bound on rounds was met
   Vector6 x = Vector6::Zero();
   double multiplier_sum = 0.0;  ///< sum over the given rows; the gradient of |x|^2 / 2 is their combination
 };

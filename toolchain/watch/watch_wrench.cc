@@ -146,12 +146,13 @@ void Watch::check_damping(const WatchedCycle& cycle, const Contact& contact, dou
   });
 }
 
-/// The contact force may push the god object out of lost margins, but drives it nowhere.
+/// The contact force may push the god object out of lost margins, but drives it nowhere in the last sub-step. (In a
+/// cycle that passes edges the whole motion may turn round a corner, so that it ends along the force.)
 void Watch::check_work(const WatchedCycle& cycle) {
   if (travelled_ > 0.25 * q_.voxel_size || cycle.report.outside) return;
   const Vector6 w = load(cycle.report);
-  const Vector3 turn = rotation_vector(cycle.report.H_WS.rotation * H_WS_before_.rotation.conjugate());
-  const Vector6 moved = stacked(cycle.report.H_WS.translation - H_WS_before_.translation, gyration_ * turn);
+  const Vector3 turn = rotation_vector(cycle.report.H_WS.rotation * H_WS_last_start_.rotation.conjugate());
+  const Vector6 moved = stacked(cycle.report.H_WS.translation - H_WS_last_start_.translation, gyration_ * turn);
   judge(Property::kNoWork, w.dot(moved), w.norm() * (0.5 * moved.norm() + 6.0 * q_.margin + session_.rounding),
         [&] { return fmt::format("{} J in one cycle, by a wrench of {} N", w.dot(moved), w.norm()); });
 }
