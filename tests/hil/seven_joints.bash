@@ -32,7 +32,7 @@ begin_at_the_teapot() {  # SECOND of the path
 
 # Runs the arm into contact: nothing is late or lost. HIL_SECONDS of 30 or more follows the whole path, after the sign test.
 run_seven_joints() {  # fd|classical
-  local seconds=${HIL_SECONDS:-20} code=0
+  local seconds=${HIL_SECONDS:-10} code=0
   configure_seven_joints "$1"
   if [ "$seconds" -ge 30 ]; then
     sed -i "s|^slower = .*|slower = $(((seconds - 7) / 2))|" "$config"
