@@ -13,13 +13,13 @@ namespace godobject::detail {
 /// The holding points at the end of a motion.
 struct Arrival {
   bool opened = false;  ///< one left the surface: it passed an edge, beyond which its row is not valid
-  double rise = 0.0;    ///< energy by which their surfaces turn against the motion, see `arrive` [m^2]
+  double rise = 0.0;    ///< of the energy because their surfaces have turned, see `arrive` [m^2]
 };
 
-/// The gaps of the holding points at the end of a motion.
+/// The contact forces in a motion, and the gaps of their points at its end.
 struct EndGaps {
-  double energy = 0.0;   ///< 2 sum of lambda (lost gap - promised increase of the gap) [m^2]
-  double most = 0.0;     ///< largest gap that a point lacks there [m]; 0: none
+  double energy = 0.0;   ///< of the forces at the end, less that at the start, see `end_gaps` [m^2]
+  double most = 0.0;     ///< largest distance that a point lacks there [m]; 0: none
   std::uint32_t id = 0;  ///< of its point
   FieldSample sample;    ///< the field there
 };
@@ -76,9 +76,9 @@ EndOfForce end_of(const ContactScene<Field, BodyField>& scene, const Pose& H0, c
 
 /// Looks up the holding points at the end of the motion v from H0 to H1.
 ///
-/// At the start of v the energy of the coupling falls by 2 |v|^2 per unit of the motion, and it would be least at its
-/// end. Where the contact forces there (the multipliers lambda of the rows times the normals n_1) point backwards, it
-/// is higher by
+/// At the start of v the energy of coupling and contact forces falls by 2 |v|^2 per unit of the motion. By the rows it
+/// is least at the end of v. Where the contact forces there (the multipliers lambda of the rows times the normals n_1)
+/// point backwards, it is higher by
 ///     rise = -sum of lambda (n_1 - n_0) . (p_1 - p_0),
 /// to which the arcs of the points add (`arc_energy`). In the valley between two faces the field at a point knows only
 /// one of them, and its normal may turn although the other face still holds the point; `end_gaps` is exact there.
@@ -99,9 +99,11 @@ Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, cons
   return arrival;
 }
 
-/// Measures the gaps of the holding points at the end of the motion from H0 to H1, `share` of the step. A gap is lost
-/// as far as it is smaller than the row promised for the whole step. Cost: two look-ups for each force, at most twelve.
-/// Real-time safe.
+/// Returns the energy of the contact forces in the motion from H0 to H1, `share` of the step: with the growth of the
+/// gaps and the friction mu lambda d against the displacement u of the points
+///     -2 sum of lambda (growth of the gap - mu d . u).
+/// The growth is that of the row's linear motion, less what the end lacks (`expected_distance`).
+/// Cost: two look-ups for each force, at most twelve. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>
 EndGaps end_gaps(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
                  const ConstrainedStep& step, double share) noexcept {
@@ -112,10 +114,12 @@ EndGaps end_gaps(const ContactScene<Field, BodyField>& scene, const Pose& H0, co
     const double steepness = end.gradient_W.norm();
     if (!(steepness > kFlat)) continue;
     const double start = end.at_start.distance;
-    const double promised = promised_gap(scene.lengths, start);
-    const double increase = force.normal.dot(step.motion.translation + step.motion.rotation.cross(force.point));
-    gaps.energy += 2.0 * force.multiplier * ((promised - end.at_end.distance) / steepness - increase);
-    const double lacks = start + share * (promised - start) - end.at_end.distance;
+    const Vector3 displacement = step.motion.translation + step.motion.rotation.cross(force.point);
+    const double increase = force.normal.dot(displacement);
+    const double expected = expected_distance(scene.lengths, start, steepness * increase);
+    const double friction = share * force.ratio * force.slip.dot(displacement);
+    gaps.energy += 2.0 * force.multiplier * ((expected - end.at_end.distance) / steepness - increase + friction);
+    const double lacks = start + share * (expected - start) - end.at_end.distance;
     if (!(lacks > gaps.most)) continue;
     gaps.most = lacks;
     gaps.id = force.id;

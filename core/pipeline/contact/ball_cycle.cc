@@ -124,17 +124,17 @@ class Center {
   void go(const Vector3& goal) noexcept {
     at_ = goal;
     held.count = 0;
-    cut = opened = looked = false;
+    cut = opened = is_provisional = false;
   }
 
   /// Runs one sub-step towards `goal`. False: no attempt was certified, and the centre stays.
   bool step(const Vector3& goal) noexcept;
 
   Held held;
-  bool cut = false;         ///< the motion was shortened so as not to jump over the surface
-  bool opened = false;      ///< the centre passed an edge, beyond which the active half spaces are not valid
-  bool looked = false;      ///< half spaces of a second look directed the motion
-  bool infeasible = false;  ///< the half spaces had no common point
+  bool cut = false;             ///< the motion was shortened so as not to jump over the surface
+  bool opened = false;          ///< the centre passed an edge, beyond which the active half spaces are not valid
+  bool is_provisional = false;  ///< another motion may follow at once, as in ContactSubsteps
+  bool infeasible = false;      ///< the half spaces had no common point
 
  private:
   void push_contact() noexcept;
@@ -227,16 +227,26 @@ double Center::overshoot(const Vector3& motion) noexcept {
   const double steepness = there_.gradient.norm();
   opened = held.count > 0 && there_.distance > lengths_.margin + lengths_.opening;
   if (!(steepness > kFlat)) return 0.0;
-  double load = 0.0;
-  for (int i = 0; i < held.count; ++i) load += held.multiplier[static_cast<std::size_t>(i)];
-  const double lost = (detail::promised_gap(lengths_, here_.distance) - there_.distance) / steepness;
-  return 2.0 * load * lost / motion.squaredNorm();
+  double rise = 0.0;
+  double lost = 0.0;
+  for (int i = 0; i < held.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    rise -= held.multiplier[k] * (there_.gradient / steepness - held.normal[k]).dot(motion);
+    const double increase = steepness * held.normal[k].dot(motion);
+    const double expected = detail::expected_distance(lengths_, here_.distance, increase);
+    lost += 2.0 * held.multiplier[k] * (expected - there_.distance) / steepness;
+  }
+  const double square = motion.squaredNorm();
+  return rise > kMostOvershoot * square ? lost / square : 0.0;
 }
 
-/// Solves again with the half space of the obstacle. False: there is none, or no second look is left.
+/// Solves again with the half space of the obstacle. False: there is none, it changes nothing, or no second look is
+/// left.
 bool Center::look_again(const Vector3& end, const Vector3& free, MotionShare& share) noexcept {
   if (share.looks_left() == 0 || !push_obstacle(end)) return false;
+  const Vector3 tried = motion_;
   constrain(free);
+  if (!((motion_ - tried).norm() > lengths_.metric.tolerance)) return false;
   share.look_again(1.0);
   return true;
 }
@@ -254,15 +264,19 @@ bool Center::step(const Vector3& goal) noexcept {
     const bool follows = share.is_whole() && held.count == 0;
     const Vector3 end = follows ? goal : box_.nearest(at_ + motion);
     if (certify(end, share.least_gap(lengths_))) {
-      if (share.is_whole() && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
+      if (share.is_whole() && share.has_next() && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
         if (const double over = overshoot(motion); over > kMostOvershoot) {
+          opened = false;
+          obstacle_.share = 1.0;
+          obstacle_.sample = there_;
           if (!look_again(end, free, share)) share.stop_at(1.0 / (1.0 + over));
           continue;
         }
       }
       at_ = end;
       cut = share.is_cut();
-      looked = share.looks_left() < kMostSecondLooks && motion.norm() > lengths_.margin;
+      is_provisional = (share.looks_left() < kMostSecondLooks || share.is_stopped()) &&
+                       (motion_ - free).squaredNorm() < free.squaredNorm() && motion.norm() > lengths_.margin;
       return true;
     }
     if (obstacle_.exhausted) {
@@ -302,7 +316,7 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
     }
     if (!center.step(goal)) break;
     path.push({rotation, center.at()});
-  } while ((center.cut || center.opened || center.looked) && !result.inside && result.substeps < kMaxSubsteps);
+  } while ((center.cut || center.opened || center.is_provisional) && !result.inside && result.substeps < kMaxSubsteps);
   return result;
 }
 

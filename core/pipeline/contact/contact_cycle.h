@@ -16,18 +16,20 @@ namespace godobject {
 /// After a first pose that penetrates, the guarantee begins when the god object has come out.
 ///
 /// The remainder of a shortened motion becomes the next sub-step. Another sub-step also follows a motion that took a
-/// contact past an edge, and one that a second look directed. A motion that would pass the lowest energy, as at the
-/// bottom of a valley of the field, ends there. Points that the point budget leaves without a look-up limit the motion to
-/// the bound of their clearance: the god object may lag, which is counted, but crosses nothing.
+/// contact past an edge. One more follows a motion that a second look directed, or that ended at the lowest energy
+/// along its way, as at the bottom of a valley of the field, if it came nearer to the device by more than a margin.
+/// Points that the point budget leaves without a look-up limit the motion to the bound of their clearance: the god
+/// object may lag, which is counted, but crosses nothing.
 ///
 /// A first pose that penetrates is left along the gradients. Where these contradict each other, or the field has none
 /// (deeper than the band), the god object follows the device, without force, until it is free.
 ///
 /// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged.
-/// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps
-/// sub-steps with a near point, each with at most kMostAttempts look-ups of a near point and 2 + 4 kMostSecondLooks
-/// solves (a second look solves with and without arcs, each in one or two metrics); kMostFreeSubsteps sub-steps without
-/// one; kMostBallsOfCycle further look-ups a cycle. Real-time safe.
+/// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps sub-steps with a
+/// near point, each with at most kMostAttempts attempts. An attempt looks up each near point, and each force three
+/// times. A sub-step solves at most 4 (1 + 2 (kMostSecondLooks + 2)) times: once, and in each second look with and
+/// without arcs, of which two may fail; each in one or two metrics, with and without required gains. Besides,
+/// kMostFreeSubsteps sub-steps without a near point, and kMostBallsOfCycle further look-ups a cycle. Real-time safe.
 template <bool kFriction, DistanceField Field, DistanceField BodyField>
 Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInput& input, ContactMemory& memory,
                      ProxyState& state, CycleReport& report, StepTimes* times = nullptr) noexcept {

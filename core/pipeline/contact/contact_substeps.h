@@ -116,6 +116,7 @@ class ContactSubsteps {
     limit_arcs();
     at_sample_ = at_feature_ = Obstacle{};
     opened_ = false;
+    may_look_at_end_ = true;
     while (share_.next()) {
       if (!set_trial_pose()) {
         share_.halve();
@@ -125,10 +126,10 @@ class ContactSubsteps {
       const bool samples_free = are_samples_free();
       const bool features_free = are_features_free();
       const bool is_free = samples_free && features_free;
-      const bool arrives = is_free && !share_.is_stopped() && travel(lengths_.sphere, motion_) > metric_.tolerance &&
-                           passes_lowest_energy();
+      const bool overshoots = is_free && !share_.is_stopped() && share_.has_next() &&
+                              travel(lengths_.sphere, motion_) > metric_.tolerance && passes_lowest_energy();
       end(times_, &StepTimes::step1_ns);
-      if (arrives) continue;
+      if (overshoots) continue;
       if (is_free) return;
       react_to_obstacle(samples_free, features_free);
     }
@@ -370,8 +371,8 @@ class ContactSubsteps {
   /// Tells whether a free motion goes far beyond the lowest energy of the coupling, and prepares another attempt: with
   /// the surface at its end, or else shorter. Sets `opened_`.
   ///
-  /// Along the motion v the energy of coupling and contact forces is M(t) = M(0) - 2 |v|^2 t + b t^2. Its value at the
-  /// end gives b; the lowest one is at |v|^2 / b = 1 / (1 + overshoot).
+  /// Along the motion, a share of v, the energy of coupling and contact forces is M(t) = M(0) - 2 |v|^2 t + b t^2. Its
+  /// value at the end, t = share, gives b; the lowest one is at t = |v|^2 / b = share / (1 + overshoot).
   bool passes_lowest_energy() noexcept {
     const Arrival arrival = arrive(scene_, H0_, H1_, step_);
     opened_ = share_.is_whole() && arrival.opened;
@@ -387,7 +388,9 @@ class ContactSubsteps {
     const double fall = energy(free_) - energy(unconstrained_motion(H1_, input_.H_WD)) - gaps.energy;
     const double overshoot = 1.0 - fall / (share * squared(step_.motion));
     if (!(overshoot > kMostOvershoot)) return false;
-    if (!look_at_end(gaps)) share_.stop_at(share / (1.0 + overshoot));
+    opened_ = false;
+    may_look_at_end_ = may_look_at_end_ && look_at_end(gaps);
+    if (!may_look_at_end_) share_.stop_at(share / (1.0 + overshoot));
     return true;
   }
 
@@ -428,7 +431,9 @@ class ContactSubsteps {
         return true;
       }
       rows_.count = rows;
+      const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
       step_ = tried;
+      step_.infeasible |= infeasible;
       metric_ = metric;
       aim_ = aim;
     }
@@ -469,7 +474,8 @@ class ContactSubsteps {
   double most_search_radius_ = 0.0;
   double longest_displacement_ = 0.0;  // of a point in a sub-step [m]
   bool opened_ = false;
-  bool is_nearer_ = false;  // the last step leads nearer to the device
+  bool may_look_at_end_ = false;  // no second look at the end of a motion has failed in this sub-step
+  bool is_nearer_ = false;        // the last step leads nearer to the device
 
   // state of the sub-step
   bool is_first_ = true;

@@ -27,6 +27,8 @@ class MotionShare {
 
   /// Counts an attempt. False: all are used up.
   bool next() noexcept { return attempt_++ < kMostAttempts; }
+  /// Tells whether another attempt may follow.
+  bool has_next() const noexcept { return attempt_ < kMostAttempts; }
 
   /// Sets the share to 0: the god object stays.
   void give_up() noexcept { value_ = 0.0; }

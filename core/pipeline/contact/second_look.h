@@ -28,10 +28,15 @@ inline double second_look_gain(const ContactLengths& lengths, const FieldSample&
   return std::min(gain, std::max(0.0, kRecovery * (lengths.margin - start_distance))) + std::max(0.0, loss);
 }
 
-/// Returns the stored distance that a row promises for the end of the motion, from the one at its start [m]: the
-/// margin, or the recovery of a lost one.
-inline double promised_gap(const ContactLengths& lengths, double at_start) noexcept {
-  return lengths.margin - (1.0 - kRecovery) * std::max(0.0, lengths.margin - at_start);
+/// Returns the stored distance at the end of a motion that a row leads one to expect [m], from the one at its start.
+/// `increase`: of the distance, in the row's linear motion [m]. It counts from `at_start` if the row describes the
+/// surface nearest at the start. The row of another face, which a second look saw, leads to the margin, or to the same
+/// distance if that is less; one that makes up for an arc, to no more than the gap law demands.
+inline double expected_distance(const ContactLengths& lengths, double at_start, double increase) noexcept {
+  const double missing = std::max(0.0, lengths.margin - at_start);
+  const double most = lengths.margin - (1.0 - kRecovery) * missing;
+  const double least = std::min(at_start, lengths.margin);
+  return std::clamp(at_start + increase, least, most);
 }
 
 /// The motion that met an obstacle, as the frame of one direction has it.

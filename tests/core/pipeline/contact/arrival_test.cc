@@ -89,6 +89,38 @@ TEST(ArcEnergy, ByHand) {
   EXPECT_NEAR(arc_energy(step), 0.03, 1e-15);
 }
 
+/// Both directions: the distance of a linear field grows by n . (x + r x P) as the body moves, to first order. The pose
+/// is that of the carrying frame in the field's frame: of S in W, or of W in S.
+template <class Direction, class FieldPose>
+void expect_growth_of_the_distance(const FieldPose& field_pose) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  constexpr double kSmall = 1e-6;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 gradient = vector();
+    const Vector3 p = vector();
+    const Pose H_WS = set_matrix({vector(), vector()});
+    const Motion motion{kSmall * vector(), kSmall * vector()};
+    const Pose H0 = field_pose(H_WS);
+    const Pose H1 = field_pose(H_WS * set_matrix(motion));
+    const Matrix3 R = H0.rotation.toRotationMatrix();
+    const ContactPoint contact = Direction::contact(p, H0 * p, gradient, R);
+    const double growth = gradient.dot(H1 * p - H0 * p);
+    const Vector3 displacement = motion.translation + motion.rotation.cross(contact.point_S);
+    EXPECT_NEAR(contact.gradient_S.dot(displacement), growth, 1e-10);
+    EXPECT_NEAR(gradient.dot(Direction::from_S(R) * displacement), growth, 1e-10);
+  }
+}
+
+TEST(ContactDirections, GiveTheGrowthOfASamplePointsDistance) {
+  expect_growth_of_the_distance<SampleDirection>([](const Pose& H_WS) { return H_WS; });
+}
+
+TEST(ContactDirections, GiveTheGrowthOfAFeaturePointsDistance) {
+  expect_growth_of_the_distance<FeatureDirection>([](const Pose& H_WS) { return H_WS.inverse(); });
+}
+
 /// The row of an obstacle on an arc asks for what the arc loses; a straight motion loses nothing.
 TEST(PushObstacle, AsksForTheLossOfTheArc) {
   ContactLengths lengths{};

@@ -76,7 +76,10 @@ TEST(MotionShare, GivesUpTheWantedMarginWithTheLastLook) {
 TEST(MotionShare, EndsAfterTheMostAttempts) {
   MotionShare share(1.0);
   int attempts = 0;
-  while (share.next()) ++attempts;
+  while (share.next()) {
+    ++attempts;
+    EXPECT_EQ(share.has_next(), attempts < kMostAttempts);
+  }
   EXPECT_EQ(attempts, kMostAttempts);
 }
 
@@ -93,14 +96,21 @@ TEST(MotionShare, ShortensFasterInLaterAttempts) {
   EXPECT_DOUBLE_EQ(share.value(), 0.25 * 0.125);
 }
 
-/// By hand, with a margin of 10 mm: from 20 mm to the margin; from 4 mm, 6 mm are missing, of which 1.8 mm are
-/// regained.
-TEST(PromisedGap, ByHand) {
+/// By hand, with a margin of 10 mm.
+TEST(ExpectedDistance, ByHand) {
   ContactLengths lengths{};
   lengths.margin = 0.01;
-  EXPECT_DOUBLE_EQ(promised_gap(lengths, 0.02), 0.01);
-  EXPECT_DOUBLE_EQ(promised_gap(lengths, 0.01), 0.01);
-  EXPECT_NEAR(promised_gap(lengths, 0.004), 0.0058, 1e-15);
+  // the row of the nearest surface: the gap closes to the margin, or a lost one recovers by 0.3 of 6 mm
+  EXPECT_NEAR(expected_distance(lengths, 0.02, -0.01), 0.01, 1e-15);
+  EXPECT_NEAR(expected_distance(lengths, 0.004, 0.0018), 0.0058, 1e-15);
+  // a row without its required gain: the gap stays
+  EXPECT_NEAR(expected_distance(lengths, 0.004, 0.0), 0.004, 1e-15);
+  // rows of another face: the gap of that face was larger
+  EXPECT_NEAR(expected_distance(lengths, 0.02, -0.05), 0.01, 1e-15);
+  EXPECT_NEAR(expected_distance(lengths, 0.004, -0.05), 0.004, 1e-15);
+  // a row that makes up for an arc
+  EXPECT_NEAR(expected_distance(lengths, 0.02, 0.003), 0.01, 1e-15);
+  EXPECT_NEAR(expected_distance(lengths, 0.004, 0.003), 0.0058, 1e-15);
 }
 
 }  // namespace
