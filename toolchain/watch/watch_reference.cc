@@ -96,8 +96,8 @@ std::vector<Vector6> Watch::rays_at(const Pose& H_WS, const std::vector<Contact>
   };
   // a pyramid of eight edges around the cone
   const double ratio = q_.friction.static_ratio / std::cos(M_PI / kEdges);
-  // viscous friction has no bound by the load, nor has friction that did not converge: the whole half space
-  const bool is_bounded = q_.friction.viscous == 0.0 && !cycle.report.unconverged;
+  // viscous friction has no bound by the load: the whole half space
+  const bool is_bounded = q_.friction.viscous == 0.0;
   for (const Contact& contact : contacts) {
     if (!session_.friction || !is_bounded) add(contact.normal_W, contact.lever_W);
     if (!session_.friction) continue;
@@ -176,12 +176,18 @@ void Watch::check_optimum(const WatchedCycle& cycle) {
   const Vector6 moved = stretch(H_WS_before_, H_WS_);
   // The rows are those of the points within half a voxel. So this share of the motion was possible, whatever lies
   // beyond, and the motion of the cycle must end at least as near to the device. The exception is a second face at a
-  // point, which the field at the point does not show: then the chords of the reference meet it.
+  // point, which the field at the point does not show: then a shorter motion counts, whose chords are clear.
   const double travel = expected.head<3>().norm() + q_.mass.radius / gyration_ * expected.tail<3>().norm();
-  const double share = std::min(1.0, 0.4 * q_.voxel_size / travel);
-  const double excess = (moved - to_device).norm() - (share * expected - to_device).norm();
   const double bound = 4.0 * q_.margin + 0.1 * travelled_ + session_.rounding;
-  if (excess > bound && !is_clear(H_WS_before_, moved_by(H_WS_before_, share * expected, gyration_), 0.0)) return;
+  double share = std::min(1.0, 0.4 * q_.voxel_size / travel);
+  const auto excess_over = [&](double part) {
+    return (moved - to_device).norm() - (part * expected - to_device).norm();
+  };
+  while (excess_over(share) > bound &&
+         !is_clear(H_WS_before_, moved_by(H_WS_before_, share * expected, gyration_), 0.0)) {
+    share *= 0.5;
+  }
+  const double excess = excess_over(share);
   judge(Property::kOptimum, excess, bound, [&] {
     return fmt::format("{} m farther from the device than a motion of {} m", excess, share * expected.norm());
   });

@@ -154,7 +154,7 @@ void Watch::check_work(const WatchedCycle& cycle) {
   const Vector3 turn = rotation_vector(cycle.report.H_WS.rotation * H_WS_last_start_.rotation.conjugate());
   const Vector6 moved = stacked(cycle.report.H_WS.translation - H_WS_last_start_.translation, gyration_ * turn);
   judge(Property::kNoWork, w.dot(moved), w.norm() * (0.5 * moved.norm() + 6.0 * q_.margin + session_.rounding),
-        [&] { return fmt::format("{} J in one cycle, by a wrench of {} N", w.dot(moved), w.norm()); });
+        [&] { return fmt::format("{} J in the last sub-step, by a wrench of {} N", w.dot(moved), w.norm()); });
 }
 
 }  // namespace godobject::watch
