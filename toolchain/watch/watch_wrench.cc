@@ -105,15 +105,17 @@ void Watch::check_friction(const WatchedCycle& cycle, const std::vector<Contact>
   const Vector3 tangential = F - normal * n;
   const double tiny = q_.stiffness * q_.coupling_translation * (0.1 * q_.margin + 4.0 * session_.rounding);
   const Vector3 turn = rotation_vector(report.H_WS.rotation * H_WS_before_.rotation.conjugate());
-  const Vector3 moved = report.H_WS.translation - H_WS_before_.translation + turn.cross(first->lever_W);
+  // the law holds for the linear motion, by the lever at the start; a turn bends the path of the point by this much
+  const Vector3 lever = H_WS_before_.rotation._transformVector(first->point_S);
+  const Vector3 moved = report.H_WS.translation - H_WS_before_.translation + turn.cross(lever);
   const Vector3 slip = moved - n.dot(moved) * n;
-  // the law holds for the linear motion; a turn bends the path of the point by this much
-  const double bend = turn.squaredNorm() * first->lever_W.norm();
-  const double viscous = session_.friction ? q_.friction.viscous * (slip.norm() + 2.0 * bend) / q_.period : 0.0;
+  const double bend = turn.squaredNorm() * lever.norm();
+  const double per_slip = session_.friction ? q_.friction.viscous / q_.period : 0.0;
   const double ratio = session_.friction ? q_.friction.static_ratio : 0.0;
   judge(Property::kFriction, -normal, tiny, [&] { return fmt::format("the only contact pulls by {} N", -normal); });
-  const bool slips_elsewhere = count > 1 && viscous > 0.0;
+  const bool slips_elsewhere = count > 1 && per_slip > 0.0;
   if (!slips_elsewhere) {
+    const double viscous = per_slip * (slip.norm() + 2.0 * bend);
     judge(Property::kFriction, tangential.norm(), 1.02 * ratio * normal + 1.2 * viscous + 0.01 * normal + tiny, [&] {
       return fmt::format("{} N along a face that carries {} N, ratio {}", tangential.norm(), normal, ratio);
     });
@@ -121,7 +123,7 @@ void Watch::check_friction(const WatchedCycle& cycle, const std::vector<Contact>
   if (count != 1 || report.contacts != 1) return;
   check_damping(cycle, *first, turn.norm());
   if (!session_.friction || slip.norm() < 0.5 * q_.margin + 20.0 * bend) return;
-  const Vector3 expected = -(q_.friction.kinetic_ratio * normal + viscous) * slip.normalized();
+  const Vector3 expected = -(q_.friction.kinetic_ratio * normal * slip.normalized() + per_slip * slip);
   judge(Property::kFriction, (tangential - expected).norm(), 0.1 * expected.norm() + 0.02 * normal + tiny, [&] {
     return fmt::format("friction of a point that slips is {} N from {} N against the slip",
                        (tangential - expected).norm(), expected.norm());
