@@ -413,18 +413,20 @@ class ContactSubsteps {
     return squared({a.translation - b.translation, a.rotation - b.rotation}) > metric_.tolerance * metric_.tolerance;
   }
 
-  /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, then without. False:
-  /// they cannot become rows, change nothing, or would drive the god object away from the device; then the step is as
-  /// before.
+  /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, unless that gains too
+  /// little (`most_arc_gain`), then without. False: they cannot become rows, change nothing, or would drive the god
+  /// object away from the device; then the step is as before.
   bool look_again(bool samples_free, bool features_free) noexcept {
     const ConstrainedStep tried = step_;
     const CouplingMetric metric = metric_;
     const Motion aim = aim_;
     const std::uint32_t rows = rows_.count;
+    const double most_with_arc =
+        std::min(most_gain_, most_arc_gain(distance_gain(), squared(tried.motion), share_.value()));
     for (const bool is_arc : {true, false}) {
       if (!push_obstacles(samples_free, features_free, tried.motion, is_arc)) return false;
       constrain();
-      if (distance_gain() <= most_gain_ && differs(step_.motion, tried.motion)) {
+      if (distance_gain() <= (is_arc ? most_with_arc : most_gain_) && differs(step_.motion, tried.motion)) {
         step_.infeasible |= tried.infeasible;
         share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
         limit_arcs();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/pipeline/contact/second_look.h"
 
 namespace godobject::detail {
@@ -111,6 +113,16 @@ TEST(ExpectedDistance, ByHand) {
   // a row that makes up for an arc
   EXPECT_NEAR(expected_distance(lengths, 0.02, 0.003), 0.01, 1e-15);
   EXPECT_NEAR(expected_distance(lengths, 0.004, 0.003), 0.0058, 1e-15);
+}
+
+/// By hand, in m^2. The aim is 5 m away and the motion leads 3 m towards it, from 25 m^2 to 4 m^2: by -21. A third of
+/// it leads to 16 m^2: by -9, of which a quarter counts.
+TEST(MostArcGain, IsAQuarterOfWhatTheTriedShareGains) {
+  EXPECT_NEAR(most_arc_gain(-21.0, 9.0, 1.0), -21.0 / 4.0, 1e-14);
+  EXPECT_NEAR(most_arc_gain(-21.0, 9.0, 1.0 / 3.0), -9.0 / 4.0, 1e-14);
+  // across the aim's direction, and away from it
+  EXPECT_EQ(most_arc_gain(9.0, 9.0, 1.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(most_arc_gain(39.0, 9.0, 0.5), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
