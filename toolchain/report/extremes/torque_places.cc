@@ -101,8 +101,9 @@ std::vector<Pose> place_path(Place place, const SceneView& scene, std::uint32_t 
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
   };
   const double outside = top_of_grid(scene).x() / kMillimetre + 15.0;
-  Vector3 begin(between(-12.0, 12.0), between(-12.0, 12.0), 15.0);  // [mm] until both are scaled below
+  Vector3 begin(between(-12.0, 12.0), between(-12.0, 12.0), 15.0);  // [mm] until all are scaled below
   Vector3 reach(0.0, 0.0, 0.0);                                     // there and back, twice
+  Vector3 most_aside(15.0, 15.0, 0.0);
   switch (place) {
     case Place::kStartInside:
       begin.z() = between(-8.0, 5.0);
@@ -121,6 +122,7 @@ std::vector<Pose> place_path(Place place, const SceneView& scene, std::uint32_t 
     case Place::kGridBorder:
       begin.x() = between(25.0, 35.0);
       reach.z() = between(-30.0, -17.0);
+      most_aside = {0.0, 6.0, 0.0};  // it stays on the top: the god object rightly jumps where it slides off an edge
       break;
     case Place::kMedialAxis:
       if (seed % 2 == 0) begin.z() = 0.0;  // else through the plate and back
@@ -129,8 +131,9 @@ std::vector<Pose> place_path(Place place, const SceneView& scene, std::uint32_t 
   }
   begin *= kMillimetre;
   reach *= kMillimetre;
-  const Vector3 rates(between(2.0, 6.0), between(2.0, 6.0), between(2.0, 6.0));    // [rad/s]
-  const Vector3 aside(between(0.0, 0.015), between(0.0, 0.015), 0.0);              // [m]
+  most_aside *= kMillimetre;
+  const Vector3 rates(between(2.0, 6.0), between(2.0, 6.0), between(2.0, 6.0));  // [rad/s]
+  const Vector3 aside(between(0.0, most_aside.x()), between(0.0, most_aside.y()), 0.0);
   const Vector3 tilt(between(-0.2, 0.2), between(-0.2, 0.2), between(-0.2, 0.2));  // [rad]
   std::vector<Pose> path;
   for (int k = 0; k < kPathCycles; ++k) {
