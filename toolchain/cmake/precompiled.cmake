@@ -1,0 +1,26 @@
+# Headers that cost a quarter of the compile time of the firmware's files and the desk tools. CMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+# switches the precompiled header off; each file includes what it needs all the same.
+file(GENERATE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/precompiled.cc" CONTENT "")
+add_library(godobject_precompiled OBJECT "${CMAKE_CURRENT_BINARY_DIR}/precompiled.cc")
+target_link_libraries(godobject_precompiled PRIVATE godobject_core godobject_warnings)
+target_precompile_headers(godobject_precompiled PRIVATE
+  <algorithm> <filesystem> <functional> <optional> <string> <vector> <Eigen/Geometry>)
+
+# godobject_precompile_folder(FOLDER)
+# Gives the precompiled header to the targets of the folder and of the folders below it. Those of godobject_embedded are
+# compiled with other options, and two libraries do not link the core and Eigen.
+function(godobject_precompile_folder folder)
+  get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(type ${target} TYPE)
+    get_target_property(libraries ${target} LINK_LIBRARIES)
+    if(type MATCHES "STATIC_LIBRARY|EXECUTABLE" AND NOT "godobject_embedded" IN_LIST libraries
+       AND NOT target MATCHES "^godobject_(parallel|timing)$")
+      target_precompile_headers(${target} REUSE_FROM godobject_precompiled)
+    endif()
+  endforeach()
+  get_property(below DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+  foreach(subfolder IN LISTS below)
+    godobject_precompile_folder("${subfolder}")
+  endforeach()
+endfunction()
