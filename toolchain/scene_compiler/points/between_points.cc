@@ -185,8 +185,8 @@ Open open_still(const Relief& relief, std::span<const SurfaceSample> points, con
                 std::span<const std::uint8_t> among) {
   const Points near(points);
   return open_places(relief, among, [&](std::size_t i, double&) {
-    if (!relief.falls(i, largest_aside, target.still())) return false;
     if (near.any_within(relief.places()[i].point, target.bound)) return false;
+    if (!relief.falls(i, largest_aside, target.still())) return false;
     const double found = near.nearest_aside(relief, i, target.still_fall, target.stretched(largest_aside));
     return !std::isfinite(found) || relief.falls(i, target.unstretched(found), target.still());
   });

@@ -18,6 +18,7 @@ constexpr std::uint32_t kMostSharp = 1u << 17;
 constexpr double kMostFine = 1u << 19;
 constexpr double kNearRough = 1.5;   // times the rough area is near it
 constexpr double kRoughSlack = 0.8;  // a coarse cloud misses some of the fall
+constexpr double kRounding = 1e-12;  // of squared lengths, so that no place is left out
 constexpr double kFaceCosine = 0.7;  // of a shell's sample with its triangle, if not on a round
 
 std::vector<SurfaceSample> outer_of(const OuterSurface& outer, const std::vector<SurfaceSample>& samples) {
@@ -97,8 +98,13 @@ std::vector<SurfaceSample> Relief::fine_places(const OuterSurface& outer, const 
   return fine;
 }
 
-double Relief::lowest(std::size_t i, const Vector3d& low, const Vector3d& high) const {
-  return depth_below(i, 0.5 * (low + high)) + 0.5 * (high - low).dot(inward_[i].cwiseAbs());
+bool Relief::may_fall(std::size_t i, const Vector3d& low, const Vector3d& high, double depth, double radius) const {
+  const Vector3d half = 0.5 * (high - low);
+  const Vector3d center = low + half - places_[i].point;
+  const double center_depth = center.dot(inward_[i]);
+  if (center_depth + half.dot(inward_[i].cwiseAbs()) <= depth) return false;
+  const double reach = radius + half.norm();
+  return (1.0 - kRounding) * center.squaredNorm() - center_depth * center_depth <= reach * reach;
 }
 
 bool Relief::falls(std::size_t i, double radius, const Fall& fall) const {
@@ -106,7 +112,7 @@ bool Relief::falls(std::size_t i, double radius, const Fall& fall) const {
   const auto falls_in = [&](const PointTree& tree, double within) {
     bool found = false;
     const auto skip = [&](const Vector3d& low, const Vector3d& high) {
-      return found || lowest(i, low, high) <= fall.depth;
+      return found || !may_fall(i, low, high, fall.depth, within);
     };
     // a search finds a steep wall on its way down: surface far below the plane is not looked up
     tree.within(place.point, std::hypot(within, fall.seen), skip, [&](std::uint32_t j, double squared_distance) {
@@ -124,7 +130,7 @@ double Relief::level_radius(std::size_t i, const Fall& fall, double limit) const
   const auto radius_in = [&](const PointTree& tree, double most) {
     const double furthest = std::hypot(most, fall.seen);
     const auto skip = [&](const Vector3d& low, const Vector3d& high) {
-      if (lowest(i, low, high) <= fall.depth) return true;
+      if (!may_fall(i, low, high, fall.depth, most)) return true;
       const Vector3d& at = place.point;
       const double looked_at = std::hypot(most, fall.seen);
       return (low - at).cwiseMax(at - high).cwiseMax(0.0).squaredNorm() >= looked_at * looked_at;

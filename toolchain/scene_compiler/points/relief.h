@@ -55,8 +55,9 @@ class Relief {
   double area() const { return area_; }  ///< of the outer surface [m^2]
 
  private:
-  /// Returns a depth below the plane that nothing in the box exceeds.
-  double lowest(std::size_t place, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
+  /// False if nothing in the box is more than `depth` below the plane and at most `radius` from its normal [m].
+  bool may_fall(std::size_t place, const Eigen::Vector3d& low, const Eigen::Vector3d& high, double depth,
+                double radius) const;
 
   PointTree add(const OuterSurface& outer, std::span<const SurfaceSample> samples);
   std::vector<SurfaceSample> fine_places(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
