@@ -26,6 +26,11 @@ double trilinear(const std::array<double, 8>& value, const Vector3d& at) {
   return sum;
 }
 
+/// Returns the `index`-th point of a lattice with `side` points along each axis, x fastest.
+Vector3d lattice_point(int index, int side) {
+  return Vector3d(index % side, index / side % side, index / (side * side));
+}
+
 /// Returns a bound of |g - I[phi]| on a cell, phi its nodes. The function side g is convex. In each part of the cell it
 /// lies above its tangent plane at the part's middle and below its interpolation between the part's corners. The
 /// difference of I[phi] and either is trilinear there, so it is largest at a corner.
@@ -43,16 +48,23 @@ double largest_difference(const format::Edge& edge, const Vector3d& low, double 
   }
   // The region nearest to one face is convex. So g is linear on a cell with all corners in it.
   if (one_face) return largest;
+  constexpr int kCorners = kParts + 1;  // of the parts, along an edge
+  std::array<double, kCorners * kCorners * kCorners> interpolated{};
+  for (int corner = 0; corner < kCorners * kCorners * kCorners; ++corner) {
+    const Vector3d at = lattice_point(corner, kCorners) / kParts;
+    const auto c = static_cast<std::size_t>(corner);
+    interpolated[c] = trilinear(nodes, at);
+    largest = std::max(largest, edge.side * (wedge_distance(edge, low + cell_edge * at).value - interpolated[c]));
+  }
   for (int part = 0; part < kParts * kParts * kParts; ++part) {
-    const Vector3d first = Vector3d(part % kParts, part / kParts % kParts, part / (kParts * kParts)) / kParts;
-    const Vector3d middle = first + Vector3d::Constant(0.5 / kParts);
+    const Vector3d first = lattice_point(part, kParts);
+    const Vector3d middle = first / kParts + Vector3d::Constant(0.5 / kParts);
     const ValueAndGradient tangent = wedge_distance(edge, low + cell_edge * middle);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const Vector3d at = first + corner_offset(corner) / kParts;
-      const double plane = tangent.value + cell_edge * tangent.gradient.dot(at - middle);
-      const double exact = wedge_distance(edge, low + cell_edge * at).value;
-      const double interpolated = trilinear(nodes, at);
-      largest = std::max({largest, edge.side * (interpolated - plane), edge.side * (exact - interpolated)});
+    for (unsigned offset = 0; offset < 8; ++offset) {
+      const Vector3d corner = first + corner_offset(offset);
+      const double plane = tangent.value + cell_edge * tangent.gradient.dot(corner / kParts - middle);
+      const auto c = static_cast<std::size_t>(corner.dot(Vector3d(1.0, kCorners, kCorners * kCorners)));
+      largest = std::max(largest, edge.side * (interpolated[c] - plane));
     }
   }
   return largest;
