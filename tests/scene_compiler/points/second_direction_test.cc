@@ -209,13 +209,13 @@ TEST(SecondDirection, HoldsItsBoundBetweenPegAndHole) {
 
 TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndPlate) {
   Bodies bodies(load("plate_2mm", 1.0), load("bunny_npm", 0.0161497));
-  bodies.look(3000, 0.002);
+  bodies.look(3000, 0.001);
   EXPECT_LE(deepest_unseen(bodies, 1, Vector3d::Zero(), 0.05), bodies.both.between.bound);
 }
 
 TEST(SecondDirection, HoldsItsBoundBetweenBunnyAndSheet) {
   Bodies bodies(load("sheet_open", 1.0), load("bunny_npm", 0.0161497), SurfaceKind::kShell, 0.002);
-  bodies.look(3000, 0.002);
+  bodies.look(3000, 0.001);
   EXPECT_LE(deepest_unseen(bodies, 1, Vector3d::Zero(), 0.05), bodies.both.between.bound);
 }
 
