@@ -1,6 +1,7 @@
 #include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -35,17 +36,30 @@ Vector3d nearest_point_on_triangle(const Vector3d& p, const Vector3d& a, const V
   return a + (vb * scale) * ab + (vc * scale) * ac;
 }
 
-double solid_angle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) noexcept {
-  const Vector3d u = a - p;
-  const Vector3d v = b - p;
-  const Vector3d w = c - p;
+void SolidAngle::add(const Vector3d& a, const Vector3d& b, const Vector3d& c) noexcept {
+  const Vector3d u = a - p_;
+  const Vector3d v = b - p_;
+  const Vector3d w = c - p_;
   const double lu = u.norm();
   const double lv = v.norm();
   const double lw = w.norm();
-  // van Oosterom and Strackee 1983. atan2 gives the right quadrant close to the triangle.
-  const double numerator = u.dot(v.cross(w));
-  const double denominator = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
-  return 2.0 * std::atan2(numerator, denominator);
+  const double imaginary = u.dot(v.cross(w));
+  const double real = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
+  const double scale = std::abs(real) + std::abs(imaginary);
+  if (scale == 0.0) return;  // p is a corner
+  const double next_real = (real_ * real - imaginary_ * imaginary) / scale;
+  const double next_imaginary = (real_ * imaginary + imaginary_ * real) / scale;
+  // Arguments are in (-pi, pi]. Two of one sign that leave this range come out with the other sign.
+  const bool both_negative = imaginary_ < 0.0 && imaginary < 0.0;
+  const bool both_positive = imaginary_ >= 0.0 && imaginary >= 0.0;
+  if (both_positive && next_imaginary < 0.0) ++turns_;
+  if (both_negative && (next_imaginary > 0.0 || (next_imaginary == 0.0 && next_real < 0.0))) --turns_;
+  real_ = next_real;
+  imaginary_ = next_imaginary + 0.0;  // no -0, whose argument beside a negative number is -pi
+}
+
+double SolidAngle::sum() const noexcept {
+  return 2.0 * (std::atan2(imaginary_, real_) + 2.0 * std::numbers::pi * turns_);
 }
 
 }  // namespace godobject::scene_compiler

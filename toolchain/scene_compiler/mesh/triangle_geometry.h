@@ -8,8 +8,21 @@ namespace godobject::scene_compiler {
 Eigen::Vector3d nearest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c) noexcept;
 
-/// Returns the solid angle of the triangle seen from p, positive if p sees its back (p inside) [sr].
-double solid_angle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                   const Eigen::Vector3d& c) noexcept;
+/// The solid angle of many triangles seen from a point p [sr], positive for a triangle whose back p sees (p inside of a
+/// closed surface: 4 pi in all). Half of a triangle's angle is the argument of a complex number (van Oosterom and
+/// Strackee 1983). Arguments add up in a product, so that all triangles need one arc tangent.
+class SolidAngle {
+ public:
+  explicit SolidAngle(const Eigen::Vector3d& p) noexcept : p_(p) {}
+
+  void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) noexcept;
+  double sum() const noexcept;
+
+ private:
+  Eigen::Vector3d p_;
+  double real_ = 1.0;
+  double imaginary_ = 0.0;
+  int turns_ = 0;  ///< the sum of the arguments is that of the product and so many full turns
+};
 
 }  // namespace godobject::scene_compiler

@@ -46,9 +46,9 @@ bool ray_meets_box(const Vector3d& origin, const Vector3d& inverse, const Vector
   for (int axis = 0; axis < 3; ++axis) {
     const double t0 = (low[axis] - origin[axis]) * inverse[axis];
     const double t1 = (high[axis] - origin[axis]) * inverse[axis];
-    // fmin and fmax drop the NaN of 0 * infinity, which occurs if the ray lies in the slab's plane
-    t_min = std::fmax(t_min, std::fmin(t0, t1));
-    t_max = std::fmin(t_max, std::fmax(t0, t1));
+    if (std::isnan(t0) || std::isnan(t1)) continue;  // 0 * infinity: the ray lies in a plane of the box
+    t_min = std::max(t_min, std::min(t0, t1));
+    t_max = std::min(t_max, std::max(t0, t1));
   }
   return t_min <= t_max * (1.0 + 1e-12);
 }
@@ -288,7 +288,8 @@ double TriangleTree::winding_number(const Vector3d& p, double opening) const noe
   if (nodes_.empty()) return 0.0;
   std::array<std::uint32_t, kStack> stack;
   std::size_t depth = 0;
-  double sum = 0.0;
+  double far_sum = 0.0;
+  SolidAngle near(p);
   stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
@@ -297,7 +298,7 @@ double TriangleTree::winding_number(const Vector3d& p, double opening) const noe
     const double squared = to_center.squaredNorm();
     const double far = opening * dipole.radius;
     if (squared > far * far) {
-      sum += dipole.area.dot(to_center) / (squared * std::sqrt(squared));
+      far_sum += dipole.area.dot(to_center) / (squared * std::sqrt(squared));
       continue;
     }
     const Node& node = nodes_[index];
@@ -307,10 +308,10 @@ double TriangleTree::winding_number(const Vector3d& p, double opening) const noe
       continue;
     }
     for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
-      sum += solid_angle(p, triangles_[i].a, triangles_[i].b, triangles_[i].c);
+      near.add(triangles_[i].a, triangles_[i].b, triangles_[i].c);
     }
   }
-  return sum / (4.0 * std::numbers::pi);
+  return (far_sum + near.sum()) / (4.0 * std::numbers::pi);
 }
 
 }  // namespace godobject::scene_compiler
