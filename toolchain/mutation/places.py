@@ -476,7 +476,7 @@ def arguments_of(entry):
             take = True
         elif re.match(r'-(I|D|std=|m|isystem)', word) and not word.startswith('-mprefer'):
             kept.append(word)
-    return [w for w in kept if 'cmake_pch' not in w]
+    return kept
 
 
 def places_of_unit(entry, wanted):

@@ -109,7 +109,8 @@ class Tree:
             write_if_changed(self.work / 'schemata.h', (HERE / 'schemata.h').read_bytes())
         subprocess.run(['cmake', '-S', str(self.copy), '-B', str(self.build), '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release',
                         '-DCMAKE_CXX_FLAGS=-w -fdiagnostics-color=never -fno-diagnostics-show-caret',
-                        '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG', f'-DCMAKE_EXE_LINKER_FLAGS={self.object}'],
+                        '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG', f'-DCMAKE_EXE_LINKER_FLAGS={self.object}',
+                        '-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON'],
                        check=True, stdout=subprocess.DEVNULL)
 
     def find(self):
