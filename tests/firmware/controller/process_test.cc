@@ -81,13 +81,21 @@ class ControllerProcessTest : public ControllerFolderTest {
   /// A condition that is not seen within this time counts as never seen. The value measures nothing else.
   static constexpr std::chrono::seconds kNever{600};
 
+  /// Waits until the condition holds. False if it never does, or not although the controller has ended.
   bool see(const std::function<bool()>& what) const {
     const auto end = std::chrono::steady_clock::now() + kNever;
     while (!what()) {
+      if (has_ended()) return what();
       if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return true;
+  }
+
+  /// True if a child process has ended; it stays as it is.
+  static bool has_ended() {
+    siginfo_t child{};
+    return ::waitid(P_ALL, 0, &child, WEXITED | WNOHANG | WNOWAIT) == 0 && child.si_pid != 0;
   }
 
   /// Modes of the rows that are whole, in their order.
