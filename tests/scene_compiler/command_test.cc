@@ -125,6 +125,32 @@ TEST(Command, CompilesInspectsAndQueries) {
   EXPECT_EQ(run(kQuery + " " + image + " " + points + " -o " + folder.file("d.csv").string()).exit_code, 0);
 }
 
+/// The voxel edge that the refusal of an accuracy names is one that will do.
+TEST(Command, NamesTheVoxelEdgeThatAnAccuracyNeeds) {
+  const ScratchFolder folder;
+  const std::string mesh = mesh_file("cube_100mm").string();
+  const auto compile = [&](const std::string& voxel_size) {
+    const std::string text = "[still]\nmesh = \"" + mesh +
+                             "\"\nscale = 0.2\naccuracy = 2e-5\nvoxel_size = " + voxel_size + "\n[moving]\nmesh = \"" +
+                             mesh + "\"\nscale = 0.1\npoints = 60\nlevels = 2\nvoxel_size = 0.0004\n";
+    return run(kScenec + " " + folder.write("s.toml", text).string() + " -o " + folder.file("o.scene").string());
+  };
+  const Outcome refused = compile("0.002");
+  EXPECT_EQ(refused.exit_code, 65) << refused.output;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
+  const std::string cure = "Take still.voxel_size = ";
+  const std::size_t at = refused.output.find(cure);
+  ASSERT_NE(at, std::string::npos) << refused.output;
+  const std::size_t begin = at + cure.size();
+  const std::string named = refused.output.substr(begin, refused.output.find(',', begin) - begin);
+  EXPECT_LT(std::stod(named), 0.002);
+  EXPECT_GT(std::stod(named), 0.0002) << "not much smaller than needed";
+  const Outcome compiled = compile(named);
+  EXPECT_EQ(compiled.exit_code, 0) << named << "\n" << compiled.output;
+  EXPECT_NE(compiled.output.find("the stored surfaces lie within 0.02 mm of the meshes'"), std::string::npos)
+      << compiled.output;
+}
+
 /// A small tilted cube, pressed on the top of a large one and moved along: one pose for each millisecond.
 std::string pressed_cube() {
   std::string rows = "t,px,py,pz,qw,qx,qy,qz\n";

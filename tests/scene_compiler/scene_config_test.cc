@@ -67,6 +67,24 @@ TEST(SceneConfig, ReadsTheFieldsTolerance) {
   expect_refused(std::string(kStill) + "field_tolerance = \"fine\"\n" + kMoving, ":4:", "still.field_tolerance");
 }
 
+TEST(SceneConfig, ReadsAnAccuracyForBothBodiesInPlaceOfATolerance) {
+  const SceneConfig usual = read(std::string(kStill) + kMoving);
+  EXPECT_FALSE(usual.accuracy);
+  EXPECT_DOUBLE_EQ(usual.surface_tolerance(0.002).inside, 0.05 * 0.002);
+  EXPECT_DOUBLE_EQ(usual.surface_tolerance(0.002).outside, 0.25 * 0.002);
+  const SceneConfig config = read(std::string(kStill) + "accuracy = 1e-5\n" + kMoving + "voxel_size = 0.001\n");
+  for (const double voxel : {0.002, 0.001}) {
+    EXPECT_EQ(config.surface_tolerance(voxel).inside, 1e-5);
+    EXPECT_EQ(config.surface_tolerance(voxel).outside, 1e-5);
+  }
+  EXPECT_EQ(config.settings.margin, 1e-5) << "no gap is wider";
+  EXPECT_EQ(read(std::string(kStill) + "accuracy = 1e-4\n" + kMoving).settings.margin, 2e-5);
+  expect_refused(std::string(kStill) + "accuracy = 0\n" + kMoving, ":4:", "still.accuracy");
+  expect_refused(std::string(kStill) + "accuracy = 0.0021\n" + kMoving, ":4:", "still.accuracy");
+  expect_refused(std::string(kStill) + "accuracy = 1e-5\nfield_tolerance = 0.1\n" + kMoving,
+                 ":5:", "leave one of them out");
+}
+
 TEST(SceneConfig, ReadsTheWorkspace) {
   const std::string bodies = std::string(kStill) + kMoving;
   EXPECT_FALSE(read(bodies).workspace);

@@ -16,7 +16,7 @@ constexpr double kAlwaysRefined = 0.05;  // field_tolerance [voxels]: the defaul
 
 ImageSetting image_setting(const scene_compiler::SceneConfig& config) {
   return {.voxel_size = config.voxel_size,
-          .refined = config.field_tolerance < 1.0,
+          .refined = config.accuracy || config.field_tolerance < 1.0,
           .both_directions = config.both_directions,
           .points = config.points,
           .levels = config.levels};
@@ -33,6 +33,7 @@ scene_compiler::SceneConfig with(const scene_compiler::SceneConfig& config, cons
   changed.thickness = std::max(config.thickness, setting.voxel_size);
   if (setting.refined != image_setting(config).refined) {
     changed.field_tolerance = setting.refined ? kAlwaysRefined : kNeverRefined;
+    changed.accuracy.reset();
   }
   changed.both_directions = setting.both_directions;
   changed.points = setting.points;

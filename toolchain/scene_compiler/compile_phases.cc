@@ -67,10 +67,25 @@ SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body,
   return SolidSurface(std::move(mesh), config.moving.surface, config.thickness);
 }
 
-/// Returns the slack by which the moving body is smaller in its field [voxels]: as much as refinement may hold bodies
-/// off at its edges (kHeldOff tolerances). Otherwise an edge of the still body in the plane of a touching face would
-/// catch on that difference.
-double slack_of(double field_tolerance) { return std::min(kHeldOff * field_tolerance, 0.5); }
+/// Returns the slack by which the moving body is smaller in its field [m]: as much as refinement may hold bodies off at
+/// its edges. Otherwise an edge of the still body in the plane of a touching face would catch on that difference.
+double slack_of(const SceneConfig& config) {
+  return std::min(config.surface_tolerance(config.body_voxel_size).outside, 0.5 * config.body_voxel_size);
+}
+
+/// Throws Failure (kBadData) with the cure if the scene wants an accuracy that the field does not reach.
+void require_accuracy(const SceneConfig& config, const RefinementReport& refined, double voxel_size, const char* body) {
+  if (!config.accuracy || refined.worst.in_tolerances <= 1.0) return;
+  const Eigen::Vector3d& at = refined.worst.at;
+  throw command::Failure(
+      command::ExitCode::kBadData,
+      fmt::format(
+          "{}.mesh: the stored surface would be {:.3g} m {} the mesh at ({:.4g}, {:.4g}, {:.4g}) m, and accuracy "
+          "= {:g} allows less; bricks cannot be finer there. Take {}.voxel_size = {:.2g}, or close the mesh if "
+          "it is open there, or take a larger accuracy",
+          body, std::abs(refined.worst.error), refined.worst.error > 0.0 ? "inside" : "outside", at.x(), at.y(), at.z(),
+          *config.accuracy, body, 0.9 * voxel_size / refined.worst.in_tolerances));
+}
 
 struct FeaturePhase {
   StillFeatures features;
@@ -82,7 +97,7 @@ FeaturePhase find_features(const SceneConfig& config, const SolidSurface& still,
                            MovingSampling& sampling, const parallel::Progress& progress) {
   FeaturePhase phase;
   SecondDirection& second = phase.second;
-  second.slack = slack_of(config.field_tolerance) * config.body_voxel_size;
+  second.slack = slack_of(config);
   const double wanted = std::max(config.between_points - second.slack, 0.5 * config.between_points);
   const OuterSurface outer(still);
   const BothDirections both = see_both_directions(outer, moving, wanted, sampling, progress);
@@ -101,7 +116,9 @@ DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body
                              const parallel::Progress& progress) {
   const double band = default_band(config.body_voxel_size, config.settings.safety_distance);
   DistanceGrid field = make_distance_grid(body, config.body_voxel_size, band, parallel::part_of(progress, 0.0, 0.5));
-  refine(field, body, config.field_tolerance * config.body_voxel_size, parallel::part_of(progress, 0.5, 1.0), slack);
+  const RefinementReport refined = refine(field, body, config.surface_tolerance(config.body_voxel_size),
+                                          parallel::part_of(progress, 0.5, 1.0), slack);
+  require_accuracy(config, refined, config.body_voxel_size, "moving");
   return field;
 }
 
@@ -142,8 +159,9 @@ FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, P
   });
   require_some_inside(phase.field, config.still.file.string());
   phase.refinement = clock.run(kRefinementPhase, [&](const auto& progress) {
-    return refine(phase.field, obstacle, config.field_tolerance * config.voxel_size, progress);
+    return refine(phase.field, obstacle, config.surface_tolerance(config.voxel_size), progress);
   });
+  require_accuracy(config, phase.refinement, config.voxel_size, "still");
   return phase;
 }
 

@@ -82,7 +82,12 @@ Json error_json(const FieldError& e, double voxel_size) {
 
 Json refinement_json(const CompileReport& report) {
   const ErrorNorms& near = report.check.field_error.near;
-  return {{"tolerance_in_voxels", report.config.field_tolerance},
+  const double s = report.field.grid.voxel_size;
+  const SurfaceTolerance tolerance = report.config.surface_tolerance(s);
+  const SurfaceError& worst = report.field.refinement.worst;
+  return {{"tolerance_in_voxels", tolerance.inside / s},
+          {"tolerance_outside_in_voxels", tolerance.outside / s},
+          {"worst_beyond", {{"error", worst.error}, {"at", {worst.at.x(), worst.at.y(), worst.at.z()}}}},
           {"bricks_by_halvings", report.field.refinement.bricks},
           {"straight_edges", report.field.refinement.edges},
           {"bytes", report.field.refinement.bytes()},

@@ -166,6 +166,13 @@ std::string error_text(const CompileReport& report) {
       millimetres(near.largest), millimetres(near.floor_largest));
 }
 
+/// Returns what is known of the stored surfaces: the wanted accuracy holds at all points of the meshes that were
+/// checked.
+std::string surfaces_text(const SceneConfig& config) {
+  if (!config.accuracy) return "the field is within its tolerance near the surface";
+  return fmt::format("the stored surfaces lie within {} of the meshes'", millimetres(*config.accuracy));
+}
+
 std::string refinement_text(const CompileReport& report) {
   double seconds = 0.0;
   for (const auto& [phase, time] : report.seconds) seconds += phase == kRefinementPhase ? time : 0.0;
@@ -176,6 +183,7 @@ std::string refinement_text(const CompileReport& report) {
     text += fmt::format("         {} stretches of straight edges, along which the field is exact\n",
                         report.field.refinement.edges);
   }
+  if (report.config.accuracy) text += fmt::format("         {}\n", surfaces_text(report.config));
   const auto look_up_text = [](double time) {
     return time > 0.0 ? fmt::format("{:.0f} ns", time) : std::string("(none)");
   };
@@ -235,11 +243,19 @@ std::vector<std::string> limits(const CompileReport& report) {
   const SceneConfig& config = report.config;
   const ErrorNorms& near = report.check.field_error.near;
   const double s = report.field.grid.voxel_size;
-  const double off = kHeldOff * config.field_tolerance;  // largest error that refinement allows
+  const SurfaceTolerance tolerance = config.surface_tolerance(s);
+  const SurfaceError& worst = report.field.refinement.worst;
   std::vector<std::string> found;
-  if (near.largest > off * s)
-    found.push_back(
-        fmt::format("the field is up to {:.2f} voxels off near the surface ({:.2f} wanted)", near.largest / s, off));
+  if (worst.in_tolerances > 1.0) {
+    const bool sinks = worst.error > 0.0;
+    found.push_back(fmt::format("the stored surface lies {} {} the mesh at ({:.4g}, {:.4g}, {:.4g}) m ({} wanted)",
+                                millimetres(std::abs(worst.error)), sinks ? "inside" : "outside", worst.at.x(),
+                                worst.at.y(), worst.at.z(), millimetres(sinks ? tolerance.inside : tolerance.outside)));
+  }
+  if (!config.accuracy && near.largest > tolerance.outside) {
+    found.push_back(fmt::format("the field is up to {:.2f} voxels off near the surface ({:.2f} wanted)",
+                                near.largest / s, tolerance.outside / s));
+  }
   found.push_back(thin_limit(report.thin.walls, "walls", "which bodies may pass"));
   found.push_back(thin_limit(report.thin.gaps, "gaps", "which may be closed"));
   if (report.field.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
@@ -265,10 +281,9 @@ std::string verdict_text(const CompileReport& report) {
   if (!found.empty()) return fmt::format("ready, with limits: {}", fmt::join(found, "; "));
   if (report.ball) return "ready: the field is within its tolerance near the surface at the ball's radius";
   return fmt::format(
-      "ready: the field is within its tolerance near the surface, no wall or gap is too thin; between the points "
-      "meshes, "
-      "their edges too, may overlap by up to {} and the field's error",
-      millimetres(report.second.between.bound + report.second.slack));
+      "ready: {}, no wall or gap is too thin; between the points meshes, their edges too, may overlap by up to {} and "
+      "the field's error",
+      surfaces_text(report.config), millimetres(report.second.between.bound + report.second.slack));
 }
 
 std::string report_text(const CompileReport& report) {

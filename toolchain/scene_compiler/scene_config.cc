@@ -1,5 +1,6 @@
 #include "toolchain/scene_compiler/scene_config.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,12 +102,18 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   SceneConfig config;
 
   const TomlTable still = table("still");
-  still.allow({"mesh", "scale", "voxel_size", "surface", "thickness", "field_tolerance"});
+  still.allow({"mesh", "scale", "voxel_size", "surface", "thickness", "field_tolerance", "accuracy"});
   config.still = read_mesh(still, folder);
   config.voxel_size = still.number("voxel_size", kVoxel, TomlTable::Example{"0.002"});
   const double s = config.voxel_size;
   config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
   config.field_tolerance = still.number("field_tolerance", {1e-3, 1e3}, 0.05);
+  if (still.has("accuracy")) {
+    config.accuracy = still.number("accuracy", {1e-4 * s, s}, TomlTable::Example{"1e-5"});
+    if (still.has("field_tolerance")) {
+      still.complain("field_tolerance", "and accuracy say the same in different units; leave one of them out");
+    }
+  }
 
   const TomlTable moving = table("moving");
   moving.allow({"mesh", "scale", "points", "levels", "surface", "voxel_size", "ball"});
@@ -123,7 +130,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   settings.solvers = (1u << format::kSolverCount) - 1;
   if (config.ball) leave_out_paper(contact, settings);
   settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
-  settings.margin = contact.number("margin", {1e-6 * s, s}, 0.01 * s);
+  settings.margin = contact.number("margin", {1e-6 * s, s}, std::min(0.01 * s, config.accuracy.value_or(s)));
 
   config.both_directions = contact.flag("both_directions", true);
   config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, s);

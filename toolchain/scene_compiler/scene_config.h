@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/scene/format.h"
+#include "toolchain/scene_compiler/field/refinement.h"
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 namespace godobject::scene_compiler {
@@ -21,8 +22,10 @@ struct SceneConfig {
   Mesh still;
   double voxel_size = 0.0;  ///< s [m]
   double thickness = 0.0;   ///< of shells [m]
-  /// Largest depth of the stored surface inside the still body; outside it 5 times as much [voxels]
+  /// Largest depth of the stored surface inside a body; outside it 5 times as much [voxels]
   double field_tolerance = 0.0;
+  /// In place of field_tolerance: largest distance between the stored surfaces and the meshes', on either side [m]
+  std::optional<double> accuracy;
   Mesh moving;
   double body_voxel_size = 0.0;  ///< of the moving body's own field [m]
   bool ball = false;             ///< the moving mesh is a ball, to be rendered by its centre alone
@@ -32,6 +35,12 @@ struct SceneConfig {
   double between_points = 0.0;                 ///< wanted bound of the penetration between points [m]
   std::optional<format::Workspace> workspace;  ///< box that the moving body's centre of mass does not leave, in W
   format::Settings settings{};
+
+  /// Returns how far the surface in a field with this voxel edge may lie from the mesh's [m].
+  SurfaceTolerance surface_tolerance(double voxel_edge) const {
+    if (accuracy) return {*accuracy, *accuracy};
+    return SurfaceTolerance::of_depth(field_tolerance * voxel_edge);
+  }
 };
 
 /// Reads and checks a scene file. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line and key

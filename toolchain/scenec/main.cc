@@ -38,7 +38,9 @@ Examples:
 
 A scene file (TOML; lengths in metres, defaults in brackets, s is voxel_size):
   [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 s],
-              field_tolerance at the surface, in voxels [0.05; a large one: bricks are never refined]
+              field_tolerance at the surface, in voxels [0.05; a large one: bricks are never refined],
+              or accuracy: largest distance between the stored surfaces of both bodies and the meshes [m]; refused
+              with the voxel edge that it needs where bricks cannot be fine enough
   [moving]    mesh, scale [1], surface [auto], points [5000], levels [7], voxel_size of its own field [s],
               ball [false]: render the mesh, a ball, by its centre alone, against a convex still body, without points
               and second direction; no torque arises, with friction none either

@@ -83,7 +83,7 @@ TEST(BrickPacking, IsNothingBesideTheFieldsTolerance) {
   constexpr double kTolerance = 0.05;  // the scene file's default
   const SolidSurface surface(load("bracket", 1.0), SurfaceKind::kSolid, 2.0 * kVoxel);
   DistanceGrid field = make_distance_grid(surface, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {});
-  refine(field, surface, kTolerance * kVoxel, {});
+  refine(field, surface, SurfaceTolerance::of_depth(kTolerance * kVoxel), {});
   EXPECT_LT(0.5 * field.grid.quantum, 0.01 * kTolerance * kVoxel);
   // every node is a whole number of its unit, and the largest fills the range
   const std::vector<format::Brick> packed = packed_bricks(field);

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 DistanceGrid field_of(const SolidSurface& surface, double s, bool refined) {
   DistanceGrid field = make_distance_grid(surface, s, default_band(s, 1.5 * s), {});
   if (refined) {
-    refine(field, surface, 0.05 * s, {});
+    refine(field, surface, SurfaceTolerance::of_depth(0.05 * s), {});
   } else {
     round_distances(field);
   }

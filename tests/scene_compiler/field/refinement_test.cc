@@ -39,9 +39,12 @@ struct Field {
   Voxelmap coarse_map, map;
 
   Field(const SolidSurface& surface, double s, double tolerance = kTolerance)
+      : Field(surface, s, SurfaceTolerance::of_depth(tolerance * s)) {}
+
+  Field(const SolidSurface& surface, double s, const SurfaceTolerance& tolerance)
       : coarse(make_distance_grid(surface, s, default_band(s, 1.5 * s), {})),
         grid(coarse),
-        report(refine(grid, surface, tolerance * s, {})),
+        report(refine(grid, surface, tolerance, {})),
         coarse_bricks(packed_bricks(rounded(coarse))),
         bricks(packed_bricks(grid)),
         coarse_map(coarse.grid, coarse.index, coarse_bricks, {}),
@@ -205,6 +208,52 @@ TEST(Refinement, MakesSharpWedgesTrue) {
 }
 
 TEST(Refinement, MakesAnEngineeredPartTrue) { expect_true_surface(load("bracket", 1.0), 0.006, "bracket", 60); }
+
+/// A block with a box-shaped cavity inside.
+TriangleMesh hollow_block(const Vector3d& block, const Vector3d& cavity) {
+  return joined(test::box_mesh(block), turned_inside_out(test::box_mesh(cavity)));
+}
+
+/// A tolerance that is as small outside as inside holds in a cavity's edges and corners too, where bodies would be held
+/// off.
+TEST(Refinement, MakesACavityTrueToTheSameLengthOnEitherSide) {
+  std::mt19937_64 random(21);
+  const double s = 0.002;
+  const double accuracy = 0.05 * s;
+  for (const bool turned : {false, true}) {
+    const TriangleMesh block = hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067});
+    const TriangleMesh mesh = turned ? test::moved(block, any_motion(random, s)) : block;
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
+    const Field usual(surface, s);
+    const Field field(surface, s, SurfaceTolerance{accuracy, accuracy});
+    EXPECT_EQ(field.report.worst.in_tolerances, 0.0);
+    EXPECT_GT(worst_at_surface(usual.map, mesh, 4000).off, accuracy) << "the usual tolerance holds bodies off";
+    const Worst worst = worst_at_surface(field.map, mesh, 4000);
+    EXPECT_LE(worst.into, accuracy);
+    EXPECT_LE(worst.off, accuracy);
+    EXPECT_LE(largest_jump(field, 40000), kFloatRounding * s);
+  }
+}
+
+/// Where bricks cannot be fine enough, the report names the worst place. No place on the surface is worse.
+TEST(Refinement, NamesTheWorstPlaceOfAToleranceThatIsOutOfReach) {
+  std::mt19937_64 random(22);
+  const double s = 0.002;
+  for (int i = 0; i < 2; ++i) {
+    const TriangleMesh mesh =
+        test::moved(hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067}), any_motion(random, s));
+    const double out_of_reach = 0.005 * s;
+    const Field field(SolidSurface(mesh, SurfaceKind::kSolid, 2.0 * s), s,
+                      SurfaceTolerance{out_of_reach, out_of_reach});
+    const SurfaceError& worst = field.report.worst;
+    ASSERT_GT(worst.in_tolerances, 1.0);
+    EXPECT_NEAR(worst.in_tolerances, std::abs(worst.error) / out_of_reach, 1e-9);
+    EXPECT_NEAR(field.map.sample(worst.at).distance, worst.error, 0.01 * s) << "but for rounding";
+    const Worst seen = worst_at_surface(field.map, mesh, 4000);
+    EXPECT_LE(std::max(seen.into, seen.off), std::abs(worst.error) + 0.01 * s);
+    EXPECT_LT(BruteForce(mesh).distance(worst.at), 1e-9);
+  }
+}
 
 /// The teapot is open at its spout, where seams keep bricks as they are, and its parts run into one another.
 TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {

@@ -110,7 +110,7 @@ TEST(Dilation, LessensEveryDistanceAndLeavesNoEdge) {
   const double band = default_band(kVoxel, 1.5 * kVoxel);
   for (const double tolerance : {0.05, 0.01}) {
     DistanceGrid grid = make_distance_grid(cube, kVoxel, band, {});
-    const RefinementReport refined = refine(grid, cube, tolerance * kVoxel, {});
+    const RefinementReport refined = refine(grid, cube, SurfaceTolerance::of_depth(tolerance * kVoxel), {});
     EXPECT_EQ(refined.edges, 0u);
     const std::vector<format::Brick> bricks = packed_bricks(grid);
     const Voxelmap field(grid.grid, grid.index, bricks, grid.refined, grid.edges);

@@ -28,7 +28,7 @@ constexpr double kWidestTube = 2.4;  // about a straight edge, in voxels
 
 class Refinement {
  public:
-  Refinement(DistanceGrid& field, const SolidSurface& surface, double tolerance, double slack,
+  Refinement(DistanceGrid& field, const SolidSurface& surface, const SurfaceTolerance& tolerance, double slack,
              const parallel::Progress& progress)
       : field_(field), surface_(surface), tolerance_(tolerance), slack_(slack), barred_(field.bricks.size()) {
     for (std::size_t i = 0; i < field.bricks.size(); ++i) {
@@ -47,7 +47,7 @@ class Refinement {
     std::vector<std::uint32_t> triangles = triangles_;
     while (true) {
       const bool whole = triangles.size() == triangles_.size();
-      Misses misses = find_misses(surface_, tree, barred, kSlack * tolerance_, triangles, progress);
+      Misses misses = find_misses(surface_, tree, barred, tolerance_.times(kSlack), triangles, progress);
       Wanted wanted = std::move(misses.wanted);
       if (wanted.empty() && !whole) {
         triangles = triangles_;  // halving a neighbour may have spoiled others
@@ -55,7 +55,11 @@ class Refinement {
       }
       if (wanted.empty()) {
         if (!beside_steep(tree, barred, wanted)) return false;
-        if (wanted.empty()) break;
+        if (wanted.empty()) {
+          misses.worst.in_tolerances *= kSlack;
+          if (misses.worst.in_tolerances > 1.0) report_.worst = misses.worst;
+          break;
+        }
       }
       halve(tree, wanted, barred);
       tree.join();
@@ -88,7 +92,7 @@ class Refinement {
     const std::vector<format::Edge> none;
     const BrickTree without(field_, none);
     std::vector<bool> needed(all.size());
-    const Misses misses = find_misses(surface_, without, barred_, kSlack * tolerance_, triangles_, progress);
+    const Misses misses = find_misses(surface_, without, barred_, tolerance_.times(kSlack), triangles_, progress);
     for (const auto& [b, octants] : misses.wanted) {
       for (const std::uint32_t e : unrefined.edges_of(b)) needed[e] = true;
     }
@@ -141,9 +145,9 @@ class Refinement {
   void halve(BrickTree& tree, const Wanted& wanted, std::vector<bool>& barred) {
     if (tree.brick_count() + 8 * wanted.size() > kMaxBricks) {
       throw command::Failure(command::ExitCode::kBadData,
-                             fmt::format("a field_tolerance of {:g} m needs more bricks than the limit of {}; take a "
-                                         "larger one, or a larger voxel_size",
-                                         tolerance_, kMaxBricks));
+                             fmt::format("a surface within {:g} m needs more bricks than the limit of {}; take a "
+                                         "larger field_tolerance or accuracy, or a larger voxel_size",
+                                         tolerance_.inside, kMaxBricks));
     }
     std::vector<std::pair<std::uint32_t, Octants*>> unknown;
     for (const auto& [brick, octants] : wanted) {
@@ -206,7 +210,7 @@ class Refinement {
 
   DistanceGrid& field_;
   const SolidSurface& surface_;
-  double tolerance_;
+  const SurfaceTolerance tolerance_;
   double slack_;
   std::vector<std::uint32_t> triangles_;         // all
   std::vector<format::Edge> edges_;              // in use
@@ -217,7 +221,7 @@ class Refinement {
 
 }  // namespace
 
-RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, double tolerance,
+RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, const SurfaceTolerance& tolerance,
                         const parallel::Progress& progress, double slack) {
   Refinement refinement(field, surface, tolerance, slack, progress);
   while (!refinement.run(progress)) {

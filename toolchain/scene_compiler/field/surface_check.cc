@@ -29,20 +29,23 @@ constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
 class SurfaceCheck {
  public:
   /// `barred` bricks are never halved.
-  SurfaceCheck(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred, double tolerance)
+  SurfaceCheck(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
+               const SurfaceTolerance& tolerance)
       : surface_(surface), tree_(tree), barred_(barred), tolerance_(tolerance), marked_(tree.brick_count()) {}
 
   Misses run(const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
     const bool dilated = surface_.dilation() > 0.0;
     std::vector<char> missed(triangles.size(), dilated ? 1 : 0);
+    std::vector<SurfaceError> worst(dilated ? tree_.brick_count() : triangles.size());
     if (dilated) {
       parallel::for_each_index(
-          tree_.brick_count(), [&](std::size_t i) { check_brick(static_cast<std::uint32_t>(i)); }, progress);
+          worst.size(), [&](std::size_t i) { check_brick(static_cast<std::uint32_t>(i), worst[i]); }, progress);
     } else {
       parallel::for_each_index(
-          triangles.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i]) ? 1 : 0; }, progress);
+          worst.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i], worst[i]) ? 1 : 0; }, progress);
     }
     Misses misses;
+    for (const SurfaceError& error : worst) misses.worst.add(error);
     for (std::uint32_t b = 0; b < marked_.size(); ++b) {
       const std::uint8_t octants = marked_[b].load(std::memory_order_relaxed);
       if (octants != 0) misses.wanted.emplace_hint(misses.wanted.end(), b, octants);
@@ -60,15 +63,16 @@ class SurfaceCheck {
   struct Sides {
     Vector3d normal;
     DistanceProbe above, below;
+    SurfaceError& worst;  ///< that no halving reduces
   };
 
-  bool check_triangle(std::size_t number) {
+  bool check_triangle(std::size_t number, SurfaceError& worst) {
     const auto& triangle = surface_.mesh().triangles[number];
     const SolidSurface::Component& component = surface_.components()[surface_.component_of_triangle()[number]];
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = surface_.mesh().vertices[triangle[i]];
     const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    Sides sides{normal, DistanceProbe(surface_), DistanceProbe(surface_)};
+    Sides sides{normal, DistanceProbe(surface_), DistanceProbe(surface_), worst};
     if (!component.shell) return check_piece(corners, sides);
     bool missed = false;
     for (const double side : {-0.5, 0.5}) {
@@ -123,7 +127,7 @@ class SurfaceCheck {
   /// Checks a dilated surface, which has no triangles, against the exact distance in the cells about it. Trilinear
   /// interpolation misses a convex function most in the middle of a cell. The points between middle and corners are
   /// checked too, because the curvature may begin within the cell.
-  void check_brick(std::uint32_t brick) {
+  void check_brick(std::uint32_t brick, SurfaceError& worst) {
     const std::uint8_t whole = tree_.whole(brick);
     if (whole == 0) return;
     const double edge = tree_.cell_edge(tree_.level(brick));
@@ -140,11 +144,13 @@ class SurfaceCheck {
           const Vector3d middle = tree_.low(brick) + edge * Vector3d(x + 0.5, y + 0.5, z + 0.5);
           const double exact = probe.signed_distance(middle);
           if (std::abs(exact) >= 0.5 * kCellDiagonal * edge) continue;
-          bool missed = check_value(middle, leaf, exact, [] { return true; });
+          bool missed = check_value(
+              middle, leaf, exact, [] { return true; }, worst);
           for (int corner = 0; corner < 8 && !missed; ++corner) {
             const Vector3d side((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);
             const Vector3d p = middle + 0.5 * edge * side;
-            missed = check_value(p, leaf, probe.signed_distance(p), [] { return true; });
+            missed = check_value(
+                p, leaf, probe.signed_distance(p), [] { return true; }, worst);
           }
         }
       }
@@ -153,20 +159,24 @@ class SurfaceCheck {
 
   /// True if an error of the field on the surface is within the tolerance of the leaf.
   bool good(const BrickTree::Leaf& leaf, double error) const {
-    const double tolerance = tree_.edges_of(leaf.brick).empty() ? tolerance_ : kBlendSlack * tolerance_;
-    return error <= tolerance && error >= -kHeldOff * tolerance;
+    const double slack = tree_.edges_of(leaf.brick).empty() ? 1.0 : kBlendSlack;
+    return error <= slack * tolerance_.inside && error >= -slack * tolerance_.outside;
   }
 
   /// Checks p in `leaf`. `center` is a point of the same triangle off its rim.
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
     if (leaf.brick == BrickTree::kNone) return false;
-    return check_value(p, leaf, 0.0, [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); });
+    const auto matters = [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); };
+    return check_value(p, leaf, 0.0, matters, sides.worst);
   }
 
-  /// Checks p in `leaf`. `exact` is the distance there. A miss counts only if matters().
+  /// Checks p in `leaf`. `exact` is the distance there. A miss counts only if matters(); it is added to `worst` if no
+  /// halving reduces it.
   template <class Matters>
-  bool check_value(const Vector3d& p, const BrickTree::Leaf& leaf, double exact, Matters&& matters) {
-    if (good(leaf, tree_.interpolate(leaf, p) - exact)) return false;
+  bool check_value(const Vector3d& p, const BrickTree::Leaf& leaf, double exact, const Matters& matters,
+                   SurfaceError& worst) {
+    const double error = tree_.interpolate(leaf, p) - exact;
+    if (good(leaf, error)) return false;
     BrickTree::Octants about{};
     const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p) - exact) ? tree_.coarser_about(leaf, p, about)
                                                                                    : tree_.holding(leaf, p, about);
@@ -177,7 +187,11 @@ class SurfaceCheck {
       possible = true;
       known = known && (marked_[about[i].brick].load(std::memory_order_relaxed) & about[i].bit()) != 0;
     }
-    if (!possible) return false;
+    if (!possible) {
+      const SurfaceError here{error, std::max(error / tolerance_.inside, -error / tolerance_.outside), p};
+      if (here.in_tolerances > worst.in_tolerances && matters()) worst = here;
+      return false;
+    }
     if (known) return true;
     if (!matters()) return false;
     for (std::size_t i = 0; i < count; ++i) {
@@ -202,14 +216,15 @@ class SurfaceCheck {
   const SolidSurface& surface_;
   const BrickTree& tree_;
   const std::vector<bool>& barred_;
-  double tolerance_;
+  const SurfaceTolerance tolerance_;
   std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants to be halved, by brick
 };
 
 }  // namespace
 
 Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
-                   double tolerance, const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
+                   const SurfaceTolerance& tolerance, const std::vector<std::uint32_t>& triangles,
+                   const parallel::Progress& progress) {
   return SurfaceCheck(surface, tree, barred, tolerance).run(triangles, progress);
 }
 

@@ -6,6 +6,7 @@
 
 #include "toolchain/parallel/parallel.h"
 #include "toolchain/scene_compiler/field/brick_tree.h"
+#include "toolchain/scene_compiler/field/refinement.h"
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 namespace godobject::scene_compiler {
@@ -22,12 +23,14 @@ inline void want(Wanted& wanted, std::uint32_t brick, std::uint8_t octants) {
 struct Misses {
   Wanted wanted;                         ///< octants that would reduce the error
   std::vector<std::uint32_t> triangles;  ///< with such places
+  SurfaceError worst;                    ///< of the errors that no halving reduces
 };
 
 /// Compares the stored field with the surface on `triangles`: at points of their edges, half a cell apart, and of their
 /// faces, a cell apart. A dilated surface, which has no mesh, is compared in all cells about it. The error must lie
-/// between -kHeldOff * `tolerance` and `tolerance` [m]. `barred` bricks cannot be halved.
+/// within `tolerance`. `barred` bricks cannot be halved.
 Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
-                   double tolerance, const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress);
+                   const SurfaceTolerance& tolerance, const std::vector<std::uint32_t>& triangles,
+                   const parallel::Progress& progress);
 
 }  // namespace godobject::scene_compiler
