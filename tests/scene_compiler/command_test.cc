@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/mesh/thin_places.h"
 
@@ -123,6 +124,24 @@ TEST(Command, CompilesInspectsAndQueries) {
   expect_refusal(kQuery + " " + image + " p.csv -o /nowhere/o.csv", 74, "there is no folder /nowhere");
   const std::string points = folder.write("p.csv", "0,0,0.06\n").string();
   EXPECT_EQ(run(kQuery + " " + image + " " + points + " -o " + folder.file("d.csv").string()).exit_code, 0);
+}
+
+/// A tube without ends is neither a solid nor a sheet. The verdict says what it was taken for, unless the scene file
+/// does.
+TEST(Command, NamesAPartThatMayBeASolidOrASheet) {
+  const ScratchFolder folder;
+  const TriangleMesh tube = box(Eigen::Vector3d::Zero(), {0.02, 0.02, 0.03}, {true, true, true, true, false, false});
+  folder.write("tube.obj", test::obj_text(tube));
+  folder.write("cube.obj", test::obj_text(test::box_mesh(Eigen::Vector3d::Constant(0.01))));
+  const auto verdict = [&](const std::string& surface) {
+    const std::string text = "[still]\nmesh = \"tube.obj\"\nvoxel_size = 0.002\n" + surface +
+                             "[moving]\nmesh = \"cube.obj\"\npoints = 60\nlevels = 2\n";
+    return run(kScenec + " " + folder.write("s.toml", text).string() + " -o " + folder.file("o.scene").string()).output;
+  };
+  const std::string said = verdict("");
+  EXPECT_NE(said.find("a part of the still mesh with 8 triangles is taken as a"), std::string::npos) << said;
+  EXPECT_NE(said.find("set still.surface"), std::string::npos) << said;
+  EXPECT_EQ(verdict("surface = \"shell\"\n").find("doubtful"), std::string::npos);
 }
 
 /// The voxel edge that the refusal of an accuracy names is one that will do.

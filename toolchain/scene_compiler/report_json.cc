@@ -39,6 +39,7 @@ Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFindings& facts, double 
             {"unreferenced_vertices_dropped", r.unreferenced_vertices},
             {"boundary_edges", r.boundary_edges},
             {"nonmanifold_edges", r.nonmanifold_edges},
+            {"triangles_turned", r.turned_triangles},
             {"misoriented_edges", r.misoriented_edges}}},
           {"watertight", r.boundary_edges == 0 && r.nonmanifold_edges == 0},
           {"orientation_consistent", r.misoriented_edges == 0},

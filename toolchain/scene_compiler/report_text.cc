@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,7 +32,8 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
   };
   note(r.boundary_edges, "boundary edges: the mesh is open, the winding number decides its side");
   note(r.nonmanifold_edges, "edges of more than two triangles");
-  note(r.misoriented_edges, "edges between triangles of opposite sense");
+  note(r.turned_triangles, "triangles turned round: most of their neighbours have the other sense");
+  note(r.misoriented_edges, "edges between triangles of opposite sense: the surface has only one side");
   note(r.polygons, "polygons cut into triangles");
   note(r.lines_and_points, "lines and points dropped");
   note(r.welded_vertices, "coincident vertices welded");
@@ -238,6 +240,24 @@ std::string thin_limit(const ThinPlaces& places, const char* what, const char* l
   return places.samples > 0 ? fmt::format("{} thinner than two voxels", what) : std::string();
 }
 
+/// Returns the limits on what the parts of a body are taken for: those whose winding number is far from a sheet's, 0,
+/// and from a solid's, 1/2.
+std::vector<std::string> doubtful_parts(const char* body, const SceneConfig::Mesh& mesh, const MeshFindings& facts) {
+  constexpr double kSheet = 0.1;
+  constexpr double kSolid = 0.4;
+  std::vector<std::string> found;
+  if (mesh.surface != SurfaceKind::kAuto) return found;
+  for (const SolidSurface::Component& part : facts.components) {
+    const double winding = std::abs(part.winding);
+    if (winding <= kSheet || winding >= kSolid) continue;
+    found.push_back(fmt::format(
+        "a part of the {} mesh with {} triangles is taken as a {}, which is doubtful (winding number {:.2f}; 0 for a "
+        "sheet, 0.5 for a solid): set {}.surface, or mend the mesh",
+        body, part.triangles, part.shell ? "shell" : "solid", part.winding, body));
+  }
+  return found;
+}
+
 /// Returns the properties of the image that miss the scene's settings.
 std::vector<std::string> limits(const CompileReport& report) {
   const SceneConfig& config = report.config;
@@ -245,7 +265,8 @@ std::vector<std::string> limits(const CompileReport& report) {
   const double s = report.field.grid.voxel_size;
   const SurfaceTolerance tolerance = config.surface_tolerance(s);
   const SurfaceError& worst = report.field.refinement.worst;
-  std::vector<std::string> found;
+  std::vector<std::string> found = doubtful_parts("still", config.still, report.still);
+  for (std::string& part : doubtful_parts("moving", config.moving, report.moving)) found.push_back(std::move(part));
   if (worst.in_tolerances > 1.0) {
     const bool sinks = worst.error > 0.0;
     found.push_back(fmt::format("the stored surface lies {} {} the mesh at ({:.4g}, {:.4g}, {:.4g}) m ({} wanted)",

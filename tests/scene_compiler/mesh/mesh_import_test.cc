@@ -1,10 +1,14 @@
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 #include <bit>
+#include <cmath>
+#include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/mesh/polygon.h"
@@ -164,12 +168,70 @@ TEST(MeshImport, KeepsAFoldInPairs) {
   EXPECT_EQ(report.duplicate_triangles, 0u);
 }
 
-TEST(MeshImport, CountsEdgesThatDisagree) {
+TEST(MeshImport, TurnsATriangleThatDisagreesWithItsNeighbours) {
   TriangleMesh mesh = box(Vector3d::Zero(), Vector3d::Ones());
+  const TriangleMesh original = mesh;
   std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
   MeshReport report;
-  clean_mesh(mesh, "box", report);
-  EXPECT_EQ(report.misoriented_edges, 3u);
+  EXPECT_EQ(clean_mesh(mesh, "box", report).triangles, original.triangles);
+  EXPECT_EQ(report.turned_triangles, 1u);
+  EXPECT_EQ(report.misoriented_edges, 0u);
+}
+
+/// Six times the signed volume that the triangles enclose [m^3].
+double six_volumes(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& t : mesh.triangles) sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]]));
+  return sum;
+}
+
+/// Any quarter of the faces turned: what comes out is the mesh before, whichever way that was, in each of its parts.
+TEST(MeshImport, TurnsAnyQuarterOfTheFacesBack) {
+  std::mt19937 random(8);
+  const TriangleMesh block = joined(box(Vector3d::Zero(), Vector3d::Ones()), test::ball_mesh(0.3, 12));
+  TriangleMesh cavity = turned_inside_out(test::ball_mesh(0.2, 9));
+  for (Vector3d& vertex : cavity.vertices) vertex += Vector3d(0.5, 0.5, 0.5);
+  for (const TriangleMesh& original :
+       {test::ball_mesh(1.0, 20), turned_inside_out(test::ball_mesh(1.0, 20)), joined(block, cavity)}) {
+    for (int round = 0; round < 5; ++round) {
+      TriangleMesh mesh = original;
+      std::uint64_t turned = 0;
+      for (auto& t : mesh.triangles) {
+        if (random() % 4 != 0) continue;
+        std::swap(t[1], t[2]);
+        ++turned;
+      }
+      MeshReport report;
+      const TriangleMesh cleaned = clean_mesh(mesh, "turned", report);
+      ASSERT_EQ(cleaned.triangles.size(), original.triangles.size());
+      EXPECT_EQ(report.turned_triangles, turned);
+      EXPECT_EQ(report.misoriented_edges, 0u);
+      EXPECT_NEAR(six_volumes(cleaned), six_volumes(original), 1e-12);
+    }
+  }
+}
+
+TEST(MeshImport, LeavesASurfaceWithOneSideAsItIs) {
+  constexpr std::uint32_t kSegments = 21;
+  TriangleMesh strip;
+  for (std::uint32_t i = 0; i < kSegments; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / kSegments;
+    const Vector3d along(std::cos(turn), std::sin(turn), 0.0);
+    const Vector3d across = std::cos(0.5 * turn) * along + std::sin(0.5 * turn) * Vector3d::UnitZ();
+    strip.vertices.push_back(along - 0.2 * across);
+    strip.vertices.push_back(along + 0.2 * across);
+  }
+  for (std::uint32_t i = 0; i < kSegments; ++i) {
+    const bool last = i + 1 == kSegments;  // where the strip meets itself half a turn on
+    const std::uint32_t low = last ? 1 : 2 * i + 2;
+    const std::uint32_t high = last ? 0 : 2 * i + 3;
+    strip.triangles.push_back({2 * i, low, high});
+    strip.triangles.push_back({2 * i, high, 2 * i + 1});
+  }
+  MeshReport report;
+  EXPECT_EQ(clean_mesh(strip, "strip", report).triangles, strip.triangles);
+  EXPECT_EQ(report.turned_triangles, 0u);
+  EXPECT_EQ(report.misoriented_edges, 1u);
 }
 
 TEST(MeshImport, RefusesWhatIsNoMeshWithFileAndCure) {

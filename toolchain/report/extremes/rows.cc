@@ -85,7 +85,7 @@ TriangleMesh flawed_box(const std::string& kind, const Vector3& half) {
 bool is_reported(const std::string& kind, const scene_compiler::MeshReport& report) {
   if (kind == "degenerate") return report.degenerate_triangles == 5;
   if (kind == "duplicate") return report.duplicate_triangles == 5;
-  if (kind == "flipped") return report.misoriented_edges != 0;
+  if (kind == "flipped") return report.turned_triangles == 1;
   return kind != "open" || report.boundary_edges != 0;
 }
 

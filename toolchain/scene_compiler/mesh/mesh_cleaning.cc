@@ -11,6 +11,7 @@
 #include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/orientation.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -161,13 +162,27 @@ void drop_loose_vertices(TriangleMesh& mesh) {
   }
 }
 
-void measure_topology(const TriangleMesh& mesh, MeshReport& report) {
-  const MeshEdges edges(mesh);
+std::uint64_t misoriented(const MeshEdges& edges) {
+  return static_cast<std::uint64_t>(
+      std::count_if(edges.all().begin(), edges.all().end(), [&edges](const MeshEdges::Edge& edge) {
+        const auto sides = edges.sides(edge);
+        return sides.size() == 2 && sides[0].forward == sides[1].forward;
+      }));
+}
+
+/// Turns triangles round where neighbours disagree, and measures what remains.
+void settle_topology(TriangleMesh& mesh, MeshReport& report) {
+  MeshEdges edges(mesh);
+  report.misoriented_edges = misoriented(edges);
+  if (report.misoriented_edges > 0) {
+    report.turned_triangles = agree_on_sense(mesh, edges);
+    edges = MeshEdges(mesh);
+    report.misoriented_edges = misoriented(edges);
+  }
   for (const MeshEdges::Edge& edge : edges.all()) {
     const auto sides = edges.sides(edge);
     if (sides.size() == 1) ++report.boundary_edges;
     if (sides.size() > 2) ++report.nonmanifold_edges;
-    if (sides.size() == 2 && sides[0].forward == sides[1].forward) ++report.misoriented_edges;
   }
   report.vertices = mesh.vertices.size();
   report.triangles = mesh.triangles.size();
@@ -222,7 +237,7 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
   drop_loose_vertices(mesh);
   report.unreferenced_vertices = before - mesh.vertices.size() - report.welded_vertices;
   measure_box(mesh.vertices, name, report);
-  measure_topology(mesh, report);
+  settle_topology(mesh, report);
   return mesh;
 }
 

@@ -22,7 +22,8 @@ struct MeshReport {
   std::uint64_t triangles = 0;
   std::uint64_t boundary_edges = 0;               ///< edges of one triangle
   std::uint64_t nonmanifold_edges = 0;            ///< edges of more than two triangles
-  std::uint64_t misoriented_edges = 0;            ///< edges along which both triangles run the same way
+  std::uint64_t turned_triangles = 0;             ///< turned round so that neighbours agree: see agree_on_sense
+  std::uint64_t misoriented_edges = 0;            ///< remaining edges along which both triangles run the same way
   std::uint64_t components = 0;                   ///< connected by shared vertices
   std::int64_t euler = 0;                         ///< vertices - edges + triangles
   double weld_tolerance = 0.0;                    ///< [m]
@@ -37,7 +38,8 @@ inline constexpr double kMaxCoordinate = 1e5;
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{4} << 30;  ///< of a file, which is read as a whole
 
 /// Reads a PLY, STL or OBJ file, scales it to metres and cleans it: welds coincident vertices (within 1e-6 of the
-/// bounding box's diagonal), drops degenerate and duplicate triangles and unused vertices. Coordinates of STL and OBJ
+/// bounding box's diagonal), drops degenerate and duplicate triangles and unused vertices, and turns triangles round so that
+/// neighbours agree. Coordinates of STL and OBJ
 /// files have single precision. Throws Failure naming the file and the cure: kNoInput if it cannot be read, kBadData if
 /// it is larger than kMaxMeshBytes or contains no usable mesh.
 TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshReport& report);
