@@ -19,7 +19,7 @@ enum class Outcome : std::uint8_t {
   kContact,      ///< contacts constrain the god object
   kStartInside,  ///< the first pose penetrated, and the god object has not come out yet
   kCut,         ///< the motion was shortened so as not to jump over the surface; the remainder waits for the next cycle
-  kOverflow,    ///< `contact`: more near points than the workspace holds or the point budget allows
+  kOverflow,    ///< `contact`: near points that matter found no row, or exceeded the workspace or the budget
   kBadInput,    ///< the input was refused; the god object stayed and the force is zero
   kInfeasible,  ///< `contact`: the constraints had no common solution; no gap was allowed to shrink
 };
@@ -36,7 +36,7 @@ struct CycleReport {
   /// as that. 0 after `follow` and after a refusal.
   double penetration = 0.0;
   std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force (one point may have two)
-  std::uint32_t dropped = 0;   ///< `contact`: near points that found no row or exceeded the budget, last sub-step
+  std::uint32_t dropped = 0;   ///< `contact`: near points as in kOverflow (of those without a row, groups), last sub-step
   std::uint32_t substeps = 0;  ///< of this cycle; `contact`: those with a near point, 1 if there was none
   bool unconverged = false;    ///< `contact`: friction is not Coulomb's to the tolerance; the gaps hold all the same
   bool outside = false;        ///< the device is outside of the workspace; its faces push back once it has been inside

@@ -24,6 +24,21 @@ struct ContactPoint {
   Vector3 gradient_S;  ///< in S, not normalised [1]
 };
 
+/// Returns the matrix M with M p = r x p.
+inline Matrix3 cross_matrix(const Vector3& r) noexcept {
+  Matrix3 M;
+  M << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
+  return M;
+}
+
+/// The displacement of points in the field's frame, to first order in a motion: a point p of the shell moves by `turn`
+/// p
+/// + `shift`.
+struct ShellDisplacement {
+  Matrix3 turn;   ///< [1]
+  Vector3 shift;  ///< [m]
+};
+
 /// The first direction: sample points move with S, the field rests in W.
 struct SampleDirection {
   static constexpr std::uint32_t kId = 0;
@@ -36,6 +51,11 @@ struct SampleDirection {
   static ContactPoint contact(const Vector3& p_shell, const Vector3& /*p_field*/, const Vector3& gradient,
                               const Matrix3& R_field_shell) noexcept {
     return {p_shell, R_field_shell.transpose() * gradient};
+  }
+  /// Returns the displacement by a motion (x, r) of S: R (x + r x p). `H`: pose of the shell in the field's frame.
+  static ShellDisplacement displacement(const Pose& H, const Motion& motion) noexcept {
+    const Matrix3 R = H.rotation.toRotationMatrix();
+    return {R * cross_matrix(motion.rotation), R * motion.translation};
   }
   /// Returns the matrix M with d(distance) = gradient . M dP for a displacement dP of P in S.
   static Matrix3 from_S(const Matrix3& R_field_shell) noexcept { return R_field_shell; }
@@ -69,6 +89,11 @@ struct FeatureDirection {
   static ContactPoint contact(const Vector3& /*p_shell*/, const Vector3& p_field, const Vector3& gradient,
                               const Matrix3& /*R_field_shell*/) noexcept {
     return {p_field, -gradient};
+  }
+  /// Returns the displacement by a motion (x, r) of S: -(x + r x H p). `H`: pose of the shell in the field's frame.
+  static ShellDisplacement displacement(const Pose& H, const Motion& motion) noexcept {
+    const Matrix3 turn = cross_matrix(motion.rotation);
+    return {-turn * H.rotation.toRotationMatrix(), -(motion.translation + turn * H.translation)};
   }
   static Matrix3 from_S(const Matrix3& /*R_field_shell*/) noexcept { return -Matrix3::Identity(); }
   static Vector3 point_S(const SampleBatch& batch, std::uint32_t k) noexcept { return stored_position(batch, k); }

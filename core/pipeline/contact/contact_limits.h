@@ -24,6 +24,9 @@ inline constexpr int kMostBallsOfChord = 64;
 /// face of a thousand points that slides by a millimetre a cycle takes 50000; with fewer the god object would fall
 /// behind for good.
 inline constexpr int kMostBallsOfCycle = 1 << 17;
+/// Most times in a sub-step that rows of left-out near points are added. Derived: each time adds the worst row of each
+/// 64 neighbours, until the rows are full.
+inline constexpr int kMostRefills = 8;
 /// A motion that would raise the energy again beyond this share of its first decrease stops earlier
 /// (`passes_lowest_energy`). At 1 the god object would swing in a valley of the field without end; 0.5 halves the swing
 /// each cycle.

@@ -23,7 +23,7 @@ struct ContactWorkspace {
   NearPoints features;
   std::array<float, 2 * NearPoints::kCapacity> distances;  ///< of all near points, for the selection of rows [m]
 };
-static_assert(sizeof(ContactWorkspace) < 768 * 1024);
+static_assert(sizeof(ContactWorkspace) < 896 * 1024);
 
 /// Step #1 of `contact` in both directions, with the memory of how far each node and point is from being near. The
 /// results do not depend on that memory.

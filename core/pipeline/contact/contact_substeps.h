@@ -75,7 +75,7 @@ class ContactSubsteps {
     if (around_.dropped > 0) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
-    result_.dropped = around_.dropped + around_.unseen;
+    result_.dropped = around_.unlisted + around_.unseen;
     // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
     result_.inside = may_be_inside && around_.smallest <= 0.0;
@@ -91,12 +91,22 @@ class ContactSubsteps {
     return true;
   }
 
-  /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4.
+  /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4. If there are more
+  /// near points than rows, it adds those that the motion would violate, and computes the motion again.
   void constrain() noexcept {
-    metric_ = lengths_.metric;
-    aim_ = free_;
-    solve();
-    if (arc_energy(step_) > kMostOvershoot * squared(step_.motion)) stiffen();
+    solve_in_best_metric();
+    if (around_.dropped == 0) return;
+    const std::uint32_t others = around_.unlisted + around_.unseen;
+    for (int refill = 0;; ++refill) {
+      const std::uint32_t begin = rows_.count;
+      result_.dropped = others + push_left_out();
+      if (rows_.count == begin) return;
+      if (refill == kMostRefills) {
+        rows_.count = begin;  // the motion does not know them
+        return;
+      }
+      solve_in_best_metric();
+    }
   }
 
   /// Tells whether after a start inside no direction leads out; then moves the god object to the device, without force.
@@ -187,6 +197,23 @@ class ContactSubsteps {
   void move_to(const Pose& H_WS) noexcept {
     result_.H_WS = H_WS;
     memory_.path.push(H_WS);
+  }
+
+  /// Computes the motion nearest to the unconstrained one for the coupling's metric, or a stiffer one.
+  void solve_in_best_metric() noexcept {
+    metric_ = lengths_.metric;
+    aim_ = free_;
+    solve();
+    if (arc_energy(step_) > kMostOvershoot * squared(step_.motion)) stiffen();
+  }
+
+  /// Adds rows of left-out near points that the step violates. Returns how many groups of points have one.
+  std::uint32_t push_left_out() noexcept {
+    std::uint32_t groups = push_violated<SampleDirection>(H0_, step_, lengths_, memory_.workspace.samples, rows_);
+    if (scene_.has_features() && memory_.workspace.features.count > 0) {
+      groups += push_violated<FeatureDirection>(H0_features_, step_, lengths_, memory_.workspace.features, rows_);
+    }
+    return groups;
   }
 
   /// Returns the squared length of a motion in `metric_` [m^2].
@@ -330,10 +357,9 @@ class ContactSubsteps {
   void select_again() noexcept {
     const Selection selection = select_rows(memory_.workspace);
     rows_.count = 0;
-    push_selected<SampleDirection>(*scene_.field, H0_, selection, lengths_, memory_.workspace.samples, rows_);
+    push_selected<SampleDirection>(H0_, selection, lengths_, memory_.workspace.samples, rows_);
     if (scene_.has_features() && memory_.workspace.features.count > 0) {
-      push_selected<FeatureDirection>(*scene_.features.map, H0_features_, selection, lengths_,
-                                      memory_.workspace.features, rows_);
+      push_selected<FeatureDirection>(H0_features_, selection, lengths_, memory_.workspace.features, rows_);
     }
   }
 
@@ -421,6 +447,7 @@ class ContactSubsteps {
     const CouplingMetric metric = metric_;
     const Motion aim = aim_;
     const std::uint32_t rows = rows_.count;
+    const std::uint32_t dropped = result_.dropped;
     const double most_with_arc =
         std::min(most_gain_, most_arc_gain(distance_gain(), squared(tried.motion), share_.value()));
     for (const bool is_arc : {true, false}) {
@@ -433,6 +460,7 @@ class ContactSubsteps {
         return true;
       }
       rows_.count = rows;
+      result_.dropped = dropped;
       const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
       step_ = tried;
       step_.infeasible |= infeasible;

@@ -17,7 +17,7 @@ Selection select_rows(ContactWorkspace& workspace) noexcept {
   std::nth_element(begin, begin + kDeepest, begin + count);
   // strictly below: equal distances, as on a flat face, are taken by stride
   const double deepest = static_cast<double>(std::nextafter(begin[kDeepest], -std::numeric_limits<float>::infinity()));
-  const std::uint32_t room = ContactRows::kCapacity - kDeepest;
+  const std::uint32_t room = kDeepest / 2;
   return {deepest, (count + room - 1) / room};
 }
 

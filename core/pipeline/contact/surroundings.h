@@ -20,7 +20,8 @@ struct Surroundings {
   double free_displacement;  ///< up to this displacement all points outside of the lists of near points are free [m]
   double smallest = std::numeric_limits<double>::infinity();  ///< smallest stored distance of the near points [m]
   bool swallowed = false;                                     ///< a point lies inside, where the field has no gradient
-  std::uint32_t dropped = 0;                                  ///< near points that found no row
+  std::uint32_t dropped = 0;                                  ///< listed near points that found no row
+  std::uint32_t unlisted = 0;                                 ///< near points that found no place in the lists
   std::uint32_t unseen = 0;                                   ///< points that the point budget left without a look-up
 };
 
@@ -67,7 +68,7 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
           limit_displacement(batch.clearance[k]);
           around.smallest = std::min(around.smallest, batch.distance[k]);
           around.swallowed |= batch.distance[k] <= 0.0;  // no row moves it out
-          ++around.dropped;
+          ++around.unlisted;
         });
         for_each_bit(found & ~batch.known,
                      [&](std::uint32_t k) noexcept { around.swallowed |= batch.distance[k] < 0.0; });
@@ -84,36 +85,102 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
 /// The choice among more near points than rows.
 struct Selection {
   double deepest;        ///< points up to this distance become rows: half of the capacity [m]
-  std::uint32_t stride;  ///< every stride-th of the others becomes a row: the other half
+  std::uint32_t stride;  ///< every stride-th of the others becomes a row: a quarter of the capacity
 };
-/// Returns the choice among the near points of both directions. Cost: linear in their number. Real-time safe.
+/// Returns the choice among the near points of both directions. It leaves a quarter of the capacity for rows that the
+/// motion turns out to need. Cost: linear in their number. Real-time safe.
 Selection select_rows(ContactWorkspace& workspace) noexcept;
+
+/// Rows for chosen near points of one direction, from the gradients in their list. H: pose of the shell in the field's
+/// frame. `regains`: lost gaps are regained; else they only must not shrink. Real-time safe.
+template <class Direction>
+class NearRows {
+ public:
+  NearRows(const NearPoints& near, const Pose& H, const ContactLengths& lengths, bool regains,
+           ContactRows& rows) noexcept
+      : near_(near),
+        H_(H),
+        R_(H.rotation.toRotationMatrix()),
+        law_(lengths.gap_law()),
+        regains_(regains),
+        rows_(rows) {}
+
+  /// Appends a row for point `k`, if it has a gradient and there is room.
+  void push(std::uint32_t k) noexcept {
+    const ContactPoint contact = contact_at(k);
+    const double steepness = contact.gradient_S.norm();
+    if (!(steepness > kFlat) || rows_.full()) return;
+    rows_.push(Direction::kId | near_.index[k], contact.gradient_S / steepness, contact.point_S,
+               required_gain(k, steepness));
+  }
+
+  /// Returns by how much a motion violates the row of point `k` [m]; minus infinity if it has none.
+  double violation(std::uint32_t k, const Motion& motion) const noexcept {
+    const ContactPoint contact = contact_at(k);
+    const double steepness = contact.gradient_S.norm();
+    if (!(steepness > kFlat)) return -std::numeric_limits<double>::infinity();
+    const double grows = contact.gradient_S.dot(motion.translation + motion.rotation.cross(contact.point_S));
+    return required_gain(k, steepness) - grows / steepness;
+  }
+
+ private:
+  ContactPoint contact_at(std::uint32_t k) const noexcept {
+    const Vector3 p = near_.point(k);
+    return Direction::contact(p, R_ * p + H_.translation, near_.gradient(k), R_);
+  }
+
+  double required_gain(std::uint32_t k, double steepness) const noexcept {
+    const double gain = law_.required_gain((law_.margin - near_.distance[k]) / steepness);
+    return regains_ ? gain : std::min(gain, 0.0);
+  }
+
+  const NearPoints& near_;
+  const Pose& H_;
+  const Matrix3 R_;
+  const GapLaw law_;
+  const bool regains_;
+  ContactRows& rows_;
+};
 
 /// Appends rows for the selected near points of one direction; H is the pose of the shell in the field's frame. In the
 /// tree's order every k-th point is spread over the surface. Real-time safe.
-template <class Direction, DistanceField Field>
-void push_selected(const Field& field, const Pose& H, const Selection& selection, const ContactLengths& lengths,
-                   const NearPoints& near, ContactRows& rows) noexcept {
-  const Matrix3 R = H.rotation.toRotationMatrix();
-  SampleBatch batch;
-  std::array<std::uint32_t, SampleBatch::kCapacity> index;
-  const auto flush = [&]() noexcept {
-    field.samples(H, batch);
-    push_rows<Direction>(batch, index.data(), first_bits(batch.count), R, lengths, rows);
-    batch.count = 0;
-  };
+template <class Direction>
+void push_selected(const Pose& H, const Selection& selection, const ContactLengths& lengths, const NearPoints& near,
+                   ContactRows& rows) noexcept {
+  NearRows<Direction> of_near(near, H, lengths, true, rows);
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
-    const bool chosen = near.distance[k] <= selection.deepest || others++ % selection.stride == 0;
-    if (!chosen) continue;
-    const std::uint32_t at = batch.count++;
-    index[at] = near.index[k];
-    batch.x[at] = near.x[k];
-    batch.y[at] = near.y[k];
-    batch.z[at] = near.z[k];
-    if (batch.count == SampleBatch::kCapacity) flush();
+    if (near.distance[k] <= selection.deepest || others++ % selection.stride == 0) of_near.push(k);
   }
-  if (batch.count > 0) flush();
+}
+
+/// Appends rows of near points that the step would violate: of each 64 neighbours in the tree's order the one that is
+/// violated most. After a step without a common solution lost gaps need not be regained. Returns the number of such
+/// groups, also of those that found no room. H is the pose of the shell in the field's frame. Cost: some 10
+/// instructions a near point. Real-time safe.
+template <class Direction>
+std::uint32_t push_violated(const Pose& H, const ConstrainedStep& step, const ContactLengths& lengths,
+                            const NearPoints& near, ContactRows& rows) noexcept {
+  const double tolerance = 2.0 * lengths.metric.tolerance;  // rows of the step are met within one
+  const Motion& motion = step.motion;
+  NearRows<Direction> of_near(near, H, lengths, !step.infeasible, rows);
+  const ShellDisplacement displacement = Direction::displacement(H, motion);
+  std::uint32_t groups = 0;
+  for (std::uint32_t first = 0; first < near.count; first += 64) {
+    double most = tolerance;
+    std::uint32_t worst = ContactRows::kNone;
+    for_each_bit(near.end_below(first, displacement.turn, displacement.shift, lengths.margin),
+                 [&](std::uint32_t i) noexcept {
+                   const double violation = of_near.violation(first + i, motion);
+                   if (!(violation > most)) return;
+                   most = violation;
+                   worst = first + i;
+                 });
+    if (worst == ContactRows::kNone) continue;
+    ++groups;
+    of_near.push(worst);
+  }
+  return groups;
 }
 
 }  // namespace godobject::detail

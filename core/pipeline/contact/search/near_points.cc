@@ -39,6 +39,36 @@ std::uint64_t leaving(const NearPoints& near, std::uint32_t begin, std::uint32_t
   return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
 }
 
+/// NearPoints::end_below for the points from `begin` to `end`. `change` as for `leaving`.
+GODOBJECT_VECTOR_WIDTHS
+std::uint64_t ending_below(const NearPoints& near, std::uint32_t begin, std::uint32_t end, const double (&change)[3][4],
+                           double gap) noexcept {
+  Longs bits = {};
+  Longs here = kFirstPoints;
+  for (std::uint32_t i = begin; i < end; i += kPointsAtOnce, here <<= kPointsAtOnce) {
+#define GODOBJECT_OF(component) __builtin_convertvector(*reinterpret_cast<const Floats*>(near.component + i), Doubles)
+    const Doubles x = GODOBJECT_OF(x);
+    const Doubles y = GODOBJECT_OF(y);
+    const Doubles z = GODOBJECT_OF(z);
+    const Doubles dx = change[0][0] * x + change[0][1] * y + change[0][2] * z + change[0][3];
+    const Doubles dy = change[1][0] * x + change[1][1] * y + change[1][2] * z + change[1][3];
+    const Doubles dz = change[2][0] * x + change[2][1] * y + change[2][2] * z + change[2][3];
+    const Doubles grows = dx * GODOBJECT_OF(gradient_x) + dy * GODOBJECT_OF(gradient_y) + dz * GODOBJECT_OF(gradient_z);
+#undef GODOBJECT_OF
+    const Longs below = *reinterpret_cast<const Doubles*>(near.distance + i) + grows < gap;
+    bits |= below & here;
+  }
+  return static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]);
+}
+
+/// Writes the turn, row by row, and the shift as the last column.
+void write_change(const Matrix3& turn, const Vector3& shift, double (&change)[3][4]) noexcept {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) change[row][column] = turn(row, column);
+    change[row][3] = shift[row];
+  }
+}
+
 /// Returns the smallest distance of the first `count` points, a multiple of kPointsAtOnce.
 GODOBJECT_VECTOR_WIDTHS
 double least_distance_of(const NearPoints& near, std::uint32_t count) noexcept {
@@ -63,12 +93,17 @@ double NearPoints::least_distance() const noexcept {
 std::uint64_t NearPoints::leave_their_ball(std::uint32_t first, const Matrix3& turn, const Vector3& shift,
                                            double gap) const noexcept {
   double change[3][4];
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) change[row][column] = turn(row, column);
-    change[row][3] = shift[row];
-  }
+  write_change(turn, shift, change);
   const std::uint32_t end = std::min(count, first + 64);
   return leaving(*this, first, end, change, gap) & first_bits(end - first);
+}
+
+std::uint64_t NearPoints::end_below(std::uint32_t first, const Matrix3& turn, const Vector3& shift,
+                                    double gap) const noexcept {
+  double change[3][4];
+  write_change(turn, shift, change);
+  const std::uint32_t end = std::min(count, first + 64);
+  return ending_below(*this, first, end, change, gap) & first_bits(end - first);
 }
 
 }  // namespace godobject

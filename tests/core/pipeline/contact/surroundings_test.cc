@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "tests/support/analytic_worlds.h"
+#include "tests/support/random.h"
 
 namespace godobject::test {
 namespace {
@@ -27,6 +27,8 @@ void fill(NearPoints& near, std::uint32_t count, const Distance& distance) {
     near.z[k] = static_cast<float>(distance(k));
     near.distance[k] = static_cast<double>(near.z[k]);
     near.clearance[k] = near.distance[k];
+    near.gradient_x[k] = near.gradient_y[k] = 0.0f;
+    near.gradient_z[k] = 1.0f;
   }
 }
 
@@ -36,8 +38,8 @@ class SelectedRows : public ::testing::Test {
   const ContactRows& select() {
     workspace_->rows.count = 0;
     const detail::Selection selection = detail::select_rows(*workspace_);
-    detail::push_selected<detail::SampleDirection>(AnalyticField<HalfSpace>({}, 0.002), Pose{}, selection,
-                                                   ContactLengths::make({}), workspace_->samples, workspace_->rows);
+    detail::push_selected<detail::SampleDirection>(Pose{}, selection, ContactLengths::make({}), workspace_->samples,
+                                                   workspace_->rows);
     return workspace_->rows;
   }
   static std::set<std::uint32_t> points(const ContactRows& rows) {
@@ -71,7 +73,8 @@ TEST_F(SelectedRows, AreTheDeepestAndOthersSpreadOverTheWholeList) {
   fill(workspace_->samples, kCount, [&](std::uint32_t k) { return 1e-6 * (order[k] + 1); });
   const std::set<std::uint32_t> chosen = points(select());
   ASSERT_LE(chosen.size(), kRows);
-  EXPECT_GT(chosen.size(), kRows * 3 / 4);
+  ASSERT_LE(chosen.size(), kRows * 3 / 4) << "a quarter is left for rows that the motion needs";
+  EXPECT_GT(chosen.size(), kRows * 5 / 8);
   std::uint32_t last = 0, longest = 0, others = 0;
   for (std::uint32_t k = 0; k < kCount; ++k) {
     const bool deep = order[k] < kRows / 2;
@@ -82,8 +85,8 @@ TEST_F(SelectedRows, AreTheDeepestAndOthersSpreadOverTheWholeList) {
     last = k;
   }
   longest = std::max(longest, kCount - last);
-  EXPECT_GT(others, kRows / 3);
-  EXPECT_LT(longest, 20u) << "a seventh of the others: there is one in any twenty points";
+  EXPECT_GT(others, kRows / 6);
+  EXPECT_LT(longest, 40u) << "a fourteenth of the others: there is one in any forty points";
 }
 
 /// On a flat face all distances are equal. The rows must not all lie at its begin.
@@ -91,12 +94,12 @@ TEST_F(SelectedRows, AreSpreadOverAFlatFace) {
   constexpr std::uint32_t kCount = 5000;
   fill(workspace_->samples, kCount, [](std::uint32_t) { return 1e-5; });
   const std::set<std::uint32_t> chosen = points(select());
-  EXPECT_GT(chosen.size(), kRows / 4);
+  EXPECT_GT(chosen.size(), kRows / 5);
   EXPECT_LT(*chosen.begin(), 10u);
-  EXPECT_GT(*chosen.rbegin(), kCount - 10);
+  EXPECT_GT(*chosen.rbegin(), kCount - 11);
   std::uint32_t last = 0;
   for (const std::uint32_t k : chosen) {
-    EXPECT_LE(k - last, 5u);
+    EXPECT_LE(k - last, 10u);
     last = k;
   }
 }
@@ -106,13 +109,13 @@ TEST_F(SelectedRows, CountThePointsOfBothDirections) {
   fill(workspace_->features, 2000, [](std::uint32_t) { return 1e-5; });
   const detail::Selection selection = detail::select_rows(*workspace_);
   EXPECT_LT(selection.deepest, 1e-5) << "equal distances are taken by stride";
-  EXPECT_EQ(selection.stride, 4u) << "1024 rows for 4000 points";
+  EXPECT_EQ(selection.stride, 8u) << "512 rows for 4000 points";
   workspace_->features.count = 48;
   const detail::Selection all = detail::select_rows(*workspace_);
   EXPECT_EQ(all.stride, 1u);
   EXPECT_GT(all.deepest, 1.0);
   workspace_->features.count = 49;
-  EXPECT_EQ(detail::select_rows(*workspace_).stride, 3u);
+  EXPECT_EQ(detail::select_rows(*workspace_).stride, 5u);
 }
 
 /// The field's frame is rotated against the shell's: the rows' normals are in S.
@@ -122,11 +125,117 @@ TEST_F(SelectedRows, HaveNormalsInTheFrameOfTheBody) {
   H_WS.rotation = Quaternion(Eigen::AngleAxisd(0.5 * M_PI, Vector3::UnitX()));  // z of W is y of S
   const detail::Selection selection = detail::select_rows(*workspace_);
   workspace_->rows.count = 0;
-  detail::push_selected<detail::SampleDirection>(AnalyticField<HalfSpace>({}, 0.002), H_WS, selection,
-                                                 ContactLengths::make({}), workspace_->samples, workspace_->rows);
+  detail::push_selected<detail::SampleDirection>(H_WS, selection, ContactLengths::make({}), workspace_->samples,
+                                                 workspace_->rows);
   ASSERT_EQ(workspace_->rows.count, 8u);
   EXPECT_LT((workspace_->rows.normal(3) - Vector3::UnitY()).norm(), 1e-6);
   EXPECT_EQ(workspace_->rows.point_x[3], workspace_->samples.x[3]);
+}
+
+/// The violation of a near point's row, computed in the field's frame from two poses instead of in S from rows.
+/// `H1`: the pose of the shell after a small share of the motion. Returns the violation of the whole motion [m].
+double violation_of(const NearPoints& near, std::uint32_t k, const Pose& H0, const Pose& H1, double share,
+                    const GapLaw& law) {
+  const Vector3 moved = (H1 * near.point(k) - H0 * near.point(k)) / share;
+  const double steepness = near.gradient(k).norm();
+  return law.required_gain((law.margin - near.distance[k]) / steepness) - near.gradient(k).dot(moved) / steepness;
+}
+
+/// Near points with any gradients on both sides of the margin.
+void fill_at_random(NearPoints& near, std::uint32_t count, double margin, Random& random) {
+  near.count = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    SampleBatch batch;
+    const Vector3 p = random.in_cube(0.05);
+    const Vector3 gradient = random.direction() * random.between(0.3, 1.7);
+    batch.x[0] = static_cast<float>(p.x());
+    batch.y[0] = static_cast<float>(p.y());
+    batch.z[0] = static_cast<float>(p.z());
+    batch.gradient_x[0] = gradient.x();
+    batch.gradient_y[0] = gradient.y();
+    batch.gradient_z[0] = gradient.z();
+    batch.distance[0] = margin + random.between(k % 100 == 0 ? -0.2 : 0.0, 1.0) * 1e-3;
+    batch.clearance[0] = 0.0;
+    batch.known = 1;
+    const std::uint32_t number = 100 + k;
+    near.push(&number, batch, 1);
+  }
+  near.pad();
+}
+
+/// Of each 64 neighbours the one that the motion violates most becomes a row, and no other. In the second direction the
+/// shell rests and the field moves.
+template <class Direction>
+void expect_worst_of_each_group(std::uint32_t seed) {
+  Random random(seed);
+  const ContactLengths lengths = ContactLengths::make({});
+  const auto workspace = std::make_unique<ContactWorkspace>();
+  int pushed = 0, quiet = 0;
+  for (int round = 0; round < 60; ++round) {
+    const auto count = static_cast<std::uint32_t>(random.integer(1, 400));
+    NearPoints& near = workspace->samples;
+    fill_at_random(near, count, lengths.margin, random);
+    Pose H0;
+    H0.rotation = exp_rotation(random.in_cube(2.0));
+    H0.translation = random.in_cube(0.1);
+    ConstrainedStep step;
+    const double size = random.between(0.0, 1.0);
+    step.motion = {random.in_cube(2e-4 * size), random.in_cube(4e-3 * size)};
+    step.infeasible = round % 4 == 3;
+    // to first order, whatever the rotation: a millionth of the motion
+    constexpr double kShare = 1e-6;
+    Pose H_moved;
+    H_moved.rotation = exp_rotation(kShare * step.motion.rotation);
+    H_moved.translation = kShare * step.motion.translation;
+    const Pose H1 = Direction::kId == 0 ? H0 * H_moved : H_moved.inverse() * H0;
+    ContactRows& rows = workspace->rows;
+    rows.count = static_cast<std::uint32_t>(random.integer(0, 3));
+    const std::uint32_t begin = rows.count;
+    const std::uint32_t groups = detail::push_violated<Direction>(H0, step, lengths, near, rows);
+    ASSERT_EQ(rows.count - begin, groups);
+    std::uint32_t row = begin;
+    for (std::uint32_t first = 0; first < count; first += 64) {
+      double most = -1.0;
+      for (std::uint32_t k = first; k < std::min(count, first + 64); ++k) {
+        GapLaw law = lengths.gap_law();
+        if (step.infeasible) law.recovery = 0.0;
+        most = std::max(most, violation_of(near, k, H0, H1, kShare, law));
+      }
+      if (most > 2.1 * lengths.metric.tolerance) {
+        ASSERT_LT(row, rows.count) << "group " << first / 64;
+        const std::uint32_t k = (rows.id[row] & ~detail::kFeature) - 100;
+        EXPECT_EQ(rows.id[row] & detail::kFeature, Direction::kId);
+        ASSERT_TRUE(k >= first && k < first + 64);
+        const double here = static_cast<double>(rows.required_gain[row]) -
+                            rows.normal(row).dot(step.motion.translation + step.motion.rotation.cross(rows.point(row)));
+        EXPECT_NEAR(here, most, 1e-8) << "the row is that of the worst point";
+        ++row;
+        ++pushed;
+      } else {
+        ++quiet;
+      }
+    }
+    EXPECT_EQ(row, rows.count);
+  }
+  EXPECT_GT(pushed, 50);
+  EXPECT_GT(quiet, 5);
+}
+
+TEST(LeftOutRows, AreTheWorstOfEachGroupOfSamplePoints) { expect_worst_of_each_group<detail::SampleDirection>(7); }
+
+TEST(LeftOutRows, AreTheWorstOfEachGroupOfFeaturePoints) { expect_worst_of_each_group<detail::FeatureDirection>(8); }
+
+TEST(LeftOutRows, AreCountedAlsoWhenThereIsNoRoom) {
+  Random random(9);
+  const ContactLengths lengths = ContactLengths::make({});
+  const auto workspace = std::make_unique<ContactWorkspace>();
+  fill_at_random(workspace->samples, 640, lengths.margin, random);
+  ConstrainedStep step;
+  step.motion.translation = Vector3(1e-3, 0.0, 0.0);
+  ContactRows& rows = workspace->rows;
+  rows.count = ContactRows::kCapacity - 4;
+  EXPECT_EQ(detail::push_violated<detail::SampleDirection>(Pose{}, step, lengths, workspace->samples, rows), 10u);
+  EXPECT_EQ(rows.count, ContactRows::kCapacity);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
       batch.z[0] = static_cast<float>(p.z());
       batch.distance[0] = random.between(-1e-4, 1e-3);
       batch.clearance[0] = random.between(0.0, 2.0) * (turn * p + shift).norm();
+      batch.known = 0;
       const std::uint32_t number = 7 * i;
       ASSERT_EQ(near->push(&number, batch, 1), 1u);
     }
@@ -55,6 +56,49 @@ TEST(NearPoints, LeaveTheirBallAsEachOneDoes) {
   EXPECT_GT(held, 1000);
 }
 
+/// The distances are about as large as the points' approach: some end below the gap, some above. A point whose gradient
+/// is not known keeps its distance.
+TEST(NearPoints, EndBelowAGapAsEachOneDoes) {
+  test::Random random(6);
+  int below = 0, above = 0;
+  for (std::uint32_t count = 0; count < 200; ++count) {
+    const Matrix3 turn = exp_rotation(0.05 * random.in_cube(1.0)).toRotationMatrix() - Matrix3::Identity();
+    const Vector3 shift = 1e-3 * random.in_cube(1.0);
+    const double gap = 1e-5;
+    const auto near = std::make_unique<NearPoints>();
+    std::vector<double> ends;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      SampleBatch batch;
+      const Vector3 p = random.in_cube(0.1);
+      const Vector3 gradient = random.in_cube(1.5);
+      batch.x[0] = static_cast<float>(p.x());
+      batch.y[0] = static_cast<float>(p.y());
+      batch.z[0] = static_cast<float>(p.z());
+      batch.gradient_x[0] = gradient.x();
+      batch.gradient_y[0] = gradient.y();
+      batch.gradient_z[0] = gradient.z();
+      batch.distance[0] = random.between(-2e-3, 4e-3);
+      batch.clearance[0] = 0.0;
+      batch.known = i % 5 == 0 ? 0 : 1;
+      ASSERT_EQ(near->push(&i, batch, 1), 1u);
+      const Vector3 seen = i % 5 == 0 ? Vector3::Zero() : Vector3(gradient.cast<float>().cast<double>());
+      ASSERT_EQ(near->gradient(i), seen);
+      ends.push_back(batch.distance[0] + seen.dot(turn * near->point(i) + shift));
+    }
+    near->pad();
+    for (std::uint32_t first = 0; first < count; first += 64) {
+      const std::uint64_t found = near->end_below(first, turn, shift, gap);
+      for (std::uint32_t i = first; i < first + 64; ++i) {
+        const bool ends_below = i < count && ends[i] < gap;
+        ASSERT_EQ((found >> (i - first) & 1) != 0, ends_below) << i << " of " << count;
+        (ends_below ? below : above) += 1;
+      }
+    }
+  }
+  EXPECT_GT(below, 1000);
+  EXPECT_GT(above, 1000);
+}
+
 TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
   test::Random random(4);
   const auto near = std::make_unique<NearPoints>();
@@ -65,6 +109,7 @@ TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
     SampleBatch batch;
     std::array<std::uint32_t, SampleBatch::kCapacity> numbers;
     std::uint64_t chosen = 0;
+    batch.known = 0;
     for (std::uint32_t k = 0; k < SampleBatch::kCapacity; ++k, ++number) {
       numbers[k] = number;
       batch.x[k] = static_cast<float>(number);
@@ -72,6 +117,7 @@ TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
       batch.z[k] = static_cast<float>(number + 2);
       batch.distance[k] = number + 3;
       batch.clearance[k] = number + 4;
+      batch.gradient_x[k] = batch.gradient_y[k] = batch.gradient_z[k] = 0.5;
       if (random.between(0.0, 1.0) < 0.6) chosen |= std::uint64_t{1} << k;
     }
     const std::uint64_t held = near->push(numbers.data(), batch, chosen);
