@@ -21,8 +21,9 @@ namespace godobject {
 /// Points that the point budget leaves without a look-up limit the motion to the bound of their clearance: the god
 /// object may lag, which is counted, but crosses nothing.
 ///
-/// A first pose that penetrates is left along the gradients. Where these contradict each other, or the field has none
-/// (deeper than the band), the god object follows the device, without force, until it is free.
+/// A first pose that penetrates is left along the gradients, and where these contradict each other along the motion
+/// that misses them least (overlap.h). Where the field has none (deeper than the band), or the device is far, the god
+/// object follows the device, without force, until it is free.
 ///
 /// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged.
 /// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps sub-steps with a

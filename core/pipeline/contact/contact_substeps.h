@@ -11,6 +11,7 @@
 #include "core/pipeline/contact/contact_result.h"
 #include "core/pipeline/contact/contact_scene.h"
 #include "core/pipeline/contact/motion_share.h"
+#include "core/pipeline/contact/overlap.h"
 #include "core/pipeline/contact/qp/contact_forces.h"
 #include "core/pipeline/contact/second_look.h"
 #include "core/pipeline/contact/substep_limits.h"
@@ -109,11 +110,17 @@ class ContactSubsteps {
     }
   }
 
-  /// Tells whether after a start inside no direction leads out; then moves the god object to the device, without force.
+  /// Tells whether after a start inside no motion meets all rows. Then the god object takes the way out that misses
+  /// them least, as long as it stays near the device; else it follows the device, without force.
   bool is_lost() noexcept {
     if (!result_.inside || !(around_.swallowed || step_.infeasible)) return false;
     step_ = ConstrainedStep{};
-    move_to(input_.H_WD);
+    Motion out = around_.swallowed ? free_ : way_out();
+    Pose H_out = H0_ * set_matrix(out);
+    cut_off(scene_.parameters->workspace, H0_, H_out, out);
+    const double from_device = travel(lengths_.sphere, unconstrained_motion(H_out, input_.H_WD));
+    const bool leads_out = !around_.swallowed && from_device < lengths_.longest_way_out;
+    move_to(leads_out ? H_out : input_.H_WD);
     result_.cut = false;
     return true;
   }
@@ -197,6 +204,13 @@ class ContactSubsteps {
   void move_to(const Pose& H_WS) noexcept {
     result_.H_WS = H_WS;
     memory_.path.push(H_WS);
+  }
+
+  Motion way_out() const noexcept {
+    Overlap overlap(lengths_);
+    overlap.add<SampleDirection>(memory_.workspace.samples, H0_);
+    if (scene_.has_features()) overlap.add<FeatureDirection>(memory_.workspace.features, H0_features_);
+    return overlap.way_out(free_);
   }
 
   /// Computes the motion nearest to the unconstrained one for the coupling's metric, or a stiffer one.

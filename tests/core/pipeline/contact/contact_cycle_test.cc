@@ -327,20 +327,28 @@ TEST(ContactCycle, ComesOutWhenItStartsInside) {
   EXPECT_NEAR(run.depth(), -kMargin, 1e-7);
 }
 
-TEST(ContactCycle, GoesWithTheDeviceWhereItStartsInsideWithoutAWayOut) {
-  // the slot is narrower than the ball: both walls push
+/// The slot is narrower than the ball: both walls push. Along the slot the ball goes with the device; across it stays
+/// near the middle, with a force. Far from the middle it goes with the device, without force.
+TEST(ContactCycle, StaysInTheMiddleWhereItStartsInsideWithoutAWayOut) {
   const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
   const SampledBody body = ball_body();
   ContactRun<Slot> run(field, body, Pose{});
   run.state.started = false;
   run.state.inside = true;
-  for (int i = 0; i < 30; ++i) {
-    const Pose device = at({0.0, 0.0, 1e-3 * i});
+  for (int i = 0; i < 60; ++i) {
+    const double off = std::min(1e-5 * i, 3e-4);
+    const Pose device = at({off, -1e-3 * i, 1e-3 * i});
     ASSERT_EQ(run.step(device), Status::kOk);
     EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
-    EXPECT_EQ(run.state.H_WS.translation, device.translation);
-    EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
+    const Vector3 behind = run.state.H_WS.translation - device.translation;
+    EXPECT_LT((behind + off * Vector3::UnitX()).norm(), 0.2 * off + 1e-6) << i;
+    EXPECT_NEAR(run.report.force.total_W.force.norm(), run.parameters.stiffness * behind.norm(), 1e-9);
   }
+  const Pose far = at({0.6 * kVoxel, 0.0, 0.0});
+  ASSERT_EQ(run.step(far), Status::kOk);
+  EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+  EXPECT_EQ(run.state.H_WS.translation, far.translation);
+  EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
 }
 
 /// A spike's tip is under the middle of a box's face. The box has no sample point there.
