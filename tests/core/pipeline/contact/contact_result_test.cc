@@ -160,6 +160,14 @@ TEST_F(FinishContact, ReportsTheCycle) {
   EXPECT_TRUE(state_.inside);
 }
 
+TEST(OutcomeOf, IsFreeWithoutAFlag) {
+  const detail::OutcomeFlags none;
+  EXPECT_EQ(outcome_of(none), Outcome::kFree);
+  detail::OutcomeFlags flags;
+  flags.held = true;
+  EXPECT_EQ(outcome_of(flags), Outcome::kContact);
+}
+
 /// The most severe flag decides: inside, infeasible, dropped, cut, held.
 TEST(OutcomeOf, IsThatOfTheMostSevereFlag) {
   for (unsigned flags = 0; flags < 32; ++flags) {
