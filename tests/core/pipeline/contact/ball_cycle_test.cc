@@ -248,6 +248,60 @@ TEST(BallCycle, StaysInItsWorkspaceWhoseFacesAreNoContacts) {
   EXPECT_LT((run.center() - Vector3(0.004, 0.001, run.q.margin)).norm(), 1e-6);
 }
 
+/// A slope pushes the centre onto a face of the workspace, and there is a wall in front of it. The second look finds
+/// the way along all three in a few sub-steps; without it the motion would be shortened again and again.
+TEST(BallCycle, FindsTheWayAlongAWallWhileAFaceOfTheWorkspaceHoldsIt) {
+  static const SceneImage image = image_of(planes({Vector3(0.6, 0.0, 0.8), kY}), 0.004);
+  const Vector3 goal(0.001, -0.004, -0.003);
+  for (const double far : {0.0045, 0.005, 0.0055, 0.006, 0.007}) {
+    BallRun run(image, {-0.001, far, 0.0});
+    run.q.workspace = {true, {-0.01, -0.03, -0.02}, {0.001, 0.03, 0.02}};
+    run.state.H_WS.translation.z() = (run.q.margin + 0.6 * 0.001) / 0.8;
+    ASSERT_GT(run.gap(), 0.0) << far;
+    ASSERT_EQ(run.step(goal), Status::kOk);
+    EXPECT_NEAR(run.center().x(), 0.001, run.lengths().metric.tolerance) << "on the face";
+    EXPECT_LT(run.center().y(), 4e-4) << "at the wall, where the field is curved";
+    EXPECT_GT(run.gap(), run.lengths().least_margin) << far;
+    EXPECT_EQ(run.report.outcome, Outcome::kContact) << far;
+    EXPECT_EQ(run.report.contacts, 2u) << "the face is no contact";
+    EXPECT_LE(run.report.substeps, 5u) << far;
+    for (int i = 0; i < 20; ++i) {
+      const Vector3 before = run.center();
+      ASSERT_EQ(run.step(goal), Status::kOk);
+      EXPECT_LT((run.center() - before).norm(), run.q.margin) << "it has arrived " << far << ' ' << i;
+      EXPECT_EQ(run.report.outcome, Outcome::kContact) << far;
+      EXPECT_LE(run.report.substeps, 2u) << far << ' ' << i;
+    }
+  }
+}
+
+/// The centre slides on a plate and past its edge; the device is 1 mm below the top. Beyond the edge nothing holds the
+/// centre: in the same cycle it goes to the device, and lets go.
+TEST(BallCycle, GoesDownToTheDevicePastAnEdgeInTheSameCycle) {
+  static const SceneImage image = image_of(
+      [](const Vector3& p) { return analytic::box_distance(p, {0.02, 0.02, 0.012}); }, 0.004);
+  for (const double begin : {0.0, 0.0002, 0.0005, 0.0008}) {
+    BallRun run(image, {0.014 + begin, 0.001, 0.0125});
+    int beyond = 0;
+    for (int i = 1; i < 16; ++i) {
+      const Vector3 goal(0.014 + begin + 0.001 * i, 0.001, 0.011);
+      ASSERT_EQ(run.step(goal), Status::kOk);
+      if (goal.x() < 0.015) {
+        EXPECT_EQ(run.report.outcome, Outcome::kContact) << goal.x();
+      } else if (goal.x() > 0.024) {
+        EXPECT_EQ(run.center(), goal);
+        EXPECT_EQ(run.report.outcome, Outcome::kFree);
+        EXPECT_EQ(run.report.contacts, 0u);
+        ++beyond;
+      }
+      // no motion ends beside the surface while the device is farther down
+      const bool follows = run.center() == goal;
+      EXPECT_TRUE(follows || run.gap() < run.q.margin + run.lengths().opening) << begin << ' ' << i;
+    }
+    EXPECT_GT(beyond, 3);
+  }
+}
+
 TEST(BallCycle, StaysWhereANumberIsNotFinite) {
   BallRun run(plane(), {0.0, 0.0, 0.002});
   for (int i = 0; i < 10; ++i) ASSERT_EQ(run.step({0.0, 0.0, -0.004}), Status::kOk);

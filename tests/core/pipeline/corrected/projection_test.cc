@@ -85,6 +85,43 @@ TEST(Projection, PushesAlongTheRowAloneAndOnlyAsFarAsItMust) {
   EXPECT_LT(pushed, 4000);
 }
 
+/// Sticking, against 6 x 6 matrices: forces along the normal and two tangents at one point bring the normal to its row
+/// and the tangents to rest, and nothing else acts. It sticks exactly if these forces lie in the cone.
+TEST(Projection, SticksByTheForcesThatHoldTheContact) {
+  Random random(8);
+  int sticks = 0, slips = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Problem problem = draw(random);
+    const double missing = problem.required() - problem.row().dot(stacked(problem.wanted));
+    if (missing <= 0.0) continue;
+    const ProjectionFriction friction{random.between(0.3, 3.0), 0.3, 0.0};
+    const Vector3 u = problem.u(), place = u.cross(problem.tau());
+    const Vector3 first = u.cross(random.direction()).normalized(), second = u.cross(first);
+    Eigen::Matrix<double, 3, 6> rows;
+    rows.row(0) = problem.row().transpose();
+    rows.row(1) = stacked(first, place.cross(first)).transpose();
+    rows.row(2) = stacked(second, place.cross(second)).transpose();
+    const Vector3 target(problem.required(), 0.0, 0.0);
+    const Vector3 force = Matrix3(rows * problem.inverse_mass() * rows.transpose())
+                              .fullPivLu()
+                              .solve(Vector3(target - rows * stacked(problem.wanted)));
+    const double ratio = force.tail<2>().norm() / force.x();
+    if (std::fabs(ratio / friction.static_ratio - 1.0) < 1e-9) continue;
+    const bool holds = force.x() > 0.0 && ratio < friction.static_ratio;
+    const Projection out = project(problem.wanted, problem.contacts, kSafety, kGain, problem.mass, &friction, {});
+    ASSERT_EQ(out.next.slipping, !holds) << i;
+    ++(holds ? sticks : slips);
+    if (!holds) continue;
+    const Vector6 expected = stacked(problem.wanted) + problem.inverse_mass() * rows.transpose() * force;
+    ASSERT_LT((stacked(out.next.wanted) - expected).norm(), 1e-13) << i;
+    if (!out.cut) {
+      ASSERT_LT((stacked(out.motion) - expected).norm(), 1e-13) << i;
+    }
+  }
+  EXPECT_GT(sticks, 500);
+  EXPECT_GT(slips, 500);
+}
+
 /// A ball on a floor by hand: pressed 0.4 mm and pushed 0.3 mm along it. The force line goes through the centre of mass,
 /// so the friction does not turn the ball. Sticking takes 0.3 mm against 0.4 mm: a ratio of 0.75.
 TEST(Projection, SlipsBeyondTheConeOfABallByHand) {

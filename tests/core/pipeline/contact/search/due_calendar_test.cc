@@ -326,6 +326,31 @@ TEST(DueCalendar, StartsAnewWithUsedMemory) {
   }
 }
 
+/// A shell of one point has one node, the root. By hand: the two items take 8 words each, which lie in one cache line
+/// if they begin at a multiple of 8 words, so 7 words may stay unused; a bit for the mark of the point, and one for the
+/// word of that bit, take a word each.
+TEST(DueCalendar, HoldsAShellOfOnePoint) {
+  const SampledBody body({{Vector3(0.1, 0.2, 0.3)}, {-Vector3::UnitZ()}}, Vector3::Constant(1e-4));
+  const Pointshell shell = body.pointshell();
+  ASSERT_EQ(shell.nodes.size(), 1u);
+  EXPECT_EQ(DueCalendar::memory(shell), 7u + 2u * 8u + 1u + 1u);
+  for (const std::uint32_t old : {0u, 1u, 0xfffffffeu, ~0u}) {
+    for (std::size_t offset = 0; offset < 8; ++offset) {
+      std::vector<std::uint32_t> words(offset + DueCalendar::memory(shell), old);
+      DueCalendar calendar;
+      calendar.start(std::span(words).subspan(offset), shell);
+      EXPECT_EQ(calendar.parent_of(0), DueCalendar::kNone);
+      EXPECT_EQ(calendar.parent_of(1), 0u);
+      EXPECT_TRUE(calendar.is_filed(0));
+      EXPECT_FALSE(calendar.is_filed(1));
+      EXPECT_EQ(calendar.marked(), 0u);
+      int taken = 0;
+      calendar.take_due(0, [&](std::uint32_t item) { taken += item == 0 ? 1 : 100; });
+      EXPECT_EQ(taken, 1);
+    }
+  }
+}
+
 TEST(DueCalendar, NeedsNoMemoryForAnEmptyShell) { EXPECT_EQ(DueCalendar::memory(Pointshell{}), 0u); }
 
 }  // namespace
