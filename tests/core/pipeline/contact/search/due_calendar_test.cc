@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -311,6 +312,10 @@ TEST(DueCalendar, StartsAnewWithUsedMemory) {
       for (std::uint32_t item = 0; item < shell.nodes.size() + shell.size; ++item) {
         ASSERT_EQ(calendar.is_filed(item), item == 0) << item;
       }
+      calendar.take(0);
+      EXPECT_EQ(calendar.certain(), 2047u) << "no item of the last session is filed";
+      calendar.file(0, 0);
+      EXPECT_EQ(calendar.certain(), 0u);
       int taken = 0;
       calendar.take_due(0, [&](std::uint32_t item) {
         EXPECT_EQ(item, 0u);
@@ -324,6 +329,111 @@ TEST(DueCalendar, StartsAnewWithUsedMemory) {
       calendar.start(memory, shell);
     }
   }
+}
+
+/// Ticks farther ahead than all lists share the last one.
+TEST(DueCalendar, KnowsTheTickOfOneItemUpToTheLastList) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  for (const std::uint64_t from : {0ull, 1ull, 63ull, 64ull, 2047ull, 5000ull}) {
+    for (const std::uint64_t ahead : {1ull, 2ull, 63ull, 64ull, 65ull, 2046ull, 2047ull, 2048ull, 2049ull, 2050ull,
+                                      3000ull, 5000ull, 1ull << 20, 1ull << 29, 1ull << 40}) {
+      calendar.start(memory, body.pointshell());
+      calendar.take(0);
+      calendar.take_due(from, [](std::uint32_t) { FAIL() << "no item is filed"; });
+      calendar.file(5, from + ahead);
+      EXPECT_EQ(calendar.certain(), from + std::min<std::uint64_t>(ahead, 2047)) << from << ' ' << ahead;
+      // 32 bits hold up to 2^30 ticks
+      const std::uint64_t due = from + std::min<std::uint64_t>(ahead, 1ull << 30);
+      calendar.take_due(due - 1, [](std::uint32_t) { FAIL() << "not due yet"; });
+      int taken = 0;
+      calendar.take_due(due, [&](std::uint32_t) { ++taken; });
+      EXPECT_EQ(taken, 1) << from << ' ' << ahead;
+    }
+  }
+}
+
+/// An item in the last list stays there until its turn: the lists in front of it are visited, and no others.
+TEST(DueCalendar, LeavesListsAloneThatAreNotDue) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.take_due(1100, [](std::uint32_t) { FAIL() << "no item is filed"; });
+  calendar.file(7, 9000);
+  const std::uint64_t last_list = 1100 + 2047;
+  for (const std::uint64_t now : {1100ull, 1200ull, 2000ull, 3000ull}) {
+    calendar.take_due(now, [](std::uint32_t) { FAIL() << "not due yet"; });
+    EXPECT_EQ(calendar.certain(), last_list) << now;
+  }
+  calendar.take_due(last_list, [](std::uint32_t) { FAIL() << "not due yet"; });
+  EXPECT_EQ(calendar.certain(), last_list + 2047) << "filed again";
+}
+
+/// An item that was filed before the calendar went back may be due later than 32 bits tell from there.
+TEST(DueCalendar, TakesNothingEarlyAfterItWentBack) {
+  const SampledBody body = ball_body();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(body.pointshell()));
+  DueCalendar calendar;
+  calendar.start(memory, body.pointshell());
+  calendar.take(0);
+  calendar.take_due(1000, [](std::uint32_t) { FAIL() << "no item is filed"; });
+  constexpr std::uint64_t kMostAhead = 1ull << 30;
+  calendar.file(3, 1000 + kMostAhead);
+  for (const std::uint64_t now : {std::uint64_t{0}, kMostAhead, kMostAhead + 999}) {
+    calendar.take_due(now, [](std::uint32_t) { FAIL() << "not due yet"; });
+    EXPECT_TRUE(calendar.is_filed(3));
+  }
+  int taken = 0;
+  calendar.take_due(kMostAhead + 1000, [&](std::uint32_t) { ++taken; });
+  EXPECT_EQ(taken, 1);
+}
+
+/// Marks of many points, which take several words of words, against a set.
+TEST(DueCalendar, KeepsTheMarksOfManyPoints) {
+  const SampledBody body = ball_body(0.02, 5000);
+  const Pointshell& shell = body.pointshell();
+  std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+  DueCalendar calendar;
+  calendar.start(memory, shell);
+  std::mt19937_64 random(7);
+  std::set<std::uint32_t> marks;
+  for (int step = 0; step < 3000; ++step) {
+    // often at the ends of words
+    const std::uint64_t word = 32 * (random() % (shell.size / 32));
+    const auto point = static_cast<std::uint32_t>(step % 2 == 0 ? word + 31 * (random() % 2) : random() % shell.size);
+    if (marks.count(point) != 0 && random() % 8 != 0) {
+      calendar.unmark(point);
+      marks.erase(point);
+    } else {
+      calendar.mark(point);
+      marks.insert(point);
+    }
+    if (step % 200 == 199) {
+      // leave a few: whole words become empty
+      while (marks.size() > 5) {
+        calendar.unmark(*marks.begin());
+        marks.erase(marks.begin());
+      }
+    }
+    ASSERT_EQ(calendar.marked(), marks.size());
+    auto next = marks.begin();
+    calendar.for_each_marked([&](std::uint32_t given) {
+      ASSERT_NE(next, marks.end()) << step;
+      ASSERT_EQ(given, *next++) << step;
+    });
+    ASSERT_EQ(next, marks.end()) << step;
+  }
+}
+
+TEST(DueCalendar, StartsWithoutAnItem) {
+  DueCalendar calendar;
+  calendar.start({}, Pointshell{});
+  EXPECT_EQ(calendar.marked(), 0u);
+  EXPECT_EQ(calendar.certain(), 2047u);
+  calendar.take_due(100, [](std::uint32_t) { FAIL() << "there is no item"; });
 }
 
 /// A shell of one point has one node, the root. By hand: the two items take 8 words each, which lie in one cache line
