@@ -133,6 +133,9 @@ TEST(BallCycle, FollowsTheDeviceWhereNothingIsNear) {
 /// The god object stays over the device at the margin; the spring pushes along the normal.
 TEST(BallCycle, LiesOnAPlaneAtTheMargin) {
   BallRun run(plane(), {0.0, 0.0, 0.002});
+  run.q.coupling_translation = 0.8;
+  run.report.dropped = 77;  // of an earlier cycle
+  run.report.unconverged = true;
   const Vector3 goal(0.003, -0.001, -0.004);
   for (int i = 0; i < 30; ++i) ASSERT_EQ(run.step(goal), Status::kOk);
   const double tolerance = 2.0 * run.lengths().metric.tolerance;
@@ -396,6 +399,20 @@ TEST(BallCycle, LetsTheCentreThroughNothing) {
     EXPECT_LT(cut, 50) << "mostly the second look finds the way on";
     std::printf("[ measured ] held %d cut %d\n", held, cut);
   }
+}
+
+/// From far outside of the stored band, where the field has no gradient, the device jumps to the other side of a plate.
+TEST(BallCycle, StaysOnItsSideOfAPlateThatTheDeviceTeleportsThrough) {
+  const Vector3 start(0.03, 0.002, 0.06), behind(0.03, 0.002, -0.05);
+  BallRun run(maze(), start);
+  ASSERT_FALSE(run.field().sample(start).known) << "farther than the band";
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_EQ(run.step(behind), Status::kOk);
+    ASSERT_GT(run.center().z(), 0.0031) << i;
+    ASSERT_NE(run.report.outcome, Outcome::kFree) << i;
+  }
+  EXPECT_LT(run.center().z(), 0.0031 + 2.0 * run.q.margin) << "it has arrived at the plate";
+  EXPECT_EQ(run.report.outcome, Outcome::kContact);
 }
 
 /// In steady contact the motion is the nearest to the device that the field's faces allow: the distance from the device

@@ -182,6 +182,26 @@ TEST(DualActiveSet, KeepsNoTwoInequalitiesThatDependOnEachOther) {
 
 /// A gradient within a millionth of the span of the others counts as dependent. Here a member leaves before the
 /// inequality is refused: it returns, and the others have their multipliers again.
+/// Guesses that depend on others leave, wherever they stand; those behind them stay. By hand: z_i >= i + 1 for the
+/// first three coordinates, from the origin.
+TEST(DualActiveSet, KeepsTheGuessesBehindADependentOne) {
+  const auto bound = [](int axis) { return half_space(Vector6::Unit(axis), axis + 1.0); };
+  const std::vector<std::vector<int>> orders = {{0, 0, 1, 2}, {0, 1, 1, 2}, {0, 1, 0, 2, 1}, {0, 0, 1, 1, 2, 2}};
+  for (const std::vector<int>& order : orders) {
+    Set set;
+    set.start(Vector6::Zero());
+    for (const int axis : order) ASSERT_TRUE(set.guess(bound(axis)));
+    set.resolve();
+    ASSERT_EQ(set.size(), 3);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(set[i].gradient, Vector6(Vector6::Unit(i)));
+      EXPECT_NEAR(set[i].multiplier, i + 1.0, 1e-14);
+      EXPECT_NEAR(set.z()[i], i + 1.0, 1e-14);
+    }
+    EXPECT_EQ(set.z().tail<3>().norm(), 0.0);
+  }
+}
+
 TEST(DualActiveSet, RestoresTheMembersThatLeftBeforeARefusal) {
   Set set;
   set.start(Vector6::Zero());

@@ -99,6 +99,56 @@ TEST(NearPoints, EndBelowAGapAsEachOneDoes) {
   EXPECT_GT(above, 1000);
 }
 
+/// Elements behind the last point hold anything. They say nothing, and `pad` clears those of the last vector.
+TEST(NearPoints, SayNothingOfElementsBehindTheLastPoint) {
+  const Vector3 shift(1e-3, 0.0, 0.0);
+  for (const std::uint32_t count : {0u, 1u, 3u, 4u, 5u, 62u, 63u, 64u, 65u, 66u, 100u, 127u, 128u, 130u, 191u}) {
+    const auto near = std::make_unique<NearPoints>();
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      near->x[i] = near->y[i] = near->z[i] = 0.5f;
+      near->distance[i] = 7.0;
+      near->clearance[i] = 5e-4;  // each point would leave its ball
+    }
+    near->count = count;
+    for (std::uint32_t first = 0; first < count; first += 64) {
+      const std::uint64_t expected = first_bits(std::min(count - first, 64u));
+      EXPECT_EQ(near->leave_their_ball(first, Matrix3::Zero(), shift, 0.0), expected) << first << " of " << count;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) near->distance[i] = 8.0;
+    EXPECT_EQ(near->least_distance(), count == 0 ? std::numeric_limits<double>::infinity() : 8.0);
+    near->pad();
+    const std::uint32_t end = (count + 3) / 4 * 4;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      const bool padded = i >= count && i < end;
+      EXPECT_EQ(near->x[i], padded ? 0.0f : 0.5f) << i << " of " << count;
+      EXPECT_EQ(near->y[i], padded ? 0.0f : 0.5f) << i << " of " << count;
+      EXPECT_EQ(near->z[i], padded ? 0.0f : 0.5f) << i << " of " << count;
+      EXPECT_EQ(near->distance[i], padded ? 0.0 : (i < count ? 8.0 : 7.0)) << i << " of " << count;
+      EXPECT_EQ(near->clearance[i], padded ? 0.0 : 5e-4) << i << " of " << count;
+    }
+  }
+}
+
+/// At the limits, in numbers that are exact: a ball that touches the end of chord and gap contains it, and a distance
+/// of 0 is inside.
+TEST(NearPoints, CountAtTheLimitAsContained) {
+  struct Case {
+    double shift, gap, clearance, distance;
+    bool leaves;
+  };
+  for (const Case& c : {Case{0.25, 0.125, 0.375, 1.0, false}, Case{0.25, 0.125, 0.375 - 1e-15, 1.0, true},
+                        Case{0.0, 0.125, 0.125, 1.0, false}, Case{0.0, 0.125, 0.125 - 1e-15, 1.0, true},
+                        Case{0.25, 0.0, 0.125, 0.0, false}, Case{0.25, 0.0, 0.125, -1.0, false},
+                        Case{0.25, 0.0, 0.125, 1e-300, true}, Case{0.25, 0.5, 0.25, 1.0, true}}) {
+    const auto near = std::make_unique<NearPoints>();
+    near->count = 1;
+    near->distance[0] = c.distance;
+    near->clearance[0] = c.clearance;
+    EXPECT_EQ(near->leave_their_ball(0, Matrix3::Zero(), Vector3(0.0, c.shift, 0.0), c.gap), c.leaves ? 1u : 0u)
+        << c.shift << ' ' << c.gap << ' ' << c.clearance << ' ' << c.distance;
+  }
+}
+
 TEST(NearPoints, TakeTheChosenOnesAsLongAsThereIsRoom) {
   test::Random random(4);
   const auto near = std::make_unique<NearPoints>();
