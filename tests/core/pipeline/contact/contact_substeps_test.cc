@@ -180,6 +180,109 @@ TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
   }
 }
 
+/// A flat face of 2048 points, as many as there are rows, lies on a floor at half of the margin. The workspace ends
+/// there, so that no motion regains the gap. The six faces of the workspace take the place of six rows.
+template <bool kFriction>
+void expect_rows_to_give_way_to_the_faces() {
+  const AnalyticField<HalfSpace> field({}, kVoxel);
+  SurfaceSamples face;
+  for (int i = 0; i < 2048; ++i) {
+    face.points.push_back({1e-3 * (i % 64 - 31.5), 1e-3 * (i / 64 - 15.5), -0.015});
+    face.normals.push_back(Vector3::UnitZ());
+  }
+  const SampledBody body(face, Vector3::Constant(4e-4));
+  const double height = 0.015 + 0.5 * kMargin;
+  SubstepRun<HalfSpace, kFriction> run(field, body, at({0.0, 0.0, height}));
+  const double inf = std::numeric_limits<double>::infinity();
+  run.parameters.workspace = {true, {-inf, -inf, -inf}, {inf, inf, height}};
+  for (int i = 1; i <= 20; ++i) {
+    ASSERT_EQ(run.step(at({1e-5 * i, 0.0, height})), Status::kOk);
+    EXPECT_EQ(run.report.dropped, 6u) << i;
+    EXPECT_EQ(run.report.outcome, Outcome::kInfeasible) << i;
+    EXPECT_EQ(run.report.unconverged, kFriction) << "with friction the faces are met without it";
+    ASSERT_LE(run.state.H_WS.translation.z(), height);
+    EXPECT_NEAR(run.state.H_WS.translation.z(), height, 1e-7) << "no gap below the margin shrinks";
+    EXPECT_NEAR(run.state.H_WS.translation.x(), 1e-5 * i, 1e-7) << "the faces do not hold it back";
+    for (std::uint32_t k = 0; k < run.memory().last_step.force_count; ++k) {
+      EXPECT_LT(run.memory().last_step.forces[k].id, 2048u) << "no force of a face";
+    }
+  }
+}
+TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspace) { expect_rows_to_give_way_to_the_faces<false>(); }
+TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspaceWithFriction) { expect_rows_to_give_way_to_the_faces<true>(); }
+
+/// A body that starts inside without a way out is nowhere held: no force, no damping, and nothing for the next cycle.
+TEST(ContactSubsteps, LeaveNoForceWhereTheBodyIsLost) {
+  const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
+  const SampledBody body = ball_body();
+  SubstepRun<Slot, true> run(field, body, Pose{});
+  run.state.started = false;
+  run.state.inside = true;
+  for (int i = 0; i < 10; ++i) {
+    const Pose device = at({0.0, 0.0, 1e-3 * i});
+    ASSERT_EQ(run.step(device, {{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}), Status::kOk);
+    EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+    EXPECT_TRUE(run.state.H_WS == device);
+    EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
+    EXPECT_EQ(run.report.force.total_W.torque, Vector3::Zero());
+    EXPECT_EQ(run.report.contacts, 0u);
+    EXPECT_EQ(run.memory().last_step.force_count, 0u);
+    EXPECT_FALSE(run.memory().last_step.infeasible);
+    ASSERT_EQ(run.memory().path.poses().size(), 1u);
+  }
+}
+
+/// The second direction alone: a tilted block comes to lie on a bed of points 1 mm apart, more than there are rows.
+TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
+  const AnalyticField<HalfSpace> nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kVoxel);
+  const Block shape{{0.03, 0.02, 0.015}};
+  const AnalyticField<Block> block(shape, kVoxel);
+  const SampledBody body = box_body(3);
+  SurfaceSamples bed;
+  for (int y = -30; y <= 30; ++y) {
+    for (int x = -40; x <= 40; ++x) {
+      bed.points.push_back({1e-3 * x, 1e-3 * y, 0.0});
+      bed.normals.push_back(-Vector3::UnitZ());
+    }
+  }
+  const SampledBody still(bed, Vector3::Ones());
+  const Pointshell points = still.pointshell();
+  const Vector3 origin_W(0.1, -0.2, 0.3);
+  const FeatureContacts<AnalyticField<Block>> features{&block, points, origin_W, 0.05};
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kVoxel;
+  q.margin = kMargin;
+  const Pointshell shell = body.pointshell();
+  const ContactScene<AnalyticField<HalfSpace>, AnalyticField<Block>> scene(nothing, shell, features, q);
+  const auto memory = std::make_unique<ContactMemory>();
+  memory->search.start(scene, {});
+  ProxyState state;
+  state.H_WS = memory->H_WD_last = at(origin_W + Vector3(0.0, 0.0, 0.0155), {0.01, 0.005, 0.2});
+  state.started = true;
+  CycleReport report;
+  CycleInput input;
+  input.H_WD = at(origin_W + Vector3(1e-4, 0.0, 0.012), {0.0, 0.0, 0.2});
+  int overflows = 0;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+    for (std::size_t k = 0; k < points.size; ++k) {
+      ASSERT_GT(shape.distance(state.H_WS.inverse() * (origin_W + points.point(k))), 0.0) << i;
+    }
+    overflows += report.outcome == Outcome::kOverflow ? 1 : 0;
+  }
+  EXPECT_NEAR(state.H_WS.rotation.toRotationMatrix()(2, 2), 1.0, 1e-6) << "it lies flat";
+  EXPECT_NEAR(state.H_WS.translation.z() - origin_W.z(), 0.015 + kMargin, 0.1 * kMargin);
+  EXPECT_NEAR(state.H_WS.translation.x() - origin_W.x(), 1e-4, 1e-5) << "nothing holds it along the bed";
+  EXPECT_GT(report.force.spring_W.force.z(), 0.0);
+  EXPECT_GT(report.dropped, 200u) << "some 2400 points lie under the block, and there are 2048 rows";
+  EXPECT_LT(report.dropped, 800u);
+  EXPECT_GT(overflows, 30);
+  for (std::uint32_t k = 0; k < memory->last_step.force_count; ++k) {
+    EXPECT_NE(memory->last_step.forces[k].id & detail::kFeature, 0u);
+  }
+}
+
 /// The memory of a cycle does not outlive a reset.
 TEST(ContactMemory, ForgetsTheLastCycleWhenReset) {
   const auto memory = std::make_unique<ContactMemory>();
