@@ -89,7 +89,8 @@ TEST(PushObstacle, GivesTheRowOfTheStartOnAPlane) {
       EXPECT_LT((one.rows->normal(0) - normal_S).norm(), 1e-6);
       EXPECT_LT((one.rows->point(0) - one.p).norm(), 1e-7);
       const double lost = kMargin - start;
-      const double expected = lost > 0.0 ? std::min(0.3 * lost, lost / one.field.steepness) : lost / one.field.steepness;
+      const double along = lost / one.field.steepness;
+      const double expected = lost > 0.0 ? std::min(0.3 * lost, along) : along;
       EXPECT_NEAR(one.gain(), expected, 1e-9) << trial << ' ' << start;
     }
   }
