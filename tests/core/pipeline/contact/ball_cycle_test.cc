@@ -279,7 +279,7 @@ TEST(BallCycle, FindsTheWayAlongAWallWhileAFaceOfTheWorkspaceHoldsIt) {
 }
 
 /// The centre slides on a plate and past its edge; the device is 1 mm below the top. Beyond the edge nothing holds the
-/// centre: in the same cycle it goes to the device, and lets go.
+/// centre: in the same cycle it goes to the device, and is released.
 TEST(BallCycle, GoesDownToTheDevicePastAnEdgeInTheSameCycle) {
   static const SceneImage image =
       image_of([](const Vector3& p) { return analytic::box_distance(p, {0.02, 0.02, 0.012}); }, 0.004);
