@@ -13,6 +13,7 @@ namespace godobject {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Eigen::Index;
 
 /// exp(A t) and the integral of exp(A s) B over 0 .. t: two blocks of the exponential of [[A, B], [0, 0]] t, by scaling
@@ -49,9 +50,10 @@ struct ScaledLoop {
   Matrix tool_damping;  // r x r
 };
 
+/// The bounds of the delay leave only positive periods.
 bool is_possible(const LoopTiming& timing) noexcept {
-  return timing.period > 0.0 && timing.delay >= 0.0 && timing.delay < 100.0 * timing.period &&
-         timing.velocity_window >= 2 && timing.velocity_window <= 100;
+  return timing.delay >= 0.0 && timing.delay < 100.0 * timing.period && timing.velocity_window >= 2 &&
+         timing.velocity_window <= 100;
 }
 
 bool is_possible(const ArmLoop& loop) noexcept {
@@ -60,18 +62,23 @@ bool is_possible(const ArmLoop& loop) noexcept {
     if (!std::isfinite(number)) return false;
   }
   return is_possible(loop.timing) && loop.joint_count >= 1 && loop.joint_count <= kMaxJoints && loop.mass.allFinite() &&
-         loop.damping.allFinite() && loop.jacobian.allFinite() &&
-         loop.mass.diagonal().head(loop.joint_count).minCoeff() > 0.0;
+         loop.damping.allFinite() && loop.jacobian.allFinite();
+}
+
+Vector6 translation_and_rotation(double translation, double rotation) noexcept {
+  Vector6 both;
+  both << Vector3::Constant(translation), Vector3::Constant(rotation);
+  return both;
 }
 
 bool scale(const ArmLoop& loop, ScaledLoop& scaled) {
   const Index n = loop.joint_count;
   const double T = loop.timing.period;
-  const Eigen::VectorXd unit = loop.mass.diagonal().head(n).cwiseSqrt().cwiseInverse();
-  const Matrix mass = unit.asDiagonal() * loop.mass.topLeftCorner(n, n) * unit.asDiagonal();
-  const Eigen::LLT<Matrix> factor(mass);
+  const Eigen::LLT<Matrix> factor(loop.mass.topLeftCorner(n, n));
   if (factor.info() != Eigen::Success) return false;
-  scaled.inverse_mass = factor.solve(Matrix::Identity(n, n));
+  const Eigen::VectorXd root = loop.mass.diagonal().head(n).cwiseSqrt();
+  const Eigen::VectorXd unit = root.cwiseInverse();
+  scaled.inverse_mass = root.asDiagonal() * factor.solve(Matrix(root.asDiagonal()));
   scaled.damping = (T * loop.damping.head(n).cwiseProduct(unit.cwiseAbs2())).asDiagonal();
 
   const Matrix jacobian = loop.jacobian.leftCols(n) * unit.asDiagonal();
@@ -80,10 +87,8 @@ bool scale(const ArmLoop& loop, ScaledLoop& scaled) {
   const Matrix basis = rows.householderQ();
   scaled.row_space = basis.leftCols(rows.rank());
   const Matrix reduced = jacobian * scaled.row_space;
-  Eigen::VectorXd k(6);
-  k << Vector3::Constant(loop.stiffness), Vector3::Constant(loop.rotation_stiffness);
-  Eigen::VectorXd b(6);
-  b << Vector3::Constant(loop.tool_damping), Vector3::Constant(loop.rotation_tool_damping);
+  const Vector6 k = translation_and_rotation(loop.stiffness, loop.rotation_stiffness);
+  const Vector6 b = translation_and_rotation(loop.tool_damping, loop.rotation_tool_damping);
   scaled.stiffness = T * T * (reduced.transpose() * k.asDiagonal() * reduced);
   scaled.tool_damping = T * (reduced.transpose() * b.asDiagonal() * reduced);
   return true;
@@ -189,8 +194,7 @@ double stiffness_margin(const ArmLoop& loop) noexcept {
 
 double passivity_excess(const ArmLoop& loop) noexcept {
   const Index n = loop.joint_count;
-  Eigen::Matrix<double, 6, 1> k;
-  k << Vector3::Constant(loop.stiffness), Vector3::Constant(loop.rotation_stiffness);
+  const Vector6 k = translation_and_rotation(loop.stiffness, loop.rotation_stiffness);
   Matrix excess = loop.damping.head(n).asDiagonal();
   excess -= (0.5 * loop.timing.period + loop.timing.delay) *
             (loop.jacobian.leftCols(n).transpose() * k.asDiagonal() * loop.jacobian.leftCols(n));
