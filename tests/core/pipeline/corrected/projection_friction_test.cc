@@ -53,8 +53,8 @@ void expect_forces(const Projection& out, const Vector3& wanted, const Vector3& 
   EXPECT_LT((stacked(out.next.wanted) - stacked(out.motion)).norm(), 1e-17);
 }
 
-/// The point is pressed 0.4 mm: it takes 0.2 mm of normal force. It is pushed by q along x and by s along y, which takes
-/// q and s/2 to hold.
+/// The point is pressed 0.4 mm: it takes 0.2 mm of normal force. It is pushed by q along x and by s along y. Holding it
+/// takes q and s/2.
 TEST(Projection, SticksAtTheEndOfALeverByHand) {
   const Lever lever;
   const ProjectionFriction friction{0.8, 0.5, 0.0};
