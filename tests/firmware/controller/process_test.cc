@@ -13,68 +13,12 @@
 #include <vector>
 
 #include "tests/firmware/controller/controller_folder.h"
+#include "tests/firmware/controller/process.h"
 #include "tests/support/fault_record.h"
 #include "tests/support/ordinary_user.h"
 
 namespace godobject::firmware {
 namespace {
-
-/// The controller in a folder, its words in log.txt there; killed with this.
-class Process {
- public:
-  Process(const std::filesystem::path& folder, const std::vector<std::string>& arguments, rlim_t largest_file) {
-    std::vector<std::string> words{GODOBJECT_CONTROLLER};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    const int log = ::open((folder / "log.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    const rlimit limit{largest_file, largest_file};
-    const bool ready = log >= 0 && ::dup2(log, 1) == 1 && ::dup2(log, 2) == 2 && ::chdir(folder.c_str()) == 0 &&
-                       ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
-    if (ready) ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  ~Process() {
-    if (pid_ <= 0) return;
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  void send(int signal) const { ::kill(pid_, signal); }
-
-  /// Exit code, or minus the signal that killed it.
-  int wait() {
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    pid_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
-  /// Its open sockets.
-  int sockets() const {
-    int count = 0;
-    for (const auto& file : std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/fd")) {
-      std::error_code gone;
-      count += std::filesystem::read_symlink(file, gone).string().starts_with("socket:") ? 1 : 0;
-    }
-    return count;
-  }
-
-  bool is_stopped() const {
-    std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
-    std::string text((std::istreambuf_iterator<char>(stat)), {});
-    const std::size_t end = text.rfind(") ");
-    return end != std::string::npos && text[end + 2] == 'T';
-  }
-
- private:
-  pid_t pid_;
-};
 
 class ControllerProcessTest : public ControllerFolderTest {
  protected:
@@ -141,7 +85,7 @@ class ControllerProcessTest : public ControllerFolderTest {
   Process start(const std::vector<std::string>& more = {}, rlim_t largest_file = RLIM_INFINITY) const {
     std::vector<std::string> arguments{"c.toml", "--log", "logs"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return Process(folder_, arguments, largest_file);
+    return Process(folder_, GODOBJECT_CONTROLLER, arguments, {.largest_file = largest_file});
   }
 };
 
