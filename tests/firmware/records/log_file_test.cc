@@ -57,6 +57,24 @@ TEST_F(LogFileTest, HoldsItsBlocksInTheirOrderAndCountsTheirRecords) {
   EXPECT_EQ(file.lost(), 0u);
 }
 
+/// A process whose standard input is closed gets its descriptor, 0, for the file.
+TEST_F(LogFileTest, MayHaveTheDescriptorOfTheStandardInput) {
+  const int input = ::fcntl(0, F_DUPFD_CLOEXEC, 100);
+  ::close(0);
+  {
+    LogFile file(folder_ / "a.log");
+    EXPECT_EQ(descriptors_on(folder_ / "a.log"), std::vector<int>{0});
+    file.write("one\n", 1);
+    EXPECT_EQ(file.written(), 1u);
+  }
+  EXPECT_TRUE(descriptors_on(folder_ / "a.log").empty());
+  if (input >= 0) {
+    ::dup2(input, 0);
+    ::close(input);
+  }
+  EXPECT_EQ(content("a.log"), "one\n");
+}
+
 /// The file of an earlier run is emptied. A file that another program empties goes on at its new end, without a hole.
 TEST_F(LogFileTest, BeginsEmptyAndGoesOnAtTheEndOfTheFile) {
   std::ofstream(folder_ / "a.log") << "of an earlier run\n";
