@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "core/device/dynamics.h"
 #include "tests/support/arms.h"
 #include "tests/support/fault_record.h"
@@ -47,6 +49,14 @@ class DeviceFileTest : public test::FolderTest {
   const std::filesystem::path file_ = folder_ / "device.toml";
   int code_ = 0;  // of the last refusal
 };
+
+TEST_F(DeviceFileTest, MayHaveItsPanelAloneOnABus) {
+  const Device device = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  const std::string panel = fmt::format("panel_bus = {}", device.bus.panel.bus);
+  ASSERT_GE(device.bus.panel.bus, 0);
+  EXPECT_EQ(refusal(panel, fmt::format("panel_bus = {}", device.bus.bus_count)), "");
+  EXPECT_EQ(read_device_file(file_).bus.bus_count, device.bus.bus_count + 1);
+}
 
 TEST_F(DeviceFileTest, ReadsBothArms) {
   const Device lwr = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml");

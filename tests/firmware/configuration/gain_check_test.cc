@@ -40,6 +40,23 @@ class GainCheckTest : public testing::Test {
   LoopTiming timing_{1e-3, 1e-3, 2};
 };
 
+TEST(GainReport, SaysNothingBeforeTheCheck) {
+  const GainReport report;
+  EXPECT_EQ(report.margin, 0.0) << "so that a check that was left out does not pass";
+  EXPECT_EQ(report.joint_count, 0);
+  EXPECT_EQ(report.passivity_excess, 0.0);
+  EXPECT_EQ(report.gyration, 0.0);
+  EXPECT_EQ(report.coupling_gyration, 0.0);
+  const FeltCoupling felt;
+  EXPECT_EQ(felt.stiffness, 0.0);
+  EXPECT_EQ(felt.rotation_stiffness, 0.0);
+  EXPECT_EQ(felt.damping, 0.0);
+  EXPECT_EQ(felt.rotation_damping, 0.0);
+  const InjectedDamping injected;
+  EXPECT_EQ(injected.most, 0.0);
+  EXPECT_EQ(injected.rotation_length, 0.1);
+}
+
 TEST_F(GainCheckTest, RefusesJointsWhoseOwnFeedbackIsBeyondTheBoundary) {
   require_stable_joints(arm_.model, arm_.parameters, posture_, timing_);
   const test::Arm desktop = test::desktop6();

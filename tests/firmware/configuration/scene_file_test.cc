@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -14,6 +17,35 @@
 #include "tests/support/ordinary_user.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/command_line/failure.h"
+
+namespace {
+
+/// A disk under this program's files: it gives few bytes at a time, is interrupted before each, and has an end.
+struct SlowDisk {
+  std::size_t most = 0;  ///< bytes at a time
+  off_t end = 0;         ///< no byte from here on
+  int error = 0;         ///< there; 0: as at the end of a file
+  bool interrupted = false;
+  int reads = 0;
+};
+SlowDisk* slow_disk = nullptr;
+
+}  // namespace
+
+/// The linker takes this one before that of the C library.
+extern "C" ssize_t pread(int descriptor, void* data, std::size_t size, off_t at) {
+  if (slow_disk != nullptr) {
+    slow_disk->interrupted = !slow_disk->interrupted && at > 0;
+    if (slow_disk->interrupted || (at >= slow_disk->end && slow_disk->error != 0)) {
+      errno = slow_disk->interrupted ? EINTR : slow_disk->error;
+      return -1;
+    }
+    if (at >= slow_disk->end) return 0;
+    size = std::min(size, slow_disk->most);
+    ++slow_disk->reads;
+  }
+  return ::syscall(SYS_pread64, descriptor, data, size, at);
+}
 
 namespace godobject::firmware {
 namespace {
@@ -95,6 +127,27 @@ TEST_F(SceneFileTest, RefusesEveryTruncationAndFlippedBits) {
   test::record_start(static_cast<int>(code), "all of " + std::to_string(text_.size()) + " lengths, 200 flipped bits");
 }
 
+/// The checksum of the image covers every byte.
+TEST_F(SceneFileTest, IsReadInPartsByASlowDisk) {
+  const auto size = static_cast<off_t>(text_.size());
+  for (const std::size_t most : {sizeof(format::Header), sizeof(format::Header) + 1, text_.size() - 1, text_.size()}) {
+    SlowDisk disk{.most = most, .end = size};
+    slow_disk = &disk;
+    EXPECT_EQ(refusal(file_).second, "") << most;
+    slow_disk = nullptr;
+    EXPECT_EQ(disk.reads, 1 + static_cast<int>((text_.size() + most - 1) / most)) << "the header, and each part once";
+  }
+  for (const int error : {0, EIO}) {
+    SlowDisk disk{.most = sizeof(format::Header), .end = 0, .error = error};  // its end: where the last part begins
+    disk.end = static_cast<off_t>(sizeof(format::Header)) * ((size - 1) / static_cast<off_t>(sizeof(format::Header)));
+    slow_disk = &disk;
+    const auto [code, words] = refusal(file_);
+    slow_disk = nullptr;
+    EXPECT_EQ(code, ExitCode::kIo) << error;
+    EXPECT_NE(words.find("cannot be read; check the disk"), std::string::npos) << words;
+  }
+}
+
 TEST_F(SceneFileTest, RefusesAnotherVersion) {
   auto& header = *reinterpret_cast<format::Header*>(image_.bytes().data());
   ++header.version;
@@ -111,6 +164,9 @@ TEST_F(SceneFileTest, RefusesAnotherVersion) {
 TEST_F(SceneFileTest, RefusesWhatIsHugeWithoutTakingMemory) {
   std::filesystem::resize_file(file_, std::uintmax_t{1} << 40);  // a hole
   EXPECT_EQ(refusal(file_).first, ExitCode::kBadData);
+}
+
+TEST_F(SceneFileTest, RefusesALengthThatItsHeaderDoesNotTell) {
   std::filesystem::resize_file(file_, SceneFile::kLargest);  // its header still tells the true size
   const auto [code, words] = refusal(file_);
   EXPECT_EQ(code, ExitCode::kBadData);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -118,6 +119,45 @@ TEST_F(SimulatedArmTest, TakesASlowerPathForLonger) {
     config_.simulation.slower = slower;
     ASSERT_EQ(refusal(poses).second, "");
     EXPECT_NEAR(seconds_, 1e-3 * rows, 1e-12) << slower;
+  }
+}
+
+/// A slower path moves the hand as one whose poses in between are written down: at `slower` times its duration, linear
+/// in position and angle between two poses.
+TEST_F(SimulatedArmTest, MovesTheHandAlongTheSlowerPathAsAlongOneWrittenDown) {
+  const Vector3 axis = Vector3(1.0, -2.0, 0.5).normalized();
+  const std::vector<double> way = {0.0, 1.0, 1.5, 4.0, 3.0, 3.5, 7.0, 8.0};
+  const auto pose = [&](double at) { return moved(0.01 * at * Vector3(0.6, -0.8, 0.3), 0.02 * at * axis); };
+  const auto run = [&](const std::vector<Pose>& poses, double slower) {
+    config_.simulation.slower = slower;
+    EXPECT_EQ(refusal(poses).second, "");
+    SimulatedArm arm(config_, place(config_.workspace, config_.device, Vector3(0, 0, 0)));
+    std::vector<Pose> seen;
+    for (int ms = 0; ms < 30; ++ms) {
+      arm.plant().step(1'000'000, {});
+      seen.push_back(arm.plant().hand().pose);
+    }
+    return seen;
+  };
+  config_.simulation.begin = 0.0;
+  std::vector<Pose> poses;
+  for (const double at : way) poses.push_back(pose(at));
+  for (const double slower : {1.0, 2.0, 3.0, 2.5}) {
+    std::vector<Pose> longer;
+    for (int i = 0; i <= static_cast<int>(slower * 7.0); ++i) {
+      const double at = static_cast<double>(i) / slower;
+      const auto before = std::min<std::size_t>(static_cast<std::size_t>(at), 6);
+      const double share = at - static_cast<double>(before);
+      longer.push_back(pose((1.0 - share) * way[before] + share * way[before + 1]));
+    }
+    const std::vector<Pose> slow = run(poses, slower);
+    const std::vector<Pose> written = run(longer, 1.0);
+    for (std::size_t i = 0; i < slow.size(); ++i) {
+      // the acceleration of the hand divides by small masses: 1e-9 is far above rounding, far below a wrong pose
+      EXPECT_LT((slow[i].translation - written[i].translation).norm(), 1e-9) << slower << ' ' << i;
+      EXPECT_LT(slow[i].rotation.angularDistance(written[i].rotation), 1e-7) << slower << ' ' << i;
+    }
+    EXPECT_GT((slow.back().translation - slow.front().translation).norm(), 1e-3) << "it moved";
   }
 }
 
