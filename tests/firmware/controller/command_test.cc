@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -140,9 +142,29 @@ TEST_F(ControllerCommandTest, RefusesGainsBeyondTheBoundary) {
   test::record_start(code, words_);
 }
 
+TEST_F(ControllerCommandTest, RefusesInjectedDampingBeyondTheBoundary) {
+  write_controller("[passivity]\ndamping = 0.0\n");
+  EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;
+  write_controller("[passivity]\ndamping = 10000.0\n");
+  EXPECT_EQ(run("c.toml --duration 0.01"), 78) << words_;
+  EXPECT_TRUE(says("passivity.damping = 10000 Ns/m")) << words_;
+}
+
+TEST_F(ControllerCommandTest, WritesNothingWithoutAFolderForLogs) {
+  write_controller("[start]\nsign_test = false\n");
+  EXPECT_EQ(run("c.toml --duration 0.1"), 0) << words_;
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+    files.insert(entry.path().filename());
+  }
+  EXPECT_EQ(files, (std::set<std::string>{"c.toml", "log.txt", "plate.scene"}));
+}
+
 TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
   write_controller("[loop]\nreal_time = true\npriority = 1\n");
+  const auto begin = std::chrono::steady_clock::now();
   const int code = run("c.toml --duration 0.3");
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(290)) << "on no machine it is earlier";
   EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words_;  // a busy machine may be too late
   EXPECT_TRUE(says("waking late: p50")) << words_;
 }
