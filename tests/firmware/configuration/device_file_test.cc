@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,6 +58,44 @@ TEST_F(DeviceFileTest, MayHaveItsPanelAloneOnABus) {
   ASSERT_GE(device.bus.panel.bus, 0);
   EXPECT_EQ(refusal(panel, fmt::format("panel_bus = {}", device.bus.bus_count)), "");
   EXPECT_EQ(read_device_file(file_).bus.bus_count, device.bus.bus_count + 1);
+}
+
+TEST_F(DeviceFileTest, CountsItsBusesUpToTheLastOneOfAnyNode) {
+  EXPECT_EQ(refusal("panel_bus = 2", "panel_bus = 0"), "");
+  EXPECT_EQ(read_device_file(file_).bus.bus_count, 3) << "joints 5 and 6 are on bus 2";
+}
+
+/// A node number is one of its bus: another bus may have it again.
+TEST_F(DeviceFileTest, MayHaveANodeNumberOnEachBus) {
+  EXPECT_EQ(refusal("\nnode = 3\n", "\nnode = 1\n"), "") << "joint 1 is on another bus";
+  EXPECT_NE(refusal("\nnode = 2\n", "\nnode = 1\n").find("joint[2].node = 1 is also joint 1's"), std::string::npos);
+  EXPECT_EQ(refusal("panel_node = 32", "panel_node = 1"), "");
+  EXPECT_NE(refusal("panel_node = 32", "panel_node = 6").find("joint[6].node = 6 is also the panel's"),
+            std::string::npos);
+}
+
+/// Torques in permille of the rated one, in 16 bits, reach 32 times it; joint 1 has a limit of 1.5 Nm and a gear of 10.
+TEST_F(DeviceFileTest, WantsARatedTorqueInProportionToTheLimit) {
+  for (const double share : {0.0099, 0.0101, 0.015, 20.0, 31.9, 32.1, 60.0}) {
+    const std::string says = refusal("\nrated_torque = 0.15\n", fmt::format("\nrated_torque = {}\n", 0.15 / share));
+    EXPECT_EQ(says.empty(), share > 0.01 && share < 32.0) << share << says;
+    EXPECT_TRUE(says.empty() || says.find("joint[1].rated_torque times gear is ") != std::string::npos) << says;
+  }
+}
+
+/// The counter of 32 bits wraps half of 2^32 counts beside the zero. Joint 1 moves from -1.2 to 1.2 rad, 0.5 rad more
+/// before the start, and each of its turns is 10 turns of the motor.
+TEST_F(DeviceFileTest, WantsPositionsThatTheCounterTellsApart) {
+  const std::string before = "counts = 65536\ngear = 10.0\nrated_torque = 0.15\nsign = 1\nzero = 0.0";
+  for (const auto& [zero, reach] : {std::pair{0.0, 1.7}, {1.0, 2.7}, {-1.0, 2.7}, {2.0, 3.7}, {-2.0, 3.7}}) {
+    for (const double spare : {-0.01, 0.01}) {
+      const double counts = M_PI * 4294967296.0 / (10.0 * (reach + spare));
+      const std::string says = refusal(
+          before, fmt::format("counts = {}\ngear = 10.0\nrated_torque = 0.15\nsign = 1\nzero = {}", counts, zero));
+      EXPECT_EQ(says.empty(), spare > 0.0) << zero << says;
+      EXPECT_TRUE(says.empty() || says.find(fmt::format("moves {:.3g} rad", reach)) != std::string::npos) << says;
+    }
+  }
 }
 
 TEST_F(DeviceFileTest, ReadsBothArms) {
