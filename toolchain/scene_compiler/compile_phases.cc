@@ -70,12 +70,22 @@ SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body,
 /// Returns the slack by which the moving body is smaller in its field [m]: as much as refinement may hold bodies off at
 /// its edges. Otherwise an edge of the still body in the plane of a touching face would catch on that difference.
 double slack_of(const SceneConfig& config) {
-  return std::min(config.surface_tolerance(config.body_voxel_size).outside, 0.5 * config.body_voxel_size);
+  return std::min(config.moving_tolerance().outside, 0.5 * config.body_voxel_size);
 }
 
 /// Throws Failure (kBadData) with the cure if the scene wants an accuracy that the field does not reach.
-void require_accuracy(const SceneConfig& config, const RefinementReport& refined, double voxel_size, const char* body) {
-  if (!config.accuracy || refined.worst.in_tolerances <= 1.0) return;
+void require_accuracy(const SceneConfig& config, const RefinementReport& refined, const format::Grid& grid,
+                      const char* body) {
+  if (!config.accuracy) return;
+  constexpr double kRoundings = 8.0;  // quanta: nodes beside finer bricks are rounded to several
+  if (*config.accuracy < kRoundings * grid.quantum) {
+    throw command::Failure(
+        command::ExitCode::kBadData,
+        fmt::format("accuracy = {:g} is too small for distances in steps of {:.2g} m; take a smaller "
+                    "{}.voxel_size or contact.safety_distance, or a larger accuracy",
+                    *config.accuracy, grid.quantum, body));
+  }
+  if (refined.worst.in_tolerances <= 1.0) return;
   const Eigen::Vector3d& at = refined.worst.at;
   throw command::Failure(
       command::ExitCode::kBadData,
@@ -84,7 +94,7 @@ void require_accuracy(const SceneConfig& config, const RefinementReport& refined
           "= {:g} allows less; bricks cannot be finer there. Take {}.voxel_size = {:.2g}, or close the mesh if "
           "it is open there, or take a larger accuracy",
           body, std::abs(refined.worst.error), refined.worst.error > 0.0 ? "inside" : "outside", at.x(), at.y(), at.z(),
-          *config.accuracy, body, 0.9 * voxel_size / refined.worst.in_tolerances));
+          *config.accuracy, body, 0.9 * grid.voxel_size / refined.worst.in_tolerances));
 }
 
 struct FeaturePhase {
@@ -116,9 +126,9 @@ DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body
                              const parallel::Progress& progress) {
   const double band = default_band(config.body_voxel_size, config.settings.safety_distance);
   DistanceGrid field = make_distance_grid(body, config.body_voxel_size, band, parallel::part_of(progress, 0.0, 0.5));
-  const RefinementReport refined = refine(field, body, config.surface_tolerance(config.body_voxel_size),
-                                          parallel::part_of(progress, 0.5, 1.0), slack);
-  require_accuracy(config, refined, config.body_voxel_size, "moving");
+  const RefinementReport refined =
+      refine(field, body, config.moving_tolerance(), parallel::part_of(progress, 0.5, 1.0), slack);
+  require_accuracy(config, refined, field.grid, "moving");
   return field;
 }
 
@@ -161,7 +171,7 @@ FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, P
   phase.refinement = clock.run(kRefinementPhase, [&](const auto& progress) {
     return refine(phase.field, obstacle, config.surface_tolerance(config.voxel_size), progress);
   });
-  require_accuracy(config, phase.refinement, config.voxel_size, "still");
+  require_accuracy(config, phase.refinement, phase.field.grid, "still");
   return phase;
 }
 

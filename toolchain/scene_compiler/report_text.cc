@@ -273,9 +273,10 @@ std::vector<std::string> limits(const CompileReport& report) {
                                 millimetres(std::abs(worst.error)), sinks ? "inside" : "outside", worst.at.x(),
                                 worst.at.y(), worst.at.z(), millimetres(sinks ? tolerance.inside : tolerance.outside)));
   }
-  if (!config.accuracy && near.largest > tolerance.outside) {
+  const double off = kHeldOff * tolerance.inside;
+  if (near.largest > off) {
     found.push_back(fmt::format("the field is up to {:.2f} voxels off near the surface ({:.2f} wanted)",
-                                near.largest / s, tolerance.outside / s));
+                                near.largest / s, off / s));
   }
   found.push_back(thin_limit(report.thin.walls, "walls", "which bodies may pass"));
   found.push_back(thin_limit(report.thin.gaps, "gaps", "which may be closed"));

@@ -36,6 +36,13 @@ struct SceneConfig {
   std::optional<format::Workspace> workspace;  ///< box that the moving body's centre of mass does not leave, in W
   format::Settings settings{};
 
+  /// Returns how far the surface in the moving body's own field may lie from the mesh's [m]. That field is smaller by
+  /// the tolerance outside, so that only half of an accuracy is left to its errors.
+  SurfaceTolerance moving_tolerance() const {
+    const SurfaceTolerance tolerance = surface_tolerance(body_voxel_size);
+    return accuracy ? tolerance.times(0.5) : tolerance;
+  }
+
   /// Returns how far the surface in a field with this voxel edge may lie from the mesh's [m].
   SurfaceTolerance surface_tolerance(double voxel_edge) const {
     if (accuracy) return {*accuracy, *accuracy};

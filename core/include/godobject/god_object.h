@@ -76,8 +76,9 @@ class GodObject {
   ///
   /// The first cycle after `start`, `reset` or `follow` begins with the god object at the device pose. If that pose
   /// penetrates, the outcome is kStartInside until the god object has come out. It moves out by a share of its depth in
-  /// each cycle where the field has a gradient. It follows the device, without force, where it has none, and where
-  /// points push against each other and the device is more than half a voxel edge away.
+  /// each cycle where the field has a gradient; that may push on the hand, and where points push against each other by
+  /// no more than the stiffness times a quarter of the voxel edge. It follows the device, without force, where the
+  /// field has no gradient.
   ///
   /// In a scene with a workspace box the god object follows the device only within the box, and the device feels the
   /// box's faces as stiff as the coupling. Until the device has been inside for the first time, nothing is rendered, as

@@ -22,14 +22,15 @@ namespace godobject {
 /// object may lag, which is counted, but crosses nothing.
 ///
 /// A first pose that penetrates is left along the gradients, and where these contradict each other along the motion
-/// that misses them least (overlap.h). Where the field has none (deeper than the band), or the device is far, the god
-/// object follows the device, without force, until it is free.
+/// that misses them least (overlap.h), near the device. Where the field has none (deeper than the band) the god object
+/// follows the device, without force, until it is free.
 ///
 /// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged.
 /// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps sub-steps with a
 /// near point, each with at most kMostAttempts attempts. An attempt looks up each near point, and each force three
-/// times. A sub-step solves at most 4 (1 + 2 (kMostSecondLooks + 2)) times: once, and in each second look with and
-/// without arcs, of which two may fail; each in one or two metrics, with and without required gains. Besides,
+/// times. A sub-step solves at most 4 (1 + 2 (kMostSecondLooks + 2) + kMostRefills) times: once, in each second look
+/// with and without arcs, of which two may fail, and with rows of left-out points; each in one or two metrics, with and
+/// without required gains. Besides,
 /// kMostFreeSubsteps sub-steps without a near point, and kMostBallsOfCycle further look-ups a cycle. Real-time safe.
 template <bool kFriction, DistanceField Field, DistanceField BodyField>
 Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInput& input, ContactMemory& memory,

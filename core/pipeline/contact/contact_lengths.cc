@@ -26,8 +26,8 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.opening = 0.01 * q.voxel_size;
   // chosen: it limits only the way out after a start inside; 0.05 and 1 change no replay
   lengths.largest_gain = 0.25 * q.voxel_size;
-  // chosen: longer than the overlap of assembled parts; the force on the hand up to it is small
-  lengths.longest_way_out = 0.5 * q.voxel_size;
+  // chosen: longer than the overlap of assembled parts; it bounds the force on the hand, 1 N at the defaults
+  lengths.longest_way_out = 0.25 * q.voxel_size;
   lengths.radius = q.mass.radius;
   lengths.sphere = q.mass.sphere;
   lengths.point_budget = q.point_budget;

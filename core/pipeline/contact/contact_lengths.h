@@ -20,7 +20,7 @@ struct ContactLengths {
   double longest_search_radius;   ///< upper bound; ContactScene lowers it to what both fields allow
   double opening;                 ///< a gap that exceeds the margin by more than this is not a contact
   double largest_gain;            ///< most that a lost gap regains in a sub-step
-  double longest_way_out;         ///< a god object that starts inside and farther from the device follows it
+  double longest_way_out;         ///< longest stretch of the coupling on the way out of an overlap
   double radius;                  ///< R_max
   BoundingSphere sphere;          ///< around all sample points, in S
   std::uint32_t point_budget;     ///< as Parameters::point_budget

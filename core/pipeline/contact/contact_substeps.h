@@ -49,6 +49,7 @@ class ContactSubsteps {
   /// Begins a sub-step: computes the unconstrained motion from the god object to the device, #3.
   void begin() noexcept {
     H0_ = result_.H_WS;
+    refills_left_ = kMostRefills;
     is_first_ = result_.substeps + free_substeps_ == 0;
     free_ = is_first_ ? wanted_ : unconstrained_motion(H0_, input_.H_WD);
     free_displacement_ = travel(lengths_.sphere, free_);
@@ -97,30 +98,29 @@ class ContactSubsteps {
   void constrain() noexcept {
     solve_in_best_metric();
     if (around_.dropped == 0) return;
-    const std::uint32_t others = around_.unlisted + around_.unseen;
-    for (int refill = 0;; ++refill) {
+    while (true) {
       const std::uint32_t begin = rows_.count;
-      result_.dropped = others + push_left_out();
-      if (rows_.count == begin) return;
-      if (refill == kMostRefills) {
+      result_.dropped = around_.unlisted + around_.unseen + push_left_out();
+      const std::uint32_t end = rows_.count;
+      if (end == begin) return;
+      if (refills_left_ == 0) {
         rows_.count = begin;  // the motion does not know them
         return;
       }
+      --refills_left_;
+      const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
       solve_in_best_metric();
+      step_.infeasible |= infeasible;
+      if (rows_.count < end) return;  // rows have given way to the faces of the workspace
     }
   }
 
   /// Tells whether after a start inside no motion meets all rows. Then the god object takes the way out that misses
-  /// them least, as long as it stays near the device; else it follows the device, without force.
+  /// them least, but stays near the device. Where the field has no gradient it goes to the device, without force.
   bool is_lost() noexcept {
     if (!result_.inside || !(around_.swallowed || step_.infeasible)) return false;
     step_ = ConstrainedStep{};
-    Motion out = around_.swallowed ? free_ : way_out();
-    Pose H_out = H0_ * set_matrix(out);
-    cut_off(scene_.parameters->workspace, H0_, H_out, out);
-    const double from_device = travel(lengths_.sphere, unconstrained_motion(H_out, input_.H_WD));
-    const bool leads_out = !around_.swallowed && from_device < lengths_.longest_way_out;
-    move_to(leads_out ? H_out : input_.H_WD);
+    move_to(around_.swallowed ? input_.H_WD : way_out());
     result_.cut = false;
     return true;
   }
@@ -206,11 +206,22 @@ class ContactSubsteps {
     memory_.path.push(H_WS);
   }
 
-  Motion way_out() const noexcept {
+  /// Returns the pose at the end of the way out. In the coupling's metric it is at most `longest_way_out` from the
+  /// device, so that the force on the hand is bounded and does not jump when the device leaves.
+  Pose way_out() const noexcept {
     Overlap overlap(lengths_);
     overlap.add<SampleDirection>(memory_.workspace.samples, H0_);
     if (scene_.has_features()) overlap.add<FeatureDirection>(memory_.workspace.features, H0_features_);
-    return overlap.way_out(free_);
+    Motion out = overlap.way_out(free_);
+    Pose H_out = H0_ * set_matrix(out);
+    const Motion back = unconstrained_motion(H_out, input_.H_WD);
+    const double stretch = std::hypot(back.translation.norm(), lengths_.metric.gyration * back.rotation.norm());
+    if (stretch > lengths_.longest_way_out) {
+      const double share = 1.0 - lengths_.longest_way_out / stretch;
+      H_out = H_out * set_matrix({share * back.translation, share * back.rotation});
+    }
+    cut_off(scene_.parameters->workspace, H0_, H_out, out);
+    return H_out;
   }
 
   /// Computes the motion nearest to the unconstrained one for the coupling's metric, or a stiffer one.
@@ -473,7 +484,7 @@ class ContactSubsteps {
         limit_arcs();
         return true;
       }
-      rows_.count = rows;
+      rows_.count = std::min(rows, rows_.count);  // fewer: rows have given way to the faces of the workspace
       result_.dropped = dropped;
       const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
       step_ = tried;
@@ -532,6 +543,7 @@ class ContactSubsteps {
   double free_displacement_ = 0.0;  // upper bound of a point's displacement in `free_` [m]
   double search_radius_ = 0.0;
   Surroundings around_{};
+  int refills_left_ = 0;
   MotionShare share_{1.0};
   Motion motion_;
   Pose H1_;

@@ -45,14 +45,15 @@ void SolidAngle::add(const Vector3d& a, const Vector3d& b, const Vector3d& c) no
   const double lw = w.norm();
   const double imaginary = u.dot(v.cross(w));
   const double real = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
-  const double scale = std::abs(real) + std::abs(imaginary);
-  if (scale == 0.0) return;  // p is a corner
-  const double next_real = (real_ * real - imaginary_ * imaginary) / scale;
-  const double next_imaginary = (real_ * imaginary + imaginary_ * real) / scale;
+  const double modulus = std::sqrt(real * real + imaginary * imaginary);
+  if (!(modulus > 0.0)) return;  // p is a corner
+  const double next_real = (real_ * real - imaginary_ * imaginary) / modulus;
+  const double next_imaginary = (real_ * imaginary + imaginary_ * real) / modulus;
   // Arguments are in (-pi, pi]. Two of one sign that leave this range come out with the other sign.
   const bool both_negative = imaginary_ < 0.0 && imaginary < 0.0;
   const bool both_positive = imaginary_ >= 0.0 && imaginary >= 0.0;
-  if (both_positive && next_imaginary < 0.0) ++turns_;
+  const bool is_full_turn = next_imaginary == 0.0 && next_real > 0.0 && real_ < 0.0;  // pi and pi
+  if (both_positive && (next_imaginary < 0.0 || is_full_turn)) ++turns_;
   if (both_negative && (next_imaginary > 0.0 || (next_imaginary == 0.0 && next_real < 0.0))) --turns_;
   real_ = next_real;
   imaginary_ = next_imaginary + 0.0;  // no -0, whose argument beside a negative number is -pi

@@ -281,8 +281,11 @@ TEST(BallCycle, FindsTheWayAlongAWallWhileAFaceOfTheWorkspaceHoldsIt) {
 /// The centre slides on a plate and past its edge; the device is 1 mm below the top. Beyond the edge nothing holds the
 /// centre: in the same cycle it goes to the device, and is released.
 TEST(BallCycle, GoesDownToTheDevicePastAnEdgeInTheSameCycle) {
-  static const SceneImage image =
-      image_of([](const Vector3& p) { return analytic::box_distance(p, {0.02, 0.02, 0.012}); }, 0.004);
+  static const SceneImage image = image_of(
+      [](const Vector3& p) {
+        return analytic::box_distance(p, {0.02, 0.02, 0.012});
+      },
+      0.004);
   for (const double begin : {0.0, 0.0002, 0.0005, 0.0008}) {
     BallRun run(image, {0.014 + begin, 0.001, 0.0125});
     int beyond = 0;

@@ -211,20 +211,20 @@ void expect_rows_to_give_way_to_the_faces() {
 TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspace) { expect_rows_to_give_way_to_the_faces<false>(); }
 TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspaceWithFriction) { expect_rows_to_give_way_to_the_faces<true>(); }
 
-/// A body that starts inside without a way out is nowhere held: no force, no damping, and nothing for the next cycle.
-TEST(ContactSubsteps, LeaveNoForceWhereTheBodyIsLost) {
+/// A body that starts between walls that push against each other is nowhere held: no contact, no damping, and nothing
+/// for the next cycle. The device is in the middle, so that the spring hardly stretches.
+TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
   const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
   const SampledBody body = ball_body();
   SubstepRun<Slot, true> run(field, body, Pose{});
   run.state.started = false;
   run.state.inside = true;
   for (int i = 0; i < 10; ++i) {
-    const Pose device = at({0.0, 0.0, 1e-3 * i});
-    ASSERT_EQ(run.step(device, {{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}), Status::kOk);
+    ASSERT_EQ(run.step(at({0.0, 0.0, 1e-3 * i}), {{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}), Status::kOk);
     EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
-    EXPECT_TRUE(run.state.H_WS == device);
-    EXPECT_EQ(run.report.force.total_W.force, Vector3::Zero());
-    EXPECT_EQ(run.report.force.total_W.torque, Vector3::Zero());
+    EXPECT_EQ(run.report.force.total_W.force, run.report.force.spring_W.force);
+    EXPECT_EQ(run.report.force.total_W.torque, run.report.force.spring_W.torque);
+    EXPECT_LT(run.report.force.total_W.force.norm(), 0.02);
     EXPECT_EQ(run.report.contacts, 0u);
     EXPECT_EQ(run.memory().last_step.force_count, 0u);
     EXPECT_FALSE(run.memory().last_step.infeasible);
@@ -269,15 +269,13 @@ TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
     for (std::size_t k = 0; k < points.size; ++k) {
       ASSERT_GT(shape.distance(state.H_WS.inverse() * (origin_W + points.point(k))), 0.0) << i;
     }
-    overflows += report.outcome == Outcome::kOverflow ? 1 : 0;
+    overflows += report.dropped > 0 || report.outcome == Outcome::kOverflow ? 1 : 0;
   }
   EXPECT_NEAR(state.H_WS.rotation.toRotationMatrix()(2, 2), 1.0, 1e-6) << "it lies flat";
   EXPECT_NEAR(state.H_WS.translation.z() - origin_W.z(), 0.015 + kMargin, 0.1 * kMargin);
   EXPECT_NEAR(state.H_WS.translation.x() - origin_W.x(), 1e-4, 1e-5) << "nothing holds it along the bed";
   EXPECT_GT(report.force.spring_W.force.z(), 0.0);
-  EXPECT_GT(report.dropped, 200u) << "some 2400 points lie under the block, and there are 2048 rows";
-  EXPECT_LT(report.dropped, 800u);
-  EXPECT_GT(overflows, 30);
+  EXPECT_EQ(overflows, 0) << "some 2400 points lie under the block; the 2048 rows have room for those that matter";
   for (std::uint32_t k = 0; k < memory->last_step.force_count; ++k) {
     EXPECT_NE(memory->last_step.forces[k].id & detail::kFeature, 0u);
   }
