@@ -24,20 +24,15 @@ class Overlap {
   /// instructions for a point that lost its margin, 2 for another. Real-time safe.
   template <class Direction>
   void add(const NearPoints& near, const Pose& H) noexcept {
-    const Matrix3 R = H.rotation.toRotationMatrix();
-    const GapLaw law = lengths_.gap_law();
+    const NearRows<Direction> near_rows(near, H, lengths_, true);
     for (std::uint32_t k = 0; k < near.count; ++k) {
-      if (!(near.distance[k] < law.margin)) continue;
-      const Vector3 p = near.point(k);
-      const ContactPoint contact = Direction::contact(p, R * p + H.translation, near.gradient(k), R);
-      const double steepness = contact.gradient_S.norm();
-      if (!(steepness > kFlat)) continue;
-      const double gain = law.required_gain((law.margin - near.distance[k]) / steepness);
-      Vector6 row;
-      row << contact.gradient_S / steepness,
-          contact.point_S.cross(contact.gradient_S) / (steepness * lengths_.metric.gyration);
-      squares_.noalias() += row * row.transpose();
-      sums_ += gain * row;
+      if (!(near.distance[k] < lengths_.margin)) continue;
+      const NearRow row = near_rows.row(k);
+      if (!row.exists) continue;
+      Vector6 gradient;
+      gradient << row.normal_S, row.point_S.cross(row.normal_S) / lengths_.metric.gyration;
+      squares_.noalias() += gradient * gradient.transpose();
+      sums_ += row.required_gain * gradient;
     }
   }
 

@@ -91,55 +91,50 @@ struct Selection {
 /// motion turns out to need. Cost: linear in their number. Real-time safe.
 Selection select_rows(ContactWorkspace& workspace) noexcept;
 
-/// Rows for chosen near points of one direction, from the gradients in their list. H: pose of the shell in the field's
+/// The row of a near point: the normal component of the point's displacement has to reach the required gain.
+struct NearRow {
+  bool exists = false;         ///< false: the field has no gradient at the point; then the rest is not set
+  Vector3 point_S;             ///< [m]
+  Vector3 normal_S;            ///< unit vector along which the distance grows
+  double required_gain = 0.0;  ///< [m]
+};
+
+/// Computes rows of near points of one direction, from the gradients in their list. H: pose of the shell in the field's
 /// frame. `regains`: lost gaps are regained; else they only must not shrink. Real-time safe.
 template <class Direction>
 class NearRows {
  public:
-  NearRows(const NearPoints& near, const Pose& H, const ContactLengths& lengths, bool regains,
-           ContactRows& rows) noexcept
-      : near_(near),
-        H_(H),
-        R_(H.rotation.toRotationMatrix()),
-        law_(lengths.gap_law()),
-        regains_(regains),
-        rows_(rows) {}
+  NearRows(const NearPoints& near, const Pose& H, const ContactLengths& lengths, bool regains) noexcept
+      : near_(near), H_(H), R_(H.rotation.toRotationMatrix()), law_(lengths.gap_law()), regains_(regains) {}
 
-  /// Appends a row for point `k`, if it has a gradient and there is room.
-  void push(std::uint32_t k) noexcept {
-    const ContactPoint contact = contact_at(k);
+  /// Returns the row of near point `k`.
+  NearRow row(std::uint32_t k) const noexcept {
+    const Vector3 p = near_.point(k);
+    const ContactPoint contact = Direction::contact(p, R_ * p + H_.translation, near_.gradient(k), R_);
     const double steepness = contact.gradient_S.norm();
-    if (!(steepness > kFlat) || rows_.full()) return;
-    rows_.push(Direction::kId | near_.index[k], contact.gradient_S / steepness, contact.point_S,
-               required_gain(k, steepness));
+    NearRow row;
+    if (!(steepness > kFlat)) return row;
+    const double gain = law_.required_gain((law_.margin - near_.distance[k]) / steepness);
+    row.exists = true;
+    row.point_S = contact.point_S;
+    row.normal_S = contact.gradient_S / steepness;
+    row.required_gain = regains_ ? gain : std::min(gain, 0.0);
+    return row;
   }
 
-  /// Returns by how much a motion violates the row of point `k` [m]; minus infinity if it has none.
-  double violation(std::uint32_t k, const Motion& motion) const noexcept {
-    const ContactPoint contact = contact_at(k);
-    const double steepness = contact.gradient_S.norm();
-    if (!(steepness > kFlat)) return -std::numeric_limits<double>::infinity();
-    const double grows = contact.gradient_S.dot(motion.translation + motion.rotation.cross(contact.point_S));
-    return required_gain(k, steepness) - grows / steepness;
+  /// Appends the row of near point `k` if it exists and there is room.
+  void push(std::uint32_t k, ContactRows& rows) const noexcept {
+    const NearRow near_row = row(k);
+    if (!near_row.exists || rows.full()) return;
+    rows.push(Direction::kId | near_.index[k], near_row.normal_S, near_row.point_S, near_row.required_gain);
   }
 
  private:
-  ContactPoint contact_at(std::uint32_t k) const noexcept {
-    const Vector3 p = near_.point(k);
-    return Direction::contact(p, R_ * p + H_.translation, near_.gradient(k), R_);
-  }
-
-  double required_gain(std::uint32_t k, double steepness) const noexcept {
-    const double gain = law_.required_gain((law_.margin - near_.distance[k]) / steepness);
-    return regains_ ? gain : std::min(gain, 0.0);
-  }
-
   const NearPoints& near_;
   const Pose& H_;
   const Matrix3 R_;
   const GapLaw law_;
   const bool regains_;
-  ContactRows& rows_;
 };
 
 /// Appends rows for the selected near points of one direction; H is the pose of the shell in the field's frame. In the
@@ -147,10 +142,10 @@ class NearRows {
 template <class Direction>
 void push_selected(const Pose& H, const Selection& selection, const ContactLengths& lengths, const NearPoints& near,
                    ContactRows& rows) noexcept {
-  NearRows<Direction> of_near(near, H, lengths, true, rows);
+  const NearRows<Direction> near_rows(near, H, lengths, true);
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
-    if (near.distance[k] <= selection.deepest || others++ % selection.stride == 0) of_near.push(k);
+    if (near.distance[k] <= selection.deepest || others++ % selection.stride == 0) near_rows.push(k, rows);
   }
 }
 
@@ -163,7 +158,7 @@ std::uint32_t push_violated(const Pose& H, const ConstrainedStep& step, const Co
                             const NearPoints& near, ContactRows& rows) noexcept {
   const double tolerance = 2.0 * lengths.metric.tolerance;  // rows of the step are met within one
   const Motion& motion = step.motion;
-  NearRows<Direction> of_near(near, H, lengths, !step.infeasible, rows);
+  const NearRows<Direction> near_rows(near, H, lengths, !step.infeasible);
   const ShellDisplacement displacement = Direction::displacement(H, motion);
   std::uint32_t groups = 0;
   for (std::uint32_t first = 0; first < near.count; first += 64) {
@@ -171,14 +166,17 @@ std::uint32_t push_violated(const Pose& H, const ConstrainedStep& step, const Co
     std::uint32_t worst = ContactRows::kNone;
     for_each_bit(near.end_below(first, displacement.turn, displacement.shift, lengths.margin),
                  [&](std::uint32_t i) noexcept {
-                   const double violation = of_near.violation(first + i, motion);
+                   const NearRow row = near_rows.row(first + i);
+                   if (!row.exists) return;
+                   const double gain = row.normal_S.dot(motion.translation + motion.rotation.cross(row.point_S));
+                   const double violation = row.required_gain - gain;
                    if (!(violation > most)) return;
                    most = violation;
                    worst = first + i;
                  });
     if (worst == ContactRows::kNone) continue;
     ++groups;
-    of_near.push(worst);
+    near_rows.push(worst, rows);
   }
   return groups;
 }
