@@ -35,6 +35,7 @@ def run(command, environment, cpu_seconds, wall_seconds, folder):
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     with tempfile.TemporaryDirectory(dir=folder) as temporary, tempfile.TemporaryFile(dir=folder) as output:
+        os.chmod(temporary, 0o755)  # some tests read their folder as an ordinary user
         begin = time.monotonic()
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
                                    cwd=temporary, env={**os.environ, **environment, 'TMPDIR': temporary}, preexec_fn=limits)

@@ -232,13 +232,13 @@ TEST_F(DoctorTest, TellsEachStateOfTheRights) {
            "' into /etc/security/limits.d/godobject.conf, groupadd -f realtime, usermod -aG realtime USER, and log in "
            "again";
   };
-  /// Calls `expect(root)` with this status of the process, as this user and as an ordinary one. The latter only where he
-  /// may read the folder.
+  /// Calls `expect(root)` with this status of the process, as this user and as an ordinary one.
   const auto with = [&](const std::string& status, auto&& expect) {
     put("proc/self/status", status);
     expect(::geteuid() == 0);
     const test::AsOrdinaryUser user;
-    if (std::ifstream(folder_ / "proc/self/status").good()) expect(::geteuid() == 0);
+    ASSERT_TRUE(std::ifstream(folder_ / "proc/self/status").good()) << "an ordinary user may not enter " << folder_;
+    expect(::geteuid() == 0);
   };
   with("Name:\tx\nCapEff:\t0000000000000000", [&](bool root) {
     EXPECT_EQ(told(right("rtprio", 0)), "ok needed rtprio: 0 -> ");
