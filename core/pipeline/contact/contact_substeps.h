@@ -161,8 +161,7 @@ class ContactSubsteps {
     is_nearer_ = distance_gain() < 0.0;
     step_.motion = motion_;
     last_motion_ = motion_;
-    whole_.translation += motion_.translation;
-    whole_.rotation += motion_.rotation;
+    add_to_whole(motion_);
     move_to(H1_);
     result_.cut = share_.is_cut();
     most_search_radius_ = std::min(std::max(most_search_radius_, 2.0 * search_radius_), scene_.longest_search_radius);
@@ -200,6 +199,11 @@ class ContactSubsteps {
   }
 
   bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
+
+  void add_to_whole(const Motion& motion) noexcept {
+    whole_.translation += motion.translation;
+    whole_.rotation += motion.rotation;
+  }
 
   void move_to(const Pose& H_WS) noexcept {
     result_.H_WS = H_WS;
@@ -349,6 +353,7 @@ class ContactSubsteps {
 
   void follow_device() noexcept {
     move_to(input_.H_WD);
+    add_to_whole(free_);
     step_.release();
     result_.smallest = std::numeric_limits<double>::infinity();
     result_.dropped = 0;
