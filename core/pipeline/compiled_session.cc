@@ -29,6 +29,12 @@ FeatureContacts<BodyField> feature_contacts(const SceneView& scene, const Vector
   return features;
 }
 
+/// Returns the sharp edges of both bodies; none where the image or this build leaves them out.
+EdgeContacts edge_contacts(const SceneView& scene) noexcept {
+  if constexpr (kSceneTraits.edges) return {scene.body_edges, scene.edges};
+  return {};
+}
+
 }  // namespace
 
 void CompiledSession::start(const SceneView& scene, Solver solver, bool friction,
@@ -43,7 +49,7 @@ void CompiledSession::start(const SceneView& scene, Solver solver, bool friction
     }
   }
   core_.start(scene_.voxelmap, scene_.pointshell, feature_contacts<BodyField>(scene_, parameters.mass.sphere.center),
-              parameters, solver, friction, words);
+              parameters, solver, friction, words, edge_contacts(scene_));
 }
 
 Status CompiledSession::refuse(Status status, CycleReport& report) const noexcept {

@@ -41,12 +41,13 @@ class Session {
   /// outlive the session. `words`: at least search_words(...) of them, for this session alone. With none the results
   /// are the same, but `contact` visits the sphere trees from their roots in every cycle.
   void start(const Field& field, const Pointshell& shell, const FeatureContacts<BodyField>& features,
-             const Parameters& parameters, Solver solver, bool friction, std::span<std::uint32_t> words) noexcept {
+             const Parameters& parameters, Solver solver, bool friction, std::span<std::uint32_t> words,
+             const EdgeContacts& edges = {}) noexcept {
     field_ = &field;
     shell_ = &shell;
     parameters_ = parameters;
     cycle_ = cycle_of(solver, friction);
-    contact_scene_ = {field, shell, features, parameters_};
+    contact_scene_ = {field, shell, features, parameters_, edges};
     if constexpr (kHasSearch) contact_.search.start(contact_scene_, words);
     reset();
   }

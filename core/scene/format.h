@@ -20,13 +20,15 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 8;
+inline constexpr std::uint32_t kVersion = 9;
 inline constexpr std::size_t kAlignment = 64;
-inline constexpr std::size_t kMaxSections = 24;
+inline constexpr std::size_t kMaxSections = 28;
 
 inline constexpr std::int32_t kMaxBricksPerAxis = 4096;
 inline constexpr std::uint32_t kMaxPoints = 1u << 22;
 inline constexpr std::uint32_t kMaxLevels = 16;
+inline constexpr std::uint32_t kMaxSharpEdges = (1u << 15) - 1;  ///< of a body
+inline constexpr std::uint32_t kMaxSharpEdgeLevels = 24;         ///< depth of their tree
 
 static_assert(std::endian::native == std::endian::little, "scene images are little-endian");
 
@@ -56,6 +58,12 @@ enum class SectionId : std::uint32_t {
   kBodyEdges = 19,  ///< Edge[]: edges of the moving body, in B
 
   kWorkspace = 20,  ///< one Workspace; missing if the moving body may be everywhere
+
+  // Edge against edge. Only `contact` reads it. It is missing if one of the bodies has no sharp edge.
+  kSharpEdges = 21,      ///< SharpEdge[]: of the still body, in W, in tree order
+  kSharpEdgeNodes = 22,  ///< Node[]: their sphere tree in pre-order; a node's points are edges, `level` is the depth
+  kBodySharpEdges = 23,  ///< SharpEdge[]: of the moving body, in B, in tree order
+  kBodySharpEdgeNodes = 24,  ///< Node[]
 };
 
 struct Header {
@@ -212,6 +220,16 @@ struct Edge {
   double reserved[6];   ///< 0
 };
 static_assert(sizeof(Edge) == 256);
+
+/// A convex sharp edge between two vertices of the mesh: for contacts of edges with edges. Where the body is a
+/// thickened sheet, its surface lies `radius` from the edge.
+struct SharpEdge {
+  double end[2][3];        ///< [m]
+  float normal[2][3];      ///< unit normals of the two faces, out of the body; 0 on a sheet
+  float radius;            ///< 0 on a solid [m]
+  std::uint32_t reserved;  ///< 0
+};
+static_assert(sizeof(SharpEdge) == 80);
 
 /// One entry of the brick index, or of a refinement.
 ///

@@ -289,7 +289,7 @@ bool add_child(const format::Node& node, OpenNode& parent) noexcept {
 
 /// Structure of the tree: pre-order, depth bounded by level_count, children partition their parent's points in order.
 bool valid_nodes(std::span<const format::Node> nodes, const TreeSize& size) noexcept {
-  std::array<OpenNode, format::kMaxLevels + 1> open{};
+  std::array<OpenNode, std::max(format::kMaxLevels, format::kMaxSharpEdgeLevels) + 1> open{};
   std::uint32_t depth = 0;
   const auto count = static_cast<std::uint32_t>(nodes.size());
   if (nodes[0].skip != count || nodes[0].first_point != 0 || nodes[0].point_count != size.point_count) return false;
@@ -408,6 +408,80 @@ Status open_features(const Sections& sections, SceneView& scene) noexcept {
                   grid, scene.body_map);
 }
 
+bool valid_sharp_edges(std::span<const format::SharpEdge> edges) noexcept {
+  for (const format::SharpEdge& edge : edges) {
+    for (const auto& end : edge.end) {
+      for (const double x : end) {
+        if (!in_range(x, -1e7, 1e7)) return false;
+      }
+    }
+    for (const auto& normal : edge.normal) {
+      if (!all_finite(normal, 3, 1.001f)) return false;
+    }
+    if (!(edge.radius >= 0.0f && edge.radius <= 1e6f) || edge.reserved != 0) return false;
+  }
+  return true;
+}
+
+/// Tells whether each node's sphere contains its edges: the search skips branches by their spheres.
+bool contain_edges(const SharpEdges& sharp) noexcept {
+  for (const format::Node& node : sharp.nodes) {
+    const BoundingSphere sphere = sphere_of(node);
+    for (std::uint32_t i = node.first_point; i < node.first_point + node.point_count; ++i) {
+      const format::SharpEdge& edge = sharp.edges[i];
+      for (int k = 0; k < 2; ++k) {
+        const double far = (edge_end(edge, k) - sphere.center).norm() + static_cast<double>(edge.radius);
+        if (!(far <= sphere.radius)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Reads the sharp edges of one body.
+Status open_sharp_edges(std::span<const std::byte> edges, std::span<const std::byte> nodes,
+                        SharpEdges& sharp) noexcept {
+  sharp.edges = as_array<format::SharpEdge>(edges);
+  sharp.nodes = as_array<format::Node>(nodes);
+  if (edges.size() != sharp.edges.size_bytes() || nodes.size() != sharp.nodes.size_bytes()) {
+    return Status::kImageLayout;
+  }
+  if (sharp.edges.empty() || sharp.nodes.empty()) return Status::kImageLayout;
+  if (sharp.edges.size() > format::kMaxSharpEdges || sharp.nodes.size() > 2 * sharp.edges.size()) {
+    return Status::kImageLayout;
+  }
+  const TreeSize size{static_cast<std::uint32_t>(sharp.edges.size()), static_cast<std::uint32_t>(sharp.nodes.size()),
+                      format::kMaxSharpEdgeLevels, 1.0};
+  return valid_sharp_edges(sharp.edges) && valid_nodes(sharp.nodes, size) && contain_edges(sharp) ? Status::kOk
+                                                                                                  : Status::kImageValue;
+}
+
+/// Tells whether the sphere contains all edges: the bound on a body's displacement requires it.
+bool contains(const BoundingSphere& sphere, const SharpEdges& sharp) noexcept {
+  for (const format::SharpEdge& edge : sharp.edges) {
+    for (int k = 0; k < 2; ++k) {
+      if (!((edge_end(edge, k) - sphere.center).norm() <= sphere.radius)) return false;
+    }
+  }
+  return true;
+}
+
+/// Reads the sharp edges of both bodies: both or neither.
+Status open_edges(const Sections& sections, SceneView& scene) noexcept {
+  bool any = false;
+  for (const SectionId id : {SectionId::kSharpEdges, SectionId::kSharpEdgeNodes, SectionId::kBodySharpEdges,
+                             SectionId::kBodySharpEdgeNodes}) {
+    any |= sections[id].data() != nullptr;
+  }
+  if (!any) return Status::kOk;
+  Status status = open_sharp_edges(sections[SectionId::kSharpEdges], sections[SectionId::kSharpEdgeNodes], scene.edges);
+  if (status != Status::kOk) return status;
+  status = open_sharp_edges(sections[SectionId::kBodySharpEdges], sections[SectionId::kBodySharpEdgeNodes],
+                            scene.body_edges);
+  if (status != Status::kOk) return status;
+  return contains(sphere_of(scene.body), scene.body_edges) ? Status::kOk : Status::kImageValue;
+}
+
 /// Reads the workspace; `box` stays unlimited if the image has none.
 Status open_workspace(const Sections& sections, WorkspaceBox& box) noexcept {
   const auto bytes = sections[SectionId::kWorkspace];
@@ -462,6 +536,8 @@ Status SceneView::open(std::span<const std::byte> image, SceneView& scene) noexc
   if (status != Status::kOk) return status;
   if (!contains(sphere_of(body), opened.pointshell)) return Status::kImageValue;
   status = open_features(sections, opened);
+  if (status != Status::kOk) return status;
+  status = open_edges(sections, opened);
   if (status != Status::kOk) return status;
 
   opened.H_MB.rotation =

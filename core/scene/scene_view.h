@@ -5,6 +5,7 @@
 
 #include "core/scene/format.h"
 #include "core/scene/pointshell.h"
+#include "core/scene/sharp_edges.h"
 #include "core/scene/voxelmap.h"
 #include "core/scene/workspace_box.h"
 #include "godobject/pose.h"
@@ -14,7 +15,8 @@
 namespace godobject {
 
 /// A validated scene image, read in place: settings, the still body's voxelmap, the moving body's pointshell and mass,
-/// and where the image has it the other direction: feature points of the still body, voxelmap of the moving one.
+/// where the image has it the other direction: feature points of the still body, voxelmap of the moving one; and where
+/// the image has them the sharp edges of both bodies.
 /// A view of the bytes it was opened on, which must stay where they are and unchanged.
 struct SceneView {
   format::Settings settings{};
@@ -26,6 +28,8 @@ struct SceneView {
   Voxelmap body_map;    ///< of the moving body, in B; only with features
   Pointshell features;  ///< of the still body, in frame F: W shifted to `features_origin`
   Vector3 features_origin = Vector3::Zero();
+  SharpEdges edges;                       ///< of the still body, in W; empty if one of the bodies has none
+  SharpEdges body_edges;                  ///< of the moving body, in B
   Pose H_MB;                              ///< body frame (centre of mass, principal axes) in the moving mesh's frame
   std::span<const std::byte> provenance;  ///< UTF-8 JSON, for people
 
@@ -37,6 +41,7 @@ struct SceneView {
 
   format::Solver default_solver() const noexcept { return static_cast<format::Solver>(settings.default_solver); }
   bool has_features() const noexcept { return features.size > 0; }
+  bool has_edges() const noexcept { return !edges.empty(); }
   bool holds(format::Solver solver) const noexcept {
     return (settings.solvers >> static_cast<std::uint32_t>(solver)) & 1u;
   }

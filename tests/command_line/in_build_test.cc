@@ -17,7 +17,7 @@ TEST(InBuild, LetsAllPipelinesOfAWholeBuildRun) {
 }
 
 TEST(InBuild, NamesTheSceneThePartAndTheOptionToDrop) {
-  constexpr SceneTraits kBall{.paper = false, .corrected = false, .friction = false, .features = false};
+  constexpr SceneTraits kBall{.paper = false, .corrected = false, .friction = false, .features = false, .edges = false};
   SceneView scene;
   const auto message = [&](Solver solver, bool friction) -> std::string {
     try {
@@ -37,6 +37,9 @@ TEST(InBuild, NamesTheSceneThePartAndTheOptionToDrop) {
   }
   EXPECT_NE(message(Solver::kPaper, false).find("the solver paper"), std::string::npos);
   EXPECT_NE(message(Solver::kContact, true).find("needs friction"), std::string::npos);
+  const std::array<format::SharpEdge, 1> edge{};
+  scene.edges.edges = edge;
+  EXPECT_NE(message(Solver::kContact, false).find("edge against edge"), std::string::npos);
   scene.features.size = 1;
   EXPECT_NE(message(Solver::kContact, false).find("the second direction"), std::string::npos);
 }

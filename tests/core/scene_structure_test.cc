@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <ostream>
 #include <vector>
@@ -25,7 +26,7 @@ using format::SectionId;
 using test::ImageParts;
 using test::SceneImage;
 
-constexpr std::uint32_t kSectionCount = 20;
+constexpr std::uint32_t kSectionCount = 24;
 
 Status status_of(std::span<const std::byte> bytes) {
   SceneView scene;
@@ -129,19 +130,67 @@ TEST(SceneStructure, MayHaveSectionsThatItDoesNotKnow) {
     image[id_of(number)].resize(100);
     EXPECT_EQ(status_of(image), Status::kOk) << number;
   }
-  for (const std::uint32_t number : {0u, 24u, 25u, 0xffffffffu}) {
+  for (const std::uint32_t number : {0u, 28u, 29u, 0xffffffffu}) {
     ImageParts renamed = test::whole_image();
     renamed.rename(SectionId::kProvenance, id_of(number));
     EXPECT_EQ(status_of(renamed), Status::kImageLayout) << number;
   }
 }
 
+/// Sharp edges of both bodies or of none; each in the spheres of its nodes, those of the moving body in its sphere.
+TEST(SceneStructure, HasSharpEdgesInTheirSpheres) {
+  const ImageParts whole = test::whole_image();
+  ImageParts none = whole;
+  for (const SectionId id : {SectionId::kSharpEdges, SectionId::kSharpEdgeNodes, SectionId::kBodySharpEdges,
+                             SectionId::kBodySharpEdgeNodes}) {
+    EXPECT_EQ(status_of(none), id == SectionId::kSharpEdges ? Status::kOk : Status::kImageLayout);
+    none.leave_out(id);
+  }
+  EXPECT_EQ(status_of(none), Status::kOk);
+  for (const bool of_body : {false, true}) {
+    const SectionId edges = of_body ? SectionId::kBodySharpEdges : SectionId::kSharpEdges;
+    const SectionId nodes = of_body ? SectionId::kBodySharpEdgeNodes : SectionId::kSharpEdgeNodes;
+    const auto status_with = [&](auto change) {
+      ImageParts image = whole;
+      change(image.item<format::SharpEdge>(edges), image.item<format::Node>(nodes));
+      return status_of(image);
+    };
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    constexpr float kNoFloat = std::numeric_limits<float>::quiet_NaN();
+    using Edge = format::SharpEdge;
+    using Node = format::Node;
+    EXPECT_EQ(status_with([](Edge&, Node&) {}), Status::kOk);
+    for (int end = 0; end < 2; ++end) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const double x : {kNaN, 2e7, -2e7, 0.5}) {  // the last one lies outside of the node's sphere
+          EXPECT_EQ(status_with([&](Edge& edge, Node&) { edge.end[end][axis] = x; }), Status::kImageValue) << x;
+        }
+        for (const float x : {kNoFloat, 1.1f, -1.1f}) {
+          EXPECT_EQ(status_with([&](Edge& edge, Node&) { edge.normal[end][axis] = x; }), Status::kImageValue) << x;
+        }
+      }
+    }
+    for (const float radius : {kNoFloat, -1e-9f, 2e6f, 0.5f}) {
+      EXPECT_EQ(status_with([&](Edge& edge, Node&) { edge.radius = radius; }), Status::kImageValue) << radius;
+    }
+    EXPECT_EQ(status_with([](Edge& edge, Node&) { edge.reserved = 1; }), Status::kImageValue);
+    EXPECT_EQ(status_with([](Edge&, Node& node) { node.point_count = 2; }), Status::kImageValue);
+    EXPECT_EQ(status_with([](Edge&, Node& node) { node.skip = 2; }), Status::kImageValue);
+    EXPECT_EQ(status_with([](Edge&, Node& node) { node.leaf = 0; }), Status::kImageValue);
+    EXPECT_EQ(status_with([](Edge&, Node& node) { node.center[0] += 1.0f; }), Status::kImageValue);
+  }
+  ImageParts far = whole;  // in the sphere of its node, not in that of the body
+  far.item<format::SharpEdge>(SectionId::kBodySharpEdges).end[0][0] += 5.0;
+  far.item<format::Node>(SectionId::kBodySharpEdgeNodes).radius = 10.0f;
+  EXPECT_EQ(status_of(far), Status::kImageValue);
+}
+
 TEST(SceneStructure, HasEverySectionOnce) {
   ImageParts image = test::whole_image();
-  image[id_of(21)].resize(8);
-  image[id_of(22)].resize(8);
+  image[id_of(25)].resize(8);
+  image[id_of(26)].resize(8);
   EXPECT_EQ(status_of(image), Status::kOk);
-  image.rename(id_of(22), id_of(21));
+  image.rename(id_of(26), id_of(25));
   EXPECT_EQ(status_of(image), Status::kImageLayout);
 }
 
@@ -184,25 +233,25 @@ TEST(SceneStructure, HasAHeaderWithoutAWrongByte) {
 
 /// The header's own numbers decide before anything that they lead to is read, even the checksum.
 TEST(SceneStructure, JudgesTheHeaderBeforeItUsesIt) {
-  for (const std::uint32_t count : {0u, 24u, 0xffffffffu}) {
+  for (const std::uint32_t count : {0u, 28u, 0xffffffffu}) {
     const auto set = [count](format::Header& h) {
       h.section_count = count;
       h.header_bytes = static_cast<std::uint32_t>((64 + std::uint64_t{count} * 32 + 63) / 64 * 64);
     };
     EXPECT_EQ(status_with_header(set, false), Status::kImageLayout) << count;
   }
-  // a table of 23 sections is read, and its checksum does not hold
+  // a table of 27 sections is read, and its checksum does not hold
   const auto set = [](format::Header& h) {
-    h.section_count = 23;
-    h.header_bytes = 832;
+    h.section_count = 27;
+    h.header_bytes = 960;
   };
   EXPECT_EQ(status_with_header(set, false), Status::kImageChecksum);
-  // a table of 24 is not read, although its first section's checksum does not hold
+  // a table of 28 is not read, although its first section's checksum does not hold
   SceneImage many = test::whole_image().assemble();
-  header_of(many).section_count = 24;
-  header_of(many).header_bytes = 832;
-  reinterpret_cast<format::Section*>(many.bytes().data() + 64)->offset = 832;
-  seal_header(many, 832);
+  header_of(many).section_count = 28;
+  header_of(many).header_bytes = 960;
+  reinterpret_cast<format::Section*>(many.bytes().data() + 64)->offset = 960;
+  seal_header(many, 960);
   EXPECT_EQ(status_of(many.bytes()), Status::kImageLayout);
   EXPECT_EQ(status_of(std::span<const std::byte>()), Status::kImageTruncated);
   // a file that ends in its table

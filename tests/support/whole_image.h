@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/scene/format.h"
@@ -60,6 +61,16 @@ inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(
   const auto& body = image.item<format::Body>(SectionId::kBody);
   image.set<format::Features>(SectionId::kFeatures,
                               {{{0.1, 0.2, 0.3}, body.radius, body.point_count, body.node_count, body.level_count, 0}});
+  format::SharpEdge edge{};
+  edge.end[1][0] = 0.01;
+  edge.normal[0][2] = edge.normal[1][1] = 1.0f;
+  image.set<format::SharpEdge>(SectionId::kSharpEdges, {edge});
+  image.set<format::Node>(SectionId::kSharpEdgeNodes, {{{0.0f, 0.0f, 0.0f}, 0.02f, 1, 0, 1, 0, 1}});
+  for (auto& end : edge.end) std::copy_n(body.sphere_center, 3, end);
+  format::Node node{{0.0f, 0.0f, 0.0f}, 1e-6f, 1, 0, 1, 0, 1};
+  for (int axis = 0; axis < 3; ++axis) node.center[axis] = static_cast<float>(body.sphere_center[axis]);
+  image.set<format::SharpEdge>(SectionId::kBodySharpEdges, {edge});
+  image.set<format::Node>(SectionId::kBodySharpEdgeNodes, {node});
   return image;
 }
 

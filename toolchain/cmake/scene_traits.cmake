@@ -3,6 +3,7 @@
 #   GODOBJECT_SCENE_SOLVERS   those that the scene image holds: contact, corrected, paper
 #   GODOBJECT_SCENE_FRICTION  ON where the scene has friction
 #   GODOBJECT_SCENE_FEATURES  ON where the image holds the second direction
+#   GODOBJECT_SCENE_EDGES     ON where the image holds sharp edges of both bodies
 #   GODOBJECT_SCENE_POINTS    OFF where contact needs none but the centre of a ball without friction
 # From them comes GODOBJECT_LEFT_OUT, the compile definitions of core/pipeline/cycle/scene_traits.h; empty: all is built.
 set(GODOBJECT_SCENE "" CACHE FILEPATH "Build for one scene: its traits, from godobject-scenec --traits")
@@ -11,7 +12,7 @@ set(GODOBJECT_LEFT_OUT "")
 if(GODOBJECT_SCENE)
   include("${GODOBJECT_SCENE}")
   set(SOLVERS paper corrected contact)
-  foreach(trait SOLVERS FRICTION FEATURES POINTS)
+  foreach(trait SOLVERS FRICTION FEATURES EDGES POINTS)
     if(NOT DEFINED GODOBJECT_SCENE_${trait})
       message(FATAL_ERROR "${GODOBJECT_SCENE}: does not set GODOBJECT_SCENE_${trait}; "
         "make it with godobject-scenec SCENE.toml -o X.scene --traits X.cmake")
@@ -28,7 +29,7 @@ if(GODOBJECT_SCENE)
       list(APPEND GODOBJECT_LEFT_OUT GODOBJECT_NO_${upper})
     endif()
   endforeach()
-  foreach(trait FRICTION FEATURES POINTS)
+  foreach(trait FRICTION FEATURES EDGES POINTS)
     if(NOT GODOBJECT_SCENE_${trait})
       list(APPEND GODOBJECT_LEFT_OUT GODOBJECT_NO_${trait})
     endif()

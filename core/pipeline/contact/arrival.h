@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/pipeline/contact/contact_directions.h"
 #include "core/pipeline/contact/contact_limits.h"
 #include "core/pipeline/contact/contact_scene.h"
+#include "core/pipeline/contact/edges/near_edges.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
 #include "core/pipeline/contact/second_look.h"
 
@@ -26,7 +28,8 @@ struct EndGaps {
 
 /// Returns by how much the coupling's energy rises because the points move along arcs in the motion (x, r) =
 /// step.motion [m^2]. A row takes the path of its point P for straight; in second order it misses
-///     (r x (r x P)) / 2   for a sample point,   -r x x - (r x (r x P)) / 2   for a feature point.
+///     (r x (r x P)) / 2   for a sample point or a point of an edge,   -r x x - (r x (r x P)) / 2   for a feature
+///     point.
 /// The force, multiplier lambda and normal n, has to make up for what is lost along n, which takes the energy
 ///     -2 sum of lambda n . (...).
 /// Cost: six forces. Real-time safe.
@@ -50,12 +53,25 @@ struct EndOfForce {
   Vector3 gradient_W = Vector3::Zero();      ///< at the end, along which the gap grows [1]
 };
 
+/// Returns the gap of an edge pair as a field's value at the nearest point of the moving edge. `normal_W`: the normal
+/// of its force; on the other side of the still edge the distance is negative.
+inline FieldSample sample_of(const EdgeGap& gap, const Vector3& normal_W) noexcept {
+  const double side = gap.normal.dot(normal_W) < 0.0 ? -1.0 : 1.0;
+  return {.distance = side * gap.distance, .gradient = side * gap.normal, .known = true, .clearance = 0.0};
+}
 /// Looks up the point of a force at the end of the motion from H0 to H1, and with `with_start` also before it.
 template <DistanceField Field, DistanceField BodyField>
 EndOfForce end_of(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
                   const ContactForce& force, bool with_start) noexcept {
   EndOfForce end;
-  if ((force.id & kFeature) == 0) {
+  if (scene.has_edges() && is_edge_pair(force.id)) {
+    const EdgePair pair = pair_of(force.id);
+    const Vector3 normal_W = H0.rotation._transformVector(force.normal);
+    if (with_start) end.at_start = sample_of(gap_at(scene.edges, pair, H0), normal_W);
+    end.at_end = sample_of(gap_at(scene.edges, pair, H1), normal_W);
+    end.displacement_W = H1 * force.point - H0 * force.point;
+    end.gradient_W = end.at_end.gradient;
+  } else if ((force.id & kFeature) == 0) {
     const Vector3 p = scene.shell->point(force.id);
     const Vector3 p0_W = H0 * p;
     const Vector3 p1_W = H1 * p;

@@ -6,6 +6,8 @@
 #include <span>
 
 #include "core/pipeline/contact/contact_scene.h"
+#include "core/pipeline/contact/edges/edge_search.h"
+#include "core/pipeline/contact/edges/near_edges.h"
 #include "core/pipeline/contact/qp/contact_rows.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
 #include "core/pipeline/contact/search/near_points.h"
@@ -21,16 +23,18 @@ struct ContactWorkspace {
   ConstrainedStep step;
   NearPoints samples;
   NearPoints features;
+  NearEdges edges;
   std::array<float, 2 * NearPoints::kCapacity> distances;  ///< of all near points, for the selection of rows [m]
 };
 static_assert(sizeof(ContactWorkspace) < 896 * 1024);
 
-/// Step #1 of `contact` in both directions, with the memory of how far each node and point is from being near. The
-/// results do not depend on that memory.
+/// Step #1 of `contact` in both directions and for edge against edge, with the memory of how far each node, point and
+/// pair is from being near. The results do not depend on that memory.
 struct ContactSearch {
   Odometer odometer;
   NearSearch samples;
   NearSearch features;
+  EdgeSearch edges;
 
   /// Returns the size of the memory for these shells [32-bit words].
   static std::size_t memory(const Pointshell& shell, const Pointshell& features) noexcept {
@@ -50,28 +54,32 @@ struct ContactSearch {
     } else {
       features.start_without_shell();
     }
+    edges.start(scene.has_edges() ? scene.edges : EdgeContacts{});
   }
 
   /// Tells whether the last search proves that no clearance falls below `clearance` [m] in a motion from here that
   /// displaces points by at most `displacement` [m]. `clearance` is at most the longest search radius.
   bool is_free(double displacement, double clearance) const noexcept {
     const double travelled = odometer.travelled() + displacement;
-    return samples.is_free(travelled, clearance) && features.is_free(travelled, clearance);
+    return samples.is_free(travelled, clearance) && features.is_free(travelled, clearance) &&
+           edges.is_free(travelled, clearance);
   }
 };
 
 /// The memory of `contact` beside ProxyState: the state that it carries from cycle to cycle, and its workspace.
 struct ContactMemory {
   ContactSearch search;
-  ConstrainedStep last_step;  ///< the last cycle's motion and contact forces
-  Pose H_WD_last;             ///< the last cycle's device pose
-  SubstepPath path;           ///< of the last cycle, for tools and tests
+  ConstrainedStep last_step;      ///< the last cycle's motion and contact forces
+  Pose H_WD_last;                 ///< the last cycle's device pose
+  bool edges_may_overlap = true;  ///< no pose since the start is known to have all edges apart
+  SubstepPath path;               ///< of the last cycle, for tools and tests
   ContactWorkspace workspace;
 
   /// Forgets the last cycle; the search's memory stays valid.
   void reset() noexcept {
     last_step = ConstrainedStep{};
     H_WD_last = Pose{};
+    edges_may_overlap = true;
     path.clear();
   }
 };

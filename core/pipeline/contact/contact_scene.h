@@ -4,9 +4,11 @@
 
 #include "core/pipeline/contact/contact_directions.h"
 #include "core/pipeline/contact/contact_lengths.h"
+#include "core/pipeline/contact/edges/near_edges.h"
 #include "core/pipeline/contact/feature_contacts.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
 #include "core/pipeline/cycle/parameters.h"
+#include "core/pipeline/cycle/scene_traits.h"
 
 namespace godobject {
 
@@ -16,6 +18,7 @@ struct ContactScene {
   const Field* field = nullptr;         ///< the still body's, in W
   const Pointshell* shell = nullptr;    ///< the moving body's sample points, in S
   FeatureContacts<BodyField> features;  ///< the second direction
+  EdgeContacts edges;                   ///< edge against edge
   const Parameters* parameters = nullptr;
   ContactLengths lengths;
   ContactFriction friction;
@@ -27,10 +30,11 @@ struct ContactScene {
 
   /// All references must outlive the scene.
   ContactScene(const Field& still, const Pointshell& points, const FeatureContacts<BodyField>& second,
-               const Parameters& q) noexcept
+               const Parameters& q, const EdgeContacts& sharp = {}) noexcept
       : field(&still),
         shell(&points),
         features(second),
+        edges(sharp),
         parameters(&q),
         lengths(ContactLengths::make(q)),
         friction{q.friction.static_ratio, q.friction.kinetic_ratio,
@@ -49,6 +53,11 @@ struct ContactScene {
 
   bool has_features() const noexcept {
     if constexpr (kHasSecondDirection<BodyField>) return features.map != nullptr;
+    return false;
+  }
+
+  bool has_edges() const noexcept {
+    if constexpr (kSceneTraits.edges) return !edges.empty();
     return false;
   }
 };

@@ -10,6 +10,8 @@
 #include "core/pipeline/contact/contact_memory.h"
 #include "core/pipeline/contact/contact_result.h"
 #include "core/pipeline/contact/contact_scene.h"
+#include "core/pipeline/contact/edge_certificate.h"
+#include "core/pipeline/contact/edge_rows.h"
 #include "core/pipeline/contact/motion_share.h"
 #include "core/pipeline/contact/overlap.h"
 #include "core/pipeline/contact/qp/contact_forces.h"
@@ -65,7 +67,7 @@ class ContactSubsteps {
     return true;
   }
 
-  /// Finds the near points of both directions and their rows, #1.
+  /// Finds the near points of both directions, the near edges, and their rows, #1.
   void find_surroundings() noexcept {
     if (is_first_) {
       search_radius_ = first_search_radius(memory_, state_, input_.H_WD, lengths_, scene_.longest_search_radius);
@@ -74,18 +76,20 @@ class ContactSubsteps {
     rows_.count = 0;
     find_samples();
     find_features();
+    // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
+    const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
+    result_.inside = may_be_inside && around_.smallest <= 0.0;
+    find_edges();
     if (around_.dropped > 0) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
     result_.dropped = around_.unlisted + around_.unseen;
-    // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
-    const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
-    result_.inside = may_be_inside && around_.smallest <= 0.0;
   }
 
   /// Tells whether no point is near during the motion to the device; then moves the god object there.
   bool is_free() noexcept {
-    const bool none_near = memory_.workspace.samples.count + memory_.workspace.features.count == 0;
+    const ContactWorkspace& near = memory_.workspace;
+    const bool none_near = near.samples.count + near.features.count + near.edges.count == 0;
     ++(none_near ? free_substeps_ : result_.substeps);
     if (!none_near) return false;
     if (!is_clear_to_device() && allowed_share(free_, around_, search_radius_, lengths_, false) != 1.0) return false;
@@ -132,6 +136,7 @@ class ContactSubsteps {
     most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared(aim_));
     limit_arcs();
     at_sample_ = at_feature_ = Obstacle{};
+    at_edge_ = EdgeObstacle{};
     opened_ = false;
     may_look_at_end_ = true;
     while (share_.next()) {
@@ -140,15 +145,14 @@ class ContactSubsteps {
         continue;
       }
       end(times_, &StepTimes::solve_ns);
-      const bool samples_free = are_samples_free();
-      const bool features_free = are_features_free();
-      const bool is_free = samples_free && features_free;
+      const Freedom freedom{are_samples_free(), are_features_free(), are_edges_free()};
+      const bool is_free = freedom.samples && freedom.features && freedom.edges;
       const bool overshoots = is_free && !share_.is_stopped() && share_.has_next() &&
                               travel(lengths_.sphere, motion_) > metric_.tolerance && passes_lowest_energy();
       end(times_, &StepTimes::step1_ns);
       if (overshoots) continue;
       if (is_free) return;
-      react_to_obstacle(samples_free, features_free);
+      react_to_obstacle(freedom);
     }
     share_.give_up();
     H1_ = H0_;
@@ -383,10 +387,33 @@ class ContactSubsteps {
               travelled, radius, lengths_, near, rows_, around_);
   }
 
-  /// Selects the rows again when there are more near points than rows: the deepest, and some spread over the others.
+  /// Finds the near edges and appends their rows. While a point is inside, edges may lie on the wrong sides of each
+  /// other, so that no gap of theirs counts.
+  void find_edges() noexcept {
+    NearEdges& near = memory_.workspace.edges;
+    near.count = 0;
+    if (!scene_.has_edges() || result_.inside) return;
+    if constexpr (kSceneTraits.edges) {
+      ContactSearch& search = memory_.search;
+      const EdgeSurroundings around =
+          search.edges.find(H0_, search.odometer.travelled(), search_radius_, lengths_.longest_search_radius,
+                            memory_.edges_may_overlap ? lengths_.longest_way_out : 0.0, near);
+      memory_.edges_may_overlap = memory_.edges_may_overlap && near.overlap();
+      around_.unlisted += around.unlisted;
+      around_.free_displacement = std::min(around_.free_displacement, around.free_displacement);
+      for (std::uint32_t k = 0; k < near.count; ++k) {
+        around_.smallest = std::min(around_.smallest, near.gap[k].distance);
+      }
+      around_.dropped += push_edges(H0_, lengths_, near, rows_);
+    }
+  }
+
+  /// Selects the rows again when there are more near points than rows: those of all edges, the deepest points, and some
+  /// spread over the others.
   void select_again() noexcept {
     const Selection selection = select_rows(memory_.workspace);
     rows_.count = 0;
+    push_edges(H0_, lengths_, memory_.workspace.edges, rows_);
     push_selected<SampleDirection>(H0_, selection, lengths_, memory_.workspace.samples, rows_);
     if (scene_.has_features() && memory_.workspace.features.count > 0) {
       push_selected<FeatureDirection>(H0_features_, selection, lengths_, memory_.workspace.features, rows_);
@@ -414,14 +441,31 @@ class ContactSubsteps {
                           memory_.workspace.features, budget_, at_feature_);
   }
 
+  bool are_edges_free() noexcept {
+    if constexpr (kSceneTraits.edges) {
+      if (memory_.workspace.edges.count == 0) return true;
+      return edges_are_free(scene_.edges, H0_, H1_, share_.least_gap(lengths_), lengths_, memory_.workspace.edges,
+                            budget_, at_edge_);
+    }
+    return true;
+  }
+
+  /// The result of an attempt: which contacts of it are proved free.
+  struct Freedom {
+    bool samples;
+    bool features;
+    bool edges;
+  };
+
   /// Reacts to a failed attempt: turns the obstacle into a row, or shortens the motion.
-  void react_to_obstacle(bool samples_free, bool features_free) noexcept {
-    if (at_sample_.exhausted || at_feature_.exhausted) {
+  void react_to_obstacle(const Freedom& freedom) noexcept {
+    if (at_sample_.exhausted || at_feature_.exhausted || at_edge_.exhausted) {
       share_.shrink_to(
-          std::min(at_sample_.exhausted ? at_sample_.share : 1.0, at_feature_.exhausted ? at_feature_.share : 1.0));
+          std::min({at_sample_.exhausted ? at_sample_.share : 1.0, at_feature_.exhausted ? at_feature_.share : 1.0,
+                    at_edge_.exhausted ? at_edge_.share : 1.0}));
       return;
     }
-    if (!look_again(samples_free, features_free)) share_.shrink_at_obstacle();
+    if (!look_again(freedom)) share_.shrink_at_obstacle();
   }
 
   /// Tells whether a free motion goes far beyond the lowest energy of the coupling, and prepares another attempt: with
@@ -454,6 +498,7 @@ class ContactSubsteps {
   /// row. False: as of `look_again`.
   bool look_at_end(const EndGaps& gaps) noexcept {
     if (!(gaps.most > 0.0)) return false;
+    if (scene_.has_edges() && is_edge_pair(gaps.id)) return look_at_end_of_edge(pair_of(gaps.id));
     const bool is_sample = (gaps.id & kFeature) == 0;
     const NearPoints& near = is_sample ? memory_.workspace.samples : memory_.workspace.features;
     Obstacle& end = is_sample ? at_sample_ : at_feature_;
@@ -462,7 +507,16 @@ class ContactSubsteps {
     if (end.near == near.count) return false;
     end.share = 1.0;
     end.sample = gaps.sample;
-    return look_again(!is_sample, is_sample);
+    return look_again({.samples = !is_sample, .features = is_sample, .edges = true});
+  }
+
+  bool look_at_end_of_edge(const EdgePair& pair) noexcept {
+    const NearEdges& near = memory_.workspace.edges;
+    at_edge_.near = near.find(pair);
+    if (at_edge_.near == near.count) return false;
+    at_edge_.share = 1.0;
+    if constexpr (kSceneTraits.edges) at_edge_.gap = gap_at(scene_.edges, pair, H1_);
+    return look_again({.samples = true, .features = true, .edges = false});
   }
 
   bool differs(const Motion& a, const Motion& b) const noexcept {
@@ -472,7 +526,7 @@ class ContactSubsteps {
   /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, unless that gains too
   /// little (`most_arc_gain`), then without. False: they cannot become rows, change nothing, or would drive the god
   /// object away from the device; then the step is as before.
-  bool look_again(bool samples_free, bool features_free) noexcept {
+  bool look_again(const Freedom& freedom) noexcept {
     const ConstrainedStep tried = step_;
     const CouplingMetric metric = metric_;
     const Motion aim = aim_;
@@ -481,7 +535,7 @@ class ContactSubsteps {
     const double most_with_arc =
         std::min(most_gain_, most_arc_gain(distance_gain(), squared(tried.motion), share_.value()));
     for (const bool is_arc : {true, false}) {
-      if (!push_obstacles(samples_free, features_free, tried.motion, is_arc)) return false;
+      if (!push_obstacles(freedom, tried.motion, is_arc)) return false;
       constrain();
       if (distance_gain() <= (is_arc ? most_with_arc : most_gain_) && differs(step_.motion, tried.motion)) {
         step_.infeasible |= tried.infeasible;
@@ -501,14 +555,18 @@ class ContactSubsteps {
   }
 
   /// Adds the rows of the second look after a motion in S. `is_arc`: as in Attempt. False: none was added.
-  bool push_obstacles(bool samples_free, bool features_free, const Motion& step, bool is_arc) noexcept {
+  bool push_obstacles(const Freedom& freedom, const Motion& step, bool is_arc) noexcept {
     if (share_.looks_left() == 0) return false;
     bool pushed = false;
-    if (!samples_free) {
+    if (!freedom.samples) {
       const Attempt attempt{H0_, H1_, step, share_.value(), is_arc};
       pushed = push_obstacle<SampleDirection>(attempt, lengths_, memory_.workspace.samples, at_sample_, rows_);
     }
-    if (scene_.has_features() && !features_free) {
+    if (scene_.has_edges() && !freedom.edges) {
+      const Attempt attempt{H0_, H1_, step, share_.value(), is_arc};
+      pushed |= push_edge_obstacle(attempt, lengths_, scene_.edges, memory_.workspace.edges, at_edge_, rows_);
+    }
+    if (scene_.has_features() && !freedom.features) {
       const Attempt attempt{H0_features_, H1_features_, step, share_.value(), is_arc};
       pushed |= push_obstacle<FeatureDirection>(attempt, lengths_, memory_.workspace.features, at_feature_, rows_);
     }
@@ -555,6 +613,7 @@ class ContactSubsteps {
   Pose H1_features_;
   Obstacle at_sample_;
   Obstacle at_feature_;
+  EdgeObstacle at_edge_;
 };
 
 }  // namespace godobject::detail

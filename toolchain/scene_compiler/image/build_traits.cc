@@ -13,6 +13,7 @@ SceneTraits traits_of(const SceneView& scene) noexcept {
   traits.contact = scene.holds(format::Solver::kContact);
   traits.friction = scene.settings.friction != 0;
   traits.features = traits.contact && scene.has_features();
+  traits.edges = traits.contact && scene.has_edges();
   traits.points = traits.contact && (traits.friction || !is_ball(scene));
   return traits;
 }
@@ -28,8 +29,10 @@ std::string traits_text(const SceneTraits& traits, const std::string& scene_name
       "set(GODOBJECT_SCENE_SOLVERS {})\n"
       "set(GODOBJECT_SCENE_FRICTION {})\n"
       "set(GODOBJECT_SCENE_FEATURES {})\n"
+      "set(GODOBJECT_SCENE_EDGES {})\n"
       "set(GODOBJECT_SCENE_POINTS {})\n",
-      scene_name, fmt::join(solvers, " "), on(traits.friction), on(traits.features), on(traits.points));
+      scene_name, fmt::join(solvers, " "), on(traits.friction), on(traits.features), on(traits.edges),
+      on(traits.points));
 }
 
 }  // namespace godobject::scene_compiler

@@ -14,6 +14,7 @@ struct CodeBytes {
   std::uint64_t closed_forms = 0;             ///< shared by paper and corrected
   std::uint64_t contact = 0;                  ///< for a ball by its centre
   std::uint64_t contact_with_points = 0;      ///< beyond `contact`, for any number of points
+  std::uint64_t contact_with_edges = 0;       ///< edge against edge
   std::uint64_t contact_with_friction = 0;
   std::uint64_t contact_features = 0;  ///< the second direction
 };

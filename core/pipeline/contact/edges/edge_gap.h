@@ -1,0 +1,48 @@
+#pragma once
+
+#include "core/scene/sharp_edges.h"
+#include "godobject/pose.h"
+
+namespace godobject {
+
+/// A straight edge in the still body's frame W.
+struct EdgeInW {
+  Vector3 end[2];       ///< [m]
+  Vector3 normal[2];    ///< outward unit normals of its faces; 0 on a sheet
+  double radius = 0.0;  ///< of a sheet: half its thickness [m]
+
+  /// Returns the edge of a body at pose H_WB.
+  static EdgeInW at(const format::SharpEdge& edge, const Pose& H_WB) noexcept {
+    const Matrix3 R = H_WB.rotation.toRotationMatrix();
+    return {{R * edge_end(edge, 0) + H_WB.translation, R * edge_end(edge, 1) + H_WB.translation},
+            {R * face_normal(edge, 0), R * face_normal(edge, 1)},
+            static_cast<double>(edge.radius)};
+  }
+  /// Returns an edge of the still body.
+  static EdgeInW of_still(const format::SharpEdge& edge) noexcept {
+    return {{edge_end(edge, 0), edge_end(edge, 1)},
+            {face_normal(edge, 0), face_normal(edge, 1)},
+            static_cast<double>(edge.radius)};
+  }
+};
+
+/// The gap between an edge of the moving body and one of the still body.
+struct EdgeGap {
+  double distance = 0.0;                ///< between the surfaces at the nearest points; negative: they overlap [m]
+  Vector3 normal = Vector3::Zero();     ///< unit: the gap grows as the moving edge moves along it
+  Vector3 on_moving = Vector3::Zero();  ///< nearest point of the moving edge [m]
+  Vector3 on_still = Vector3::Zero();   ///< nearest point of the still edge [m]
+  double place = 0.0;                   ///< of `on_moving`, from end 0 to end 1 of the moving edge [1]
+  /// Neither edge lies over a face of the other. Else that face is nearer, and the pair holds nothing.
+  bool is_nearest = true;
+};
+
+/// Returns the gap between the edges at their nearest points, in W.
+///
+/// Between two bodies that are apart it is the distance of the edges, less the radii of sheets. Bodies may overlap at
+/// the start: two edges of solids that are at most `deepest` [m] apart overlap if each lies inside the wedge of the
+/// other; then the distance is negative. Edges that meet within 1e-12 m
+/// have the normal of their common perpendicular, out of the still body. Cost: some 60 ns. Real-time safe.
+EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest = 0.0) noexcept;
+
+}  // namespace godobject

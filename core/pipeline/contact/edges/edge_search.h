@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "core/pipeline/contact/edges/near_edges.h"
+#include "core/spatial/bounding_sphere.h"
+#include "godobject/pose.h"
+
+namespace godobject {
+
+/// The result of EdgeSearch::find, beside the near pairs.
+struct EdgeSurroundings {
+  std::uint32_t unlisted = 0;  ///< near pairs, or pairs of branches, that found no place; at least one of each
+  /// Up to this displacement all pairs outside of the list of near pairs stay apart [m].
+  double free_displacement = std::numeric_limits<double>::infinity();
+};
+
+/// Finds the near pairs of edges, by the sphere trees of both bodies. It remembers the pairs within a larger distance,
+/// and looks at the trees again only when the body has travelled so far that another pair could be near (the neighbour
+/// list of molecular dynamics: Verlet, Physical Review 159, 1967). The results do not depend on this memory, except
+/// where pairs find no place in it.
+class EdgeSearch {
+ public:
+  /// Most pairs that are remembered. Chosen: 32 KiB.
+  static constexpr std::uint32_t kCapacity = 2048;
+  /// Most pairs of branches that one visit of the trees looks at. Chosen: some 0.2 ms.
+  static constexpr std::uint32_t kMostVisits = 1 << 14;
+
+  /// Forgets all and starts. `edges` may be empty: then no pair is ever near.
+  void start(const EdgeContacts& edges) noexcept {
+    edges_ = edges;
+    count_ = 0;
+    complete_until_ = -std::numeric_limits<double>::infinity();
+    certain_ = edges.empty() ? std::numeric_limits<double>::infinity() : complete_until_;
+  }
+
+  /// Tells whether the last `find` proves that no gap falls below `gap` [m] up to the odometer's reading `travelled`
+  /// [m].
+  bool is_free(double travelled, double gap) const noexcept { return travelled + gap < certain_; }
+
+  /// Finds all pairs whose gap is below `radius` [m] with the moving body at H_WS, where the odometer reads `travelled`
+  /// /// [m]. `slack`: pairs up to this much farther away are remembered [m]. `deepest`: as in edge_gap, below `radius`
+  /// [m]. `near` must be empty. Cost: some 60 ns for each remembered pair that may be near, and seldom a visit of the
+  /// trees. Real-time safe.
+  EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
+                        NearEdges& near) noexcept;
+
+ private:
+  struct Candidate {
+    EdgePair pair;
+    double free_until = 0.0;  ///< reading of the odometer up to which the edges stay apart [m]
+  };
+
+  /// Remembers all pairs whose gap is below `reach` [m]. Returns how many pairs of branches found no place.
+  std::uint32_t remember(const Pose& H_WS, double travelled, double reach) noexcept;
+
+  EdgeContacts edges_;
+  std::uint32_t count_ = 0;
+  std::array<Candidate, kCapacity> candidates_;
+  double complete_until_ = 0.0;  ///< reading up to which all other pairs stay apart [m]
+  double certain_ = 0.0;         ///< reading up to which all pairs stay apart [m]
+};
+
+}  // namespace godobject

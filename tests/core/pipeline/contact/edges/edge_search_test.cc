@@ -1,0 +1,139 @@
+// The near pairs of edges: all of them, against a comparison of every pair, along random walks.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/pipeline/contact/edges/edge_search.h"
+#include "core/pipeline/contact/search/odometer.h"
+#include "tests/support/edge_set.h"
+#include "tests/support/random.h"
+
+namespace godobject {
+namespace {
+
+using Segments = std::vector<std::pair<Vector3, Vector3>>;
+
+Segments scattered(test::Random& random, int count, double half, double length) {
+  Segments segments;
+  for (int k = 0; k < count; ++k) {
+    const Vector3 from = random.in_cube(half);
+    segments.emplace_back(from, from + length * random.direction());
+  }
+  return segments;
+}
+
+std::set<std::pair<std::uint32_t, std::uint32_t>> all_below(const EdgeContacts& edges, const Pose& H, double radius) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+  for (std::uint32_t i = 0; i < edges.moving.edges.size(); ++i) {
+    for (std::uint32_t j = 0; j < edges.still.edges.size(); ++j) {
+      if (detail::gap_at(edges, {i, j}, H).distance < radius) found.emplace(i, j);
+    }
+  }
+  return found;
+}
+
+double least_gap(const EdgeContacts& edges, const Pose& H) {
+  double least = 1e9;
+  for (std::uint32_t i = 0; i < edges.moving.edges.size(); ++i) {
+    for (std::uint32_t j = 0; j < edges.still.edges.size(); ++j) {
+      least = std::min(least, detail::gap_at(edges, {i, j}, H).distance);
+    }
+  }
+  return least;
+}
+
+TEST(EdgePairId, IsThatOfItsPairAndOfNoPoint) {
+  for (const EdgePair pair : {EdgePair{0, 0}, EdgePair{1, 2}, EdgePair{format::kMaxSharpEdges - 1, 0},
+                              EdgePair{format::kMaxSharpEdges - 1, format::kMaxSharpEdges - 1}}) {
+    EXPECT_TRUE(detail::is_edge_pair(detail::id_of(pair)));
+    EXPECT_TRUE(detail::pair_of(detail::id_of(pair)) == pair);
+    EXPECT_NE(detail::id_of(pair), (1u << 31) - 1) << "the faces of the workspace";
+  }
+  EXPECT_FALSE(detail::is_edge_pair(format::kMaxPoints));
+  EXPECT_FALSE(detail::is_edge_pair((1u << 31) | 5u)) << "a feature point";
+}
+
+/// A body that walks among edges: near pairs, the bound of the free displacement, and what is known to be free.
+TEST(EdgeSearch, FindsAllNearPairsWhereverTheBodyWalks) {
+  test::Random random(5);
+  std::size_t near_pairs = 0;
+  for (int run = 0; run < 4; ++run) {
+    const test::EdgeSet moving(scattered(random, 40, 0.02, 0.01));
+    const test::EdgeSet still(scattered(random, 60, 0.04, 0.015));
+    const EdgeContacts edges{moving.view(), still.view()};
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start(edges);
+    const BoundingSphere sphere{Vector3::Zero(), 0.06};
+    Odometer odometer;
+    Pose H;
+    const double step = run % 2 == 0 ? 2e-4 : 5e-3;
+    for (int k = 0; k < 200; ++k) {
+      const Motion motion = random.motion(step, 10.0 * step);
+      H = H * set_matrix(motion);
+      if (H.translation.norm() > 0.03) H.translation *= 0.5;
+      odometer.move_to(H, sphere);
+      const double radius = random.between(1e-4, 2e-3);
+      if (search->is_free(odometer.travelled(), radius)) {
+        EXPECT_TRUE(all_below(edges, H, radius).empty());
+      }
+      NearEdges near;
+      const EdgeSurroundings around = search->find(H, odometer.travelled(), radius, 1e-3, 0.0, near);
+      std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+      for (std::uint32_t i = 0; i < near.count; ++i) {
+        found.emplace(near.pair[i].moving, near.pair[i].still);
+        EXPECT_EQ(near.gap[i].distance, detail::gap_at(edges, near.pair[i], H).distance);
+        EXPECT_EQ(near.find(near.pair[i]), i);
+      }
+      EXPECT_EQ(found.size(), near.count) << "no pair twice";
+      EXPECT_EQ(found, all_below(edges, H, radius));
+      EXPECT_EQ(around.unlisted, 0u);
+      EXPECT_TRUE(around.free_displacement >= radius) << around.free_displacement;
+      near_pairs += found.size();
+    }
+  }
+  EXPECT_GT(near_pairs, 100u) << "the walks meet edges";
+}
+
+/// With more near pairs than places the others limit the motion.
+TEST(EdgeSearch, LimitsTheMotionByPairsWithoutAPlace) {
+  test::Random random(6);
+  const test::EdgeSet moving(scattered(random, 80, 0.002, 0.002));
+  const test::EdgeSet still(scattered(random, 80, 0.002, 0.002));
+  const EdgeContacts edges{moving.view(), still.view()};
+  const auto search = std::make_unique<EdgeSearch>();
+  search->start(edges);
+  NearEdges near;
+  const EdgeSurroundings around = search->find(Pose{}, 0.0, 0.01, 0.001, 0.0, near);
+  EXPECT_EQ(near.count, NearEdges::kCapacity);
+  EXPECT_GT(around.unlisted, 0u);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
+  for (std::uint32_t i = 0; i < near.count; ++i) listed.emplace(near.pair[i].moving, near.pair[i].still);
+  for (const auto& pair : all_below(edges, Pose{}, 1.0)) {
+    if (listed.count(pair) != 0) continue;
+    EXPECT_GE(detail::gap_at(edges, {pair.first, pair.second}, Pose{}).distance, around.free_displacement);
+  }
+}
+
+TEST(EdgeSearch, KnowsThatNothingIsNear) {
+  const test::EdgeSet moving({{Vector3(0, 0, 0), Vector3(0.01, 0, 0)}});
+  const test::EdgeSet still({{Vector3(0, 0, 0.05), Vector3(0, 0.01, 0.05)}});
+  const EdgeContacts edges{moving.view(), still.view()};
+  EdgeSearch search;
+  search.start(edges);
+  EXPECT_FALSE(search.is_free(0.0, 1e-3)) << "nothing is known before the first search";
+  NearEdges near;
+  const EdgeSurroundings around = search.find(Pose{}, 0.0, 1e-3, 2e-3, 0.0, near);
+  EXPECT_EQ(near.count, 0u);
+  EXPECT_GE(around.free_displacement, 1e-3);
+  EXPECT_TRUE(search.is_free(1e-3, 1e-3));
+  EXPECT_FALSE(search.is_free(least_gap(edges, Pose{}), 1e-3));
+  search.start({});
+  EXPECT_TRUE(search.is_free(1e9, 1e9)) << "no edges";
+  EXPECT_EQ(search.find(Pose{}, 0.0, 1.0, 1.0, 0.0, near).unlisted, 0u);
+}
+
+}  // namespace
+}  // namespace godobject
