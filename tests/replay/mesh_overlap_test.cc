@@ -1,5 +1,5 @@
-// Two cubes whose edges cross between all points: the replay tells what the points see from what the meshes do, and the
-// compiler's bound holds on the meshes.
+// Two cubes whose edges cross between all points. Without edge against edge the replay tells what the points see from what
+// the meshes do, and the compiler's bound holds on the meshes. With it the meshes do not overlap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,11 +30,11 @@ constexpr double kVoxel = 0.002;
 
 class ReplayOfCrossingEdges : public test::FolderTest {
  protected:
-  void SetUp() override {
+  void compile(bool edges) {
     write("cube.obj", test::obj_text(test::box_mesh(Vector3::Constant(kEdge))));
     write("scene.toml", fmt::format("[still]\nmesh = \"cube.obj\"\nvoxel_size = {}\n[moving]\nmesh = \"cube.obj\"\n"
-                                    "points = 300\nlevels = 3\n",
-                                    kVoxel));
+                                    "points = 300\nlevels = 3\n[contact]\nedges = {}\n",
+                                    kVoxel, edges));
     CompileRequest request;
     request.scene_file = folder_ / "scene.toml";
     request.output = folder_ / "out.scene";
@@ -98,6 +98,7 @@ class ReplayOfCrossingEdges : public test::FolderTest {
 };
 
 TEST_F(ReplayOfCrossingEdges, MeasuresTheOverlapThatNoPointSees) {
+  compile(false);
   const double bound = report_.second.between.bound + report_.second.slack + report_.check.field_error.near.largest;
   test::Random random(4);
   double deepest = 0.0;
@@ -130,7 +131,28 @@ TEST_F(ReplayOfCrossingEdges, MeasuresTheOverlapThatNoPointSees) {
       << verdict_text(report_);
 }
 
+/// Whatever the angle of the edges, the meshes stay apart, but the contact is felt.
+TEST_F(ReplayOfCrossingEdges, KeepsEdgesApart) {
+  compile(true);
+  EXPECT_EQ(report_.edges.still, 12u);
+  EXPECT_EQ(report_.edges.moving, 12u);
+  test::Random random(4);
+  for (const double angle : {0.01, 0.1, random.between(0.1, 1.5), 0.5 * M_PI}) {
+    write_path(angle);
+    ASSERT_EQ(run("--meshes scene.toml"), 0) << output_;
+    double overlap = 0.0;
+    double lowest = 1.0;
+    for (const Row& row : rows()) {
+      overlap = std::max(overlap, row.overlap);
+      lowest = std::min(lowest, Vector3(0.0, M_SQRT1_2, M_SQRT1_2).dot(row.H_WM.translation));
+    }
+    EXPECT_LE(overlap, 2e-6) << "the resolution of the measurement, at " << angle;
+    EXPECT_LT(lowest, kEdge * M_SQRT2 + 5e-5) << "the edges touch";
+  }
+}
+
 TEST_F(ReplayOfCrossingEdges, RefusesTheMeshesOfAnotherScene) {
+  compile(true);
   write_path(1.0);
   write("other.toml", "[still]\nmesh = \"cube.obj\"\nscale = 2.0\nvoxel_size = 0.002\n[moving]\nmesh = \"cube.obj\"\n");
   EXPECT_EQ(run("--meshes other.toml"), 78) << output_;

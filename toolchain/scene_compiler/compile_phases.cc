@@ -59,6 +59,25 @@ bool wants_features(const CompileTarget& target) {
          target.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
 }
 
+/// The sharp edges of both bodies, each in its mesh's frame.
+struct EdgePhase {
+  SharpEdgeTree still;
+  SharpEdgeTree moving;
+};
+
+/// Returns the sharp edges of both bodies; none if one of them has none, or if the target does not read them.
+EdgePhase find_edges(const CompileTarget& target, const SolidSurface& still, const OuterSurface& moving) {
+  EdgePhase phase;
+  if (!target.config.edges || target.only_solver.value_or(format::Solver::kContact) != format::Solver::kContact) {
+    return phase;
+  }
+  phase.moving = make_sharp_edges(moving.body(), Eigen::Isometry3d::Identity());
+  if (phase.moving.edges.empty()) return {};
+  phase.still = make_sharp_edges(BodyMesh(still), Eigen::Isometry3d::Identity());
+  if (phase.still.edges.empty()) return {};
+  return phase;
+}
+
 /// Returns the moving mesh in its body frame.
 SolidSurface in_body_frame(const SolidSurface& moving, const format::Body& body, const SceneConfig& config) {
   const Eigen::Isometry3d X_BM = body_pose(body).inverse();
@@ -197,10 +216,18 @@ PointPhase make_points(const CompileTarget& target, const Bodies& bodies, const 
     parts.features = std::move(found.features);
     phase.second = found.second;
   }
+  EdgePhase edges = clock.run("edges", [&](const auto&) { return find_edges(target, bodies.still, outer); });
   parts.body = clock.run("body", [&](const auto&) {
     phase.spread = measure_spread(outer, sampling);
-    return make_moving_body(outer, sampling);
+    return make_moving_body(outer, sampling, ends_of(edges.moving));
   });
+  phase.edges = {.still = static_cast<std::uint32_t>(edges.still.edges.size()),
+                 .moving = static_cast<std::uint32_t>(edges.moving.edges.size()),
+                 .left_out = edges.still.left_out + edges.moving.left_out};
+  if (!edges.still.edges.empty()) {
+    parts.body_edges = make_sharp_edges(outer.body(), body_pose(parts.body.body).inverse());
+    parts.edges = std::move(edges.still);
+  }
   if (parts.features.points.empty()) return phase;
   parts.body_field = clock.run("body distances", [&](const auto& progress) {
     return make_body_field(config, in_body_frame(bodies.moving, parts.body.body, config), phase.second.slack, progress);
@@ -214,7 +241,9 @@ SceneParts join_parts(const CompileTarget& target, DistanceGrid field, PointPart
                    .field = std::move(field),
                    .body = std::move(points.body),
                    .features = std::move(points.features),
-                   .body_field = std::move(points.body_field)};
+                   .body_field = std::move(points.body_field),
+                   .edges = std::move(points.edges),
+                   .body_edges = std::move(points.body_edges)};
   if (target.only_solver) {
     parts.settings.solvers = 1u << static_cast<std::uint32_t>(*target.only_solver);
     parts.settings.default_solver = static_cast<std::uint32_t>(*target.only_solver);

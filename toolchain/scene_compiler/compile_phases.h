@@ -59,13 +59,16 @@ FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, P
 struct PointParts {
   MovingBody body;
   StillFeatures features;
-  DistanceGrid body_field;  ///< of the moving body; empty without features
+  DistanceGrid body_field;   ///< of the moving body; empty without features
+  SharpEdgeTree edges;       ///< of the still body; empty if one of the bodies has none
+  SharpEdgeTree body_edges;  ///< of the moving body
 };
 
 struct PointPhase {
   PointParts parts;
   PointSpread spread;
   SecondDirection second;
+  EdgeFindings edges;
 };
 
 /// Samples the moving body and, where the target wants them, the features of the still body and the moving body's

@@ -58,6 +58,13 @@ struct SecondDirection {
   std::uint32_t found() const { return corners + on_edges + on_faces; }  ///< features before trimming
 };
 
+/// Findings about edge against edge: the sharp edges that the image stores.
+struct EdgeFindings {
+  std::uint32_t still = 0;
+  std::uint32_t moving = 0;
+  std::uint32_t left_out = 0;  ///< the least sharp ones of bodies with too many
+};
+
 /// Findings of the check, which reads the finished image.
 struct CheckFindings {
   FieldError field_error;
@@ -79,6 +86,7 @@ struct CompileReport {
   FieldFindings field;
   PointFindings points;
   SecondDirection second;
+  EdgeFindings edges;
   CheckFindings check;
   std::vector<LeftOut> left_out;
   std::optional<double> cycle_ns;  ///< time of a cycle with nothing left out, if it was measured [ns]

@@ -115,6 +115,7 @@ CompileReport compile_scene(const CompileRequest& request) {
                                  trimmed.parts.field.seams, trimmed.parts.field.index.size()},
                        .points = {trimmed.parts.body.body, points.spread},
                        .second = trimmed_second(points.second, trimmed.parts),
+                       .edges = points.edges,
                        .check = check,
                        .left_out = timed_items(trimmed.steps.items(), times),
                        .cycle_ns = times ? std::optional(times->ns) : std::nullopt,

@@ -107,6 +107,10 @@ std::uint64_t section_bytes(const CompileReport& report, format::SectionId id) {
   return 0;
 }
 
+Json edges_json(const EdgeFindings& edges) {
+  return {{"still", edges.still}, {"moving", edges.moving}, {"left_out", edges.left_out}};
+}
+
 Json second_direction_json(const CompileReport& report) {
   const SecondDirection& second = report.second;
   Json json = {{"sought", second.sought}};
@@ -212,6 +216,7 @@ Json report_json(const CompileReport& report) {
                {"ball", ball_json(report.ball)},
                {"body", body},
                {"between_points", second_direction_json(report)},
+               {"edges", edges_json(report.edges)},
                {"section_bytes", sections},
                {"build_traits", traits_json(report.check.traits)},
                {"left_out", left_out_json(report)}};
@@ -229,10 +234,11 @@ Json left_out_code_json(const SceneTraits& traits) {
   if (!traits.corrected) leave_out("the solver corrected", code.corrected + code.corrected_with_friction);
   if (!traits.paper && !traits.corrected) leave_out("code shared by paper and corrected", code.closed_forms);
   if (!traits.contact) {
-    leave_out("the solver contact",
-              code.contact + code.contact_with_points + code.contact_with_friction + code.contact_features);
+    leave_out("the solver contact", code.contact + code.contact_with_points + code.contact_with_edges +
+                                        code.contact_with_friction + code.contact_features);
   } else {
     if (!traits.features) leave_out("the second direction", code.contact_features);
+    if (!traits.edges) leave_out("edge against edge", code.contact_with_edges);
     if (!traits.points) leave_out("points other than a ball's centre", code.contact_with_points);
   }
   if (!traits.friction) {

@@ -121,15 +121,31 @@ std::string second_direction_text(const CompileReport& report) {
   const double bound = between.bound + second.slack;
   if (std::isfinite(bound)) {
     text += fmt::format(
-        "between  the points meshes, their edges too, may overlap by up to {} ({} wanted): {} from the moving surface, "
-        "{} "
-        "from the still one, {} from the moving body's field\n",
-        millimetres(bound), millimetres(report.config.between_points), millimetres(between.moving_fall),
-        millimetres(between.still_fall), millimetres(second.slack));
+        "between  the points meshes{} may overlap by up to {} ({} wanted): {} from the moving surface, {} from the "
+        "still "
+        "one, {} from the moving body's field\n",
+        report.edges.still > 0 ? "" : ", their edges too,", millimetres(bound),
+        millimetres(report.config.between_points), millimetres(between.moving_fall), millimetres(between.still_fall),
+        millimetres(second.slack));
   } else {
     text += "between  the points no bound is known\n";
   }
   if (bound > report.config.between_points) text += fmt::format("         not reached: {}\n", reason(between.stopped));
+  return text;
+}
+
+std::string edges_text(const CompileReport& report) {
+  const EdgeFindings& edges = report.edges;
+  if (report.ball) return {};
+  if (edges.still == 0)
+    return "edges    no edge against edge: the scene does not ask for it (contact.edges), or a body has no sharp "
+           "edge\n";
+  std::string text = fmt::format("edges    {} sharp edges of the still body against {} of the moving one\n",
+                                 edges.still, edges.moving);
+  if (edges.left_out > 0) {
+    text += fmt::format("         the {} least sharp ones of a body with more than {} are left out\n", edges.left_out,
+                        format::kMaxSharpEdges);
+  }
   return text;
 }
 
@@ -292,6 +308,9 @@ std::vector<std::string> limits(const CompileReport& report) {
                                                        millimetres(bound), millimetres(config.between_points))
                                          : std::string("no bound is known between the points"));
   }
+  if (report.edges.left_out > 0) {
+    found.push_back(fmt::format("{} sharp edges are left out of edge against edge", report.edges.left_out));
+  }
   std::erase(found, "");
   return found;
 }
@@ -303,9 +322,11 @@ std::string verdict_text(const CompileReport& report) {
   if (!found.empty()) return fmt::format("ready, with limits: {}", fmt::join(found, "; "));
   if (report.ball) return "ready: the field is within its tolerance near the surface at the ball's radius";
   return fmt::format(
-      "ready: {}, no wall or gap is too thin; between the points meshes, their edges too, may overlap by up to {} and "
-      "the field's error",
-      surfaces_text(report.config), millimetres(report.second.between.bound + report.second.slack));
+      "ready: {}, no wall or gap is too thin; between the points meshes{} may overlap by up to {} and the field's "
+      "error{}",
+      surfaces_text(report.config), report.edges.still > 0 ? "" : ", their edges too,",
+      millimetres(report.second.between.bound + report.second.slack),
+      report.edges.still > 0 ? ", but no sharp edges cross" : "");
 }
 
 std::string report_text(const CompileReport& report) {
@@ -322,6 +343,7 @@ std::string report_text(const CompileReport& report) {
   text += refinement_text(report);
   text += points_text(report);
   text += second_direction_text(report);
+  text += edges_text(report);
   text += left_out_text(report);
   text += code_text(report);
   double total = 0.0;

@@ -109,7 +109,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
   config.field_tolerance = still.number("field_tolerance", {1e-3, 1e3}, 0.05);
   if (still.has("accuracy")) {
-    config.accuracy = still.number("accuracy", {1e-4 * s, s}, TomlTable::Example{"1e-5"});
+    config.accuracy = still.number("accuracy", {1e-3 * s, s}, TomlTable::Example{"1e-5"});
     if (still.has("field_tolerance")) {
       still.complain("field_tolerance", "and accuracy say the same in different units; leave one of them out");
     }
@@ -125,13 +125,14 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   format::Settings& settings = config.settings;
   const TomlTable contact = table("contact");
-  contact.allow({"solver", "safety_distance", "margin", "both_directions", "between_points", "point_budget"});
+  contact.allow({"solver", "safety_distance", "margin", "edges", "both_directions", "between_points", "point_budget"});
   settings.default_solver = read_solver(contact);
   settings.solvers = (1u << format::kSolverCount) - 1;
   if (config.ball) leave_out_paper(contact, settings);
   settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
   settings.margin = contact.number("margin", {1e-6 * s, s}, std::min(0.01 * s, config.accuracy.value_or(s)));
 
+  config.edges = contact.flag("edges", false);
   config.both_directions = contact.flag("both_directions", true);
   config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, s);
 

@@ -47,6 +47,7 @@ A scene file (TOML; lengths in metres, defaults in brackets, s is voxel_size):
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
               both_directions [true]: also points of the still body in the moving body's field,
               between_points [s]: largest depth of the bodies between their points; points are added until it holds,
+              edges [false]: also sharp edges of one body against those of the other,
               point_budget [0: none]: near points of either body that a sub-step looks up, nearest first; beyond
               the budget the god object may lag behind the device, but crosses nothing
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without this table there is no friction

@@ -35,6 +35,10 @@ const char* section_name(format::SectionId id) {
     case format::SectionId::kEdges: return "edges";
     case format::SectionId::kBodyEdges: return "body_edges";
     case format::SectionId::kWorkspace: return "workspace";
+    case format::SectionId::kSharpEdges: return "sharp_edges";
+    case format::SectionId::kSharpEdgeNodes: return "sharp_edge_nodes";
+    case format::SectionId::kBodySharpEdges: return "body_sharp_edges";
+    case format::SectionId::kBodySharpEdgeNodes: return "body_sharp_edge_nodes";
   }
   return "unknown";
 }
@@ -74,7 +78,8 @@ Json workspace_json(const std::optional<format::Workspace>& workspace) {
 
 Json traits_json(const SceneTraits& traits) {
   return {{"paper", traits.paper},       {"corrected", traits.corrected}, {"contact", traits.contact},
-          {"friction", traits.friction}, {"features", traits.features},   {"points", traits.points}};
+          {"friction", traits.friction}, {"features", traits.features},   {"edges", traits.edges},
+          {"points", traits.points}};
 }
 
 Json grid_json(const format::Grid& g) {

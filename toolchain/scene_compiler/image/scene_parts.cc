@@ -38,6 +38,12 @@ std::vector<SectionBytes> lay_out(const SceneParts& parts) {
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
   if (!body.normals.empty() && holds_paper) sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
   sections.push_back({SectionId::kNodes, bytes_of(body.nodes)});
+  if (!parts.edges.edges.empty() && !parts.body_edges.edges.empty()) {
+    sections.push_back({SectionId::kSharpEdges, bytes_of(parts.edges.edges)});
+    sections.push_back({SectionId::kSharpEdgeNodes, bytes_of(parts.edges.nodes)});
+    sections.push_back({SectionId::kBodySharpEdges, bytes_of(parts.body_edges.edges)});
+    sections.push_back({SectionId::kBodySharpEdgeNodes, bytes_of(parts.body_edges.nodes)});
+  }
   if (parts.features.points.empty()) return sections;
   sections.push_back({SectionId::kBodyGrid, bytes_of_one(parts.body_field.grid)});
   sections.push_back({SectionId::kBodyBrickIndex, bytes_of(parts.body_field.index)});

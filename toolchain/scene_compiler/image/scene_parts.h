@@ -7,6 +7,7 @@
 #include "toolchain/scene_compiler/field/distance_grid.h"
 #include "toolchain/scene_compiler/image/scene_image.h"
 #include "toolchain/scene_compiler/points/moving_body.h"
+#include "toolchain/scene_compiler/points/sharp_edge_tree.h"
 #include "toolchain/scene_compiler/points/still_features.h"
 
 namespace godobject::scene_compiler {
@@ -18,7 +19,9 @@ struct SceneParts {
   DistanceGrid field;  ///< of the still body
   MovingBody body;
   StillFeatures features;
-  DistanceGrid body_field;  ///< of the moving body; stored only with features
+  DistanceGrid body_field;   ///< of the moving body; stored only with features
+  SharpEdgeTree edges;       ///< of the still body, in W; stored only if both bodies have some
+  SharpEdgeTree body_edges;  ///< of the moving body, in B
 };
 
 /// Returns all sections of the image but the provenance. Stores normals only for the solver `paper`, which reads them.

@@ -81,7 +81,11 @@ SharpFeatures sharp_features(const BodyMesh& body) {
   for (const MeshEdges::Edge& edge : body.edges.all()) {
     const Vector3d outward = outward_of_edge(body, edge);
     if (outward.squaredNorm() == 0.0) continue;
-    features.edges.push_back({edge.low, edge.high, outward, body.in_shell[body.edges.sides(edge)[0].triangle]});
+    const auto sides = body.edges.sides(edge);
+    SharpEdge sharp{
+        edge.low, edge.high, outward, {Vector3d::Zero(), Vector3d::Zero()}, body.in_shell[sides[0].triangle]};
+    for (std::size_t k = 0; k < 2 && !sharp.in_shell; ++k) sharp.normals[k] = body.face_normals[sides[k].triangle];
+    features.edges.push_back(sharp);
     const Vector3d along = (mesh.vertices[edge.high] - mesh.vertices[edge.low]).stableNormalized();
     meetings[edge.low].add(along, outward);
     meetings[edge.high].add(-along, outward);

@@ -10,8 +10,9 @@ namespace godobject::scene_compiler {
 /// A convex sharp edge: its faces meet at more than the crease angle, or it is the rim of a sheet. On a thickened sheet
 /// every crease is convex from one side. Edges of more than two triangles do not count.
 struct SharpEdge {
-  std::uint32_t low, high;  ///< vertices
-  Eigen::Vector3d outward;  ///< unit, across the edge, halfway between its faces
+  std::uint32_t low, high;     ///< vertices
+  Eigen::Vector3d outward;     ///< unit, across the edge, halfway between its faces
+  Eigen::Vector3d normals[2];  ///< outward unit normals of its faces; 0 in a shell
   bool in_shell;
 };
 

@@ -140,7 +140,8 @@ double largest_gap(const OuterSurface& outer, std::span<const SurfaceSample> sam
   return 0.0;
 }
 
-MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling) {
+MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling,
+                            std::span<const Vector3d> others) {
   const std::span<const SurfaceSample> spread = std::span(sampling.samples).first(sampling.points);
   std::vector<std::vector<std::uint32_t>> levels =
       nested_levels(spread, level_sizes(sampling.points, sampling.levels), sampling.area);
@@ -167,6 +168,7 @@ MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sam
   body.radius = radius * kRoundedUp;
   std::vector<Vector3d> stored_B;
   for (const Eigen::Vector3f& p : points_B) stored_B.push_back(p.cast<double>());
+  for (const Vector3d& p : others) stored_B.push_back(X_BM * p);
   const Sphere sphere = bounding_sphere(stored_B);
   std::copy_n(sphere.center.data(), 3, body.sphere_center);
   // The sphere must not be so small that points of the still body seem to swing far about a few clustered samples.

@@ -43,8 +43,9 @@ MovingSampling sample_moving_body(const OuterSurface& outer, std::uint32_t point
                                   const parallel::Progress& progress);
 
 /// Returns the samples in nested levels (added ones in the last), with inward normals, sphere tree and mass properties.
-/// Deterministic.
-MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling);
+/// The sphere around the points also contains `others` (in M). Deterministic.
+MovingBody make_moving_body(const OuterSurface& outer, const MovingSampling& sampling,
+                            std::span<const Eigen::Vector3d> others = {});
 
 /// Measures the spread of the samples that make_moving_body stores. Deterministic.
 PointSpread measure_spread(const OuterSurface& outer, const MovingSampling& sampling);
