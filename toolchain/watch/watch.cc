@@ -31,6 +31,7 @@ Watch::Watch(WatchedSession session)
     points.in_mesh.assign(points.direction.points.size(), kUnknown);
     points_.push_back(std::move(points));
   }
+  edge_bound_.assign(session_.moving_edges.size() * session_.still_edges.size(), -1.0);
 }
 
 void Watch::note(Property property, const std::string& what) {
@@ -89,8 +90,15 @@ void Watch::start(const Pose& H_WD) {
   started_ = true;
   H_WS_ = H_WD;
   H_WD_last_ = H_WD;
+  overlap_at_start_.assign(edge_bound_.size(), false);
+  for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
+    const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
+    for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
+      const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
+      overlap_at_start_[i * session_.still_edges.size() + j] = pair.in_both_wedges && pair.gap < 0.25 * q_.voxel_size;
+    }
+  }
 }
-
 bool Watch::check_numbers(const WatchedCycle& cycle) {
   const CycleReport& report = cycle.report;
   const bool is_ok = cycle.status == Status::kOk;
@@ -170,6 +178,35 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
       if (points.direction.mesh != nullptr) check_mesh(points, i, p0, p1);
     }
   }
+  advance_edges(H0, H1);
+}
+
+/// No edge of the moving body may meet one of the still body. Edges that overlap at the start may come out.
+void Watch::advance_edges(const Pose& H0, const Pose& H1) {
+  const double near = 0.2 * q_.voxel_size;
+  for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
+    const WatchedEdge from = session_.moving_edges[i].at(H0);
+    const WatchedEdge to = session_.moving_edges[i].at(H1);
+    const double displacement = std::max((to.end[0] - from.end[0]).norm(), (to.end[1] - from.end[1]).norm());
+    travelled_ = std::max(travelled_, displacement);
+    for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
+      double& bound = edge_bound_[i * session_.still_edges.size() + j];
+      const double may_lose = (1.0 + 1e-9) * displacement + session_.rounding;
+      if (bound > may_lose + near) {
+        bound -= may_lose;
+        continue;
+      }
+      const WatchedEdge& other = session_.still_edges[j];
+      const double at_begin = distance_of(from, other).gap;
+      bound = std::max(0.0, distance_of(to, other).gap);
+      if (is_inside_) continue;
+      smallest_ = std::min(smallest_, at_begin);
+      if (overlap_at_start_[i * session_.still_edges.size() + j]) continue;
+      const double resolution = 1e-6 * q_.voxel_size;
+      judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
+            [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });
+    }
+  }
 }
 
 /// The stored surface may lie inside the mesh by its accuracy, and no point deeper.
@@ -196,6 +233,10 @@ double Watch::smallest_at(const Pose& H_WS) {
       smallest = std::min(smallest, points.bound[i]);
     }
   }
+  for (const WatchedEdge& edge : session_.moving_edges) {
+    const WatchedEdge here = edge.at(H_WS);
+    for (const WatchedEdge& other : session_.still_edges) smallest = std::min(smallest, distance_of(here, other).gap);
+  }
   return smallest;
 }
 
@@ -221,8 +262,30 @@ void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, 
   contacts.push_back(contact);
 }
 
-/// Returns the planes of the surface at the points within `reach`. At an edge or in a valley a point has several: those
-/// of the places around it, too.
+/// Appends the contacts of pairs of edges within `reach`.
+void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Contact>& contacts) const {
+  for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
+    const WatchedEdge edge = session_.moving_edges[i].at(H_WS);
+    for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
+      if (edge_bound_[i * session_.still_edges.size() + j] > reach + travelled_) continue;
+      EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
+      if (pair.in_both_wedges && overlap_at_start_[i * session_.still_edges.size() + j]) {
+        pair.gap = -pair.gap;
+        pair.normal = -pair.normal;
+      }
+      if (!(pair.gap <= reach)) continue;
+      Contact contact;
+      contact.gap = pair.gap;
+      contact.point_S = H_WS.rotation.conjugate()._transformVector(pair.on_first - H_WS.translation);
+      contact.lever_W = pair.on_first - H_WS.translation;
+      contact.normal_W = pair.normal;
+      contacts.push_back(contact);
+    }
+  }
+}
+
+/// Returns the planes of the surface at the points within `reach`, and those between edges. At an edge or in a valley a
+/// point has several: those of the places around it, too.
 std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, double around) const {
   std::vector<Contact> contacts;
   for (const Points& points : points_) {
@@ -246,6 +309,7 @@ std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, d
       }
     }
   }
+  push_edge_contacts(H_WS, reach, contacts);
   return contacts;
 }
 
@@ -304,6 +368,13 @@ bool Watch::is_clear(const Pose& H0, const Pose& H1, double clearance) const {
       const Vector3 p1 = points.place(H1, i);
       const Chord chord{p0, p1, field.distance(p0), field.distance(p1)};
       if (falls_below(field, chord, clearance, 1e-2 * q_.voxel_size)) return false;
+    }
+  }
+  for (const WatchedEdge& edge : session_.moving_edges) {
+    const WatchedEdge from = edge.at(H0);
+    const WatchedEdge to = edge.at(H1);
+    for (const WatchedEdge& other : session_.still_edges) {
+      if (falls_below(from, to, other, clearance, 1e-2 * q_.voxel_size)) return false;
     }
   }
   return true;

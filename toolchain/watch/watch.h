@@ -12,6 +12,7 @@
 #include "godobject/report.h"
 #include "godobject/scene.h"
 #include "godobject/status.h"
+#include "toolchain/watch/edge_pairs.h"
 #include "toolchain/watch/findings.h"
 #include "toolchain/watch/oracle.h"
 #include "toolchain/watch/way_out.h"
@@ -30,6 +31,8 @@ struct Direction {
 /// The session that the watch observes. The objects that it points to must outlive the watch.
 struct WatchedSession {
   std::vector<Direction> directions = {};
+  std::vector<WatchedEdge> moving_edges = {};  ///< in S; with `still_edges` for edge against edge
+  std::vector<WatchedEdge> still_edges = {};   ///< in W
   Parameters parameters = {};
   Solver solver = Solver::kContact;
   bool friction = false;
@@ -54,8 +57,8 @@ struct Nearest {
 };
 
 /// Judges every cycle of a session by properties that any correct solver has (Property). It looks at every point of
-/// both directions in every sub-step, with look-ups and methods of its own: it shares no code with the solver, the
-/// search and the certificate.
+/// both directions and at every pair of edges in every sub-step, with look-ups and methods of its own: it shares no
+/// code with the solver, the search and the certificate.
 ///
 /// A point is looked up unless its last distance, less the displacement since then times the field's Lipschitz
 /// constant, proves it outside. Reference problems are solved by non-negative least squares (least_distance.h) in every
@@ -103,6 +106,8 @@ class Watch {
   void start(const Pose& H_WD);
   void follow(const WatchedCycle& cycle);
   void advance(const Pose& H0, const Pose& H1);
+  void advance_edges(const Pose& H0, const Pose& H1);
+  void push_edge_contacts(const Pose& H_WS, double reach, std::vector<Contact>& contacts) const;
   void check_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1);
   bool is_at_device(const WatchedCycle& cycle) const;
   double smallest_at(const Pose& H_WS);
@@ -135,6 +140,8 @@ class Watch {
   const Parameters& q_;
   double gyration_;
   std::vector<Points> points_;
+  std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, and are not judged
+  std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;
 

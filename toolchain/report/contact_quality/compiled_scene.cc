@@ -22,15 +22,15 @@ scene_compiler::CompileReport compile_image(const std::string& name, const Scene
   toml.write(fmt::format(
       "[still]\nmesh = \"{}\"\nscale = 1.0\nvoxel_size = {}\nsurface = \"{}\"\nthickness = {}\n"
       "[moving]\nmesh = \"{}\"\nscale = 1.0\n{}"
-      "[contact]\nsafety_distance = {}\nmargin = {}\n"
+      "[contact]\nedges = {}\nsafety_distance = {}\nmargin = {}\n"
       "[friction]\nstatic = {}\nkinetic = {}\n"
       "[paper]\nrotation_static = {}\nrotation_kinetic = {}\n"
       "[coupling]\nstiffness = {:.1f}\nrotational = {}\n",
       std::filesystem::absolute(still_file(name, folder)).string(), q.voxel_size, scene.still.shell ? "shell" : "solid",
       shell_thickness(q), std::filesystem::absolute(scene.body).string(),
       scene.ball ? std::string("ball = true\n") : fmt::format("points = {}\nlevels = {}\n", scene.points, kBodyLevels),
-      q.safety_distance, q.margin, q.friction_static, q.friction_kinetic, q.friction_static, q.friction_kinetic,
-      q.stiffness, q.coupling_rotation));
+      scene.edges, q.safety_distance, q.margin, q.friction_static, q.friction_kinetic, q.friction_static,
+      q.friction_kinetic, q.stiffness, q.coupling_rotation));
   toml.commit();
   return scene_compiler::compile_scene({.scene_file = folder / (name + ".toml"),
                                         .output = folder / (name + ".scene"),

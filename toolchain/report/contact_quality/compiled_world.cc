@@ -55,6 +55,8 @@ class CompiledWorld : public World {
 
   const Pose& H_MB() const override { return image_.scene.H_MB; }
   const std::vector<Vector3>& points_B() const override { return points_; }
+  std::vector<watch::WatchedEdge> edges_B() const override { return watch::watched_edges(image_.scene.body_edges); }
+  std::vector<watch::WatchedEdge> edges_W() const override { return watch::watched_edges(image_.scene.edges); }
 
  private:
   files::SceneImage image_;

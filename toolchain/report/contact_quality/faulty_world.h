@@ -30,6 +30,8 @@ class FaultyWorld final : public World {
   double true_depth(const Pose& H_WS) const override { return world_.true_depth(H_WS); }
   const Pose& H_MB() const override { return world_.H_MB(); }
   const std::vector<Vector3>& points_B() const override { return world_.points_B(); }
+  std::vector<watch::WatchedEdge> edges_B() const override { return world_.edges_B(); }
+  std::vector<watch::WatchedEdge> edges_W() const override { return world_.edges_W(); }
 
  private:
   const World& world_;

@@ -97,6 +97,8 @@ class Study {
     return {.H_WD = c.H_WD,
             .points_B = world_.points_B(),
             .pieces = [this](const Vector3& p, auto& out) { world_.pieces(p, out); },
+            .edges_B = world_.edges_B(),
+            .edges_W = world_.edges_W(),
             .rho_squared = kRhoSquared,
             .largest_step = scene_.voxel_size};
   }

@@ -82,10 +82,41 @@ class FreeSet {
       result.violation = std::max(result.violation, -nearest);
       wake_[i] = way_ + 0.5 * (nearest - cutoff);
     }
+    look_at_edges(H_WS, R_DS, jacobian, cutoff, result);
     return result;
   }
 
  private:
+  /// Adds the constraints of pairs of edges that are nearer than `cutoff` [m]. Edges that lie in each other's wedges
+  /// have crossed.
+  void look_at_edges(const Pose& H_WS, const Quaternion& R_DS, const Matrix3& jacobian, double cutoff,
+                     Constraints& result) const {
+    for (const watch::WatchedEdge& moving : problem_.edges_B) {
+      const watch::WatchedEdge edge = moving.at(H_WS);
+      const Vector3 middle = 0.5 * (edge.end[0] + edge.end[1]);
+      const double half = 0.5 * (edge.end[1] - edge.end[0]).norm();
+      for (const watch::WatchedEdge& other : problem_.edges_W) {
+        const double apart = (middle - 0.5 * (other.end[0] + other.end[1])).norm();
+        if (apart - half - 0.5 * (other.end[1] - other.end[0]).norm() > cutoff) continue;
+        watch::EdgeDistance pair = watch::distance_of(edge, other);
+        if (pair.gap > cutoff) continue;
+        if (pair.in_both_wedges) {
+          pair.gap = -pair.gap;
+          pair.normal = -pair.normal;
+        } else if (pair.over_a_face) {
+          continue;
+        }
+        const Vector3 n_D = R_DW_._transformVector(pair.normal);
+        const Vector3 p_B = H_WS.inverse() * pair.on_first;
+        watch::HalfPlane row;
+        row.normal << n_D, jacobian * R_DS._transformVector(p_B).cross(n_D);
+        row.bound = -pair.gap;
+        result.rows.push_back(row);
+        result.violation = std::max(result.violation, -pair.gap);
+      }
+    }
+  }
+
   const OptimumProblem& problem_;
   double rho_;
   Quaternion R_DW_;

@@ -5,6 +5,7 @@
 
 #include "godobject/pose.h"
 #include "toolchain/report/analytic/solid.h"
+#include "toolchain/watch/edge_pairs.h"
 
 namespace godobject::report {
 
@@ -12,13 +13,16 @@ namespace godobject::report {
 /// distance.
 using DistancePieces = std::function<void(const Vector3& p_W, std::vector<analytic::Piece>& out)>;
 
-/// The constrained optimum for a god object: among all poses S with every sample point at phi >= 0, a local minimum of
-/// |x|^2 + rho^2 |r|^2, with (x, r) = log(S^-1 D), translation in S and rotation vector.
+/// The constrained optimum for a god object: among all poses S with every sample point at phi >= 0, and no sharp edge
+/// of the moving body across one of the still body, a local minimum of |x|^2 + rho^2 |r|^2, with (x, r) = log(S^-1 D),
+/// translation in S and rotation vector.
 struct OptimumProblem {
   Pose H_WD;
   std::vector<Vector3> points_B;  ///< all sample points of the moving body
   DistancePieces pieces;
-  double rho_squared = 0.025;   ///< k_VC,r / k_VC,x [m^2]
+  std::vector<watch::WatchedEdge> edges_B = {};  ///< sharp edges of the moving body
+  std::vector<watch::WatchedEdge> edges_W = {};  ///< sharp edges of the still body
+  double rho_squared = 0.025;                    ///< k_VC,r / k_VC,x [m^2]
   double largest_step = 0.002;  ///< trust region [m]: about the length over which a surface is straight
 };
 

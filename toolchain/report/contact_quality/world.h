@@ -38,6 +38,9 @@ class World {
 
   virtual const Pose& H_MB() const = 0;
   virtual const std::vector<Vector3>& points_B() const = 0;
+  /// Returns the sharp edges of the moving body, and of the still one in W; none if the solvers do not know any.
+  virtual std::vector<watch::WatchedEdge> edges_B() const { return {}; }
+  virtual std::vector<watch::WatchedEdge> edges_W() const { return {}; }
 };
 
 std::unique_ptr<World> make_analytic_world(const analytic::Solid& solid, const Body& body,

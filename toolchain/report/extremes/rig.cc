@@ -337,6 +337,8 @@ class CompiledRig final : public Rig {
                                     .mesh = body_surface_ ? &*body_surface_ : nullptr,
                                     .mesh_accuracy = accuracy + slack_});
     }
+    watched.moving_edges = watch::watched_edges(scene.body_edges);
+    watched.still_edges = watch::watched_edges(scene.edges);
     watched.parameters = god_object_.parameters();
     watched.solver = setup_.solver;
     watched.friction = setup_.friction;
@@ -357,6 +359,7 @@ class CompiledRig final : public Rig {
                        .body = file,
                        .ball = is_ball_,
                        .points = static_cast<std::uint32_t>(std::max(setup.points, 20)),
+                       .edges = true,
                        .settings = {.voxel_size = setup.voxel * setup.scale,
                                     .safety_distance = setup.safety_distance(),
                                     .margin = setup.margin(),

@@ -1,0 +1,81 @@
+// The watch's view of pairs of edges: against the core's, which shares no code with it, and with edges that cross.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/pipeline/contact/edges/edge_gap.h"
+#include "tests/support/random.h"
+#include "toolchain/watch/edge_pairs.h"
+#include "toolchain/watch/watch.h"
+
+namespace godobject::watch {
+namespace {
+
+WatchedEdge bare(const Vector3& from, const Vector3& to) {
+  WatchedEdge edge;
+  edge.end[0] = from;
+  edge.end[1] = to;
+  return edge;
+}
+
+EdgeInW of_core(const WatchedEdge& edge) {
+  return {{edge.end[0], edge.end[1]}, {edge.normal[0], edge.normal[1]}, edge.radius};
+}
+
+TEST(EdgePairs, AgreeWithTheCore) {
+  test::Random random(2);
+  for (int k = 0; k < 5000; ++k) {
+    const Vector3 a = random.in_cube(1.0);
+    const Vector3 b = random.in_cube(1.0);
+    const WatchedEdge first = bare(a, a + random.between(1e-3, 1.0) * random.direction());
+    const Vector3 along = k % 4 == 0 ? Vector3(first.end[1] - first.end[0]) : random.direction();
+    WatchedEdge second = bare(b, b + random.between(1e-3, 1.0) * along);
+    second.radius = 0.01;
+    const EdgeGap core = edge_gap(of_core(first), of_core(second));
+    const EdgeDistance watch = distance_of(first, second);
+    EXPECT_NEAR(watch.gap, core.distance, 1e-12);
+    EXPECT_NEAR((watch.on_first - watch.on_second).norm() - 0.01, watch.gap, 1e-12);
+    if (k % 4 != 0 && watch.gap > 0.0) {
+      EXPECT_NEAR((watch.normal - core.normal).norm(), 0.0, 1e-6);
+    }
+  }
+}
+
+TEST(EdgePairs, FallBelowABoundOnTheWay) {
+  const WatchedEdge still = bare({-1, 0, 0}, {1, 0, 0});
+  const auto at = [](double z) { return bare({0, -1, z}, {0, 1, z}); };
+  EXPECT_TRUE(falls_below(at(1.0), at(-1.0), still, 0.0, 1e-9)) << "from one side to the other";
+  EXPECT_TRUE(falls_below(at(1.0), at(-3.0), still, 0.0, 1e-9));
+  EXPECT_FALSE(falls_below(at(1.0), at(0.1), still, 0.0, 1e-9));
+  EXPECT_TRUE(falls_below(at(1.0), at(0.1), still, 0.2, 1e-9));
+  EXPECT_FALSE(falls_below(at(0.3), bare({3, -1, 0.3}, {3, 1, 0.3}), still, 0.2, 1e-9)) << "along it and beyond";
+}
+
+/// A god object whose edges pass through one another is found, also if it is outside before and after.
+TEST(EdgePairs, ThatCrossAreFound) {
+  WatchedSession session;
+  session.moving_edges.push_back(bare({0, -1, 0}, {0, 1, 0}));
+  session.still_edges.push_back(bare({-1, 0, 0}, {1, 0, 0}));
+  session.parameters.voxel_size = 0.1;
+  Watch watch(session);
+  WatchedCycle cycle;
+  const auto go = [&](double x, double z) {
+    cycle.H_WD.translation = Vector3(x, 0.0, z);
+    cycle.report.H_WS = cycle.H_WD;
+    const std::vector<Pose> path(1, cycle.H_WD);
+    cycle.path = path;
+    watch.cycle(cycle);
+  };
+  go(0.0, 0.5);
+  go(0.3, 0.01);
+  go(0.0, 0.01);
+  EXPECT_EQ(watch.findings()[Property::kNoCrossing].violated, 0) << watch.findings()[Property::kNoCrossing].first;
+  go(0.0, -0.5);
+  EXPECT_EQ(watch.findings()[Property::kNoCrossing].violated, 1);
+  go(5.0, -0.5);
+  go(5.0, 0.5);
+  EXPECT_EQ(watch.findings()[Property::kNoCrossing].violated, 1) << "round the end of the other edge";
+}
+
+}  // namespace
+}  // namespace godobject::watch

@@ -1,0 +1,105 @@
+#include "toolchain/watch/edge_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace godobject::watch {
+namespace {
+
+Vector3 nearest_on(const WatchedEdge& edge, const Vector3& p) {
+  const Vector3 along = edge.end[1] - edge.end[0];
+  const double square = along.squaredNorm();
+  if (!(square > 0.0)) return edge.end[0];
+  return edge.end[0] + std::clamp((p - edge.end[0]).dot(along) / square, 0.0, 1.0) * along;
+}
+
+bool lies_behind_both_faces(const WatchedEdge& edge, const Vector3& direction) {
+  return std::max(edge.normal[0].dot(direction), edge.normal[1].dot(direction)) < 0.0;
+}
+
+/// Tells whether a direction leads over a face of the edge: it makes an acute angle with the tangent of that face that
+/// points away from the edge.
+bool leads_over_a_face(const WatchedEdge& edge, const Vector3& direction) {
+  const Vector3 along = (edge.end[1] - edge.end[0]).stableNormalized();
+  for (int k = 0; k < 2; ++k) {
+    Vector3 tangent = along.cross(edge.normal[k]);
+    if (tangent.dot(edge.normal[1 - k]) > 0.0) tangent = -tangent;
+    if (tangent.dot(direction) > 1e-3) return true;
+  }
+  return false;
+}
+
+WatchedEdge between(const WatchedEdge& a, const WatchedEdge& b, double t) {
+  WatchedEdge edge = a;
+  for (int k = 0; k < 2; ++k) edge.end[k] = (1.0 - t) * a.end[k] + t * b.end[k];
+  return edge;
+}
+
+}  // namespace
+
+WatchedEdge WatchedEdge::at(const Pose& H) const {
+  WatchedEdge edge = *this;
+  for (int k = 0; k < 2; ++k) {
+    edge.end[k] = H * end[k];
+    edge.normal[k] = H.rotation._transformVector(normal[k]);
+  }
+  return edge;
+}
+
+std::vector<WatchedEdge> watched_edges(const SharpEdges& sharp) {
+  std::vector<WatchedEdge> edges;
+  for (const format::SharpEdge& edge : sharp.edges) {
+    edges.push_back({{edge_end(edge, 0), edge_end(edge, 1)},
+                     {face_normal(edge, 0), face_normal(edge, 1)},
+                     static_cast<double>(edge.radius)});
+  }
+  return edges;
+}
+
+EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second) {
+  EdgeDistance best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto try_pair = [&](const Vector3& p, const Vector3& q) {
+    const double distance = (p - q).norm();
+    if (!(distance < least)) return;
+    least = distance;
+    best.on_first = p;
+    best.on_second = q;
+  };
+  for (int k = 0; k < 2; ++k) {
+    try_pair(first.end[k], nearest_on(second, first.end[k]));
+    try_pair(nearest_on(first, second.end[k]), second.end[k]);
+  }
+  // both places of the common perpendicular, if they lie on the edges
+  const Vector3 along_first = first.end[1] - first.end[0];
+  const Vector3 along_second = second.end[1] - second.end[0];
+  Eigen::Matrix<double, 3, 2> lines;
+  lines << along_first, -along_second;
+  const Eigen::Vector2d places = lines.colPivHouseholderQr().solve(second.end[0] - first.end[0]);
+  if (places.allFinite() && places.minCoeff() >= 0.0 && places.maxCoeff() <= 1.0) {
+    try_pair(first.end[0] + places[0] * along_first, second.end[0] + places[1] * along_second);
+  }
+  const Vector3 apart = best.on_first - best.on_second;
+  best.normal = least > 1e-12 ? Vector3(apart / least) : along_first.cross(along_second).stableNormalized();
+  best.gap = least - first.radius - second.radius;
+  best.over_a_face = leads_over_a_face(second, best.normal) || leads_over_a_face(first, -best.normal);
+  best.in_both_wedges = lies_behind_both_faces(second, best.normal) && lies_behind_both_faces(first, -best.normal);
+  return best;
+}
+
+bool falls_below(const WatchedEdge& from, const WatchedEdge& to, const WatchedEdge& other, double limit,
+                 double resolution) {
+  const double begin = distance_of(from, other).gap - limit;
+  const double end = distance_of(to, other).gap - limit;
+  if (begin < 0.0 || end < 0.0) return true;
+  const double length = std::max((to.end[0] - from.end[0]).norm(), (to.end[1] - from.end[1]).norm());
+  if (begin + end > (1.0 + 1e-9) * length) return false;  // if equal, the edges may meet where the balls touch
+  if (length < resolution) return std::min(begin, end) < 0.5 * length;
+  const WatchedEdge middle = between(from, to, 0.5);
+  return falls_below(from, middle, other, limit, resolution) || falls_below(middle, to, other, limit, resolution);
+}
+
+}  // namespace godobject::watch
