@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include "core/pipeline/contact/edge_certificate.h"
 #include "core/pipeline/contact/edges/edge_gap.h"
+#include "core/pipeline/contact/edges/near_edges.h"
+#include "tests/support/edge_set.h"
 #include "tests/support/random.h"
 #include "toolchain/watch/edge_pairs.h"
 #include "toolchain/watch/watch.h"
@@ -39,6 +42,44 @@ TEST(EdgePairs, AgreeWithTheCore) {
       EXPECT_NEAR((watch.normal - core.normal).norm(), 0.0, 1e-6);
     }
   }
+}
+
+/// No motion that the core's certificate accepts brings two edges together, whatever its turn.
+TEST(EdgePairs, StayApartInEveryMotionThatTheCoreAccepts) {
+  ContactLengths lengths{};
+  lengths.least_margin = 5e-6;
+  lengths.rounding = 1e-9;
+  test::Random random(8);
+  int accepted = 0;
+  int refused = 0;
+  int wrongly_refused = 0;
+  for (int k = 0; k < 30000; ++k) {
+    const Vector3 a = random.in_cube(0.005);
+    const Vector3 b = random.in_cube(0.005);
+    const test::EdgeSet moving({{a, a + random.between(1e-3, 1e-2) * random.direction()}});
+    const test::EdgeSet still({{b, b + random.between(1e-3, 1e-2) * random.direction()}});
+    const EdgeContacts edges{moving.view(), still.view()};
+    const Pose H1 = Pose{} * set_matrix(random.motion(0.01, 0.6));
+    NearEdges near;
+    near.push({0, 0}, detail::gap_at(edges, {0, 0}, Pose{}));
+    if (near.gap[0].distance < 1e-5) continue;
+    detail::EdgeObstacle obstacle;
+    detail::Budget budget;
+    const bool is_free = detail::edges_are_free(edges, Pose{}, H1, 5e-6, lengths, near, budget, obstacle);
+    const WatchedEdge from = watched_edges(moving.view())[0];
+    const WatchedEdge other = watched_edges(still.view())[0];
+    const bool meets = falls_below(from, from.at(H1), other, 0.0, 1e-10);
+    EXPECT_FALSE(is_free && meets) << k;
+    ++(is_free ? accepted : refused);
+    if (is_free) continue;
+    EXPECT_EQ(obstacle.near, 0u);
+    EXPECT_GT(obstacle.share, 0.0);
+    EXPECT_LE(obstacle.share, 1.0);
+    wrongly_refused += falls_below(from, from.at(H1), other, 1e-4, 1e-6) ? 0 : 1;
+  }
+  EXPECT_GT(accepted, 5000);
+  EXPECT_GT(refused, 300);
+  EXPECT_EQ(wrongly_refused, 0) << "motions with a gap of 0.1 mm are accepted";
 }
 
 TEST(EdgePairs, FallBelowABoundOnTheWay) {
