@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "core/pipeline/contact/contact_directions.h"
@@ -57,8 +56,9 @@ struct EndOfForce {
 /// of its force; on the other side of the still edge the distance is negative.
 inline FieldSample sample_of(const EdgeGap& gap, const Vector3& normal_W) noexcept {
   const double side = gap.normal.dot(normal_W) < 0.0 ? -1.0 : 1.0;
-  return {.distance = side * gap.distance, .gradient = side * gap.normal, .known = true, .clearance = 0.0};
+  return {.distance = side * gap.distance, .gradient = side * gap.normal, .known = true};
 }
+
 /// Looks up the point of a force at the end of the motion from H0 to H1, and with `with_start` also before it.
 template <DistanceField Field, DistanceField BodyField>
 EndOfForce end_of(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,

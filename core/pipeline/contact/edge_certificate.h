@@ -21,12 +21,13 @@ struct EdgeObstacle {
 /// The certificate of edge against edge. Tells whether no edge of the moving body meets one of the still body while its
 /// points move along their chords from pose H0 to H1, and no gap shrinks below `least_gap` [m], unless a face is
 /// nearer. If not, `obstacle` receives the first pair that failed. Pairs that overlap at the start may move freely.
-/// Other than the near pairs need no look (EdgeSurroundings::free_displacement).
+/// Pairs that are not near stay apart (EdgeSurroundings::free_displacement).
 ///
-/// A pair is free if its gap is larger than the displacement of the edge's ends, or if a plane has the still edge on
-/// one side and the moving edge on the other in both poses; then it has in between, for each point moves straight.
-/// Tried are the planes between the nearest points at the start and at the end, and those of the edges' faces. Else
-/// free balls along the motion cover it, as in chord_is_free. Cost: some 100 ns for a near pair. Real-time safe.
+/// A pair is free if its gap is larger than the displacement of the edge's ends. It is also free if a plane has the
+/// still edge on one side and the moving edge on the other side in both poses: each point moves straight, so the plane
+/// parts them in between, too. The function tries the planes between the nearest points at the start and at the end,
+/// and those of the edges' faces. Otherwise free balls must cover the motion, as in chord_is_free. Cost: some 100 ns
+/// for a near pair. Real-time safe.
 bool edges_are_free(const EdgeContacts& edges, const Pose& H0, const Pose& H1, double least_gap,
                     const ContactLengths& lengths, const NearEdges& near, Budget& budget,
                     EdgeObstacle& obstacle) noexcept;

@@ -19,14 +19,18 @@ inline std::uint32_t push_edges(const Pose& H, const ContactLengths& lengths, co
                                 ContactRows& rows) noexcept {
   const GapLaw law = lengths.gap_law();
   const Pose to_S = H.inverse();
+  std::uint32_t dropped = 0;
   for (std::uint32_t k = 0; k < near.count; ++k) {
     const EdgeGap& gap = near.gap[k];
     if (!gap.is_nearest) continue;
-    if (rows.full()) return near.count - k;
+    if (rows.full()) {
+      ++dropped;
+      continue;
+    }
     rows.push(id_of(near.pair[k]), to_S.rotation._transformVector(gap.normal), to_S * gap.on_moving,
               law.required_gain(lengths.margin - gap.distance));
   }
-  return 0;
+  return dropped;
 }
 
 /// Adds the row of a pair that a motion met, as push_obstacle. False: there is no room, or the gap has no direction.

@@ -33,16 +33,16 @@ struct EdgeGap {
   Vector3 on_moving = Vector3::Zero();  ///< nearest point of the moving edge [m]
   Vector3 on_still = Vector3::Zero();   ///< nearest point of the still edge [m]
   double place = 0.0;                   ///< of `on_moving`, from end 0 to end 1 of the moving edge [1]
-  /// Neither edge lies over a face of the other. Else that face is nearer, and the pair holds nothing.
+  /// True if neither edge lies over a face of the other one. Else that face is nearer than the edge.
   bool is_nearest = true;
 };
 
 /// Returns the gap between the edges at their nearest points, in W.
 ///
-/// Between two bodies that are apart it is the distance of the edges, less the radii of sheets. Bodies may overlap at
-/// the start: two edges of solids that are at most `deepest` [m] apart overlap if each lies inside the wedge of the
-/// other; then the distance is negative. Edges that meet within 1e-12 m
-/// have the normal of their common perpendicular, out of the still body. Cost: some 60 ns. Real-time safe.
+/// Between two bodies that are apart the gap is the distance of the edges, less the radii of sheets. At the start
+/// bodies may overlap: two edges of solids that are nearer than `deepest` [m] overlap if each lies inside the wedge of
+/// the other. Then the gap is negative. Edges that meet within 1e-12 m have the normal of their common perpendicular,
+/// out of the still body. Cost: some 60 ns. Real-time safe.
 EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest = 0.0) noexcept;
 
 }  // namespace godobject

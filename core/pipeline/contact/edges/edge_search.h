@@ -12,7 +12,7 @@ namespace godobject {
 
 /// The result of EdgeSearch::find, beside the near pairs.
 struct EdgeSurroundings {
-  std::uint32_t unlisted = 0;  ///< near pairs, or pairs of branches, that found no place; at least one of each
+  std::uint32_t unlisted = 0;  ///< near pairs, and pairs of branches, that found no place in a list
   /// Up to this displacement all pairs outside of the list of near pairs stay apart [m].
   double free_displacement = std::numeric_limits<double>::infinity();
 };
@@ -40,10 +40,10 @@ class EdgeSearch {
   /// [m].
   bool is_free(double travelled, double gap) const noexcept { return travelled + gap < certain_; }
 
-  /// Finds all pairs whose gap is below `radius` [m] with the moving body at H_WS, where the odometer reads `travelled`
-  /// /// [m]. `slack`: pairs up to this much farther away are remembered [m]. `deepest`: as in edge_gap, below `radius`
-  /// [m]. `near` must be empty. Cost: some 60 ns for each remembered pair that may be near, and seldom a visit of the
-  /// trees. Real-time safe.
+  /// Finds all pairs whose gap is below `radius` [m]. H_WS: pose of the moving body, where the odometer reads
+  /// `travelled` [m]. `slack`: pairs up to this much farther away are remembered [m]. `deepest`: as in edge_gap, below
+  /// `radius` [m]. `near` must be empty. Cost: some 60 ns for each remembered pair that may be near, and seldom a visit
+  /// of the trees. Real-time safe.
   EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
                         NearEdges& near) noexcept;
 

@@ -67,7 +67,9 @@ struct NearEdges {
     pair[count] = near;
     gap[count++] = at_start;
     return true;
-  }  /// Tells whether two near edges overlap.
+  }
+
+  /// Tells whether two near edges overlap.
   bool overlap() const noexcept {
     for (std::uint32_t k = 0; k < count; ++k) {
       if (gap[k].distance < 0.0) return true;
