@@ -85,6 +85,14 @@ TEST(SceneConfig, ReadsAnAccuracyForBothBodiesInPlaceOfATolerance) {
                  ":5:", "leave one of them out");
 }
 
+TEST(SceneConfig, AsksForEdgeAgainstEdgeOnlyIfTold) {
+  const std::string bodies = std::string(kStill) + kMoving;
+  EXPECT_FALSE(read(bodies).edges);
+  EXPECT_FALSE(read(bodies + "[contact]\nedges = false\n").edges);
+  EXPECT_TRUE(read(bodies + "[contact]\nedges = true\n").edges);
+  expect_refused(bodies + "[contact]\nedges = 1\n", ":", "contact.edges");
+}
+
 TEST(SceneConfig, ReadsTheWorkspace) {
   const std::string bodies = std::string(kStill) + kMoving;
   EXPECT_FALSE(read(bodies).workspace);

@@ -121,9 +121,8 @@ std::string second_direction_text(const CompileReport& report) {
   const double bound = between.bound + second.slack;
   if (std::isfinite(bound)) {
     text += fmt::format(
-        "between  the points meshes{} may overlap by up to {} ({} wanted): {} from the moving surface, {} from the "
-        "still "
-        "one, {} from the moving body's field\n",
+        "between  the points meshes{} may overlap by up to {} ({} wanted): {} from the moving surface, "
+        "{} from the still one, {} from the moving body's field\n",
         report.edges.still > 0 ? "" : ", their edges too,", millimetres(bound),
         millimetres(report.config.between_points), millimetres(between.moving_fall), millimetres(between.still_fall),
         millimetres(second.slack));
@@ -137,9 +136,8 @@ std::string second_direction_text(const CompileReport& report) {
 std::string edges_text(const CompileReport& report) {
   const EdgeFindings& edges = report.edges;
   if (report.ball) return {};
-  if (edges.still == 0)
-    return "edges    no edge against edge: the scene does not ask for it (contact.edges), or a body has no sharp "
-           "edge\n";
+  if (!report.config.edges) return "edges    may cross between the points; contact.edges = true prevents it\n";
+  if (edges.still == 0) return "edges    none against each other: a body has no sharp edge\n";
   std::string text = fmt::format("edges    {} sharp edges of the still body against {} of the moving one\n",
                                  edges.still, edges.moving);
   if (edges.left_out > 0) {
