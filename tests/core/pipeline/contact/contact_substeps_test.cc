@@ -12,6 +12,7 @@
 
 #include "core/pipeline/contact/contact_cycle.h"
 #include "tests/support/analytic_worlds.h"
+#include "tests/support/edge_set.h"
 #include "tests/support/random.h"
 
 namespace godobject::test {
@@ -293,6 +294,52 @@ TEST(ContactMemory, ForgetsTheLastCycleWhenReset) {
   EXPECT_EQ(memory->last_step.force_count, 0u);
   EXPECT_TRUE(memory->H_WD_last == Pose{});
   EXPECT_TRUE(memory->path.poses().empty());
+}
+
+/// The still body is one metre below.
+struct FarBelow {
+  double distance(const Vector3& p) const noexcept { return p.z() + 1.0; }
+  Vector3 gradient(const Vector3& /*p*/) const noexcept { return Vector3::UnitZ(); }
+};
+
+/// A cycle of `contact` with edge against edge, whose search remembers the last cycle.
+struct EdgeCycle {
+  EdgeContacts edges;
+  std::unique_ptr<ContactMemory> memory = std::make_unique<ContactMemory>();
+  bool is_first = true;
+  template <class Field>
+  Status operator()(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
+                    ProxyState& state, CycleReport& report) {
+    const ContactScene<Field, NoBodyField> scene(field, shell, {}, q, edges);
+    if (is_first) {
+      memory->search.start(scene, {});
+      memory->H_WD_last = state.H_WS;
+    }
+    is_first = false;
+    return contact_cycle<false>(scene, input, *memory, state, report);
+  }
+};
+
+/// No point is near, so the edges alone hold the body, however far it flew before and however fast it comes.
+TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
+  const EdgeSet moving({{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}});
+  const EdgeSet still({{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}});
+  const AnalyticField<FarBelow> field({}, kVoxel);
+  const SampledBody body = box_body(2);
+  for (const double step : {2e-5, 3e-4, 8e-3}) {
+    AnalyticRun<AnalyticField<FarBelow>, EdgeCycle> run(field, body, at({0.0, 0.0, 0.02}));
+    run.parameters.margin = kMargin;
+    run.cycle.edges = {moving.view(), still.view()};
+    for (double z = 0.02; z > -0.003; z -= step) ASSERT_EQ(run.step(at({0.0, 0.0, z})), Status::kOk);
+    for (int k = 0; k < 20; ++k) ASSERT_EQ(run.step(at({0.0, 0.0, -0.003})), Status::kOk);
+    EXPECT_NEAR(run.state.H_WS.translation.z(), kMargin, 0.1 * kMargin) << step;
+    EXPECT_NEAR(run.report.force.spring_W.force.z(), run.parameters.stiffness * (0.003 + kMargin), 0.05) << step;
+    EXPECT_EQ(run.report.contacts, 1u) << step;
+    // round the end of the still edge the way down is free
+    for (double x = 0.0; x < 0.03; x += 1e-3) ASSERT_EQ(run.step(at({x, 0.0, -0.003})), Status::kOk);
+    EXPECT_EQ(run.report.contacts, 0u) << step;
+    EXPECT_EQ(run.state.H_WS.translation.z(), -0.003) << step;
+  }
 }
 
 }  // namespace
