@@ -59,7 +59,8 @@ enum class SectionId : std::uint32_t {
 
   kWorkspace = 20,  ///< one Workspace; missing if the moving body may be everywhere
 
-  // Edge against edge. Only `contact` reads it. It is missing if one of the bodies has no sharp edge.
+  // Edge against edge. Only `contact` reads it. It is missing if the scene does not ask for it, or if one of the bodies
+  // has no sharp edge.
   kSharpEdges = 21,      ///< SharpEdge[]: of the still body, in W, in tree order
   kSharpEdgeNodes = 22,  ///< Node[]: their sphere tree in pre-order; a node's points are edges, `level` is the depth
   kBodySharpEdges = 23,  ///< SharpEdge[]: of the moving body, in B, in tree order
