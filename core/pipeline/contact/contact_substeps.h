@@ -12,6 +12,7 @@
 #include "core/pipeline/contact/contact_scene.h"
 #include "core/pipeline/contact/edge_certificate.h"
 #include "core/pipeline/contact/edge_rows.h"
+#include "core/pipeline/contact/implied_rows.h"
 #include "core/pipeline/contact/motion_share.h"
 #include "core/pipeline/contact/overlap.h"
 #include "core/pipeline/contact/qp/contact_forces.h"
@@ -97,26 +98,12 @@ class ContactSubsteps {
     return true;
   }
 
-  /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4. If there are more
-  /// near points than rows, it adds those that the motion would violate, and computes the motion again.
+  /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4. Then rows that
+  /// edge pairs imply are dropped, and rows that found no room are added, if the motion would violate them.
   void constrain() noexcept {
     solve_in_best_metric();
-    if (around_.dropped == 0) return;
-    while (true) {
-      const std::uint32_t begin = rows_.count;
-      result_.dropped = around_.unlisted + around_.unseen + push_left_out();
-      const std::uint32_t end = rows_.count;
-      if (end == begin) return;
-      if (refills_left_ == 0) {
-        rows_.count = begin;  // the motion does not know them
-        return;
-      }
-      --refills_left_;
-      const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
-      solve_in_best_metric();
-      step_.infeasible |= infeasible;
-      if (rows_.count < end) return;  // rows have given way to the faces of the workspace
-    }
+    for (int round = 0; round < kMostImpliedRounds && drop_implied_rows(); ++round) solve_in_best_metric();
+    add_violated_rows();
   }
 
   /// Tells whether after a start inside no motion meets all rows. Then the god object takes the way out that misses
@@ -195,6 +182,47 @@ class ContactSubsteps {
   }
 
  private:
+  /// Drops the rows with a force that edge pairs imply. Returns whether there was one.
+  bool drop_implied_rows() noexcept {
+    const NearEdges& near = memory_.workspace.edges;
+    if (!scene_.has_edges() || near.count == 0) return false;
+    bool dropped = false;
+    for (std::uint32_t f = 0; f < step_.force_count; ++f) {
+      const std::uint32_t id = step_.forces[f].id;
+      if (is_edge_pair(id) || id == kFaceOfWorkspace) continue;
+      const std::uint32_t row = rows_.find(id, 0);
+      if (row == rows_.count) continue;  // several forces of one row
+      const double spare = -static_cast<double>(rows_.required_gain[row]);
+      const HeldPoint point{H0_ * rows_.point(row), lengths_.margin + std::max(0.0, spare), (id & kFeature) != 0};
+      if (!is_implied(point, scene_.edges, near, H0_, rows_, lengths_.margin, 0.1 * lengths_.margin)) continue;
+      rows_.remove(row);
+      ContactWorkspace& near_points = memory_.workspace;
+      (point.is_feature ? near_points.features : near_points.samples).forget_gradient(id & ~kFeature);
+      dropped = true;
+    }
+    return dropped;
+  }
+
+  /// If there are more near points than rows, adds those that the motion would violate, and computes the motion again.
+  void add_violated_rows() noexcept {
+    if (around_.dropped == 0) return;
+    while (true) {
+      const std::uint32_t begin = rows_.count;
+      result_.dropped = around_.unlisted + around_.unseen + push_left_out();
+      const std::uint32_t end = rows_.count;
+      if (end == begin) return;
+      if (refills_left_ == 0) {
+        rows_.count = begin;  // the motion does not know them
+        return;
+      }
+      --refills_left_;
+      const bool infeasible = step_.infeasible;  // then the rows have lost their required gains
+      solve_in_best_metric();
+      step_.infeasible |= infeasible;
+      if (rows_.count < end) return;  // rows have given way to the faces of the workspace
+    }
+  }
+
   /// Tells whether another motion may follow at once: rows of a second look directed this one, or it ended at the
   /// lowest energy along its way. Not after a motion within a margin, nor after one that only regains lost margins.
   bool is_provisional() const noexcept {
@@ -396,9 +424,9 @@ class ContactSubsteps {
     if (!scene_.has_edges() || result_.inside) return;
     if constexpr (kSceneTraits.edges) {
       ContactSearch& search = memory_.search;
-      const EdgeSurroundings around =
-          search.edges.find(H0_, search.odometer.travelled(), search_radius_, lengths_.longest_search_radius,
-                            memory_.edges_may_overlap ? lengths_.longest_way_out : 0.0, near);
+      const EdgeSurroundings around = search.edges.find(
+          H0_, search.odometer.travelled(), search_radius_, kEdgeSlack * lengths_.longest_search_radius,
+          memory_.edges_may_overlap ? lengths_.longest_way_out : 0.0, near);
       memory_.edges_may_overlap = memory_.edges_may_overlap && near.overlap();
       around_.unlisted += around.unlisted;
       around_.free_displacement = std::min(around_.free_displacement, around.free_displacement);
@@ -537,7 +565,8 @@ class ContactSubsteps {
         std::min(most_gain_, most_arc_gain(distance_gain(), squared(tried.motion), share_.value()));
     for (const bool is_arc : {true, false}) {
       if (!push_obstacles(freedom, tried.motion, is_arc)) return false;
-      constrain();
+      solve_in_best_metric();
+      add_violated_rows();
       if (distance_gain() <= (is_arc ? most_with_arc : most_gain_) && differs(step_.motion, tried.motion)) {
         step_.infeasible |= tried.infeasible;
         share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));

@@ -35,6 +35,21 @@ Places nearest_places(const Vector3& p, const Vector3& along_p, const Vector3& q
   return {nearest_place(p, along_p, pp, q + on_q * along_q), on_q};
 }
 
+/// The nearest points of two edges.
+struct Nearest {
+  double place;       ///< of `on_moving` [1]
+  Vector3 on_moving;  ///< [m]
+  Vector3 on_still;   ///< [m]
+};
+
+Nearest nearest_points(const EdgeInW& moving, const EdgeInW& still) noexcept {
+  const Vector3 along_moving = moving.end[1] - moving.end[0];
+  const Vector3 along_still = still.end[1] - still.end[0];
+  const Places places = nearest_places(moving.end[0], along_moving, still.end[0], along_still);
+  return {places.on_first, moving.end[0] + places.on_first * along_moving,
+          still.end[0] + places.on_second * along_still};
+}
+
 /// Tells whether both faces of an edge look away from the direction: it leads into the body.
 bool leads_inside(const EdgeInW& edge, const Vector3& direction) noexcept {
   return edge.normal[0].dot(direction) < 0.0 && edge.normal[1].dot(direction) < 0.0;
@@ -55,22 +70,25 @@ bool leads_over_a_face(const EdgeInW& edge, const Vector3& direction) noexcept {
 
 }  // namespace
 
+double edge_distance(const EdgeInW& moving, const EdgeInW& still) noexcept {
+  const Nearest nearest = nearest_points(moving, still);
+  return (nearest.on_moving - nearest.on_still).norm() - (moving.radius + still.radius);
+}
+
 EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest) noexcept {
   constexpr double kMeet = 1e-12;  // [m] derived: the difference of coordinates of a metre has no direction below
-  const Vector3 along_moving = moving.end[1] - moving.end[0];
-  const Vector3 along_still = still.end[1] - still.end[0];
-  const Places places = nearest_places(moving.end[0], along_moving, still.end[0], along_still);
+  const Nearest nearest = nearest_points(moving, still);
   EdgeGap gap;
-  gap.place = places.on_first;
-  gap.on_moving = moving.end[0] + places.on_first * along_moving;
-  gap.on_still = still.end[0] + places.on_second * along_still;
+  gap.place = nearest.place;
+  gap.on_moving = nearest.on_moving;
+  gap.on_still = nearest.on_still;
   const Vector3 between = gap.on_moving - gap.on_still;
   const double length = between.norm();
   const Vector3 out_of_still = still.normal[0] + still.normal[1] - moving.normal[0] - moving.normal[1];
   if (length > kMeet) {
     gap.normal = between / length;
   } else {
-    const Vector3 across = along_moving.cross(along_still).stableNormalized();
+    const Vector3 across = (moving.end[1] - moving.end[0]).cross(still.end[1] - still.end[0]).stableNormalized();
     if (across.isZero(0.0)) {
       gap.normal = out_of_still.stableNormalized();
     } else {

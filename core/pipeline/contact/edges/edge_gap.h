@@ -13,9 +13,12 @@ struct EdgeInW {
 
   /// Returns the edge of a body at pose H_WB.
   static EdgeInW at(const format::SharpEdge& edge, const Pose& H_WB) noexcept {
-    const Matrix3 R = H_WB.rotation.toRotationMatrix();
-    return {{R * edge_end(edge, 0) + H_WB.translation, R * edge_end(edge, 1) + H_WB.translation},
-            {R * face_normal(edge, 0), R * face_normal(edge, 1)},
+    return at(edge, H_WB.rotation.toRotationMatrix(), H_WB.translation);
+  }
+  /// The same for a rotation and a translation.
+  static EdgeInW at(const format::SharpEdge& edge, const Matrix3& R_WB, const Vector3& x_WB) noexcept {
+    return {{R_WB * edge_end(edge, 0) + x_WB, R_WB * edge_end(edge, 1) + x_WB},
+            {R_WB * face_normal(edge, 0), R_WB * face_normal(edge, 1)},
             static_cast<double>(edge.radius)};
   }
   /// Returns an edge of the still body.
@@ -25,6 +28,10 @@ struct EdgeInW {
             static_cast<double>(edge.radius)};
   }
 };
+
+/// Returns the distance between the surfaces of two edges at their nearest points [m]: that of edge_gap for bodies that
+/// are apart. Cost: some 30 ns. Real-time safe.
+double edge_distance(const EdgeInW& moving, const EdgeInW& still) noexcept;
 
 /// The gap between an edge of the moving body and one of the still body.
 struct EdgeGap {

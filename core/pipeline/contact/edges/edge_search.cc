@@ -7,6 +7,12 @@
 namespace godobject {
 namespace {
 
+/// Returns the sphere about the surface of an edge, enlarged for rounding.
+BoundingSphere sphere_of(const EdgeInW& edge) noexcept {
+  constexpr double kRounding = 1.0 + 1e-12;
+  return {0.5 * (edge.end[0] + edge.end[1]), kRounding * (0.5 * (edge.end[1] - edge.end[0]).norm() + edge.radius)};
+}
+
 /// Two branches of the trees whose edges may be near.
 struct Branches {
   std::uint32_t moving;
@@ -33,6 +39,7 @@ class Stack {
 
 std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double reach) noexcept {
   count_ = 0;
+  const Matrix3 R = H_WS.rotation.toRotationMatrix();
   double complete = reach;  // all pairs outside of the list are at least this far apart
   std::uint32_t left_out = 0;
   const auto leave_out = [&](double apart) noexcept {
@@ -42,7 +49,7 @@ std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double re
   const auto apart = [&](const Branches& b) noexcept {
     const BoundingSphere moving = sphere_of(edges_.moving.nodes[b.moving]);
     const BoundingSphere still = sphere_of(edges_.still.nodes[b.still]);
-    return (H_WS * moving.center - still.center).norm() - moving.radius - still.radius;
+    return (R * moving.center + H_WS.translation - still.center).norm() - moving.radius - still.radius;
   };
   Stack stack;
   stack.push({0, 0});
@@ -59,14 +66,19 @@ std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double re
     const format::Node& still = edges_.still.nodes[b.still];
     if (moving.leaf != 0 && still.leaf != 0) {
       for (std::uint32_t i = moving.first_point; i < moving.first_point + moving.point_count; ++i) {
+        const EdgeInW edge = EdgeInW::at(edges_.moving.edges[i], R, H_WS.translation);
+        const BoundingSphere around = sphere_of(edge);
         for (std::uint32_t j = still.first_point; j < still.first_point + still.point_count; ++j) {
-          const EdgePair pair{i, j};
-          const double gap = std::max(0.0, detail::gap_at(edges_, pair, H_WS).distance);
+          const EdgeInW other = EdgeInW::of_still(edges_.still.edges[j]);
+          const BoundingSphere around_other = sphere_of(other);
+          const double most = reach + around.radius + around_other.radius;
+          if ((around.center - around_other.center).squaredNorm() >= most * most) continue;
+          const double gap = std::max(0.0, edge_distance(edge, other));
           if (!(gap < reach)) continue;
           if (count_ == kCapacity) {
             leave_out(gap);
           } else {
-            candidates_[count_++] = {pair, travelled + gap};
+            candidates_[count_++] = {{i, j}, travelled + gap};
           }
         }
       }

@@ -131,6 +131,15 @@ std::uint32_t ContactRows::push(Batch& batch, const Matrix3& S_to_gradient, cons
   return batch.count - pushed;
 }
 
+void ContactRows::remove(std::uint32_t i) noexcept {
+  const std::uint32_t last = --count;
+  for (float* component :
+       {normal_x, normal_y, normal_z, torque_x, torque_y, torque_z, required_gain, point_x, point_y, point_z}) {
+    component[i] = component[last];
+  }
+  id[i] = id[last];
+}
+
 std::uint32_t ContactRows::find(std::uint32_t point_id, std::uint32_t begin) const noexcept {
   std::uint32_t i = block_of(*this, point_id, begin);
   while (i < count && id[i] != point_id) ++i;

@@ -89,6 +89,9 @@ struct ContactRows {
     id[i] = point_id;
   }
 
+  /// Removes row `i`; the last row takes its place. Real-time safe.
+  void remove(std::uint32_t i) noexcept;
+
   /// Appends the contacts as rows while there is room; returns how many found none. No gradient may be zero. As P moves
   /// by dP in S, the distance grows by gradient^T R_S dP with R_S = `S_to_gradient`. May change the batch behind its
   /// count.

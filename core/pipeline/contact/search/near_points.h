@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/scene/sample_batch.h"
@@ -48,6 +50,12 @@ struct NearPoints {
     }
     count = i;
     return chosen & ~left;
+  }
+
+  /// Forgets the gradient of the point with this number in the shell: it gets no row. Cost: a scan. Real-time safe.
+  void forget_gradient(std::uint32_t number) noexcept {
+    const auto i = static_cast<std::size_t>(std::find(index, index + count, number) - index);
+    if (i < count) gradient_x[i] = gradient_y[i] = gradient_z[i] = 0.0f;
   }
 
   /// Fills the elements behind the last point, which vectors may read. Call it after the last `push`.

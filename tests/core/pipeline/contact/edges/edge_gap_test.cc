@@ -102,6 +102,7 @@ TEST(EdgeGap, IsTheLeastDistanceOfAllPlaces) {
     EXPECT_LE(gap.distance, least + 1e-12);
     EXPECT_GE(gap.distance, least - 0.03) << "no place between the tried ones is that much nearer";
     EXPECT_NEAR((gap.on_moving - gap.on_still).norm(), gap.distance, 1e-12);
+    EXPECT_EQ(edge_distance(moving, still), gap.distance);
     EXPECT_NEAR((moving.end[0] + gap.place * (moving.end[1] - moving.end[0]) - gap.on_moving).norm(), 0.0, 1e-12);
   }
 }
