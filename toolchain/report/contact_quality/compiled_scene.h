@@ -35,7 +35,7 @@ struct SceneText {
   std::filesystem::path body;  ///< mesh of the moving body, in metres
   bool ball = false;           ///< the moving mesh is a ball, rendered by its centre; no points
   std::uint32_t points = 0;
-  bool edges = false;  ///< with edge against edge
+  bool edges = true;  ///< with edge against edge
   WorldSettings settings = {};
   std::optional<format::Solver> only_solver = {};
 };
