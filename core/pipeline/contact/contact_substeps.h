@@ -321,11 +321,27 @@ class ContactSubsteps {
   /// each other up to rounding count as rows without a common solution.
   void solve() noexcept {
     solve_rows();
-    if (!leads_far_away()) return;
+    if (!leads_far_away()) return regain_slowly();
     for (std::uint32_t i = 0; i < rows_.count; ++i) rows_.required_gain[i] = std::min(rows_.required_gain[i], 0.0f);
     step_.force_count = 0;
     solve_rows();
     step_.infeasible = true;
+  }
+
+  /// Solves again for a share of the lost gaps, if regaining all of them would lead by more than a margin farther from
+  /// the aim than rest, as in a wedge between a surface and a face of the workspace. The distance from the aim is
+  /// convex in that share, so the second step leads away by a margin at most. Not on the way out of an overlap.
+  void regain_slowly() noexcept {
+    const double gain = distance_gain();
+    if (result_.inside || !(gain > 0.0)) return;
+    const double rest = std::sqrt(squared(aim_));
+    const double farther = std::sqrt(rest * rest + gain) - rest;
+    if (!(farther > lengths_.margin)) return;
+    const auto share = static_cast<float>(lengths_.margin / farther);
+    for (std::uint32_t i = 0; i < rows_.count; ++i) {
+      if (rows_.required_gain[i] > 0.0f) rows_.required_gain[i] *= share;
+    }
+    solve_rows();
   }
 
   /// Tells whether the step ends farther from the aim than rest, by much more than any gap has to grow: a ball that

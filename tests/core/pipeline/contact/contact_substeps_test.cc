@@ -343,6 +343,36 @@ TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
   }
 }
 
+/// A plane that rises by 20 mrad.
+struct Slope {
+  Vector3 normal = Vector3(0.02, 0.0, 1.0).normalized();
+  double distance(const Vector3& p) const noexcept { return normal.dot(p); }
+  Vector3 gradient(const Vector3& /*p*/) const noexcept { return normal; }
+};
+
+/// In a wedge between a slope and a face of the workspace a lost margin is regained 50 times as far along the wedge. No
+/// cycle leads by more than a margin farther from the device than rest, and the margin is regained in the end.
+TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
+  const AnalyticField<Slope> field({}, kVoxel);
+  const SampledBody body({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Constant(1e-4));
+  for (const double depth : {1e-4, 1e-3}) {
+    const double lost = 0.75 * kMargin;
+    SubstepRun<Slope> run(field, body, at((kMargin - lost) * Slope().normal));
+    run.parameters.workspace = {.limited = true, .low = Vector3::Constant(-1.0), .high = Vector3(1.0, 1.0, 1.0)};
+    run.parameters.workspace.high.z() = run.state.H_WS.translation.z();
+    const Pose device = at(run.state.H_WS.translation - Vector3(0.0, 0.0, depth));
+    double farthest = 0.0;
+    for (int cycle = 0; cycle < 400; ++cycle) {
+      const double before = (run.state.H_WS.translation - device.translation).norm();
+      ASSERT_EQ(run.step(device), Status::kOk);
+      const double after = (run.state.H_WS.translation - device.translation).norm();
+      farthest = std::max(farthest, after - before);
+    }
+    EXPECT_LT(farthest, 1.01 * kMargin) << depth;
+    EXPECT_GT(Slope().distance(run.state.H_WS.translation), 0.9 * kMargin) << depth;
+  }
+}
+
 /// A table whose edge is the y axis.
 struct TableEdge {
   double distance(const Vector3& p) const noexcept {
