@@ -3,10 +3,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "sim/index.h"
+
 namespace godobject::sim {
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Inertia of a point mass at `r`, about the origin.
 Matrix3 point_inertia(double mass, const Vector3& r) noexcept {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/index.h"
+
 namespace godobject::sim {
-namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 CanDevice::CanDevice(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
                      const CanScript& script, std::span<const BusFault> faults) noexcept

@@ -4,14 +4,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "sim/index.h"
 #include "sim/virtual_clock.h"
 
 namespace godobject::sim {
-namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 CanNodes::CanNodes(Plant& plant, const hal::BusLayout& layout, std::span<const JointHardwareParameters> joints,
                    const CanScript& script) noexcept

@@ -5,12 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/index.h"
+
 namespace godobject::sim {
-namespace {
-
-constexpr std::size_t at(std::int64_t i) noexcept { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 DirectDrives::DirectDrives(Plant& plant, std::span<const JointHardwareParameters> joints, const DriveTiming& timing,
                            std::span<const DriveFault> script) noexcept

@@ -5,13 +5,9 @@
 #include <cmath>
 
 #include "hal/canopen/object_numbers.h"
+#include "sim/index.h"
 
 namespace godobject::sim {
-namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 std::int64_t frame_ns(const hal::BusLayout& layout, const hal::CanFrame& frame) noexcept {
   const int n = frame.length;

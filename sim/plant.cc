@@ -3,10 +3,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "sim/index.h"
+
 namespace godobject::sim {
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Work of a wrench along a small displacement [J].
 double work_of(const Wrench& F_M_R, const Motion& displacement) noexcept {

@@ -17,7 +17,7 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-const char* const kFooter = R"(Examples:
+const char* const kCommissionFooter = R"(Examples:
   godobject-controller commission firmware/controllers/lwr.toml --bus can0,can1,can2
   godobject-controller commission firmware/controllers/lwr.toml          # on simulated drives
 
@@ -38,7 +38,7 @@ CommissionCommand::CommissionCommand(CLI::App& app, std::string& transport)
     : transport_(transport),
       command_(app.add_subcommand(
           "commission", "tests, without power, that each drive reports its mode and stops without torque frames")) {
-  command_->footer(kFooter);
+  command_->footer(kCommissionFooter);
   command_->add_option("CONTROLLER.toml", file_, "controller file")->required()->type_name("");
   command_->add_option("--bus", transport_, "sim, or CAN interfaces such as can0,can1; default: sim")->type_name("BUS");
 }

@@ -15,7 +15,7 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-const char* const kFooter = R"(Examples:
+const char* const kControlFooter = R"(Examples:
   godobject-controller firmware/controllers/lwr.toml --scene bt.scene --duration 20 --log logs
   godobject-controller doctor firmware/controllers/lwr.toml
 
@@ -53,7 +53,7 @@ right to read the scene image, to a CAN interface or to real-time work, 78 bad c
 }  // namespace
 
 ControlCommand::ControlCommand(CLI::App& app, std::string& transport) : transport_(transport) {
-  app.footer(kFooter);
+  app.footer(kControlFooter);
   file_option_ = app.add_option("CONTROLLER.toml", file_, "controller file")->type_name("");
   app.add_option("--scene", scene_, "scene image, instead of scene.image")->type_name("X.scene");
   app.add_option("--bus", transport_, "sim, or CAN interfaces such as can0,can1; default: sim")->type_name("BUS");

@@ -13,7 +13,7 @@
 namespace godobject::firmware {
 namespace {
 
-const char* const kFooter = R"(Example:
+const char* const kDoctorFooter = R"(Example:
   godobject-controller doctor firmware/controllers/lwr.toml --bus can0,can1,can2
 
 Prints one line a check: ok, or LACK with its cure. CONTROLLER.toml gives loop.cpu, loop.priority and the buses of the device:
@@ -27,7 +27,7 @@ memlock or a working CAN interface is lacking, 78 bad configuration.)";
 DoctorCommand::DoctorCommand(CLI::App& app, std::string& transport)
     : transport_(transport),
       command_(app.add_subcommand("doctor", "checks this machine for real-time work and prints a cure for each lack")) {
-  command_->footer(kFooter);
+  command_->footer(kDoctorFooter);
   command_->add_option("CONTROLLER.toml", file_, "controller file with loop and buses")->type_name("");
   command_->add_option("--bus", transport_, "CAN interfaces to check, such as can0,can1")->type_name("BUS");
 }

@@ -12,7 +12,6 @@
 #include "tests/closed_loop/can_run.h"
 #include "tests/closed_loop/seen_fault.h"
 #include "tests/support/random.h"
-#include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -25,11 +24,6 @@ using sim::FaultKind;
 
 constexpr std::int64_t kBegin = 2020;  ///< period of the fault
 constexpr std::int64_t kForGood = 100'000;
-
-const test::SceneImage& plate() {
-  static const test::SceneImage image = test::ball_over_plate();
-  return image;
-}
 
 /// Returns options with a path that goes down to the plate, 20 mm into it, and along the plate in circles.
 CanRun::Options pressing() {

@@ -10,7 +10,6 @@
 
 #include "tests/closed_loop/seen_fault.h"
 #include "tests/closed_loop/simulated_run.h"
-#include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -20,11 +19,6 @@ using sim::FaultKind;
 
 constexpr std::int64_t kBegin = 1200;  ///< cycle of the fault
 constexpr std::int64_t kEnd = 2600;
-
-const test::SceneImage& plate() {
-  static const test::SceneImage image = test::ball_over_plate();
-  return image;
-}
 
 /// Returns a path that goes down to the plate, 20 mm into it, and along the plate in circles.
 std::vector<Vector3> press_and_rub() {

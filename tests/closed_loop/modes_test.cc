@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tests/closed_loop/simulated_run.h"
-#include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -40,15 +39,15 @@ const std::vector<Cause> kCauses = {
     {"enable released", FaultKind::kEnableReleased, sim::kAllJoints, kForGood, 0.0},
 };
 
-struct Row {
+struct ModeRow {
   Mode mode;
   bool sign_test;
   std::vector<Fault> faults;  ///< as kCauses; kNone: it waits, or goes on, without power or with it as before
 };
 
-void PrintTo(const Row& row, std::ostream* out) { *out << name(row.mode); }
+void PrintTo(const ModeRow& row, std::ostream* out) { *out << name(row.mode); }
 
-SimulatedRun::Options options_for(const Row& row) {
+SimulatedRun::Options options_for(const ModeRow& row) {
   SimulatedRun::Options options;
   options.path = {{0.0, 0.0, 0.06}};
   options.sign_test = row.sign_test;
@@ -57,15 +56,10 @@ SimulatedRun::Options options_for(const Row& row) {
   return options;
 }
 
-const test::SceneImage& plate() {
-  static const test::SceneImage image = test::ball_over_plate();
-  return image;
-}
-
 constexpr std::int64_t kEndAsked = 700;  ///< long since running, without a sign test
 
 /// The middle of the mode in a run without the fault.
-std::int64_t middle(const Row& row) {
+std::int64_t middle(const ModeRow& row) {
   SimulatedRun run(plate(), options_for(row));
   run.run(kEndAsked);
   std::int64_t first = -1;
@@ -79,10 +73,10 @@ std::int64_t middle(const Row& row) {
   return (first + last + 1) / 2;
 }
 
-class ClosedLoopMode : public testing::TestWithParam<Row> {};
+class ClosedLoopMode : public testing::TestWithParam<ModeRow> {};
 
 TEST_P(ClosedLoopMode, MeetsEveryFault) {
-  const Row& row = GetParam();
+  const ModeRow& row = GetParam();
   const std::int64_t begin = middle(row);
   ASSERT_EQ(row.faults.size(), kCauses.size());
   for (std::size_t i = 0; i < kCauses.size(); ++i) {
@@ -124,42 +118,49 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         // a drive that hears nothing before it is enabled does not become so; 2 s are waited for it, without a share
         // lost, late, jumps, not finite, trips, supply, sending, commands, emergency stop, enable switch
-        Row{Mode::kBoot,
+        ModeRow{
+            Mode::kBoot,
             false,
             {kWaits, kWaits, kWaits, kWaits, Fault::kDriveLeft, kWaits, Fault::kSendFailed, kWaits, kWaits, kWaits}},
-        Row{Mode::kZeroCheck,
-            false,
-            {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
-             Fault::kDriveLeft, Fault::kSendFailed, kWaits, kWaits, kWaits}},
-        Row{Mode::kIdle,
-            false,
-            {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
-             Fault::kDriveLeft, Fault::kSendFailed, kWaits, kWaits, kWaits}},
-        Row{Mode::kEnabling,
+        ModeRow{Mode::kZeroCheck,
+                false,
+                {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
+                 Fault::kDriveLeft, Fault::kSendFailed, kWaits, kWaits, kWaits}},
+        ModeRow{Mode::kIdle,
+                false,
+                {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
+                 Fault::kDriveLeft, Fault::kSendFailed, kWaits, kWaits, kWaits}},
+        ModeRow{
+            Mode::kEnabling,
             false,
             {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
              Fault::kDriveLeft, Fault::kSendFailed, Fault::kDriveLeft, Fault::kEmergencyStop, Fault::kEnableReleased}},
-        Row{Mode::kSignTest,
+        ModeRow{
+            Mode::kSignTest,
             true,
             {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
              Fault::kDriveLeft, Fault::kSendFailed, Fault::kDriveLeft, Fault::kEmergencyStop, Fault::kEnableReleased}},
-        Row{Mode::kArmed,
+        ModeRow{
+            Mode::kArmed,
             false,
             {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
              Fault::kDriveLeft, Fault::kSendFailed, Fault::kDriveLeft, Fault::kEmergencyStop, Fault::kEnableReleased}},
-        Row{Mode::kEngaging,
+        ModeRow{
+            Mode::kEngaging,
             false,
             {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
              Fault::kDriveLeft, Fault::kSendFailed, Fault::kDriveLeft, Fault::kEmergencyStop, Fault::kEnableReleased}},
-        Row{Mode::kRunning,
+        ModeRow{
+            Mode::kRunning,
             false,
             {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
              Fault::kDriveLeft, Fault::kSendFailed, Fault::kDriveLeft, Fault::kEmergencyStop, Fault::kEnableReleased}},
-        Row{Mode::kEnding,
+        ModeRow{
+            Mode::kEnding,
             false,
             {Fault::kPositionLost, Fault::kPositionLost, Fault::kPositionJump, Fault::kNotFinite, Fault::kDriveLeft,
              Fault::kDriveLeft, Fault::kSendFailed, Fault::kDriveLeft, Fault::kEmergencyStop, Fault::kEnableReleased}}),
-    [](const testing::TestParamInfo<Row>& row) { return std::string(name(row.param.mode)); });
+    [](const testing::TestParamInfo<ModeRow>& row) { return std::string(name(row.param.mode)); });
 
 }  // namespace
 }  // namespace godobject::firmware

@@ -14,8 +14,8 @@ namespace {
 
 using sim::FaultKind;
 
-constexpr std::int64_t kBegin = 1200;  ///< cycle of the stop
-constexpr std::int64_t kEnd = 2200;
+constexpr std::int64_t kStop = 1200;  ///< cycle of the stop
+constexpr std::int64_t kSagEnd = 2200;
 constexpr double kAllowed = 5e-3;  ///< [m]
 
 struct Way {
@@ -26,15 +26,15 @@ struct Way {
 class Sag : public testing::TestWithParam<Way> {};
 
 std::vector<Way> ways() {
-  const std::int64_t for_good = kEnd;
-  return {{"EmergencyStop", {{FaultKind::kEmergencyStop, sim::kAllJoints, kBegin, for_good, 0.0}}},
-          {"EnableSwitchReleased", {{FaultKind::kEnableReleased, sim::kAllJoints, kBegin, for_good, 0.0}}},
-          {"PositionsLost", {{FaultKind::kReadingLost, sim::kAllJoints, kBegin, for_good, 0.0}}},
-          {"CommandsLost", {{FaultKind::kCommandLost, sim::kAllJoints, kBegin, for_good, 0.0}}},
-          {"OneDriveTrips", {{FaultKind::kDriveTrips, 1, kBegin, for_good, 0.0}}},
-          {"AllDrivesTrip", {{FaultKind::kDriveTrips, sim::kAllJoints, kBegin, for_good, 0.0}}},
-          {"AllDrivesOff", {{FaultKind::kDriveDisabled, sim::kAllJoints, kBegin, for_good, 0.0}}},
-          {"SupplyLost", {{FaultKind::kSupplyLost, sim::kAllJoints, kBegin, for_good, 0.0}}}};
+  const std::int64_t for_good = kSagEnd;
+  return {{"EmergencyStop", {{FaultKind::kEmergencyStop, sim::kAllJoints, kStop, for_good, 0.0}}},
+          {"EnableSwitchReleased", {{FaultKind::kEnableReleased, sim::kAllJoints, kStop, for_good, 0.0}}},
+          {"PositionsLost", {{FaultKind::kReadingLost, sim::kAllJoints, kStop, for_good, 0.0}}},
+          {"CommandsLost", {{FaultKind::kCommandLost, sim::kAllJoints, kStop, for_good, 0.0}}},
+          {"OneDriveTrips", {{FaultKind::kDriveTrips, 1, kStop, for_good, 0.0}}},
+          {"AllDrivesTrip", {{FaultKind::kDriveTrips, sim::kAllJoints, kStop, for_good, 0.0}}},
+          {"AllDrivesOff", {{FaultKind::kDriveDisabled, sim::kAllJoints, kStop, for_good, 0.0}}},
+          {"SupplyLost", {{FaultKind::kSupplyLost, sim::kAllJoints, kStop, for_good, 0.0}}}};
 }
 
 TEST_P(Sag, StaysWithinFiveMillimetres) {
@@ -43,16 +43,16 @@ TEST_P(Sag, StaysWithinFiveMillimetres) {
   options.load = [](std::int64_t, const sim::BodyState&) { return Wrench{}; };
   options.faults = GetParam().faults;
   SimulatedRun run(image, options);
-  run.run(kEnd);
+  run.run(kSagEnd);
 
   double before = 0.0;
   double lowest = 0.0;
   for (const SimulatedCycle& cycle : run.cycles) {
-    if (cycle.number == kBegin - 1) {
+    if (cycle.number == kStop - 1) {
       ASSERT_EQ(cycle.record.mode, Mode::kRunning);
       lowest = before = cycle.tool_R.z();
     }
-    if (cycle.number >= kBegin) lowest = std::min(lowest, cycle.tool_R.z());
+    if (cycle.number >= kStop) lowest = std::min(lowest, cycle.tool_R.z());
   }
   std::printf("[ measured ] %s: the tool sinks by %.4f mm\n", GetParam().name, 1e3 * (before - lowest));
   EXPECT_LT(before - lowest, kAllowed);

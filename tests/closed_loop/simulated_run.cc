@@ -6,6 +6,7 @@
 
 #include "core/device/kinematics.h"
 #include "hal/linux/monotonic_clock.h"
+#include "tests/support/small_scenes.h"
 
 namespace godobject::firmware {
 namespace {
@@ -19,6 +20,11 @@ ControllerConfig::Workspace workspace(const Quaternion& turn = Quaternion::Ident
 }
 
 }  // namespace
+
+const test::SceneImage& plate() {
+  static const test::SceneImage image = test::ball_over_plate();
+  return image;
+}
 
 std::vector<Vector3> path_through(std::span<const Waypoint> waypoints) {
   std::vector<Vector3> path;

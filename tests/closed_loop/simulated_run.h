@@ -17,6 +17,9 @@
 
 namespace godobject::firmware {
 
+/// Returns the image of a ball over a plate.
+const test::SceneImage& plate();
+
 /// The wanted position of the ball's centre in the scene [m] at a time.
 struct Waypoint {
   double t;  ///< [s]

@@ -10,7 +10,7 @@
 namespace godobject::hal {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kMs_ns = 1'000'000;
 
 /// Reads 6076:0 of node 5, whose value is 20000. Frames come at times.
 class ReadObjectTest : public testing::Test {
@@ -35,18 +35,18 @@ class ReadObjectTest : public testing::Test {
 
 TEST_F(ReadObjectTest, AsksOnceAndReturnsTheValue) {
   bus_.receive_next(frame(0x705, {0x05}));  // from before
-  at_ns_ = 3 * kMillisecond_ns;
+  at_ns_ = 3 * kMs_ns;
   EXPECT_TRUE(read());
   EXPECT_EQ(value_, 20000u);
-  EXPECT_EQ(clock_.now_ns(), 3 * kMillisecond_ns);
+  EXPECT_EQ(clock_.now_ns(), 3 * kMs_ns);
   EXPECT_EQ(bus_.sent, (std::vector<CanFrame>{frame(0x605, {0x40, 0x76, 0x60, 0x00, 0, 0, 0, 0})}));
 }
 
 TEST_F(ReadObjectTest, WaitsASecondInStepsOfAMillisecond) {
   EXPECT_FALSE(read());
-  EXPECT_EQ(clock_.now_ns(), 1000 * kMillisecond_ns);
+  EXPECT_EQ(clock_.now_ns(), 1000 * kMs_ns);
   EXPECT_EQ(sleeps_, 1000);
-  at_ns_ = (1000 + 999) * kMillisecond_ns;
+  at_ns_ = (1000 + 999) * kMs_ns;
   EXPECT_TRUE(read()) << "just in time";
   EXPECT_EQ(value_, 20000u);
 }
@@ -77,13 +77,13 @@ TEST_F(ReadObjectTest, PassesOverAllOtherFrames) {
   bus_.receive_next(frame(0x185, {0x43, 0x76, 0x60, 0x00, 1, 2, 3, 4}));
   EXPECT_FALSE(read());
   EXPECT_EQ(value_, 7u) << "no value was taken";
-  EXPECT_EQ(clock_.now_ns(), 1000 * kMillisecond_ns);
+  EXPECT_EQ(clock_.now_ns(), 1000 * kMs_ns);
 }
 
 TEST_F(ReadObjectTest, AnAbortALongerObjectAndAConfirmedWriteEndTheWait) {
   for (const int command : {0x80, 0x41, 0x40, 0x60, 0x00}) {
     answer_.data[0] = static_cast<std::uint8_t>(command);
-    at_ns_ = clock_.now_ns() + 2 * kMillisecond_ns;
+    at_ns_ = clock_.now_ns() + 2 * kMs_ns;
     EXPECT_FALSE(read()) << command;
     EXPECT_EQ(clock_.now_ns(), at_ns_) << command;
   }

@@ -16,8 +16,7 @@ namespace godobject::sim {
 namespace {
 
 using test::can_frame;
-
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 
 /// Two ends of a bus without a wire: what one sends the other has at once, and the sender gets it back.
 class Pipe {
@@ -48,7 +47,7 @@ class Pipe {
 };
 
 /// The same device twice over: with the controller's end of its wires, or behind a bridge.
-struct Bench {
+struct BridgeBench {
   ArmModel arm = test::lwr().model;
   hal::BusLayout layout = test::layout_of(arm);
   std::array<JointHardwareParameters, kMaxJoints> hardware = usual_hardware(arm);
@@ -89,7 +88,7 @@ struct Controller {
   hal::JointReading reading{};
   std::vector<JointVector> positions;
 
-  Controller(const Bench& bench, std::span<hal::CanBus* const> buses, hal::Clock& time)
+  Controller(const BridgeBench& bench, std::span<hal::CanBus* const> buses, hal::Clock& time)
       : drives(bench.layout, buses, bench.timing), clock(time) {}
 
   void start() {
@@ -116,7 +115,7 @@ struct Controller {
 };
 
 std::vector<JointVector> in_process(int cycles) {
-  Bench bench;
+  BridgeBench bench;
   VirtualClock clock(*bench.device);
   const std::array<hal::CanBus*, 3> buses{&bench.device->bus(0), &bench.device->bus(1), &bench.device->bus(2)};
   Controller controller(bench, buses, clock);
@@ -126,7 +125,7 @@ std::vector<JointVector> in_process(int cycles) {
 }
 
 std::vector<JointVector> bridged(int cycles, std::int64_t step_ns) {
-  Bench bench;
+  BridgeBench bench;
   const std::array<hal::CanBus*, 3> outside{&bench.pipes[0].device, &bench.pipes[1].device, &bench.pipes[2].device};
   const std::array<hal::CanBus*, 3> buses{&bench.pipes[0].controller, &bench.pipes[1].controller,
                                           &bench.pipes[2].controller};
@@ -154,7 +153,7 @@ TEST(CanBridge, MovesTheDeviceAsAControllerInTheProcessDoes) {
 }
 
 TEST(CanBridge, GoesByTheClockWhenTheControllerIsGone) {
-  Bench bench;
+  BridgeBench bench;
   const std::array<hal::CanBus*, 3> outside{&bench.pipes[0].device, &bench.pipes[1].device, &bench.pipes[2].device};
   const std::array<hal::CanBus*, 3> buses{&bench.pipes[0].controller, &bench.pipes[1].controller,
                                           &bench.pipes[2].controller};
@@ -179,7 +178,7 @@ TEST(CanBridge, GoesByTheClockWhenTheControllerIsGone) {
 }
 
 TEST(CanBridge, BeginsWithoutTheSyncOfABusThatIsDead) {
-  Bench bench;
+  BridgeBench bench;
   const std::array<hal::CanBus*, 3> outside{&bench.pipes[0].device, &bench.pipes[1].device, &bench.pipes[2].device};
   CanBridge bridge(*bench.device, bench.layout, bench.timing, outside);
   bridge.poll(0);

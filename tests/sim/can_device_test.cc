@@ -16,10 +16,10 @@ namespace godobject::sim {
 namespace {
 
 using test::can_frame;
+using test::kMs;
 using test::SmallMaster;
 
 constexpr std::int64_t kUs = 1'000;
-constexpr std::int64_t kMs = 1'000'000;
 
 ArmModel joints(int count, double inertia) {
   ArmModel model = test::one_joint(inertia, 0.0);
@@ -29,7 +29,7 @@ ArmModel joints(int count, double inertia) {
   return model;
 }
 
-struct Bench {
+struct DeviceBench {
   ArmModel model;
   hal::BusLayout layout;
   std::array<JointHardwareParameters, kMaxJoints> hardware;
@@ -37,7 +37,7 @@ struct Bench {
   std::unique_ptr<CanDevice> device;
   SmallMaster master;
 
-  explicit Bench(const ArmModel& arm, const CanScript& script = {})
+  explicit DeviceBench(const ArmModel& arm, const CanScript& script = {})
       : model(arm),
         layout(test::layout_of(arm)),
         hardware(usual_hardware(arm)),
@@ -54,7 +54,7 @@ struct Bench {
 
 /// SYNC 55, then answers of 135 one after another in the order of their identifiers, then torques of 95: 745 us.
 TEST(CanDevice, CycleOfThreeJointsTakes745Microseconds) {
-  Bench bench(joints(3, 1.0));
+  DeviceBench bench(joints(3, 1.0));
   bench.layout.panel.bus = -1;  // not on the wire in this test
   Plant plant(bench.model, JointVector::Zero());
   const auto device = std::make_unique<CanDevice>(plant, bench.layout, bench.hardware);
@@ -89,7 +89,7 @@ TEST(CanDevice, CycleOfThreeJointsTakes745Microseconds) {
 
 /// v = sum of torques times the time that they act, from the end of each RPDO on, to the nanosecond.
 TEST(CanDevice, TorquesActWhenTheirFramesEnd) {
-  Bench bench(joints(3, 2.0));
+  DeviceBench bench(joints(3, 2.0));
   bench.enable();
   const std::int64_t begin_ns = bench.device->now_ns();
   ASSERT_TRUE(bench.plant.velocities().isZero(0.0));
@@ -106,7 +106,7 @@ TEST(CanDevice, TorquesActWhenTheirFramesEnd) {
 }
 
 TEST(CanDevice, SamplesAtTheEndOfSync) {
-  Bench bench(joints(3, 2.0));
+  DeviceBench bench(joints(3, 2.0));
   ASSERT_TRUE(bench.master.start());
   bench.plant.set_velocity(JointVector::Zero());
   for (int i = 0; i < 40; ++i) bench.master.cycle({}, 600 * kUs);
@@ -123,7 +123,7 @@ TEST(CanDevice, SamplesAtTheEndOfSync) {
 }
 
 TEST(CanDevice, SevenJointsOnThreeBusesAnswerEveryCycle) {
-  Bench bench(test::lwr().model);
+  DeviceBench bench(test::lwr().model);
   ASSERT_EQ(bench.layout.bus_count, 3);
   bench.enable();
   for (int i = 0; i < 100; ++i) {
@@ -140,7 +140,7 @@ TEST(CanDevice, SevenJointsOnThreeBusesAnswerEveryCycle) {
 
 TEST(CanDevice, PanelShowsTheOperatorsSwitches) {
   const CanScript script{.hold_from_ns = 300 * kMs, .faults = {}};
-  Bench bench(joints(1, 1.0), script);
+  DeviceBench bench(joints(1, 1.0), script);
   ASSERT_TRUE(bench.master.start());
   ASSERT_LT(bench.device->now_ns(), 290 * kMs);
   bench.master.cycle({}, 600 * kUs);
@@ -159,7 +159,7 @@ TEST(CanDevice, PanelShowsTheOperatorsSwitches) {
 
 /// Nothing comes from the controller any more: each drive trips at its own last torque and the deadline, exactly.
 TEST(CanDevice, DrivesTripWhenTheControllerFallsSilent) {
-  Bench bench(test::lwr().model);
+  DeviceBench bench(test::lwr().model);
   bench.enable();
   std::array<int, kMaxJoints> gravity{};
   const JointVector held = bench.plant.gravity_torque();
@@ -192,7 +192,7 @@ TEST(CanDevice, DriveFaultsOfTheScriptAreSeenOverTheWire) {
                                        {FaultKind::kDriveDisabled, 1, 1000, 1},
                                        {FaultKind::kSupplyLost, 2, 1000, 100'000},
                                        {FaultKind::kEmergencyStop, kAllJoints, 1010, 1}};
-  Bench bench(joints(3, 1.0), {.hold_from_ns = 0, .faults = faults});
+  DeviceBench bench(joints(3, 1.0), {.hold_from_ns = 0, .faults = faults});
   bench.enable();
   while (bench.device->now_ns() < 1000 * kMs) bench.master.cycle({}, 600 * kUs);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(bench.master.readings.at(static_cast<std::size_t>(i)).statusword & 0x6F, 0x27);
@@ -212,7 +212,7 @@ TEST(CanDevice, DriveFaultsOfTheScriptAreSeenOverTheWire) {
 /// A controller that turns up at any nanosecond, a plant integrated up to each: twice the same to the last bit.
 TEST(CanDevice, RepeatsItself) {
   const auto run = [] {
-    Bench bench(test::lwr().model);
+    DeviceBench bench(test::lwr().model);
     bench.enable();
     for (int i = 0; i < 300; ++i) {
       std::array<int, kMaxJoints> torque{};
@@ -231,7 +231,7 @@ TEST(CanDevice, RepeatsItself) {
 
 TEST(CanDevice, IsStatic) {
   if (!test::AllocationGuard::works()) GTEST_SKIP() << "not run: a sanitizer has the heap for itself";
-  Bench bench(test::lwr().model);
+  DeviceBench bench(test::lwr().model);
   bench.enable();
   const test::AllocationGuard guard;
   for (int i = 0; i < 20; ++i) {

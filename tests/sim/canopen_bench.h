@@ -9,6 +9,8 @@
 
 namespace godobject::test {
 
+inline constexpr std::int64_t kMs = 1'000'000;  // [ns]
+
 inline hal::CanFrame can_frame(int id, std::initializer_list<int> bytes) {
   hal::CanFrame frame;
   frame.id = static_cast<std::uint16_t>(id);

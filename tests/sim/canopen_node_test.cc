@@ -16,8 +16,8 @@ namespace {
 using test::bytes_of;
 using test::can_frame;
 using test::is;
+using test::kMs;
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr int kNode = 5;
 
 hal::DriveConfig drive_config() {

@@ -16,11 +16,10 @@ namespace {
 
 using test::can_frame;
 using test::is;
+using test::kMs;
 using enum PowerState;
 
-constexpr std::int64_t kMs = 1'000'000;
-
-hal::DriveConfig drive_config() {
+hal::DriveConfig slave_config() {
   hal::DriveConfig config;
   config.node = 5;
   config.counts = 1000.0;
@@ -29,7 +28,7 @@ hal::DriveConfig drive_config() {
   return config;
 }
 
-JointHardwareParameters joint() {
+JointHardwareParameters slave_joint() {
   JointHardwareParameters joint;
   joint.torque_limit = 20.0;
   joint.brake_torque = 40.0;
@@ -39,13 +38,13 @@ JointHardwareParameters joint() {
 }
 
 /// An operational drive with the layout's PDOs whose joint stands where it is told.
-struct Bench : test::NodeBench<Cia402Slave> {
+struct SlaveBench : test::NodeBench<Cia402Slave> {
   Cia402Slave slave;
   double position = 0.0;
   double velocity = 0.0;
 
-  explicit Bench(const hal::DriveConfig& config = drive_config(), int deadline_ms = 0)
-      : NodeBench{slave}, slave(config, joint(), false) {
+  explicit SlaveBench(const hal::DriveConfig& config = slave_config(), int deadline_ms = 0)
+      : NodeBench{slave}, slave(config, slave_joint(), false) {
     boot();
     EXPECT_EQ(write(0x1400, 1, 4, 0x8000'0205), 0u);
     EXPECT_EQ(write(0x1600, 0, 1, 0), 0u);
@@ -166,7 +165,7 @@ TEST(Cia402Slave, TakesTheTransitionsOfTheStandard) {
       {kSwitchOnDisabled, 0x250}, {kReady, 0x231},         {kSwitchedOn, 0x233}, {kEnabled, 0x1237},
       {kQuickStop, 0x217},        {kFaultReaction, 0x21F}, {kFault, 0x218}};
   for (const Row& row : table) {
-    Bench bench;
+    SlaveBench bench;
     bench.bring_to(row.from);
     ASSERT_EQ(bench.slave.state(), row.from);
     ASSERT_EQ(bench.statusword(), words.at(row.from));
@@ -182,7 +181,7 @@ TEST(Cia402Slave, TakesTheTransitionsOfTheStandard) {
 }
 
 TEST(Cia402Slave, PowerStageAndBrakeTakeTheirTime) {
-  Bench bench;
+  SlaveBench bench;
   bench.command(0x06);
   bench.command(0x0F, 100);
   bench.wait(2.9);
@@ -200,7 +199,7 @@ TEST(Cia402Slave, PowerStageAndBrakeTakeTheirTime) {
 }
 
 TEST(Cia402Slave, WithdrawnEnableClosesTheBrakeAgain) {
-  Bench bench;
+  SlaveBench bench;
   bench.bring_to(kSwitchedOn);
   bench.command(0x0F);
   bench.wait(20.0);
@@ -211,7 +210,7 @@ TEST(Cia402Slave, WithdrawnEnableClosesTheBrakeAgain) {
 }
 
 TEST(Cia402Slave, FaultResetNeedsARisingEdge) {
-  Bench bench;
+  SlaveBench bench;
   bench.command(0x80);
   bench.slave.trip(0x2310, bench.now_ns);
   bench.command(0x80);
@@ -227,7 +226,7 @@ TEST(Cia402Slave, FaultResetNeedsARisingEdge) {
 
 TEST(Cia402Slave, TripsWithCodeMessageAndReaction) {
   for (const int option : {0, 1, 2}) {
-    Bench bench;
+    SlaveBench bench;
     ASSERT_EQ(bench.write(0x605E, 0, 2, static_cast<std::uint32_t>(option)), 0u);
     bench.bring_to(kEnabled);
     bench.command(0x0F, 150);  // 3 Nm
@@ -251,7 +250,7 @@ TEST(Cia402Slave, TripsWithCodeMessageAndReaction) {
 
 TEST(Cia402Slave, QuickStopFollowsItsOption) {
   for (const int option : {0, 1, 2}) {
-    Bench bench;
+    SlaveBench bench;
     ASSERT_EQ(bench.write(0x605A, 0, 2, static_cast<std::uint32_t>(option)), 0u);
     bench.bring_to(kEnabled);
     bench.command(0x02);
@@ -265,13 +264,13 @@ TEST(Cia402Slave, QuickStopFollowsItsOption) {
     EXPECT_EQ(bench.slave.brake_torque(), 40.0);
     EXPECT_EQ(bench.slave.motor_torque(), 0.0);
   }
-  Bench bench;
+  SlaveBench bench;
   EXPECT_EQ(bench.write(0x605A, 0, 2, 5), 0x0609'0030u);
   EXPECT_EQ(bench.write(0x605A, 0, 2, 0xFFFF), 0x0609'0030u);
 }
 
 TEST(Cia402Slave, QuickStopThatRunsAwayEndsInAFault) {
-  Bench bench;
+  SlaveBench bench;
   bench.bring_to(kQuickStop);
   bench.velocity = 1.6;
   bench.wait(0.1);
@@ -287,7 +286,7 @@ TEST(Cia402Slave, QuickStopThatRunsAwayEndsInAFault) {
 TEST(Cia402Slave, DeadlineOfTheTorqueTripsToTheNanosecond) {
   const std::map<int, PowerState> ends{{0, kEnabled}, {1, kFaultReaction}, {2, kSwitchOnDisabled}, {3, kQuickStop}};
   for (const auto& [option, end] : ends) {
-    Bench bench(drive_config(), 4);
+    SlaveBench bench(slave_config(), 4);
     ASSERT_EQ(bench.write(0x6007, 0, 2, static_cast<std::uint32_t>(option)), 0u);
     EXPECT_EQ(bench.slave.next_timer_ns(), kNever) << "armed by the first reception only";
     for (int i = 0; i < 40; ++i) {
@@ -316,7 +315,7 @@ TEST(Cia402Slave, DeadlineOfTheTorqueTripsToTheNanosecond) {
 }
 
 TEST(Cia402Slave, SilenceDoesNotTripADriveThatIsOff) {
-  Bench bench(drive_config(), 4);
+  SlaveBench bench(slave_config(), 4);
   bench.command(0x00);
   bench.wait(10.0);
   EXPECT_EQ(bench.slave.state(), kSwitchOnDisabled);
@@ -325,7 +324,7 @@ TEST(Cia402Slave, SilenceDoesNotTripADriveThatIsOff) {
 TEST(Cia402Slave, NoTorqueOutlivesTheStateOperational) {
   for (const int command : {0x02, 0x80, 0x81, 0x82}) {
     for (const int option : {1, 2, 3}) {
-      Bench bench;
+      SlaveBench bench;
       ASSERT_EQ(bench.write(0x6007, 0, 2, static_cast<std::uint32_t>(option)), 0u);
       bench.bring_to(kEnabled);
       bench.command(0x0F, 50);
@@ -339,7 +338,7 @@ TEST(Cia402Slave, NoTorqueOutlivesTheStateOperational) {
 }
 
 TEST(Cia402Slave, GivesTorqueInItsOwnModeOnly) {
-  Bench bench;
+  SlaveBench bench;
   ASSERT_EQ(bench.write(0x6060, 0, 1, 0), 0u);
   bench.bring_to(kEnabled);
   bench.command(0x0F, 100);
@@ -351,7 +350,7 @@ TEST(Cia402Slave, GivesTorqueInItsOwnModeOnly) {
 }
 
 TEST(Cia402Slave, TellsItsModeByASecondTpdoWhenItChangesAndByATimer) {
-  Bench bench;
+  SlaveBench bench;
   bench.put(can_frame(0, {0x80, 0}));
   for (const auto& [index, sub, bytes, value] : {std::tuple(0x1A01, 1, 4, 0x6061'0008u), std::tuple(0x1A01, 0, 1, 1u),
                                                  std::tuple(0x1801, 5, 2, 100u), std::tuple(0x1801, 1, 4, 0x285u)}) {
@@ -374,7 +373,7 @@ TEST(Cia402Slave, TellsItsModeByASecondTpdoWhenItChangesAndByATimer) {
 }
 
 TEST(Cia402Slave, LimitsTorqueAndSaysSo) {
-  Bench bench;
+  SlaveBench bench;
   bench.bring_to(kEnabled);
   EXPECT_EQ(bench.read(0x6072), 1000u) << "20 Nm in permille of 2 Nm times 10";
   ASSERT_EQ(bench.write(0x6072, 0, 2, 300), 0u);
@@ -392,10 +391,10 @@ TEST(Cia402Slave, LimitsTorqueAndSaysSo) {
 
 /// 1000 counts a turn of the motor, 10 turns a turn of the joint: 10000 counts in 2 pi.
 TEST(Cia402Slave, CountsAsItsEncoderAndGearDo) {
-  hal::DriveConfig config = drive_config();
+  hal::DriveConfig config = slave_config();
   config.zero = 0.5;
   config.sign = -1.0;
-  Bench bench(config);
+  SlaveBench bench(config);
   bench.position = 0.5 - 2.0 * M_PI * 1234.5 / 10'000.0;
   const auto bytes = bench.tpdo();
   ASSERT_EQ(bytes.size(), 8u);
@@ -415,10 +414,10 @@ TEST(Cia402Slave, CountsAsItsEncoderAndGearDo) {
 }
 
 TEST(Cia402Slave, CounterWraps) {
-  hal::DriveConfig config = drive_config();
+  hal::DriveConfig config = slave_config();
   const double step = 2.0 * M_PI / 10'000.0;
   config.zero = -step * 2'147'483'648.0;  // at q = 0 the counter is beyond its greatest value by one
-  Bench bench(config);
+  SlaveBench bench(config);
   bench.position = -0.5 * step;
   bench.update();
   EXPECT_EQ(bench.read(0x6064), 0x7FFF'FFFFu);
@@ -428,7 +427,7 @@ TEST(Cia402Slave, CounterWraps) {
 }
 
 TEST(Cia402Slave, EncoderFaultsAreReadNotFelt) {
-  Bench bench;
+  SlaveBench bench;
   bench.position = 1.0;
   bench.update();
   const std::uint32_t counts = bench.read(0x6064);
@@ -443,7 +442,7 @@ TEST(Cia402Slave, EncoderFaultsAreReadNotFelt) {
 }
 
 TEST(Cia402Slave, WithoutSupplyIsLimpThenBraked) {
-  Bench bench;
+  SlaveBench bench;
   bench.bring_to(kEnabled);
   bench.command(0x0F, 100);
   bench.slave.set_supply(false, bench.now_ns);

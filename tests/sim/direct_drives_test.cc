@@ -19,7 +19,7 @@ using hal::PowerRequest;
 using test::kPeriod_ns;
 
 /// A cycle as a controller runs it, its torque for all joints.
-struct Loop {
+struct DrivesLoop {
   DirectDrives& drives;
   VirtualClock clock{drives};
   std::int64_t deadline_ns = 0;
@@ -56,7 +56,7 @@ TEST(DirectDrives, EnableTakesPowerStageAndBrake) {
   Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
   const auto hardware = exact_joint();
   DirectDrives drives(plant, hardware, {kPeriod_ns, 0});
-  Loop loop{drives};
+  DrivesLoop loop{drives};
   loop.command.torque[0] = 1.0;
   EXPECT_EQ(loop.run_until(DriveState::kEnabled, 100), 29);  // 3 + 25 ms, found at the start of the next cycle
   // from 28 ms on torque acts, and nothing before: v = t
@@ -69,7 +69,7 @@ TEST(DirectDrives, TorqueActsAfterTheDelayToTheNanosecond) {
     Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
     const auto hardware = exact_joint();
     DirectDrives drives(plant, hardware, {kPeriod_ns, delay_ns});
-    Loop loop{drives};
+    DrivesLoop loop{drives};
     ASSERT_LT(loop.run_until(DriveState::kEnabled, 100), 100);
     loop.run(20);
     ASSERT_EQ(plant.velocities()[0], 0.0);
@@ -97,7 +97,7 @@ TEST(DirectDrives, EachJointHasItsOwnTimes) {
     DirectDrives drives(plant, hardware, timing);
     EXPECT_EQ(drives.delay(), 1e-9 * static_cast<double>(770'001 - sampled_ns));
     EXPECT_EQ(drives.collect_ns(), 500'000);
-    Loop loop{drives};
+    DrivesLoop loop{drives};
     ASSERT_LT(loop.run_until(DriveState::kEnabled, 100), 100);
     loop.clock.sleep_until(loop.deadline_ns + drives.collect_ns());
     loop.command.torque[0] = 10.0;
@@ -138,7 +138,7 @@ TEST(DirectDrives, SendLaterInTheCycleActsAtTheSameTime) {
   Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
   const auto hardware = exact_joint();
   DirectDrives drives(plant, hardware, {kPeriod_ns, 600'000});
-  Loop loop{drives};
+  DrivesLoop loop{drives};
   loop.run(50);
   loop.clock.spend(400'000);
   loop.command.torque[0] = 10.0;
@@ -156,7 +156,7 @@ TEST(DirectDrives, RoundsAndLimitsTorques) {
   hardware[0].torque_limit = 5.0;
   hardware[0].torque_step = 0.1;
   DirectDrives drives(plant, hardware, {kPeriod_ns, 0});
-  Loop loop{drives};
+  DrivesLoop loop{drives};
   loop.run(50);
   const auto acts = [&](double torque) {
     loop.command.torque[0] = torque;
@@ -182,7 +182,7 @@ TEST(DirectDrives, MotorTheWrongWayRoundPushesBackUnnoticed) {
   auto hardware = exact_joint();
   hardware[0].motor_sign = -1.0;
   DirectDrives drives(plant, hardware, {kPeriod_ns, 0});
-  Loop loop{drives};
+  DrivesLoop loop{drives};
   loop.run(50);
   loop.command.torque[0] = 2.0;
   loop.run(11);
@@ -198,7 +198,7 @@ TEST(DirectDrives, EncoderRoundsToCountsAndItsWrapIsSeamless) {
     hardware[0].counter_at_zero = start;
     DirectDrives drives(plant, hardware, {kPeriod_ns, 0});
     plant.set_velocity(JointVector::Unit(0));
-    Loop loop{drives};
+    DrivesLoop loop{drives};
     loop.command.torque[0] = 5.0;
     bool wrapped = false;
     std::int32_t before = drives.joint(0).counter(plant.positions()[0]);
@@ -241,7 +241,7 @@ struct Scripted {
   Plant plant{test::one_joint(1.0, 0.0), JointVector::Zero()};
   std::array<JointHardwareParameters, 1> hardware = exact_joint();
   DirectDrives drives;
-  Loop loop{drives};
+  DrivesLoop loop{drives};
 
   static std::vector<DriveFault> later(DriveFault fault) {
     fault.first_cycle += 50;
@@ -407,7 +407,7 @@ TEST(DirectDrives, EnableSwitchIsReleasedUntilItsTime) {
   Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero());
   const auto hardware = exact_joint();
   DirectDrives drives(plant, hardware, {.period_ns = kPeriod_ns, .delay_ns = 0, .enable_ns = 20 * kPeriod_ns});
-  Loop loop{drives};
+  DrivesLoop loop{drives};
   for (int i = 0; i < 40; ++i) {
     loop.run();
     EXPECT_EQ(loop.reading.enable_switch, i >= 20) << i;
@@ -428,7 +428,7 @@ TEST(DirectDrives, AllocatesNothing) {
   const DriveFault script_of_faults[] = {{FaultKind::kReadingLost, 3, 40, 2, 0.0},
                                          {FaultKind::kSupplyLost, 3, 60, 5, 0.0}};
   DirectDrives drives(plant, hardware, {kPeriod_ns, 1'300'000}, script_of_faults);
-  Loop loop{drives};
+  DrivesLoop loop{drives};
   const test::AllocationGuard guard;
   for (int i = 0; i < 200; ++i) {
     loop.command.torque = plant.gravity_torque();

@@ -17,7 +17,7 @@
 namespace godobject::sim {
 namespace {
 
-constexpr int kNode = 5;
+constexpr int kDescribedNode = 5;
 
 using Section = std::map<std::string, std::string>;
 
@@ -47,7 +47,7 @@ std::uint32_t number(const std::string& text) {
   std::string rest = of_node ? text.substr(kOfNode.size()) : text;
   if (rest.starts_with('+')) rest.erase(0, 1);
   const auto value = rest.empty() ? 0 : static_cast<std::uint32_t>(std::stoll(rest, nullptr, 0));
-  return value + (of_node ? kNode : 0);
+  return value + (of_node ? kDescribedNode : 0);
 }
 
 std::string section_of(const ObjectDictionary& objects, const ObjectEntry& entry) {
@@ -133,13 +133,13 @@ void compare(const std::string& file, Node& node, const std::set<int>& of_the_de
 }
 
 TEST(Eds, DescribesTheDrive) {
-  const hal::DriveConfig config{.node = kNode, .counts = 1000.0, .gear = 10.0, .rated_torque = 2.0};
+  const hal::DriveConfig config{.node = kDescribedNode, .counts = 1000.0, .gear = 10.0, .rated_torque = 2.0};
   Cia402Slave drive(config, {.torque_limit = 20.0}, false);
   compare("godobject-drive.eds", drive, {0x6072, 0x6076, 0x608F, 0x6091, 0x60E0, 0x60E1});
 }
 
 TEST(Eds, DescribesThePanel) {
-  Cia401Panel panel({.bus = 0, .node = kNode}, false);
+  Cia401Panel panel({.bus = 0, .node = kDescribedNode}, false);
   compare("godobject-panel.eds", panel, {});
 }
 

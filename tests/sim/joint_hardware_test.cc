@@ -24,7 +24,7 @@ JointHardwareParameters parameters() {
 }
 
 /// A joint that stands where it is told, in steps of a tenth of a millisecond, with a command each millisecond.
-struct Bench {
+struct JointBench {
   JointHardware joint{parameters()};
   std::int64_t now_ns = 0;
   double position = 0.0;
@@ -50,7 +50,7 @@ struct Bench {
 };
 
 TEST(JointHardware, BeginsOffWithItsBrakeClosed) {
-  Bench bench;
+  JointBench bench;
   for (const PowerRequest power : {PowerRequest::kOff, PowerRequest::kQuickStop, PowerRequest::kReset}) {
     bench.run(50.0, power, 5.0);
     EXPECT_EQ(bench.joint.state(), DriveState::kOff);
@@ -60,7 +60,7 @@ TEST(JointHardware, BeginsOffWithItsBrakeClosed) {
 }
 
 TEST(JointHardware, EnablesInOrder) {
-  Bench bench;
+  JointBench bench;
   bench.run(27.9, PowerRequest::kEnable, 3.0);
   EXPECT_EQ(bench.joint.state(), DriveState::kOff);
   EXPECT_EQ(bench.joint.motor_torque(), 0.0);
@@ -74,7 +74,7 @@ TEST(JointHardware, EnablesInOrder) {
 TEST(JointHardware, GivesUpEnablingWhenAskedTo) {
   for (const PowerRequest power : {PowerRequest::kOff, PowerRequest::kQuickStop}) {
     for (const double ms : {1.0, 10.0, 27.0}) {
-      Bench bench;
+      JointBench bench;
       bench.run(ms, PowerRequest::kEnable, 3.0);
       bench.run(100.0, power, 3.0);
       EXPECT_EQ(bench.joint.state(), DriveState::kOff);
@@ -85,7 +85,7 @@ TEST(JointHardware, GivesUpEnablingWhenAskedTo) {
 }
 
 TEST(JointHardware, OffIsLimpUntilTheBrakeHolds) {
-  Bench bench;
+  JointBench bench;
   bench.enable();
   bench.run(1.0, PowerRequest::kOff, 3.0);
   EXPECT_EQ(bench.joint.state(), DriveState::kOff);
@@ -97,7 +97,7 @@ TEST(JointHardware, OffIsLimpUntilTheBrakeHolds) {
 }
 
 TEST(JointHardware, QuickStopSlowsDownThenBrakesThenGoesOff) {
-  Bench bench;
+  JointBench bench;
   bench.enable();
   bench.position = 0.5;
   bench.velocity = 1.0;
@@ -120,7 +120,7 @@ TEST(JointHardware, QuickStopSlowsDownThenBrakesThenGoesOff) {
 }
 
 TEST(JointHardware, QuickStopEndsEvenIfTheJointDoesNot) {
-  Bench bench;
+  JointBench bench;
   bench.enable();
   bench.velocity = 1.0;
   bench.run(499.0, PowerRequest::kQuickStop, 0.0);
@@ -131,7 +131,7 @@ TEST(JointHardware, QuickStopEndsEvenIfTheJointDoesNot) {
 }
 
 TEST(JointHardware, TripsWhenItsQuickStopRunsAway) {
-  Bench bench;
+  JointBench bench;
   bench.enable();
   bench.velocity = -1.0;
   bench.run(1.0, PowerRequest::kQuickStop, 0.0);
@@ -145,7 +145,7 @@ TEST(JointHardware, TripsWhenItsQuickStopRunsAway) {
 }
 
 TEST(JointHardware, TripsWhenNoCommandComes) {
-  Bench bench;
+  JointBench bench;
   bench.enable();
   bench.silence(3.0);  // the last command is 1 ms old already
   EXPECT_EQ(bench.joint.state(), DriveState::kEnabled);
@@ -163,14 +163,14 @@ TEST(JointHardware, TripsWhenNoCommandComes) {
 }
 
 TEST(JointHardware, SilenceDoesNotTripADriveThatIsOff) {
-  Bench bench;
+  JointBench bench;
   bench.run(5.0, PowerRequest::kOff, 0.0);
   bench.silence(100.0);
   EXPECT_EQ(bench.joint.state(), DriveState::kOff);
 }
 
 TEST(JointHardware, WithoutSupplyNothingWorks) {
-  Bench bench;
+  JointBench bench;
   bench.enable();
   bench.joint.set_supply(false, bench.now_ns);
   EXPECT_EQ(bench.joint.motor_torque(), 0.0);

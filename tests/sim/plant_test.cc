@@ -14,14 +14,14 @@ namespace {
 using test::Arm;
 using test::Random;
 
-constexpr double kStep = 1e-9 * Plant::kStep_ns;
+constexpr double kPlantStep = 1e-9 * Plant::kStep_ns;
 
 ArmModel without_damping(ArmModel model) {
   for (ArmJoint& joint : model.joints) joint.damping = 0.0;
   return model;
 }
 
-void run(Plant& plant, double seconds, const JointLoad& load) {
+void let_run(Plant& plant, double seconds, const JointLoad& load) {
   const std::int64_t end_ns = plant.now_ns() + std::llround(1e9 * seconds);
   while (plant.now_ns() < end_ns) plant.step(std::min(Plant::kStep_ns, end_ns - plant.now_ns()), load);
 }
@@ -35,7 +35,7 @@ void expect_energy_kept(const ArmModel& model, unsigned seed) {
     const double before = plant.arm_energy();
     double kinetic = 0.0;
     for (int i = 0; i < 1000; ++i) {
-      run(plant, 0.01, {});
+      let_run(plant, 0.01, {});
       kinetic = std::max(kinetic, plant.arm().kinetic_energy(plant.posture(), plant.velocities()));
     }
     EXPECT_LT(std::fabs(plant.arm_energy() - before), 1e-4 * kinetic) << trial;
@@ -65,7 +65,7 @@ void expect_balance(Grip grip, const ArmModel& model, double torque, unsigned se
       if (i % 10 == 9) load.brake = JointVector::Constant(2.0 * torque);
       plant.set_tool_load({random.in_cube(10.0 * torque), random.in_cube(0.1 * torque)});
       const double work_before = plant.work().motor.sum();
-      run(plant, 0.01, load);
+      let_run(plant, 0.01, load);
       turnover += std::fabs(plant.work().motor.sum() - work_before);
     }
     const PlantWork& work = plant.work();
@@ -92,22 +92,22 @@ TEST(Plant, WorkIsEnergyOfTheDesktopArm) { expect_balance(Grip::kSpring, test::d
 TEST(DryFriction, BringsAJointToRestAndKeepsItThere) {
   Plant plant(test::one_joint(1.0, 0.0), JointVector::Zero(), 2.0 * JointVector::Unit(0));
   plant.set_velocity(JointVector::Unit(0));
-  run(plant, 0.4, {});
+  let_run(plant, 0.4, {});
   EXPECT_NEAR(plant.velocities()[0], 0.2, 1e-9);
   EXPECT_NEAR(plant.positions()[0], 0.4 - 0.16, 1e-9);
-  run(plant, 0.11, {});
+  let_run(plant, 0.11, {});
   EXPECT_EQ(plant.velocities()[0], 0.0);
-  EXPECT_NEAR(plant.positions()[0], 0.25, kStep * kStep);
+  EXPECT_NEAR(plant.positions()[0], 0.25, kPlantStep * kPlantStep);
   const JointVector rest = plant.positions();
   JointLoad load;
   for (const double torque : {1.99, -1.99, 0.0, 1.0}) {
     load.motor[0] = torque;
-    run(plant, 0.1, load);
+    let_run(plant, 0.1, load);
     EXPECT_TRUE(plant.positions() == rest) << torque;
   }
   EXPECT_NEAR(plant.work().friction, -0.5, 1e-9);
   load.motor[0] = 2.5;
-  run(plant, 0.1, load);
+  let_run(plant, 0.1, load);
   EXPECT_NEAR(plant.velocities()[0], 0.05, 1e-9);
   EXPECT_NEAR(plant.positions()[0] - rest[0], 0.0025, 1e-9);
 }
@@ -138,7 +138,7 @@ TEST(DryFriction, HoldsOneJointOfAnArmThatMoves) {
   JointVector friction = JointVector::Zero();
   friction[1] = 300.0;
   Plant held(model, q, friction);
-  run(held, 0.5, {});
+  let_run(held, 0.5, {});
   EXPECT_EQ(held.positions()[1], 0.5);
   EXPECT_GT(std::fabs(held.positions()[3] - 1.0), 0.1);
   EXPECT_EQ(held.work().friction, 0.0);
@@ -147,7 +147,7 @@ TEST(DryFriction, HoldsOneJointOfAnArmThatMoves) {
   ArmModel heavy = model;
   heavy.joints[1].rotor = 1e9;
   Plant slow(heavy, q);
-  run(slow, 0.5, {});
+  let_run(slow, 0.5, {});
   EXPECT_LT((slow.positions() - held.positions()).norm(), 1e-5);
 }
 
@@ -163,11 +163,11 @@ TEST(DryFriction, BrakesStopAnArmForGood) {
       Plant plant(arm.model, 0.8 * test::random_positions(random, arm.model));
       plant.set_velocity(test::random_joints(random, arm.model, 2.0));
       double energy = plant.arm_energy();
-      run(plant, 1.0, load);
+      let_run(plant, 1.0, load);
       const JointVector rest = plant.positions();
       ASSERT_TRUE(plant.velocities().isZero(0.0));
       EXPECT_NEAR(plant.arm_energy() - energy, plant.work().friction, 1e-3 * std::fabs(plant.work().friction));
-      run(plant, 1.0, load);
+      let_run(plant, 1.0, load);
       EXPECT_TRUE(plant.positions() == rest);
     }
   }

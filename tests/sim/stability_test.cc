@@ -66,7 +66,7 @@ class Wall {
   double x_before_ = 0.0;
 };
 
-struct Loop {
+struct WallLoop {
   DirectDrives& drives;
   Wall& wall;
   VirtualClock clock{drives};
@@ -106,7 +106,7 @@ double measured_delay(const ArmModel& model, const JointVector& q, const Vector3
   Plant plant(model, q, JointVector::Zero(), OperatorHand(parameters, script));
   DirectDrives drives(plant, hardware, {kPeriod_ns, delay_ns});
   Wall wall(model, q, direction, stiffness, 0.0);
-  Loop loop{drives, wall};
+  WallLoop loop{drives, wall};
   while (loop.deadline_ns < 2 * kSine * kPeriod_ns) loop.run();
 
   const double work_before = plant.work().motor.sum();
@@ -166,7 +166,7 @@ double grown(const ArmModel& model, const JointVector& q, const Vector3& directi
   DirectDrives drives(plant, hardware, {kPeriod_ns, std::llround(1e9 * delay)});
   Wall wall(model, q, direction, stiffness, damping);
   wall.shift(1e-5);
-  Loop loop{drives, wall};
+  WallLoop loop{drives, wall};
   const auto swing = [&](int from) {
     while (loop.deadline_ns < from * kPeriod_ns) loop.run();
     double low = wall.depth(plant.positions());

@@ -11,7 +11,7 @@
 namespace godobject::figures {
 namespace {
 
-constexpr std::size_t kPanels = 7;
+constexpr std::size_t kArmPanels = 7;
 constexpr double kDeepest_um = -100.0;  ///< lower end of the axis of depth; larger gaps are drawn here
 
 /// Colours of the joints; colour-blind readers can distinguish them.
@@ -97,7 +97,7 @@ std::string gnuplot_text(const ArmFigure& figure, const std::filesystem::path& p
 
   std::string text = cycle_block(log, names) + hand_block(log);
   text += sheet_head({.title = figure.title,
-                      .panels = kPanels,
+                      .panels = kArmPanels,
                       .height = 1700,
                       .begin = log.cycles.front().cycle.t,
                       .end = log.cycles.back().cycle.t},

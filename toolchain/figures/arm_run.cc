@@ -23,7 +23,7 @@ using files::TomlTable;
 /// Error of the integration of the arm's motion; a push of the hand does a hundred times as much work.
 constexpr double kNoWork = 1e-3;  // [J]
 
-struct Claim {
+struct ArmClaim {
   std::string (*missed)(const ArmRun& run);  ///< the violation in words; empty: the claim holds
   std::string (*holds)(const std::vector<ArmRun>& runs);
 };
@@ -65,7 +65,7 @@ std::string work(const ArmRun& run) {
   return fmt::format("the hand received {:.4f} J more work than it did", -run.least_work);
 }
 
-constexpr Claim kClaims[] = {
+constexpr ArmClaim kArmClaims[] = {
     {stopped,
      [](const std::vector<ArmRun>&) { return std::string("rendering without interruption, end without a fault"); }},
     {penetration,
@@ -146,7 +146,7 @@ std::vector<std::string> judge_arm_runs(const std::vector<ArmRun>& runs) {
   std::vector<std::string> sentences;
   if (runs.empty()) return sentences;
   std::vector<std::string> holds;
-  for (const Claim& claim : kClaims) {
+  for (const ArmClaim& claim : kArmClaims) {
     const std::size_t before = sentences.size();
     for (const ArmRun& run : runs) {
       const std::string what = claim.missed(run);

@@ -20,12 +20,12 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-constexpr std::size_t kNumbers = 26;  // and the status
+constexpr std::size_t kRowNumbers = 26;  // and the status
 
 Pose pose(const double* v) { return {Quaternion(v[3], v[4], v[5], v[6]), Vector3(v[0], v[1], v[2])}; }
 
 /// Splits a line into its numbers and the status. Returns false if their number is wrong or a number is malformed.
-bool split(std::string_view line, std::array<double, kNumbers>& numbers, std::string& status) {
+bool split(std::string_view line, std::array<double, kRowNumbers>& numbers, std::string& status) {
   for (double& number : numbers) {
     const std::size_t comma = line.find(',');
     if (comma == std::string_view::npos) return false;
@@ -46,7 +46,7 @@ bool cut_last_number(std::string_view& line) {
   return std::isfinite(number);
 }
 
-ReplayRow make_row(const std::array<double, kNumbers>& v, std::string status) {
+ReplayRow make_row(const std::array<double, kRowNumbers>& v, std::string status) {
   ReplayRow row;
   row.t = v[0];
   row.H_WD = pose(&v[1]);
@@ -61,7 +61,7 @@ ReplayRow make_row(const std::array<double, kNumbers>& v, std::string status) {
 }
 
 /// Tells if all numbers are finite, except the device pose of a `bad_input` row, which may have any value.
-bool finite(const std::array<double, kNumbers>& v, std::string_view status) {
+bool finite(const std::array<double, kRowNumbers>& v, std::string_view status) {
   const auto first = v.begin() + (status == "bad_input" ? 8 : 0);
   return std::isfinite(v[0]) && std::all_of(first, v.end(), [](double x) { return std::isfinite(x); });
 }
@@ -87,12 +87,12 @@ ReplayLog read_replay_log(const std::filesystem::path& file) {
   }
   const bool has_overlap = text == fmt::format("{},{}", replay::kColumns, replay::kOverlapColumn);
   if (text != replay::kColumns && !has_overlap) refuse(1, "not the header of a replay");
-  std::array<double, kNumbers> numbers{};
+  std::array<double, kRowNumbers> numbers{};
   std::string status;
   while (lines.next(text)) {
     const std::size_t line = lines.number();
     if (has_overlap && !cut_last_number(text)) refuse(line, "not a number at its end");
-    if (!split(text, numbers, status)) refuse(line, fmt::format("not {} numbers and a status", kNumbers));
+    if (!split(text, numbers, status)) refuse(line, fmt::format("not {} numbers and a status", kRowNumbers));
     if (!finite(numbers, status)) refuse(line, "a number is not finite");
     if (!log.empty() && numbers[0] <= log.back().t) refuse(line, "t does not increase");
     log.push_back(make_row(numbers, std::move(status)));

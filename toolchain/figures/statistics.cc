@@ -6,14 +6,14 @@
 namespace godobject::figures {
 namespace {
 
-constexpr double kMicrosecond_ns = 1e3;
+constexpr double kUs_ns = 1e3;
 constexpr double kMillisecond_ns = 1e6;
 
 Times times(std::vector<double> values_ns) {
   if (values_ns.empty()) return {};
-  return {.p50 = percentile(values_ns, 0.50) / kMicrosecond_ns,
-          .p99 = percentile(values_ns, 0.99) / kMicrosecond_ns,
-          .max = percentile(values_ns, 1.0) / kMicrosecond_ns};
+  return {.p50 = percentile(values_ns, 0.50) / kUs_ns,
+          .p99 = percentile(values_ns, 0.99) / kUs_ns,
+          .max = percentile(values_ns, 1.0) / kUs_ns};
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ namespace {
 using test::Arm;
 using P = JointTorqueParameters;
 
-constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+constexpr double kLeastPositive = std::numeric_limits<double>::denorm_min();
 
 template <class Change>
-Status after(Change change) {
+Status parameters_after(Change change) {
   static const Arm kArm = test::lwr();
   Arm arm = kArm;
   change(arm.parameters);
@@ -32,8 +32,8 @@ TEST(JointTorqueParameters, RefuseEveryNumberThatIsNotFinite) {
   }
   for (double* number : numbers) {
     const double good = *number;
-    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
       *number = bad;
       ASSERT_EQ(validate(p, arm.model), Status::kNotFinite) << "number " << number - numbers[0];
     }
@@ -43,25 +43,25 @@ TEST(JointTorqueParameters, RefuseEveryNumberThatIsNotFinite) {
 }
 
 TEST(JointTorqueParameters, AreTakenUpToTheirBounds) {
-  EXPECT_EQ(after([](P& p) { p.rotation_length = 0.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.rotation_length = kLeast; }), Status::kOk);
-  EXPECT_EQ(after([](P& p) { p.limit_band = 0.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.limit_band = kLeast; }), Status::kOk);
-  EXPECT_EQ(after([](P& p) { p.singular_none = 0.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.singular_none = -1.0; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.singular_none = kLeast; }), Status::kOk);
-  EXPECT_EQ(after([](P& p) { p.singular_full = p.singular_none; }), Status::kArmControl);
-  EXPECT_EQ(after([](P& p) { p.singular_full = std::nextafter(p.singular_none, 1.0); }), Status::kOk);
-  EXPECT_EQ(after([](P& p) { p.singular_full = 1e300; }), Status::kOk);
+  EXPECT_EQ(parameters_after([](P& p) { p.rotation_length = 0.0; }), Status::kArmControl);
+  EXPECT_EQ(parameters_after([](P& p) { p.rotation_length = kLeastPositive; }), Status::kOk);
+  EXPECT_EQ(parameters_after([](P& p) { p.limit_band = 0.0; }), Status::kArmControl);
+  EXPECT_EQ(parameters_after([](P& p) { p.limit_band = kLeastPositive; }), Status::kOk);
+  EXPECT_EQ(parameters_after([](P& p) { p.singular_none = 0.0; }), Status::kArmControl);
+  EXPECT_EQ(parameters_after([](P& p) { p.singular_none = -1.0; }), Status::kArmControl);
+  EXPECT_EQ(parameters_after([](P& p) { p.singular_none = kLeastPositive; }), Status::kOk);
+  EXPECT_EQ(parameters_after([](P& p) { p.singular_full = p.singular_none; }), Status::kArmControl);
+  EXPECT_EQ(parameters_after([](P& p) { p.singular_full = std::nextafter(p.singular_none, 1.0); }), Status::kOk);
+  EXPECT_EQ(parameters_after([](P& p) { p.singular_full = 1e300; }), Status::kOk);
 }
 
 TEST(JointTorqueParameters, MayBeZeroButNotNegativeAtEachJoint) {
   for (JointVector P::*numbers : {&P::null_damping, &P::limit_stiffness, &P::limit_damping}) {
     for (int i = 0; i < kMaxJoints; ++i) {
-      EXPECT_EQ(after([&](P& p) { (p.*numbers)[i] = 0.0; }), Status::kOk) << i;
-      EXPECT_EQ(after([&](P& p) { (p.*numbers)[i] = -kLeast; }), Status::kArmControl) << i;
+      EXPECT_EQ(parameters_after([&](P& p) { (p.*numbers)[i] = 0.0; }), Status::kOk) << i;
+      EXPECT_EQ(parameters_after([&](P& p) { (p.*numbers)[i] = -kLeastPositive; }), Status::kArmControl) << i;
     }
-    EXPECT_EQ(after([&](P& p) { (p.*numbers).setZero(); }), Status::kOk);
+    EXPECT_EQ(parameters_after([&](P& p) { (p.*numbers).setZero(); }), Status::kOk);
   }
 }
 

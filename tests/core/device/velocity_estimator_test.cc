@@ -11,7 +11,7 @@
 namespace godobject {
 namespace {
 
-constexpr double kPeriod = 1e-3;
+constexpr double kSamplePeriod = 1e-3;
 
 class Window : public testing::TestWithParam<int> {
  protected:
@@ -23,23 +23,23 @@ class Window : public testing::TestWithParam<int> {
   }
 
   double n_ = GetParam();
-  VelocityEstimator estimator_{GetParam(), kPeriod};
+  VelocityEstimator estimator_{GetParam(), kSamplePeriod};
 };
 
 TEST_P(Window, ConstantVelocityIsExactFromTheSecondPositionOn) {
   for (const double velocity : {0.0, 1.0, -7.5}) {
     estimator_.reset();
     EXPECT_EQ(update(1.0), 0.0);
-    for (int k = 1; k < 100; ++k) EXPECT_NEAR(update(1.0 + velocity * k * kPeriod), velocity, 1e-11);
+    for (int k = 1; k < 100; ++k) EXPECT_NEAR(update(1.0 + velocity * k * kSamplePeriod), velocity, 1e-11);
   }
 }
 
 TEST_P(Window, ConstantAccelerationIsLateByTheStatedDelay) {
-  const double delay = 0.5 * (n_ - 1.0) * kPeriod;
+  const double delay = 0.5 * (n_ - 1.0) * kSamplePeriod;
   EXPECT_DOUBLE_EQ(estimator_.delay(), delay);
   const double acceleration = 20.0;
   for (int k = 0; k < 100; ++k) {
-    const double t = k * kPeriod;
+    const double t = k * kSamplePeriod;
     const double velocity = update(0.5 * acceleration * t * t);
     if (k >= GetParam() - 1) {
       EXPECT_NEAR(velocity, acceleration * (t - delay), 1e-10);
@@ -56,7 +56,7 @@ TEST_P(Window, NoiseIsAsStated) {
     const double v = update(random.between(-half_width, half_width));
     if (k >= GetParam()) sum += v * v;
   }
-  const double expected = 1e-5 * std::sqrt(12.0 / (n_ * (n_ * n_ - 1.0))) / kPeriod;
+  const double expected = 1e-5 * std::sqrt(12.0 / (n_ * (n_ * n_ - 1.0))) / kSamplePeriod;
   // neighbouring estimates share positions: about ten thousand are independent, so the error is 1 %
   EXPECT_NEAR(std::sqrt(sum / count), expected, 0.03 * expected);
 }
@@ -64,7 +64,7 @@ TEST_P(Window, NoiseIsAsStated) {
 TEST_P(Window, QuantisationStaysWithinTheStatedBound) {
   const double h = 1e-4;
   const bool odd = GetParam() % 2 == 1;
-  const double bound = odd ? 1.5 * h / (kPeriod * n_) : 1.5 * h * n_ / (kPeriod * (n_ * n_ - 1.0));
+  const double bound = odd ? 1.5 * h / (kSamplePeriod * n_) : 1.5 * h * n_ / (kSamplePeriod * (n_ * n_ - 1.0));
   test::Random random(2);
   double worst = 0.0;
   for (int run = 0; run < 20000; ++run) {
@@ -72,7 +72,7 @@ TEST_P(Window, QuantisationStaysWithinTheStatedBound) {
     const double start = random.between(0.0, h);
     estimator_.reset();
     double estimate = 0.0;
-    for (int k = 0; k < GetParam(); ++k) estimate = update(h * std::round((start + velocity * k * kPeriod) / h));
+    for (int k = 0; k < GetParam(); ++k) estimate = update(h * std::round((start + velocity * k * kSamplePeriod) / h));
     worst = std::max(worst, std::fabs(estimate - velocity));
   }
   EXPECT_LE(worst, bound * (1.0 + 1e-9));
@@ -96,19 +96,20 @@ TEST_P(Window, NothingStaysOfAnOldPosition) {
 INSTANTIATE_TEST_SUITE_P(VelocityEstimator, Window, testing::Values(2, 3, 4, 7, 8, 16));
 
 TEST(VelocityEstimator, LeavesOutWhatIsNotFinite) {
-  VelocityEstimator estimator(4, kPeriod);
+  VelocityEstimator estimator(4, kSamplePeriod);
   JointVector qd;
-  for (int k = 0; k < 4; ++k) ASSERT_EQ(estimator.update(JointVector::Constant(k * kPeriod), qd), Status::kOk);
+  for (int k = 0; k < 4; ++k) ASSERT_EQ(estimator.update(JointVector::Constant(k * kSamplePeriod), qd), Status::kOk);
   JointVector bad = JointVector::Zero();
   bad[6] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(estimator.update(bad, qd), Status::kNotFinite);
-  ASSERT_EQ(estimator.update(JointVector::Constant(4 * kPeriod), qd), Status::kOk);
+  ASSERT_EQ(estimator.update(JointVector::Constant(4 * kSamplePeriod), qd), Status::kOk);
   EXPECT_NEAR(qd[0], 1.0, 1e-12);
 }
 
 TEST(VelocityEstimator, WindowIsBroughtIntoRange) {
-  EXPECT_DOUBLE_EQ(VelocityEstimator(-3, kPeriod).delay(), 0.5 * kPeriod);
-  EXPECT_DOUBLE_EQ(VelocityEstimator(1000, kPeriod).delay(), 0.5 * (VelocityEstimator::kMaxWindow - 1) * kPeriod);
+  EXPECT_DOUBLE_EQ(VelocityEstimator(-3, kSamplePeriod).delay(), 0.5 * kSamplePeriod);
+  EXPECT_DOUBLE_EQ(VelocityEstimator(1000, kSamplePeriod).delay(),
+                   0.5 * (VelocityEstimator::kMaxWindow - 1) * kSamplePeriod);
 }
 
 }  // namespace

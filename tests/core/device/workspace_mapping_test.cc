@@ -13,7 +13,7 @@ namespace {
 
 using test::Random;
 
-constexpr double kPeriod = 1e-3;
+constexpr double kCyclePeriod = 1e-3;
 
 double distance(const Pose& a, const Pose& b) {
   return (a.translation - b.translation).norm() + log_rotation(a.rotation.conjugate() * b.rotation).norm();
@@ -29,7 +29,7 @@ TEST(WorkspaceMapping, IdentityLeavesEverythingAsItIs) {
   WorkspaceMapping mapping({}, start);
   EXPECT_LT(distance(mapping.scene_pose(), start), 1e-14);
   const Pose next = set_matrix(random.motion(0.5, 3.0));
-  ASSERT_EQ(mapping.update(next, true, kPeriod), Status::kOk);
+  ASSERT_EQ(mapping.update(next, true, kCyclePeriod), Status::kOk);
   EXPECT_LT(distance(mapping.scene_pose(), next), 1e-14);
   const Wrench F = {random.in_cube(5.0), random.in_cube(1.0)};
   EXPECT_LT((mapping.wrench_at_hand(F).force - F.force).norm(), 1e-14);
@@ -46,7 +46,7 @@ TEST(WorkspaceMapping, ScalesTranslationsAndKeepsAngles) {
   EXPECT_LT((mapping.scene_pose().translation - Vector3(1.0, 2.4, 3.8)).norm(), 1e-14);
   H_RG.translation.x() += 0.01;
   H_RG.rotation = exp_rotation(Vector3(0.3, 0.0, 0.0));  // about x of the room, y of the scene
-  ASSERT_EQ(mapping.update(H_RG, true, kPeriod), Status::kOk);
+  ASSERT_EQ(mapping.update(H_RG, true, kCyclePeriod), Status::kOk);
   EXPECT_LT((mapping.scene_pose().translation - Vector3(1.0, 2.44, 3.8)).norm(), 1e-14);
   const Quaternion turned = mapping.scene_pose().rotation * parameters.H_WR.rotation.conjugate();
   EXPECT_LT((log_rotation(turned) - Vector3(0.0, 0.3, 0.0)).norm(), 1e-14);
@@ -60,9 +60,9 @@ TEST(WorkspaceMapping, PowerAtTheHandIsPowerInTheScene) {
     // clutch several times, to get any offset
     for (int k = 0; k < 300; ++k) {
       H_RG = H_RG * set_matrix(random.motion(0.001, 0.01));
-      ASSERT_EQ(mapping.update(H_RG, k % 200 > 50, kPeriod), Status::kOk);
+      ASSERT_EQ(mapping.update(H_RG, k % 200 > 50, kCyclePeriod), Status::kOk);
     }
-    while (mapping.engagement() < 1.0) ASSERT_EQ(mapping.update(H_RG, true, kPeriod), Status::kOk);
+    while (mapping.engagement() < 1.0) ASSERT_EQ(mapping.update(H_RG, true, kCyclePeriod), Status::kOk);
 
     const Motion velocity_R = {random.in_cube(1.0), random.in_cube(2.0)};
     const Motion velocity_W = mapping.velocity_in_scene(velocity_R);
@@ -72,7 +72,7 @@ TEST(WorkspaceMapping, PowerAtTheHandIsPowerInTheScene) {
     moved.translation += kStep * velocity_R.translation;
     moved.rotation = exp_rotation(kStep * velocity_R.rotation) * H_RG.rotation;
     const Pose before = mapping.scene_pose();
-    ASSERT_EQ(mapping.update(moved, true, kPeriod), Status::kOk);
+    ASSERT_EQ(mapping.update(moved, true, kCyclePeriod), Status::kOk);
     const Pose after = mapping.scene_pose();
     ASSERT_LT(((after.translation - before.translation) / kStep - velocity_W.translation).norm(), 1e-8);
     ASSERT_LT((log_rotation(after.rotation * before.rotation.conjugate()) / kStep - velocity_W.rotation).norm(), 1e-8);
@@ -97,7 +97,7 @@ TEST(WorkspaceMapping, StiffnessAtTheHandIsScaleSquaredOfTheScenes) {
     const Vector3 turn(0.001, 0.002, -0.003);
     H_RG.translation = hand;
     H_RG.rotation = exp_rotation(turn);
-    ASSERT_EQ(mapping.update(H_RG, true, kPeriod), Status::kOk);
+    ASSERT_EQ(mapping.update(H_RG, true, kCyclePeriod), Status::kOk);
     const double k = 1000.0;
     const double k_r = 25.0;
     const Pose& H_WG = mapping.scene_pose();
@@ -125,7 +125,7 @@ TEST(WorkspaceMapping, ClutchingMovesNeitherPoseNorForceAtOnce) {
     changes += closed != was_closed ? 1 : 0;
     const Motion step = random.motion(1e-4, 1e-3);
     H_RG = H_RG * set_matrix(step);
-    ASSERT_EQ(mapping.update(H_RG, closed, kPeriod), Status::kOk);
+    ASSERT_EQ(mapping.update(H_RG, closed, kCyclePeriod), Status::kOk);
     const Motion moved = get_motion(last.inverse() * mapping.scene_pose());
     if (closed && was_closed) {
       ASSERT_NEAR(moved.translation.norm(), parameters.scale * step.translation.norm(), 1e-13);
@@ -150,7 +150,7 @@ TEST(WorkspaceMapping, OpenClutchIsAtRestAndWithoutForceInTheEnd) {
   const Motion moving = {Vector3::Ones(), Vector3::Ones()};
   for (int k = 0; k < 200; ++k) {
     EXPECT_EQ(mapping.velocity_in_scene(moving).translation, moving.translation) << "damping fades with the wrench";
-    ASSERT_EQ(mapping.update(away, false, kPeriod), Status::kOk);
+    ASSERT_EQ(mapping.update(away, false, kCyclePeriod), Status::kOk);
   }
   EXPECT_NEAR(mapping.engagement(), 0.0, 1e-12);
   EXPECT_LT(mapping.wrench_at_hand({Vector3::Ones(), Vector3::Ones()}).force.norm(), 1e-12);
@@ -166,9 +166,9 @@ TEST(WorkspaceMapping, ManyClutchingsDoNotDrift) {
   // move there and back, and open and close the clutch at both ends
   for (int k = 0; k < 100000; ++k) {
     for (const Pose& end : {other, Pose()}) {
-      ASSERT_EQ(mapping.update(end, true, kPeriod), Status::kOk);
-      ASSERT_EQ(mapping.update(end, false, kPeriod), Status::kOk);
-      ASSERT_EQ(mapping.update(end, true, kPeriod), Status::kOk);
+      ASSERT_EQ(mapping.update(end, true, kCyclePeriod), Status::kOk);
+      ASSERT_EQ(mapping.update(end, false, kCyclePeriod), Status::kOk);
+      ASSERT_EQ(mapping.update(end, true, kCyclePeriod), Status::kOk);
     }
   }
   EXPECT_LT(distance(mapping.scene_pose(), start), 1e-10);
@@ -179,7 +179,7 @@ TEST(WorkspaceMapping, RefusesAPoseThatIsNotFinite) {
   WorkspaceMapping mapping({}, Pose());
   Pose bad;
   bad.rotation.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(mapping.update(bad, false, kPeriod), Status::kNotFinite);
+  EXPECT_EQ(mapping.update(bad, false, kCyclePeriod), Status::kNotFinite);
   EXPECT_EQ(mapping.engagement(), 1.0);
   EXPECT_LT(distance(mapping.scene_pose(), Pose()), 1e-15);
 }

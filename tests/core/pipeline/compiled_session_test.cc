@@ -14,11 +14,11 @@ namespace godobject::test {
 namespace {
 
 constexpr double kFarthest = 1e7;
-const double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                       -std::numeric_limits<double>::infinity()};
+const double kNotNumbers[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()};
 
 /// A ball of 20 mm whose mesh frame is shifted and turned, over a plate with its top at z = 10 mm.
-SceneImage make_image(const std::optional<format::Workspace>& workspace = std::nullopt) {
+SceneImage image_with(const std::optional<format::Workspace>& workspace = std::nullopt) {
   const SurfaceSamples ball = sample_ball(0.02, 200);
   SceneDescription description;
   const Vector3 half_edges(0.05, 0.05, 0.01);
@@ -36,7 +36,7 @@ SceneImage make_image(const std::optional<format::Workspace>& workspace = std::n
 class CompiledSessionTest : public testing::TestWithParam<Solver> {
  protected:
   explicit CompiledSessionTest(const std::optional<format::Workspace>& workspace = std::nullopt)
-      : image_(make_image(workspace)), scene_(open_scene(image_)) {
+      : image_(image_with(workspace)), scene_(open_scene(image_)) {
     EXPECT_EQ(god_object_.start(scene_, GetParam(), false), Status::kOk);
   }
 
@@ -89,7 +89,7 @@ TEST_P(CompiledSessionTest, RefusesEachNumberThatIsNotFiniteAndRests) {
   }
   for (double* number : numbers) {
     const double good = *number;
-    for (const double bad : kBad) {
+    for (const double bad : kNotNumbers) {
       *number = bad;
       ASSERT_EQ(update(pose, velocity), Status::kNotFinite);
       expect_refusal(H_WS);

@@ -68,14 +68,14 @@ bool is_same(const Bench& a, const Bench& b) {
 ///     l  a stop, position lost                  f  a fade with the fault of this row
 ///     q  the quick stop begins now              r  a reset
 ///     G  the share begins to fall (ending)      S  a stop without a fault     D  the end
-struct Row {
+struct ModeRow {
   const char* what;
   const char* follows;
   Fault fault;
   std::function<void(Observation&)> cause;
 };
 
-const std::vector<Row> kRows = {
+const std::vector<ModeRow> kRows = {
     {"reading not finite", "xxxxxxxxk...x.", Fault::kNotFinite, [](Observation& o) { o.finite = false; }},
     {"not finite, no answer", "hxxxxxxxk..hx.", Fault::kNotFinite,
      [](Observation& o) {
@@ -179,7 +179,7 @@ void expect_latched(Bench bench, Fault fault, int joint) {
   EXPECT_EQ(bench.decision.power, PowerRequest::kOff);
 }
 
-void expect_row(const Row& row, Mode mode, char follows) {
+void expect_row(const ModeRow& row, Mode mode, char follows) {
   SCOPED_TRACE(std::string(row.what) + " in " + name(mode));
   const Bench before = bench_in(mode);
   Bench without = before;
@@ -244,7 +244,7 @@ void expect_row(const Row& row, Mode mode, char follows) {
 }
 
 TEST(SupervisorModes, ReactToEachCauseAsTheTableSays) {
-  for (const Row& row : kRows) {
+  for (const ModeRow& row : kRows) {
     ASSERT_EQ(std::string(row.follows).size(), kModeCount) << row.what;
     for (std::size_t mode = 0; mode < kModeCount; ++mode) expect_row(row, static_cast<Mode>(mode), row.follows[mode]);
   }

@@ -114,7 +114,7 @@ TEST_F(DoctorTest, TakesCapabilitiesForRightsAndNotTheNameOfRoot) {
 }
 
 /// One finding, as one line.
-std::string told(const Finding& finding) {
+std::string line_of(const Finding& finding) {
   return std::string(finding.good ? "ok " : "LACK ") + (finding.needed ? "needed " : "") + finding.what + " -> " +
          finding.cure;
 }
@@ -128,27 +128,27 @@ TEST_F(DoctorTest, TellsEachStateOfTheKernel) {
            {"Linux #1 SMP Debian", "LACK needed kernel: not PREEMPT_RT" + cure},
            {"Linux #1 SMP PREEMPT_RT Debian", "ok needed kernel: PREEMPT_RT -> "}}) {
     put("proc/version", version);
-    EXPECT_EQ(told(find("kernel")), state);
+    EXPECT_EQ(line_of(find("kernel")), state);
   }
   put("proc/version", "Linux #1 SMP Debian");
   put("sys/kernel/realtime", "0");
   EXPECT_FALSE(find("kernel").good);
   put("sys/kernel/realtime", "1");
-  EXPECT_EQ(told(find("kernel")), "ok needed kernel: PREEMPT_RT -> ");
+  EXPECT_EQ(line_of(find("kernel")), "ok needed kernel: PREEMPT_RT -> ");
 }
 
 TEST_F(DoctorTest, TellsEachStateOfTheProcessors) {
-  EXPECT_EQ(told(find("isolated")),
+  EXPECT_EQ(line_of(find("isolated")),
             "LACK isolated processors: none -> boot with isolcpus=N nohz_full=N rcu_nocbs=N and set loop.cpu = N, N "
             "not 0");
   put("sys/devices/system/cpu/isolated", "");
   EXPECT_EQ(find("isolated").what, "isolated processors: none");
   put("sys/devices/system/cpu/isolated", "1,4-6,9");
-  EXPECT_EQ(told(find("isolated", -1)),
+  EXPECT_EQ(line_of(find("isolated", -1)),
             "LACK isolated processors: 1,4-6,9, but the loop is bound to none -> set loop.cpu to one of them");
   for (int cpu = 0; cpu <= 11; ++cpu) {
     const bool among = cpu == 1 || (cpu >= 4 && cpu <= 6) || cpu == 9;
-    EXPECT_EQ(told(find("isolated", cpu)),
+    EXPECT_EQ(line_of(find("isolated", cpu)),
               among ? "ok isolated processors: 1,4-6,9, the loop has " + std::to_string(cpu) + " -> "
                     : "LACK isolated processors: 1,4-6,9, the loop's " + std::to_string(cpu) +
                           " is not among them -> set loop.cpu to one of them");
@@ -161,45 +161,45 @@ TEST_F(DoctorTest, TellsEachStateOfTheProcessors) {
 }
 
 TEST_F(DoctorTest, TellsEachStateOfTheClocks) {
-  EXPECT_EQ(told(find("clock rate")), "ok clock rate: not scaled here -> ");
+  EXPECT_EQ(line_of(find("clock rate")), "ok clock rate: not scaled here -> ");
   const std::string governor = "sys/devices/system/cpu/cpu0/cpufreq/scaling_governor";
   put(governor, "powersave");
-  EXPECT_EQ(told(find("clock rate", 3)), "ok clock rate: not scaled here -> ") << "processor 3 is the loop's";
+  EXPECT_EQ(line_of(find("clock rate", 3)), "ok clock rate: not scaled here -> ") << "processor 3 is the loop's";
   for (const int cpu : {-1, 0}) {
-    EXPECT_EQ(told(find("clock rate", cpu)),
+    EXPECT_EQ(line_of(find("clock rate", cpu)),
               "LACK clock rate: governor powersave -> echo performance > " + (folder_ / governor).string());
   }
   put(governor, "performance");
-  EXPECT_EQ(told(find("clock rate", 0)), "ok clock rate: governor performance -> ");
+  EXPECT_EQ(line_of(find("clock rate", 0)), "ok clock rate: governor performance -> ");
 
   const std::string cure = ", which is slow to read -> boot with tsc=reliable if the processor's counter is";
-  EXPECT_EQ(told(find("clock source")), "LACK clock source: unknown" + cure);
+  EXPECT_EQ(line_of(find("clock source")), "LACK clock source: unknown" + cure);
   for (const char* source : {"tsc", "arch_sys_counter", "kvm-clock"}) {
     put("sys/devices/system/clocksource/clocksource0/current_clocksource", source);
-    EXPECT_EQ(told(find("clock source")), std::string("ok clock source: ") + source + " -> ");
+    EXPECT_EQ(line_of(find("clock source")), std::string("ok clock source: ") + source + " -> ");
   }
   put("sys/devices/system/clocksource/clocksource0/current_clocksource", "hpet");
-  EXPECT_EQ(told(find("clock source")), "LACK clock source: hpet" + cure);
+  EXPECT_EQ(line_of(find("clock source")), "LACK clock source: hpet" + cure);
 }
 
 TEST_F(DoctorTest, TellsEachStateOfThrottlingAndCan) {
   const std::string file = (folder_ / "proc/sys/kernel/sched_rt_runtime_us").string();
-  EXPECT_EQ(told(find("real-time throttling")),
+  EXPECT_EQ(line_of(find("real-time throttling")),
             "LACK real-time throttling: " + file + " cannot be read -> mount /proc");
   put("proc/sys/kernel/sched_rt_runtime_us", "-1");
-  EXPECT_EQ(told(find("real-time throttling")), "ok real-time throttling: off -> ");
+  EXPECT_EQ(line_of(find("real-time throttling")), "ok real-time throttling: off -> ");
   put("proc/sys/kernel/sched_rt_runtime_us", "0");
-  EXPECT_EQ(told(find("real-time throttling")),
+  EXPECT_EQ(line_of(find("real-time throttling")),
             "LACK needed real-time throttling: real-time threads get no time -> echo 950000 > " + file);
   put("proc/sys/kernel/sched_rt_runtime_us", "900000");
   put("proc/sys/kernel/sched_rt_period_us", "2000000");
-  EXPECT_EQ(told(find("real-time throttling")),
+  EXPECT_EQ(line_of(find("real-time throttling")),
             "ok real-time throttling: 900000 of 2000000 us for all real-time threads, the loop needs less -> ");
-  EXPECT_EQ(told(find("CAN")),
+  EXPECT_EQ(line_of(find("CAN")),
             "LACK CAN: not in the kernel, or its module is not loaded -> modprobe can can_raw; for a simulated bus "
             "vcan");
   put("proc/net/can/stats", "");
-  EXPECT_EQ(told(find("CAN")), "ok CAN: in the kernel -> ");
+  EXPECT_EQ(line_of(find("CAN")), "ok CAN: in the kernel -> ");
 }
 
 /// A limit of this process, lowered for a test.
@@ -241,12 +241,12 @@ TEST_F(DoctorTest, TellsEachStateOfTheRights) {
     expect(::geteuid() == 0);
   };
   with("Name:\tx\nCapEff:\t0000000000000000", [&](bool root) {
-    EXPECT_EQ(told(right("rtprio", 0)), "ok needed rtprio: 0 -> ");
-    EXPECT_EQ(told(right("rtprio", 1)),
+    EXPECT_EQ(line_of(right("rtprio", 0)), "ok needed rtprio: 0 -> ");
+    EXPECT_EQ(line_of(right("rtprio", 1)),
               root ? "LACK needed rtprio: 0, and root without CAP_SYS_NICE -> give CAP_SYS_NICE back, a container's "
                      "with --cap-add"
                    : "LACK needed rtprio: 0 -> " + limits("rtprio 1"));
-    EXPECT_EQ(told(right("memlock", 1)),
+    EXPECT_EQ(line_of(right("memlock", 1)),
               root ? "LACK needed memlock: 65536, and root without CAP_IPC_LOCK -> give CAP_IPC_LOCK back, a "
                      "container's with --cap-add"
                    : "LACK needed memlock: 65536 -> " + limits("memlock unlimited"));
@@ -259,8 +259,8 @@ TEST_F(DoctorTest, TellsEachStateOfTheRights) {
     });
   }
   with("CapEff:\t0000000000804000", [&](bool) {
-    EXPECT_EQ(told(right("rtprio", 1)), "ok needed rtprio: by CAP_SYS_NICE -> ");
-    EXPECT_EQ(told(right("memlock", 1)), "ok needed memlock: by CAP_IPC_LOCK -> ");
+    EXPECT_EQ(line_of(right("rtprio", 1)), "ok needed rtprio: by CAP_SYS_NICE -> ");
+    EXPECT_EQ(line_of(right("memlock", 1)), "ok needed memlock: by CAP_IPC_LOCK -> ");
   });
 }
 

@@ -23,29 +23,29 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTolerance = 0.05;             // voxels: depth inside the body
-constexpr double kOff = kHeldOff * kTolerance;  // and height outside it
-constexpr double kSteepest = 2.0 * 1.025;       // and rounded
+constexpr double kRefinedTolerance = 0.05;             // voxels: depth inside the body
+constexpr double kOff = kHeldOff * kRefinedTolerance;  // and height outside it
+constexpr double kSteepest = 2.0 * 1.025;              // and rounded
 
-DistanceGrid& rounded(DistanceGrid& field) {
+DistanceGrid& to_float(DistanceGrid& field) {
   round_distances(field);
   return field;
 }
 
-struct Field {
+struct RefinedField {
   DistanceGrid coarse, grid;
   RefinementReport report;
   std::vector<format::Brick> coarse_bricks, bricks;
   Voxelmap coarse_map, map;
 
-  Field(const SolidSurface& surface, double s, double tolerance = kTolerance)
-      : Field(surface, s, SurfaceTolerance::of_depth(tolerance * s)) {}
+  RefinedField(const SolidSurface& surface, double s, double tolerance = kRefinedTolerance)
+      : RefinedField(surface, s, SurfaceTolerance::of_depth(tolerance * s)) {}
 
-  Field(const SolidSurface& surface, double s, const SurfaceTolerance& tolerance)
+  RefinedField(const SolidSurface& surface, double s, const SurfaceTolerance& tolerance)
       : coarse(make_distance_grid(surface, s, default_band(s, 1.5 * s), {})),
         grid(coarse),
         report(refine(grid, surface, tolerance, {})),
-        coarse_bricks(packed_bricks(rounded(coarse))),
+        coarse_bricks(packed_bricks(to_float(coarse))),
         bricks(packed_bricks(grid)),
         coarse_map(coarse.grid, coarse.index, coarse_bricks, {}),
         map(grid.grid, grid.index, bricks, grid.refined, grid.edges) {}
@@ -130,7 +130,7 @@ Worst worst_of_zero_level(const Voxelmap& field, const TriangleMesh& mesh, int p
 
 /// The field must not jump anywhere in the stored bricks. Tests pairs of points a millionth of a voxel apart, most of
 /// them on both sides of the faces, edges and corners of cells of all sizes.
-double largest_jump(const Field& field, int pairs) {
+double largest_jump(const RefinedField& field, int pairs) {
   const format::Grid& g = field.grid.grid;
   const double s = g.voxel_size;
   const Vector3d origin(g.origin[0], g.origin[1], g.origin[2]);
@@ -169,13 +169,13 @@ constexpr double kFloatRounding = 3e-6;  // voxels
 
 void expect_true_surface(const TriangleMesh& mesh, double s, const char* what, int per_triangle = 400) {
   const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
-  const Field field(surface, s);
+  const RefinedField field(surface, s);
   const Worst before = worst_at_surface(field.coarse_map, mesh, per_triangle);
   const Worst at_surface = worst_at_surface(field.map, mesh, per_triangle);
   const Worst zero_level = worst_of_zero_level(field.map, mesh, 4000);
-  EXPECT_LE(at_surface.into, kTolerance * s) << what;
+  EXPECT_LE(at_surface.into, kRefinedTolerance * s) << what;
   EXPECT_LE(at_surface.off, kOff * s) << what;
-  EXPECT_LE(zero_level.into, kTolerance * s) << what;
+  EXPECT_LE(zero_level.into, kRefinedTolerance * s) << what;
   /// In a re-entrant edge the distance grows more slowly than the distance travelled.
   EXPECT_LE(zero_level.off, 1.5 * kOff * s) << what;
   EXPECT_LE(largest_jump(field, 40000), kFloatRounding * s) << what;
@@ -224,8 +224,8 @@ TEST(Refinement, MakesACavityTrueToTheSameLengthOnEitherSide) {
     const TriangleMesh block = hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067});
     const TriangleMesh mesh = turned ? test::moved(block, any_motion(random, s)) : block;
     const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
-    const Field usual(surface, s);
-    const Field field(surface, s, SurfaceTolerance{accuracy, accuracy});
+    const RefinedField usual(surface, s);
+    const RefinedField field(surface, s, SurfaceTolerance{accuracy, accuracy});
     EXPECT_EQ(field.report.worst.in_tolerances, 0.0);
     EXPECT_GT(worst_at_surface(usual.map, mesh, 4000).off, accuracy) << "the usual tolerance holds bodies off";
     const Worst worst = worst_at_surface(field.map, mesh, 4000);
@@ -243,8 +243,8 @@ TEST(Refinement, NamesTheWorstPlaceOfAToleranceThatIsOutOfReach) {
     const TriangleMesh mesh =
         test::moved(hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067}), any_motion(random, s));
     const double out_of_reach = 0.005 * s;
-    const Field field(SolidSurface(mesh, SurfaceKind::kSolid, 2.0 * s), s,
-                      SurfaceTolerance{out_of_reach, out_of_reach});
+    const RefinedField field(SolidSurface(mesh, SurfaceKind::kSolid, 2.0 * s), s,
+                             SurfaceTolerance{out_of_reach, out_of_reach});
     const SurfaceError& worst = field.report.worst;
     ASSERT_GT(worst.in_tolerances, 1.0);
     EXPECT_NEAR(worst.in_tolerances, std::abs(worst.error) / out_of_reach, 1e-9);
@@ -259,7 +259,7 @@ TEST(Refinement, NamesTheWorstPlaceOfAToleranceThatIsOutOfReach) {
 TEST(Refinement, JoinsTheBricksOfAnOpenMeshWithoutAJump) {
   const double s = 0.006;
   const SolidSurface surface(load("teapot", 0.037), SurfaceKind::kAuto, 2.0 * s);
-  const Field field(surface, s);
+  const RefinedField field(surface, s);
   EXPECT_GT(field.grid.refined.size(), 100u);
   EXPECT_LE(largest_jump(field, 60000), kFloatRounding * s);
   EXPECT_LE(field.grid.grid.lipschitz, kSteepest);
@@ -272,7 +272,7 @@ TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
   const double s = 0.002;
   const SolidSurface surface(test::moved(test::box_mesh({0.06, 0.05, 0.07}), any_motion(random, s)),
                              SurfaceKind::kSolid, 2.0 * s);
-  const Field field(surface, s);
+  const RefinedField field(surface, s);
   ASSERT_EQ(field.grid.edges.size(), 12u);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   int looked_at = 0;
@@ -304,7 +304,7 @@ TEST(Refinement, KeepsTheFieldAsSteepAsItSays) {
                                    ? test::moved(test::box_mesh({0.06, 0.05, 0.07}), any_motion(random, s))
                                    : load(name, 1.0),
                                SurfaceKind::kSolid, 2.0 * s);
-    const Field field(surface, s);
+    const RefinedField field(surface, s);
     double steepest = 0.0;
     for (int i = 0; i < 300000; ++i) {
       const format::Edge& edge = field.grid.edges[random() % field.grid.edges.size()];
@@ -324,7 +324,7 @@ TEST(Refinement, LeavesEveryPositionsOwnNodes) {
   std::mt19937_64 random(16);
   const SolidSurface surface(test::moved(test::box_mesh({0.04, 0.03, 0.05}), any_motion(random, 0.004)),
                              SurfaceKind::kSolid, 0.008);
-  const Field field(surface, 0.004);
+  const RefinedField field(surface, 0.004);
   int refined = 0;
   for (std::size_t i = 0; i < field.grid.index.size(); ++i) {
     const std::uint32_t entry = field.grid.index[i];
@@ -344,7 +344,7 @@ TEST(Refinement, KeepsLowerBoundsAndClearancesTrue) {
   std::mt19937_64 random(17);
   const SolidSurface surface(test::moved(wedge(1.0, 0.03, 0.02), any_motion(random, 0.002)), SurfaceKind::kSolid,
                              0.004);
-  const Field field(surface, 0.002);
+  const RefinedField field(surface, 0.002);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int bounded = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -368,7 +368,7 @@ TEST(Refinement, KeepsLowerBoundsAndClearancesTrue) {
 
 TEST(Refinement, LeavesWhatIsGoodEnough) {
   const SolidSurface surface(test::box_mesh({0.04, 0.03, 0.05}), SurfaceKind::kSolid, 0.008);
-  const Field field(surface, 0.004, 1000.0);
+  const RefinedField field(surface, 0.004, 1000.0);
   EXPECT_TRUE(field.grid.refined.empty());
   EXPECT_EQ(field.grid.bricks.size(), field.coarse.bricks.size());
   EXPECT_EQ(field.grid.index, field.coarse.index);
@@ -378,8 +378,8 @@ TEST(Refinement, LeavesWhatIsGoodEnough) {
 
 TEST(Refinement, GivesTheSameEveryTime) {
   const SolidSurface surface(load("bracket", 1.0), SurfaceKind::kAuto, 0.016);
-  const Field one(surface, 0.008);
-  const Field other(surface, 0.008);
+  const RefinedField one(surface, 0.008);
+  const RefinedField other(surface, 0.008);
   ASSERT_EQ(one.grid.bricks.size(), other.grid.bricks.size());
   EXPECT_EQ(one.grid.index, other.grid.index);
   EXPECT_EQ(std::memcmp(one.grid.bricks.data(), other.grid.bricks.data(), one.grid.bricks.size() * sizeof(Brick)), 0);

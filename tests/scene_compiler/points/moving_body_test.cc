@@ -26,7 +26,7 @@ namespace {
 using Eigen::Vector3d;
 using test::box_mesh;
 
-const Vector3d kEdges(0.06, 0.04, 0.03);
+const Vector3d kBoxEdges(0.06, 0.04, 0.03);
 constexpr double kBoxArea = 2.0 * (0.06 * 0.04 + 0.04 * 0.03 + 0.03 * 0.06);
 
 /// The contents of the image in the mesh's frame M.
@@ -115,7 +115,7 @@ std::vector<double> neighbour_distances(const std::vector<Vector3d>& points) {
 
 TEST(MovingBody, OfABoxHasItsMassAndStandsOnItsAxes) {
   const Vector3d low(0.5, -0.25, 0.125);
-  const Made made = make(box_mesh(kEdges, low), 500, 4);
+  const Made made = make(box_mesh(kBoxEdges, low), 500, 4);
   const format::Body& body = made.moving.body;
   EXPECT_NEAR(body.volume, 72e-6, 1e-15);
   EXPECT_EQ(body.inertia_from_points, 0u);
@@ -123,13 +123,13 @@ TEST(MovingBody, OfABoxHasItsMassAndStandsOnItsAxes) {
   EXPECT_NEAR(body.inertia[1], 0.0045 / 12.0, 1e-13);
   EXPECT_NEAR(body.inertia[2], 0.0052 / 12.0, 1e-13);
   EXPECT_NEAR(body.rotation_MB[0], 1.0, 1e-12);
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(body.translation_MB[axis], low[axis] + 0.5 * kEdges[axis], 1e-12);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(body.translation_MB[axis], low[axis] + 0.5 * kBoxEdges[axis], 1e-12);
   // the corners are samples
-  EXPECT_NEAR(body.radius, 0.5 * kEdges.norm(), 1e-8);
+  EXPECT_NEAR(body.radius, 0.5 * kBoxEdges.norm(), 1e-8);
 }
 
 TEST(MovingBody, TurnedAndMovedKeepsItsMoments) {
-  const format::Body body = make(test::moved(box_mesh(kEdges), test::odd_motion()), 300, 3).moving.body;
+  const format::Body body = make(test::moved(box_mesh(kBoxEdges), test::odd_motion()), 300, 3).moving.body;
   EXPECT_NEAR(body.inertia[0], 0.0025 / 12.0, 1e-13);
   EXPECT_NEAR(body.inertia[1], 0.0045 / 12.0, 1e-13);
   EXPECT_NEAR(body.inertia[2], 0.0052 / 12.0, 1e-13);
@@ -141,7 +141,7 @@ TEST(MovingBody, OpensAsAnImageWhateverItsSize) {
   };
   for (const Size& size : {Size{1, 1}, Size{2, 1}, Size{7, 1}, Size{8, 1}, Size{12, 2}, Size{100, 7}, Size{3000, 1},
                            Size{5587, 7}, Size{5000, 16}}) {
-    const Made made = make(test::moved(box_mesh(kEdges), test::odd_motion()), size.points, size.levels);
+    const Made made = make(test::moved(box_mesh(kBoxEdges), test::odd_motion()), size.points, size.levels);
     EXPECT_EQ(made.moving.body.point_count, size.points);
     EXPECT_EQ(made.moving.points.size(), 3u * size.points);
     EXPECT_EQ(made.moving.normals.size(), 3u * size.points);
@@ -154,11 +154,11 @@ TEST(MovingBody, OpensAsAnImageWhateverItsSize) {
 }
 
 TEST(MovingBody, PointsLieOnTheSurfaceAndNormalsPointIn) {
-  const Made made = make(box_mesh(kEdges), 2000, 5);
+  const Made made = make(box_mesh(kBoxEdges), 2000, 5);
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     const Vector3d& p = made.points[i];
-    EXPECT_NEAR(test::box_distance(p, 0.5 * kEdges), 0.0, 1e-6 * kEdges.norm());
-    EXPECT_LT(test::box_distance(p + 1e-4 * made.normals[i], 0.5 * kEdges), -0.5e-4);
+    EXPECT_NEAR(test::box_distance(p, 0.5 * kBoxEdges), 0.0, 1e-6 * kBoxEdges.norm());
+    EXPECT_LT(test::box_distance(p + 1e-4 * made.normals[i], 0.5 * kBoxEdges), -0.5e-4);
   }
 }
 
@@ -183,7 +183,7 @@ TEST(MovingBody, PointsKeepTheirDistance) {
 }
 
 TEST(MovingBody, EveryLevelCoversTheSurface) {
-  for (const TriangleMesh& mesh : {test::ball_mesh(0.05, 32), box_mesh(kEdges)}) {
+  for (const TriangleMesh& mesh : {test::ball_mesh(0.05, 32), box_mesh(kBoxEdges)}) {
     const Made made = make(mesh, 3000, 6);
     for (std::uint32_t k = 1; k < made.moving.body.level_count; ++k) {
       std::vector<Vector3d> samples;
@@ -199,7 +199,7 @@ TEST(MovingBody, EveryLevelCoversTheSurface) {
 }
 
 TEST(MovingBody, LevelsAreNested) {
-  const Made made = make(box_mesh(kEdges), 1000, 5);
+  const Made made = make(box_mesh(kBoxEdges), 1000, 5);
   for (std::uint32_t k = 1; k < 5; ++k) {
     const std::vector<std::uint32_t> coarse = made.level(k);
     std::vector<std::uint32_t> fine = made.level(k + 1);
@@ -209,7 +209,7 @@ TEST(MovingBody, LevelsAreNested) {
 }
 
 TEST(MovingBody, SamplesHangOnTheNearestOneOfTheLevelBefore) {
-  const Made made = make(box_mesh(kEdges), 600, 4);
+  const Made made = make(box_mesh(kBoxEdges), 600, 4);
   for (const format::Node& node : made.moving.nodes) {
     if (node.level == 0) continue;
     std::vector<Vector3d> siblings;
@@ -233,7 +233,7 @@ TEST(MovingBody, SamplesHangOnTheNearestOneOfTheLevelBefore) {
 }
 
 TEST(MovingBody, SpheresAreMinimal) {
-  const Made made = make(box_mesh(kEdges), 2000, 5);
+  const Made made = make(box_mesh(kBoxEdges), 2000, 5);
   for (const format::Node& node : made.moving.nodes) {
     std::vector<Vector3d> points;
     for (std::uint32_t i = 0; i < node.point_count; ++i) points.push_back(at(made.moving.points, node.first_point + i));
@@ -245,17 +245,17 @@ TEST(MovingBody, SpheresAreMinimal) {
 }
 
 TEST(MovingBody, ABoxKeepsItsCornersDownToTheCoarsestLevel) {
-  const Made made = make(box_mesh(kEdges), 1000, 5);
+  const Made made = make(box_mesh(kBoxEdges), 1000, 5);
   std::vector<Vector3d> coarsest;
   for (const std::uint32_t i : made.level(1)) coarsest.push_back(made.points[i]);
   ASSERT_EQ(coarsest.size(), 8u);
-  for (const Vector3d& corner : box_mesh(kEdges).vertices) EXPECT_LT(distance_to_nearest(corner, coarsest), 1e-7);
+  for (const Vector3d& corner : box_mesh(kBoxEdges).vertices) EXPECT_LT(distance_to_nearest(corner, coarsest), 1e-7);
 }
 
 TEST(MovingBody, ABoxHasPointsAllAlongItsEdges) {
-  const Made made = make(box_mesh(kEdges), 1000, 4);
+  const Made made = make(box_mesh(kBoxEdges), 1000, 4);
   const double spacing = 2.0 * densest_disc_radius(kBoxArea, 1000);
-  const TriangleMesh box = box_mesh(kEdges);
+  const TriangleMesh box = box_mesh(kBoxEdges);
   for (unsigned a = 0; a < 8; ++a) {
     for (const unsigned axis : {1u, 2u, 4u}) {
       const unsigned b = a | axis;
@@ -393,8 +393,9 @@ std::string failure_of(const TriangleMesh& mesh, std::uint32_t points, std::uint
 }
 
 TEST(MovingBody, SaysWhatIsWrongAndTheCure) {
-  const TriangleMesh box = box_mesh(kEdges);
-  EXPECT_NE(failure_of(box, 0, 1, SurfaceKind::kAuto).find("moving.points = 0 is out of range; set it to 1 .."), std::string::npos);
+  const TriangleMesh box = box_mesh(kBoxEdges);
+  EXPECT_NE(failure_of(box, 0, 1, SurfaceKind::kAuto).find("moving.points = 0 is out of range; set it to 1 .."),
+            std::string::npos);
   EXPECT_NE(failure_of(box, (1u << 22) + 1, 1, SurfaceKind::kAuto).find("moving.points"), std::string::npos);
   EXPECT_NE(failure_of(box, 100, 0, SurfaceKind::kAuto).find("moving.levels"), std::string::npos);
   EXPECT_NE(failure_of(box, 5587, 17, SurfaceKind::kAuto).find("moving.levels"), std::string::npos);
@@ -407,7 +408,7 @@ TEST(MovingBody, SaysWhatIsWrongAndTheCure) {
 }
 
 TEST(MovingBody, IsTheSameEveryTime) {
-  const TriangleMesh mesh = test::moved(box_mesh(kEdges), test::odd_motion());
+  const TriangleMesh mesh = test::moved(box_mesh(kBoxEdges), test::odd_motion());
   const Made one = make(mesh, 3000, 5);
   const Made other = make(mesh, 3000, 5);
   const MovingBody& first = one.moving;
@@ -422,7 +423,7 @@ TEST(MovingBody, IsTheSameEveryTime) {
 }
 
 TEST(MovingBody, ProgressAscendsToOne) {
-  const SolidSurface surface(box_mesh(kEdges), SurfaceKind::kAuto, 0.001);
+  const SolidSurface surface(box_mesh(kBoxEdges), SurfaceKind::kAuto, 0.001);
   double last = 0.0;
   sample_moving_body(OuterSurface(surface), 500, 3, [&last](double done) {
     EXPECT_GE(done, last);

@@ -14,8 +14,8 @@
 namespace godobject::report {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Returns an input that is pressed into the block, and slides and turns on it.
 GodObject::Input valid_input(std::int64_t k) {
@@ -31,21 +31,21 @@ using Spoil = void (*)(GodObject::Input& input, Eigen::Index axis);
 
 /// All kinds of invalid inputs; `axis` is 0, 1 or 2.
 constexpr Spoil kKinds[] = {
-    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = kNan; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = kInfinity; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = -kInfinity; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = kNoNumber; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = kInfinite; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = -kInfinite; },
     [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = 1.1e7; },
     [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.translation[axis] = -1e300; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.rotation.coeffs()[axis] = kNan; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.rotation.coeffs()[axis] = kInfinity; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.rotation.coeffs()[axis] = kNoNumber; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.rotation.coeffs()[axis] = kInfinite; },
     [](GodObject::Input& input, Eigen::Index axis) { input.H_WM.rotation.coeffs()[axis] = 1e200; },
     [](GodObject::Input& input, Eigen::Index) { input.H_WM.rotation.coeffs() *= 1.01; },
     [](GodObject::Input& input, Eigen::Index) { input.H_WM.rotation.coeffs() *= 0.99; },
     [](GodObject::Input& input, Eigen::Index) { input.H_WM.rotation.coeffs().setZero(); },
-    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.translation[axis] = kNan; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.translation[axis] = kInfinity; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.rotation[axis] = kNan; },
-    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.rotation[axis] = -kInfinity; }};
+    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.translation[axis] = kNoNumber; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.translation[axis] = kInfinite; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.rotation[axis] = kNoNumber; },
+    [](GodObject::Input& input, Eigen::Index axis) { input.velocity_W.rotation[axis] = -kInfinite; }};
 
 struct Flaws {
   double accepted = 0.0;
@@ -65,7 +65,7 @@ Flaws run(const SceneView& scene, Solver solver, bool friction, std::int64_t cyc
   OwnedGodObject disturbed;
   OwnedGodObject sound;
   if (disturbed.start(scene, solver, friction) != Status::kOk || sound.start(scene, solver, friction) != Status::kOk) {
-    return {.accepted = kNan};
+    return {.accepted = kNoNumber};
   }
   CycleReport report;
   CycleReport expected;
@@ -107,7 +107,8 @@ CaseResult bad_input(std::int64_t cycles, const ExtremesFault& fault, const std:
     const std::string where = fmt::format("{}, friction {}, {} invalid inputs, {:.0f} valid ones in contact",
                                           format::kSolverNames[static_cast<std::size_t>(solver)],
                                           friction ? "on" : "off", each, flaws.contacts);
-    result.findings.push_back(judged(extremes_bound::kAccepted, flaws.contacts > 0.0 ? flaws.accepted : kNan, where));
+    result.findings.push_back(
+        judged(extremes_bound::kAccepted, flaws.contacts > 0.0 ? flaws.accepted : kNoNumber, where));
     result.findings.push_back(judged(extremes_bound::kForce, flaws.with_force, where));
     result.findings.push_back(judged(extremes_bound::kChanged, flaws.changed, where));
   }

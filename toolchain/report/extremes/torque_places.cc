@@ -17,7 +17,7 @@ namespace godobject::report {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
-constexpr double kVoxel = 2.0 * kMillimetre;
+constexpr double kPlaceVoxel = 2.0 * kMillimetre;
 constexpr double kMayChangeBy = 0.05;              ///< allowed change per cycle, share of a joint's torque limit
 constexpr double kHalfWidth = 30.0 * kMillimetre;  ///< of the still body
 constexpr double kDepth = 40.0 * kMillimetre;      ///< of the block, its top at z = 0
@@ -53,7 +53,7 @@ bool is_there(Place place, const SceneView& scene, const LedCycle& cycle) {
       const Vector3 end = H_WM * Vector3(half_of_body(place).x(), 0.0, 0.0);
       return all_rendered && cycle.contacts > 0 && end.x() > top_of_grid(scene).x();
     }
-    case Place::kMedialAxis: return std::fabs(p_W.z()) < 0.25 * kVoxel && cycle.contacts > 0;
+    case Place::kMedialAxis: return std::fabs(p_W.z()) < 0.25 * kPlaceVoxel && cycle.contacts > 0;
   }
   return false;
 }
@@ -82,8 +82,8 @@ const char* const kPlaceNames[] = {"start inside",     "start beyond the band", 
 const std::size_t kPlaceCount = std::size(kPlaceNames);
 
 files::SceneImage place_scene(Place place, const std::filesystem::path& work) {
-  const double bottom = place == Place::kMedialAxis ? -kVoxel : -kDepth;
-  const double top = place == Place::kMedialAxis ? kVoxel : 0.0;
+  const double bottom = place == Place::kMedialAxis ? -kPlaceVoxel : -kDepth;
+  const double top = place == Place::kMedialAxis ? kPlaceVoxel : 0.0;
   const Vector3 half_body = half_of_body(place);
   const std::filesystem::path body = work / "body.ply";
   write_ply(box_mesh(-half_body, half_body), body);
@@ -91,7 +91,7 @@ files::SceneImage place_scene(Place place, const std::filesystem::path& work) {
                  {.still = {.mesh = box_mesh({-kHalfWidth, -kHalfWidth, bottom}, {kHalfWidth, kHalfWidth, top})},
                   .body = body,
                   .points = 60,
-                  .settings = {.voxel_size = kVoxel, .safety_distance = 1.5 * kVoxel}},
+                  .settings = {.voxel_size = kPlaceVoxel, .safety_distance = 1.5 * kPlaceVoxel}},
                  work);
 }
 

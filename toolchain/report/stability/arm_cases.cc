@@ -29,8 +29,7 @@ namespace {
 namespace bound = stability_bound;
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
-constexpr double kPeriod = 1e-9 * kPeriod_ns;
-constexpr double kPercent = 100.0;
+constexpr double kArmPeriod = 1e-9 * kPeriod_ns;
 
 /// The gains in use of an arm; those of the light desktop device are a sixteenth of the other's.
 struct ArmGains {
@@ -58,7 +57,7 @@ ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& cou
   loop.rotation_stiffness = coupling.rotation_stiffness;
   loop.tool_damping = coupling.damping;
   loop.rotation_tool_damping = coupling.rotation_damping;
-  loop.timing = {kPeriod, delay, 2};
+  loop.timing = {kArmPeriod, delay, 2};
   return loop;
 }
 
@@ -108,9 +107,9 @@ class CoupledArm {
     started_ = true;
     Eigen::Matrix<double, 6, 1> wrench;
     wrench << -coupling_.stiffness * x.translation -
-                  coupling_.damping / kPeriod * (x.translation - x_before_.translation),
+                  coupling_.damping / kArmPeriod * (x.translation - x_before_.translation),
         -coupling_.rotation_stiffness * x.rotation -
-            coupling_.rotation_damping / kPeriod * (x.rotation - x_before_.rotation);
+            coupling_.rotation_damping / kArmPeriod * (x.rotation - x_before_.rotation);
     x_before_ = x;
     const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     static_cast<void>(drives_.send({J.transpose() * wrench, hal::PowerRequest::kEnable}));
@@ -156,7 +155,7 @@ std::array<double, 2> growth_at_boundary(const ArmModel& model, const JointVecto
     Coupling scaled = coupling;
     scaled.stiffness *= share * margin;
     scaled.rotation_stiffness *= share * margin;
-    CoupledArm arm(model, q, planted(scaled, fault), delay + fault.late * kPeriod);
+    CoupledArm arm(model, q, planted(scaled, fault), delay + fault.late * kArmPeriod);
     arm.swing(1500);
     const double first = arm.swing(500);
     arm.swing(2500);
@@ -222,12 +221,12 @@ CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling,
       k << Vector3::Constant(loop.stiffness), Vector3::Constant(loop.rotation_stiffness);
       const Eigen::MatrixXd J = loop.jacobian.leftCols(n);
       const Eigen::MatrixXd K = J.transpose() * k.asDiagonal() * J;
-      Eigen::MatrixXd rule = -(0.5 * kPeriod + delay) * K;
+      Eigen::MatrixXd rule = -(0.5 * kArmPeriod + delay) * K;
       rule.diagonal() += loop.damping.head(n);
       JointVector way = JointVector::Zero();
       way.head(n) = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rule).eigenvectors().col(0);
       const double measured =
-          work_along(model, q, way, planted(spring, request.fault), delay + request.fault.late * kPeriod);
+          work_along(model, q, way, planted(spring, request.fault), delay + request.fault.late * kArmPeriod);
       const double stated = passivity_excess(loop);
       // relative to the larger of both terms, which cancel if the joints absorb the energy of the delay
       const double taken = way.dot(loop.damping.cwiseProduct(way));

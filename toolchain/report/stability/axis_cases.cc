@@ -18,9 +18,6 @@ namespace {
 namespace bound = stability_bound;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPeriod = 1e-3;
-constexpr double kPercent = 100.0;
-constexpr double kMilli = 1e3;
 
 double percent_off(double value, double expected) { return kPercent * std::fabs(value / expected - 1.0); }
 

@@ -10,6 +10,10 @@
 
 namespace godobject::report {
 
+inline constexpr double kPeriod = 1e-3;  ///< of the loops with one degree of freedom and of the plate [s]
+inline constexpr double kPercent = 100.0;
+inline constexpr double kMilli = 1e3;
+
 struct StabilityRequest {
   std::filesystem::path devices = {};  ///< folder of the device files
   bool quick = false;

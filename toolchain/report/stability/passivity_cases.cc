@@ -13,9 +13,6 @@
 namespace godobject::report {
 namespace {
 
-constexpr double kPercent = 100.0;
-constexpr double kMilli = 1e3;
-
 /// Passivity observer and controller of one axis, as in the control cycle.
 class Account {
  public:
@@ -109,7 +106,6 @@ CaseResult boundary_with_controller(const StabilityRequest& request) {
 
 /// The controller's change of the force, for a hand that moves randomly into the wall and out again.
 CaseResult force_with_controller(const StabilityRequest& request) {
-  constexpr double kPeriod = 1e-3;
   constexpr double kStiffness = 2000.0;
   CaseResult result;
   for (const double stated : {20.0, 0.0}) {

@@ -19,13 +19,11 @@
 namespace godobject::report {
 namespace {
 
-constexpr double kPeriod = 1e-3;
-constexpr double kMass = 1.0;
+constexpr double kBodyMass = 1.0;
 constexpr double kDeviceDamping = 2.0;
-constexpr double kPressed = 2e-3;  ///< length of the pressed spring [m]
-constexpr double kPercent = 100.0;
+constexpr double kPressed = 2e-3;       ///< length of the pressed spring [m]
 constexpr std::uint32_t kPoints = 160;  ///< points of a body
-constexpr double kGone = 1e-3;          ///< share of the first swing; a smaller swing has died out
+constexpr double kDiedOut = 1e-3;       ///< share of the first swing; a smaller swing has died out
 constexpr double kGrown = 6.0;          ///< share of the first swing, there and back; a larger swing has grown
 constexpr double kResolution = 1e-3;    ///< of a boundary; a twentieth of the required one
 
@@ -71,7 +69,7 @@ class Press {
 
 /// A floating body under a constant downward force; its height and its tilt about y move, each in closed form.
 struct Floating {
-  AxisSetup height{.mass = kMass, .damping = kDeviceDamping};
+  AxisSetup height{.mass = kBodyMass, .damping = kDeviceDamping};
   double gyration = 0.02;  ///< radius of gyration g of the device: inertia m g^2, damping b g^2 [m]
   double stiffness = 2000.0;
   double coupling_rotation = 0.0;  ///< k_VC,r [m^2]
@@ -92,10 +90,10 @@ class FloatingPlant {
   explicit FloatingPlant(const Floating& floating)
       : forces_(floating.height.delay / kPeriod + floating.fault.late),
         torques_(floating.height.delay / kPeriod + floating.fault.late),
-        height_first_(kMass, kDeviceDamping, before_change()),
-        height_second_(kMass, kDeviceDamping, kPeriod - before_change()),
-        tilt_first_(kMass * square(floating.gyration), kDeviceDamping * square(floating.gyration), before_change()),
-        tilt_second_(kMass * square(floating.gyration), kDeviceDamping * square(floating.gyration),
+        height_first_(kBodyMass, kDeviceDamping, before_change()),
+        height_second_(kBodyMass, kDeviceDamping, kPeriod - before_change()),
+        tilt_first_(kBodyMass * square(floating.gyration), kDeviceDamping * square(floating.gyration), before_change()),
+        tilt_second_(kBodyMass * square(floating.gyration), kDeviceDamping * square(floating.gyration),
                      kPeriod - before_change()) {}
 
   FreeAxis::State height{.x = Press::kTouching + 1e-3};
@@ -158,7 +156,7 @@ class SwingWidths {
   double growth(std::size_t axis, double first) const {
     const double late = late_.high[axis] - late_.low[axis];
     if (late > kGrown * first) return HUGE_VAL;
-    return late < kGone * first ? -HUGE_VAL : std::log(late / (early_.high[axis] - early_.low[axis]));
+    return late < kDiedOut * first ? -HUGE_VAL : std::log(late / (early_.high[axis] - early_.low[axis]));
   }
 
  private:
@@ -223,9 +221,9 @@ Swings release(const Press& press, const Floating& floating, double push, double
     widths.note(k, plant.height.x, plant.tilt.x);
     plant.advance(load);
   }
-  const double first_tilt = turn * std::sqrt(kMass * (floating.gyration * floating.gyration) /
+  const double first_tilt = turn * std::sqrt(kBodyMass * (floating.gyration * floating.gyration) /
                                              (floating.stiffness * floating.coupling_rotation));
-  return {widths.growth(0, push * std::sqrt(kMass / floating.stiffness)), widths.growth(1, first_tilt)};
+  return {widths.growth(0, push * std::sqrt(kBodyMass / floating.stiffness)), widths.growth(1, first_tilt)};
 }
 
 /// Returns a slab that is released on a plate.
@@ -304,7 +302,7 @@ CaseResult gyration(const StabilityRequest& request, const std::filesystem::path
       floating.stiffness = 0.5 * stability_boundary(theory_of(floating.height));
       ArmLoop loop;
       loop.joint_count = 1;
-      loop.mass(0, 0) = kMass * radius * radius;
+      loop.mass(0, 0) = kBodyMass * radius * radius;
       loop.damping[0] = kDeviceDamping * radius * radius;
       loop.jacobian(0, 0) = 1.0;
       loop.timing = {kPeriod, floating.height.delay, 2};
@@ -316,7 +314,7 @@ CaseResult gyration(const StabilityRequest& request, const std::filesystem::path
       const auto measured_of = [&](const Press& press) {
         const auto stable = [&](double coupling) {
           floating.coupling_rotation = coupling;
-          const double rate = std::sqrt(floating.stiffness * coupling / (kMass * radius * radius));
+          const double rate = std::sqrt(floating.stiffness * coupling / (kBodyMass * radius * radius));
           const double swing = std::min(1e-3, kPressed * kFirstShift / coupling);
           return release(press, floating, 0.0, swing * rate).tilt < 0.0;
         };
@@ -378,12 +376,12 @@ double stored_energy(const Pose& H_WS, const Pose& H_WD, const Parameters& q) {
 }
 
 /// A run of the energy's account.
-struct Account {
+struct EnergyAccount {
   double missing = 0.0;  ///< largest energy in the coupling that the hand had not supplied [J]; NaN: a cycle failed
   double most = 0.0;     ///< largest energy in the coupling [J]
 };
 
-Account account(const SceneView& scene, Solver solver, unsigned seed, const LoopFault& fault) {
+EnergyAccount account(const SceneView& scene, Solver solver, unsigned seed, const LoopFault& fault) {
   constexpr int kCycles = 5000;
   const HandOverPlate hand(seed);
   OwnedGodObject god_object;
@@ -391,7 +389,7 @@ Account account(const SceneView& scene, Solver solver, unsigned seed, const Loop
   std::vector<Wrench> late(static_cast<std::size_t>(fault.late) + 1);
   CycleReport report;
   Pose before = hand.pose(0.0) * scene.H_MB;
-  Account all;
+  EnergyAccount all;
   double supplied = 0.0;
   for (int k = 0; k < kCycles; ++k) {
     const Pose H_WM = hand.pose(kPeriod * k);
@@ -419,7 +417,7 @@ CaseResult pipeline_observer(const StabilityRequest& request, const std::filesys
     if (request.one_place && solver != Solver::kContact) continue;
     double worst = 0.0;
     for (unsigned seed = 1; seed <= (request.quick ? 3u : 20u); ++seed) {
-      const Account run = account(scene, solver, seed + 100 * request.seed, request.fault);
+      const EnergyAccount run = account(scene, solver, seed + 100 * request.seed, request.fault);
       const double share = kPercent * run.missing / run.most;
       worst = std::isnan(share) ? share : std::max(worst, share);
       if (std::isnan(share)) break;
@@ -446,7 +444,7 @@ double stiffest_stable_plate(Solver solver, double delay, double damping, int pe
       0.25 * exact,
       [&](double stiffness) {
         floating.stiffness = stiffness;
-        const double rate = std::sqrt(stiffness / kMass);
+        const double rate = std::sqrt(stiffness / kBodyMass);
         return release(press, floating, 0.01 * kPressed * rate, 0.0).height < 0.0;
       },
       kResolution);

@@ -24,11 +24,11 @@ constexpr double kSignSlack = 0.1;
 constexpr double kNear = 0.5;        // [voxels] of a point that counts as near the surface
 constexpr double kNodeError = 1e-5;  // [m] of a node; the error of an image in metres and single precision up to 100 m
 constexpr double kNodeErrorInVoxels = 1e-3;  // of a node; smaller than kNodeError for voxels below a centimetre
-constexpr double kFloatRounding = 0x1p-24;   // relative
+constexpr double kSingleRounding = 0x1p-24;  // relative
 constexpr double kOnSeam = 1e-6;             // at |w - 1/2| below it rounding decides the sign
 
 /// A point in a stored position, with its cell among the position's own nodes.
-struct Place {
+struct CellPlace {
   std::uint32_t entry;       // of the brick index
   Vector3d position;         // first node of the position
   std::array<int, 3> cell;   // within the position
@@ -48,11 +48,11 @@ class Places {
 
   bool empty() const { return stored_.empty(); }
 
-  Place draw(std::mt19937_64& random) const {
+  CellPlace draw(std::mt19937_64& random) const {
     const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const std::size_t position = stored_[random() % stored_.size()];
     const BrickPosition p = lattice_.position(position);
-    Place place;
+    CellPlace place;
     place.entry = grid_.index[position];
     const double s = grid_.grid.voxel_size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -83,7 +83,7 @@ struct PointError {
     const bool undecided = value * exact_value < 0.0 && std::abs(surface.winding_number(at) - 0.5) < kOnSeam;
     const double off = undecided ? std::abs(std::abs(value) - std::abs(exact_value)) : std::abs(value - exact_value);
     node = std::max(node, off);
-    node_excess = std::max(node_excess, off - kFloatRounding * std::abs(exact_value));
+    node_excess = std::max(node_excess, off - kSingleRounding * std::abs(exact_value));
   }
 };
 
@@ -95,8 +95,8 @@ std::uint32_t own_brick(const DistanceGrid& grid, std::uint32_t entry) {
 }
 
 /// Adds the nodes of the octant that contains the point, without those on the octant's faces, which may not be exact.
-void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, const Place& place, DistanceProbe& probe,
-                      PointError& error) {
+void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, const CellPlace& place,
+                      DistanceProbe& probe, PointError& error) {
   std::uint32_t entry = place.entry;
   Vector3d low = place.position;
   double edge = grid.grid.voxel_size;
@@ -126,7 +126,8 @@ void add_octant_nodes(const SolidSurface& surface, const DistanceGrid& grid, con
   }
 }
 
-PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field, const Place& place) {
+PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
+                   const CellPlace& place) {
   DistanceProbe probe(surface);
   PointError error{};
   error.exact = probe.signed_distance(place.point);
@@ -149,7 +150,7 @@ PointError measure(const SolidSurface& surface, const DistanceGrid& grid, const 
   return error;
 }
 
-ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<Place>& places,
+ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<CellPlace>& places,
                       const DistanceGrid& grid) {
   ErrorNorms norms;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -174,10 +175,10 @@ ErrorNorms near_norms(const std::vector<PointError>& errors, const std::vector<P
 FieldError check_field(const SolidSurface& surface, const DistanceGrid& grid, const Voxelmap& field,
                        std::uint64_t points, const parallel::Progress& progress) {
   const Places places(grid);
-  std::vector<Place> drawn;
+  std::vector<CellPlace> drawn;
   std::mt19937_64 random(20160902);
   while (!places.empty() && drawn.size() < points) {
-    const Place place = places.draw(random);
+    const CellPlace place = places.draw(random);
     if (field.sample(place.point).known) drawn.push_back(place);
   }
   std::vector<PointError> errors(drawn.size());
@@ -216,7 +217,7 @@ LookUpTime time_look_ups(const DistanceGrid& grid, const Voxelmap& field) {
   std::array<std::vector<Vector3d>, 2> points;  // unrefined, refined
   std::mt19937_64 random(20160903);
   for (std::size_t i = 0; !places.empty() && i < 100 * kPoints; ++i) {
-    const Place place = places.draw(random);
+    const CellPlace place = places.draw(random);
     auto& list = points[is_refined(place.entry) ? 1 : 0];
     if (list.size() < kPoints && field.sample(place.point).known) list.push_back(place.point);
   }

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using format::kBrickCells;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 Vector3d to_vector(const BrickPosition& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
@@ -25,8 +25,8 @@ SeamMap::SeamMap(const BrickLattice& bricks, const Vector3d& origin, double voxe
     : bricks_(bricks),
       origin_(origin),
       voxel_size_(voxel_size),
-      low_(Vector3d::Constant(kInfinity)),
-      high_(Vector3d::Constant(-kInfinity)) {}
+      low_(Vector3d::Constant(kUnbounded)),
+      high_(Vector3d::Constant(-kUnbounded)) {}
 
 void SeamMap::add(const BrickPosition& position, const Brick& brick) {
   for_each_cell(brick, kAllOctants, [&](const CellEdges& edges, int x, int y, int z) {
@@ -70,7 +70,7 @@ void SeamMap::close() {
 }
 
 double SeamMap::clearance_of_bricks(const BrickPosition& position) const {
-  if (boxes_.empty()) return kInfinity;
+  if (boxes_.empty()) return kUnbounded;
   return kBrickCells * voxel_size_ * std::sqrt(static_cast<double>(squared_steps_[bricks_.number(position)])) *
          (1.0 - 1e-6);
 }

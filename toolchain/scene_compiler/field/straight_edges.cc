@@ -25,7 +25,7 @@ constexpr double kOffPlane = 1e-3;  // [voxels] largest distance of a plane's ve
 constexpr double kGap = 0.5;        // [voxels] between stretches on one line: twice the edge of a finest brick
 constexpr double kShortest = 1.0;   // [voxels] least length of a stretch, chosen
 constexpr double kTie = 1e-6;       // [voxels] so that rounding does not decide between equals
-constexpr double kStep = 0.1;       // [voxels] between the places along an edge at which its surroundings are measured
+constexpr double kAlongStep = 0.1;  // [voxels] between the places along an edge at which its surroundings are measured
 /// Slopes and radii, of the largest one, among which the widest tube is searched.
 constexpr std::array<double, 4> kSlopes = {0.2, 0.1, 0.05, 0.0};
 constexpr std::array<double, 8> kRadii = {1.0, 0.8, 0.6, 0.45, 0.3, 0.2, 0.15, 0.1};
@@ -247,7 +247,7 @@ struct Tube {
 
 /// Finds the widest tube. There is one, the one of the end radius, if no `allowed` is less than least_radius().
 Tube widest_tube(std::span<const double> allowed, double voxel_size, double largest_radius) {
-  const double step = kStep * voxel_size;
+  const double step = kAlongStep * voxel_size;
   const double end_radius = kEndRadius * voxel_size;
   const double slack = end_radius - least_radius(voxel_size);
   Tube best;
@@ -270,7 +270,7 @@ std::vector<format::Edge> stretches(const Surroundings& surroundings, const Crea
                                     double largest_radius) {
   const double end_radius = kEndRadius * voxel_size;
   const double least = least_radius(voxel_size);
-  const double step = kStep * voxel_size;
+  const double step = kAlongStep * voxel_size;
   std::vector<format::Edge> edges;
   if (crease.to - crease.from < kShortest * voxel_size) return edges;
   const double search_radius = largest_radius / kShare + step;

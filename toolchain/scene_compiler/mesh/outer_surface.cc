@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of the bounding box's diagonal: above the rounding of vertices, below the thickness of walls.
-constexpr double kStep = 1e-6;
+constexpr double kOffset = 1e-6;
 /// Least winding number outside is minus this. A flat open sheet has exactly -0.5 there, and 0.5 inside.
 constexpr double kMostNegative = 0.49;
 constexpr double kLeastOuterPart = 4e-3;  // Chosen; of the area. A mesh with less outer surface counts as one without.
@@ -43,7 +43,7 @@ OuterSurface::OuterSurface(const SolidSurface& surface)
       body_(surface),
       patches_(body_),
       sharp_(sharp_features(body_)),
-      step_(kStep * body_.diagonal) {}
+      step_(kOffset * body_.diagonal) {}
 
 bool OuterSurface::is_outer(const SurfaceSample& sample, Known& known) const {
   if (!surface_.shell_triangles().empty()) {

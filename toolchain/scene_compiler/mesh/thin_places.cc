@@ -21,9 +21,9 @@ constexpr double kSpacing = 0.5;      // of samples [voxels]: a patch of one vox
 constexpr double kMostSamples = 2e6;  // chosen: bounds time and memory
 /// [voxels] reported: the field stores a depth of at most 0.6 voxels in a wall of two.
 constexpr double kThin = 2.0;
-constexpr double kLost = 1.0;       // [voxels] lost: a thinner wall may have no node of the grid inside
-constexpr double kRounding = 1e-4;  // relative: a plate of exactly two voxels is not thinner
-constexpr double kFacing = -0.9;    // cosine between the normals of two faces that make a wall: within 26 degrees
+constexpr double kLost = 1.0;                // [voxels] lost: a thinner wall may have no node of the grid inside
+constexpr double kThicknessRounding = 1e-4;  // relative: a plate of exactly two voxels is not thinner
+constexpr double kFacing = -0.9;  // cosine between the normals of two faces that make a wall: within 26 degrees
 /// Cosine between the normals of near-parallel faces: within 10 degrees; others are wedges.
 constexpr double kParallel = -0.985;
 
@@ -172,7 +172,7 @@ ThinPlaces gather(const std::vector<std::optional<Thin>>& seen, double area_each
       places.smallest = thin->thickness;
       places.at = thin->middle;
     }
-    if (thin->thickness >= kLost * voxel_size * (1.0 - kRounding)) continue;
+    if (thin->thickness >= kLost * voxel_size * (1.0 - kThicknessRounding)) continue;
     places.lost_area += 0.5 * area_each;
     if (thin->parallel) lost.push_back(*thin);
   }
@@ -186,7 +186,7 @@ ThinPlaces gather(const std::vector<std::optional<Thin>>& seen, double area_each
 
 ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const parallel::Progress& progress) {
   const Samples samples = sample(surface, voxel_size);
-  const double search_radius = kThin * voxel_size * (1.0 - kRounding);
+  const double search_radius = kThin * voxel_size * (1.0 - kThicknessRounding);
   std::vector<std::optional<Thin>> walls(samples.all.size());
   std::vector<std::optional<Thin>> gaps(samples.all.size());
   parallel::for_each_index(

@@ -20,7 +20,7 @@ constexpr std::uint32_t kMostUneven = 16;
 /// Depth of the stack of open nodes. Each split leaves more than 1 / kMostUneven of the triangles on either side. So
 /// 2^26 triangles, twice kMaxTriangles, need at most ln(2^26 / kLeafTriangles) / ln(16 / 15) = 258 levels.
 constexpr std::size_t kStack = 288;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotReached = std::numeric_limits<double>::infinity();
 
 double squared_distance_to_box(const Vector3d& p, const Vector3d& low, const Vector3d& high) noexcept {
   return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
@@ -64,8 +64,8 @@ bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const
   const double u = from_a.dot(h) / determinant;
   const Vector3d q = from_a.cross(e1);
   const double v = direction.dot(q) / determinant;
-  constexpr double kEdge = 1e-9;  // so that a ray through an edge meets at least one of its two triangles
-  if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge) return false;
+  constexpr double kBesideEdge = 1e-9;  // so that a ray through an edge meets at least one of its two triangles
+  if (u < -kBesideEdge || v < -kBesideEdge || u + v > 1.0 + kBesideEdge) return false;
   t = e2.dot(q) / determinant;
   return true;
 }
@@ -132,7 +132,7 @@ std::uint32_t TriangleTree::split_by_bins(std::uint32_t begin, std::uint32_t end
   }
   Box left;
   std::uint32_t left_count = 0;
-  double best = kInfinity;
+  double best = kNotReached;
   int best_bin = -1;
   const std::uint32_t smallest = (end - begin) / kMostUneven;
   for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {

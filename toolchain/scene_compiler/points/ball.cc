@@ -20,9 +20,9 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of the bounding box's diagonal: the rounding of coordinates some metres off the origin.
-constexpr double kFlat = 1e-5;
+constexpr double kFlatTriangle = 1e-5;
 /// Of the diagonal: rounding of a face's corners against each other, some 6 units of 6e-8.
-constexpr double kFloatRounding = 4e-7;
+constexpr double kCornerRounding = 4e-7;
 
 bool is_one_solid(const SolidSurface& surface) {
   return surface.components().size() == 1 && !surface.components().front().shell && surface.sealed();
@@ -44,7 +44,7 @@ FacePlane plane_of(const SolidSurface& surface, std::size_t face, double diagona
   const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
   const Vector3d normal = area.normalized();
   const double height = area.norm() / longest;  // the smallest of the three
-  return {normal, normal.dot(a), diagonal * (kFlat + kFloatRounding * diagonal / height)};
+  return {normal, normal.dot(a), diagonal * (kFlatTriangle + kCornerRounding * diagonal / height)};
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of the radius, for points on the sphere: far above double rounding, far below float's.
-constexpr double kSlack = 1e-10;
+constexpr double kInsideSlack = 1e-10;
 /// Squared relative area or volume of collinear or coplanar points: 1e-12, the rounding of their products.
-constexpr double kFlat = 1e-24;
+constexpr double kDegenerate = 1e-24;
 constexpr int kMostExchanges = 1000;  // ends a loop that rounding might cause; never seen above 30
 
 /// At most four points that determine a sphere, and one more outside it.
@@ -38,14 +38,14 @@ bool sphere_through(const Support& support, Sphere& sphere) {
     const Vector3d a = points[1] - origin;
     const Vector3d b = points[2] - origin;
     const Vector3d normal = a.cross(b);
-    if (!(normal.squaredNorm() > kFlat * a.squaredNorm() * b.squaredNorm())) return false;
+    if (!(normal.squaredNorm() > kDegenerate * a.squaredNorm() * b.squaredNorm())) return false;
     offset = (a.squaredNorm() * b - b.squaredNorm() * a).cross(normal) / (2.0 * normal.squaredNorm());
   } else if (support.count == 4) {
     const Vector3d a = points[1] - origin;
     const Vector3d b = points[2] - origin;
     const Vector3d c = points[3] - origin;
     const double volume = a.dot(b.cross(c));
-    if (!(volume * volume > kFlat * a.squaredNorm() * b.squaredNorm() * c.squaredNorm())) return false;
+    if (!(volume * volume > kDegenerate * a.squaredNorm() * b.squaredNorm() * c.squaredNorm())) return false;
     offset =
         (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b)) / (2.0 * volume);
   }
@@ -55,7 +55,7 @@ bool sphere_through(const Support& support, Sphere& sphere) {
 
 bool contains(const Sphere& sphere, const Support& support) {
   for (std::size_t i = 0; i < support.count; ++i) {
-    if (!((support.points[i] - sphere.center).norm() <= sphere.radius * (1.0 + kSlack))) return false;
+    if (!((support.points[i] - sphere.center).norm() <= sphere.radius * (1.0 + kInsideSlack))) return false;
   }
   return true;
 }
@@ -108,7 +108,7 @@ Sphere bounding_sphere(std::span<const Vector3d> points) {
         furthest = i;
       }
     }
-    if (std::sqrt(largest) <= sphere.radius * (1.0 + kSlack)) break;
+    if (std::sqrt(largest) <= sphere.radius * (1.0 + kInsideSlack)) break;
     support.points[support.count++] = points[furthest];
     if (!exchange(support, sphere)) break;
   }

@@ -16,10 +16,10 @@ constexpr double kMostCoarse = 1u << 18;
 constexpr double kSharpPart = 0.25;  // of the fine spacing, along edges
 constexpr std::uint32_t kMostSharp = 1u << 17;
 constexpr double kMostFine = 1u << 19;
-constexpr double kNearRough = 1.5;   // times the rough area is near it
-constexpr double kRoughSlack = 0.8;  // a coarse cloud misses some of the fall
-constexpr double kRounding = 1e-12;  // of squared lengths, so that no place is left out
-constexpr double kFaceCosine = 0.7;  // of a shell's sample with its triangle, if not on a round
+constexpr double kNearRough = 1.5;         // times the rough area is near it
+constexpr double kRoughSlack = 0.8;        // a coarse cloud misses some of the fall
+constexpr double kSquareRounding = 1e-12;  // of squared lengths, so that no place is left out
+constexpr double kFaceCosine = 0.7;        // of a shell's sample with its triangle, if not on a round
 
 std::vector<SurfaceSample> outer_of(const OuterSurface& outer, const std::vector<SurfaceSample>& samples) {
   const std::vector<std::uint8_t> are_outer = outer.are_outer(samples);
@@ -104,7 +104,7 @@ bool Relief::may_fall(std::size_t i, const Vector3d& low, const Vector3d& high, 
   const double center_depth = center.dot(inward_[i]);
   if (center_depth + half.dot(inward_[i].cwiseAbs()) <= depth) return false;
   const double reach = radius + half.norm();
-  return (1.0 - kRounding) * center.squaredNorm() - center_depth * center_depth <= reach * reach;
+  return (1.0 - kSquareRounding) * center.squaredNorm() - center_depth * center_depth <= reach * reach;
 }
 
 bool Relief::falls(std::size_t i, double radius, const Fall& fall) const {

@@ -26,7 +26,7 @@ Box box_of(const format::Workspace& workspace) {
 }
 
 /// The range of distances between places of a box and places that the field affects, slightly widened.
-struct Range {
+struct Distances {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
 
@@ -55,12 +55,12 @@ void visit_felt_cells(const DistanceGrid& field, std::uint32_t entry, const Vect
   }
 }
 
-Range range_of(const DistanceGrid& field, const Box& box) {
+Distances range_of(const DistanceGrid& field, const Box& box) {
   const format::Grid& grid = field.grid;
   const BrickLattice lattice{{grid.bricks[0], grid.bricks[1], grid.bricks[2]}};
   const double edge = kBrickCells * grid.voxel_size;
   const double slack = kLookUpSlack * grid.voxel_size;
-  Range range;
+  Distances range;
   const auto add = [&](const Box& felt) {
     range.least = std::min(range.least, felt.nearest(box) - slack);
     range.most = std::max(range.most, felt.farthest(box) + slack);
@@ -154,7 +154,7 @@ class Cells {
 
 std::vector<bool> within_reach_of_field(const DistanceGrid& field, const format::Workspace& workspace,
                                         std::span<const Vector3d> points_B) {
-  const Range range = range_of(field, box_of(workspace));
+  const Distances range = range_of(field, box_of(workspace));
   std::vector<bool> stays;
   for (const Vector3d& p : points_B) stays.push_back(range.holds(p.norm()));
   return stays;
@@ -162,7 +162,7 @@ std::vector<bool> within_reach_of_field(const DistanceGrid& field, const format:
 
 std::vector<bool> within_reach_of_body(const DistanceGrid& body_field, const format::Workspace& workspace,
                                        std::span<const Vector3d> points_W) {
-  const Range range = range_of(body_field, Box{Vector3d::Zero(), Vector3d::Zero()});
+  const Distances range = range_of(body_field, Box{Vector3d::Zero(), Vector3d::Zero()});
   const Box box = box_of(workspace);
   std::vector<bool> stays;
   for (const Vector3d& q : points_W) {

@@ -91,13 +91,13 @@ class Draw {
 /// The places are in voxels, along `into` and across it.
 void press(const Pose& H_WB, const Vector3& into, const Vector3& along, double s, std::vector<Pose>& poses) {
   constexpr int kCycles = 100;  // of each leg
-  struct Place {
+  struct Stage {
     double deep, across;
   };
-  constexpr std::array kPlaces = {Place{-25, 0}, Place{3, 0}, Place{3, 10}, Place{3, -10}, Place{3, 0}, Place{-25, 0}};
+  constexpr std::array kPlaces = {Stage{-25, 0}, Stage{3, 0}, Stage{3, 10}, Stage{3, -10}, Stage{3, 0}, Stage{-25, 0}};
   for (std::size_t leg = 0; leg + 1 < kPlaces.size(); ++leg) {
-    const Place& from = kPlaces[leg];
-    const Place& to = kPlaces[leg + 1];
+    const Stage& from = kPlaces[leg];
+    const Stage& to = kPlaces[leg + 1];
     for (int k = 0; k < kCycles; ++k) {
       const double share = static_cast<double>(k) / kCycles;
       Pose pose = H_WB;

@@ -15,8 +15,8 @@ namespace godobject::detail {
 namespace {
 
 /// One force at a random place, and a motion of a random direction and of size 1.
-struct Case {
-  explicit Case(std::mt19937& random) {
+struct ArrivalCase {
+  explicit ArrivalCase(std::mt19937& random) {
     std::normal_distribution<double> normal;
     const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
     force.normal = vector().normalized();
@@ -46,7 +46,7 @@ template <class Growth>
 void expect_second_order(std::uint32_t id, const Growth& exact) {
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {
-    Case one(random);
+    ArrivalCase one(random);
     one.force.id = id;
     for (const double size : {1e-2, 1e-3}) {
       const ConstrainedStep step = one.step(size);
@@ -127,7 +127,7 @@ TEST(PushObstacle, AsksForTheLossOfTheArc) {
   lengths.margin = 0.01;
   std::mt19937 random(5);
   for (int i = 0; i < 100; ++i) {
-    const Case one(random);
+    const ArrivalCase one(random);
     const Motion step = one.step(0.1).motion;
     const Motion straight{step.translation, Vector3::Zero()};
     const auto near = std::make_unique<NearPoints>();

@@ -24,7 +24,7 @@ using detail::Certificate;
 using detail::chord_is_free;
 using detail::Obstacle;
 
-constexpr double kVoxel = 0.002;
+constexpr double kCertificateVoxel = 0.002;
 constexpr double kRounding = 1e-9;
 
 /// A straight wire about the z axis.
@@ -73,7 +73,7 @@ double least_on_chord(const Shape& shape, const Vector3& p0, const Vector3& p1, 
 template <class Shape>
 void expect_chords_as_sampled(const Shape& shape, unsigned seed) {
   Random random(seed);
-  const Counted<Shape> field{AnalyticField<Shape>(shape, kVoxel)};
+  const Counted<Shape> field{AnalyticField<Shape>(shape, kCertificateVoxel)};
   int free = 0, blocked = 0, exhausted = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const double size = std::pow(10.0, random.between(-4.0, -1.5));
@@ -123,7 +123,7 @@ TEST(ChordIsFree, IsAsDenseSamplesTellOfABall) { expect_chords_as_sampled(Ball{{
 
 /// Beside a plane at the height h, each ball has the radius h: a chord of length l needs l / h - 2 of them.
 TEST(ChordIsFree, TakesAsManyBallsAsTheGapAsksFor) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField<HalfSpace> field({}, kCertificateVoxel);
   for (const double h : {0.001, 0.002, 0.005}) {
     for (int balls = 0; balls < 8; ++balls) {
       const double length = (balls + 1.999) * h;
@@ -145,7 +145,7 @@ TEST(ChordIsFree, TakesAsManyBallsAsTheGapAsksFor) {
 }
 
 TEST(ChordIsFree, TakesAtMostTheBallsOfAChord) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField<HalfSpace> field({}, kCertificateVoxel);
   constexpr double kHeight = 0.001;
   for (const int more : {0, 1}) {
     const double length = (kMostBallsOfChord - 1 + 1.999 + more) * kHeight;
@@ -189,7 +189,7 @@ Chord chord_of(const NearPoints& near, std::uint32_t k, const Pose& H0, const Po
 template <class Shape>
 void expect_motions_as_sampled(const Shape& shape, unsigned seed) {
   Random random(seed);
-  const Counted<Shape> field{AnalyticField<Shape>(shape, kVoxel)};
+  const Counted<Shape> field{AnalyticField<Shape>(shape, kCertificateVoxel)};
   int held = 0, failed = 0, by_gap = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vector3> points(static_cast<std::size_t>(random.integer(0, trial % 5 == 0 ? 200 : 8)));
@@ -256,7 +256,7 @@ TEST(Certificate, HoldsAsDenseSamplesTellOfABall) { expect_motions_as_sampled(Ba
 /// Any point may be the suspect: the answer is the same, since the others are tested, too.
 TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
   Random random(15);
-  const Counted<Plate> field{AnalyticField<Plate>(Plate{1e-4}, kVoxel)};
+  const Counted<Plate> field{AnalyticField<Plate>(Plate{1e-4}, kCertificateVoxel)};
   int held = 0, failed = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vector3> points(static_cast<std::size_t>(random.integer(1, 150)));
@@ -290,7 +290,7 @@ TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
 
 TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   Random random(16);
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kCertificateVoxel)};
   std::vector<Vector3> points(200);
   for (Vector3& p : points) p = random.in_cube(0.001) + Vector3(0.0, 0.0, 0.003);
   const auto near = near_points(field.field, points, Pose{});
@@ -309,7 +309,7 @@ TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
 
 /// A chord that the field's kernel proves free needs no ball; but the gap at its end counts all the same.
 TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
-  Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kCertificateVoxel)};
   const std::vector<Vector3> points = {{0.0, 0.0, 1e-4}};
   const auto near = near_points(field.field, points, Pose{});
   Pose along, down;
@@ -332,7 +332,7 @@ TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
 }
 
 TEST(MotionIsFree, IsTrueWithoutNearPointsAndForgetsThatLookUpsWereUsedUp) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField<HalfSpace> field({}, kCertificateVoxel);
   const ContactLengths lengths = ContactLengths::make({});
   const auto near = std::make_unique<NearPoints>();
   Pose H1;

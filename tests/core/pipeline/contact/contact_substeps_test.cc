@@ -19,8 +19,8 @@
 namespace godobject::test {
 namespace {
 
-constexpr double kVoxel = 0.002;
-constexpr double kMargin = 2e-5;
+constexpr double kSubstepVoxel = 0.002;
+constexpr double kSubstepMargin = 2e-5;
 
 /// A box about the origin with its exact distance.
 struct Block {
@@ -39,7 +39,7 @@ struct Block {
   }
 };
 
-Pose at(const Vector3& position, const Vector3& turn = Vector3::Zero()) {
+Pose pose_at(const Vector3& position, const Vector3& turn = Vector3::Zero()) {
   Pose pose;
   pose.translation = position;
   pose.rotation = exp_rotation(turn);
@@ -50,7 +50,7 @@ template <class Shape, bool kFriction = false>
 struct SubstepRun : AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>> {
   using Base = AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>>;
   SubstepRun(const AnalyticField<Shape>& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
-    this->parameters.margin = kMargin;
+    this->parameters.margin = kSubstepMargin;
     this->parameters.friction = {0.2, 0.18, 0.0};
   }
   const ContactMemory& memory() const { return *this->cycle.memory; }
@@ -66,16 +66,16 @@ struct Seen {
 template <bool kFriction>
 Seen expect_one_story(unsigned seed, const WorkspaceBox& workspace) {
   Random random(seed);
-  const AnalyticField<Block> field({}, kVoxel);
+  const AnalyticField<Block> field({}, kSubstepVoxel);
   const SampledBody body = box_body(4);
-  SubstepRun<Block, kFriction> run(field, body, at({0.0, 0.0, 0.06}));
+  SubstepRun<Block, kFriction> run(field, body, pose_at({0.0, 0.0, 0.06}));
   run.parameters.workspace = workspace;
   Pose device = run.state.H_WS;
   Motion velocity;
   Seen seen;
   for (int cycle = 0; cycle < 600; ++cycle) {
     if (cycle % 30 == 0) velocity = random.motion(std::pow(10.0, random.between(-5.0, -2.3)), 0.05);
-    if (cycle % 150 == 149) device = at(random.in_cube(0.07), random.in_cube(1.0));
+    if (cycle % 150 == 149) device = pose_at(random.in_cube(0.07), random.in_cube(1.0));
     device = device * set_matrix(velocity);
     if (device.translation.norm() > 0.08) device.translation *= 0.9;
     device.translation = workspace.nearest(device.translation);
@@ -160,17 +160,17 @@ TEST(ContactSubsteps, StoreTheMotionOfTheWholeCycle) {
 /// A point slides on the top of a block and past its edge. The device is 0.3 mm below the top. Beyond the edge nothing
 /// holds the point: in the same cycle it goes to the device.
 TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
-  const AnalyticField<Block> field({}, kVoxel);
+  const AnalyticField<Block> field({}, kSubstepVoxel);
   const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
   for (const double begin : {0.0, 1e-4, 2.5e-4, 4e-4}) {
-    SubstepRun<Block> run(field, body, at({0.018 + begin, 0.0, 0.0101}));
+    SubstepRun<Block> run(field, body, pose_at({0.018 + begin, 0.0, 0.0101}));
     for (int i = 1; i < 10; ++i) {
       const double x = 0.018 + begin + 5e-4 * i;
-      ASSERT_EQ(run.step(at({x, 0.0, 0.0097})), Status::kOk);
+      ASSERT_EQ(run.step(pose_at({x, 0.0, 0.0097})), Status::kOk);
       const Vector3 here = run.state.H_WS.translation;
       ASSERT_NEAR(here.x(), x, 1e-7) << "without friction it keeps up";
       if (x < 0.02 - 1e-9) {
-        EXPECT_NEAR(here.z(), 0.01 + kMargin, 0.1 * kMargin) << x;
+        EXPECT_NEAR(here.z(), 0.01 + kSubstepMargin, 0.1 * kSubstepMargin) << x;
         EXPECT_EQ(run.report.outcome, Outcome::kContact);
       } else if (x > 0.02 + 1e-4) {
         EXPECT_NEAR(here.z(), 0.0097, 1e-9) << x;
@@ -185,19 +185,19 @@ TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
 /// there, so that no motion regains the gap. The six faces of the workspace take the place of six rows.
 template <bool kFriction>
 void expect_rows_to_give_way_to_the_faces() {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField<HalfSpace> field({}, kSubstepVoxel);
   SurfaceSamples face;
   for (int i = 0; i < 2048; ++i) {
     face.points.push_back({1e-3 * (i % 64 - 31.5), 1e-3 * (i / 64 - 15.5), -0.015});
     face.normals.push_back(Vector3::UnitZ());
   }
   const SampledBody body(face, Vector3::Constant(4e-4));
-  const double height = 0.015 + 0.5 * kMargin;
-  SubstepRun<HalfSpace, kFriction> run(field, body, at({0.0, 0.0, height}));
+  const double height = 0.015 + 0.5 * kSubstepMargin;
+  SubstepRun<HalfSpace, kFriction> run(field, body, pose_at({0.0, 0.0, height}));
   const double inf = std::numeric_limits<double>::infinity();
   run.parameters.workspace = {true, {-inf, -inf, -inf}, {inf, inf, height}};
   for (int i = 1; i <= 20; ++i) {
-    ASSERT_EQ(run.step(at({1e-5 * i, 0.0, height})), Status::kOk);
+    ASSERT_EQ(run.step(pose_at({1e-5 * i, 0.0, height})), Status::kOk);
     EXPECT_EQ(run.report.dropped, 6u) << i;
     EXPECT_EQ(run.report.outcome, Outcome::kInfeasible) << i;
     EXPECT_EQ(run.report.unconverged, kFriction) << "with friction the faces are met without it";
@@ -215,13 +215,13 @@ TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspaceWithFriction) { expect_rows
 /// A body that starts between walls that push against each other is nowhere held: no contact, no damping, and nothing
 /// for the next cycle. The device is in the middle, so that the spring hardly stretches.
 TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
-  const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
+  const AnalyticField<Slot> field(Slot{0.018}, kSubstepVoxel);
   const SampledBody body = ball_body();
   SubstepRun<Slot, true> run(field, body, Pose{});
   run.state.started = false;
   run.state.inside = true;
   for (int i = 0; i < 10; ++i) {
-    ASSERT_EQ(run.step(at({0.0, 0.0, 1e-3 * i}), {{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}), Status::kOk);
+    ASSERT_EQ(run.step(pose_at({0.0, 0.0, 1e-3 * i}), {{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}), Status::kOk);
     EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
     EXPECT_EQ(run.report.force.total_W.force, run.report.force.spring_W.force);
     EXPECT_EQ(run.report.force.total_W.torque, run.report.force.spring_W.torque);
@@ -235,9 +235,9 @@ TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
 
 /// The second direction alone: a tilted block comes to lie on a bed of points 1 mm apart, more than there are rows.
 TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
-  const AnalyticField<HalfSpace> nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kVoxel);
+  const AnalyticField<HalfSpace> nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
   const Block shape{{0.03, 0.02, 0.015}};
-  const AnalyticField<Block> block(shape, kVoxel);
+  const AnalyticField<Block> block(shape, kSubstepVoxel);
   const SampledBody body = box_body(3);
   SurfaceSamples bed;
   for (int y = -30; y <= 30; ++y) {
@@ -252,18 +252,18 @@ TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
   const FeatureContacts<AnalyticField<Block>> features{&block, points, origin_W, 0.05};
   Parameters q;
   q.mass = body.mass;
-  q.voxel_size = kVoxel;
-  q.margin = kMargin;
+  q.voxel_size = kSubstepVoxel;
+  q.margin = kSubstepMargin;
   const Pointshell shell = body.pointshell();
   const ContactScene<AnalyticField<HalfSpace>, AnalyticField<Block>> scene(nothing, shell, features, q);
   const auto memory = std::make_unique<ContactMemory>();
   memory->search.start(scene, {});
   ProxyState state;
-  state.H_WS = memory->H_WD_last = at(origin_W + Vector3(0.0, 0.0, 0.0155), {0.01, 0.005, 0.2});
+  state.H_WS = memory->H_WD_last = pose_at(origin_W + Vector3(0.0, 0.0, 0.0155), {0.01, 0.005, 0.2});
   state.started = true;
   CycleReport report;
   CycleInput input;
-  input.H_WD = at(origin_W + Vector3(1e-4, 0.0, 0.012), {0.0, 0.0, 0.2});
+  input.H_WD = pose_at(origin_W + Vector3(1e-4, 0.0, 0.012), {0.0, 0.0, 0.2});
   int overflows = 0;
   for (int i = 0; i < 60; ++i) {
     ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
@@ -273,7 +273,7 @@ TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
     overflows += report.dropped > 0 || report.outcome == Outcome::kOverflow ? 1 : 0;
   }
   EXPECT_NEAR(state.H_WS.rotation.toRotationMatrix()(2, 2), 1.0, 1e-6) << "it lies flat";
-  EXPECT_NEAR(state.H_WS.translation.z() - origin_W.z(), 0.015 + kMargin, 0.1 * kMargin);
+  EXPECT_NEAR(state.H_WS.translation.z() - origin_W.z(), 0.015 + kSubstepMargin, 0.1 * kSubstepMargin);
   EXPECT_NEAR(state.H_WS.translation.x() - origin_W.x(), 1e-4, 1e-5) << "nothing holds it along the bed";
   EXPECT_GT(report.force.spring_W.force.z(), 0.0);
   EXPECT_EQ(overflows, 0) << "some 2400 points lie under the block; the 2048 rows have room for those that matter";
@@ -287,7 +287,7 @@ TEST(ContactMemory, ForgetsTheLastCycleWhenReset) {
   const auto memory = std::make_unique<ContactMemory>();
   memory->last_step.motion = {Vector3(1.0, 2.0, 3.0), Vector3(4.0, 5.0, 6.0)};
   memory->last_step.force_count = 2;
-  memory->H_WD_last = at({1.0, 2.0, 3.0}, {0.1, 0.2, 0.3});
+  memory->H_WD_last = pose_at({1.0, 2.0, 3.0}, {0.1, 0.2, 0.3});
   memory->path.push(memory->H_WD_last);
   memory->reset();
   EXPECT_EQ(memory->last_step.motion.translation, Vector3::Zero());
@@ -325,19 +325,19 @@ struct EdgeCycle {
 TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
   const EdgeSet moving({{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}});
   const EdgeSet still({{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}});
-  const AnalyticField<FarBelow> field({}, kVoxel);
+  const AnalyticField<FarBelow> field({}, kSubstepVoxel);
   const SampledBody body = box_body(2);
   for (const double step : {2e-5, 3e-4, 8e-3}) {
-    AnalyticRun<AnalyticField<FarBelow>, EdgeCycle> run(field, body, at({0.0, 0.0, 0.02}));
-    run.parameters.margin = kMargin;
+    AnalyticRun<AnalyticField<FarBelow>, EdgeCycle> run(field, body, pose_at({0.0, 0.0, 0.02}));
+    run.parameters.margin = kSubstepMargin;
     run.cycle.edges = {moving.view(), still.view()};
-    for (double z = 0.02; z > -0.003; z -= step) ASSERT_EQ(run.step(at({0.0, 0.0, z})), Status::kOk);
-    for (int k = 0; k < 20; ++k) ASSERT_EQ(run.step(at({0.0, 0.0, -0.003})), Status::kOk);
-    EXPECT_NEAR(run.state.H_WS.translation.z(), kMargin, 0.1 * kMargin) << step;
-    EXPECT_NEAR(run.report.force.spring_W.force.z(), run.parameters.stiffness * (0.003 + kMargin), 0.05) << step;
+    for (double z = 0.02; z > -0.003; z -= step) ASSERT_EQ(run.step(pose_at({0.0, 0.0, z})), Status::kOk);
+    for (int k = 0; k < 20; ++k) ASSERT_EQ(run.step(pose_at({0.0, 0.0, -0.003})), Status::kOk);
+    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << step;
+    EXPECT_NEAR(run.report.force.spring_W.force.z(), run.parameters.stiffness * (0.003 + kSubstepMargin), 0.05) << step;
     EXPECT_EQ(run.report.contacts, 1u) << step;
     // round the end of the still edge the way down is free
-    for (double x = 0.0; x < 0.03; x += 1e-3) ASSERT_EQ(run.step(at({x, 0.0, -0.003})), Status::kOk);
+    for (double x = 0.0; x < 0.03; x += 1e-3) ASSERT_EQ(run.step(pose_at({x, 0.0, -0.003})), Status::kOk);
     EXPECT_EQ(run.report.contacts, 0u) << step;
     EXPECT_EQ(run.state.H_WS.translation.z(), -0.003) << step;
   }
@@ -398,15 +398,15 @@ TEST(ContactSubsteps, DrawAnEdgeOverAnEdgeWithoutCatching) {
   const SampledBody body(samples, Vector3(3e-4, 5e-4, 6e-4));
   const EdgeSet moving({{-0.04 * along, 0.04 * along}});
   const EdgeSet still({{Vector3(0.0, -0.1, 0.0), Vector3(0.0, 0.1, 0.0)}});
-  const AnalyticField<TableEdge> field({}, kVoxel);
+  const AnalyticField<TableEdge> field({}, kSubstepVoxel);
   for (const auto& [step, bound] : {std::pair(4e-6, 1e-3), std::pair(3e-5, 1e-3), std::pair(2.1e-4, 0.1)}) {
-    AnalyticRun<AnalyticField<TableEdge>, EdgeCycle> run(field, body, at(1e-3 * out));
-    run.parameters.margin = kMargin;
+    AnalyticRun<AnalyticField<TableEdge>, EdgeCycle> run(field, body, pose_at(1e-3 * out));
+    run.parameters.margin = kSubstepMargin;
     run.cycle.edges = {moving.view(), still.view()};
-    for (double depth = -1e-3; depth < 3e-3; depth += 2e-5) ASSERT_EQ(run.step(at(-depth * out)), Status::kOk);
+    for (double depth = -1e-3; depth < 3e-3; depth += 2e-5) ASSERT_EQ(run.step(pose_at(-depth * out)), Status::kOk);
     double most = 0.0;
     for (double x = 0.0; x < 4e-3; x += step) {
-      ASSERT_EQ(run.step(at(-3e-3 * out + x * along)), Status::kOk);
+      ASSERT_EQ(run.step(pose_at(-3e-3 * out + x * along)), Status::kOk);
       const Vector3 force = run.report.force.spring_W.force;
       ASSERT_GT(force.norm(), 1.0);
       most = std::max(most, std::fabs(force.dot(run.state.H_WS.rotation._transformVector(along))) / force.norm());

@@ -13,8 +13,8 @@
 namespace godobject::test {
 namespace {
 
-constexpr double kVoxel = 0.002;
-constexpr double kMargin = 2e-5;
+constexpr double kFeatureVoxel = 0.002;
+constexpr double kFeatureMargin = 2e-5;
 const Vector3 kTip(0.304, -0.107, 0.05);  // in W; the frame of the points begins elsewhere
 const Vector3 kOrigin(0.3, -0.1, 0.04);
 
@@ -23,7 +23,7 @@ template <class Shape>
 class OnATip {
  public:
   explicit OnATip(const Shape& shape, const Pose& start)
-      : field_(shape, kVoxel),
+      : field_(shape, kFeatureVoxel),
         tip_({{kTip - kOrigin}, {{0.0, 0.0, -1.0}}}, Vector3::Ones()),
         tip_shell_(tip_.pointshell()),
         body_shell_(body_.pointshell()),
@@ -41,8 +41,8 @@ class OnATip {
   }
   const Parameters& parameters() {
     q_.mass = body_.mass;
-    q_.voxel_size = kVoxel;
-    q_.margin = kMargin;
+    q_.voxel_size = kFeatureVoxel;
+    q_.margin = kFeatureMargin;
     return q_;
   }
 
@@ -51,7 +51,7 @@ class OnATip {
 
  private:
   Parameters q_;
-  AnalyticField<HalfSpace> nothing_{HalfSpace{Vector3::UnitZ(), -1.0}, kVoxel};
+  AnalyticField<HalfSpace> nothing_{HalfSpace{Vector3::UnitZ(), -1.0}, kFeatureVoxel};
   AnalyticField<Shape> field_;
   SampledBody body_ = ball_body(0.02, 50);
   SampledBody tip_;
@@ -75,7 +75,7 @@ TEST(FeatureDirection, HoldsABallOffATipAlongTheLineToTheDevice) {
     OnATip<Ball> run({Vector3::Zero(), kRadius}, pose(kTip + 0.03 * away, turn));
     const Vector3 device = kTip + 0.012 * away;
     for (int cycle = 0; cycle < 100; ++cycle) ASSERT_EQ(run.step(pose(device, turn)), Status::kOk);
-    const Vector3 expected = kTip + (kRadius + kMargin) * away;
+    const Vector3 expected = kTip + (kRadius + kFeatureMargin) * away;
     ASSERT_LT((run.state.H_WS.translation - expected).norm(), 1e-6) << i;
     ASSERT_EQ(run.report.outcome, Outcome::kContact);
     ASSERT_EQ(run.report.contacts, 1u);
@@ -106,7 +106,7 @@ TEST(FeatureDirection, PushesAtTheTipAlongTheNormal) {
     ASSERT_LT((push.force.normalized() - into_body).norm(), 0.01) << i;
     const Vector3 lever = kTip - run.state.H_WS.translation;
     ASSERT_LT((push.torque - lever.cross(push.force)).norm(), 0.01 * 0.02 * push.force.norm()) << i;
-    ASSERT_NEAR((run.state.H_WS * shape.center - kTip).norm(), shape.radius + kMargin, 1e-6) << i;
+    ASSERT_NEAR((run.state.H_WS * shape.center - kTip).norm(), shape.radius + kFeatureMargin, 1e-6) << i;
   }
 }
 

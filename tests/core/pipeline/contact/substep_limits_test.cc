@@ -10,13 +10,13 @@
 namespace godobject::test {
 namespace {
 
-constexpr double kRadius = 0.1;
+constexpr double kBodyRadius = 0.1;
 
 ContactLengths lengths() {
   Parameters q;
   q.voxel_size = 0.004;
   q.margin = 1e-4;
-  q.mass = MassModel::make(Vector3::Constant(0.01), kRadius, kRadius);
+  q.mass = MassModel::make(Vector3::Constant(0.01), kBodyRadius, kBodyRadius);
   return ContactLengths::make(q);
 }
 
@@ -34,7 +34,7 @@ TEST(AllowedShare, IsOneForAMotionWithinTheFreeDisplacement) {
 
 TEST(AllowedShare, LeavesAMarginToPointsThatAreNotNear) {
   EXPECT_NEAR(share(shift(0.1), 0.01, 1.0, false), (0.01 - 1e-4) / 0.1, 1e-12);
-  EXPECT_NEAR(share(turn(1.0), 0.01, 1.0, false), (0.01 - 1e-4) / kRadius, 1e-7);
+  EXPECT_NEAR(share(turn(1.0), 0.01, 1.0, false), (0.01 - 1e-4) / kBodyRadius, 1e-7);
   EXPECT_NEAR(share(shift(0.1), 1.5e-4, 1.0, false), 0.75e-4 / 0.1, 1e-12) << "half of less than two margins";
   EXPECT_EQ(share(shift(0.1), 0.0, 1.0, false), 0.0);
 }
@@ -50,12 +50,12 @@ TEST(AllowedShare, TurnsByATenthOfARadianAtMostWhereRowsHold) {
 TEST(AllowedShare, TurnsByLessInASmallSearchRadius) {
   for (const double search_radius : {1e-5, 1e-4, 5e-4}) {
     const double allowed = share(turn(1.0), 10.0, search_radius, true);
-    EXPECT_NEAR(0.5 * allowed * allowed * kRadius, 0.5 * search_radius, 1e-12);
+    EXPECT_NEAR(0.5 * allowed * allowed * kBodyRadius, 0.5 * search_radius, 1e-12);
   }
 }
 
 TEST(AllowedShare, ObeysBothLimits) {
-  EXPECT_NEAR(share(turn(1.0), 0.002, 1.0, true), (0.002 - 1e-4) / kRadius, 1e-7);
+  EXPECT_NEAR(share(turn(1.0), 0.002, 1.0, true), (0.002 - 1e-4) / kBodyRadius, 1e-7);
   EXPECT_NEAR(share(turn(1.0), 0.05, 1.0, true), 0.1, 1e-12);
 }
 

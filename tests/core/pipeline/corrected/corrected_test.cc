@@ -17,7 +17,7 @@ using PlainRun = AnalyticRun<Floor, CorrectedCycle<false>>;
 using FrictionRun = AnalyticRun<Floor, CorrectedCycle<true>>;
 
 constexpr double kBallRadius = 0.02;
-constexpr double kVoxel = 0.002;
+constexpr double kRunVoxel = 0.002;
 
 Pose at(double x, double z) {
   Pose pose;
@@ -85,19 +85,19 @@ TEST(Projection, IsTheNearestOfTheAllowedMotions) {
 
 /// The walls on both sides are a tenth of a millimetre away from the ball. Their forces cancel and leave no direction.
 TEST(Projection, FollowsBetweenOpposingContactsWithoutLeavingThem) {
-  const AnalyticField<Slot> slot(Slot{kBallRadius + 1e-4}, kVoxel);
+  const AnalyticField<Slot> slot(Slot{kBallRadius + 1e-4}, kRunVoxel);
   const SampledBody ball = ball_body();
   AnalyticRun<AnalyticField<Slot>, CorrectedCycle<false>> run(slot, ball, Pose{});
   for (int k = 0; k < 4000; ++k) {
     ASSERT_EQ(run.step(at(0.0, 1e-5 * k)), Status::kOk);
     ASSERT_LT(std::fabs(run.state.H_WS.translation.x()), 2e-4);
-    ASSERT_LT(run.depth(), 0.1 * kVoxel);
+    ASSERT_LT(run.depth(), 0.1 * kRunVoxel);
   }
   EXPECT_NEAR(run.state.H_WS.translation.z(), 0.04, 1e-3);
 }
 
 TEST(Corrected, StaysOutOfAFloorWithinATenthOfAVoxel) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   const SampledBody ball = ball_body();
   PlainRun run(floor, ball, at(0.0, kBallRadius + 0.010));
   double deepest = 0.0;
@@ -106,14 +106,14 @@ TEST(Corrected, StaysOutOfAFloorWithinATenthOfAVoxel) {
     ASSERT_EQ(run.step(at(1e-5 * k, kBallRadius + 0.010 - press)), Status::kOk);
     deepest = std::max(deepest, run.depth());
   }
-  EXPECT_LE(deepest, 0.1 * kVoxel);
+  EXPECT_LE(deepest, 0.1 * kRunVoxel);
   // the ball does not hover either: its lowest sample point touches
-  EXPECT_NEAR(run.depth(), 0.0, 0.1 * kVoxel);
+  EXPECT_NEAR(run.depth(), 0.0, 0.1 * kRunVoxel);
   EXPECT_EQ(run.report.outcome, Outcome::kContact);
 }
 
 TEST(Corrected, StaysOnABallWithinATenthOfAVoxelWhileItSlidesAround) {
-  const AnalyticField<Ball> world(Ball{Vector3::Zero(), 0.1}, kVoxel);
+  const AnalyticField<Ball> world(Ball{Vector3::Zero(), 0.1}, kRunVoxel);
   const SampledBody ball = ball_body();
   const auto pose = [](double angle, double distance) {
     return at(distance * std::sin(angle), distance * std::cos(angle));
@@ -125,25 +125,25 @@ TEST(Corrected, StaysOnABallWithinATenthOfAVoxelWhileItSlidesAround) {
     ASSERT_EQ(run.step(pose(5e-4 * k, distance)), Status::kOk);
     deepest = std::max(deepest, run.depth());
   }
-  EXPECT_LE(deepest, 0.1 * kVoxel);
+  EXPECT_LE(deepest, 0.1 * kRunVoxel);
 }
 
 /// Pressed deeper than J over the contact point's shift per radian (5 mm here), an ellipsoid swings from side to side
 /// unless the projection is relaxed. A box swings from edge to edge.
 template <class Body>
 void expect_quiet(const Body& body, double half_height, double press) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   PlainRun run(floor, body, at(0.0, half_height + 0.001));
   Vector3 torque = Vector3::Zero();
   for (int k = 0; k < 3000; ++k) {
     ASSERT_EQ(run.step(at(0.0, half_height - std::min(press, 1e-5 * k))), Status::kOk);
-    ASSERT_LE(run.depth(), 0.1 * kVoxel) << "cycle " << k << ", press " << press;
+    ASSERT_LE(run.depth(), 0.1 * kRunVoxel) << "cycle " << k << ", press " << press;
     if (k > 2000) {
       ASSERT_LT((run.report.force.spring_W.torque - torque).norm(), 1e-3) << "cycle " << k << ", press " << press;
     }
     torque = run.report.force.spring_W.torque;
   }
-  EXPECT_NEAR(run.report.force.spring_W.force.z(), 2000.0 * press, 2000.0 * 0.1 * kVoxel);
+  EXPECT_NEAR(run.report.force.spring_W.force.z(), 2000.0 * press, 2000.0 * 0.1 * kRunVoxel);
 }
 
 SampledBody ellipsoid_body() {
@@ -177,7 +177,7 @@ TEST(Corrected, DoesNotLagInFreeAirBesideASurface) {
 }
 
 TEST(Corrected, DragsLessThanTwentyMillinewtonsWithoutFriction) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   const SampledBody ball = ball_body();
   PlainRun run(floor, ball, at(0.0, kBallRadius));
   for (int k = 0; k < 700; ++k) ASSERT_EQ(run.step(at(0.0, kBallRadius - 1e-5 * k)), Status::kOk);
@@ -188,7 +188,7 @@ TEST(Corrected, DragsLessThanTwentyMillinewtonsWithoutFriction) {
 }
 
 TEST(Corrected, LetsGoWithoutAPullOnRetreat) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   const SampledBody ball = ball_body();
   PlainRun run(floor, ball, at(0.0, kBallRadius + 0.005));
   for (int k = 0; k < 1000; ++k) ASSERT_EQ(run.step(at(0.0, kBallRadius + 0.005 - 1e-5 * k)), Status::kOk);
@@ -200,20 +200,20 @@ TEST(Corrected, LetsGoWithoutAPullOnRetreat) {
 }
 
 TEST(Corrected, ComesOutWhenItStartedInside) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   const SampledBody ball = ball_body();
   PlainRun run(floor, ball, at(0.0, kBallRadius - 0.005));
   run.state.inside = true;
   ASSERT_EQ(run.step(at(0.0, kBallRadius - 0.005)), Status::kOk);
   EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
   for (int k = 0; k < 50; ++k) ASSERT_EQ(run.step(at(0.0, kBallRadius - 0.005)), Status::kOk);
-  EXPECT_LE(run.depth(), 0.1 * kVoxel);
+  EXPECT_LE(run.depth(), 0.1 * kRunVoxel);
   EXPECT_EQ(run.report.outcome, Outcome::kContact);
 }
 
 /// Returns the ratio of tangential to normal force while the body slides at `speed`, steadily and 7 mm deep.
 double sliding_ratio(const SampledBody& body, double half_height, double speed, double mu_kinetic, double viscous) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   FrictionRun run(floor, body, at(0.0, half_height));
   run.parameters.friction = {0.2, mu_kinetic, viscous};
   for (int k = 0; k < 700; ++k) {
@@ -242,7 +242,7 @@ TEST(Corrected, AddsTheViscousForceOfItsSpeed) {
 
 /// Returns the drift of the god object in 10 s of tremor of 8-12 Hz and 5 um encoder steps, inside the cone.
 double stick_drift(const SampledBody& body, double half_height) {
-  const Floor floor(HalfSpace{}, kVoxel);
+  const Floor floor(HalfSpace{}, kRunVoxel);
   FrictionRun run(floor, body, at(0.0, half_height));
   run.parameters.friction = {0.2, 0.18, 0.0};
   for (int k = 0; k < 700; ++k) {
@@ -271,7 +271,7 @@ TEST(Corrected, HoldsAStaticContactWithinAMicrometreInTenSeconds) {
 }
 
 TEST(Corrected, IsFiniteAndBoundedUnderJumpsOfTheDevice) {
-  const AnalyticField<Plate> plate(Plate{}, kVoxel);
+  const AnalyticField<Plate> plate(Plate{}, kRunVoxel);
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   for (const SampledBody& body :

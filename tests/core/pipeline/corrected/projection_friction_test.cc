@@ -16,10 +16,10 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kSafety = 3e-3;
-constexpr double kGain = 0.2;
+constexpr double kFrictionSafety = 3e-3;
+constexpr double kFrictionGain = 0.2;
 
-Vector6 stacked(const Motion& xi) {
+Vector6 six_vector(const Motion& xi) {
   Vector6 v;
   v << xi.translation, xi.rotation;
   return v;
@@ -33,7 +33,7 @@ struct Lever {
   PenaltyContacts contacts;
 
   Lever() {
-    contacts.depth = kSafety;  // p = 0: the contact point must not go down
+    contacts.depth = kFrictionSafety;  // p = 0: the contact point must not go down
     contacts.count = 1;
     contacts.wrench_S.force = 0.003 * Vector3::UnitZ();
     contacts.wrench_S.torque = Vector3(kLength, 0.0, 0.0).cross(contacts.wrench_S.force);
@@ -41,7 +41,7 @@ struct Lever {
   Projection after(const Vector3& wanted, const ProjectionFriction& friction, bool slipped = false) const {
     ProjectionState before;
     before.slipping = slipped;
-    return project({wanted, Vector3::Zero()}, contacts, kSafety, kGain, mass, &friction, before);
+    return project({wanted, Vector3::Zero()}, contacts, kFrictionSafety, kFrictionGain, mass, &friction, before);
   }
 };
 
@@ -50,7 +50,7 @@ void expect_forces(const Projection& out, const Vector3& wanted, const Vector3& 
   const double L = Lever::kLength;
   EXPECT_LT((out.motion.translation - wanted - force).norm(), 1e-15);
   EXPECT_LT((out.motion.rotation - Vector3(L, 0.0, 0.0).cross(force) / (L * L)).norm(), 1e-13);
-  EXPECT_LT((stacked(out.next.wanted) - stacked(out.motion)).norm(), 1e-17);
+  EXPECT_LT((six_vector(out.next.wanted) - six_vector(out.motion)).norm(), 1e-17);
 }
 
 /// The point is pressed 0.4 mm: it takes 0.2 mm of normal force. It is pushed by q along x and by s along y. Holding it
@@ -108,7 +108,7 @@ struct FrictionProblem {
   explicit FrictionProblem(Random& random) {
     const Vector3 second(random.between(0.3, 1.0), random.between(0.3, 1.0), random.between(0.3, 1.0));
     mass = MassModel::make(1e-3 * (Vector3::Constant(second.sum()) - second), 0.05, 0.05);
-    contacts.depth = kSafety * random.between(0.95, 1.05);
+    contacts.depth = kFrictionSafety * random.between(0.95, 1.05);
     contacts.count = 1;
     contacts.wrench_S.force = random.between(0.001, 0.1) * random.direction();
     contacts.wrench_S.torque = random.between(0.0, 0.03) * contacts.wrench_S.force.norm() * random.direction();
@@ -122,8 +122,8 @@ struct FrictionProblem {
   Vector3 u() const { return contacts.wrench_S.force.normalized(); }
   Vector3 tau() const { return contacts.wrench_S.torque / contacts.wrench_S.force.norm(); }
   double required() const {
-    const double p = contacts.depth - kSafety;
-    return p > 0.0 ? kGain * p : p;
+    const double p = contacts.depth - kFrictionSafety;
+    return p > 0.0 ? kFrictionGain * p : p;
   }
   /// Rows of the normal and of two tangents at the point of the force line that is nearest to the centre of mass.
   Eigen::Matrix<double, 3, 6> rows() const {
@@ -150,13 +150,13 @@ TEST(Projection, MeetsCoulombsLawAtAnyContact) {
   for (int i = 0; i < 4000; ++i) {
     const FrictionProblem problem(random);
     const Eigen::Matrix<double, 3, 6> rows = problem.rows();
-    const Vector6 wanted = stacked(problem.wanted);
+    const Vector6 wanted = six_vector(problem.wanted);
     if (rows.row(0).dot(wanted) >= problem.required()) continue;
     ProjectionState before;
     before.slipping = problem.slipped;
-    const Projection out = project(problem.wanted, problem.contacts, kSafety, kGain, problem.mass, &problem.friction,
-                                   before);
-    const Vector6 got = stacked(out.motion);
+    const Projection out = project(problem.wanted, problem.contacts, kFrictionSafety, kFrictionGain, problem.mass,
+                                   &problem.friction, before);
+    const Vector6 got = six_vector(out.motion);
     const Vector6 wrench = problem.mass_matrix() * (got - wanted);
     const Vector3 force = rows.transpose().colPivHouseholderQr().solve(wrench);
     ASSERT_LT((rows.transpose() * force - wrench).norm(), 1e-15) << i << ": other forces";

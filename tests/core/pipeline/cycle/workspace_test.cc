@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kWorldRadius = 0.06;
 constexpr double kBodyRadius = 0.02;
-constexpr double kVoxel = 0.003;
+constexpr double kWorldVoxel = 0.003;
 constexpr double kStiffness = 2000.0;
 
 enum class Body { kPoints, kCentre };  // kCentre: the ball as one point; stored distances are less by its radius
@@ -31,7 +31,7 @@ SceneImage make_image(Body body, const std::optional<format::Workspace>& workspa
   d.distance = [radius](const Vector3& p) { return ball_distance(p, radius); };
   d.surface_min = Vector3::Constant(-radius);
   d.surface_max = Vector3::Constant(radius);
-  d.voxel_size = kVoxel;
+  d.voxel_size = kWorldVoxel;
   d.workspace = workspace;
   if (body == Body::kCentre) {
     d.points = {Vector3::Zero()};
@@ -242,7 +242,7 @@ TEST(Workspace, LetsTheContactSolverSlideAlongAFaceThatASurfacePushesItAgainst) 
       worst = std::max(worst, (run.center() - best).norm());
     }
     // points and nodes lie on chords of the two balls, a fifth of a millimetre inside each
-    EXPECT_LT(worst, 0.2 * kVoxel) << (pipeline.body == Body::kCentre ? "ball" : "points");
+    EXPECT_LT(worst, 0.2 * kWorldVoxel) << (pipeline.body == Body::kCentre ? "ball" : "points");
   }
 }
 

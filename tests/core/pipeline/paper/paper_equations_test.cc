@@ -15,7 +15,7 @@ namespace {
 
 using Matrix4 = Eigen::Matrix4d;
 
-constexpr double kVoxel = 0.002;
+constexpr double kEdge = 0.002;
 
 Matrix4 matrix_of(const Vector3& x, const Vector3& r) {
   Matrix4 H = Matrix4::Identity();
@@ -84,7 +84,7 @@ SlowCorrection slow_correction(const SlowBody& body, const Vector3& f, const Vec
   };
   const double curvature = energy(1.0) + energy(-1.0) - 2.0 * energy(0.0);
   c.lambda = -0.5 * (energy(1.0) - energy(-1.0)) / curvature;
-  c.x = c.lambda * c.p * c.u_x;                                                  // (7)
+  c.x = c.lambda * c.p * c.u_x;                                            // (7)
   c.r = c.delta / (c.radius * c.radius) * c.p * (1.0 - c.lambda) * c.u_r;  // (7), (21)
   return c;
 }
@@ -157,21 +157,21 @@ SlowCycle slow_cycle(const Field& field, const SampledBody& body, const SlowBody
   for (std::size_t i = 0; i < shell.size; ++i) {
     const Vector3 P = R * shell.point(i) + translation_of(S);
     const LayerSample sample = field.layer(P);
-    const double V = sample.layer * kVoxel + (R * shell.normal(i)).dot(sample.to_center) + q.safety_distance;  // (1)
+    const double V = sample.layer * kEdge + (R * shell.normal(i)).dot(sample.to_center) + q.safety_distance;  // (1)
     out.depth = std::max(out.depth, V);
     if (V <= 0.0) continue;
     ++out.count;
-    f += V * shell.normal(i);                            // (2), on the axes of S
+    f += V * shell.normal(i);  // (2), on the axes of S
     t += V * shell.point(i).cross(shell.normal(i));
   }
   out.S = D;
   if (out.depth <= 0.0) return out;  // region C
   const SlowCorrection c = slow_correction(slow, f, t, out.depth, q.safety_distance);
   const double eta = c.p >= 0.0 ? 0.2 : 0.0;
-  const Matrix4 H_pen = matrix_of(eta * c.x, eta * c.r);                  // (28)
-  const Matrix4 S1 = S * H_pen;                                          // (29)
-  const Matrix3 into_S1 = H_pen.topLeftCorner<3, 3>().transpose();       // (30), whose printed direction is corrected
-  const Matrix4 free = S1.inverse() * D;                                 // (32)
+  const Matrix4 H_pen = matrix_of(eta * c.x, eta * c.r);            // (28)
+  const Matrix4 S1 = S * H_pen;                                     // (29)
+  const Matrix3 into_S1 = H_pen.topLeftCorner<3, 3>().transpose();  // (30), whose printed direction is corrected
+  const Matrix4 free = S1.inverse() * D;                            // (32)
   const PaperFriction& mu = q.paper_friction;
   const Vector3 x = slow_motion(translation_of(free), into_S1 * c.u_x, c.x.norm(), c.p,
                                 {mu.translation_static, mu.translation_kinetic, mu.viscous}, kFriction);
@@ -256,7 +256,7 @@ TEST(ProxyFilter, IsThePrintedOneForAnyPoses) {
 template <bool kFriction>
 void expect_printed_cycle(unsigned seed) {
   Random random(seed);
-  const AnalyticField<Ball> world(Ball{Vector3(0.01, -0.02, 0.03), 0.1}, kVoxel);
+  const AnalyticField<Ball> world(Ball{Vector3(0.01, -0.02, 0.03), 0.1}, kEdge);
   const SampledBody body = box_body(5);
   const Vector3 edges(0.06, 0.04, 0.03);
   const Vector3 squares = edges.cwiseAbs2();
@@ -277,8 +277,7 @@ void expect_printed_cycle(unsigned seed) {
                         random.between(0.0, 0.5), random.between(0.0, 0.1)};
     const Pose device = start * set_matrix(random.motion(0.01, 0.3));
     const Motion velocity{random.in_cube(0.2), random.in_cube(2.0)};
-    const SlowCycle expected =
-        slow_cycle<kFriction>(world, body, slow, q, matrix_of(start), matrix_of(device));
+    const SlowCycle expected = slow_cycle<kFriction>(world, body, slow, q, matrix_of(start), matrix_of(device));
     ASSERT_EQ(run.step(device, velocity), Status::kOk) << i;
     const double p = expected.depth - q.safety_distance;
     ++regions[expected.depth <= 0.0 ? 2 : p < 0.0 ? 1 : 0];

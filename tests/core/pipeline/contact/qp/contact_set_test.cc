@@ -24,13 +24,13 @@ using detail::ContactSet;
 using detail::CouplingSpace;
 using detail::Slip;
 
-const CouplingMetric kMetric;
+const CouplingMetric kSetMetric;
 
 /// The objects that a set refers to.
-struct Bench {
+struct SetBench {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted{{0.001, -0.002, -0.005}, {0.01, 0.02, -0.03}};
-  CouplingMetric metric = kMetric;
+  CouplingMetric metric = kSetMetric;
   ContactFriction friction{0.5, 0.25, 0.0};
   Motion last;
 
@@ -84,10 +84,10 @@ TEST(CouplingSpace, GivesTheWorkOfAPushAndTheMotionOfALoadInAnyMetric) {
 }
 
 TEST(ContactSet, StartsAtTheWantedMotion) {
-  Bench bench;
+  SetBench bench;
   const ContactSet set = bench.set();
-  EXPECT_LT((six(set.motion(), kMetric.gyration) - six(bench.wanted, kMetric.gyration)).norm(), 1e-17);
-  EXPECT_EQ(set.target(), six(bench.wanted, kMetric.gyration));
+  EXPECT_LT((six(set.motion(), kSetMetric.gyration) - six(bench.wanted, kSetMetric.gyration)).norm(), 1e-17);
+  EXPECT_EQ(set.target(), six(bench.wanted, kSetMetric.gyration));
   EXPECT_EQ(set.contact_count(), 0);
   EXPECT_EQ(set.active().size(), 0);
   EXPECT_EQ(set.additions(), 0u);
@@ -95,7 +95,7 @@ TEST(ContactSet, StartsAtTheWantedMotion) {
 
 TEST(ContactSet, SplitsTheDisplacementOfAPointByItsNormal) {
   Random random(2);
-  Bench bench;
+  SetBench bench;
   const ContactSet set = bench.set();
   for (int i = 0; i < 100; ++i) {
     Contact contact;
@@ -111,39 +111,39 @@ TEST(ContactSet, SplitsTheDisplacementOfAPointByItsNormal) {
 }
 
 TEST(ContactSet, TakesASlipThatIsNotAboveStillForRest) {
-  Bench bench;
+  SetBench bench;
   const ContactSet set = bench.set();
   Contact contact;
   contact.normal = Vector3::UnitZ();
   contact.point = Vector3::Zero();
   const auto slip_at = [&](double speed) { return set.slip_of(contact, {{0.0, speed, 0.3}, Vector3::Zero()}); };
-  EXPECT_EQ(slip_at(kMetric.still).direction, Vector3::Zero());
-  EXPECT_EQ(slip_at(kMetric.still).speed, kMetric.still);
-  EXPECT_EQ(slip_at(1.001 * kMetric.still).direction, Vector3::UnitY());
+  EXPECT_EQ(slip_at(kSetMetric.still).direction, Vector3::Zero());
+  EXPECT_EQ(slip_at(kSetMetric.still).speed, kSetMetric.still);
+  EXPECT_EQ(slip_at(1.001 * kSetMetric.still).direction, Vector3::UnitY());
   EXPECT_EQ(slip_at(0.0).approach, 0.3);
 }
 
 TEST(ContactSet, HasTheStaticRatioForAPointThatRestedAndTheKineticOneForAPointThatSlipped) {
-  Bench bench;
+  SetBench bench;
   bench.rows->push(0, Vector3::UnitZ(), Vector3(0.02, 0.0, 0.0), 0.0);
-  for (const double speed : {0.0, kMetric.still, 1.01 * kMetric.still, 1.0}) {
+  for (const double speed : {0.0, kSetMetric.still, 1.01 * kSetMetric.still, 1.0}) {
     bench.last.rotation = Vector3(0.0, 0.0, speed / 0.02);
     ContactSet set = bench.set();
     const Contact& contact = set.contact(set.open(0));
-    EXPECT_EQ(contact.ratio, speed > 1.005 * kMetric.still ? 0.25 : 0.5) << speed;
+    EXPECT_EQ(contact.ratio, speed > 1.005 * kSetMetric.still ? 0.25 : 0.5) << speed;
     set.close_all();
   }
 }
 
 TEST(ContactSet, MakesHalfSpacesOfItsRows) {
   Random random(3);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 8);
   ContactSet set = bench.set();
   for (std::uint32_t row = 0; row < 8; ++row) {
     const ActiveSet::Inequality h = set.row_half_space(row);
     const Motion m = random.motion(0.01, 0.1);
-    EXPECT_NEAR(h.gradient.dot(six(m, kMetric.gyration)),
+    EXPECT_NEAR(h.gradient.dot(six(m, kSetMetric.gyration)),
                 bench.rows->normal(row).dot(velocity(m, bench.rows->point(row))), 1e-16);
     EXPECT_EQ(h.rhs, static_cast<double>(bench.rows->required_gain[row]));
     EXPECT_EQ(h.tag.row, row);
@@ -155,7 +155,7 @@ TEST(ContactSet, MakesHalfSpacesOfItsRows) {
 /// (n - mu d) . v >= required gain - mu shift, for any direction d.
 TEST(ContactSet, MakesHalfSpacesOfACone) {
   Random random(4);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 8);
   ContactSet set = bench.set();
   for (std::uint32_t row = 0; row < 6; ++row) {
@@ -167,7 +167,7 @@ TEST(ContactSet, MakesHalfSpacesOfACone) {
     const ActiveSet::Inequality h = set.cone_half_space(k, slip);
     const Motion m = random.motion(0.01, 0.1);
     const Vector3 v = velocity(m, c.point);
-    EXPECT_NEAR(h.gradient.dot(six(m, kMetric.gyration)), c.normal.dot(v) - c.ratio * slip.dot(v), 1e-16);
+    EXPECT_NEAR(h.gradient.dot(six(m, kSetMetric.gyration)), c.normal.dot(v) - c.ratio * slip.dot(v), 1e-16);
     EXPECT_DOUBLE_EQ(h.rhs, c.required_gain - c.ratio * c.shift);
     EXPECT_EQ(h.tag.row, row);
     EXPECT_EQ(h.tag.contact, k);
@@ -180,7 +180,7 @@ TEST(ContactSet, MakesHalfSpacesOfACone) {
 
 TEST(ContactSet, ExcludesTheRowOfAContactFromTheScanUntilItCloses) {
   Random random(5);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 5);
   const std::vector<float> gains(bench.rows->required_gain, bench.rows->required_gain + 5);
   ContactSet set = bench.set();
@@ -207,7 +207,7 @@ TEST(ContactSet, ExcludesTheRowOfAContactFromTheScanUntilItCloses) {
 
 TEST(ContactSet, ClosesContactsWithoutHalfSpaceAndRenumbersTheOthers) {
   Random random(6);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 6);
   const std::vector<float> gains(bench.rows->required_gain, bench.rows->required_gain + 6);
   ContactSet set = bench.set();
@@ -237,7 +237,7 @@ TEST(ContactSet, ClosesContactsWithoutHalfSpaceAndRenumbersTheOthers) {
 
 TEST(ContactSet, LetsAContactEnterThatSlipsWithTheMotionAsLongAsThereIsRoom) {
   Random random(7);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 7);
   ContactSet set = bench.set();
   const Motion m = random.motion(0.01, 0.1);
@@ -257,7 +257,7 @@ TEST(ContactSet, LetsAContactEnterThatSlipsWithTheMotionAsLongAsThereIsRoom) {
 }
 
 TEST(ContactSet, SolvesAgainWithTheRatiosAndShiftsOfItsContacts) {
-  Bench bench;
+  SetBench bench;
   bench.wanted = {{0.004, 0.0, -0.005}, Vector3::Zero()};
   bench.rows->push(0, Vector3::UnitZ(), Vector3::Zero(), 0.0);
   bench.rows->push(1, Vector3::UnitY(), Vector3::Zero(), -1.0);
@@ -280,7 +280,7 @@ TEST(ContactSet, SolvesAgainWithTheRatiosAndShiftsOfItsContacts) {
 
 TEST(ContactSet, ReturnsToASavedState) {
   Random random(8);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 6);
   const std::vector<float> gains(bench.rows->required_gain, bench.rows->required_gain + 6);
   ContactSet set = bench.set();
@@ -309,7 +309,7 @@ TEST(ContactSet, ReturnsToASavedState) {
 TEST(ContactSet, RestartsWithoutContactsAndInTheMetricOfTheCoupling) {
   Random random(9);
   for (const bool from_motion : {false, true}) {
-    Bench bench;
+    SetBench bench;
     bench.push_random(random, 3);
     ContactSet set = bench.set();
     set.space().set_metric(random_metric(random));
@@ -320,7 +320,7 @@ TEST(ContactSet, RestartsWithoutContactsAndInTheMetricOfTheCoupling) {
     EXPECT_EQ(set.contact_count(), 0);
     EXPECT_EQ(set.active().size(), 0);
     EXPECT_FALSE(bench.is_excluded(1));
-    const Vector6 wanted = six(bench.wanted, kMetric.gyration);
+    const Vector6 wanted = six(bench.wanted, kSetMetric.gyration);
     EXPECT_LT((set.plain_motion() - (from_motion ? here : wanted)).norm(), 1e-17);
     EXPECT_EQ(set.active().z(), set.plain_motion()) << "the metric without viscous friction";
     EXPECT_EQ(set.target(), wanted);
@@ -344,7 +344,7 @@ Vector6 sum_of(const ConstrainedStep& step, double gyration) {
 
 TEST(ContactForces, AreThoseOfTheHalfSpaces) {
   Random random(10);
-  Bench bench;
+  SetBench bench;
   bench.push_random(random, 4);
   ContactSet set = bench.set();
   ASSERT_TRUE(set.enter(0, bench.wanted));  // a contact that is no more does not matter
@@ -421,7 +421,7 @@ TEST(CombinedForces, AreAtMostSixWithTheSameSum) {
   Random random(11);
   int merged = 0;
   for (int problem = 0; problem < 400; ++problem) {
-    Bench bench;
+    SetBench bench;
     bench.push_random(random, 6);
     ContactSet set = bench.set();
     const int of_set = random.integer(0, 6);
@@ -434,11 +434,11 @@ TEST(CombinedForces, AreAtMostSixWithTheSameSum) {
     for (std::uint32_t j = 0; j < step.force_count; ++j) step.forces[j] = random_force(random, j);
     ConstrainedStep other;
     detail::take_forces(set, other);
-    const Vector6 sum = sum_of(step, kMetric.gyration) + sum_of(other, kMetric.gyration);
+    const Vector6 sum = sum_of(step, kSetMetric.gyration) + sum_of(other, kSetMetric.gyration);
     const ConstrainedStep before = step;
     detail::add_forces(set, step);
     ASSERT_LE(step.force_count, 6u);
-    EXPECT_LT((sum_of(step, kMetric.gyration) - sum).norm(), 1e-14) << problem;
+    EXPECT_LT((sum_of(step, kSetMetric.gyration) - sum).norm(), 1e-14) << problem;
     std::uint32_t contacts = 0;
     for (std::uint32_t j = 0; j < step.force_count; ++j) {
       const ContactForce& f = step.forces[j];
@@ -471,7 +471,7 @@ TEST(CombinedForces, AreAtMostSixWithTheSameSum) {
 }
 
 TEST(CombinedForces, CancelWhereTheyOpposeEachOther) {
-  Bench bench;
+  SetBench bench;
   bench.rows->push(0, Vector3::UnitZ(), Vector3::Zero(), 0.0);
   ContactSet set = bench.set();
   set.active().guess(set.row_half_space(0));
@@ -482,14 +482,14 @@ TEST(CombinedForces, CancelWhereTheyOpposeEachOther) {
   }
   step.force_count = 6;
   detail::add_forces(set, step);
-  EXPECT_LT(sum_of(step, kMetric.gyration).norm(), 1e-11);
+  EXPECT_LT(sum_of(step, kSetMetric.gyration).norm(), 1e-11);
 }
 
 /// More than six forces in one plane: fewer than six give their sum.
 TEST(CombinedForces, KeepTheSumOfForcesInOnePlane) {
   Random random(14);
   for (int problem = 0; problem < 50; ++problem) {
-    Bench bench;
+    SetBench bench;
     const auto normal = [&] {
       const double angle = random.between(-1.0, 1.0);
       return Vector3(std::sin(angle), 0.0, std::cos(angle));
@@ -506,17 +506,17 @@ TEST(CombinedForces, KeepTheSumOfForcesInOnePlane) {
     }
     step.force_count = 5;
     detail::take_forces(set, other);
-    const Vector6 sum = sum_of(step, kMetric.gyration) + sum_of(other, kMetric.gyration);
+    const Vector6 sum = sum_of(step, kSetMetric.gyration) + sum_of(other, kSetMetric.gyration);
     detail::add_forces(set, step);
     EXPECT_LE(step.force_count, 2u) << "two directions span a plane";
-    EXPECT_LT((sum_of(step, kMetric.gyration) - sum).norm(), 1e-11);
+    EXPECT_LT((sum_of(step, kSetMetric.gyration) - sum).norm(), 1e-11);
   }
 }
 
 // -- rows
 
 TEST(MeetRows, TellsWhetherAllAreMetOrContradictEachOther) {
-  Bench bench;
+  SetBench bench;
   bench.wanted = {{0.0, 0.0, -0.005}, Vector3::Zero()};
   bench.rows->push(0, Vector3::UnitZ(), Vector3::Zero(), -0.001);
   {
@@ -534,7 +534,7 @@ TEST(MeetRows, TellsWhetherAllAreMetOrContradictEachOther) {
 TEST(MeetRows, AddsNoActiveRowAgain) {
   Random random(12);
   for (int problem = 0; problem < 50; ++problem) {
-    Bench bench;
+    SetBench bench;
     bench.rows->push(0, random.direction(), random.in_cube(0.03), 0.0);
     bench.wanted = {1e5 * random.direction(), Vector3::Zero()};
     ContactSet set = bench.set();

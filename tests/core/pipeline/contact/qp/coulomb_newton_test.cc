@@ -19,28 +19,28 @@ using detail::Contact;
 using detail::ContactSet;
 using detail::Slip;
 
-const CouplingMetric kMetric;
-constexpr double kBody = 0.03;
+const CouplingMetric kNewtonMetric;
+constexpr double kNewtonBody = 0.03;
 
-struct Problem {
+struct NewtonProblem {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted;
   ContactFriction friction{0.3, 0.3, 0.0};
   Motion last;
 
-  ContactSet set() { return {*rows, wanted, kMetric, &friction, last}; }
+  ContactSet set() { return {*rows, wanted, kNewtonMetric, &friction, last}; }
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
 };
 
-Vector6 six(const Motion& m) {
+Vector6 scaled(const Motion& m) {
   Vector6 z;
-  z << m.translation, kMetric.gyration * m.rotation;
+  z << m.translation, kNewtonMetric.gyration * m.rotation;
   return z;
 }
 
 /// Expects Coulomb's law of the forces of the set, and that they balance the motion. Viscous friction acts against the
 /// slip of each contact, in proportion to its load.
-void expect_coulomb(const Problem& p, const ContactSet& set, const std::vector<float>& gains, double balance) {
+void expect_coulomb(const NewtonProblem& p, const ContactSet& set, const std::vector<float>& gains, double balance) {
   const Motion m = set.motion();
   std::vector<double> load(static_cast<std::size_t>(set.contact_count()), 0.0);
   std::vector<Vector3> friction(load.size(), Vector3::Zero());
@@ -53,30 +53,30 @@ void expect_coulomb(const Problem& p, const ContactSet& set, const std::vector<f
     friction[k] -= multiplier * set.contact_of(j).ratio * set.active()[j].tag.slip;
     all += multiplier;
   }
-  Vector6 sum = six(p.wanted);
+  Vector6 sum = scaled(p.wanted);
   for (int k = 0; k < set.contact_count(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Contact& c = set.contact(k);
     const Slip slip = set.slip_of(c, m);
-    EXPECT_NEAR(slip.approach, static_cast<double>(gains[c.row]), kMetric.tolerance);
+    EXPECT_NEAR(slip.approach, static_cast<double>(gains[c.row]), kNewtonMetric.tolerance);
     EXPECT_LE(friction[i].norm(), c.ratio * load[i] * (1.0 + 1e-12));
-    if (slip.speed > 2.0 * kMetric.still) {
+    if (slip.speed > 2.0 * kNewtonMetric.still) {
       EXPECT_EQ(c.ratio, p.friction.kinetic_ratio);
       const double off = (friction[i] + c.ratio * load[i] * slip.direction).norm();
       // near the solution the steps shrink quadratically: the last one leaves much less than the tolerance
-      EXPECT_LE(std::min(off, slip.speed * off / std::max(1e-300, c.ratio * load[i])), 0.25 * kMetric.tolerance);
+      EXPECT_LE(std::min(off, slip.speed * off / std::max(1e-300, c.ratio * load[i])), 0.25 * kNewtonMetric.tolerance);
     }
     const Vector3 force =
         load[i] * c.normal + friction[i] - p.friction.viscous_step * load[i] / all * slip.speed * slip.direction;
     Vector6 push;
-    push << force, c.point.cross(force) / kMetric.gyration;
+    push << force, c.point.cross(force) / kNewtonMetric.gyration;
     sum += push;
   }
-  EXPECT_LE((sum - six(m)).norm(), balance);
+  EXPECT_LE((sum - scaled(m)).norm(), balance);
 }
 
 /// A series of problems of one kind.
-struct Series {
+struct NewtonSeries {
   bool face;         ///< the points lie on one plane without gaps; otherwise each has a normal and a gap of its own
   double ratio;      ///< largest mu_k
   double viscous;    ///< largest viscous step
@@ -84,16 +84,19 @@ struct Series {
   unsigned entered;  ///< contacts that may enter in all. Measured: some 2 % fewer
 };
 
-Problem problem_of(const Series& series, int trial, Random& random) {
-  Problem p;
+NewtonProblem problem_of(const NewtonSeries& series, int trial, Random& random) {
+  NewtonProblem p;
   const double mu = random.between(0.05, series.ratio);
   p.friction = {1.2 * mu, mu, random.between(0.0, 1.0) * series.viscous};
   for (int i = 0; i < 1 + trial % 6; ++i) {
     if (series.face) {
-      p.push(Vector3::UnitZ(), Vector3(random.between(-kBody, kBody), random.between(-kBody, kBody), -kBody), 0.0);
+      p.push(
+          Vector3::UnitZ(),
+          Vector3(random.between(-kNewtonBody, kNewtonBody), random.between(-kNewtonBody, kNewtonBody), -kNewtonBody),
+          0.0);
     } else {
       const Vector3 normal = (Vector3::UnitZ() + 0.5 * random.in_cube(1.0)).normalized();
-      p.push(normal, random.in_cube(kBody), random.between(-1e-4, 0.0));
+      p.push(normal, random.in_cube(kNewtonBody), random.between(-1e-4, 0.0));
     }
   }
   p.wanted = random.motion(0.01, 0.1);
@@ -102,7 +105,7 @@ Problem problem_of(const Series& series, int trial, Random& random) {
   return p;
 }
 
-class SolveCoulomb : public ::testing::TestWithParam<Series> {};
+class SolveCoulomb : public ::testing::TestWithParam<NewtonSeries> {};
 
 /// A failure leaves the set as it was, so that another start can follow.
 TEST_P(SolveCoulomb, ObeysTheLawOrLeavesTheSetAsItWas) {
@@ -110,18 +113,18 @@ TEST_P(SolveCoulomb, ObeysTheLawOrLeavesTheSetAsItWas) {
   int solved = 0;
   unsigned entered = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    Problem p = problem_of(GetParam(), trial, random);
+    NewtonProblem p = problem_of(GetParam(), trial, random);
     const std::vector<float> gains(p.rows->required_gain, p.rows->required_gain + p.rows->count);
     ContactSet set = p.set();
     if (detail::solve_coulomb(set)) {
       ++solved;
       entered += set.additions();
-      expect_coulomb(p, set, gains, p.friction.viscous_step > 0.0 ? kMetric.tolerance : 1e-9);
+      expect_coulomb(p, set, gains, p.friction.viscous_step > 0.0 ? kNewtonMetric.tolerance : 1e-9);
       EXPECT_EQ(set.most_violated(set.motion()).row, ContactRows::kNone);
     } else {
       EXPECT_EQ(set.active().size(), 0);
       EXPECT_EQ(set.contact_count(), 0);
-      EXPECT_EQ(set.active().z(), six(p.wanted));
+      EXPECT_EQ(set.active().z(), scaled(p.wanted));
     }
     set.close_all();
     for (std::uint32_t i = 0; i < p.rows->count; ++i) ASSERT_EQ(p.rows->required_gain[i], gains[i]);
@@ -132,19 +135,20 @@ TEST_P(SolveCoulomb, ObeysTheLawOrLeavesTheSetAsItWas) {
   EXPECT_LE(entered, GetParam().entered);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, SolveCoulomb,
-                         ::testing::Values(Series{true, 0.3, 0.0, 497, 608}, Series{true, 0.8, 0.0, 490, 602},
-                                           Series{false, 0.3, 0.0, 490, 769}, Series{false, 0.8, 0.0, 482, 768},
-                                           Series{true, 0.3, 2.0, 496, 617}, Series{true, 0.8, 2.0, 489, 600},
-                                           Series{false, 0.3, 2.0, 470, 716}, Series{false, 0.8, 2.0, 468, 729}));
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, SolveCoulomb,
+    ::testing::Values(NewtonSeries{true, 0.3, 0.0, 497, 608}, NewtonSeries{true, 0.8, 0.0, 490, 602},
+                      NewtonSeries{false, 0.3, 0.0, 490, 769}, NewtonSeries{false, 0.8, 0.0, 482, 768},
+                      NewtonSeries{true, 0.3, 2.0, 496, 617}, NewtonSeries{true, 0.8, 2.0, 489, 600},
+                      NewtonSeries{false, 0.3, 2.0, 470, 716}, NewtonSeries{false, 0.8, 2.0, 468, 729}));
 
 /// From the solution of the same problem nothing needs to enter, and the motion stays.
 TEST(SolveCoulombAgain, StaysAtItsSolution) {
   Random random(42);
-  const Series series{false, 0.4, 0.0, 0, 0};
+  const NewtonSeries series{false, 0.4, 0.0, 0, 0};
   int compared = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    Problem p = problem_of(series, trial, random);
+    NewtonProblem p = problem_of(series, trial, random);
     ContactSet set = p.set();
     if (detail::solve_coulomb(set)) {
       ++compared;
@@ -152,7 +156,7 @@ TEST(SolveCoulombAgain, StaysAtItsSolution) {
       const std::uint32_t additions = set.additions();
       EXPECT_TRUE(detail::solve_coulomb(set)) << trial;
       EXPECT_EQ(set.additions(), additions) << trial;
-      EXPECT_LT((set.plain_motion() - z).norm(), 2.0 * kMetric.tolerance) << trial;
+      EXPECT_LT((set.plain_motion() - z).norm(), 2.0 * kNewtonMetric.tolerance) << trial;
     }
     set.close_all();
   }

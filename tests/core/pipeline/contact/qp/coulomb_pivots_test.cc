@@ -19,7 +19,7 @@ namespace {
 using detail::Contact;
 using detail::ContactSet;
 
-const CouplingMetric kMetric;
+const CouplingMetric kPivotMetric;
 constexpr double kStatic = 0.5;
 constexpr double kKinetic = 0.25;
 
@@ -38,7 +38,7 @@ class CoulombPivots : public ::testing::Test {
       rows_->push(static_cast<std::uint32_t>(i), random_.direction(), random_.in_cube(0.03), 0.0);
   }
 
-  ContactSet set() { return {*rows_, wanted_, kMetric, &friction_, last_}; }
+  ContactSet set() { return {*rows_, wanted_, kPivotMetric, &friction_, last_}; }
   /// Returns a unit vector across the normal, at this angle.
   Vector3 across(const Contact& c, double angle) const {
     const Vector3 x = c.normal.unitOrthogonal();
@@ -171,7 +171,7 @@ TEST_F(CoulombPivots, SpreadAForceInsideOfTheConeOverThreePushes) {
       EXPECT_TRUE(set.contact(now).slips);
       EXPECT_FALSE(set.contact(now).is_held);
       EXPECT_EQ(set.contact(now).ratio, kKinetic);
-      EXPECT_EQ(set.contact(now).speed, kMetric.still);
+      EXPECT_EQ(set.contact(now).speed, kPivotMetric.still);
     }
     set.close_all();
   }
@@ -244,12 +244,13 @@ TEST_F(CoulombPivots, LetAContactSlipAgainstTheForceThatItHad) {
     set.contact(k).ratio = kStatic;
     const Load before = load_of(set, 2);
     Motion m;  // the point of contact k slips, the other one rests
-    const Vector3 slip = random_.between(1.1, 1e5) * kMetric.still * across(set.contact(k), random_.between(0.0, 6.0));
+    const Vector3 slip =
+        random_.between(1.1, 1e5) * kPivotMetric.still * across(set.contact(k), random_.between(0.0, 6.0));
     const Vector3 arm = set.contact(k).point - set.contact(rests).point;
     m.rotation = arm.cross(slip) / arm.squaredNorm();
     m.translation = -m.rotation.cross(set.contact(rests).point);
     const detail::Slip seen = set.slip_of(set.contact(k), m);
-    const bool slips = seen.speed > kMetric.still;
+    const bool slips = seen.speed > kPivotMetric.still;
     detail::begin_to_slip(m, set);
     const Contact& c = set.contact(contact_with_row(set, 2));
     const Load after = load_of(set, 2);

@@ -16,9 +16,9 @@ using Set = DualActiveSet<NoTag>;
 
 Set::Inequality half_space(const Vector6& gradient, double rhs) { return {gradient, rhs, 0.0, {}}; }
 
-class Random {
+class NormalDraws {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit NormalDraws(unsigned seed) : engine_(seed) {}
   double normal() { return normal_(engine_); }
   Vector6 vector() {
     return Vector6::NullaryExpr([this] { return normal(); });
@@ -120,7 +120,7 @@ TEST(DualActiveSet, RefusesWhatContradictsAndStaysAsItWas) {
 }
 
 TEST(DualActiveSet, IsOptimalOnRandomPolyhedra) {
-  Random random(1);
+  NormalDraws random(1);
   int most = 0, contradictions = 0;
   for (int problem = 0; problem < 5000; ++problem) {
     const Vector6 inside = random.vector();
@@ -148,7 +148,7 @@ TEST(DualActiveSet, IsOptimalOnRandomPolyhedra) {
 }
 
 TEST(DualActiveSet, ResolveEndsAtTheSamePointWhateverWasGuessed) {
-  Random random(2);
+  NormalDraws random(2);
   for (int problem = 0; problem < 2000; ++problem) {
     const Vector6 inside = random.vector();
     std::vector<Set::Inequality> half_spaces;

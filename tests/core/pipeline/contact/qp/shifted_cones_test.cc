@@ -22,21 +22,21 @@ using detail::Additions;
 using detail::ContactSet;
 using detail::Shift;
 
-const CouplingMetric kMetric;
+const CouplingMetric kConeMetric;
 
-struct Bench {
+struct ConeBench {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted;
   ContactFriction friction{0.5, 0.25, 0.0};
   Motion last;
 
-  ContactSet set() { return {*rows, wanted, kMetric, &friction, last}; }
+  ContactSet set() { return {*rows, wanted, kConeMetric, &friction, last}; }
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
 };
 
-SixVector six(const Motion& m) {
+SixVector six_vector(const Motion& m) {
   SixVector z;
-  z << m.translation, kMetric.gyration * m.rotation;
+  z << m.translation, kConeMetric.gyration * m.rotation;
   return z;
 }
 
@@ -66,7 +66,7 @@ TEST(MeetCones, ProjectsOnAConeAsGeometryDoes) {
   // one point at the origin: v = x. The cone n . x >= 0.5 |slip|
   for (const double drag : {0.0, 0.001, 0.002, 0.004, 0.009, 0.02, 0.1}) {
     for (const double press : {-0.01, 0.0, 0.01}) {
-      Bench bench;
+      ConeBench bench;
       bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
       bench.wanted.translation = Vector3(0.6 * drag, 0.8 * drag, -press);
       ContactSet set = bench.set();
@@ -84,7 +84,7 @@ TEST(MeetCones, ProjectsOnAConeAsGeometryDoes) {
 
 /// With the shift of its slip, a contact that enters opens no gap: the cone's tip lies below the plane.
 TEST(MeetCones, ShiftsTheConeOfAContactThatEntersByItsSlip) {
-  Bench bench;
+  ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
   bench.wanted.translation = Vector3(0.01, 0.0, -0.001);
   ContactSet set = bench.set();
@@ -101,7 +101,7 @@ TEST(MeetCones, FindsTheProjectionOfForcesOnTheirCones) {
   Random random(21);
   int compared = 0;
   for (int problem = 0; problem < 60; ++problem) {
-    Bench bench;
+    ConeBench bench;
     const int count = 1 + problem % 6;
     for (int i = 0; i < count; ++i) {
       // normals about +z, so that a motion inside of all cones exists
@@ -112,18 +112,18 @@ TEST(MeetCones, FindsTheProjectionOfForcesOnTheirCones) {
     bench.wanted.translation.z() = -0.003;
     ContactSet set = bench.set();
     const Additions ended = detail::meet_cones(Shift::kNone, set);
-    const SixVector found = six(set.motion());
+    const SixVector found = six_vector(set.motion());
     std::vector<SlowContact> contacts;  // rows that the motion does not bring to the surface are no contacts
     for (int k = 0; k < set.contact_count(); ++k) {
-      contacts.push_back(slow_contacts(*bench.rows, kMetric.gyration)[set.contact(k).row]);
+      contacts.push_back(slow_contacts(*bench.rows, kConeMetric.gyration)[set.contact(k).row]);
       contacts.back().required_gain = set.contact(k).required_gain;
     }
     set.close_all();
     double residual = 0.0;
-    const SixVector slow = nearest_in_cones(six(bench.wanted), contacts, 0.5, residual);
+    const SixVector slow = nearest_in_cones(six_vector(bench.wanted), contacts, 0.5, residual);
     if (ended != Additions::kMet || residual > 1e-13) continue;
     ++compared;
-    const double here = (found - six(bench.wanted)).norm(), there = (slow - six(bench.wanted)).norm();
+    const double here = (found - six_vector(bench.wanted)).norm(), there = (slow - six_vector(bench.wanted)).norm();
     EXPECT_NEAR(here, there, 1e-7) << problem;
     EXPECT_LT((found - slow).norm(), 2e-5) << problem;
   }
@@ -131,7 +131,7 @@ TEST(MeetCones, FindsTheProjectionOfForcesOnTheirCones) {
 }
 
 TEST(MeetCones, TellsThatConesContradictEachOther) {
-  Bench bench;
+  ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.001);
   bench.push(-Vector3::UnitZ(), Vector3::Zero(), 0.001);
   ContactSet set = bench.set();
@@ -148,7 +148,7 @@ TEST(MeetCones, TellsThatTheAdditionsAreUsedUp) {
   Random random(22);
   int exhausted = 0;
   for (int problem = 0; problem < 300; ++problem) {
-    Bench bench;
+    ConeBench bench;
     bench.friction = {1.5, 1.5, 0.0};
     for (int i = 0; i < 3 + problem % 5; ++i) {
       bench.push((Vector3::UnitZ() + 2.0 * random.in_cube(1.0)).normalized(), random.in_cube(0.03), 0.0);
@@ -168,7 +168,7 @@ TEST(MeetCones, TellsThatTheAdditionsAreUsedUp) {
 
 TEST(Sticks, TellsWhetherForcesInTheConesHoldTheBody) {
   for (const double share : {0.0, 0.5, 0.99, 1.01, 2.0}) {
-    Bench bench;
+    ConeBench bench;
     bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
     bench.wanted.translation = Vector3(0.5 * 0.004 * share, 0.0, -0.004);
     ContactSet set = bench.set();
@@ -176,7 +176,7 @@ TEST(Sticks, TellsWhetherForcesInTheConesHoldTheBody) {
     set.contact(0).shift = 1e-4;  // of no importance
     EXPECT_EQ(detail::sticks(set), share < 1.0) << share;
     if (share < 1.0) {
-      EXPECT_LT(six(set.motion()).norm(), 1e-9);
+      EXPECT_LT(six_vector(set.motion()).norm(), 1e-9);
       EXPECT_EQ(set.contact(0).shift, 0.0);
     }
     set.close_all();
@@ -185,7 +185,7 @@ TEST(Sticks, TellsWhetherForcesInTheConesHoldTheBody) {
 
 /// A second row is violated by the rest of the first contact: it becomes a contact, too.
 TEST(Sticks, HoldsTheBodyAtRowsThatWereNotYetContacts) {
-  Bench bench;
+  ConeBench bench;
   for (const double x : {-0.02, 0.02}) bench.push(Vector3::UnitZ(), Vector3(x, 0.0, 0.0), 0.0);
   for (const double y : {-0.02, 0.02}) bench.push(Vector3::UnitZ(), Vector3(0.0, y, 0.0), 0.0);
   bench.wanted.translation = Vector3(0.0005, 0.0, -0.004);
@@ -193,12 +193,12 @@ TEST(Sticks, HoldsTheBodyAtRowsThatWereNotYetContacts) {
   ASSERT_TRUE(set.enter(0, bench.wanted));
   EXPECT_TRUE(detail::sticks(set));
   EXPECT_GT(set.contact_count(), 1);
-  EXPECT_LT(six(set.motion()).norm(), 1e-8);
+  EXPECT_LT(six_vector(set.motion()).norm(), 1e-8);
   set.close_all();
 }
 
 TEST(Sticks, DoesNotHoldABodyThatAGapLetsApproach) {
-  Bench bench;
+  ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), -0.001);
   bench.wanted.translation = Vector3(0.0, 0.0, -0.004);
   ContactSet set = bench.set();
@@ -210,7 +210,7 @@ TEST(Sticks, DoesNotHoldABodyThatAGapLetsApproach) {
 }
 
 TEST(Rests, NeedsAContactAndAMotionWithinTheTolerance) {
-  Bench bench;
+  ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
   const auto rests_at = [&](const Vector3& x, bool with_contact) {
     ContactSet set = bench.set();
@@ -226,16 +226,16 @@ TEST(Rests, NeedsAContactAndAMotionWithinTheTolerance) {
   };
   EXPECT_TRUE(rests_at(Vector3::Zero(), true));
   EXPECT_FALSE(rests_at(Vector3::Zero(), false));
-  EXPECT_TRUE(rests_at({0.0, 0.0, 0.99 * kMetric.tolerance}, true));
-  EXPECT_FALSE(rests_at({0.0, 0.0, 1.01 * kMetric.tolerance}, true));
-  EXPECT_TRUE(rests_at({0.99 * kMetric.still, 0.0, 0.0}, true));
-  EXPECT_FALSE(rests_at({1.01 * kMetric.still, 0.0, 0.0}, true)) << "a slip";
+  EXPECT_TRUE(rests_at({0.0, 0.0, 0.99 * kConeMetric.tolerance}, true));
+  EXPECT_FALSE(rests_at({0.0, 0.0, 1.01 * kConeMetric.tolerance}, true));
+  EXPECT_TRUE(rests_at({0.99 * kConeMetric.still, 0.0, 0.0}, true));
+  EXPECT_FALSE(rests_at({1.01 * kConeMetric.still, 0.0, 0.0}, true)) << "a slip";
 }
 
 /// The body may rest if the loaded points slipped by less than a fiftieth of the motion that friction prevented.
 TEST(Crawls, ComparesTheSlipWithTheMotionThatFrictionPrevented) {
-  Bench bench;
-  const double limit = kMetric.still + 0.02 * 0.25 * 0.004;
+  ConeBench bench;
+  const double limit = kConeMetric.still + 0.02 * 0.25 * 0.004;
   for (const double share : {0.0, 0.99, 1.01, 3.0}) {
     ConstrainedStep step;
     step.force_count = 2;
@@ -263,9 +263,9 @@ TEST(Crawls, ComparesTheSlipWithTheMotionThatFrictionPrevented) {
 
 TEST(ComeToRest, ReplacesACreepThatTheConesCanHold) {
   for (const bool can_hold : {true, false}) {
-    Bench bench;
+    ConeBench bench;
     bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
-    const double creep = 2.0 * kMetric.still;
+    const double creep = 2.0 * kConeMetric.still;
     // a drag just above or below mu_s times the load, as if the contact slipped with the kinetic ratio
     bench.wanted.translation = Vector3((can_hold ? 0.3 : 0.7) * 0.004, 0.0, -0.004);
     ContactSet set = bench.set();
@@ -295,13 +295,13 @@ TEST(ComeToRest, ReplacesACreepThatTheConesCanHold) {
 }
 
 TEST(ComeToRest, LeavesAMotionThatIsLongerThanTheTolerance) {
-  Bench bench;
+  ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
   bench.wanted.translation = Vector3(0.001, 0.0, -0.004);  // inside of the cone
   ContactSet set = bench.set();
   ASSERT_TRUE(set.enter(0, bench.wanted));
   Vector6 z = Vector6::Zero();
-  z.x() = 1.01 * kMetric.tolerance;
+  z.x() = 1.01 * kConeMetric.tolerance;
   set.active().start(z);
   detail::come_to_rest(set);
   EXPECT_EQ(set.active().z(), z);

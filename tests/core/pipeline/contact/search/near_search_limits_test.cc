@@ -19,13 +19,13 @@ namespace godobject::test {
 namespace {
 
 constexpr double kVoxel = 0.002;
-constexpr double kLongest = 0.003;
-constexpr double kTick = kLongest / 64.0;         // of the calendar
+constexpr double kLongestMotion = 0.003;
+constexpr double kTick = kLongestMotion / 64.0;   // of the calendar
 constexpr double kFieldRounding = 1e-5 * kVoxel;  // that the search allows for
 
 /// A field that counts its look-ups. Its clearance falls `slope` times as fast as the distance.
 template <class Shape>
-struct Counted {
+struct CountedField {
   AnalyticField<Shape> field;
   double slope = 1.0;
   mutable int bounds = 0;
@@ -74,7 +74,7 @@ struct Searcher {
 
   Searcher(const Field& f, const Pointshell& s, const Direction& d, bool remembers) : field(f), shell(s), direction(d) {
     if (remembers) memory.resize(NearSearch::memory(s));
-    search.start(memory, s, f.lipschitz(), kLongest);
+    search.start(memory, s, f.lipschitz(), kLongestMotion);
   }
   void find(const Pose& H, double travelled, double radius, const PointBudget& budget = {}) {
     near.clear();
@@ -102,15 +102,15 @@ TEST(NearSearch, KnowsToATickHowFarAPointMayGo) {
   const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Ones());
   const Pointshell shell = body.pointshell();
   for (const double slope : {1.0, 1.5}) {
-    const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel), slope};
+    const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel), slope};
     for (const bool remembers : {false, true}) {
       for (const double h : {0.0101, 0.0177, 0.05}) {
         for (const double travelled : {0.0, 0.25}) {
-          Searcher<Counted<HalfSpace>, detail::SampleDirection> at(field, shell, {}, remembers);
-          at.find(height(h), travelled, kLongest);
+          Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, remembers);
+          at.find(height(h), travelled, kLongestMotion);
           ASSERT_TRUE(at.near.empty());
           const double error = remembers ? kTick : 1e-9;
-          for (const double clearance : {0.0, 0.001, kLongest}) {
+          for (const double clearance : {0.0, 0.001, kLongestMotion}) {
             const double limit = travelled + h - slope * clearance;
             EXPECT_FALSE(at.search.is_free(limit + 1e-9, clearance)) << h;
             EXPECT_TRUE(at.search.is_free(limit - error - 2.0 * kFieldRounding - 1e-6 * h, clearance)) << h;
@@ -124,9 +124,9 @@ TEST(NearSearch, KnowsToATickHowFarAPointMayGo) {
 /// A near point makes nothing certain.
 TEST(NearSearch, ProvesNothingBesideANearPoint) {
   const Pointshell& shell = ball_shell();
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
   for (const bool remembers : {false, true}) {
-    Searcher<Counted<HalfSpace>, detail::SampleDirection> at(field, shell, {}, remembers);
+    Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, remembers);
     at.find(height(0.0205), 0.0, 0.001);
     ASSERT_FALSE(at.near.empty());
     EXPECT_FALSE(at.search.is_free(0.0, 0.001));
@@ -139,12 +139,12 @@ TEST(NearSearch, ProvesNothingBesideANearPoint) {
 TEST(NearSearch, CountsTheLeverOfAPointThatTheFieldPasses) {
   const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Ones());
   const Pointshell shell = body.pointshell();
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
   detail::FeatureDirection direction;
   direction.sphere = {Vector3(0.01, 0.0, 0.0), 0.02};
   for (const bool remembers : {false, true}) {
     for (const double h : {0.01, 0.04}) {
-      Searcher<Counted<HalfSpace>, detail::FeatureDirection> at(field, shell, direction, remembers);
+      Searcher<CountedField<HalfSpace>, detail::FeatureDirection> at(field, shell, direction, remembers);
       Pose H = height(h);
       H.translation.x() = 0.21;
       at.find(H, 0.0, 1e-6);
@@ -160,12 +160,12 @@ TEST(NearSearch, CountsTheLeverOfAPointThatTheFieldPasses) {
 TEST(NearSearch, KnowsWithoutMemoryTheNearestOfAllPoints) {
   Random random(5);
   const Pointshell& shell = ball_shell();
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
   for (int trial = 0; trial < 100; ++trial) {
-    Searcher<Counted<HalfSpace>, detail::SampleDirection> at(field, shell, {}, false);
+    Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, false);
     Pose H = height(random.between(0.0235, 0.06));
     H.rotation = exp_rotation(random.in_cube(2.0));
-    const double radius = random.between(0.0, kLongest);
+    const double radius = random.between(0.0, kLongestMotion);
     at.find(H, 0.0, radius);
     ASSERT_TRUE(at.near.empty());
     double least = std::numeric_limits<double>::infinity();
@@ -197,13 +197,13 @@ void expect_true_claims(const Shape& shape, bool remembers, unsigned seed) {
     odometer.move_to(H, kBallSphere);
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < shell.size; ++i) least = std::min(least, shape.distance(H * shell.point(i)));
-    for (const double clearance : {0.0, random.between(0.0, kLongest), kLongest}) {
+    for (const double clearance : {0.0, random.between(0.0, kLongestMotion), kLongestMotion}) {
       if (!at.search.is_free(odometer.travelled(), clearance)) continue;
       ++free;
       ASSERT_GE(std::max(0.0, least), clearance) << step;
     }
-    near += least < kLongest ? 1 : 0;
-    if (random.integer(0, 2) != 0) at.find(H, odometer.travelled(), random.between(0.2, 1.0) * kLongest);
+    near += least < kLongestMotion ? 1 : 0;
+    if (random.integer(0, 2) != 0) at.find(H, odometer.travelled(), random.between(0.2, 1.0) * kLongestMotion);
   }
   EXPECT_GT(free, 100);
   EXPECT_GT(near, 100);
@@ -229,8 +229,8 @@ struct Work {
 template <class Motion>
 Work work_of(int steps, const Motion& pose_at) {
   const Pointshell& shell = ball_shell();
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
-  Searcher<Counted<HalfSpace>, detail::SampleDirection> at(field, shell, {}, true);
+  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, true);
   Odometer odometer;
   for (int step = 0; step < steps; ++step) {
     const Pose H = pose_at(step);
@@ -357,10 +357,10 @@ TEST(NearestFirst, TakesTheFarthestClassToo) {
 /// The search reports a bound for every point that may be near and was not looked up, and no other.
 TEST(NearSearch, LeavesOutNoPointWithoutItsBound) {
   const Pointshell& shell = ball_shell();
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
   for (const std::uint32_t points : {0u, 1u, 5u, 40u, 1000u}) {
     for (const double always : {0.0, 1e-4, 5e-4}) {
-      Searcher<Counted<HalfSpace>, detail::SampleDirection> at(field, shell, {}, true);
+      Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, true);
       Odometer odometer;
       for (int step = 0; step < 50; ++step) {
         Pose H = height(0.0203 - 1e-5 * (step % 20));
