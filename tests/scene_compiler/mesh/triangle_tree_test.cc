@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -83,6 +84,46 @@ TEST(TriangleTree, CountsNestedSolids) {
       EXPECT_NEAR(tree.winding_number(p, 6.0), expected, 0.01 * i);
     }
   }
+}
+
+/// The change along a segment is that of the winding number, which the oracle sums, also where solids cross each other.
+TEST(TriangleTree, CountsTheTrianglesThatASegmentCrosses) {
+  const Eigen::Isometry3d aside(Eigen::Translation3d(0.31, 0.22, 0.17));
+  const TriangleMesh cube = test::box_mesh(Vector3d::Ones());
+  const TriangleMesh crossing =
+      joined(joined(cube, test::moved(cube, aside)), turned_inside_out(test::box_mesh(0.3 * Vector3d::Ones())));
+  const TriangleTree tree = tree_of(crossing);
+  const BruteForce truth(crossing);
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> place(-0.9, 1.1);
+  int counted = 0;
+  int changed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3d from(place(random), place(random), place(random));
+    const Vector3d to =
+        from + std::pow(10.0, -2.0 * std::abs(place(random))) * Vector3d(place(random), place(random), place(random));
+    const std::optional<int> change = tree.winding_change(from, to);
+    if (!change) continue;
+    ++counted;
+    changed += *change != 0 ? 1 : 0;
+    ASSERT_NEAR(*change, truth.winding_number(to) - truth.winding_number(from), 1e-6) << i;
+  }
+  EXPECT_GT(counted, 3900);
+  EXPECT_GT(changed, 300);
+}
+
+/// Through an edge or a corner, and to a place on a face, the count is unsure.
+TEST(TriangleTree, CountsNoSegmentThroughAnEdge) {
+  const TriangleTree tree = tree_of(test::box_mesh(Vector3d::Ones()));
+  const Vector3d outside(2.0, 0.1, 0.2);
+  EXPECT_EQ(tree.winding_change(outside, Vector3d(0.1, 0.1, 0.2)), 1);
+  EXPECT_EQ(tree.winding_change(Vector3d(0.1, 0.1, 0.2), outside), -1);
+  EXPECT_EQ(tree.winding_change(outside, Vector3d(-2.0, 0.1, 0.2)), 0);
+  EXPECT_EQ(tree.winding_change(outside, Vector3d(0.5, 0.1, 0.2)), std::nullopt) << "ends on a face";
+  EXPECT_EQ(tree.winding_change(Vector3d(0.5, 0.1, 0.2), outside), std::nullopt) << "begins on a face";
+  EXPECT_EQ(tree.winding_change(Vector3d(1.0, 1.0, 0.2), Vector3d(0.0, 0.0, 0.2)), std::nullopt) << "through an edge";
+  EXPECT_EQ(tree.winding_change(Vector3d::Ones(), Vector3d::Zero()), std::nullopt) << "through a corner";
+  EXPECT_EQ(tree.winding_change(Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.0)), std::nullopt) << "a diagonal";
 }
 
 TEST(TriangleTree, AddsUpTheAnglesOfSizesFromAtomsToPlanets) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -36,10 +37,15 @@ class GridBuilder {
 
  private:
   static constexpr std::uint32_t kNone = ~0u;
+  static constexpr std::int16_t kUncounted = std::numeric_limits<std::int16_t>::min();
 
   Vector3d node(const BrickPosition& brick, double x, double y, double z) const {
     return origin_ +
            voxel_size_ * Vector3d(kBrickCells * brick[0] + x, kBrickCells * brick[1] + y, kBrickCells * brick[2] + z);
+  }
+  Vector3d middle(const BrickPosition& brick) const {
+    constexpr double kMiddle = 0.5 * kBrickCells;
+    return node(brick, kMiddle, kMiddle, kMiddle);
   }
   bool is_boundary(const BrickPosition& p) const;
   void require_free_boundary(bool inside, const BrickPosition& p) const;
@@ -58,9 +64,10 @@ class GridBuilder {
   Vector3d high_ = -low_;
   Vector3d origin_ = Vector3d::Zero();
   BrickLattice bricks_;
-  std::vector<float> center_;    // signed distance at each brick's centre
-  std::vector<bool> evaluated_;  // all nodes are known
-  BrickLattice block_lattice_;   // one more than bricks_ on each axis, for the outer nodes
+  std::vector<float> center_;          // signed distance at each brick's centre
+  std::vector<std::int16_t> winding_;  // winding number there, or kUncounted
+  std::vector<bool> evaluated_;        // all nodes are known
+  BrickLattice block_lattice_;         // one more than bricks_ on each axis, for the outer nodes
   std::vector<std::uint32_t> block_of_;
   std::vector<Block> blocks_;
 };
@@ -103,6 +110,7 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
 
 void GridBuilder::classify(const parallel::Progress& progress) {
   center_.resize(bricks_.count());
+  winding_.resize(bricks_.count());
   const auto rows = static_cast<std::size_t>(bricks_.size[1]) * static_cast<std::size_t>(bricks_.size[2]);
   const auto row_length = static_cast<std::size_t>(bricks_.size[0]);
   parallel::for_each_index(
@@ -110,8 +118,8 @@ void GridBuilder::classify(const parallel::Progress& progress) {
       [&](std::size_t row) {
         DistanceProbe probe(surface_);
         for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
-          constexpr double kMiddle = 0.5 * kBrickCells;
-          center_[i] = static_cast<float>(probe.signed_distance(node(bricks_.position(i), kMiddle, kMiddle, kMiddle)));
+          center_[i] = static_cast<float>(probe.signed_distance(middle(bricks_.position(i))));
+          winding_[i] = probe.winding().value_or(kUncounted);
         }
       },
       progress);
@@ -200,6 +208,10 @@ void GridBuilder::add_blocks(const std::vector<std::size_t>& bricks, const paral
 
 void GridBuilder::fill(Block& block, const BrickPosition& position) const {
   DistanceProbe probe(surface_);
+  if (bricks_.contains(position)) {
+    const std::size_t i = bricks_.number(position);
+    if (winding_[i] != kUncounted) probe.start(middle(position), center_[i], winding_[i]);
+  }
   for (int z = 0; z < kBrickCells; ++z) {
     for (int row = 0; row < kBrickCells; ++row) {
       const int y = z % 2 == 0 ? row : kBrickCells - 1 - row;  // back and forth, so that each step is one voxel

@@ -1,8 +1,29 @@
 #include "toolchain/scene_compiler/field/distance_probe.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 namespace godobject::scene_compiler {
+
+void DistanceProbe::start(const Eigen::Vector3d& p, float distance, std::int16_t winding) {
+  constexpr double kRounding = 1.0 + 1.2e-7;  // of the distance to single precision
+  last_ = p;
+  to_solids_ = std::abs(static_cast<double>(distance)) * kRounding;
+  to_shells_ = std::numeric_limits<double>::infinity();
+  inside_ = winding > 0;
+  winding_ = winding;
+  path_left_ = std::numeric_limits<double>::infinity();
+}
+
+std::optional<std::int16_t> DistanceProbe::winding() const {
+  const bool counted = to_solids_ >= 0.0 && surface_.sealed() && surface_.shell_triangles().empty() &&
+                       !surface_.solid_triangles().empty() && surface_.dilation() == 0.0;
+  using Limits = std::numeric_limits<std::int16_t>;
+  if (!counted || winding_ <= Limits::min() || winding_ > Limits::max()) return {};
+  return static_cast<std::int16_t>(winding_);
+}
 
 /// True if the step meets no triangle of a solid, ends included.
 bool DistanceProbe::keeps_side(const Eigen::Vector3d& p, double step) const {
@@ -13,6 +34,16 @@ bool DistanceProbe::keeps_side(const Eigen::Vector3d& p, double step) const {
   return !surface_.solid_triangles().first_hit(last_, p - last_, -kEnds, 1.0 + kEnds, hit);
 }
 
+/// Counts the triangles that a step crosses. False if the winding number must be summed instead.
+bool DistanceProbe::counts_crossings(const Eigen::Vector3d& p) {
+  if (!surface_.sealed()) return false;
+  const std::optional<int> change = surface_.solid_triangles().winding_change(last_, p);
+  if (!change) return false;
+  winding_ += *change;
+  inside_ = winding_ > 0;
+  return true;
+}
+
 double DistanceProbe::signed_distance(const Eigen::Vector3d& p) {
   const bool first = to_solids_ < 0.0;
   const double step = (p - last_).norm();
@@ -21,9 +52,10 @@ double DistanceProbe::signed_distance(const Eigen::Vector3d& p) {
   to_shells_ = surface_.distance_to_shells(p, first ? -1.0 : to_shells_ + step);
   if (same_side) {
     path_left_ -= step;
-  } else {
+  } else if (first || !counts_crossings(p)) {
     const double winding_number = surface_.winding_number(p);
     inside_ = winding_number > 0.5;
+    winding_ = static_cast<int>(std::lround(winding_number));
     path_left_ = surface_.constant_side_path(p, winding_number);
   }
   last_ = p;

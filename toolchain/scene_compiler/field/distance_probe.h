@@ -1,26 +1,39 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 
 namespace godobject::scene_compiler {
 
 /// Signed distance along a walk, equal to SolidSurface::signed_distance but faster. The last answer bounds the next
-/// search. The winding number is summed again only after a step that crosses a triangle, or far from the last sum. Use
-/// one probe for each thread.
+/// search. The winding number is summed again only far from the last sum, or after a step that crosses a triangle of
+/// solids with an open boundary. Without one, crossings are counted. Use one probe for each thread.
 class DistanceProbe {
  public:
   explicit DistanceProbe(const SolidSurface& surface) : surface_(surface) {}
+
+  /// Begins a walk at a place where another one has been, with its answers: the signed distance to the solids there,
+  /// rounded to single precision [m], and winding().
+  void start(const Eigen::Vector3d& p, float distance, std::int16_t winding);
+
+  /// Returns the winding number at the last place; nothing where crossings are not counted: for solids that have an
+  /// open boundary, are dilated or beside shells.
+  std::optional<std::int16_t> winding() const;
 
   double signed_distance(const Eigen::Vector3d& p);
 
  private:
   bool keeps_side(const Eigen::Vector3d& p, double step) const;
+  bool counts_crossings(const Eigen::Vector3d& p);
 
   const SolidSurface& surface_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
   double to_solids_ = -1.0;  ///< at the last point; negative: no answer yet
   double to_shells_ = -1.0;
   bool inside_ = false;
+  int winding_ = 0;         ///< winding number, if the solids have no open boundary
   double path_left_ = 0.0;  ///< until the winding number must be summed again [m]
 };
 

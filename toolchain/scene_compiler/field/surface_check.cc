@@ -106,16 +106,17 @@ class SurfaceCheck {
   /// Checks a triangle. Divides it across the longest edge, so slivers take few steps, until the pieces are as small as
   /// the cells of their bricks.
   bool divide(const Corners& corners, Sides& sides) {
-    const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
-    const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(center));
     std::size_t longest = 0;
     std::array<double, 3> squared{};
     for (std::size_t i = 0; i < 3; ++i) {
       squared[i] = (corners[(i + 1) % 3] - corners[i]).squaredNorm();
       if (squared[i] > squared[longest]) longest = i;
     }
-    if (std::sqrt(squared[longest]) <= kFaceSpacing * tree_.cell_edge(leaf.level)) {
-      return check_point(center, leaf, center, sides);
+    const double length = std::sqrt(squared[longest]);
+    if (length <= kFaceSpacing * tree_.cell_edge(0)) {  // else it is too large whatever the level
+      const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
+      const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(center));
+      if (length <= kFaceSpacing * tree_.cell_edge(leaf.level)) return check_point(center, leaf, center, sides);
     }
     Corners one = corners;
     Corners other = corners;

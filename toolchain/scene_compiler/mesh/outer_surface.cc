@@ -55,12 +55,23 @@ bool OuterSurface::is_outer(const SurfaceSample& sample, Known& known) const {
   const Vector3d off = sample.point - step_ * sample.inward;
   const Vector3d path = known.point - off;
   TriangleTree::RayHit hit{};
-  if (path.norm() < known.free_path && !surface_.solid_triangles().first_hit(off, path, 0.0, 1.0, hit))
+  if (path.norm() < known.free_path && !surface_.solid_triangles().first_hit(off, path, 0.0, 1.0, hit)) {
+    if (surface_.sealed()) known.point = off;
     return known.outer;
+  }
+  if (known.free_path > 0.0 && surface_.sealed()) {
+    if (const auto change = surface_.solid_triangles().winding_change(known.point, off)) {
+      known.point = off;
+      known.winding += *change;
+      known.outer = known.winding == 0;
+      return known.outer;
+    }
+  }
   // through its own triangle the winding number grows by one. It passes one half if it was within one half of zero.
   const double outside = surface_.winding_number(off);
   const double margin = std::min(std::abs(outside - 0.5), std::abs(outside + kMostNegative));
-  known = {off, surface_.constant_side_path(off, 0.5 - margin), outside > -kMostNegative && outside < 0.5};
+  known = {off, surface_.constant_side_path(off, 0.5 - margin), outside > -kMostNegative && outside < 0.5,
+           static_cast<int>(std::lround(outside))};
   return known.outer;
 }
 

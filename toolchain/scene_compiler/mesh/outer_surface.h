@@ -57,6 +57,7 @@ class OuterSurface {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     double free_path = -1.0;  ///< length of straight paths that stay on the same side [m]
     bool outer = false;
+    int winding = 0;  ///< winding number at the point, if the solids have no open boundary
   };
   /// A part of a piece of the surface.
   struct Cell {

@@ -70,6 +70,40 @@ bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const
   return true;
 }
 
+/// A way to cross a triangle; kUnsure if rounding might decide.
+enum class Crossing { kNone, kInwards, kOutwards, kUnsure };
+
+Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::Triangle& triangle) noexcept {
+  constexpr double kMargin = 1e-9;     // of the step and of the triangle
+  constexpr double kRounding = 1e-15;  // of lengths, several roundings
+  constexpr double kThinnest = 1e-5;   // height over length: rounding may turn the normals of thinner triangles
+  const Vector3d e1 = triangle.b - triangle.a;
+  const Vector3d e2 = triangle.c - triangle.a;
+  const Vector3d normal = e1.cross(e2);
+  const double norm = normal.norm();
+  const double longest = std::sqrt(std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()}));
+  if (!(norm > kThinnest * longest * longest)) return Crossing::kUnsure;
+  const double height = norm / longest;
+  const double step = (to - from).norm();
+  const double reach = (from - triangle.a).norm() + step + longest;
+  const double off_plane = kRounding * reach * longest / height;  // how far rounding moves a point across the plane
+  const double begin = normal.dot(from - triangle.a) / norm;
+  const double end = normal.dot(to - triangle.a) / norm;
+  const double least = kMargin * step + off_plane;
+  if (begin > least && end > least) return Crossing::kNone;
+  if (begin < -least && end < -least) return Crossing::kNone;
+  if (std::abs(begin) <= least || std::abs(end) <= least) return Crossing::kUnsure;
+  const Vector3d in_plane = from + begin / (begin - end) * (to - from) - triangle.a;
+  const double u = in_plane.cross(e2).dot(normal) / (norm * norm);
+  const double v = e1.cross(in_plane).dot(normal) / (norm * norm);
+  const double inmost = std::min({u, v, 1.0 - u - v});
+  const double margin =
+      kMargin + (2.0 * off_plane * step / std::abs(begin - end) + kRounding * reach) * longest / (height * height);
+  if (inmost < -margin) return Crossing::kNone;
+  if (inmost <= margin) return Crossing::kUnsure;
+  return begin > 0.0 ? Crossing::kInwards : Crossing::kOutwards;
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
@@ -86,13 +120,14 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end, std::v
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   Box box;
   for (std::uint32_t i = begin; i < end; ++i) box.add(box_of(triangles_[i]));
-  nodes_.push_back({box.low, box.high, begin, end - begin});
+  nodes_.push_back({box.low, box.high, begin, end - begin, index + 1});
   if (end - begin <= kLeafTriangles) return index;
   const std::uint32_t middle = split(begin, end, centroids);
   build(begin, middle, centroids);
   const std::uint32_t right = build(middle, end, centroids);
   nodes_[index].right = right;
   nodes_[index].count = 0;
+  nodes_[index].after = static_cast<std::uint32_t>(nodes_.size());
   return index;
 }
 
@@ -282,6 +317,29 @@ bool TriangleTree::first_hit(const Vector3d& origin, const Vector3d& direction, 
   hit.id = first->id;
   hit.normal = (first->b - first->a).cross(first->c - first->a).normalized();
   return true;
+}
+
+std::optional<int> TriangleTree::winding_change(const Vector3d& from, const Vector3d& to) const noexcept {
+  constexpr double kWider = 1e-9;  // of the segment, so that boxes do not hide what is unsure
+  const Vector3d direction = to - from;
+  const Vector3d inverse = direction.cwiseInverse();
+  const Vector3d wider = Vector3d::Constant(kWider * direction.norm());
+  int change = 0;
+  for (std::size_t n = 0; n < nodes_.size();) {
+    const Node& node = nodes_[n];
+    if (!ray_meets_box(from, inverse, node.low - wider, node.high + wider, -kWider, 1.0 + kWider)) {
+      n = node.after;
+      continue;
+    }
+    for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
+      const Crossing found = crossing(from, to, triangles_[i]);
+      if (found == Crossing::kUnsure) return {};
+      if (found == Crossing::kInwards) ++change;
+      if (found == Crossing::kOutwards) --change;
+    }
+    ++n;
+  }
+  return change;
 }
 
 double TriangleTree::winding_number(const Vector3d& p, double opening) const noexcept {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,11 @@ class TriangleTree {
   bool first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min, double t_max,
                  RayHit& hit) const noexcept;
 
+  /// Returns the change of the winding number from one place to another: the number of triangles that the segment
+  /// enters at their front, less those that it leaves. Empty if rounding might decide whether it meets one, and if a
+  /// triangle's edge is too near. The surface must have no open boundary.
+  std::optional<int> winding_change(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const noexcept;
+
   /// Returns the sum of solid angles over 4 pi. A subtree farther away than `opening` times its radius counts as one
   /// dipole (Barill et al. 2018). An infinite opening gives the exact sum.
   double winding_number(const Eigen::Vector3d& p, double opening) const noexcept;
@@ -57,6 +63,7 @@ class TriangleTree {
     Eigen::Vector3d low, high;
     std::uint32_t right;  ///< second child; the first is the next node. Leaf: first triangle
     std::uint32_t count;  ///< triangles of a leaf; 0 for an inner node
+    std::uint32_t after;  ///< the node after the subtree
   };
   struct Dipole {
     Eigen::Vector3d center;  ///< centroid, weighted by area
