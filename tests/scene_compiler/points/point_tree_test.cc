@@ -40,6 +40,33 @@ TEST(PointTree, FindsWhatAFullSearchFinds) {
       tree.within(p, 0.2, [&](std::uint32_t i, double) { found.push_back(i); });
       std::sort(found.begin(), found.end());
       EXPECT_EQ(found, near);
+      EXPECT_EQ(tree.any_within(p, 0.2), !near.empty());
+    }
+  }
+}
+
+/// With counts on both sides of those that are built in parallel, and halves of unequal sizes.
+TEST(PointTree, DividesAllPointsIntoRunsAndLeaves) {
+  for (const std::size_t count : {1u, 33u, 1000u, 8191u, 40003u}) {
+    const std::vector<Vector3d> points = random_points(count, 3);
+    const PointTree tree(points);
+    std::vector<int> in_runs(count);
+    for (const PointTree::Run& run : tree.runs(32)) {
+      EXPECT_LE(run.end - run.begin, 32u);
+      for (std::uint32_t entry = run.begin; entry < run.end; ++entry) {
+        EXPECT_EQ(tree.point(entry), points[tree.index(entry)]);
+        ++in_runs[tree.index(entry)];
+      }
+    }
+    EXPECT_EQ(std::count(in_runs.begin(), in_runs.end(), 1), static_cast<std::ptrdiff_t>(count));
+    std::vector<int> in_leaves(count);
+    const auto below = [](const Vector3d&, const Vector3d& high) { return high.x() < 0.5; };
+    tree.leaves(below, [&](const PointTree::Run& run) {
+      for (std::uint32_t entry = run.begin; entry < run.end; ++entry) ++in_leaves[tree.index(entry)];
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_LE(in_leaves[i], 1) << i;
+      EXPECT_GE(in_leaves[i], points[i].x() >= 0.5 ? 1 : 0) << i;
     }
   }
 }

@@ -1,8 +1,10 @@
 #include "toolchain/scene_compiler/points/relief.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +63,46 @@ void expect_as_over_all(const TriangleMesh& mesh) {
 TEST(Relief, FindsTheFallsOfABoxThatALoopFinds) { expect_as_over_all(test::box_mesh({0.03, 0.02, 0.01})); }
 
 TEST(Relief, FindsTheFallsOfABallThatALoopFinds) { expect_as_over_all(test::ball_mesh(0.01, 16)); }
+
+/// What is left out for some places at once must show no fall at any of them.
+void expect_as_one_by_one(const TriangleMesh& mesh, SurfaceKind kind) {
+  const SolidSurface surface(mesh, kind, 0.002);
+  const OuterSurface outer(surface);
+  const Relief relief(outer, kResolution, 7, {});
+  std::vector<int> asked(relief.places().size());
+  std::atomic<int> falling{0};
+  std::atomic<int> wrong{0};
+  relief.for_each_run([&](const Relief::Run& run) {
+    std::mt19937 random(run.front());
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    const Relief::Fall fall{.depth = 1e-3 * share(random) * share(random), .seen = 4e-3 * share(random)};
+    const double most = kSearchRadius * share(random);
+    Relief::Vicinity vicinity(relief, run, most, fall);
+    for (const std::uint32_t i : run) {
+      ++asked[i];
+      for (const double radius : {most, most * share(random), most * share(random)}) {
+        const bool falls = relief.falls(i, radius, fall);
+        if (vicinity.falls(i, radius) != falls) ++wrong;
+        if (falls) ++falling;
+      }
+    }
+  });
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(falling, 100);
+  EXPECT_LT(falling, static_cast<int>(3 * asked.size()) - 100);
+  EXPECT_EQ(std::count(asked.begin(), asked.end(), 1), static_cast<std::ptrdiff_t>(asked.size()));
+}
+
+TEST(Relief, FindsTheSameFallsForManyPlacesAtOnce) {
+  expect_as_one_by_one(test::box_mesh({0.03, 0.02, 0.01}), SurfaceKind::kSolid);
+  expect_as_one_by_one(test::ball_mesh(0.01, 16), SurfaceKind::kSolid);
+  expect_as_one_by_one(test::box_mesh({0.03, 0.02, 0.0004}), SurfaceKind::kSolid);
+  expect_as_one_by_one(test::sheet_mesh(0.03), SurfaceKind::kShell);
+  const Eigen::Isometry3d aside(Eigen::Translation3d(0.012, 0.004, 0.003));
+  const TriangleMesh crossing =
+      test::joined(test::ball_mesh(0.01, 24), test::moved(test::box_mesh({0.01, 0.01, 0.02}), aside));
+  expect_as_one_by_one(test::joined(crossing, test::inside_out(test::ball_mesh(0.004, 8))), SurfaceKind::kAuto);
+}
 
 }  // namespace
 }  // namespace godobject::scene_compiler

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "toolchain/parallel/parallel.h"
 #include "toolchain/scene_compiler/points/point_tree.h"
@@ -32,9 +33,7 @@ class Points {
  public:
   explicit Points(std::span<const SurfaceSample> points) : points_(points), tree_(points_of(points)) {}
 
-  bool any_within(const Vector3d& at, double distance) const {
-    return tree_.nearest(at, distance, [](std::uint32_t) { return true; }).index != PointTree::kNone;
-  }
+  bool any_within(const Vector3d& at, double distance) const { return tree_.any_within(at, distance); }
 
   /// Returns R of place `i`; infinity beyond `limit`.
   double nearest_aside(const Relief& relief, std::size_t i, double fall, double limit) const {
@@ -50,15 +49,20 @@ class Points {
   PointTree tree_;
 };
 
-/// Collects the places with is_open(i, aside), which sets `aside` to R where the place is not open and R matters.
-template <class IsOpen>
-Open open_places(const Relief& relief, std::span<const std::uint8_t> among, const IsOpen& is_open) {
+/// Collects the open places. `judge` gets some of the places and sets is_open where one is open, and the aside where it
+/// is not and R matters.
+template <class Judge>
+Open open_places(const Relief& relief, std::span<const std::uint8_t> among, const Judge& judge) {
   const std::size_t count = relief.places().size();
   Open open;
   open.is_open.resize(count);
   std::vector<double> asides(count);
-  parallel::for_each_index(count, [&](std::size_t i) {
-    if (among.empty() || among[i] != 0) open.is_open[i] = is_open(i, asides[i]) ? 1 : 0;
+  relief.for_each_run([&](const Relief::Run& run) {
+    std::vector<std::uint32_t> asked;
+    for (const std::uint32_t i : run) {
+      if (among.empty() || among[i] != 0) asked.push_back(i);
+    }
+    judge(std::move(asked), open.is_open, asides);
   });
   open.count = static_cast<std::size_t>(std::count(open.is_open.begin(), open.is_open.end(), 1));
   for (const double aside : asides) open.largest_aside = std::max(open.largest_aside, aside);
@@ -172,23 +176,41 @@ class Cover {
 Open open_moving(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double limit,
                  std::span<const std::uint8_t> among) {
   const Points near(points);
-  return open_places(relief, among, [&](std::size_t i, double& aside_of_nearest) {
-    if (near.any_within(relief.places()[i].point, target.bound)) return false;
-    const double found = near.nearest_aside(relief, i, target.moving_fall, limit);
-    if (!(found <= limit) || relief.falls(i, target.stretched(found), target.moving())) return true;
-    aside_of_nearest = found;
-    return false;
+  using Places = std::vector<std::uint32_t>;
+  return open_places(relief, among, [&](Places asked, std::vector<std::uint8_t>& is_open, std::vector<double>& asides) {
+    double furthest = 0.0;
+    std::erase_if(asked, [&](std::uint32_t i) {
+      if (near.any_within(relief.places()[i].point, target.bound)) return true;
+      const double found = near.nearest_aside(relief, i, target.moving_fall, limit);
+      is_open[i] = found <= limit ? 0 : 1;
+      if (is_open[i] != 0) return true;
+      asides[i] = found;
+      furthest = std::max(furthest, target.stretched(found));
+      return false;
+    });
+    if (asked.empty()) return;
+    Relief::Vicinity vicinity(relief, asked, furthest, target.moving());
+    for (const std::uint32_t i : asked) {
+      if (!vicinity.falls(i, target.stretched(asides[i]))) continue;
+      is_open[i] = 1;
+      asides[i] = 0.0;
+    }
   });
 }
 
 Open open_still(const Relief& relief, std::span<const SurfaceSample> points, const Target& target, double largest_aside,
                 std::span<const std::uint8_t> among) {
   const Points near(points);
-  return open_places(relief, among, [&](std::size_t i, double&) {
-    if (near.any_within(relief.places()[i].point, target.bound)) return false;
-    if (!relief.falls(i, largest_aside, target.still())) return false;
-    const double found = near.nearest_aside(relief, i, target.still_fall, target.stretched(largest_aside));
-    return !std::isfinite(found) || relief.falls(i, target.unstretched(found), target.still());
+  using Places = std::vector<std::uint32_t>;
+  return open_places(relief, among, [&](Places asked, std::vector<std::uint8_t>& is_open, std::vector<double>&) {
+    std::erase_if(asked, [&](std::uint32_t i) { return near.any_within(relief.places()[i].point, target.bound); });
+    if (asked.empty()) return;
+    Relief::Vicinity vicinity(relief, asked, largest_aside, target.still());
+    for (const std::uint32_t i : asked) {
+      if (!vicinity.falls(i, largest_aside)) continue;
+      const double found = near.nearest_aside(relief, i, target.still_fall, target.stretched(largest_aside));
+      is_open[i] = !std::isfinite(found) || vicinity.falls(i, target.unstretched(found)) ? 1 : 0;
+    }
   });
 }
 

@@ -41,6 +41,28 @@ class PointTree {
     if (size() > 0) descend_boxes(p, Range{0, 0, size()}, radius * radius, skip, visit);
   }
 
+  /// True if a point is at most `radius` from p.
+  bool any_within(const Eigen::Vector3d& p, double radius) const {
+    return size() > 0 && any_in_boxes(p, Range{0, 0, size()}, radius * radius);
+  }
+
+  /// Some points that lie near each other: entries of the tree.
+  struct Run {
+    std::uint32_t begin, end;
+  };
+
+  /// Divides the points into runs of at most `most`, at least kLeafSize.
+  std::vector<Run> runs(std::uint32_t most) const;
+
+  const Eigen::Vector3d& point(std::uint32_t entry) const { return entries_[entry].point; }
+  std::uint32_t index(std::uint32_t entry) const { return entries_[entry].index; }
+
+  /// Calls visit(run) for the leaves of the tree, except those in boxes with skip(low, high).
+  template <class Skip, class Visit>
+  void leaves(const Skip& skip, const Visit& visit) const {
+    if (size() > 0) descend_to_leaves(Range{0, 0, size()}, skip, visit);
+  }
+
   /// Returns the nearest of the points with accept(index) that are nearer than `radius`; of equally near ones the
   /// first.
   template <class Accept>
@@ -91,7 +113,7 @@ class PointTree {
   };
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
-  void build(const Range& range);
+  void build(const Range& range, std::vector<Range>* later);
 
   template <class Bound, class Visit>
   void descend(const Eigen::Vector3d& p, const Range& range, const Bound& bound, const Visit& visit) const {
@@ -123,6 +145,21 @@ class PointTree {
     const bool below = p[cut.axis] < cut.value;
     descend_boxes(p, below ? range.lower() : range.upper(), bound, skip, visit);
     descend_boxes(p, below ? range.upper() : range.lower(), bound, skip, visit);
+  }
+
+  bool any_in_boxes(const Eigen::Vector3d& p, const Range& range, double bound) const;
+  void add_runs(const Range& range, std::uint32_t most, std::vector<Run>& runs) const;
+
+  template <class Skip, class Visit>
+  void descend_to_leaves(const Range& range, const Skip& skip, const Visit& visit) const {
+    const Box& box = boxes_[range.node];
+    if (skip(box.low, box.high)) return;
+    if (range.leaf()) {
+      visit(Run{range.begin, range.end});
+      return;
+    }
+    descend_to_leaves(range.lower(), skip, visit);
+    descend_to_leaves(range.upper(), skip, visit);
   }
 
   std::vector<Entry> entries_;

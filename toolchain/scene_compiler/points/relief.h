@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,14 @@ class Relief {
   /// True if the surface falls like this at most `radius` from the plane's normal at the place [m].
   bool falls(std::size_t place, double radius, const Fall& fall) const;
 
+  /// The surface near some places that lie near each other, for several questions about falls.
+  class Vicinity;
+
+  using Run = std::span<const std::uint32_t>;  ///< places that lie near each other, most with similar normals
+
+  /// Calls work(run) for runs of all places, in parallel, each place once.
+  void for_each_run(const std::function<void(const Run&)>& work) const { for_each_run(all_, work); }
+
   /// Returns the depth of `point` below that plane, negative above it [m].
   double depth_below(std::size_t place, const Eigen::Vector3d& point) const {
     return (point - places_[place].point).dot(inward_[place]);
@@ -59,6 +68,8 @@ class Relief {
   bool may_fall(std::size_t place, const Eigen::Vector3d& low, const Eigen::Vector3d& high, double depth,
                 double radius) const;
 
+  void for_each_run(const PointTree& tree, const std::function<void(const Run&)>& work) const;
+
   PointTree add(const OuterSurface& outer, std::span<const SurfaceSample> samples);
   std::vector<SurfaceSample> fine_places(const OuterSurface& outer, const Resolution& resolution, std::uint32_t seed,
                                          const parallel::Progress& progress);
@@ -71,6 +82,57 @@ class Relief {
   PointTree coarse_;  ///< the coarse places and the sharp ones
   PointTree all_;
   double area_ = 0.0;
+};
+
+/// The parts of both clouds that may show a fall at any of some places. Parts that show none at all of the places are
+/// found once, not again at each place.
+class Relief::Vicinity {
+ public:
+  /// For questions about these places and this fall, at most `radius` aside [m].
+  Vicinity(const Relief& relief, const Run& places, double radius, const Fall& fall);
+
+  /// Equals Relief::falls. Not for use by several threads.
+  bool falls(std::size_t place, double radius);
+
+ private:
+  /// A place that may show a fall.
+  struct Candidate {
+    Eigen::Vector3d point;
+    std::uint32_t place;
+  };
+
+  /// Candidates that lie near each other, in a box.
+  struct Part {
+    Eigen::Vector3d low, high;
+    std::uint32_t begin, end;  ///< candidates
+  };
+
+  struct Cloud {
+    std::vector<Part> parts;
+    std::vector<Candidate> candidates;
+  };
+
+  /// Bounds over the places that are asked about.
+  struct Bounds {
+    Eigen::Vector3d center;
+    double radius;           ///< largest distance of a place from the centre [m]
+    Eigen::Vector3d inward;  ///< mean of the triangles' normals
+    double turned;           ///< largest difference of a normal from it [1]
+    double above;            ///< largest depth of the centre below the plane of a place [m]
+    Eigen::Vector3d side;    ///< mean of SurfaceSample::inward
+    double side_turned;      ///< largest difference from it [1]
+  };
+
+  Bounds bounds_of(const Run& places) const;
+  Cloud near(const PointTree& tree, const Bounds& places, double radius) const;
+  void add(const PointTree& tree, const PointTree::Run& run, const Bounds& places, double radius, Cloud& cloud) const;
+  bool falls_in(Cloud& cloud, std::size_t place, double radius) const;
+  bool shows_fall(std::size_t place, const Candidate& candidate, double radius, double furthest) const;
+
+  const Relief& relief_;
+  const Fall fall_;
+  Cloud coarse_;
+  Cloud all_;
 };
 
 }  // namespace godobject::scene_compiler
