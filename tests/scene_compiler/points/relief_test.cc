@@ -64,7 +64,7 @@ TEST(Relief, FindsTheFallsOfABoxThatALoopFinds) { expect_as_over_all(test::box_m
 
 TEST(Relief, FindsTheFallsOfABallThatALoopFinds) { expect_as_over_all(test::ball_mesh(0.01, 16)); }
 
-/// What is left out for some places at once must show no fall at any of them.
+/// Points that are left out for some places at once must show no fall at any of them.
 void expect_as_one_by_one(const TriangleMesh& mesh, SurfaceKind kind) {
   const SolidSurface surface(mesh, kind, 0.002);
   const OuterSurface outer(surface);

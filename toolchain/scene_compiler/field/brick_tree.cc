@@ -23,6 +23,8 @@ constexpr int kPositionUnits = BrickTree::kUnits * kBrickCells;
 int brick_units(int level) { return kPositionUnits >> level; }
 int cell_units(int level) { return BrickTree::kUnits >> level; }
 
+constexpr std::size_t kItself = 13;  // of a cell's 27 neighbours
+
 int position_of(int unit) { return unit >= 0 ? unit / kPositionUnits : -1; }
 
 /// Returns the octant of a brick of `level` that contains the unit cell.
@@ -50,6 +52,7 @@ BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>&
       lattice_{{field.grid.bricks[0], field.grid.bricks[1], field.grid.bricks[2]}},
       index_(field.index),
       places_(field.bricks.size()),
+      changed_in_(field.bricks.size()),
       edges_(edges),
       edges_of_(field.bricks.size()) {
   for (std::size_t i = 0; i < index_.size(); ++i) {
@@ -200,12 +203,11 @@ std::size_t BrickTree::coarser_about(const Leaf& leaf, const Vector3d& p, Octant
 }
 
 std::array<BrickTree::Leaf, 26> BrickTree::leaves_about(std::uint32_t brick) const {
-  constexpr int kItself = 13;
   const Place& place = places_[brick];
   std::array<Leaf, 26> leaves;
   std::size_t count = 0;
   for (int neighbour = 0; neighbour < 27; ++neighbour) {
-    if (neighbour == kItself) continue;
+    if (neighbour == static_cast<int>(kItself)) continue;
     const std::array<int, 3> step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
     Units cell = place.low;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -248,17 +250,26 @@ void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array
     find_edges(brick_count() - 1, edges_of_[brick]);
   }
   places_[brick].halved = static_cast<std::uint8_t>(places_[brick].halved | wanted);
+  touch(brick);
 }
 
-/// Returns the coarsest leaf that touches a node. A position that is not stored counts as coarse, with the values of
-/// `root`.
-BrickTree::Leaf BrickTree::coarsest_about(const Units& node, std::uint32_t root) const {
-  Leaf coarsest{kNone, format::kMaxRefinement + 1};
+/// Returns the coarsest leaf that touches a node of a brick, if one is coarser than the brick. `about`: leaves_about
+/// the brick. A coarser leaf beside the brick touches the whole face, edge or corner. A position that is not stored
+/// counts as coarse, with the values of the root.
+BrickTree::Leaf BrickTree::coarsest_about(std::uint32_t brick, const std::array<int, 3>& node,
+                                          const std::array<Leaf, 26>& about) const {
+  const Place& place = places_[brick];
+  Leaf coarsest{kNone, place.level};
   for (std::size_t corner = 0; corner < 8; ++corner) {
-    Units cell = node;
-    for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] -= (corner >> axis & 1) != 0 ? 0 : 1;
-    const Leaf leaf = find(cell);
-    if (leaf.brick == kNone) return {root, 0};
+    std::size_t neighbour = 0;  // 9 (z + 1) + 3 (y + 1) + x + 1
+    for (std::size_t axis = 3; axis-- > 0;) {
+      const bool above = (corner >> axis & 1) != 0;
+      const bool beyond = node[axis] == (above ? kBrickCells : 0);
+      neighbour = 3 * neighbour + (!beyond ? 1u : above ? 2u : 0u);
+    }
+    if (neighbour == kItself) continue;
+    const Leaf& leaf = about[neighbour < kItself ? neighbour : neighbour - 1];
+    if (leaf.brick == kNone) return {place.root, 0};
     if (leaf.level < coarsest.level) coarsest = leaf;
   }
   return coarsest;
@@ -283,9 +294,8 @@ void BrickTree::visit_outer_nodes_on_coarser(std::uint32_t brick, const Visit& v
     const std::array<int, 3> node = {i % kBrickNodes, i / kBrickNodes % kBrickNodes, i / (kBrickNodes * kBrickNodes)};
     const bool outer = std::any_of(node.begin(), node.end(), [](int n) { return n % kBrickCells == 0; });
     if (!outer) continue;
-    const Units at = node_at(place, i);
-    const Leaf leaf = coarsest_about(at, place.root);
-    if (leaf.level < place.level) visit(i, at, leaf);
+    const Leaf leaf = coarsest_about(brick, node, about);
+    if (leaf.level < place.level) visit(i, node_at(place, i), leaf);
   }
 }
 
@@ -300,11 +310,53 @@ void BrickTree::join_brick(std::uint32_t brick) {
   });
 }
 
+/// Returns kNone if the position is not stored.
+std::uint32_t BrickTree::root_at(const BrickPosition& position) const {
+  if (!lattice_.contains(position)) return kNone;
+  const std::uint32_t entry = index_[lattice_.number(position)];
+  if ((entry & format::index_entry::kFar) != 0) return kNone;
+  const std::uint32_t number = entry & format::index_entry::kNumber;
+  return (entry & format::index_entry::kRefined) != 0 ? refined_[number].brick : number;
+}
+
+/// Marks the touched positions and those about them. A value may come over several coarser leaves from another
+/// position, but from less than a voxel away: half a voxel at the first of them, a quarter at the next.
+void BrickTree::mark_changed() {
+  ++joins_;
+  for (const std::uint32_t root : touched_) {
+    const Units& low = places_[root].low;
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const BrickPosition step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
+      const BrickPosition own = {low[0] / kPositionUnits, low[1] / kPositionUnits, low[2] / kPositionUnits};
+      const std::uint32_t about = root_at(moved(own, step));
+      if (about != kNone) changed_in_[about] = joins_;
+    }
+  }
+  touched_.clear();
+}
+
+std::uint32_t BrickTree::changed_in(const Vector3d& low, const Vector3d& high) const {
+  const Units first = unit_cell(low);
+  const Units last = unit_cell(high);
+  std::uint32_t latest = 0;
+  for (int z = position_of(first[2]); z <= position_of(last[2]); ++z) {
+    for (int y = position_of(first[1]); y <= position_of(last[1]); ++y) {
+      for (int x = position_of(first[0]); x <= position_of(last[0]); ++x) {
+        const std::uint32_t root = root_at({x, y, z});
+        if (root != kNone) latest = std::max(latest, changed_in_[root]);
+      }
+    }
+  }
+  return latest;
+}
+
 void BrickTree::join() {
+  mark_changed();
+  const bool all = quantum_ > 0.0;  // rounding changes every position
   for (int level = 1; level <= format::kMaxRefinement; ++level) {
     std::vector<std::uint32_t> bricks;
     for (std::uint32_t b = 0; b < brick_count(); ++b) {
-      if (places_[b].level == level) bricks.push_back(b);
+      if (places_[b].level == level && (all || changed_in_[places_[b].root] == joins_)) bricks.push_back(b);
     }
     parallel::for_each_index(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
   }

@@ -95,6 +95,17 @@ class BrickTree {
   /// Makes the field continuous, coarse to fine: a node that touches a coarser leaf takes that leaf's value.
   void join();
 
+  /// Counts a brick as changed in the next `join`, as if an octant of it had been halved.
+  void touch(std::uint32_t brick) { touched_.push_back(root(brick)); }
+
+  /// Returns the number of joins so far, and the number of the last one that may have changed something in a position:
+  /// leaves, stored values or touched bricks, in the position itself or beside it.
+  std::uint32_t joins() const { return joins_; }
+  std::uint32_t changed_in(std::uint32_t root) const { return changed_in_[root]; }
+
+  /// The same for all positions that a box meets [m].
+  std::uint32_t changed_in(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
+
   /// Adds `slack` [m] to all distances. Then clamps and rounds them as format::Brick requires, to the smallest quantum
   /// in which they fit. Call it once, after the last `join`. The field stays continuous.
   void round(double slack);
@@ -119,8 +130,10 @@ class BrickTree {
     int level;
   };
 
-  Leaf coarsest_about(const Units& node, std::uint32_t root) const;
+  Leaf coarsest_about(std::uint32_t brick, const std::array<int, 3>& node, const std::array<Leaf, 26>& about) const;
   void find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among);
+  std::uint32_t root_at(const BrickPosition& position) const;
+  void mark_changed();
   void join_brick(std::uint32_t brick);
   template <class Visit>
   void visit_outer_nodes_on_coarser(std::uint32_t brick, const Visit& visit) const;
@@ -144,9 +157,12 @@ class BrickTree {
   std::vector<std::uint32_t> index_;
   std::vector<format::Refined> refined_;  ///< with this tree's numbers of bricks and refinements
   std::vector<Place> places_;
-  std::vector<Fine> fine_;  ///< the bricks of halved octants
-  std::vector<Brick> own_;  ///< the positions' own bricks after rounding
-  double quantum_ = 0.0;    ///< 0: not rounded yet [m]
+  std::vector<Fine> fine_;                 ///< the bricks of halved octants
+  std::vector<Brick> own_;                 ///< the positions' own bricks after rounding
+  std::vector<std::uint32_t> touched_;     ///< roots, since the last join
+  std::vector<std::uint32_t> changed_in_;  ///< number of the last join that changed something there, by root
+  std::uint32_t joins_ = 0;
+  double quantum_ = 0.0;  ///< 0: not rounded yet [m]
   /// By key(): power of two that divides a node's value, if it is not 0.
   std::unordered_map<std::uint64_t, int> factor_;
   const std::vector<format::Edge>& edges_;

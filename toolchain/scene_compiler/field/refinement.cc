@@ -45,16 +45,19 @@ class Refinement {
     std::vector<bool> barred = barred_;
     if (!part_edges(tree, barred)) return false;
     std::vector<std::uint32_t> triangles = triangles_;
+    Compared compared;
+    std::uint32_t sloped = 0;  // joins after which all slopes were measured
     while (true) {
       const bool whole = triangles.size() == triangles_.size();
-      Misses misses = find_misses(surface_, tree, barred, tolerance_.times(kSlack), triangles, progress);
+      Misses misses = find_misses(surface_, tree, barred, tolerance_.times(kSlack), triangles, progress, &compared);
       Wanted wanted = std::move(misses.wanted);
       if (wanted.empty() && !whole) {
         triangles = triangles_;  // halving a neighbour may have spoiled others
         continue;
       }
       if (wanted.empty()) {
-        if (!beside_steep(tree, barred, wanted)) return false;
+        if (!beside_steep(tree, barred, sloped, wanted)) return false;
+        sloped = tree.joins();
         if (wanted.empty()) {
           misses.worst.in_tolerances *= kSlack;
           if (misses.worst.in_tolerances > 1.0) report_.worst = misses.worst;
@@ -162,6 +165,7 @@ class Refinement {
       const Octants& finer = known_.at(tree.place(brick));
       if (finer.seamed) {
         barred[brick] = true;
+        tree.touch(brick);
       } else {
         tree.halve(brick, octants, finer.bricks);
       }
@@ -171,14 +175,15 @@ class Refinement {
 
   /// Adds the bricks that must be halved because their slope is too steep: coarse values beside finer exact ones, or
   /// the transition to an edge's exact distance. False if one cannot be halved. Then its whole position is barred, or
-  /// its edge left out.
-  bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, Wanted& wanted) {
+  /// its edge left out. Positions that no join after `sloped` changed are not steep.
+  bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, std::uint32_t sloped, Wanted& wanted) {
     bool possible = true;
     std::vector<bool> left_out(edges_.size());
     std::vector<char> steep(tree.brick_count());
     parallel::for_each_index(tree.brick_count(), [&](std::size_t i) {
       const auto b = static_cast<std::uint32_t>(i);
       if (tree.whole(b) == 0 || (tree.level(b) == 0 && tree.edges_of(b).empty())) return;
+      if (sloped != 0 && tree.changed_in(tree.root(b)) <= sloped) return;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
       tree.add_slope(b, slope);
       steep[i] = slope.largest_with_seams() > kSteepest ? 1 : 0;

@@ -23,6 +23,8 @@ constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is bl
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
+constexpr std::size_t kParts = 128;   // of the triangles, at least, that are compared in parallel
+constexpr std::size_t kMostTogether = 256;
 constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
 
 /// Finds places at which the stored field misses the surface although refinement could improve it.
@@ -30,8 +32,15 @@ class SurfaceCheck {
  public:
   /// `barred` bricks are never halved.
   SurfaceCheck(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
-               const SurfaceTolerance& tolerance)
-      : surface_(surface), tree_(tree), barred_(barred), tolerance_(tolerance), marked_(tree.brick_count()) {}
+               const SurfaceTolerance& tolerance, Compared& compared)
+      : surface_(surface),
+        tree_(tree),
+        barred_(barred),
+        tolerance_(tolerance),
+        compared_(compared.after),
+        marked_(tree.brick_count()) {
+    compared_.resize(surface.dilation() > 0.0 ? tree.brick_count() : surface.mesh().triangles.size());
+  }
 
   Misses run(const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
     const bool dilated = surface_.dilation() > 0.0;
@@ -39,10 +48,23 @@ class SurfaceCheck {
     std::vector<SurfaceError> worst(dilated ? tree_.brick_count() : triangles.size());
     if (dilated) {
       parallel::for_each_index(
-          worst.size(), [&](std::size_t i) { check_brick(static_cast<std::uint32_t>(i), worst[i]); }, progress);
+          worst.size(),
+          [&](std::size_t i) {
+            check_brick(static_cast<std::uint32_t>(i), worst[i]);
+            set_seen(i, worst[i]);
+          },
+          progress);
     } else {
-      parallel::for_each_index(
-          worst.size(), [&](std::size_t i) { missed[i] = check_triangle(triangles[i], worst[i]) ? 1 : 0; }, progress);
+      parallel::for_each_chunk(
+          worst.size(), std::clamp<std::size_t>(worst.size() / kParts, 1, kMostTogether),
+          [&](std::size_t begin, std::size_t end) {
+            DistanceProbe above(surface_);
+            DistanceProbe below(surface_);
+            for (std::size_t i = begin; i < end; ++i) {
+              missed[i] = check_triangle(triangles[i], above, below, worst[i]) ? 1 : 0;
+            }
+          },
+          progress);
     }
     Misses misses;
     for (const SurfaceError& error : worst) misses.worst.add(error);
@@ -62,29 +84,46 @@ class SurfaceCheck {
   /// Probes on both sides of one triangle.
   struct Sides {
     Vector3d normal;
-    DistanceProbe above, below;
+    DistanceProbe& above;
+    DistanceProbe& below;
     SurfaceError& worst;  ///< that no halving reduces
+    std::uint32_t seen;   ///< joins up to this one were seen by an earlier comparison; kNone: there was none
   };
 
-  bool check_triangle(std::size_t number, SurfaceError& worst) {
+  static constexpr std::uint32_t kNone = ~0u;
+
+  /// Returns the joins that an earlier comparison saw; kNone if there was none, or if it left an error.
+  std::uint32_t seen(std::size_t number) const { return compared_[number] - 1; }
+
+  void set_seen(std::size_t number, const SurfaceError& worst) {
+    compared_[number] = worst.in_tolerances > 0.0 ? 0 : tree_.joins() + 1;
+  }
+
+  /// True if nothing changed about a leaf since an earlier comparison.
+  bool is_seen(const BrickTree::Leaf& leaf, std::uint32_t seen) const {
+    return seen != kNone && (leaf.brick == BrickTree::kNone || tree_.changed_in(tree_.root(leaf.brick)) <= seen);
+  }
+
+  bool check_triangle(std::size_t number, DistanceProbe& above, DistanceProbe& below, SurfaceError& worst) {
     const auto& triangle = surface_.mesh().triangles[number];
     const SolidSurface::Component& component = surface_.components()[surface_.component_of_triangle()[number]];
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = surface_.mesh().vertices[triangle[i]];
     const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    Sides sides{normal, DistanceProbe(surface_), DistanceProbe(surface_), worst};
-    if (!component.shell) return check_piece(corners, sides);
-    bool missed = false;
+    Sides sides{normal, above, below, worst, seen(number)};
+    bool missed = !component.shell && check_piece(corners, sides);
     for (const double side : {-0.5, 0.5}) {
+      if (!component.shell) break;
       Corners raised = corners;
       for (Vector3d& corner : raised) corner += side * surface_.thickness() * sides.normal;
       missed = check_piece(raised, sides) || missed;
     }
+    set_seen(number, worst);
     return missed;
   }
 
   bool check_piece(const Corners& corners, Sides& sides) {
-    bool missed = divide(corners, sides);
+    bool missed = divide(corners, sides, sides.seen == kNone);
     const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
     for (std::size_t i = 0; i < 3; ++i) missed = walk(corners[i], corners[(i + 1) % 3], center, sides) || missed;
     return missed;
@@ -94,18 +133,22 @@ class SurfaceCheck {
   bool walk(const Vector3d& from, const Vector3d& to, const Vector3d& center, Sides& sides) {
     const double length = (to - from).norm();
     bool missed = false;
+    bool same_steps = true;  // as in an earlier comparison, so far
     for (double at = 0.0; at < length;) {
       const Vector3d p = from + at / length * (to - from);
       const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(p));
-      missed = check_point(p, leaf, center, sides) || missed;
+      same_steps = same_steps && is_seen(leaf, sides.seen);
+      if (!same_steps) missed = check_point(p, leaf, center, sides) || missed;
       at += kEdgeSpacing * tree_.cell_edge(leaf.level);
     }
-    return check_point(to, tree_.find(tree_.unit_cell(to)), center, sides) || missed;
+    const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(to));
+    if (is_seen(leaf, sides.seen)) return missed;
+    return check_point(to, leaf, center, sides) || missed;
   }
 
   /// Checks a triangle. Divides it across the longest edge, so slivers take few steps, until the pieces are as small as
-  /// the cells of their bricks.
-  bool divide(const Corners& corners, Sides& sides) {
+  /// the cells of their bricks. `compare`: whether something changed is not asked, or has been.
+  bool divide(const Corners& corners, Sides& sides, bool compare) {
     std::size_t longest = 0;
     std::array<double, 3> squared{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -113,6 +156,12 @@ class SurfaceCheck {
       if (squared[i] > squared[longest]) longest = i;
     }
     const double length = std::sqrt(squared[longest]);
+    if (!compare && length <= kBrickCells * tree_.cell_edge(0)) {
+      const Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+      const Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+      if (tree_.changed_in(low, high) <= sides.seen) return false;
+      compare = true;
+    }
     if (length <= kFaceSpacing * tree_.cell_edge(0)) {  // else it is too large whatever the level
       const Vector3d center = (corners[0] + corners[1] + corners[2]) / 3.0;
       const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(center));
@@ -121,8 +170,8 @@ class SurfaceCheck {
     Corners one = corners;
     Corners other = corners;
     one[longest] = other[(longest + 1) % 3] = 0.5 * (corners[longest] + corners[(longest + 1) % 3]);
-    const bool missed = divide(one, sides);
-    return divide(other, sides) || missed;
+    const bool missed = divide(one, sides, compare);
+    return divide(other, sides, compare) || missed;
   }
 
   /// Checks a dilated surface, which has no triangles, against the exact distance in the cells about it. Trilinear
@@ -130,7 +179,8 @@ class SurfaceCheck {
   /// checked too, because the curvature may begin within the cell.
   void check_brick(std::uint32_t brick, SurfaceError& worst) {
     const std::uint8_t whole = tree_.whole(brick);
-    if (whole == 0) return;
+    const std::uint32_t before = seen(brick);
+    if (whole == 0 || (before != kNone && tree_.changed_in(tree_.root(brick)) <= before)) return;
     const double edge = tree_.cell_edge(tree_.level(brick));
     const Brick& nodes = tree_.exact(brick);
     const auto [low, high] = std::minmax_element(std::begin(nodes.value), std::end(nodes.value));
@@ -218,6 +268,7 @@ class SurfaceCheck {
   const BrickTree& tree_;
   const std::vector<bool>& barred_;
   const SurfaceTolerance tolerance_;
+  std::vector<std::uint32_t>& compared_;
   std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants to be halved, by brick
 };
 
@@ -225,8 +276,10 @@ class SurfaceCheck {
 
 Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
                    const SurfaceTolerance& tolerance, const std::vector<std::uint32_t>& triangles,
-                   const parallel::Progress& progress) {
-  return SurfaceCheck(surface, tree, barred, tolerance).run(triangles, progress);
+                   const parallel::Progress& progress, Compared* compared) {
+  Compared nothing;
+  return SurfaceCheck(surface, tree, barred, tolerance, compared != nullptr ? *compared : nothing)
+      .run(triangles, progress);
 }
 
 }  // namespace godobject::scene_compiler

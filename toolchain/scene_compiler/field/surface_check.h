@@ -26,11 +26,20 @@ struct Misses {
   SurfaceError worst;                    ///< of the errors that no halving reduces
 };
 
+/// The work of earlier comparisons of the same tree, surface and tolerance. A place is compared again only if something
+/// changed in its position or beside it, or if an error had to stay there.
+struct Compared {
+  /// By triangle, of a dilated surface by brick: 1 + BrickTree::joins() at the last comparison, if no error had to
+  /// stay.
+  std::vector<std::uint32_t> after;
+};
+
 /// Compares the stored field with the surface on `triangles`: at points of their edges, half a cell apart, and of their
 /// faces, a cell apart. A dilated surface, which has no mesh, is compared in all cells about it. The error must lie
-/// within `tolerance`. `barred` bricks cannot be halved.
+/// within `tolerance`. `barred` bricks cannot be halved. `compared` begins empty; a brick that is barred later must be
+/// touched. Without it all places are compared, with the same result.
 Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
                    const SurfaceTolerance& tolerance, const std::vector<std::uint32_t>& triangles,
-                   const parallel::Progress& progress);
+                   const parallel::Progress& progress, Compared* compared = nullptr);
 
 }  // namespace godobject::scene_compiler

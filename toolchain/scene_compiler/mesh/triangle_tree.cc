@@ -86,7 +86,8 @@ Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::
   const double height = norm / longest;
   const double step = (to - from).norm();
   const double reach = (from - triangle.a).norm() + step + longest;
-  const double off_plane = kRounding * reach * longest / height;  // how far rounding moves a point across the plane
+  const double off_plane =
+      kRounding * reach * longest / height;  // a distance: rounding moves points across the plane by less
   const double begin = normal.dot(from - triangle.a) / norm;
   const double end = normal.dot(to - triangle.a) / norm;
   const double least = kMargin * step + off_plane;

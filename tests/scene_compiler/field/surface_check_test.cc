@@ -1,0 +1,137 @@
+#include "toolchain/scene_compiler/field/surface_check.h"
+
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "tests/scene_compiler/simple_meshes.h"
+#include "toolchain/scene_compiler/field/cell_edges.h"
+#include "toolchain/scene_compiler/field/octant_nodes.h"
+#include "toolchain/scene_compiler/field/straight_edges.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kVoxel = 0.002;
+
+struct Body {
+  TriangleMesh mesh;
+  SurfaceKind kind = SurfaceKind::kAuto;
+  double dilation = 0.0;
+};
+
+/// Bodies with holes, parts that cross or are reversed, a cavity, a sheet, and a dilated one.
+std::vector<Body> bodies() {
+  const Eigen::Isometry3d aside(Eigen::Translation3d(0.011, 0.003, 0.002));
+  const TriangleMesh box = test::moved(test::box_mesh({0.03, 0.02, 0.015}), test::odd_motion());
+  TriangleMesh open = box;
+  open.triangles.pop_back();
+  const TriangleMesh ball = test::ball_mesh(0.012, 8);
+  return {{box},
+          {open, SurfaceKind::kSolid},
+          {test::joined(ball, test::inside_out(test::moved(test::box_mesh({0.01, 0.02, 0.02}), aside)))},
+          {test::joined(ball, test::inside_out(test::ball_mesh(0.006, 6)))},
+          {test::moved(test::sheet_mesh(0.03), test::odd_motion()), SurfaceKind::kShell},
+          {box, SurfaceKind::kSolid, 0.003}};
+}
+
+void expect_same(const Misses& found, const Misses& wanted, int round) {
+  EXPECT_EQ(found.wanted, wanted.wanted) << round;
+  EXPECT_EQ(found.worst.error, wanted.worst.error) << round;
+  EXPECT_EQ(found.worst.at, wanted.worst.at) << round;
+}
+
+/// Refines a field by what is missed and by chance, and bars bricks by chance.
+class Rounds {
+ public:
+  Rounds(const Body& body, unsigned seed)
+      : surface_(body.mesh, body.kind, 2.0 * kVoxel, body.dilation),
+        field_(make_distance_grid(surface_, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {})),
+        edges_(straight_edges(surface_, kVoxel, 2.0 * kVoxel)),
+        tree_(field_, edges_),
+        barred_(field_.bricks.size()),
+        random_(seed) {
+    triangles_.resize(surface_.mesh().triangles.size());
+    std::iota(triangles_.begin(), triangles_.end(), 0u);
+  }
+
+  /// Compares all, or some of the triangles, with and without the earlier comparisons.
+  void compare(int round) {
+    std::vector<std::uint32_t> some;
+    for (const std::uint32_t t : triangles_) {
+      if (round % 3 != 1 || random_() % 2 == 0) some.push_back(t);
+    }
+    // a wide tolerance inside, so that errors stay on one side only
+    const SurfaceTolerance tolerance{0.02 * kVoxel, 0.1 * kVoxel};
+    const Misses all = find_misses(surface_, tree_, barred_, tolerance, some, {});
+    expect_same(find_misses(surface_, tree_, barred_, tolerance, some, {}, &compared_), all, round);
+    wanted_ = all.wanted;
+  }
+
+  void halve() {
+    for (int k = 0; k < 3; ++k) want(wanted_, static_cast<std::uint32_t>(random_() % tree_.brick_count()), kAllOctants);
+    for (const auto& [brick, octants] : wanted_) {
+      const bool can = !barred_[brick] && tree_.level(brick) < format::kMaxRefinement;
+      if (!can || random_() % 3 == 0) continue;  // the rest in another round
+      if (random_() % 16 == 0) {
+        barred_[brick] = true;
+        tree_.touch(brick);
+      } else {
+        tree_.halve(brick, octants, measure_octants(surface_, tree_, brick).bricks);
+      }
+    }
+    barred_.resize(tree_.brick_count());
+    tree_.join();
+  }
+
+  /// All bricks must be joined as if every position had changed.
+  void expect_joined(int round) {
+    std::vector<Brick> stored;
+    for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) stored.push_back(tree_.stored(b));
+    for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) tree_.touch(b);
+    tree_.join();
+    for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) {
+      ASSERT_EQ(std::memcmp(stored[b].value, tree_.stored(b).value, sizeof(stored[b].value)), 0) << round << " " << b;
+    }
+    // the touching made a new comparison of everything necessary
+    compare(round);
+  }
+
+  std::uint32_t bricks() const { return tree_.brick_count(); }
+
+ private:
+  SolidSurface surface_;
+  DistanceGrid field_;
+  std::vector<format::Edge> edges_;
+  BrickTree tree_;
+  std::vector<bool> barred_;
+  std::vector<std::uint32_t> triangles_;
+  std::mt19937 random_;
+  Compared compared_;
+  Wanted wanted_;
+};
+
+TEST(SurfaceCheck, FindsTheSameMissesFromWhatHasChanged) {
+  unsigned seed = 1;
+  for (const Body& body : bodies()) {
+    SCOPED_TRACE(seed);
+    Rounds rounds(body, seed++);
+    const std::uint32_t before = rounds.bricks();
+    for (int round = 0; round < 8; ++round) {
+      rounds.compare(round);
+      rounds.halve();
+    }
+    rounds.expect_joined(8);
+    EXPECT_GT(rounds.bricks(), before + 50);
+  }
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler
