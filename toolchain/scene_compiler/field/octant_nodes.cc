@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "toolchain/scene_compiler/field/cell_edges.h"
+#include "toolchain/scene_compiler/mesh/near_triangles.h"
+#include "toolchain/scene_compiler/mesh/triangle_tree.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -25,8 +28,10 @@ class FineNodes {
  public:
   FineNodes(const SolidSurface& surface, const Brick& parent, const Vector3d& low, double edge)
       : surface_(surface), low_(low), edge_(edge) {
+    winding_.fill(kUnknown);
     const bool values_tell = surface.shell_triangles().empty() && surface.dilation() == 0.0;
-    for (int i = 0; i < kCount; ++i) measure(i, parent, values_tell);
+    for (int i = 0; i < kCount; ++i) take(i, parent, values_tell);
+    measure({{0, 0, 0}, {kFineNodes, kFineNodes, kFineNodes}}, nullptr, nullptr);
     std::iota(order_.begin(), order_.end(), 0);
     std::sort(order_.begin(), order_.end(), [this](int a, int b) {
       return to_solids_[at(a)] != to_solids_[at(b)] ? to_solids_[at(a)] > to_solids_[at(b)] : a < b;
@@ -57,27 +62,75 @@ class FineNodes {
     return low_ + edge_ * Vector3d(x, y, z);
   }
 
-  /// `values_tell`: a given value is the distance to the solids.
-  void measure(int i, const Brick& parent, bool values_tell) {
+  /// Takes the value that the parent gives. `values_tell`: it is the distance to the solids.
+  void take(int i, const Brick& parent, bool values_tell) {
     const auto [x, y, z] = place(i);
     trusted_[at(i)] = -1.0;
+    to_solids_[at(i)] = -1.0;
     given_[at(i)] = x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
     if (given_[at(i)]) value_[at(i)] = parent.value[x / 2 + kBrickNodes * (y / 2 + kBrickNodes * (z / 2))];
-    if (given_[at(i)] && values_tell) {
-      to_solids_[at(i)] = std::abs(static_cast<double>(value_[at(i)]));
-      inside_[at(i)] = value_[at(i)] < 0.0f;
-      if (surface_.sealed()) trusted_[at(i)] = std::numeric_limits<double>::infinity();
-      return;
-    }
-    // the node before this one in x, y or z is a neighbour: its distance bounds this one's
-    const int before = x > 0 ? i - 1 : y > 0 ? i - kFineNodes : i - kFineNodes * kFineNodes;
-    const Vector3d p = point(i);
-    to_solids_[at(i)] = surface_.distance_to_solids(p, i > 0 ? (to_solids_[at(before)] + edge_) * kRoundedUp : -1.0);
-    to_shells_[at(i)] = surface_.distance_to_shells(p, i > 0 ? (to_shells_[at(before)] + edge_) * kRoundedUp : -1.0);
+    if (!given_[at(i)] || !values_tell) return;
+    to_solids_[at(i)] = std::abs(static_cast<double>(value_[at(i)]));
+    inside_[at(i)] = value_[at(i)] < 0.0f;
+    if (surface_.sealed()) trusted_[at(i)] = std::numeric_limits<double>::infinity();
   }
 
-  /// Decides the side of a node. Call it for the nodes farthest from the solids first.
-  void decide(int i) {
+  /// Nodes from `begin` to before `end`.
+  struct Block {
+    std::array<int, 3> begin, end;
+  };
+
+  /// Measures the distances at the other nodes of a block. `solids` and `shells`: triangles near a larger one, if any.
+  void measure(const Block& block, const NearTriangles* solids, const NearTriangles* shells) {
+    Vector3d low;
+    Vector3d high;
+    bool small = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      low[k] = low_[k] + edge_ * block.begin[axis];
+      high[k] = low_[k] + edge_ * (block.end[axis] - 1);
+      small = small && block.end[axis] - block.begin[axis] <= kFewNodes;
+    }
+    const Vector3d center = 0.5 * (low + high);
+    const double radius = 0.5 * (high - low).norm() * kRoundedUp;
+    const NearTriangles near_solids = near(surface_.solid_triangles(), solids, center, radius);
+    const NearTriangles near_shells = near(surface_.shell_triangles(), shells, center, radius);
+    if (small) {
+      measure_each(block, near_solids, near_shells);
+      return;
+    }
+    for (std::size_t part = 0; part < 8; ++part) {
+      Block half = block;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int middle = (block.begin[axis] + block.end[axis]) / 2;
+        ((part >> axis & 1) == 0 ? half.end : half.begin)[axis] = middle;
+      }
+      measure(half, &near_solids, &near_shells);
+    }
+  }
+
+  static NearTriangles near(const TriangleTree& tree, const NearTriangles* larger, const Vector3d& center,
+                            double radius) {
+    const bool few = larger != nullptr && larger->size() <= kFewTriangles;
+    return few ? NearTriangles(*larger, center, radius) : NearTriangles(tree, center, radius);
+  }
+
+  void measure_each(const Block& block, const NearTriangles& solids, const NearTriangles& shells) {
+    for (int z = block.begin[2]; z < block.end[2]; ++z) {
+      for (int y = block.begin[1]; y < block.end[1]; ++y) {
+        for (int x = block.begin[0]; x < block.end[0]; ++x) {
+          const int i = number(x, y, z);
+          if (to_solids_[at(i)] >= 0.0) continue;
+          to_solids_[at(i)] = solids.distance(point(i));
+          to_shells_[at(i)] = shells.distance(point(i));
+        }
+      }
+    }
+  }
+
+  /// Calls visit(neighbour, distance) for a node and the nodes about it, until it returns true.
+  template <class Visit>
+  void visit_about(int i, const Visit& visit) const {
     const auto [x, y, z] = place(i);
     for (int step = 0; step < 27; ++step) {
       const int dx = step % 3 - 1;
@@ -85,21 +138,56 @@ class FineNodes {
       const int dz = step / 9 - 1;
       const auto within = [](int n) { return n >= 0 && n < kFineNodes; };
       if (!within(x + dx) || !within(y + dy) || !within(z + dz)) continue;
-      const std::size_t near = at(number(x + dx, y + dy, z + dz));
-      const double step_length = edge_ * std::sqrt(static_cast<double>(dx * dx + dy * dy + dz * dz)) * kRoundedUp;
+      if (visit(number(x + dx, y + dy, z + dz), edge_ * kStepLength[at(dx * dx + dy * dy + dz * dz)])) return;
+    }
+  }
+
+  /// Decides the side of a node. Call it for the nodes farthest from the solids first.
+  void decide(int i) {
+    visit_about(i, [&](int neighbour, double step_length) {
+      const std::size_t near = at(neighbour);
       const double trusted = trusted_[near] - step_length;
-      if (trusted <= trusted_[at(i)] || trusted < 0.0 || to_solids_[near] <= step_length) continue;
+      if (trusted <= trusted_[at(i)] || trusted < 0.0 || to_solids_[near] <= step_length) return false;
       trusted_[at(i)] = trusted;
       inside_[at(i)] = inside_[near];
-    }
-    if (trusted_[at(i)] >= 0.0) return;
+      winding_[at(i)] = winding_[near];
+      return false;
+    });
+    if (trusted_[at(i)] >= 0.0 || counts_crossings(i)) return;
     const Vector3d p = point(i);
     const double winding_number = surface_.winding_number(p);
     inside_[at(i)] = winding_number > 0.5;
     trusted_[at(i)] = surface_.constant_side_path(p, winding_number);
+    if (surface_.sealed() && std::abs(winding_number) < kUnknown) {
+      winding_[at(i)] = static_cast<int>(std::lround(winding_number));
+    }
+  }
+
+  /// Counts the triangles between a node and a neighbour whose winding number is known. False if there is none, or if
+  /// rounding might decide.
+  bool counts_crossings(int i) {
+    if (!surface_.sealed()) return false;
+    bool counted = false;
+    visit_about(i, [&](int neighbour, double) {
+      if (winding_[at(neighbour)] == kUnknown) return false;
+      const auto change = surface_.solid_triangles().winding_change(point(neighbour), point(i));
+      if (!change) return false;
+      winding_[at(i)] = winding_[at(neighbour)] + *change;
+      inside_[at(i)] = winding_[at(i)] > 0;
+      trusted_[at(i)] = std::numeric_limits<double>::infinity();
+      counted = true;
+      return true;
+    });
+    return counted;
   }
 
   static constexpr double kRoundedUp = 1.0 + 1e-6;  // given values are floats
+  static constexpr int kFewNodes = 3;               // along a block that is not divided
+  static constexpr std::size_t kFewTriangles = 256;
+  static constexpr int kUnknown = 1 << 20;
+  /// By squared steps.
+  static constexpr std::array<double, 4> kStepLength = {0.0, kRoundedUp, std::numbers::sqrt2* kRoundedUp,
+                                                        std::numbers::sqrt3* kRoundedUp};
 
   const SolidSurface& surface_;
   Vector3d low_;
@@ -111,6 +199,7 @@ class FineNodes {
   std::array<float, kCount> value_{};
   std::array<bool, kCount> given_{};
   std::array<bool, kCount> inside_{};
+  std::array<int, kCount> winding_{};  ///< winding number, if the solids have no open boundary; or kUnknown
   std::array<int, kCount> order_{};
 };
 

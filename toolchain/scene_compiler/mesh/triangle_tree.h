@@ -45,6 +45,20 @@ class TriangleTree {
   bool nearest(const Eigen::Vector3d& p, double bound_squared, const std::function<bool(std::uint32_t)>& counts,
                Nearest& nearest) const;
 
+  /// Calls visit(triangle) for all triangles at most `radius` from p, and for some others.
+  template <class Visit>
+  void within(const Eigen::Vector3d& p, double radius, const Visit& visit) const {
+    for (std::size_t n = 0; n < nodes_.size();) {
+      const Node& node = nodes_[n];
+      if ((node.low - p).cwiseMax(p - node.high).cwiseMax(0.0).squaredNorm() > radius * radius) {
+        n = node.after;
+        continue;
+      }
+      for (std::uint32_t i = node.right; i < node.right + node.count; ++i) visit(triangles_[i]);
+      ++n;
+    }
+  }
+
   /// Finds the first triangle at t_min < t < t_max on origin + t direction.
   bool first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min, double t_max,
                  RayHit& hit) const noexcept;

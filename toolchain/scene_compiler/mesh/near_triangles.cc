@@ -1,0 +1,63 @@
+#include "toolchain/scene_compiler/mesh/near_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRounding = 1.0 + 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double squared_distance(const Vector3d& p, const TriangleTree::Triangle& t) {
+  return (nearest_point_on_triangle(p, t.a, t.b, t.c) - p).squaredNorm();
+}
+
+}  // namespace
+
+NearTriangles::NearTriangles(const TriangleTree& tree, const Vector3d& center, double radius) : center_(center) {
+  TriangleTree::Nearest nearest{};
+  if (!tree.nearest(center, kInfinity, nearest)) return;
+  const double furthest = (std::sqrt(nearest.squared_distance) + 2.0 * radius) * kRounding;
+  tree.within(center, furthest, [&](const TriangleTree::Triangle& triangle) {
+    near_.push_back({std::sqrt(squared_distance(center, triangle)), triangle});
+  });
+  finish(radius);
+}
+
+NearTriangles::NearTriangles(const NearTriangles& larger, const Vector3d& center, double radius) : center_(center) {
+  near_.reserve(larger.near_.size());
+  for (const Near& near : larger.near_) {
+    near_.push_back({std::sqrt(squared_distance(center, near.triangle)), near.triangle});
+  }
+  finish(radius);
+}
+
+void NearTriangles::finish(double radius) {
+  double least = kInfinity;
+  for (const Near& near : near_) least = std::min(least, near.distance);
+  const double furthest = (least + 2.0 * radius) * kRounding;
+  std::erase_if(near_, [&](const Near& near) { return near.distance > furthest; });
+  std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) { return a.distance < b.distance; });
+}
+
+double NearTriangles::distance(const Vector3d& p) const {
+  const double aside = (p - center_).norm();
+  double best = kInfinity;
+  double furthest = kInfinity;  // from the centre, of a triangle that may be nearer
+  for (const Near& near : near_) {
+    if (near.distance > furthest) break;
+    const double squared = squared_distance(p, near.triangle);
+    if (squared >= best) continue;
+    best = squared;
+    furthest = (std::sqrt(best) + aside) * kRounding;
+  }
+  return std::sqrt(best);
+}
+
+}  // namespace godobject::scene_compiler
