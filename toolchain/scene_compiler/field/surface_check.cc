@@ -23,7 +23,7 @@ constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is bl
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
-constexpr std::size_t kParts = 128;   // of the triangles, at least, that are compared in parallel
+constexpr std::size_t kTriangleParts = 128;  // of the triangles, at least, that are compared in parallel
 constexpr std::size_t kMostTogether = 256;
 constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
 
@@ -56,7 +56,7 @@ class SurfaceCheck {
           progress);
     } else {
       parallel::for_each_chunk(
-          worst.size(), std::clamp<std::size_t>(worst.size() / kParts, 1, kMostTogether),
+          worst.size(), std::clamp<std::size_t>(worst.size() / kTriangleParts, 1, kMostTogether),
           [&](std::size_t begin, std::size_t end) {
             DistanceProbe above(surface_);
             DistanceProbe below(surface_);

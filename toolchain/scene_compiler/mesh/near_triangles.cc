@@ -11,10 +11,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding = 1.0 + 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRoundedReach = 1.0 + 1e-9;
+constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
 
-double squared_distance(const Vector3d& p, const TriangleTree::Triangle& t) {
+double squared_distance_to(const Vector3d& p, const TriangleTree::Triangle& t) {
   return (nearest_point_on_triangle(p, t.a, t.b, t.c) - p).squaredNorm();
 }
 
@@ -22,10 +22,10 @@ double squared_distance(const Vector3d& p, const TriangleTree::Triangle& t) {
 
 NearTriangles::NearTriangles(const TriangleTree& tree, const Vector3d& center, double radius) : center_(center) {
   TriangleTree::Nearest nearest{};
-  if (!tree.nearest(center, kInfinity, nearest)) return;
-  const double furthest = (std::sqrt(nearest.squared_distance) + 2.0 * radius) * kRounding;
+  if (!tree.nearest(center, kAnyDistance, nearest)) return;
+  const double furthest = (std::sqrt(nearest.squared_distance) + 2.0 * radius) * kRoundedReach;
   tree.within(center, furthest, [&](const TriangleTree::Triangle& triangle) {
-    near_.push_back({std::sqrt(squared_distance(center, triangle)), triangle});
+    near_.push_back({std::sqrt(squared_distance_to(center, triangle)), triangle});
   });
   finish(radius);
 }
@@ -33,29 +33,29 @@ NearTriangles::NearTriangles(const TriangleTree& tree, const Vector3d& center, d
 NearTriangles::NearTriangles(const NearTriangles& larger, const Vector3d& center, double radius) : center_(center) {
   near_.reserve(larger.near_.size());
   for (const Near& near : larger.near_) {
-    near_.push_back({std::sqrt(squared_distance(center, near.triangle)), near.triangle});
+    near_.push_back({std::sqrt(squared_distance_to(center, near.triangle)), near.triangle});
   }
   finish(radius);
 }
 
 void NearTriangles::finish(double radius) {
-  double least = kInfinity;
+  double least = kAnyDistance;
   for (const Near& near : near_) least = std::min(least, near.distance);
-  const double furthest = (least + 2.0 * radius) * kRounding;
+  const double furthest = (least + 2.0 * radius) * kRoundedReach;
   std::erase_if(near_, [&](const Near& near) { return near.distance > furthest; });
   std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) { return a.distance < b.distance; });
 }
 
 double NearTriangles::distance(const Vector3d& p) const {
   const double aside = (p - center_).norm();
-  double best = kInfinity;
-  double furthest = kInfinity;  // from the centre, of a triangle that may be nearer
+  double best = kAnyDistance;
+  double furthest = kAnyDistance;  // from the centre, of a triangle that may be nearer
   for (const Near& near : near_) {
     if (near.distance > furthest) break;
-    const double squared = squared_distance(p, near.triangle);
+    const double squared = squared_distance_to(p, near.triangle);
     if (squared >= best) continue;
     best = squared;
-    furthest = (std::sqrt(best) + aside) * kRounding;
+    furthest = (std::sqrt(best) + aside) * kRoundedReach;
   }
   return std::sqrt(best);
 }

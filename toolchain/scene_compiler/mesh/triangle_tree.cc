@@ -74,15 +74,15 @@ bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const
 enum class Crossing { kNone, kInwards, kOutwards, kUnsure };
 
 Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::Triangle& triangle) noexcept {
-  constexpr double kMargin = 1e-9;     // of the step and of the triangle
-  constexpr double kRounding = 1e-15;  // of lengths, several roundings
-  constexpr double kThinnest = 1e-5;   // height over length: rounding may turn the normals of thinner triangles
+  constexpr double kMargin = 1e-9;          // of the step and of the triangle
+  constexpr double kRounding = 1e-15;       // of lengths, several roundings
+  constexpr double kThinnestTurned = 1e-5;  // height over length: rounding may turn the normals of thinner triangles
   const Vector3d e1 = triangle.b - triangle.a;
   const Vector3d e2 = triangle.c - triangle.a;
   const Vector3d normal = e1.cross(e2);
   const double norm = normal.norm();
   const double longest = std::sqrt(std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()}));
-  if (!(norm > kThinnest * longest * longest)) return Crossing::kUnsure;
+  if (!(norm > kThinnestTurned * longest * longest)) return Crossing::kUnsure;
   const double height = norm / longest;
   const double step = (to - from).norm();
   const double reach = (from - triangle.a).norm() + step + longest;

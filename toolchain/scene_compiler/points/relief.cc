@@ -20,13 +20,13 @@ constexpr double kMostCoarse = 1u << 18;
 constexpr double kSharpPart = 0.25;  // of the fine spacing, along edges
 constexpr std::uint32_t kMostSharp = 1u << 17;
 constexpr double kMostFine = 1u << 19;
-constexpr double kNearRough = 1.5;         // times the rough area is near it
-constexpr double kRoughSlack = 0.8;        // a coarse cloud misses some of the fall
-constexpr double kSquareRounding = 1e-12;  // of squared lengths, so that no place is left out
-constexpr int kFaces = 4;                  // groups of similar normals among them
-constexpr double kSimilar = 0.5;           // difference of similar normals
-constexpr std::uint32_t kRun = 32;         // places that are asked about together
-constexpr double kFaceCosine = 0.7;        // of a shell's sample with its triangle, if not on a round
+constexpr double kNearRough = 1.5;          // times the rough area is near it
+constexpr double kRoughSlack = 0.8;         // a coarse cloud misses some of the fall
+constexpr double kSquareRounding = 1e-12;   // of squared lengths, so that no place is left out
+constexpr int kFaces = 4;                   // groups of similar normals among them
+constexpr double kSimilar = 0.5;            // difference of similar normals
+constexpr std::uint32_t kPlacesOfRun = 32;  // places that are asked about together
+constexpr double kFaceCosine = 0.7;         // of a shell's sample with its triangle, if not on a round
 
 /// False if same_side is false for all samples whose normals have at most this product.
 bool may_share_side(double most) { return most > -0.5 - kSquareRounding; }
@@ -120,9 +120,9 @@ bool Relief::may_fall(std::size_t i, const Vector3d& low, const Vector3d& high, 
 }
 
 void Relief::for_each_run(const PointTree& tree, const std::function<void(const Run&)>& work) const {
-  const std::vector<PointTree::Run> runs = tree.runs(kRun);
+  const std::vector<PointTree::Run> runs = tree.runs(kPlacesOfRun);
   parallel::for_each_index(runs.size(), [&](std::size_t r) {
-    std::array<std::uint32_t, kRun> places;
+    std::array<std::uint32_t, kPlacesOfRun> places;
     std::size_t count = 0;
     for (std::uint32_t entry = runs[r].begin; entry < runs[r].end; ++entry) places[count++] = tree.index(entry);
     const auto end = places.begin() + static_cast<std::ptrdiff_t>(count);
