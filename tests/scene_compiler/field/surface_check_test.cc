@@ -19,16 +19,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kVoxel = 0.002;
+constexpr double kVoxelOfCheck = 0.002;
 
-struct Body {
+struct ComparedBody {
   TriangleMesh mesh;
   SurfaceKind kind = SurfaceKind::kAuto;
   double dilation = 0.0;
 };
 
 /// Bodies with holes, parts that cross or are reversed, a cavity, a sheet, and a dilated one.
-std::vector<Body> bodies() {
+std::vector<ComparedBody> compared_bodies() {
   const Eigen::Isometry3d aside(Eigen::Translation3d(0.011, 0.003, 0.002));
   const TriangleMesh box = test::moved(test::box_mesh({0.03, 0.02, 0.015}), test::odd_motion());
   TriangleMesh open = box;
@@ -51,10 +51,10 @@ void expect_same(const Misses& found, const Misses& wanted, int round) {
 /// Refines a field by what is missed and by chance, and bars bricks by chance.
 class Rounds {
  public:
-  Rounds(const Body& body, unsigned seed)
-      : surface_(body.mesh, body.kind, 2.0 * kVoxel, body.dilation),
-        field_(make_distance_grid(surface_, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {})),
-        edges_(straight_edges(surface_, kVoxel, 2.0 * kVoxel)),
+  Rounds(const ComparedBody& body, unsigned seed)
+      : surface_(body.mesh, body.kind, 2.0 * kVoxelOfCheck, body.dilation),
+        field_(make_distance_grid(surface_, kVoxelOfCheck, default_band(kVoxelOfCheck, 1.5 * kVoxelOfCheck), {})),
+        edges_(straight_edges(surface_, kVoxelOfCheck, 2.0 * kVoxelOfCheck)),
         tree_(field_, edges_),
         barred_(field_.bricks.size()),
         random_(seed) {
@@ -69,7 +69,7 @@ class Rounds {
       if (round % 3 != 1 || random_() % 2 == 0) some.push_back(t);
     }
     // a wide tolerance inside, so that errors stay on one side only
-    const SurfaceTolerance tolerance{0.02 * kVoxel, 0.1 * kVoxel};
+    const SurfaceTolerance tolerance{0.02 * kVoxelOfCheck, 0.1 * kVoxelOfCheck};
     const Misses all = find_misses(surface_, tree_, barred_, tolerance, some, {});
     expect_same(find_misses(surface_, tree_, barred_, tolerance, some, {}, &compared_), all, round);
     wanted_ = all.wanted;
@@ -120,7 +120,7 @@ class Rounds {
 
 TEST(SurfaceCheck, FindsTheSameMissesFromWhatHasChanged) {
   unsigned seed = 1;
-  for (const Body& body : bodies()) {
+  for (const ComparedBody& body : compared_bodies()) {
     SCOPED_TRACE(seed);
     Rounds rounds(body, seed++);
     const std::uint32_t before = rounds.bricks();

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TriangleTree tree_of(const TriangleMesh& mesh) {
+TriangleTree tree_over(const TriangleMesh& mesh) {
   std::vector<TriangleTree::Triangle> triangles;
   for (const auto& t : mesh.triangles) {
     triangles.push_back(
@@ -39,7 +39,7 @@ TriangleMesh random_triangles(std::mt19937& random) {
 
 /// In any ball, and in balls within it, the distances must be those of a search, to the bit.
 void expect_as_searched(const TriangleMesh& mesh, std::mt19937& random) {
-  const TriangleTree tree = tree_of(mesh);
+  const TriangleTree tree = tree_over(mesh);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   const auto any = [&] { return Vector3d(place(random), place(random), place(random)); };
   const auto in_ball = [&](const Vector3d& center, double radius) -> Vector3d {
