@@ -85,7 +85,7 @@ TEST(SceneConfig, ReadsAnAccuracyForBothBodiesInPlaceOfATolerance) {
                  ":5:", "leave one of them out");
 }
 
-TEST(SceneConfig, AsksForEdgeAgainstEdgeOnlyIfTold) {
+TEST(SceneConfig, HasEdgeAgainstEdgeUnlessToldNot) {
   const std::string bodies = std::string(kStill) + kMoving;
   EXPECT_TRUE(read(bodies).edges);
   EXPECT_FALSE(read(bodies + "[contact]\nedges = false\n").edges);

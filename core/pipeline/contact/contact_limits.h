@@ -27,8 +27,8 @@ inline constexpr int kMostBallsOfCycle = 1 << 17;
 /// Most times in a sub-step that rows of left-out near points are added. Derived: each time adds the worst row of each
 /// 64 neighbours, until the rows are full.
 inline constexpr int kMostRefills = 8;
-/// Most times in a sub-step that implied rows are dropped. Chosen: sample points are a spacing apart, so that
-/// seldom more than a few of them come over an edge at the same time.
+/// Most rounds in a sub-step of dropping implied rows and solving again; a round drops the rows that have a force.
+/// Chosen.
 inline constexpr int kMostImpliedRounds = 3;
 /// Distance up to which edge pairs are remembered beyond the search radius, in longest search radii. Measured
 /// (tests/bench/instructions): with 2 a sliding cycle takes 0.6 % more instructions, with 1 3 % more.

@@ -53,6 +53,7 @@ class ContactSubsteps {
   void begin() noexcept {
     H0_ = result_.H_WS;
     refills_left_ = kMostRefills;
+    regain_ = 1.0;
     is_first_ = result_.substeps + free_substeps_ == 0;
     free_ = is_first_ ? wanted_ : unconstrained_motion(H0_, input_.H_WD);
     free_displacement_ = travel(lengths_.sphere, free_);
@@ -102,7 +103,9 @@ class ContactSubsteps {
   /// edge pairs imply are dropped, and rows that found no room are added, if the motion would violate them.
   void constrain() noexcept {
     solve_in_best_metric();
-    for (int round = 0; round < kMostImpliedRounds && drop_implied_rows(); ++round) solve_in_best_metric();
+    for (int round = 0; round < kMostImpliedRounds && !step_.infeasible && drop_implied_rows(); ++round) {
+      solve_in_best_metric();
+    }
     add_violated_rows();
   }
 
@@ -189,15 +192,17 @@ class ContactSubsteps {
     bool dropped = false;
     for (std::uint32_t f = 0; f < step_.force_count; ++f) {
       const std::uint32_t id = step_.forces[f].id;
-      if (is_edge_pair(id) || id == kFaceOfWorkspace) continue;
+      if (is_edge_pair(id)) continue;
       const std::uint32_t row = rows_.find(id, 0);
       if (row == rows_.count) continue;  // several forces of one row
-      const double spare = -static_cast<double>(rows_.required_gain[row]);
-      const HeldPoint point{H0_ * rows_.point(row), lengths_.margin + std::max(0.0, spare), (id & kFeature) != 0};
-      if (!is_implied(point, scene_.edges, near, H0_, rows_, lengths_.margin, 0.1 * lengths_.margin)) continue;
+      const bool is_feature = (id & kFeature) != 0;
+      NearPoints& points = is_feature ? memory_.workspace.features : memory_.workspace.samples;
+      const std::uint32_t k = points.find(id & ~kFeature);
+      if (k == points.count) continue;
+      const HeldPoint point{H0_ * rows_.point(row), points.distance[k], is_feature};
+      if (!is_implied(point, scene_.edges, near, H0_, lengths_.margin, 0.1 * lengths_.margin)) continue;
       rows_.remove(row);
-      ContactWorkspace& near_points = memory_.workspace;
-      (point.is_feature ? near_points.features : near_points.samples).forget_gradient(id & ~kFeature);
+      points.forget_gradient(k);
       dropped = true;
     }
     return dropped;
@@ -270,9 +275,11 @@ class ContactSubsteps {
 
   /// Adds rows of left-out near points that the step violates. Returns how many groups of points have one.
   std::uint32_t push_left_out() noexcept {
-    std::uint32_t groups = push_violated<SampleDirection>(H0_, step_, lengths_, memory_.workspace.samples, rows_);
+    std::uint32_t groups =
+        push_violated<SampleDirection>(H0_, step_, lengths_, regain_, memory_.workspace.samples, rows_);
     if (scene_.has_features() && memory_.workspace.features.count > 0) {
-      groups += push_violated<FeatureDirection>(H0_features_, step_, lengths_, memory_.workspace.features, rows_);
+      groups +=
+          push_violated<FeatureDirection>(H0_features_, step_, lengths_, regain_, memory_.workspace.features, rows_);
     }
     return groups;
   }
@@ -328,18 +335,20 @@ class ContactSubsteps {
     step_.infeasible = true;
   }
 
-  /// Solves again for a share of the lost gaps, if regaining all of them would lead by more than a margin farther from
-  /// the aim than rest, as in a wedge between a surface and a face of the workspace. The distance from the aim is
-  /// convex in that share, so the second step leads away by a margin at most. Not on the way out of an overlap.
+  /// Solves again for a share of the lost gaps, if regaining them leads away from the aim: farther than rest, by more
+  /// than a margin. An example is a wedge between a surface and a face of the workspace. Without friction the distance
+  /// from the aim is convex in that share, so that the second step leads away by a margin at most. Not on the way out
+  /// of an overlap.
   void regain_slowly() noexcept {
     const double gain = distance_gain();
     if (result_.inside || !(gain > 0.0)) return;
     const double rest = std::sqrt(squared(aim_));
     const double farther = std::sqrt(rest * rest + gain) - rest;
     if (!(farther > lengths_.margin)) return;
-    const auto share = static_cast<float>(lengths_.margin / farther);
+    const double share = lengths_.margin / farther;
+    regain_ *= share;
     for (std::uint32_t i = 0; i < rows_.count; ++i) {
-      if (rows_.required_gain[i] > 0.0f) rows_.required_gain[i] *= share;
+      if (rows_.required_gain[i] > 0.0f) rows_.required_gain[i] *= static_cast<float>(share);
     }
     solve_rows();
   }
@@ -653,6 +662,7 @@ class ContactSubsteps {
   double search_radius_ = 0.0;
   Surroundings around_{};
   int refills_left_ = 0;
+  double regain_ = 1.0;  // share of the lost gaps that the rows regain of what the gap law demands [1]
   MotionShare share_{1.0};
   Motion motion_;
   Pose H1_;

@@ -1,6 +1,7 @@
 #include "core/pipeline/contact/implied_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,10 +10,11 @@ namespace {
 
 /// An edge pair seen from the body of a point.
 struct SeenPair {
-  EdgeInW own;           ///< edge of the point's body
-  EdgeInW other;         ///< edge of the other body
-  std::uint32_t number;  ///< of the other edge
-  Vector3 on_other;      ///< nearest point of the other edge [m]
+  EdgeInW own;            ///< edge of the point's body
+  EdgeInW other;          ///< edge of the other body
+  std::uint32_t number;   ///< of the other edge
+  Vector3 on_own;         ///< nearest point of the own edge [m]
+  double place_on_other;  ///< of the nearest points, on the other edge [1]
 };
 
 /// Returns the share of an edge, from end 0 to end 1, at which it is nearest to a point.
@@ -25,51 +27,64 @@ double distance_to(const EdgeInW& edge, const Vector3& p) noexcept {
   return (p - edge.end[0] - place_of(edge, p) * (edge.end[1] - edge.end[0])).norm();
 }
 
+bool cross(const EdgeInW& a, const EdgeInW& b) noexcept {
+  constexpr double kLeastSine =
+      0.05;  // chosen: a row moves by 20 margins along the edge before the other end is nearer
+  const Vector3 along_a = a.end[1] - a.end[0];
+  const Vector3 along_b = b.end[1] - b.end[0];
+  return along_a.cross(along_b).squaredNorm() > kLeastSine * kLeastSine * along_a.squaredNorm() * along_b.squaredNorm();
+}
+
 /// Tells whether a face beside both edges contains the point.
 bool share_a_face(const EdgeInW& first, const EdgeInW& second, const Vector3& p, double tolerance) noexcept {
-  constexpr double kSameFace = 1.0 - 1e-9;  // cosine; derived: unit normals in single precision
-  for (const Vector3& normal : first.normal) {
-    const bool is_face_of_second = std::max(normal.dot(second.normal[0]), normal.dot(second.normal[1])) > kSameFace &&
-                                   std::fabs(normal.dot(second.end[0] - first.end[0])) <= tolerance;
-    if (is_face_of_second && std::fabs(normal.dot(p - first.end[0])) <= tolerance) return true;
+  constexpr double kSameNormal = 1e-6;  // derived: unit normals are stored in single precision
+  for (const Vector3& a : first.normal) {
+    if (a.isZero(0.0)) continue;
+    for (const Vector3& b : second.normal) {
+      if ((a - b).squaredNorm() <= kSameNormal * kSameNormal &&
+          std::fabs(a.dot(second.end[0] - first.end[0])) <= tolerance &&
+          std::fabs(a.dot(p - first.end[0])) <= tolerance) {
+        return true;
+      }
+    }
   }
   return false;
+}
+
+SeenPair seen_from(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, std::uint32_t k,
+                   const Pose& H_WS) noexcept {
+  const EdgePair& pair = near.pair[k];
+  const EdgeGap& gap = near.gap[k];
+  const EdgeInW moving = EdgeInW::at(edges.moving.edges[pair.moving], H_WS);
+  const EdgeInW still = EdgeInW::of_still(edges.still.edges[pair.still]);
+  if (point.is_feature) return {still, moving, pair.moving, gap.on_still, place_of(moving, gap.on_moving)};
+  return {moving, still, pair.still, gap.on_moving, place_of(still, gap.on_still)};
 }
 
 }  // namespace
 
 bool is_implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H_WS,
-                const ContactRows& rows, double margin, double tolerance) noexcept {
+                double margin, double tolerance) noexcept {
+  constexpr std::size_t kMostSeen = 16;  // chosen: a face has a few edges, and a vertex, too
+  constexpr double kNearPlace = 4.0;     // margins, chosen
   const Vector3& p = point.position_W;
-  const auto counts = [&](std::uint32_t k) noexcept {
-    return near.gap[k].is_nearest && near.gap[k].distance <= point.distance + margin &&
-           rows.find(id_of(near.pair[k]), 0) < rows.count;
-  };
-  const auto seen = [&](std::uint32_t k) noexcept {
-    const EdgePair& pair = near.pair[k];
-    SeenPair result{EdgeInW::at(edges.moving.edges[pair.moving], H_WS),
-                    EdgeInW::of_still(edges.still.edges[pair.still]), pair.still, near.gap[k].on_still};
-    if (!point.is_feature) return result;
-    std::swap(result.own, result.other);
-    result.number = pair.moving;
-    result.on_other = near.gap[k].on_moving;
-    return result;
-  };
-  for (std::uint32_t k = 0; k < near.count; ++k) {
-    if (!counts(k)) continue;
-    const SeenPair first = seen(k);
-    const double apart = distance_to(first.other, p) - (first.own.radius + first.other.radius);
-    if (std::fabs(apart - point.distance) > tolerance) continue;
-    if (distance_to(first.own, p) <= tolerance) return true;
-    const double place = place_of(first.other, p);
-    const double begin = place_of(first.other, first.on_other);
-    for (std::uint32_t l = k + 1; l < near.count; ++l) {
-      if (!counts(l)) continue;
-      const SeenPair second = seen(l);
-      if (second.number != first.number) continue;
-      const double end = place_of(first.other, second.on_other);
-      const bool is_between = std::min(begin, end) <= place && place <= std::max(begin, end);
-      if (is_between && share_a_face(first.own, second.own, p, tolerance)) return true;
+  std::array<SeenPair, kMostSeen> seen;
+  std::size_t count = 0;
+  for (std::uint32_t k = 0; k < near.count && count < kMostSeen; ++k) {
+    if (!near.gap[k].is_nearest || near.gap[k].distance > point.distance + margin) continue;
+    const SeenPair pair = seen_from(point, edges, near, k, H_WS);
+    if (std::fabs(distance_to(pair.other, p) - pair.other.radius - point.distance) > tolerance) continue;
+    const bool do_cross = cross(pair.own, pair.other);
+    const bool is_on_own = std::fabs(distance_to(pair.own, p) - pair.own.radius) <= tolerance;
+    if (is_on_own && (do_cross || (p - pair.on_own).norm() <= kNearPlace * margin)) return true;
+    if (do_cross) seen[count++] = pair;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = place_of(seen[i].other, p);
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (seen[j].number != seen[i].number) continue;
+      const auto [first, last] = std::minmax(seen[i].place_on_other, seen[j].place_on_other);
+      if (first <= place && place <= last && share_a_face(seen[i].own, seen[j].own, p, tolerance)) return true;
     }
   }
   return false;

@@ -24,7 +24,7 @@ class Overlap {
   /// instructions for a point that lost its margin, 2 for another. Real-time safe.
   template <class Direction>
   void add(const NearPoints& near, const Pose& H) noexcept {
-    const NearRows<Direction> near_rows(near, H, lengths_, true);
+    const NearRows<Direction> near_rows(near, H, lengths_, 1.0);
     for (std::uint32_t k = 0; k < near.count; ++k) {
       if (!(near.distance[k] < lengths_.margin)) continue;
       const NearRow row = near_rows.row(k);

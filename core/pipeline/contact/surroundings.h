@@ -100,12 +100,12 @@ struct NearRow {
 };
 
 /// Computes rows of near points of one direction, from the gradients in their list. H: pose of the shell in the field's
-/// frame. `regains`: lost gaps are regained; else they only must not shrink. Real-time safe.
+/// frame. `regain`: share of what the gap law demands of lost gaps; with 0 they only must not shrink. Real-time safe.
 template <class Direction>
 class NearRows {
  public:
-  NearRows(const NearPoints& near, const Pose& H, const ContactLengths& lengths, bool regains) noexcept
-      : near_(near), H_(H), R_(H.rotation.toRotationMatrix()), law_(lengths.gap_law()), regains_(regains) {}
+  NearRows(const NearPoints& near, const Pose& H, const ContactLengths& lengths, double regain) noexcept
+      : near_(near), H_(H), R_(H.rotation.toRotationMatrix()), law_(lengths.gap_law()), regain_(regain) {}
 
   /// Returns the row of near point `k`.
   NearRow row(std::uint32_t k) const noexcept {
@@ -118,7 +118,7 @@ class NearRows {
     row.exists = true;
     row.point_S = contact.point_S;
     row.normal_S = contact.gradient_S / steepness;
-    row.required_gain = regains_ ? gain : std::min(gain, 0.0);
+    row.required_gain = gain > 0.0 ? regain_ * gain : gain;
     return row;
   }
 
@@ -134,7 +134,7 @@ class NearRows {
   const Pose& H_;
   const Matrix3 R_;
   const GapLaw law_;
-  const bool regains_;
+  const double regain_;
 };
 
 /// Appends rows for the selected near points of one direction; H is the pose of the shell in the field's frame. In the
@@ -142,7 +142,7 @@ class NearRows {
 template <class Direction>
 void push_selected(const Pose& H, const Selection& selection, const ContactLengths& lengths, const NearPoints& near,
                    ContactRows& rows) noexcept {
-  const NearRows<Direction> near_rows(near, H, lengths, true);
+  const NearRows<Direction> near_rows(near, H, lengths, 1.0);
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < near.count && !rows.full(); ++k) {
     if (near.distance[k] <= selection.deepest || others++ % selection.stride == 0) near_rows.push(k, rows);
@@ -150,15 +150,15 @@ void push_selected(const Pose& H, const Selection& selection, const ContactLengt
 }
 
 /// Appends rows of near points that the step would violate: of each 64 neighbours in the tree's order the one that is
-/// violated most. After a step without a common solution lost gaps need not be regained. Returns the number of such
+/// violated most. `regain`: as in NearRows; after a step without a common solution it is 0. Returns the number of such
 /// groups, also of those that found no room. H is the pose of the shell in the field's frame. Cost: some 10
 /// instructions a near point. Real-time safe.
 template <class Direction>
-std::uint32_t push_violated(const Pose& H, const ConstrainedStep& step, const ContactLengths& lengths,
+std::uint32_t push_violated(const Pose& H, const ConstrainedStep& step, const ContactLengths& lengths, double regain,
                             const NearPoints& near, ContactRows& rows) noexcept {
   const double tolerance = 2.0 * lengths.metric.tolerance;  // rows of the step are met within one
   const Motion& motion = step.motion;
-  const NearRows<Direction> near_rows(near, H, lengths, !step.infeasible);
+  const NearRows<Direction> near_rows(near, H, lengths, step.infeasible ? 0.0 : regain);
   const ShellDisplacement displacement = Direction::displacement(H, motion);
   std::uint32_t groups = 0;
   for (std::uint32_t first = 0; first < near.count; first += 64) {

@@ -101,7 +101,11 @@ EdgeSurroundings EdgeSearch::find(const Pose& H_WS, double travelled, double rad
   EdgeSurroundings around;
   if (edges_.empty() || is_free(travelled, radius)) return around;
   if (!(travelled + radius < complete_until_)) {
-    const std::uint32_t left_out = remember(H_WS, travelled, radius + slack);
+    std::uint32_t left_out = 0;
+    for (const double share : {1.0, 0.3, 0.0}) {  // fewer pairs if there is no place for all
+      left_out = remember(H_WS, travelled, radius + share * slack);
+      if (left_out == 0 || travelled + radius < complete_until_) break;
+    }
     if (!(travelled + radius < complete_until_)) around.unlisted += left_out;
   }
   around.free_displacement = std::max(0.0, complete_until_ - travelled);

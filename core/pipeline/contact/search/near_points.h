@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 
 #include "core/scene/sample_batch.h"
@@ -25,7 +24,7 @@ struct NearPoints {
   alignas(64) float z[kLength];
   alignas(64) double distance[kLength];   ///< stored [m]
   alignas(64) double clearance[kLength];  ///< FieldSample::clearance [m]
-  alignas(64) float gradient_x[kLength];  ///< of the distance, in the field's frame; 0 where it is not known [1]
+  alignas(64) float gradient_x[kLength];  ///< of the distance, in the field's frame; 0: not known, or no row [1]
   alignas(64) float gradient_y[kLength];
   alignas(64) float gradient_z[kLength];
   std::uint32_t index[kLength];  ///< number in the shell
@@ -52,11 +51,13 @@ struct NearPoints {
     return chosen & ~left;
   }
 
-  /// Forgets the gradient of the point with this number in the shell: it gets no row. Cost: a scan. Real-time safe.
-  void forget_gradient(std::uint32_t number) noexcept {
-    const auto i = static_cast<std::size_t>(std::find(index, index + count, number) - index);
-    if (i < count) gradient_x[i] = gradient_y[i] = gradient_z[i] = 0.0f;
+  /// Returns the place in the list of the point with this number in the shell; `count` if it is not near. Cost: a scan.
+  std::uint32_t find(std::uint32_t number) const noexcept {
+    return static_cast<std::uint32_t>(std::find(index, index + count, number) - index);
   }
+
+  /// Forgets the gradient of point `i`: it gets no row any more.
+  void forget_gradient(std::uint32_t i) noexcept { gradient_x[i] = gradient_y[i] = gradient_z[i] = 0.0f; }
 
   /// Fills the elements behind the last point, which vectors may read. Call it after the last `push`.
   void pad() noexcept {

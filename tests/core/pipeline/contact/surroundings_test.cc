@@ -191,7 +191,7 @@ void expect_worst_of_each_group(std::uint32_t seed) {
     ContactRows& rows = workspace->rows;
     rows.count = static_cast<std::uint32_t>(random.integer(0, 3));
     const std::uint32_t begin = rows.count;
-    const std::uint32_t groups = detail::push_violated<Direction>(H0, step, lengths, near, rows);
+    const std::uint32_t groups = detail::push_violated<Direction>(H0, step, lengths, 1.0, near, rows);
     ASSERT_EQ(rows.count - begin, groups);
     std::uint32_t row = begin;
     for (std::uint32_t first = 0; first < count; first += 64) {
@@ -234,7 +234,7 @@ TEST(LeftOutRows, AreCountedAlsoWhenThereIsNoRoom) {
   step.motion.translation = Vector3(1e-3, 0.0, 0.0);
   ContactRows& rows = workspace->rows;
   rows.count = ContactRows::kCapacity - 4;
-  EXPECT_EQ(detail::push_violated<detail::SampleDirection>(Pose{}, step, lengths, workspace->samples, rows), 10u);
+  EXPECT_EQ(detail::push_violated<detail::SampleDirection>(Pose{}, step, lengths, 1.0, workspace->samples, rows), 10u);
   EXPECT_EQ(rows.count, ContactRows::kCapacity);
 }
 
