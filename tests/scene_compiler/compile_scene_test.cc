@@ -1,8 +1,12 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
+#include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -48,6 +52,41 @@ class CompileScene : public testing::Test {
 
   ScratchFolder folder_;
 };
+
+/// A prism with two rims of 600 edges has more sharp edges than the default takes.
+TEST_F(CompileScene, LeavesManySharpEdgesOutUnlessTold) {
+  constexpr int kAround = 600;
+  const std::filesystem::path file = folder_.file("prism.obj");
+  {
+    std::ofstream obj(file);
+    for (const double z : {0.0, 0.05}) {
+      obj << "v 0 0 " << z << "\n";
+      for (int i = 0; i < kAround; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kAround;
+        obj << "v " << 0.1 * std::cos(angle) << " " << 0.1 * std::sin(angle) << " " << z << "\n";
+      }
+    }
+    for (int i = 0; i < kAround; ++i) {
+      const int a = 2 + i;
+      const int b = 2 + (i + 1) % kAround;
+      const int top = kAround + 1;
+      obj << "f 1 " << b << " " << a << "\nf " << top + 1 << " " << top + a << " " << top + b << "\n";
+      obj << "f " << a << " " << b << " " << top + b << "\nf " << a << " " << top + b << " " << top + a << "\n";
+    }
+  }
+  const std::string text = "[still]\nmesh = \"" + file.string() +
+                           "\"\nvoxel_size = 0.008\nfield_tolerance = 10.0\n[moving]\nmesh = \"" +
+                           mesh_file("cube_100mm").string() + "\"\nscale = 0.3\npoints = 300\nlevels = 3\n[contact]\n" +
+                           "both_directions = false\n";
+  const CompileReport by_default = compile_once(text, folder_, "a.scene", {});
+  EXPECT_EQ(by_default.edges.too_many, 2u * kAround);
+  EXPECT_EQ(by_default.edges.still, 0u);
+  EXPECT_TRUE(files::SceneImage::read(folder_.file("a.scene")).scene.edges.empty());
+  const CompileReport told = compile_once(text + "edges = true\n", folder_, "b.scene", {});
+  EXPECT_EQ(told.edges.too_many, 0u);
+  EXPECT_EQ(told.edges.still, 2u * kAround);
+  EXPECT_EQ(files::SceneImage::read(folder_.file("b.scene")).scene.edges.edges.size(), 2u * kAround);
+}
 
 TEST_F(CompileScene, WritesAnImageThatTheCoreOpens) {
   const CompileReport report = compile({});

@@ -1,5 +1,7 @@
 #include "toolchain/scene_compiler/scene_config.h"
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "godobject/scene.h"
@@ -85,11 +87,11 @@ TEST(SceneConfig, ReadsAnAccuracyForBothBodiesInPlaceOfATolerance) {
                  ":5:", "leave one of them out");
 }
 
-TEST(SceneConfig, HasEdgeAgainstEdgeUnlessToldNot) {
+TEST(SceneConfig, HasEdgeAgainstEdgeAsTold) {
   const std::string bodies = std::string(kStill) + kMoving;
-  EXPECT_TRUE(read(bodies).edges);
-  EXPECT_FALSE(read(bodies + "[contact]\nedges = false\n").edges);
-  EXPECT_TRUE(read(bodies + "[contact]\nedges = true\n").edges);
+  EXPECT_EQ(read(bodies).edges, std::nullopt);
+  EXPECT_EQ(read(bodies + "[contact]\nedges = false\n").edges, false);
+  EXPECT_EQ(read(bodies + "[contact]\nedges = true\n").edges, true);
   expect_refused(bodies + "[contact]\nedges = 1\n", ":", "contact.edges");
 }
 

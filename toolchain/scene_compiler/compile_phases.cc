@@ -63,18 +63,26 @@ bool wants_features(const CompileTarget& target) {
 struct EdgePhase {
   SharpEdgeTree still;
   SharpEdgeTree moving;
+  std::uint32_t too_many = 0;  ///< more of a body than the default takes
 };
 
-/// Returns the sharp edges of both bodies; none if one of them has none, or if the target does not read them.
+/// Returns the sharp edges of both bodies; none if one of them has none or too many, or if the target does not read
+/// them.
 EdgePhase find_edges(const CompileTarget& target, const SolidSurface& still, const OuterSurface& moving) {
+  constexpr std::size_t kMostByDefault = 1024;  // chosen: threads have thousands, and more near pairs than NearEdges
   EdgePhase phase;
-  if (!target.config.edges || target.only_solver.value_or(format::Solver::kContact) != format::Solver::kContact) {
+  if (!target.config.edges.value_or(true) ||
+      target.only_solver.value_or(format::Solver::kContact) != format::Solver::kContact) {
     return phase;
   }
   phase.moving = make_sharp_edges(moving.body(), Eigen::Isometry3d::Identity());
   if (phase.moving.edges.empty()) return {};
   phase.still = make_sharp_edges(BodyMesh(still), Eigen::Isometry3d::Identity());
   if (phase.still.edges.empty()) return {};
+  const std::size_t most = std::max(phase.still.edges.size(), phase.moving.edges.size());
+  if (!target.config.edges && most > kMostByDefault) {
+    return {.still = {}, .moving = {}, .too_many = static_cast<std::uint32_t>(most)};
+  }
   return phase;
 }
 
@@ -223,7 +231,8 @@ PointPhase make_points(const CompileTarget& target, const Bodies& bodies, const 
   });
   phase.edges = {.still = static_cast<std::uint32_t>(edges.still.edges.size()),
                  .moving = static_cast<std::uint32_t>(edges.moving.edges.size()),
-                 .left_out = edges.still.left_out + edges.moving.left_out};
+                 .left_out = edges.still.left_out + edges.moving.left_out,
+                 .too_many = edges.too_many};
   if (!edges.still.edges.empty()) {
     parts.body_edges = make_sharp_edges(outer.body(), body_pose(parts.body.body).inverse());
     parts.edges = std::move(edges.still);

@@ -63,6 +63,7 @@ struct EdgeFindings {
   std::uint32_t still = 0;
   std::uint32_t moving = 0;
   std::uint32_t left_out = 0;  ///< the least sharp ones of bodies with too many
+  std::uint32_t too_many = 0;  ///< those of a body that has more than the default takes; then there are none
 };
 
 /// Findings of the check, which reads the finished image.

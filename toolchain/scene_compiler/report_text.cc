@@ -136,7 +136,14 @@ std::string second_direction_text(const CompileReport& report) {
 std::string edges_text(const CompileReport& report) {
   const EdgeFindings& edges = report.edges;
   if (report.ball) return {};
-  if (!report.config.edges) return "edges    may cross between the points; contact.edges = true prevents it\n";
+  if (edges.too_many > 0) {
+    return fmt::format(
+        "edges    may cross between the points: a body has {} sharp ones, which would be slow; "
+        "contact.edges = true takes them\n",
+        edges.too_many);
+  }
+  if (!report.config.edges.value_or(true))
+    return "edges    may cross between the points; contact.edges = true prevents it\n";
   if (edges.still == 0) return "edges    none against each other: a body has no sharp edge\n";
   std::string text = fmt::format("edges    {} sharp edges of the still body against {} of the moving one\n",
                                  edges.still, edges.moving);

@@ -132,7 +132,7 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   settings.safety_distance = contact.number("safety_distance", {1e-6 * s, 64.0 * s}, 1.5 * s);
   settings.margin = contact.number("margin", {1e-6 * s, s}, std::min(0.01 * s, config.accuracy.value_or(s)));
 
-  config.edges = contact.flag("edges", true);
+  if (contact.has("edges")) config.edges = contact.flag("edges", true);
   config.both_directions = contact.flag("both_directions", true);
   config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, s);
 
