@@ -63,13 +63,12 @@ bool wants_features(const CompileTarget& target) {
 struct EdgePhase {
   SharpEdgeTree still;
   SharpEdgeTree moving;
-  std::uint32_t too_many = 0;  ///< more of a body than the default takes
+  std::uint32_t too_many = 0;  ///< as EdgeFindings::too_many
 };
 
 /// Returns the sharp edges of both bodies; none if one of them has none or too many, or if the target does not read
 /// them.
 EdgePhase find_edges(const CompileTarget& target, const SolidSurface& still, const OuterSurface& moving) {
-  constexpr std::size_t kMostByDefault = 1024;  // chosen: threads have thousands, and more near pairs than NearEdges
   EdgePhase phase;
   if (!target.config.edges.value_or(true) ||
       target.only_solver.value_or(format::Solver::kContact) != format::Solver::kContact) {
@@ -80,7 +79,7 @@ EdgePhase find_edges(const CompileTarget& target, const SolidSurface& still, con
   phase.still = make_sharp_edges(BodyMesh(still), Eigen::Isometry3d::Identity());
   if (phase.still.edges.empty()) return {};
   const std::size_t most = std::max(phase.still.edges.size(), phase.moving.edges.size());
-  if (!target.config.edges && most > kMostByDefault) {
+  if (!target.config.edges && most > kMostEdgesByDefault) {
     return {.still = {}, .moving = {}, .too_many = static_cast<std::uint32_t>(most)};
   }
   return phase;

@@ -138,9 +138,9 @@ std::string edges_text(const CompileReport& report) {
   if (report.ball) return {};
   if (edges.too_many > 0) {
     return fmt::format(
-        "edges    may cross between the points: a body has {} sharp ones, which would be slow; "
-        "contact.edges = true takes them\n",
-        edges.too_many);
+        "edges    may cross between the points: one body has {} sharp edges, and more than {} make a cycle slow; "
+        "contact.edges = true prevents it\n",
+        edges.too_many, kMostEdgesByDefault);
   }
   if (!report.config.edges.value_or(true))
     return "edges    may cross between the points; contact.edges = true prevents it\n";

@@ -31,7 +31,7 @@ struct SceneConfig {
   bool ball = false;             ///< the moving mesh is a ball, to be rendered by its centre alone
   std::uint32_t points = 0;      ///< no meaning for a ball, like the next three members
   std::uint32_t levels = 0;
-  std::optional<bool> edges;                   ///< also edge against edge; else unless there are too many
+  std::optional<bool> edges;                   ///< edge against edge; not set: if edges are few
   bool both_directions = true;                 ///< also feature points of the still body in the moving body's field
   double between_points = 0.0;                 ///< wanted bound of the penetration between points [m]
   std::optional<format::Workspace> workspace;  ///< box that the moving body's centre of mass does not leave, in W

@@ -187,23 +187,25 @@ class ContactSubsteps {
  private:
   /// Drops the rows with a force that edge pairs imply. Returns whether there was one.
   bool drop_implied_rows() noexcept {
-    const NearEdges& near = memory_.workspace.edges;
-    if (!scene_.has_edges() || near.count == 0) return false;
     bool dropped = false;
-    for (std::uint32_t f = 0; f < step_.force_count; ++f) {
-      const std::uint32_t id = step_.forces[f].id;
-      if (is_edge_pair(id)) continue;
-      const std::uint32_t row = rows_.find(id, 0);
-      if (row == rows_.count) continue;  // several forces of one row
-      const bool is_feature = (id & kFeature) != 0;
-      NearPoints& points = is_feature ? memory_.workspace.features : memory_.workspace.samples;
-      const std::uint32_t k = points.find(id & ~kFeature);
-      if (k == points.count) continue;
-      const HeldPoint point{H0_ * rows_.point(row), points.distance[k], is_feature};
-      if (!is_implied(point, scene_.edges, near, H0_, lengths_.margin, 0.1 * lengths_.margin)) continue;
-      rows_.remove(row);
-      points.forget_gradient(k);
-      dropped = true;
+    if constexpr (kSceneTraits.edges) {
+      const NearEdges& near = memory_.workspace.edges;
+      if (near.count == 0) return false;
+      for (std::uint32_t f = 0; f < step_.force_count; ++f) {
+        const std::uint32_t id = step_.forces[f].id;
+        if (is_edge_pair(id)) continue;
+        const std::uint32_t row = rows_.find(id, 0);
+        if (row == rows_.count) continue;  // several forces of one row
+        const bool is_feature = (id & kFeature) != 0;
+        NearPoints& points = is_feature ? memory_.workspace.features : memory_.workspace.samples;
+        const std::uint32_t k = points.find(id & ~kFeature);
+        if (k == points.count) continue;
+        const HeldPoint point{H0_ * rows_.point(row), points.distance[k], is_feature};
+        if (!is_implied(point, scene_.edges, near, H0_, lengths_.margin, 0.1 * lengths_.margin)) continue;
+        rows_.remove(row);
+        points.forget_gradient(k);
+        dropped = true;
+      }
     }
     return dropped;
   }

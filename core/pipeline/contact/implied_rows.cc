@@ -20,16 +20,16 @@ struct SeenPair {
 /// Returns the share of an edge, from end 0 to end 1, at which it is nearest to a point.
 double place_of(const EdgeInW& edge, const Vector3& p) noexcept {
   const Vector3 along = edge.end[1] - edge.end[0];
-  return std::clamp(along.dot(p - edge.end[0]) / along.squaredNorm(), 0.0, 1.0);
+  return nearest_place(edge.end[0], along, along.squaredNorm(), p);
 }
 
 double distance_to(const EdgeInW& edge, const Vector3& p) noexcept {
   return (p - edge.end[0] - place_of(edge, p) * (edge.end[1] - edge.end[0])).norm();
 }
 
+/// Tells whether two edges are clearly not parallel.
 bool cross(const EdgeInW& a, const EdgeInW& b) noexcept {
-  constexpr double kLeastSine =
-      0.05;  // chosen: a row moves by 20 margins along the edge before the other end is nearer
+  constexpr double kLeastSine = 0.05;  // of the angle, chosen
   const Vector3 along_a = a.end[1] - a.end[0];
   const Vector3 along_b = b.end[1] - b.end[0];
   return along_a.cross(along_b).squaredNorm() > kLeastSine * kLeastSine * along_a.squaredNorm() * along_b.squaredNorm();
@@ -65,7 +65,7 @@ SeenPair seen_from(const HeldPoint& point, const EdgeContacts& edges, const Near
 
 bool is_implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H_WS,
                 double margin, double tolerance) noexcept {
-  constexpr std::size_t kMostSeen = 16;  // chosen: a face has a few edges, and a vertex, too
+  constexpr std::size_t kMostSeen = 16;  // chosen: few pairs share the edge that is nearest to a point
   constexpr double kNearPlace = 4.0;     // margins, chosen
   const Vector3& p = point.position_W;
   std::array<SeenPair, kMostSeen> seen;

@@ -12,11 +12,6 @@ struct Places {
   double on_second;
 };
 
-/// Returns the place on a segment from `from` along `along` that is nearest to a point; `square`: squared length.
-double nearest_place(const Vector3& from, const Vector3& along, double square, const Vector3& point) noexcept {
-  return square > 0.0 ? std::clamp(along.dot(point - from) / square, 0.0, 1.0) : 0.0;
-}
-
 /// Returns the nearest points of two segments. Alternates between the two if one of the places lies beyond an end: the
 /// squared distance is convex, so the second projection is exact (Ericson, Real-Time Collision Detection, 5.1.9).
 Places nearest_places(const Vector3& p, const Vector3& along_p, const Vector3& q, const Vector3& along_q) noexcept {

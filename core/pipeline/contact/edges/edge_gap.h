@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/scene/sharp_edges.h"
 #include "godobject/pose.h"
 
@@ -28,6 +30,12 @@ struct EdgeInW {
             static_cast<double>(edge.radius)};
   }
 };
+
+/// Returns the place on a segment from `from` along `along` that is nearest to a point, as a share of its length; 0 if
+/// it has none. `square`: squared length [m^2].
+inline double nearest_place(const Vector3& from, const Vector3& along, double square, const Vector3& point) noexcept {
+  return square > 0.0 ? std::clamp(along.dot(point - from) / square, 0.0, 1.0) : 0.0;
+}
 
 /// Returns the distance between the surfaces of two edges at their nearest points [m]: that of edge_gap for bodies that
 /// are apart. Cost: some 30 ns. Real-time safe.
