@@ -9,12 +9,20 @@
 
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
 #include "toolchain/scene_compiler/mesh/triangle_mesh.h"
 
 /// Meshes with properties that are known by hand calculation. Counter-clockwise seen from outside; metres.
 namespace godobject::test {
 
 using scene_compiler::TriangleMesh;
+
+/// A mesh, how it becomes a surface, and by how much that is dilated [m].
+struct BodyOfMesh {
+  TriangleMesh mesh;
+  scene_compiler::SurfaceKind kind = scene_compiler::SurfaceKind::kAuto;
+  double dilation = 0.0;
+};
 
 /// A box from `low` to `low + edges`: 8 vertices, 12 triangles.
 inline TriangleMesh box_mesh(const Eigen::Vector3d& edges, const Eigen::Vector3d& low) {

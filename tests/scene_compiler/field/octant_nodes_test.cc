@@ -21,15 +21,9 @@ using format::kBrickNodes;
 
 constexpr double kVoxel = 0.002;
 
-struct SealedBody {
-  TriangleMesh mesh;
-  SurfaceKind kind = SurfaceKind::kAuto;
-  double dilation = 0.0;
-};
-
 /// Bodies whose winding number is a whole one: parts that cross, lie in one another or are reversed, a thin plate, a
 /// cavity, a sheet, a solid beside a sheet and a dilated one.
-std::vector<SealedBody> sealed_bodies() {
+std::vector<test::BodyOfMesh> sealed_bodies() {
   const Eigen::Isometry3d aside(Eigen::Translation3d(0.011, 0.003, 0.002));
   const TriangleMesh box = test::moved(test::box_mesh({0.03, 0.02, 0.015}), test::odd_motion());
   const TriangleMesh ball = test::ball_mesh(0.012, 8);
@@ -49,7 +43,7 @@ std::vector<SealedBody> sealed_bodies() {
 TEST(OctantNodes, AreTheExactDistances) {
   std::mt19937 random(9);
   int body_number = 0;
-  for (const SealedBody& body : sealed_bodies()) {
+  for (const test::BodyOfMesh& body : sealed_bodies()) {
     SCOPED_TRACE(body_number++);
     const SolidSurface surface(body.mesh, body.kind, 2.0 * kVoxel, body.dilation);
     const DistanceGrid field = make_distance_grid(surface, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {});
@@ -77,7 +71,7 @@ TEST(DistanceProbe, TellsWhatTheSurfaceTells) {
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   const auto any = [&] { return Vector3d(place(random), place(random), place(random)); };
   int body_number = 0;
-  for (const SealedBody& body : sealed_bodies()) {
+  for (const test::BodyOfMesh& body : sealed_bodies()) {
     SCOPED_TRACE(body_number++);
     const SolidSurface surface(body.mesh, body.kind, 2.0 * kVoxel, body.dilation);
     Vector3d center = Vector3d::Zero();

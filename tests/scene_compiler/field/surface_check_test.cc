@@ -21,14 +21,8 @@ using Eigen::Vector3d;
 
 constexpr double kVoxelOfCheck = 0.002;
 
-struct ComparedBody {
-  TriangleMesh mesh;
-  SurfaceKind kind = SurfaceKind::kAuto;
-  double dilation = 0.0;
-};
-
 /// Bodies with holes, parts that cross or are reversed, a cavity, a sheet, and a dilated one.
-std::vector<ComparedBody> compared_bodies() {
+std::vector<test::BodyOfMesh> compared_bodies() {
   const Eigen::Isometry3d aside(Eigen::Translation3d(0.011, 0.003, 0.002));
   const TriangleMesh box = test::moved(test::box_mesh({0.03, 0.02, 0.015}), test::odd_motion());
   TriangleMesh open = box;
@@ -51,7 +45,7 @@ void expect_same(const Misses& found, const Misses& wanted, int round) {
 /// Refines a field by what is missed and by chance, and bars bricks by chance.
 class Rounds {
  public:
-  Rounds(const ComparedBody& body, unsigned seed)
+  Rounds(const test::BodyOfMesh& body, unsigned seed)
       : surface_(body.mesh, body.kind, 2.0 * kVoxelOfCheck, body.dilation),
         field_(make_distance_grid(surface_, kVoxelOfCheck, default_band(kVoxelOfCheck, 1.5 * kVoxelOfCheck), {})),
         edges_(straight_edges(surface_, kVoxelOfCheck, 2.0 * kVoxelOfCheck)),
@@ -120,7 +114,7 @@ class Rounds {
 
 TEST(SurfaceCheck, FindsTheSameMissesFromWhatHasChanged) {
   unsigned seed = 1;
-  for (const ComparedBody& body : compared_bodies()) {
+  for (const test::BodyOfMesh& body : compared_bodies()) {
     SCOPED_TRACE(seed);
     Rounds rounds(body, seed++);
     const std::uint32_t before = rounds.bricks();
