@@ -113,6 +113,40 @@ TEST(ImpliedRows, KnowAFaceInAnyDirection) {
   }
 }
 
+/// Two triangles of one face have normals that differ by rounding.
+TEST(ImpliedRows, KnowAFaceByNormalsThatDifferByRounding) {
+  FaceOverAnEdge scene;
+  scene.moving.edges()[1].normal[1][0] += 2e-7f;
+  EXPECT_TRUE(scene.implies(-0.002, 0.0));
+  scene.moving.edges()[1].normal[1][0] += 1e-5f;
+  EXPECT_FALSE(scene.implies(-0.002, 0.0)) << "another face";
+}
+
+/// Edges of sheets have no faces, so two of them bound none.
+TEST(ImpliedRows, KnowNoFaceOfASheet) {
+  FaceOverAnEdge scene;
+  for (format::SharpEdge& edge : scene.moving.edges()) set_faces(edge, Vector3::Zero(), Vector3::Zero());
+  EXPECT_FALSE(scene.implies(-0.002, 0.0));
+  EXPECT_TRUE(scene.implies(-0.002, 0.005)) << "on an edge of a pair";
+}
+
+/// Over a rib, a point is as near to one edge of the rib as to the other. A pair of each edge bounds nothing.
+TEST(ImpliedRows, NeedTwoPairsOfOneEdge) {
+  constexpr double kHalf = 1e-5;
+  FaceOverAnEdge scene;
+  const test::EdgeSet still(
+      {{Vector3(-kHalf, -0.1, 0), Vector3(-kHalf, 0.1, 0)}, {Vector3(kHalf, -0.1, 0), Vector3(kHalf, 0.1, 0)}});
+  scene.edges.still = still.view();
+  const Vector3 p(0.0, 0.0, kHeight);
+  const double distance = std::hypot(kHalf, kHeight);
+  scene.near.gap[0] = gap_at(scene.edges, {0, 0}, scene.H);
+  scene.near.gap[1] = gap_at(scene.edges, {1, 0}, scene.H);
+  EXPECT_TRUE(scene.implies_at(p, distance)) << "both pairs of one edge";
+  scene.near.pair[1].still = 1;
+  scene.near.gap[1] = gap_at(scene.edges, {1, 1}, scene.H);
+  EXPECT_FALSE(scene.implies_at(p, distance));
+}
+
 /// The one row of parallel edges holds their middle, so a point at the end needs its own.
 TEST(ImpliedRows, AreNotThoseOfPointsFarAlongAParallelEdge) {
   const test::EdgeSet moving({{Vector3(0, -0.005, kHeight), Vector3(0, 0.005, kHeight)}});
