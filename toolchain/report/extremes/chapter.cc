@@ -92,6 +92,7 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
   bool compiled = !meshes;
   while (tally.cycles() < cycles) {
     Setup setup = row == "fuzzer" ? any_setup(random) : setup_of(row, random);
+    setup.cycles = static_cast<int>(std::min<std::int64_t>(setup.cycles, cycles));
     if (!compiled) {
       choose_mesh(setup, cycles);
       compiled = true;
@@ -148,8 +149,12 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
 }  // namespace
 
 Chapter extremes_chapter(const ExtremesRequest& request) {
-  const std::int64_t cycles = request.cycles > 0 ? request.cycles : request.quick ? 20'000 : 100'000;
-  const std::int64_t row_cycles = request.one_place ? 1'000 : request.quick ? 2'000 : 100'000;
+  const std::int64_t cycles = request.cycles > 0  ? request.cycles
+                              : request.one_place ? 1'000
+                              : request.quick     ? 20'000
+                                                  : 100'000;
+  const std::int64_t row_cycles = request.one_place ? 200 : request.quick ? 2'000 : 100'000;
+  const std::int64_t place_cycles = std::max<std::int64_t>(row_cycles, 1'000);
   const std::int64_t stretches = std::clamp<std::int64_t>(cycles / 5'000, 1, kMostStretches);
   const bool quick = request.quick;
   const std::int64_t long_cycles = request.one_place ? 10'000
@@ -205,8 +210,8 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   for (std::size_t i = 0; i < kPlaceCount; ++i) {
     add(
         fmt::format("torque-{}", i + 1), fmt::format("{} device {}", inputs, file_digest(device)),
-        [i, device, row, row_cycles](const auto& work) {
-          return torque_rate(static_cast<Place>(i), device, row_cycles, row, work);
+        [i, device, row, place_cycles](const auto& work) {
+          return torque_rate(static_cast<Place>(i), device, place_cycles, row, work);
         },
         quick ? 3.0 : 15.0);
   }
