@@ -12,6 +12,23 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Returns unit vectors to both sides along the axes; with `diagonals` also those to the edges and corners of a cube.
+std::span<const Vector3> directions_to(bool diagonals) {
+  static const std::vector<Vector3> all = [] {
+    std::vector<Vector3> sorted;
+    for (int axis = 0; axis < 3; ++axis) {
+      sorted.emplace_back(Vector3::Unit(axis));
+      sorted.emplace_back(-Vector3::Unit(axis));
+    }
+    for (int i = 0; i < 27; ++i) {
+      const Vector3 to_cube(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (to_cube.squaredNorm() > 1.0) sorted.push_back(to_cube.normalized());
+    }
+    return sorted;
+  }();
+  return std::span(all).first(diagonals ? all.size() : 6);
+}
+
 }  // namespace
 
 Vector3 Watch::Points::place(const Pose& H_WS, std::size_t i) const {
@@ -286,7 +303,7 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
 
 /// Returns the planes of the surface at the points within `reach`, and those between edges. At an edge or in a valley a
 /// point has several: those of the places around it, too.
-std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, double around) const {
+std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, double around, Around places) const {
   std::vector<Contact> contacts;
   for (const Points& points : points_) {
     for (std::size_t i = 0; i < points.bound.size(); ++i) {
@@ -297,9 +314,8 @@ std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, d
       push_contact(points, H_WS, i, p, p, reach, contacts);
       for (const double radius : {3.0 * q_.margin, around}) {
         if (radius > around) continue;
-        for (int side = 0; side < 6; ++side) {
-          const Vector3 offset = (side % 2 == 0 ? radius : -radius) * Vector3::Unit(side / 2);
-          push_contact(points, H_WS, i, p, p + offset, reach, contacts);
+        for (const Vector3& to_place : directions_to(places == Around::kDiagonals)) {
+          push_contact(points, H_WS, i, p, p + radius * to_place, reach, contacts);
           for (std::size_t k = first; k + 1 < contacts.size(); ++k) {
             if ((contacts[k].normal_W - contacts.back().normal_W).norm() > 1e-6) continue;
             contacts.pop_back();  // the same plane

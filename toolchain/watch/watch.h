@@ -113,7 +113,9 @@ class Watch {
   double smallest_at(const Pose& H_WS);
   void push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Vector3& at,
                     double reach, std::vector<Contact>& contacts) const;
-  std::vector<Contact> contacts_at(const Pose& H_WS, double reach, double around) const;
+  /// The places around a point whose planes count: along the axes, or also between them.
+  enum class Around { kAxes, kDiagonals };
+  std::vector<Contact> contacts_at(const Pose& H_WS, double reach, double around, Around places = Around::kAxes) const;
   std::vector<Touch> touches_at(const Pose& H_WS, double reach) const;
   bool is_clear(const Pose& H0, const Pose& H1, double clearance) const;
 
@@ -123,7 +125,8 @@ class Watch {
   void check_report(const WatchedCycle& cycle);
   void check_distance(const WatchedCycle& cycle);
   void check_reference(const WatchedCycle& cycle);
-  void check_pushes(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
+  void check_pushes(const WatchedCycle& cycle);
+  Vector6 push_at(const WatchedCycle& cycle, Around places, bool& converged) const;
   const Contact* one_normal(const WatchedCycle& cycle, const std::vector<Contact>& contacts, int& count) const;
   void check_friction(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
   void check_damping(const WatchedCycle& cycle, const Contact& contact, double turned);
