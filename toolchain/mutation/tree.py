@@ -160,41 +160,58 @@ class Tree:
             write_if_changed(self.copy / name, rendered.encode('latin-1'))
 
     def compile(self, programs):
-        """Builds the test programs; drops mutants that do not compile and builds again."""
+        """Builds the test programs; drops mutants that do not compile and builds again. The libraries come first: most
+        mutants that do not compile stand in headers, and each round with the tests compiles those again."""
         kept = self.work / 'dropped.pickle'
         key = hashlib.sha256(pickle.dumps(sorted(self.found.items(), key=lambda x: x[0]))).hexdigest()
         if kept.exists():
             old, dropped = pickle.loads(kept.read_bytes())
             if old == key:
                 self.dropped = dropped
-        for number in range(1, ROUNDS + 1):
-            self.write()
-            say(f'building, round {number}')
-            log = self.work / 'build.log'
-            with log.open('w') as output:
-                built = subprocess.run(['cmake', '--build', str(self.build), '--parallel', str(self.jobs), '--target', *programs,
-                                        '--', '-k', '0'], stdout=output, stderr=subprocess.STDOUT)
-            if built.returncode == 0:
-                return
-            found, unresolved = schemata.culprits(log.read_text(errors='replace'), self.owners)
-            if not found:
-                raise SystemExit(f'mutation: the mutated tree does not compile: {(unresolved or ["see " + str(log)])[0]}')
-            for path, place, alternative in found:
-                name = os.path.relpath(path, self.copy)
-                known = self.dropped.setdefault(name, set())
-                if alternative > 0:
-                    known.add((place, alternative))
-                else:
-                    known.update((place, at) for at in range(1, len(self.found[name][place].alternatives) + 1))
-            kept.write_bytes(pickle.dumps((key, self.dropped)))
-            say(f'{sum(map(len, self.dropped.values()))} mutants dropped that do not compile')
-        raise SystemExit(f'mutation: does not compile after {ROUNDS} rounds; see {log}')
+        for what, targets in (('libraries', self.libraries()), ('test programs', programs)):
+            number = 1
+            while targets and not self.compiles(targets, f'building the {what}, round {number}'):
+                kept.write_bytes(pickle.dumps((key, self.dropped)))
+                say(f'{sum(map(len, self.dropped.values()))} mutants dropped that do not compile')
+                number += 1
+                if number > ROUNDS:
+                    raise SystemExit(f'mutation: does not compile after {ROUNDS} rounds; see {self.work / "build.log"}')
 
-    def programs(self, pattern):
+    def compiles(self, targets, text):
+        """Tells whether the targets compile. If not, drops the mutants that are to blame."""
+        self.write()
+        say(text)
+        log = self.work / 'build.log'
+        with log.open('w') as output:
+            built = subprocess.run(['cmake', '--build', str(self.build), '--parallel', str(self.jobs), '--target', *targets,
+                                    '--', '-k', '0'], stdout=output, stderr=subprocess.STDOUT)
+        if built.returncode == 0:
+            return True
+        found, unresolved = schemata.culprits(log.read_text(errors='replace'), self.owners)
+        if not found:
+            raise SystemExit(f'mutation: the mutated tree does not compile: {(unresolved or ["see " + str(log)])[0]}')
+        for path, place, alternative in found:
+            name = os.path.relpath(path, self.copy)
+            known = self.dropped.setdefault(name, set())
+            if alternative > 0:
+                known.add((place, alternative))
+            else:
+                known.update((place, at) for at in range(1, len(self.found[name][place].alternatives) + 1))
+        return False
+
+    def targets(self, pattern):
+        """Returns the targets of the build that match the whole pattern."""
         listed = subprocess.run(['ninja', '-C', str(self.build), '-t', 'targets', 'all'], check=True,
                                 capture_output=True, text=True).stdout
-        names = re.findall(r'(?m)^(\w+): phony$', listed)
-        return sorted(name for name in names if re.fullmatch(pattern, name))
+        return sorted(re.findall(fr'(?m)^({pattern}): ', listed))
+
+    def libraries(self):
+        """Returns the libraries of the mutated rooms."""
+        return self.targets(f'(?:{"|".join(self.rooms)})/lib\\w+\\.a')
+
+    def programs(self, pattern):
+        """Returns the test programs whose names match the whole pattern."""
+        return [name for name in self.targets(r'\w+') if re.fullmatch(pattern, name)]
 
     def mutants(self):
         found = []
