@@ -247,7 +247,9 @@ TEST_F(CompileScene, EndsWithAVerdictThatNamesEveryLimit) {
       },
       "walls thinner than a voxel, which bodies may pass");
   expect_limit([](CompileReport& r) { r.thin.gaps.samples = 3; }, "gaps thinner than two voxels");
-  expect_limit([](CompileReport& r) { r.field.seams.cells = 1; }, "the mesh is open");
+  expect_limit([](CompileReport& r) { r.field.seams.cells = 1; }, "the still mesh is open");
+  expect_limit([](CompileReport& r) { r.second.seams.cells = 1; }, "the moving mesh is open");
+  expect_limit([](CompileReport& r) { r.edges.too_many = 2000; }, "sharp edges may cross, because one body has 2000");
   expect_limit([](CompileReport& r) { r.second.sought = false; }, "the depth between the points is not bounded");
   expect_limit([](CompileReport& r) { r.second.between.bound = 0.006 - r.second.slack; },
                "between the points meshes may overlap by up to 6 mm (4 mm");
@@ -275,6 +277,63 @@ TEST_F(CompileScene, RefusesABodyThatLeavesNothingInside) {
       EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData) << failure.what();
     }
   }
+}
+/// A scale that was forgotten is told at once, with the numbers that show it.
+TEST_F(CompileScene, RefusesMeshesOfSizesThatDoNotFit) {
+  const auto refusal = [this](double moving_scale) -> std::string {
+    const std::string text = fmt::format(
+        "[still]\nmesh = \"{}\"\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\nscale = {:#g}\npoints = 300\n",
+        mesh_file("cube_100mm").string(), mesh_file("cube_100mm").string(), moving_scale);
+    try {
+      compile_once(text, folder_, "out.scene", {});
+    } catch (const command::Failure& failure) {
+      EXPECT_EQ(failure.exit_code(), command::ExitCode::kBadData);
+      return failure.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(300.0).find("the moving mesh of 30 m is 300 times as large as the still mesh of 0.1 m"),
+            std::string::npos)
+      << refusal(300.0);
+  EXPECT_NE(refusal(1e-3).find("the moving mesh of 0.0001 m is far smaller than a voxel of 0.004 m"), std::string::npos)
+      << refusal(1e-3);
+}
+
+/// A cube without one face is a solid whose distances jump at the hole, whichever body it is.
+TEST_F(CompileScene, SaysWhichMeshIsOpen) {
+  constexpr const char* kOpenCube =
+      "v 0 0 0\nv 0.02 0 0\nv 0.02 0.02 0\nv 0 0.02 0\nv 0 0 0.02\nv 0.02 0 0.02\nv 0.02 0.02 0.02\nv 0 0.02 0.02\n"
+      "f 1 3 2\nf 1 4 3\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+  const std::string open = folder_.write("open.obj", kOpenCube).string();
+  const std::string closed = mesh_file("cube_100mm").string();
+  const auto verdict = [&](const std::string& still, double still_scale, const std::string& moving, double scale) {
+    return verdict_text(compile_once(
+        fmt::format(
+            "[still]\nmesh = \"{}\"\nscale = {:#g}\nvoxel_size = 0.002\n[moving]\nmesh = \"{}\"\nscale = {:#g}\n"
+            "points = 300\n",
+            still, still_scale, moving, scale),
+        folder_, "out.scene", {}));
+  };
+  const std::string of_moving = verdict(closed, 0.4, open, 1.0);
+  EXPECT_NE(of_moving.find("the moving mesh is open"), std::string::npos) << of_moving;
+  EXPECT_EQ(of_moving.find("the still mesh is open"), std::string::npos) << of_moving;
+  const std::string of_still = verdict(open, 1.0, closed, 0.2);
+  EXPECT_NE(of_still.find("the still mesh is open"), std::string::npos) << of_still;
+  EXPECT_EQ(of_still.find("the moving mesh is open"), std::string::npos) << of_still;
+}
+
+/// Each line on edges names what is the case for this image.
+TEST_F(CompileScene, TellsWhyEdgesAreLeftOut) {
+  const auto line = [this](const std::string& more, std::optional<format::Solver> only) {
+    const SceneText scene{
+        .still = "cube_100mm", .voxel_size = 0.01, .more = "[contact]\nboth_directions = false\n" + more};
+    const std::string text = report_text(compile(scene, "out.scene", only));
+    const std::size_t at = text.find("\nedges ") + 1;
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_NE(line("", {}).find(" sharp edges of the still body against "), std::string::npos);
+  EXPECT_NE(line("", format::Solver::kCorrected).find("only the solver contact reads them"), std::string::npos);
+  EXPECT_NE(line("edges = false\n", {}).find("contact.edges = true prevents that"), std::string::npos);
 }
 
 TEST_F(CompileScene, DamageIsSeen) {

@@ -10,6 +10,7 @@
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/image/build_traits.h"
+#include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/outer_surface.h"
 #include "toolchain/scene_compiler/points/second_direction.h"
 
@@ -31,13 +32,13 @@ bool has_inside(const DistanceGrid& field) {
 }
 
 /// Refuses a body without any node inside: it would be no obstacle.
-void require_some_inside(const DistanceGrid& field, const std::string& mesh_name) {
+void require_some_inside(const DistanceGrid& field, double size, const std::string& mesh_name) {
   if (has_inside(field)) return;
   throw command::Failure(
       command::ExitCode::kBadData,
-      fmt::format("{}: no node of the grid is inside the mesh, which encloses nothing or is smaller than a voxel; "
-                  "set surface = \"shell\", or a smaller voxel_size",
-                  mesh_name));
+      fmt::format("{}: no node of the grid is inside the mesh of {:.3g} m, which encloses nothing or is too small for "
+                  "voxels of {:.3g} m; set surface = \"shell\", or a smaller voxel_size, or check scale",
+                  mesh_name, size, field.grid.voxel_size));
 }
 
 /// Runs `work` on the moving mesh. Puts the name of the mesh before its errors.
@@ -53,11 +54,15 @@ auto naming_moving_mesh(const SceneConfig& config, Work&& work) {
   }
 }
 
-/// True if the scene asks for the second direction and the solver of the image reads it.
-bool wants_features(const CompileTarget& target) {
-  return target.config.both_directions &&
-         target.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
+bool reads_contact(const CompileTarget& target) {
+  return target.only_solver.value_or(format::Solver::kContact) == format::Solver::kContact;
 }
+
+/// True if the scene asks for the second direction and the solver of the image reads it.
+bool wants_features(const CompileTarget& target) { return target.config.both_directions && reads_contact(target); }
+
+/// True if the scene does not switch edge against edge off and the solver of the image reads it.
+bool wants_edges(const CompileTarget& target) { return target.config.edges.value_or(true) && reads_contact(target); }
 
 /// The sharp edges of both bodies, each in its mesh's frame.
 struct EdgePhase {
@@ -70,10 +75,7 @@ struct EdgePhase {
 /// them.
 EdgePhase find_edges(const CompileTarget& target, const SolidSurface& still, const OuterSurface& moving) {
   EdgePhase phase;
-  if (!target.config.edges.value_or(true) ||
-      target.only_solver.value_or(format::Solver::kContact) != format::Solver::kContact) {
-    return phase;
-  }
+  if (!wants_edges(target)) return phase;
   phase.moving = make_sharp_edges(moving.body(), Eigen::Isometry3d::Identity());
   if (phase.moving.edges.empty()) return {};
   phase.still = make_sharp_edges(BodyMesh(still), Eigen::Isometry3d::Identity());
@@ -158,6 +160,27 @@ DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body
   return field;
 }
 
+/// Throws Failure (kBadData) if the sizes of the meshes can only come from a wrong scale.
+void require_like_sizes(const SceneConfig& config, const MeshReport& still, const MeshReport& moving) {
+  constexpr double kMostTimes = 100.0;        // the other body
+  constexpr double kLeastPartOfVoxel = 0.05;  // a body that small is a point of the field
+  const double of_still = (still.high - still.low).maxCoeff();
+  const double of_moving = (moving.high - moving.low).maxCoeff();
+  const auto refuse = [](const std::string& text) { throw command::Failure(command::ExitCode::kBadData, text); };
+  if (of_moving > kMostTimes * of_still) {
+    refuse(
+        fmt::format("the moving mesh of {:.3g} m is {:.0f} times as large as the still mesh of {:.3g} m; check "
+                    "moving.scale and still.scale",
+                    of_moving, of_moving / of_still, of_still));
+  }
+  if (of_moving < kLeastPartOfVoxel * config.voxel_size) {
+    refuse(
+        fmt::format("the moving mesh of {:.3g} m is far smaller than a voxel of {:.3g} m; check moving.scale and "
+                    "still.voxel_size",
+                    of_moving, config.voxel_size));
+  }
+}
+
 }  // namespace
 
 Bodies read_bodies(const SceneConfig& config, PhaseClock& clock) {
@@ -167,6 +190,7 @@ Bodies read_bodies(const SceneConfig& config, PhaseClock& clock) {
       clock.run("still mesh", [&](const auto&) { return read_body(config.still, config.thickness, still_findings); });
   SolidSurface moving = clock.run(
       "moving mesh", [&](const auto&) { return read_body(config.moving, config.thickness, moving_findings); });
+  require_like_sizes(config, still_findings.report, moving_findings.report);
   return {std::move(still), std::move(moving), std::move(still_findings), std::move(moving_findings)};
 }
 
@@ -193,7 +217,7 @@ FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, P
   phase.field = clock.run("distances", [&](const auto& progress) {
     return make_distance_grid(obstacle, config.voxel_size, band, progress);
   });
-  require_some_inside(phase.field, config.still.file.string());
+  require_some_inside(phase.field, Box::around(obstacle.mesh().vertices).longest(), config.still.file.string());
   phase.refinement = clock.run(kRefinementPhase, [&](const auto& progress) {
     return refine(phase.field, obstacle, config.surface_tolerance(config.voxel_size), progress);
   });
@@ -228,7 +252,8 @@ PointPhase make_points(const CompileTarget& target, const Bodies& bodies, const 
     phase.spread = measure_spread(outer, sampling);
     return make_moving_body(outer, sampling, ends_of(edges.moving));
   });
-  phase.edges = {.still = static_cast<std::uint32_t>(edges.still.edges.size()),
+  phase.edges = {.sought = wants_edges(target),
+                 .still = static_cast<std::uint32_t>(edges.still.edges.size()),
                  .moving = static_cast<std::uint32_t>(edges.moving.edges.size()),
                  .left_out = edges.still.left_out + edges.moving.left_out,
                  .too_many = edges.too_many};

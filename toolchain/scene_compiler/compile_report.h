@@ -54,6 +54,7 @@ struct SecondDirection {
   double slack = 0.0;              ///< by which the moving body is smaller in its field [m]
   format::Features features{};     ///< as the image stores them; point_count = 0: the image has no second direction
   format::Grid grid{};             ///< of the moving body's field, as the image stores it
+  SeamReport seams;                ///< of that field
 
   std::uint32_t found() const { return corners + on_edges + on_faces; }  ///< features before trimming
 };
@@ -64,6 +65,7 @@ inline constexpr std::uint32_t kMostEdgesByDefault = 1024;
 
 /// Findings about edge against edge: the sharp edges that the image stores.
 struct EdgeFindings {
+  bool sought = false;  ///< the scene does not switch them off, and the solver of the image reads them
   std::uint32_t still = 0;
   std::uint32_t moving = 0;
   std::uint32_t left_out = 0;  ///< the least sharp ones of bodies with too many

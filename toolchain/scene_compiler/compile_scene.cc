@@ -44,6 +44,7 @@ RefinementReport trimmed_refinement(RefinementReport refinement, const LeftOutBr
 SecondDirection trimmed_second(SecondDirection second, const SceneParts& parts) {
   second.features = parts.features.header;
   second.grid = parts.body_field.grid;
+  second.seams = parts.body_field.seams;
   return second;
 }
 

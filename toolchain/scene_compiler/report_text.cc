@@ -24,7 +24,7 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
       std::count_if(facts.components.begin(), facts.components.end(), [](const auto& c) { return c.inside_out; });
   const Eigen::Vector3d size = 1e3 * (r.high - r.low);
   std::string text =
-      fmt::format("{:<8} {}: {} triangles, {:.1f} x {:.1f} x {:.1f} mm, {} component(s): {} solid, {} shell\n", role,
+      fmt::format("{:<8} {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, {} component(s): {} solid, {} shell\n", role,
                   mesh.name, r.triangles, size.x(), size.y(), size.z(), facts.components.size(),
                   static_cast<std::ptrdiff_t>(facts.components.size()) - shells, shells);
   const auto note = [&text](std::uint64_t count, const char* what) {
@@ -138,12 +138,13 @@ std::string edges_text(const CompileReport& report) {
   if (report.ball) return {};
   if (edges.too_many > 0) {
     return fmt::format(
-        "edges    may cross between the points: one body has {} sharp edges, and more than {} make a cycle slow; "
-        "contact.edges = true prevents it\n",
+        "edges    left out: one body has {} sharp edges, more than {}, so edges may cross between the points; with "
+        "contact.edges = true none cross, but a cycle may take some milliseconds, and the god object may lag\n",
         edges.too_many, kMostEdgesByDefault);
   }
-  if (!report.config.edges.value_or(true))
-    return "edges    may cross between the points; contact.edges = true prevents it\n";
+  if (!edges.sought && !report.config.edges.value_or(true))
+    return "edges    left out: they may cross between the points; contact.edges = true prevents that\n";
+  if (!edges.sought) return "edges    left out: only the solver contact reads them\n";
   if (edges.still == 0) return "edges    none against each other: a body has no sharp edge\n";
   std::string text = fmt::format("edges    {} sharp edges of the still body against {} of the moving one\n",
                                  edges.still, edges.moving);
@@ -273,7 +274,7 @@ std::vector<std::string> doubtful_parts(const char* body, const SceneConfig::Mes
     if (winding <= kSheet || winding >= kSolid) continue;
     found.push_back(fmt::format(
         "a part of the {} mesh with {} triangles is taken as a {}, which is doubtful (winding number {:.2f}; 0 for a "
-        "sheet, 0.5 for a solid): set {}.surface, or mend the mesh",
+        "sheet, 0.5 for a solid): set {}.surface, or repair the mesh",
         body, part.triangles, part.shell ? "shell" : "solid", part.winding, body));
   }
   return found;
@@ -301,7 +302,11 @@ std::vector<std::string> limits(const CompileReport& report) {
   }
   found.push_back(thin_limit(report.thin.walls, "walls", "which bodies may pass"));
   found.push_back(thin_limit(report.thin.gaps, "gaps", "which may be closed"));
-  if (report.field.seams.cells > 0) found.push_back("the mesh is open, distances jump at its holes");
+  for (const auto& [seams, body] : {std::pair(report.field.seams, "still"), std::pair(report.second.seams, "moving")}) {
+    if (seams.cells == 0) continue;
+    found.push_back(
+        fmt::format("the {0} mesh is open, distances jump at its holes: close it, or set {0}.surface", body));
+  }
   const SecondDirection& second = report.second;
   const double bound = second.between.bound + second.slack;
   if (report.ball) {
@@ -312,6 +317,10 @@ std::vector<std::string> limits(const CompileReport& report) {
     found.push_back(std::isfinite(bound) ? fmt::format("between the points meshes may overlap by up to {} ({} wanted)",
                                                        millimetres(bound), millimetres(config.between_points))
                                          : std::string("no bound is known between the points"));
+  }
+  if (report.edges.too_many > 0) {
+    found.push_back(fmt::format("sharp edges may cross, because one body has {}, more than {}", report.edges.too_many,
+                                kMostEdgesByDefault));
   }
   if (report.edges.left_out > 0) {
     found.push_back(fmt::format("{} sharp edges are left out of edge against edge", report.edges.left_out));

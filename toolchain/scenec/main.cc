@@ -47,7 +47,8 @@ A scene file (TOML; lengths in metres, defaults in brackets, s is voxel_size):
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 s], margin [0.01 s],
               both_directions [true]: also points of the still body in the moving body's field,
               between_points [s]: largest depth of the bodies between their points; points are added until it holds,
-              edges [false]: also sharp edges of one body against those of the other,
+              edges [true if no body has more than {} sharp edges]: keep sharp edges of one body from crossing those
+              of the other,
               point_budget [0: none]: near points of either body that a sub-step looks up, nearest first; beyond
               the budget the god object may lag behind the device, but crosses nothing
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without this table there is no friction
@@ -206,7 +207,7 @@ int main(int argc, char** argv) {
       app.add_option("--inspect", options.inspected, "print the contents of a compiled image as JSON, and nothing else")
           ->expected(0, 1)
           ->type_name("X.scene");
-  app.footer(fmt::format(kFooter, kRefusalRule));
+  app.footer(fmt::format(kFooter, scene_compiler::kMostEdgesByDefault, kRefusalRule));
   return godobject::command::run(app, argc, argv, [&] {
     options.inspects = inspect->count() > 0;
     run_scenec(options);

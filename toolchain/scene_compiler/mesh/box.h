@@ -28,6 +28,7 @@ struct Box {
     high = high.cwiseMax(other.high);
   }
   double diagonal() const noexcept { return (high - low).norm(); }
+  double longest() const noexcept { return (high - low).maxCoeff(); }  ///< edge
 
   /// Smallest and largest distance between a place of this box and one of the other.
   double nearest(const Box& other) const noexcept {
