@@ -8,7 +8,7 @@
 namespace godobject::report {
 namespace {
 
-using Field = analytic::AnalyticField<analytic::Solid>;
+using Field = analytic::AnalyticField;
 using FieldSession = Session<Field, NoBodyField>;
 
 class AnalyticWorld : public World {

@@ -24,7 +24,7 @@ namespace {
 constexpr double kUp = 0.7071067811865476;
 
 using analytic::Solid;
-using Field = analytic::AnalyticField<Solid>;
+using Field = analytic::AnalyticField;
 
 /// Returns the box of the moving body's origin, about a place a little above the still body.
 WorkspaceBox workspace_of(const Setup& setup) {

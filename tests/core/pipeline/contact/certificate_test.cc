@@ -35,9 +35,8 @@ struct Wire {
 };
 
 /// A field that counts its look-ups. `proves`: the bits that the kernel for whole chords returns.
-template <class Shape>
 struct Counted {
-  AnalyticField<Shape> field;
+  AnalyticField field;
   std::uint64_t proves = 0;
   mutable int looks = 0;
   mutable int batches = 0;
@@ -73,7 +72,7 @@ double least_on_chord(const Shape& shape, const Vector3& p0, const Vector3& p1, 
 template <class Shape>
 void expect_chords_as_sampled(const Shape& shape, unsigned seed) {
   Random random(seed);
-  const Counted<Shape> field{AnalyticField<Shape>(shape, kCertificateVoxel)};
+  const Counted field{AnalyticField(shape, kCertificateVoxel)};
   int free = 0, blocked = 0, exhausted = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const double size = std::pow(10.0, random.between(-4.0, -1.5));
@@ -123,7 +122,7 @@ TEST(ChordIsFree, IsAsDenseSamplesTellOfABall) { expect_chords_as_sampled(Ball{{
 
 /// Beside a plane at the height h, each ball has the radius h: a chord of length l needs l / h - 2 of them.
 TEST(ChordIsFree, TakesAsManyBallsAsTheGapAsksFor) {
-  const AnalyticField<HalfSpace> field({}, kCertificateVoxel);
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
   for (const double h : {0.001, 0.002, 0.005}) {
     for (int balls = 0; balls < 8; ++balls) {
       const double length = (balls + 1.999) * h;
@@ -145,7 +144,7 @@ TEST(ChordIsFree, TakesAsManyBallsAsTheGapAsksFor) {
 }
 
 TEST(ChordIsFree, TakesAtMostTheBallsOfAChord) {
-  const AnalyticField<HalfSpace> field({}, kCertificateVoxel);
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
   constexpr double kHeight = 0.001;
   for (const int more : {0, 1}) {
     const double length = (kMostBallsOfChord - 1 + 1.999 + more) * kHeight;
@@ -161,9 +160,7 @@ TEST(ChordIsFree, TakesAtMostTheBallsOfAChord) {
 // -- all near points
 
 /// The near points of random points at a pose.
-template <class Shape>
-std::unique_ptr<NearPoints> near_points(const AnalyticField<Shape>& field, const std::vector<Vector3>& points,
-                                        const Pose& H) {
+std::unique_ptr<NearPoints> near_points(const AnalyticField& field, const std::vector<Vector3>& points, const Pose& H) {
   auto near = std::make_unique<NearPoints>();
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     SampleBatch batch;
@@ -189,7 +186,7 @@ Chord chord_of(const NearPoints& near, std::uint32_t k, const Pose& H0, const Po
 template <class Shape>
 void expect_motions_as_sampled(const Shape& shape, unsigned seed) {
   Random random(seed);
-  const Counted<Shape> field{AnalyticField<Shape>(shape, kCertificateVoxel)};
+  const Counted field{AnalyticField(shape, kCertificateVoxel)};
   int held = 0, failed = 0, by_gap = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vector3> points(static_cast<std::size_t>(random.integer(0, trial % 5 == 0 ? 200 : 8)));
@@ -256,7 +253,7 @@ TEST(Certificate, HoldsAsDenseSamplesTellOfABall) { expect_motions_as_sampled(Ba
 /// Any point may be the suspect: the answer is the same, since the others are tested, too.
 TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
   Random random(15);
-  const Counted<Plate> field{AnalyticField<Plate>(Plate{1e-4}, kCertificateVoxel)};
+  const Counted field{AnalyticField(Plate{1e-4}, kCertificateVoxel)};
   int held = 0, failed = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<Vector3> points(static_cast<std::size_t>(random.integer(1, 150)));
@@ -290,7 +287,7 @@ TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
 
 TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   Random random(16);
-  const Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kCertificateVoxel)};
+  const Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
   std::vector<Vector3> points(200);
   for (Vector3& p : points) p = random.in_cube(0.001) + Vector3(0.0, 0.0, 0.003);
   const auto near = near_points(field.field, points, Pose{});
@@ -309,7 +306,7 @@ TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
 
 /// A chord that the field's kernel proves free needs no ball; but the gap at its end counts all the same.
 TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
-  Counted<HalfSpace> field{AnalyticField<HalfSpace>({}, kCertificateVoxel)};
+  Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
   const std::vector<Vector3> points = {{0.0, 0.0, 1e-4}};
   const auto near = near_points(field.field, points, Pose{});
   Pose along, down;
@@ -332,7 +329,7 @@ TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
 }
 
 TEST(MotionIsFree, IsTrueWithoutNearPointsAndForgetsThatLookUpsWereUsedUp) {
-  const AnalyticField<HalfSpace> field({}, kCertificateVoxel);
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
   const ContactLengths lengths = ContactLengths::make({});
   const auto near = std::make_unique<NearPoints>();
   Pose H1;

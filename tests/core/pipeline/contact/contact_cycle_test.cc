@@ -36,10 +36,10 @@ struct Ripples {
   Vector3 gradient(const Vector3& p) const noexcept { return {scale * kSlope * std::sin(kNumber * p.x()), 0.0, scale}; }
 };
 
-template <class Shape, bool kFriction = false>
-struct ContactRun : AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>> {
-  using Base = AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>>;
-  ContactRun(const AnalyticField<Shape>& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
+template <bool kFriction = false>
+struct ContactRun : AnalyticRun<AnalyticField, ContactCycle<kFriction>> {
+  using Base = AnalyticRun<AnalyticField, ContactCycle<kFriction>>;
+  ContactRun(const AnalyticField& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
     this->parameters.margin = kMargin;
     this->parameters.friction = {0.2, 0.18, 0.0};
   }
@@ -53,9 +53,9 @@ Pose at(const Vector3& position, const Vector3& turn = Vector3::Zero()) {
 }
 
 TEST(ContactCycle, FollowsTheDeviceExactlyWhereNothingIsNear) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = ball_body();
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.5}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.5}));
   const Pose device = at({0.31, -0.2, 0.4}, {0.1, 0.2, -0.3});
   for (int i = 0; i < 3; ++i) ASSERT_EQ(run.step(device), Status::kOk);
   EXPECT_EQ(run.state.H_WS.translation, device.translation);
@@ -65,9 +65,9 @@ TEST(ContactCycle, FollowsTheDeviceExactlyWhereNothingIsNear) {
 }
 
 TEST(ContactCycle, LaysABoxFlatAtTheMargin) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body();
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.06}, {0.3, 0.2, 0.5}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.06}, {0.3, 0.2, 0.5}));
   const Pose device = at({0.01, 0.0, 0.010}, {0.0, 0.0, 0.4});
   for (int i = 0; i < 200; ++i) {
     ASSERT_EQ(run.step(device), Status::kOk);
@@ -86,11 +86,11 @@ TEST(ContactCycle, LaysABoxFlatAtTheMargin) {
 template <class Shape>
 void expect_no_crossing(const SampledBody& body, Shape shape, double top_speed, unsigned seed,
                         const WorkspaceBox& workspace = {}) {
-  const AnalyticField<Shape> field(shape, kVoxel);
+  const AnalyticField field(shape, kVoxel);
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
-  ContactRun<Shape> run(field, body, at(workspace.nearest({0.0, 0.0, 0.06})));
+  ContactRun<> run(field, body, at(workspace.nearest({0.0, 0.0, 0.06})));
   run.parameters.workspace = workspace;
   const Pointshell shell = body.pointshell();
   Vector3 velocity = vector(), spin = vector();
@@ -146,9 +146,9 @@ TEST(ContactCycle, LetsNoPointOfAHammerCross) {
 }
 
 TEST(ContactCycle, StaysOnItsSideOfAPlateThatTheDeviceTeleportsThrough) {
-  const AnalyticField<Plate> field(Plate{0.004}, kVoxel);
+  const AnalyticField field(Plate{0.004}, kVoxel);
   const SampledBody body = ball_body();
-  ContactRun<Plate> run(field, body, at({0.0, 0.0, 0.05}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.05}));
   for (int i = 0; i < 20; ++i) {
     ASSERT_EQ(run.step(at({0.0, 0.0, -0.3}, {3.0, 0.0, 0.0})), Status::kOk);
     ASSERT_LT(run.depth(), 0.0);
@@ -158,9 +158,9 @@ TEST(ContactCycle, StaysOnItsSideOfAPlateThatTheDeviceTeleportsThrough) {
 }
 
 TEST(ContactCycle, ComesToRestInAValleyThatIsMuchNarrowerThanTheCouplingIsStretched) {
-  const AnalyticField<Ripples> field({}, kVoxel);
+  const AnalyticField field(Ripples{}, kVoxel);
   const SampledBody body({{Vector3(0.0, 0.0, -0.01)}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
-  ContactRun<Ripples> run(field, body, at({0.0, 0.0, 0.02}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.02}));
   const Pose device = at({4e-5, 0.0, 0.005});  // 5 mm deep, beside the top of a ripple with a radius of 0.08 mm
   for (int i = 0; i < 200; ++i) {
     ASSERT_EQ(run.step(device), Status::kOk);
@@ -185,11 +185,11 @@ TEST(ContactCycle, ArrivesAtTheBottomOfAGrooveInOneCycle) {
   std::uniform_real_distribution<double> share(0.1, 1.0);
   for (int i = 0; i < 200; ++i) {
     const Groove groove{0.2 + 0.8 * share(random)};
-    const AnalyticField<Groove> field(groove, kVoxel);
+    const AnalyticField field(groove, kVoxel);
     const double x = (i % 2 == 0 ? 1.0 : -1.0) * 2.0 * kVoxel * share(random);
     const Vector3 bottom(0.0, 0.0, kMargin / std::cos(groove.angle));
     const Vector3 start = bottom + Vector3(x, 0.0, std::fabs(x) * std::tan(groove.angle));
-    ContactRun<Groove> run(field, body, at(start));
+    ContactRun<> run(field, body, at(start));
     ASSERT_EQ(run.step(at(start)), Status::kOk);
     const Vector3 along(0.0, 2.0 * kVoxel * (share(random) - 0.5), 0.0);
     const Vector3 load = share(random) * groove.side(1.0) + share(random) * groove.side(-1.0);
@@ -200,9 +200,9 @@ TEST(ContactCycle, ArrivesAtTheBottomOfAGrooveInOneCycle) {
 }
 
 TEST(ContactCycle, HoldsABallBetweenTwoWalls) {
-  const AnalyticField<Slot> field(Slot{0.0202}, kVoxel);
+  const AnalyticField field(Slot{0.0202}, kVoxel);
   const SampledBody body = ball_body();
-  ContactRun<Slot> run(field, body, Pose{});
+  ContactRun<> run(field, body, Pose{});
   for (int i = 0; i < 100; ++i) {
     ASSERT_EQ(run.step(at({0.01 * std::sin(0.1 * i), 0.0, 1e-4 * i}, {0.0, 0.02 * i, 0.0})), Status::kOk);
     ASSERT_LT(run.depth(), 0.0);
@@ -212,9 +212,9 @@ TEST(ContactCycle, HoldsABallBetweenTwoWalls) {
 }
 
 TEST(ContactCycle, DoesNotDragAndDoesNotPullWithoutFriction) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body();
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.02}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.02}));
   double z = 0.015;
   double x = 0.0;
   for (int i = 0; i < 400; ++i) {
@@ -231,9 +231,9 @@ TEST(ContactCycle, DoesNotDragAndDoesNotPullWithoutFriction) {
 }
 
 TEST(ContactCycle, KeepsUpWithAFlatFaceThatSlidesAtAMetreASecond) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body(33);  // a thousand points on the lower face
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.015 + kMargin}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.015 + kMargin}));
   for (int i = 0; i < 40; ++i) {
     ASSERT_EQ(run.step(at({1e-3 * i, 0.0, 0.008})), Status::kOk);
     ASSERT_LT(run.depth(), 0.0);
@@ -242,10 +242,10 @@ TEST(ContactCycle, KeepsUpWithAFlatFaceThatSlidesAtAMetreASecond) {
 }
 
 TEST(ContactCycle, SlidesWithTheKineticRatioOpposedToTheSlip) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body();
   for (const double speed : {0.01, 0.1, 0.5}) {
-    ContactRun<HalfSpace, true> run(field, body, at({0.0, 0.0, 0.016}));
+    ContactRun<true> run(field, body, at({0.0, 0.0, 0.016}));
     Vector3 position(0.0, 0.0, 0.010);
     const Vector3 way = Vector3(std::cos(0.7), std::sin(0.7), 0.0);
     double sum = 0.0, across = 0.0;
@@ -269,10 +269,10 @@ TEST(ContactCycle, SlidesWithTheKineticRatioOpposedToTheSlip) {
 TEST(ContactCycle, FeelsAGrooveByItsHalfAngle) {
   for (const double opening : {60.0, 90.0, 120.0}) {
     const double half = 0.5 * opening * M_PI / 180.0;
-    const AnalyticField<Groove> field(Groove{0.5 * M_PI - half}, kVoxel);
+    const AnalyticField field(Groove{0.5 * M_PI - half}, kVoxel);
     const SampledBody body = ball_body(kBallRadius, 4000);
     const double bottom = kBallRadius / std::sin(half);
-    ContactRun<Groove, true> run(field, body, at({0.0, 0.0, bottom + 0.001}));
+    ContactRun<true> run(field, body, at({0.0, 0.0, bottom + 0.001}));
     double sum = 0.0;
     int count = 0;
     for (int i = 0; i < 600; ++i) {
@@ -288,9 +288,9 @@ TEST(ContactCycle, FeelsAGrooveByItsHalfAngle) {
 }
 
 TEST(ContactCycle, DoesNotCreepUnderATremblingHand) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body();
-  ContactRun<HalfSpace, true> run(field, body, at({0.0, 0.0, 0.016}));
+  ContactRun<true> run(field, body, at({0.0, 0.0, 0.016}));
   const auto quantised = [](double x) { return 5e-6 * std::round(x / 5e-6); };
   Vector3 resting = Vector3::Zero();
   for (int i = 0; i < 10000; ++i) {
@@ -306,9 +306,9 @@ TEST(ContactCycle, DoesNotCreepUnderATremblingHand) {
 }
 
 TEST(ContactCycle, ComesOutWhenItStartsInside) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = ball_body();
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, kBallRadius - 0.003}));
+  ContactRun<> run(field, body, at({0.0, 0.0, kBallRadius - 0.003}));
   run.state.started = false;
   run.state.inside = true;
   const Pose device = run.state.H_WS;
@@ -330,9 +330,9 @@ TEST(ContactCycle, ComesOutWhenItStartsInside) {
 /// The slot is narrower than the ball: both walls push. Along the slot the ball goes with the device; across it stays
 /// near the middle, with a force that grows to the longest way out times the stiffness and does not jump.
 TEST(ContactCycle, StaysInTheMiddleWhereItStartsInsideWithoutAWayOut) {
-  const AnalyticField<Slot> field(Slot{0.018}, kVoxel);
+  const AnalyticField field(Slot{0.018}, kVoxel);
   const SampledBody body = ball_body();
-  ContactRun<Slot> run(field, body, Pose{});
+  ContactRun<> run(field, body, Pose{});
   run.state.started = false;
   run.state.inside = true;
   const double most = 0.25 * kVoxel * run.parameters.stiffness;
@@ -368,20 +368,20 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
       return g;
     }
   };
-  const AnalyticField<HalfSpace> nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kVoxel);
-  const AnalyticField<BoxField> box({}, kVoxel);
+  const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kVoxel);
+  const AnalyticField box(BoxField{}, kVoxel);
   const SampledBody body = box_body(3);
   const SampledBody spike({{{0.0, 0.0, 0.0}}, {{0.0, 0.0, -1.0}}}, Vector3::Ones());
   const Pointshell tip = spike.pointshell();
   const Vector3 tip_W(0.304, 0.007, 0.05);
-  const FeatureContacts<AnalyticField<BoxField>> features{&box, tip, tip_W, 0.05};
+  const FeatureContacts<AnalyticField> features{&box, tip, tip_W, 0.05};
 
   Parameters q;
   q.mass = body.mass;
   q.voxel_size = kVoxel;
   q.margin = kMargin;
   const Pointshell shell = body.pointshell();
-  const ContactScene<AnalyticField<HalfSpace>, AnalyticField<BoxField>> scene(nothing, shell, features, q);
+  const ContactScene<AnalyticField, AnalyticField> scene(nothing, shell, features, q);
   const auto memory = std::make_unique<ContactMemory>();
   memory->search.start(scene, {});
   std::mt19937 random(3);
@@ -403,7 +403,7 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
   EXPECT_EQ(report.contacts, 1u);
   EXPECT_NEAR(BoxField{}.distance(state.H_WS.inverse() * tip_W), kMargin, 1e-5);
   // without the second direction the box does not feel the tip
-  const ContactScene<AnalyticField<HalfSpace>, AnalyticField<BoxField>> one_direction(nothing, shell, {}, q);
+  const ContactScene<AnalyticField, AnalyticField> one_direction(nothing, shell, {}, q);
   ProxyState blind = state;
   CycleInput input;
   input.H_WD = device;
@@ -415,9 +415,9 @@ TEST(ContactCycle, FeelsASpikeBetweenItsSamplePointsByTheSecondDirection) {
 
 /// The rows of points that the motion does not need may be missing: the others hold the body as well.
 TEST(ContactCycle, LosesNoRowThatMattersOfMorePointsThanRows) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body(61);  // 3721 points on the lower face
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.0151}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.0151}));
   int in_contact = 0;
   for (int i = 0; i < 60; ++i) {
     ASSERT_EQ(run.step(at({1e-4 * i, 0.0, 0.012}, {1e-3 * i, 0.0, 0.0})), Status::kOk);
@@ -431,9 +431,9 @@ TEST(ContactCycle, LosesNoRowThatMattersOfMorePointsThanRows) {
 
 /// If each point were damped alone, neighbours on one flat would turn a slow rotation into large opposite forces.
 TEST(ContactCycle, DampsByNoMoreThanTheVelocityAsksFor) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   const SampledBody body = box_body(31);  // the points are 1 to 2 mm apart
-  ContactRun<HalfSpace> run(field, body, at({0.0, 0.0, 0.016}));
+  ContactRun<> run(field, body, at({0.0, 0.0, 0.016}));
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
@@ -506,7 +506,7 @@ TEST(ContactCycle, PushesAtTheContactPointAlongTheNormal) {
   for (int i = 0; i < 30; ++i) {
     const Vector3 n = vector().normalized();
     const HalfSpace plane{n, 0.3};
-    const AnalyticField<HalfSpace> field(plane, kVoxel);
+    const AnalyticField field(plane, kVoxel);
     const Vector3 point = 0.03 * vector().normalized();
     const SampledBody body({{point}, {-point.normalized()}}, Vector3::Constant(1e-4));
     const Vector3 turn = vector();
@@ -514,7 +514,7 @@ TEST(ContactCycle, PushesAtTheContactPointAlongTheNormal) {
     const auto with_point_at = [&](double height) {
       return at(height * n + 0.1 * n.unitOrthogonal() - lever_of_device, turn);
     };
-    ContactRun<HalfSpace> run(field, body, with_point_at(0.301));
+    ContactRun<> run(field, body, with_point_at(0.301));
     const Pose device = with_point_at(0.298);
     for (int cycle = 0; cycle < 300; ++cycle) ASSERT_EQ(run.step(device), Status::kOk);
     const Vector3 lever = run.state.H_WS.rotation._transformVector(point);
@@ -549,12 +549,12 @@ TEST(ContactCycle, PushesAtTheContactPointAlongTheNormal) {
 TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
   const SampledBody body = box_body(7);
   const Pose moved = at({10.0, -3.0, 6.0}, {0.4, -0.7, 1.1});
-  const AnalyticField<HalfSpace> here({}, kVoxel);
+  const AnalyticField here(HalfSpace{}, kVoxel);
   const Vector3 n = moved.rotation._transformVector(Vector3::UnitZ());
-  const AnalyticField<HalfSpace> there(HalfSpace{n, n.dot(moved.translation)}, kVoxel);
+  const AnalyticField there(HalfSpace{n, n.dot(moved.translation)}, kVoxel);
   const Pose start = at({0.0, 0.0, 0.05});
-  ContactRun<HalfSpace, true> one(here, body, start);
-  ContactRun<HalfSpace, true> other(there, body, moved * start);
+  ContactRun<true> one(here, body, start);
+  ContactRun<true> other(there, body, moved * start);
   for (int i = 0; i < 2000; ++i) {
     const double t = 1e-3 * i;
     const Pose device = at({0.05 * std::sin(2.0 * t), 0.02 * t, 0.03 - 0.03 * std::sin(1.5 * t)},

@@ -46,10 +46,10 @@ Pose pose_at(const Vector3& position, const Vector3& turn = Vector3::Zero()) {
   return pose;
 }
 
-template <class Shape, bool kFriction = false>
-struct SubstepRun : AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>> {
-  using Base = AnalyticRun<AnalyticField<Shape>, ContactCycle<kFriction>>;
-  SubstepRun(const AnalyticField<Shape>& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
+template <bool kFriction = false>
+struct SubstepRun : AnalyticRun<AnalyticField, ContactCycle<kFriction>> {
+  using Base = AnalyticRun<AnalyticField, ContactCycle<kFriction>>;
+  SubstepRun(const AnalyticField& f, const SampledBody& b, const Pose& start) : Base(f, b, start) {
     this->parameters.margin = kSubstepMargin;
     this->parameters.friction = {0.2, 0.18, 0.0};
   }
@@ -66,9 +66,9 @@ struct Seen {
 template <bool kFriction>
 Seen expect_one_story(unsigned seed, const WorkspaceBox& workspace) {
   Random random(seed);
-  const AnalyticField<Block> field({}, kSubstepVoxel);
+  const AnalyticField field(Block{}, kSubstepVoxel);
   const SampledBody body = box_body(4);
-  SubstepRun<Block, kFriction> run(field, body, pose_at({0.0, 0.0, 0.06}));
+  SubstepRun<kFriction> run(field, body, pose_at({0.0, 0.0, 0.06}));
   run.parameters.workspace = workspace;
   Pose device = run.state.H_WS;
   Motion velocity;
@@ -160,10 +160,10 @@ TEST(ContactSubsteps, StoreTheMotionOfTheWholeCycle) {
 /// A point slides on the top of a block and past its edge. The device is 0.3 mm below the top. Beyond the edge nothing
 /// holds the point: in the same cycle it goes to the device.
 TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
-  const AnalyticField<Block> field({}, kSubstepVoxel);
+  const AnalyticField field(Block{}, kSubstepVoxel);
   const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
   for (const double begin : {0.0, 1e-4, 2.5e-4, 4e-4}) {
-    SubstepRun<Block> run(field, body, pose_at({0.018 + begin, 0.0, 0.0101}));
+    SubstepRun<> run(field, body, pose_at({0.018 + begin, 0.0, 0.0101}));
     for (int i = 1; i < 10; ++i) {
       const double x = 0.018 + begin + 5e-4 * i;
       ASSERT_EQ(run.step(pose_at({x, 0.0, 0.0097})), Status::kOk);
@@ -185,7 +185,7 @@ TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
 /// there, so that no motion regains the gap. The six faces of the workspace take the place of six rows.
 template <bool kFriction>
 void expect_rows_to_give_way_to_the_faces() {
-  const AnalyticField<HalfSpace> field({}, kSubstepVoxel);
+  const AnalyticField field(HalfSpace{}, kSubstepVoxel);
   SurfaceSamples face;
   for (int i = 0; i < 2048; ++i) {
     face.points.push_back({1e-3 * (i % 64 - 31.5), 1e-3 * (i / 64 - 15.5), -0.015});
@@ -193,7 +193,7 @@ void expect_rows_to_give_way_to_the_faces() {
   }
   const SampledBody body(face, Vector3::Constant(4e-4));
   const double height = 0.015 + 0.5 * kSubstepMargin;
-  SubstepRun<HalfSpace, kFriction> run(field, body, pose_at({0.0, 0.0, height}));
+  SubstepRun<kFriction> run(field, body, pose_at({0.0, 0.0, height}));
   const double inf = std::numeric_limits<double>::infinity();
   run.parameters.workspace = {true, {-inf, -inf, -inf}, {inf, inf, height}};
   for (int i = 1; i <= 20; ++i) {
@@ -215,9 +215,9 @@ TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspaceWithFriction) { expect_rows
 /// A body that starts between walls that push against each other is nowhere held: no contact, no damping, and nothing
 /// for the next cycle. The device is in the middle, so that the spring hardly stretches.
 TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
-  const AnalyticField<Slot> field(Slot{0.018}, kSubstepVoxel);
+  const AnalyticField field(Slot{0.018}, kSubstepVoxel);
   const SampledBody body = ball_body();
-  SubstepRun<Slot, true> run(field, body, Pose{});
+  SubstepRun<true> run(field, body, Pose{});
   run.state.started = false;
   run.state.inside = true;
   for (int i = 0; i < 10; ++i) {
@@ -235,9 +235,9 @@ TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
 
 /// The second direction alone: a tilted block comes to lie on a bed of points 1 mm apart, more than there are rows.
 TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
-  const AnalyticField<HalfSpace> nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
+  const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
   const Block shape{{0.03, 0.02, 0.015}};
-  const AnalyticField<Block> block(shape, kSubstepVoxel);
+  const AnalyticField block(shape, kSubstepVoxel);
   const SampledBody body = box_body(3);
   SurfaceSamples bed;
   for (int y = -30; y <= 30; ++y) {
@@ -249,13 +249,13 @@ TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
   const SampledBody still(bed, Vector3::Ones());
   const Pointshell points = still.pointshell();
   const Vector3 origin_W(0.1, -0.2, 0.3);
-  const FeatureContacts<AnalyticField<Block>> features{&block, points, origin_W, 0.05};
+  const FeatureContacts<AnalyticField> features{&block, points, origin_W, 0.05};
   Parameters q;
   q.mass = body.mass;
   q.voxel_size = kSubstepVoxel;
   q.margin = kSubstepMargin;
   const Pointshell shell = body.pointshell();
-  const ContactScene<AnalyticField<HalfSpace>, AnalyticField<Block>> scene(nothing, shell, features, q);
+  const ContactScene<AnalyticField, AnalyticField> scene(nothing, shell, features, q);
   const auto memory = std::make_unique<ContactMemory>();
   memory->search.start(scene, {});
   ProxyState state;
@@ -325,10 +325,10 @@ struct EdgeCycle {
 TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
   const EdgeSet moving({{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}});
   const EdgeSet still({{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}});
-  const AnalyticField<FarBelow> field({}, kSubstepVoxel);
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
   const SampledBody body = box_body(2);
   for (const double step : {2e-5, 3e-4, 8e-3}) {
-    AnalyticRun<AnalyticField<FarBelow>, EdgeCycle> run(field, body, pose_at({0.0, 0.0, 0.02}));
+    AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, 0.02}));
     run.parameters.margin = kSubstepMargin;
     run.cycle.edges = {moving.view(), still.view()};
     for (double z = 0.02; z > -0.003; z -= step) ASSERT_EQ(run.step(pose_at({0.0, 0.0, z})), Status::kOk);
@@ -353,11 +353,11 @@ struct Slope {
 /// In a wedge between a slope and a face of the workspace a lost margin is regained 50 times as far along the wedge. No
 /// cycle leads by more than a margin farther from the device than rest, and the margin is regained in the end.
 TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
-  const AnalyticField<Slope> field({}, kVoxel);
+  const AnalyticField field(Slope{}, kVoxel);
   const SampledBody body({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Constant(1e-4));
   for (const double depth : {1e-4, 1e-3}) {
     const double lost = 0.75 * kMargin;
-    SubstepRun<Slope> run(field, body, at((kMargin - lost) * Slope().normal));
+    SubstepRun<> run(field, body, at((kMargin - lost) * Slope().normal));
     run.parameters.workspace = {.limited = true, .low = Vector3::Constant(-1.0), .high = Vector3(1.0, 1.0, 1.0)};
     run.parameters.workspace.high.z() = run.state.H_WS.translation.z();
     const Pose device = at(run.state.H_WS.translation - Vector3(0.0, 0.0, depth));
@@ -398,9 +398,9 @@ TEST(ContactSubsteps, DrawAnEdgeOverAnEdgeWithoutCatching) {
   const SampledBody body(samples, Vector3(3e-4, 5e-4, 6e-4));
   const EdgeSet moving({{-0.04 * along, 0.04 * along}});
   const EdgeSet still({{Vector3(0.0, -0.1, 0.0), Vector3(0.0, 0.1, 0.0)}});
-  const AnalyticField<TableEdge> field({}, kSubstepVoxel);
+  const AnalyticField field(TableEdge{}, kSubstepVoxel);
   for (const auto& [step, bound] : {std::pair(4e-6, 1e-3), std::pair(3e-5, 1e-3), std::pair(2.1e-4, 0.1)}) {
-    AnalyticRun<AnalyticField<TableEdge>, EdgeCycle> run(field, body, pose_at(1e-3 * out));
+    AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at(1e-3 * out));
     run.parameters.margin = kSubstepMargin;
     run.cycle.edges = {moving.view(), still.view()};
     for (double depth = -1e-3; depth < 3e-3; depth += 2e-5) ASSERT_EQ(run.step(pose_at(-depth * out)), Status::kOk);

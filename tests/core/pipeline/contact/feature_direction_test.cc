@@ -19,10 +19,10 @@ const Vector3 kTip(0.304, -0.107, 0.05);  // in W; the frame of the points begin
 const Vector3 kOrigin(0.3, -0.1, 0.04);
 
 /// A body whose surface is only a field. The still body is one point.
-template <class Shape>
 class OnATip {
  public:
-  explicit OnATip(const Shape& shape, const Pose& start)
+  template <class Shape>
+  OnATip(const Shape& shape, const Pose& start)
       : field_(shape, kFeatureVoxel),
         tip_({{kTip - kOrigin}, {{0.0, 0.0, -1.0}}}, Vector3::Ones()),
         tip_shell_(tip_.pointshell()),
@@ -51,13 +51,13 @@ class OnATip {
 
  private:
   Parameters q_;
-  AnalyticField<HalfSpace> nothing_{HalfSpace{Vector3::UnitZ(), -1.0}, kFeatureVoxel};
-  AnalyticField<Shape> field_;
+  AnalyticField nothing_{HalfSpace{Vector3::UnitZ(), -1.0}, kFeatureVoxel};
+  AnalyticField field_;
   SampledBody body_ = ball_body(0.02, 50);
   SampledBody tip_;
   Pointshell tip_shell_;
   Pointshell body_shell_;
-  ContactScene<AnalyticField<HalfSpace>, AnalyticField<Shape>> scene_;
+  ContactScene<AnalyticField, AnalyticField> scene_;
   std::unique_ptr<ContactMemory> memory_ = std::make_unique<ContactMemory>();
 };
 
@@ -72,7 +72,7 @@ TEST(FeatureDirection, HoldsABallOffATipAlongTheLineToTheDevice) {
   for (int i = 0; i < 20; ++i) {
     const Vector3 away = vector().normalized();
     const Vector3 turn = vector();
-    OnATip<Ball> run({Vector3::Zero(), kRadius}, pose(kTip + 0.03 * away, turn));
+    OnATip run(Ball{Vector3::Zero(), kRadius}, pose(kTip + 0.03 * away, turn));
     const Vector3 device = kTip + 0.012 * away;
     for (int cycle = 0; cycle < 100; ++cycle) ASSERT_EQ(run.step(pose(device, turn)), Status::kOk);
     const Vector3 expected = kTip + (kRadius + kFeatureMargin) * away;
@@ -96,7 +96,7 @@ TEST(FeatureDirection, PushesAtTheTipAlongTheNormal) {
     const Vector3 away = vector().normalized();
     const Vector3 turn = 0.5 * vector();
     const Quaternion R = exp_rotation(turn);
-    OnATip<Ball> run(shape, pose(kTip + 0.035 * away - R._transformVector(shape.center), turn));
+    OnATip run(shape, pose(kTip + 0.035 * away - R._transformVector(shape.center), turn));
     const Pose device = pose(kTip + 0.014 * away - R._transformVector(shape.center), turn);
     for (int cycle = 0; cycle < 1000; ++cycle) ASSERT_EQ(run.step(device), Status::kOk);
     ASSERT_EQ(run.report.outcome, Outcome::kContact);
@@ -115,7 +115,7 @@ TEST(FeatureDirection, DampsTheVelocityTowardsTheTip) {
   const Vector3 away = Vector3(1.0, 2.0, -2.0) / 3.0;
   const Vector3 along = away.cross(Vector3::UnitX()).normalized();
   const Vector3 turn(0.3, -0.8, 0.5);
-  OnATip<Ball> run({Vector3::Zero(), 0.02}, pose(kTip + 0.03 * away, turn));
+  OnATip run(Ball{Vector3::Zero(), 0.02}, pose(kTip + 0.03 * away, turn));
   const Pose device = pose(kTip + 0.012 * away, turn);
   for (int cycle = 0; cycle < 100; ++cycle) ASSERT_EQ(run.step(device), Status::kOk);
   const auto damping = [&](const Vector3& velocity) {
@@ -137,7 +137,7 @@ TEST(FeatureDirection, LetsNoTipThroughAPlate) {
   constexpr double kThickness = 0.002;
   for (const double speed : {2e-4, 2e-3, 2e-2}) {  // [m] a cycle
     const double side = speed == 2e-3 ? -1.0 : 1.0;
-    OnATip<Plate> run({kThickness}, pose(kTip - Vector3(0.0, 0.0, 0.01 * side), Vector3::Zero()));
+    OnATip run(Plate{kThickness}, pose(kTip - Vector3(0.0, 0.0, 0.01 * side), Vector3::Zero()));
     double z = -0.01 * side;
     double direction = side;
     int held = 0;

@@ -147,7 +147,7 @@ TEST(FindNear, FindsTheFeaturePointsAndTheirRows) {
 
 /// Points that find no place limit the motion to their clearance, and are counted; so are rows.
 TEST(FindNear, CountsThePointsThatFindNoPlace) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   constexpr int kPoints = static_cast<int>(NearPoints::kCapacity) + 100;
   std::vector<Vector3> points, normals;
   for (int i = 0; i < kPoints; ++i) {
@@ -178,7 +178,7 @@ TEST(FindNear, CountsThePointsThatFindNoPlace) {
 
 /// Points without a look-up limit the motion to the bound of their clearance, over the stretch of the direction.
 TEST(FindNear, CountsThePointsBeyondTheBudget) {
-  const AnalyticField<HalfSpace> field({}, kVoxel);
+  const AnalyticField field(HalfSpace{}, kVoxel);
   std::vector<Vector3> points, normals;
   for (int i = 0; i < 30; ++i) {
     points.push_back({1e-3 * i, 0.0, 1e-3 + 1e-5 * i});

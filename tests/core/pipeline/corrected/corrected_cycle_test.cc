@@ -25,7 +25,7 @@ struct ThickBall {
     return p.norm() < 0.05 ? Vector3(Vector3::Zero()) : Vector3(2.0 * p.normalized());
   }
 };
-using World = AnalyticField<ThickBall>;
+using World = AnalyticField;
 
 struct SlowResult {
   Pose H_WS;
@@ -158,12 +158,12 @@ TEST(Corrected, IsAPlainLoopOverAllPointsWithFriction) { expect_plain_loop<true>
 
 /// A point exactly on the safety layer, 0.25 m above the floor, does not touch it.
 TEST(Corrected, FollowsTheDeviceToTheLastBitOnTheEdgeOfTheLayer) {
-  const AnalyticField<HalfSpace> floor(HalfSpace{}, kVoxel);
+  const AnalyticField floor(HalfSpace{}, kVoxel);
   const SampledBody point({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero());
   Pose start;
   start.translation = Vector3(0.1, 0.2, 0.25);
   start.rotation = exp_rotation(Vector3(0.3, 0.2, 0.1));
-  AnalyticRun<AnalyticField<HalfSpace>, CorrectedCycle<false>> run(floor, point, start);
+  AnalyticRun<AnalyticField, CorrectedCycle<false>> run(floor, point, start);
   run.parameters.safety_distance = 0.25;
   const Pose device = start * set_matrix({Vector3(0.001, 0.002, -0.003), Vector3(0.01, 0.02, 0.03)});
   ASSERT_EQ(run.step(device), Status::kOk);
@@ -172,14 +172,14 @@ TEST(Corrected, FollowsTheDeviceToTheLastBitOnTheEdgeOfTheLayer) {
   EXPECT_EQ(run.report.contacts, 0u);
 }
 
-/// By hand: free air 13 mm below the ball, d = 3 mm. The device dives through the floor: 1.5 mm plus the distance to the
-/// layer in the first sub-step, then 1.5 mm at most in each of seven.
+/// By hand: free air 13 mm below the ball, d = 3 mm. The device dives through the floor: 1.5 mm plus the distance to
+/// the layer in the first sub-step, then 1.5 mm at most in each of seven.
 TEST(Corrected, SplitsADiveIntoEightSubsteps) {
-  const AnalyticField<HalfSpace> floor(HalfSpace{}, kVoxel);
+  const AnalyticField floor(HalfSpace{}, kVoxel);
   const SampledBody ball = ball_body();
   Pose start;
   start.translation.z() = 0.033;
-  AnalyticRun<AnalyticField<HalfSpace>, CorrectedCycle<false>> run(floor, ball, start);
+  AnalyticRun<AnalyticField, CorrectedCycle<false>> run(floor, ball, start);
   Pose device = start;
   device.translation.z() = -0.5;
   ASSERT_EQ(run.step(device), Status::kOk);
@@ -195,11 +195,11 @@ TEST(Corrected, SplitsADiveIntoEightSubsteps) {
 }
 
 TEST(Corrected, ChangesNoMemoryIfTheCycleFails) {
-  const AnalyticField<HalfSpace> floor(HalfSpace{}, kVoxel);
+  const AnalyticField floor(HalfSpace{}, kVoxel);
   const SampledBody ball = ball_body();
   Pose start;
   start.translation.z() = 0.019;
-  AnalyticRun<AnalyticField<HalfSpace>, CorrectedCycle<true>> run(floor, ball, start);
+  AnalyticRun<AnalyticField, CorrectedCycle<true>> run(floor, ball, start);
   run.parameters.friction = {0.2, 0.18, 0.0};
   Pose device = start;
   device.translation += Vector3(0.0003, 0.0, -0.001);
@@ -219,7 +219,7 @@ TEST(Corrected, ChangesNoMemoryIfTheCycleFails) {
 std::int64_t clock_ns = 0;
 std::int64_t read_clock() noexcept { return ++clock_ns; }
 
-class SlowField : public AnalyticField<HalfSpace> {
+class SlowField : public AnalyticField {
  public:
   using AnalyticField::AnalyticField;
   FieldSample sample(const Vector3& p) const noexcept {
@@ -272,9 +272,8 @@ TEST(StepTimes, CountTheLookUpsOfCorrected) {
   ProjectionState memory;
   expect_times(
       [&](const SlowField& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
-          ProxyState& state, CycleReport& report, StepTimes* times) {
-        return corrected_cycle<false>(field, shell, q, input, memory, state, report, times);
-      },
+          ProxyState& state, CycleReport& report,
+          StepTimes* times) { return corrected_cycle<false>(field, shell, q, input, memory, state, report, times); },
       false);
 }
 

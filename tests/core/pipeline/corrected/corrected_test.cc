@@ -12,7 +12,7 @@
 namespace godobject::test {
 namespace {
 
-using Floor = AnalyticField<HalfSpace>;
+using Floor = AnalyticField;
 using PlainRun = AnalyticRun<Floor, CorrectedCycle<false>>;
 using FrictionRun = AnalyticRun<Floor, CorrectedCycle<true>>;
 
@@ -85,9 +85,9 @@ TEST(Projection, IsTheNearestOfTheAllowedMotions) {
 
 /// The walls on both sides are a tenth of a millimetre away from the ball. Their forces cancel and leave no direction.
 TEST(Projection, FollowsBetweenOpposingContactsWithoutLeavingThem) {
-  const AnalyticField<Slot> slot(Slot{kBallRadius + 1e-4}, kRunVoxel);
+  const AnalyticField slot(Slot{kBallRadius + 1e-4}, kRunVoxel);
   const SampledBody ball = ball_body();
-  AnalyticRun<AnalyticField<Slot>, CorrectedCycle<false>> run(slot, ball, Pose{});
+  AnalyticRun<AnalyticField, CorrectedCycle<false>> run(slot, ball, Pose{});
   for (int k = 0; k < 4000; ++k) {
     ASSERT_EQ(run.step(at(0.0, 1e-5 * k)), Status::kOk);
     ASSERT_LT(std::fabs(run.state.H_WS.translation.x()), 2e-4);
@@ -113,12 +113,12 @@ TEST(Corrected, StaysOutOfAFloorWithinATenthOfAVoxel) {
 }
 
 TEST(Corrected, StaysOnABallWithinATenthOfAVoxelWhileItSlidesAround) {
-  const AnalyticField<Ball> world(Ball{Vector3::Zero(), 0.1}, kRunVoxel);
+  const AnalyticField world(Ball{Vector3::Zero(), 0.1}, kRunVoxel);
   const SampledBody ball = ball_body();
   const auto pose = [](double angle, double distance) {
     return at(distance * std::sin(angle), distance * std::cos(angle));
   };
-  AnalyticRun<AnalyticField<Ball>, CorrectedCycle<false>> run(world, ball, pose(0.0, 0.13));
+  AnalyticRun<AnalyticField, CorrectedCycle<false>> run(world, ball, pose(0.0, 0.13));
   double deepest = 0.0;
   for (int k = 0; k < 4000; ++k) {
     const double distance = 0.13 - std::min(0.015, 3e-5 * k);
@@ -271,12 +271,12 @@ TEST(Corrected, HoldsAStaticContactWithinAMicrometreInTenSeconds) {
 }
 
 TEST(Corrected, IsFiniteAndBoundedUnderJumpsOfTheDevice) {
-  const AnalyticField<Plate> plate(Plate{}, kRunVoxel);
+  const AnalyticField plate(Plate{}, kRunVoxel);
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   for (const SampledBody& body :
        {ball_body(), box_body(), SampledBody({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero())}) {
-    AnalyticRun<AnalyticField<Plate>, CorrectedCycle<true>> run(plate, body, at(0.0, 0.1));
+    AnalyticRun<AnalyticField, CorrectedCycle<true>> run(plate, body, at(0.0, 0.1));
     run.parameters.friction = {0.2, 0.18, 1.0};
     for (int k = 0; k < 2000; ++k) {
       Pose device;

@@ -256,7 +256,7 @@ TEST(ProxyFilter, IsThePrintedOneForAnyPoses) {
 template <bool kFriction>
 void expect_printed_cycle(unsigned seed) {
   Random random(seed);
-  const AnalyticField<Ball> world(Ball{Vector3(0.01, -0.02, 0.03), 0.1}, kEdge);
+  const AnalyticField world(Ball{Vector3(0.01, -0.02, 0.03), 0.1}, kEdge);
   const SampledBody body = box_body(5);
   const Vector3 edges(0.06, 0.04, 0.03);
   const Vector3 squares = edges.cwiseAbs2();
@@ -265,7 +265,7 @@ void expect_printed_cycle(unsigned seed) {
   for (int i = 0; i < 1500; ++i) {
     Pose start = set_matrix(random.motion(0.0, 3.0));
     start.translation = Vector3(0.01, -0.02, 0.03) + random.between(0.11, 0.14) * random.direction();
-    AnalyticRun<AnalyticField<Ball>, PaperCycle<kFriction>> run(world, body, start);
+    AnalyticRun<AnalyticField, PaperCycle<kFriction>> run(world, body, start);
     Parameters& q = run.parameters;
     q.safety_distance = random.between(0.001, 0.005);
     q.period = random.between(5e-4, 2e-3);

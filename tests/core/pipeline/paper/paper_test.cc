@@ -11,7 +11,7 @@
 namespace godobject::test {
 namespace {
 
-using Floor = AnalyticField<HalfSpace>;
+using Floor = AnalyticField;
 using PaperRun = AnalyticRun<Floor, PaperCycle<false>>;
 
 constexpr double kBallRadius = 0.02;

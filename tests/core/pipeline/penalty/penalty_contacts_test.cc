@@ -37,7 +37,7 @@ class TreeBody {
   }
 
   Pointshell shell() const {
-    return {points_[0].size(),  points_[0].data(),  points_[1].data(), points_[2].data(),
+    return {points_[0].size(),  points_[0].data(),  points_[1].data(),  points_[2].data(),
             normals_[0].data(), normals_[1].data(), normals_[2].data(), {nodes_.data(), nodes_.size()}};
   }
 
@@ -69,8 +69,7 @@ class TreeBody {
     node.leaf = is_leaf ? 1 : 0;
   }
   Vector3 point(std::uint32_t i) const {
-    return {static_cast<double>(points_[0][i]), static_cast<double>(points_[1][i]),
-            static_cast<double>(points_[2][i])};
+    return {static_cast<double>(points_[0][i]), static_cast<double>(points_[1][i]), static_cast<double>(points_[2][i])};
   }
 
   std::vector<float> points_[3];
@@ -79,7 +78,7 @@ class TreeBody {
 };
 
 /// Counts the look-ups of a ball.
-class CountingField : public AnalyticField<Ball> {
+class CountingField : public AnalyticField {
  public:
   CountingField() : AnalyticField(Ball{Vector3::Zero(), 0.1}, kVoxel) {}
   FieldSample sample(const Vector3& p) const noexcept {
@@ -174,7 +173,8 @@ TEST(PenaltyContacts, AreThoseOfAllPoints) {
   EXPECT_GT(touching, 300);
 }
 
-/// The points that a visit leaves out are no nearer than it says, and it visits no leaf that is farther than the cutoff.
+/// The points that a visit leaves out are no nearer than it says, and it visits no leaf that is farther than the
+/// cutoff.
 TEST(VisitPointsBelow, FindsAllNearPointsAndBoundsTheOthers) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
@@ -291,7 +291,7 @@ struct AnyGradient {
 TEST(PenaltyContacts, HaveNoNormalWhereTheFieldIsFlat) {
   const Vector3 direction(0.0, 0.6, 0.8);
   for (const double length : {0.0, 0.9e-3, 1.1e-3, 0.5, 2.0}) {
-    const AnalyticField<AnyGradient> field(AnyGradient{length * direction}, kVoxel);
+    const AnalyticField field(AnyGradient{length * direction}, kVoxel);
     const Vector3 p_W(0.001, 5.0, 7.0);
     const PointPenetration point = DistancePenetration::at(field, Pointshell{}, 0, p_W, Matrix3::Identity(), 0.003);
     EXPECT_NEAR(point.value, 0.002, 1e-15);
@@ -301,7 +301,7 @@ TEST(PenaltyContacts, HaveNoNormalWhereTheFieldIsFlat) {
 
 /// A point exactly on the safety layer does not touch. All numbers are exact in binary.
 TEST(PenaltyContacts, BeginWithinTheLayer) {
-  const AnalyticField<HalfSpace> floor(HalfSpace{}, kVoxel);
+  const AnalyticField floor(HalfSpace{}, kVoxel);
   const SampledBody point({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Zero());
   Pose pose;
   pose.translation.z() = 0.25;

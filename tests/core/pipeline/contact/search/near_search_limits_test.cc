@@ -24,9 +24,8 @@ constexpr double kTick = kLongestMotion / 64.0;   // of the calendar
 constexpr double kFieldRounding = 1e-5 * kVoxel;  // that the search allows for
 
 /// A field that counts its look-ups. Its clearance falls `slope` times as fast as the distance.
-template <class Shape>
 struct CountedField {
-  AnalyticField<Shape> field;
+  AnalyticField field;
   double slope = 1.0;
   mutable int bounds = 0;
   mutable int exact = 0;
@@ -102,11 +101,11 @@ TEST(NearSearch, KnowsToATickHowFarAPointMayGo) {
   const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Ones());
   const Pointshell shell = body.pointshell();
   for (const double slope : {1.0, 1.5}) {
-    const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel), slope};
+    const CountedField field{AnalyticField(HalfSpace{}, kVoxel), slope};
     for (const bool remembers : {false, true}) {
       for (const double h : {0.0101, 0.0177, 0.05}) {
         for (const double travelled : {0.0, 0.25}) {
-          Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, remembers);
+          Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, remembers);
           at.find(height(h), travelled, kLongestMotion);
           ASSERT_TRUE(at.near.empty());
           const double error = remembers ? kTick : 1e-9;
@@ -124,9 +123,9 @@ TEST(NearSearch, KnowsToATickHowFarAPointMayGo) {
 /// A near point makes nothing certain.
 TEST(NearSearch, ProvesNothingBesideANearPoint) {
   const Pointshell& shell = ball_shell();
-  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
   for (const bool remembers : {false, true}) {
-    Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, remembers);
+    Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, remembers);
     at.find(height(0.0205), 0.0, 0.001);
     ASSERT_FALSE(at.near.empty());
     EXPECT_FALSE(at.search.is_free(0.0, 0.001));
@@ -139,12 +138,12 @@ TEST(NearSearch, ProvesNothingBesideANearPoint) {
 TEST(NearSearch, CountsTheLeverOfAPointThatTheFieldPasses) {
   const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Ones());
   const Pointshell shell = body.pointshell();
-  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
   detail::FeatureDirection direction;
   direction.sphere = {Vector3(0.01, 0.0, 0.0), 0.02};
   for (const bool remembers : {false, true}) {
     for (const double h : {0.01, 0.04}) {
-      Searcher<CountedField<HalfSpace>, detail::FeatureDirection> at(field, shell, direction, remembers);
+      Searcher<CountedField, detail::FeatureDirection> at(field, shell, direction, remembers);
       Pose H = height(h);
       H.translation.x() = 0.21;
       at.find(H, 0.0, 1e-6);
@@ -160,9 +159,9 @@ TEST(NearSearch, CountsTheLeverOfAPointThatTheFieldPasses) {
 TEST(NearSearch, KnowsWithoutMemoryTheNearestOfAllPoints) {
   Random random(5);
   const Pointshell& shell = ball_shell();
-  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
   for (int trial = 0; trial < 100; ++trial) {
-    Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, false);
+    Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, false);
     Pose H = height(random.between(0.0235, 0.06));
     H.rotation = exp_rotation(random.in_cube(2.0));
     const double radius = random.between(0.0, kLongestMotion);
@@ -180,8 +179,8 @@ template <class Shape>
 void expect_true_claims(const Shape& shape, bool remembers, unsigned seed) {
   Random random(seed);
   const Pointshell& shell = ball_shell();
-  const AnalyticField<Shape> field(shape, kVoxel);
-  Searcher<AnalyticField<Shape>, detail::SampleDirection> at(field, shell, {}, remembers);
+  const AnalyticField field(shape, kVoxel);
+  Searcher<AnalyticField, detail::SampleDirection> at(field, shell, {}, remembers);
   Odometer odometer;
   Pose H = height(0.024);
   int free = 0, near = 0;
@@ -229,8 +228,8 @@ struct Work {
 template <class Motion>
 Work work_of(int steps, const Motion& pose_at) {
   const Pointshell& shell = ball_shell();
-  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
-  Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, true);
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, true);
   Odometer odometer;
   for (int step = 0; step < steps; ++step) {
     const Pose H = pose_at(step);
@@ -357,10 +356,10 @@ TEST(NearestFirst, TakesTheFarthestClassToo) {
 /// The search reports a bound for every point that may be near and was not looked up, and no other.
 TEST(NearSearch, LeavesOutNoPointWithoutItsBound) {
   const Pointshell& shell = ball_shell();
-  const CountedField<HalfSpace> field{AnalyticField<HalfSpace>({}, kVoxel)};
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
   for (const std::uint32_t points : {0u, 1u, 5u, 40u, 1000u}) {
     for (const double always : {0.0, 1e-4, 5e-4}) {
-      Searcher<CountedField<HalfSpace>, detail::SampleDirection> at(field, shell, {}, true);
+      Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, true);
       Odometer odometer;
       for (int step = 0; step < 50; ++step) {
         Pose H = height(0.0203 - 1e-5 * (step % 20));

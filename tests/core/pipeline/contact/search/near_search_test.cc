@@ -205,7 +205,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
 TEST(NearSearch, KeepsItsBudgetNearestFirst) {
   const SceneImage image = ball_over_plate();
   const SceneView scene = open_scene(image);
-  const Counted<Voxelmap> field{scene.voxelmap};
+  const Counted field{scene.voxelmap};
   const Pointshell& shell = scene.pointshell;
   const double longest = field.assured_clearance();
   std::vector<std::uint32_t> memory(NearSearch::memory(shell));
@@ -254,7 +254,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
 TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   const SceneImage image = ball_over_plate();
   const SceneView scene = open_scene(image);
-  const Counted<Voxelmap> field{scene.voxelmap};
+  const Counted field{scene.voxelmap};
   std::vector<std::uint32_t> memory(NearSearch::memory(scene.pointshell));
   NearSearch search;
   const double longest = field.assured_clearance();
@@ -272,7 +272,7 @@ TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
 }
 
 TEST(NearSearch, KnowsForHowLongNothingComesNear) {
-  const AnalyticField<HalfSpace> field({}, 0.002);
+  const AnalyticField field(HalfSpace{}, 0.002);
   const SampledBody body = ball_body();
   constexpr double kLongest = 0.003;
   std::vector<std::uint32_t> memory(NearSearch::memory(body.pointshell()));
