@@ -233,6 +233,29 @@ TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
   }
 }
 
+/// Two faces of 2500 points each, more than there are rows, between walls closer than twice the margin: no motion
+/// regains both margins. The device turns, so that points without a row have to be added, and no gap shrinks.
+TEST(ContactSubsteps, CallWallsThatPushAgainstMorePointsThanRowsInfeasible) {
+  const double gap = 0.5 * kSubstepMargin;
+  const AnalyticField field(Slot{0.015 + gap}, kSubstepVoxel);
+  SurfaceSamples faces;
+  for (int i = 0; i < 5000; ++i) {
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    faces.points.push_back({0.015 * side, 1e-3 * (i / 2 % 50 - 24.5), 1e-3 * (i / 100 - 24.5)});
+    faces.normals.push_back({-side, 0.0, 0.0});
+  }
+  const SampledBody body(faces, Vector3::Constant(4e-4));
+  SubstepRun<> run(field, body, Pose{});
+  for (int i = 1; i <= 30; ++i) {
+    const double angle = 2.0 * M_PI * i / 30.0;
+    const Vector3 turn = 0.05 * Vector3(0.0, std::cos(angle), std::sin(angle));
+    ASSERT_EQ(run.step(pose_at({0.0, 1e-4 * i, 0.0}, turn)), Status::kOk);
+    EXPECT_EQ(run.report.outcome, Outcome::kInfeasible) << i;
+    ASSERT_LT(run.depth(), -0.9 * gap) << i;
+    EXPECT_NEAR(run.state.H_WS.translation.y(), 1e-4 * i, 1e-6) << "nothing holds it along the walls";
+  }
+}
+
 /// The second direction alone: a tilted block comes to lie on a bed of points 1 mm apart, more than there are rows.
 TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
   const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
