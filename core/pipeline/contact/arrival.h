@@ -133,7 +133,8 @@ EndGaps end_gaps(const ContactScene<Field, BodyField>& scene, const Pose& H0, co
     const Vector3 displacement = step.motion.translation + step.motion.rotation.cross(force.point);
     const double increase = force.normal.dot(displacement);
     const double expected = expected_distance(scene.lengths, start, steepness * increase);
-    const double friction = share * force.ratio * force.slip.dot(displacement);
+    const Vector3 of_grip = step.motion.translation + step.motion.rotation.cross(force.grip);
+    const double friction = share * force.ratio * force.slip.dot(of_grip);
     gaps.energy += 2.0 * force.multiplier * ((expected - end.at_end.distance) / steepness - increase + friction);
     const double lacks = start + share * (expected - start) - end.at_end.distance;
     if (!(lacks > gaps.most)) continue;

@@ -12,6 +12,7 @@
 #include "core/pipeline/contact/contact_scene.h"
 #include "core/pipeline/contact/edge_certificate.h"
 #include "core/pipeline/contact/edge_rows.h"
+#include "core/pipeline/contact/even_pressure.h"
 #include "core/pipeline/contact/implied_rows.h"
 #include "core/pipeline/contact/motion_share.h"
 #include "core/pipeline/contact/overlap.h"
@@ -42,7 +43,9 @@ class ContactSubsteps {
         step_(memory.workspace.step),
         times_(times),
         wanted_(unconstrained_motion(state.H_WS, input.H_WD)),
-        last_motion_(memory.last_step.motion) {
+        last_motion_(memory.last_step.motion),
+        friction_(scene.friction) {
+    friction_.face_thickness = lengths_.margin;
     step_ = memory.last_step;
     memory.path.clear();
     result_.H_WS = state.H_WS;
@@ -102,6 +105,9 @@ class ContactSubsteps {
   /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4. Then rows that
   /// edge pairs imply are dropped, and rows that found no room are added, if the motion would violate them.
   void constrain() noexcept {
+    if constexpr (kFriction) {
+      friction_.patches = patches_of(step_, memory_.workspace.samples, *scene_.shell, lengths_);
+    }
     solve_in_best_metric();
     for (int round = 0; round < kMostImpliedRounds && !step_.infeasible && drop_implied_rows(); ++round) {
       solve_in_best_metric();
@@ -368,7 +374,7 @@ class ContactSubsteps {
 
   void solve_rows() noexcept {
     const WorkspaceBox& box = scene_.parameters->workspace;
-    const ContactFriction* const friction = kFriction ? &scene_.friction : nullptr;
+    const ContactFriction* const friction = kFriction ? &friction_ : nullptr;
     if (!box.limited) return least_constraint(rows_, aim_, metric_, friction, last_motion_, step_);
     if (!kFriction) {
       least_constraint(rows_, aim_, metric_, nullptr, last_motion_, step_);
@@ -643,6 +649,7 @@ class ContactSubsteps {
   // state of the cycle
   ContactResult result_;
   Motion last_motion_;
+  ContactFriction friction_;  // with the faces that carried load before
   Motion whole_;
   Budget budget_;
   std::uint32_t free_substeps_ = 0;

@@ -23,8 +23,8 @@ void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexce
   Vector6 sum = Vector6::Zero();
   for (std::size_t i = 0; i < all.count; ++i) {
     const ContactForce& force = all.force[i];
-    const Vector3 push = force.normal - force.ratio * force.slip;
-    c[i] << push, force.point.cross(push) / gyration;
+    const Vector3 drag = -force.ratio * force.slip;
+    c[i] << force.normal + drag, (force.point.cross(force.normal) + force.grip.cross(drag)) / gyration;
     sum += force.multiplier * c[i];
   }
   Basis basis;

@@ -9,7 +9,9 @@ ContactForce force_of(const ContactSet& set, int half_space) noexcept {
   force.point = set.rows().point(tag.row);
   force.normal = set.rows().normal(tag.row);
   force.slip = tag.slip;
-  force.ratio = set.contact_count() == 0 ? 0.0 : set.contact_of(half_space).ratio;
+  const bool has_friction = set.contact_count() > 0;
+  force.grip = has_friction ? set.contact_of(half_space).grip : force.point;
+  force.ratio = has_friction ? set.contact_of(half_space).ratio : 0.0;
   force.multiplier = set.active()[half_space].multiplier;
   return force;
 }

@@ -21,12 +21,13 @@ using ActiveSet = DualActiveSet<ContactTag>;
 
 /// A contact point that carries load with friction. While it is open, its row is excluded from the scan. Its half
 /// spaces
-///     (n - mu d) . v >= required gain - mu shift,   v = x + r x point,   d a unit direction of slip or zero
+///     n . (x + r x point) - mu d . (x + r x grip) >= required gain - mu shift,   d a unit direction of slip or zero
 /// represent it in the active set: one if it slips, up to three if it sticks.
 struct Contact {
   std::uint32_t row = ContactRows::kNone;
   Vector3 normal;              ///< n, unit, in S
   Vector3 point;               ///< in S [m]
+  Vector3 grip;                ///< the point at which friction acts, in S (ContactPatches) [m]
   double required_gain = 0.0;  ///< [m]
   double ratio = 0.0;          ///< mu
   double shift = 0.0;          ///< |slip| by which the cone is shifted [m]
@@ -78,12 +79,13 @@ class ContactSet {
   ContactRows::Violated most_violated(const Motion& m) const noexcept {
     return rows_.most_violated(m, metric_.tolerance);
   }
-  /// Returns the displacement of the contact point in the motion `m`.
+  /// Returns the displacement in the motion `m`: along the normal that of the contact point, across it that of its
+  /// grip.
   Slip slip_of(const Contact& contact, const Motion& m) const noexcept {
-    const Vector3 v = m.translation + m.rotation.cross(contact.point);
     Slip slip;
-    slip.approach = contact.normal.dot(v);
-    const Vector3 tangential = v - slip.approach * contact.normal;
+    slip.approach = contact.normal.dot(m.translation + m.rotation.cross(contact.point));
+    const Vector3 v = m.translation + m.rotation.cross(contact.grip);
+    const Vector3 tangential = v - contact.normal.dot(v) * contact.normal;
     slip.speed = tangential.norm();
     if (slip.speed > metric_.still) slip.direction = tangential / slip.speed;
     return slip;
@@ -93,7 +95,7 @@ class ContactSet {
 
   /// Returns the half space n . v >= required gain of a row.
   ActiveSet::Inequality row_half_space(std::uint32_t row) const noexcept;
-  /// Returns the half space (n - mu d) . v >= required gain - mu shift of a contact, for d = `slip`.
+  /// Returns the half space of a contact's cone for d = `slip`.
   ActiveSet::Inequality cone_half_space(int contact, const Vector3& slip) const noexcept;
 
   /// Makes the row a contact without shift and returns its number. The caller must add a half space of it.

@@ -12,7 +12,7 @@ double ContactSet::ratio_of(const Contact& contact) const noexcept {
 ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vector3& slip) const noexcept {
   const Contact& c = contact(contact_index);
   ActiveSet::Inequality half_space;
-  half_space.gradient = space_.gradient(c.normal - c.ratio * slip, c.point);
+  half_space.gradient = space_.gradient(c.normal, c.point, -c.ratio * slip, c.grip);
   half_space.rhs = c.required_gain - c.ratio * c.shift;
   half_space.tag = {c.row, contact_index, slip};
   return half_space;
@@ -20,9 +20,12 @@ ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vecto
 
 int ContactSet::open(std::uint32_t row) noexcept {
   Contact& c = contact(contact_count_);
+  const Vector3 normal = rows_.normal(row).normalized();  // in single precision it would tilt a slip of nanometres
+  const Vector3 point = rows_.point(row);
   c = {.row = row,
-       .normal = rows_.normal(row).normalized(),  // a normal in single precision would tilt a slip of nanometres
-       .point = rows_.point(row),
+       .normal = normal,
+       .point = point,
+       .grip = friction_->patches.grip(normal, point, friction_->face_thickness),
        .required_gain = static_cast<double>(rows_.required_gain[row])};
   c.ratio = ratio_of(c);
   rows_.required_gain[row] = -FLT_MAX;

@@ -42,14 +42,14 @@ void assemble(const ContactSet& set, const Vector6& target, NewtonSystem& system
     const auto at = static_cast<std::size_t>(j);
     const Contact& c = set.contact_of(j);
     const Vector3& slip = active[j].tag.slip;
-    system.force[at] = set.space().gradient(c.normal - c.ratio * slip, c.point);
+    system.force[at] = set.space().gradient(c.normal, c.point, -c.ratio * slip, c.grip);
     row[at] = c.slips ? set.space().gradient(c.normal, c.point) : system.force[at];
     across[at] = -1;
     const double stiffness = c.ratio * active[j].multiplier;
     if (c.slips && stiffness > 0.0) {
       across[at] = equations.size++;
       compliance[at] = c.speed / stiffness;
-      system.force[static_cast<std::size_t>(across[at])] = set.space().gradient(c.normal.cross(slip), c.point);
+      system.force[static_cast<std::size_t>(across[at])] = set.space().gradient(c.normal.cross(slip), c.grip);
     }
   }
   for (int j = 0; j < n; ++j) {
@@ -78,8 +78,8 @@ void set_viscous_metric(ContactSet& set) noexcept {
     for (int j = 0; j < active.size(); ++j) {
       if (active[j].tag.contact == k) share += active[j].multiplier / load;
     }
-    Matrix3 cross;  // v = x + r x P = x - P x r
-    cross << 0.0, -c.point.z(), c.point.y(), c.point.z(), 0.0, -c.point.x(), -c.point.y(), c.point.x(), 0.0;
+    Matrix3 cross;  // v = x + r x P = x - P x r at the grip P
+    cross << 0.0, -c.grip.z(), c.grip.y(), c.grip.z(), 0.0, -c.grip.x(), -c.grip.y(), c.grip.x(), 0.0;
     Eigen::Matrix<double, 3, 6> velocity;
     velocity << Matrix3::Identity(), -cross / set.space().gyration();
     const Eigen::Matrix<double, 3, 6> tangential = velocity - c.normal * (c.normal.transpose() * velocity);

@@ -31,6 +31,13 @@ class CouplingSpace {
     c << push, point.cross(push) / gyration_;
     return whitened_ ? Vector6(whiten_ * c) : c;
   }
+  /// Returns the sum of the gradients of two pushes.
+  Vector6 gradient(const Vector3& push, const Vector3& point, const Vector3& other,
+                   const Vector3& other_point) const noexcept {
+    Vector6 c;
+    c << push + other, (point.cross(push) + other_point.cross(other)) / gyration_;
+    return whitened_ ? Vector6(whiten_ * c) : c;
+  }
   /// Returns the target z of a force H (x, rho r).
   Vector6 target(const Vector6& load) const noexcept { return whitened_ ? Vector6(whiten_ * load) : load; }
   /// Returns (x, rho r) of z [m].

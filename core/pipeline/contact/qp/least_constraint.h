@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/pipeline/contact/qp/contact_patches.h"
 #include "core/pipeline/contact/qp/contact_rows.h"
 #include "godobject/pose.h"
 
@@ -10,16 +11,19 @@ namespace godobject {
 
 /// The coefficients of Coulomb and viscous friction at every contact.
 struct ContactFriction {
-  double static_ratio = 0.0;   ///< mu_s [1]
-  double kinetic_ratio = 0.0;  ///< mu_k <= mu_s [1]
-  double viscous_step = 0.0;   ///< mu_v / (k_D k_VC,x T) [1]: the contacts share it in proportion to their loads
+  double static_ratio = 0.0;    ///< mu_s [1]
+  double kinetic_ratio = 0.0;   ///< mu_k <= mu_s [1]
+  double viscous_step = 0.0;    ///< mu_v / (k_D k_VC,x T) [1]: the contacts share it in proportion to their loads
+  double face_thickness = 0.0;  ///< of ContactPatches::grip [m]
+  ContactPatches patches = {};  ///< on which friction acts nearer to the load's centre
 };
 
-/// A contact force on the god object, multiplier (normal - ratio slip) at `point`: a ray of the friction cone of a
-/// contact point, which may have several. In S.
+/// A contact force on the god object: multiplier normal at `point`, and -multiplier ratio slip at `grip`. A ray of the
+/// friction cone of a contact point, which may have several. In S.
 struct ContactForce {
   std::uint32_t id = 0;              ///< of the contact point
   Vector3 point = Vector3::Zero();   ///< [m]
+  Vector3 grip = Vector3::Zero();    ///< [m]
   Vector3 normal = Vector3::Zero();  ///< unit
   Vector3 slip = Vector3::Zero();    ///< unit direction of slip that it opposes; zero: the normal alone
   double ratio = 0.0;                ///< mu [1]

@@ -70,7 +70,7 @@ bool crawls(const ContactSet& set, const ConstrainedStep& step) noexcept {
   const Motion& last = set.last();
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
     const ContactForce& force = step.forces[i];
-    const Vector3 v = last.translation + last.rotation.cross(force.point);
+    const Vector3 v = last.translation + last.rotation.cross(force.grip);
     const double speed = (v - force.normal.dot(v) * force.normal).norm();
     const double held_back = set.friction()->kinetic_ratio * force.multiplier;
     if (speed > set.metric().still + kCrawl * held_back) return false;

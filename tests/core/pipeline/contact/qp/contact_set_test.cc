@@ -101,10 +101,12 @@ TEST(ContactSet, SplitsTheDisplacementOfAPointByItsNormal) {
     Contact contact;
     contact.normal = random.direction();
     contact.point = random.in_cube(0.05);
+    contact.grip = random.in_cube(0.05);
     const Motion m = random.motion(0.01, 0.1);
     const Slip slip = set.slip_of(contact, m);
-    EXPECT_LT((slip.approach * contact.normal + slip.speed * slip.direction - velocity(m, contact.point)).norm(),
-              1e-16);
+    const Vector3 v = velocity(m, contact.grip);
+    EXPECT_NEAR(slip.approach, contact.normal.dot(velocity(m, contact.point)), 1e-16);
+    EXPECT_LT((slip.speed * slip.direction - v + contact.normal.dot(v) * contact.normal).norm(), 1e-16);
     EXPECT_NEAR(slip.direction.norm(), 1.0, 1e-12);
     EXPECT_NEAR(slip.direction.dot(contact.normal), 0.0, 1e-9);
   }
@@ -334,10 +336,10 @@ Vector6 sum_of(const ConstrainedStep& step, double gyration) {
   Vector6 sum = Vector6::Zero();
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
     const ContactForce& f = step.forces[j];
-    const Vector3 push = f.multiplier * (f.normal - f.ratio * f.slip);
+    const Vector3 drag = -f.ratio * f.slip;
     Vector6 c;
-    c << push, f.point.cross(push) / gyration;
-    sum += c;
+    c << f.normal + drag, (f.point.cross(f.normal) + f.grip.cross(drag)) / gyration;
+    sum += f.multiplier * c;
   }
   return sum;
 }
@@ -408,6 +410,7 @@ ContactForce random_force(Random& random, std::uint32_t id) {
   ContactForce force;
   force.id = id;
   force.point = random.in_cube(0.05);
+  force.grip = random.in_cube(0.05);
   force.normal = random.direction();
   force.slip =
       random.integer(0, 1) == 0 ? Vector3::Zero() : Vector3(force.normal.cross(random.direction()).normalized());
@@ -478,7 +481,7 @@ TEST(CombinedForces, CancelWhereTheyOpposeEachOther) {
   set.active().at(0).multiplier = 6.0;
   ConstrainedStep step;
   for (std::uint32_t j = 0; j < 6; ++j) {
-    step.forces[j] = {1 + j, Vector3::Zero(), -Vector3::UnitZ(), Vector3::Zero(), 0.0, 1.0};
+    step.forces[j] = {1 + j, Vector3::Zero(), Vector3::Zero(), -Vector3::UnitZ(), Vector3::Zero(), 0.0, 1.0};
   }
   step.force_count = 6;
   detail::add_forces(set, step);
@@ -502,7 +505,7 @@ TEST(CombinedForces, KeepTheSumOfForcesInOnePlane) {
     }
     ConstrainedStep step, other;
     for (std::uint32_t j = 0; j < 5; ++j) {
-      step.forces[j] = {j, Vector3::Zero(), normal(), Vector3::Zero(), 0.0, random.between(0.0, 1.0)};
+      step.forces[j] = {j, Vector3::Zero(), Vector3::Zero(), normal(), Vector3::Zero(), 0.0, random.between(0.0, 1.0)};
     }
     step.force_count = 5;
     detail::take_forces(set, other);

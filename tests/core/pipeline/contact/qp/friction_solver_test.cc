@@ -125,7 +125,7 @@ TEST(SolveWithFriction, SetsAllFlagsOfTheStep) {
         ConstrainedStep step;
         step.force_count = step.contact_count = 3;
         for (std::uint32_t j = 0; j < 3; ++j)
-          step.forces[j] = {9 + j, Vector3::Zero(), Vector3::UnitZ(), Vector3::Zero(), 0.5, 1.0};
+          step.forces[j] = {9 + j, Vector3::Zero(), Vector3::Zero(), Vector3::UnitZ(), Vector3::Zero(), 0.5, 1.0};
         step.iterations = 77;
         step.follows = step.infeasible = step.unconverged = true;
         least_constraint(*p.rows, p.wanted, kMetric, with_friction ? &p.friction : nullptr, p.last, step);

@@ -870,6 +870,7 @@ TEST(LeastConstraintFriction, LeadsNoFartherThanRest) {
   warm.force_count = 1;
   warm.forces[0] = {0,
                     tip,
+                    tip,
                     wedge.rows->normal(0),
                     {-0.13891518949517556, -0.81556779783941546, 0.56173991958457581},
                     0.77723188555836231,

@@ -239,8 +239,10 @@ TEST(Crawls, ComparesTheSlipWithTheMotionThatFrictionPrevented) {
   for (const double share : {0.0, 0.99, 1.01, 3.0}) {
     ConstrainedStep step;
     step.force_count = 2;
-    step.forces[0] = {0, Vector3(0.0, 0.0, 0.0), Vector3::UnitZ(), Vector3::Zero(), 0.25, 0.004};
-    step.forces[1] = {1, Vector3(0.01, 0.0, 0.0), Vector3::UnitZ(), Vector3::Zero(), 0.25, 0.004};
+    step.forces[0] = {0,    Vector3(0.0, 0.0, 0.0), Vector3(0.0, 0.0, 0.0), Vector3::UnitZ(), Vector3::Zero(), 0.25,
+                      0.004};
+    step.forces[1] = {1,    Vector3(0.01, 0.0, 0.0), Vector3(0.01, 0.0, 0.0), Vector3::UnitZ(), Vector3::Zero(), 0.25,
+                      0.004};
     bench.last = {Vector3(0.0, 0.0, 5.0), Vector3(0.0, 0.0, share * limit / 0.01)};  // the second point slips
     ContactSet set = bench.set();
     EXPECT_EQ(detail::crawls(set, step), share < 1.0) << share;

@@ -1,0 +1,283 @@
+#include "core/pipeline/contact/even_pressure.h"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "core/pipeline/contact/contact_scene.h"
+#include "tests/support/analytic_worlds.h"
+#include "tests/support/random.h"
+
+namespace godobject {
+namespace {
+
+using test::AnalyticField;
+using test::AnalyticRun;
+using test::ContactCycle;
+using test::HalfSpace;
+using test::Random;
+using test::SampledBody;
+using test::SurfaceSamples;
+
+constexpr double kMargin = 2e-5;
+constexpr double kVoxel = 0.002;
+constexpr double kBottom = -0.01;
+
+/// The lower face of a box, its corners and its edges, whose normals lie between those of the faces. The edges have ten
+/// times as many points as the face.
+SurfaceSamples lower_face(double length, double width, int per_length = 41, int per_width = 31) {
+  SurfaceSamples samples;
+  const auto add = [&](double x, double y, const Vector3& into) {
+    samples.points.push_back({x, y, kBottom});
+    samples.normals.push_back(into.normalized());
+  };
+  for (int j = 0; j < per_width; ++j) {
+    for (int i = 0; i < per_length; ++i) {
+      add(length * ((i + 0.5) / per_length - 0.5), width * ((j + 0.5) / per_width - 0.5), Vector3::UnitZ());
+    }
+  }
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 0; i <= 10 * per_length; ++i) {
+      add(length * (i / (10.0 * per_length) - 0.5), 0.5 * width * side, {0.0, -side, 1.0});
+    }
+    for (int j = 0; j <= 10 * per_width; ++j) {
+      add(0.5 * length * side, width * (j / (10.0 * per_width) - 0.5), {-side, 0.0, 1.0});
+    }
+  }
+  return samples;
+}
+
+/// Returns the mean distance from `centre` under the linear pressure on a rectangle with that centre: by a fine sum,
+/// and by the pressure's equations, not those of the code. Where the pressure would be negative the face does not
+/// carry.
+double mean_distance(double length, double width, const Eigen::Vector2d& centre) {
+  const double x2 = length * length / 12.0;  // second moments of a rectangle
+  const double y2 = width * width / 12.0;
+  double pressure = 0.0, moment = 0.0;
+  constexpr int kParts = 400;
+  for (int i = 0; i < kParts; ++i) {
+    for (int j = 0; j < kParts; ++j) {
+      const double x = length * ((i + 0.5) / kParts - 0.5);
+      const double y = width * ((j + 0.5) / kParts - 0.5);
+      const double p = 1.0 + centre.x() * x / x2 + centre.y() * y / y2;
+      if (p <= 0.0) continue;
+      pressure += p;
+      moment += p * std::hypot(x - centre.x(), y - centre.y());
+    }
+  }
+  return moment / pressure;
+}
+
+/// Sample points that touch a floor, and the forces of the last cycle.
+class OnFace {
+ public:
+  explicit OnFace(const SurfaceSamples& samples) : body_(samples, Vector3::Ones()), shell_(body_.pointshell()) {
+    for (std::uint32_t i = 0; i < shell_.size; ++i) touch(i, kMargin);
+  }
+
+  void touch(std::uint32_t i, double distance) {
+    near_->index[near_->count] = i;
+    const Vector3 p = shell_.point(i);
+    near_->x[near_->count] = static_cast<float>(p.x());
+    near_->y[near_->count] = static_cast<float>(p.y());
+    near_->z[near_->count] = static_cast<float>(p.z());
+    near_->distance[near_->count++] = distance;
+  }
+  void push(const Vector3& point, double load, const Vector3& normal = Vector3::UnitZ()) {
+    ContactForce& force = step.forces[step.force_count++];
+    force.point = force.grip = point;
+    force.normal = normal;
+    force.multiplier = load;
+  }
+  ContactPatches patches() const {
+    Parameters q;
+    q.margin = kMargin;
+    q.voxel_size = kVoxel;
+    return detail::patches_of(step, *near_, shell_, ContactLengths::make(q));
+  }
+  NearPoints& near() { return *near_; }
+  Pointshell& shell() { return shell_; }
+
+  ConstrainedStep step;
+
+ private:
+  SampledBody body_;
+  Pointshell shell_;
+  std::unique_ptr<NearPoints> near_ = std::make_unique<NearPoints>();
+};
+
+/// Corners carry the load of a rectangle. Its centre moves over the face; beyond a sixth of the length the linear
+/// pressure does not reach the far side.
+TEST(EvenPressure, IsLinearOverARectangleThatCornersHold) {
+  constexpr double kLength = 0.04, kWidth = 0.03;
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    OnFace on(lower_face(kLength, kWidth));
+    const double u = i == 0 ? 0.5 : random.between(0.36, 0.64);  // of length and width
+    const double v = i == 0 ? 0.5 : random.between(0.36, 0.64);
+    const auto corner = [&](double x, double y) { return Vector3(kLength * x, kWidth * y, kBottom); };
+    on.push(corner(-0.5, -0.5), (1.0 - u) * (1.0 - v));
+    on.push(corner(0.5, -0.5), u * (1.0 - v));
+    on.push(corner(-0.5, 0.5), (1.0 - u) * v);
+    on.push(corner(0.5, 0.5), u * v);
+    const ContactPatches patches = on.patches();
+    ASSERT_EQ(patches.count, 1u);
+    const ContactPatch& face = patches.patch[0];
+    const Eigen::Vector2d centre(kLength * (u - 0.5), kWidth * (v - 0.5));
+    EXPECT_LT((face.centre - Vector3(centre.x(), centre.y(), kBottom)).norm(), 1e-8);
+    double of_forces = 0.0;
+    for (std::uint32_t j = 0; j < 4; ++j) {
+      of_forces += on.step.forces[j].multiplier * (on.step.forces[j].point - face.centre).norm();
+    }
+    const double expected = mean_distance(kLength, kWidth, centre) / of_forces;
+    EXPECT_NEAR(face.share, expected, 0.01 * expected) << u << " " << v;
+    // the points' friction acts on the lines to the centre, in the plane
+    for (std::uint32_t j = 0; j < 4; ++j) {
+      const Vector3 p = on.step.forces[j].point;
+      const Vector3 grip = patches.grip(Vector3::UnitZ(), p, kMargin);
+      EXPECT_LT((grip - face.centre - face.share * (p - face.centre)).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(EvenPressure, NeedsAFaceAndSeveralForces) {
+  const SurfaceSamples face = lower_face(0.04, 0.03);
+  {
+    OnFace on(face);
+    on.push({0.01, 0.0, kBottom}, 1.0);
+    EXPECT_EQ(on.patches().count, 0u) << "one force";
+    on.push({0.01, 0.0, kBottom}, 1.0);
+    EXPECT_EQ(on.patches().count, 0u) << "two forces at one point";
+    on.push({-0.01, 0.01, kBottom}, 1.0, {0.1, 0.0, std::sqrt(0.99)});
+    EXPECT_EQ(on.patches().count, 0u) << "another normal";
+    on.push({-0.01, 0.01, kBottom + 2.0 * kMargin}, 1.0);
+    EXPECT_EQ(on.patches().count, 0u) << "another plane";
+    on.push({-0.01, 0.01, kBottom}, 1.0);
+    EXPECT_EQ(on.patches().count, 1u);
+    on.near().count = 11;
+    EXPECT_EQ(on.patches().count, 0u) << "too few points";
+  }
+  OnFace on(face);
+  on.push({0.02, 0.015, kBottom}, 1.0);
+  on.push({-0.02, -0.015, kBottom}, 1.0);
+  EXPECT_EQ(on.patches().count, 1u);
+  for (std::uint32_t k = 0; k < on.near().count; ++k) on.near().distance[k] = 2.1 * kMargin;
+  EXPECT_EQ(on.patches().count, 0u) << "nothing touches";
+  for (std::uint32_t k = 0; k < on.near().count; ++k) {
+    on.near().distance[k] = kMargin;
+    on.near().y[k] = 0.0f;
+  }
+  EXPECT_EQ(on.patches().count, 0u) << "points on a line";
+}
+
+/// Where the image has no normals, points of edges count as well: the share is larger, at most 1.
+TEST(EvenPressure, TakesAllPointsWithoutNormals) {
+  OnFace on(lower_face(0.04, 0.03));
+  on.push({0.02, 0.015, kBottom}, 1.0);
+  on.push({-0.02, -0.015, kBottom}, 1.0);
+  const double with = on.patches().patch[0].share;
+  on.shell().normal_x = nullptr;
+  const double without = on.patches().patch[0].share;
+  EXPECT_GT(without, with);
+  EXPECT_LE(without, 1.0);
+}
+
+/// Forces inside of the face never act farther out than they are.
+TEST(EvenPressure, LeavesForcesNearTheCentreWhereTheyAre) {
+  OnFace on(lower_face(0.04, 0.03));
+  on.push({0.004, 0.003, kBottom}, 1.0);
+  on.push({-0.004, -0.003, kBottom}, 1.0);
+  const ContactPatches patches = on.patches();
+  ASSERT_EQ(patches.count, 1u);
+  EXPECT_EQ(patches.patch[0].share, 1.0);
+}
+
+/// Two faces at right angles, as in a corner.
+TEST(EvenPressure, TellsTwoFacesApart) {
+  SurfaceSamples samples = lower_face(0.04, 0.03);
+  const std::size_t count = samples.points.size();
+  for (std::size_t i = 0; i < count; ++i) {  // the same face again, standing at x = 0.02
+    const Vector3 p = samples.points[i];
+    const Vector3 n = samples.normals[i];
+    samples.points.push_back({0.02, p.y(), p.x() + 0.01});
+    samples.normals.push_back({-n.z(), n.y(), n.x()});
+  }
+  OnFace on(samples);
+  on.push({-0.02, -0.015, kBottom}, 1.0);
+  on.push({0.02, -0.015, 0.03}, 3.0, -Vector3::UnitX());
+  on.push({0.02, 0.015, kBottom}, 1.0);
+  on.push({0.02, 0.015, -0.01}, 1.0, -Vector3::UnitX());
+  const ContactPatches patches = on.patches();
+  ASSERT_EQ(patches.count, 2u);
+  EXPECT_LT((patches.patch[0].centre - Vector3(0.0, 0.0, kBottom)).norm(), 1e-8);
+  EXPECT_LT((patches.patch[1].centre - Vector3(0.02, -0.0075, 0.02)).norm(), 1e-8);
+  EXPECT_EQ(patches.grip(Vector3::UnitY(), {0.0, 0.0, kBottom}, kMargin), Vector3(0.0, 0.0, kBottom));
+  EXPECT_EQ(patches.grip(Vector3::UnitZ(), {0.01, 0.0, 0.0}, kMargin), Vector3(0.01, 0.0, 0.0)) << "above the face";
+  EXPECT_NE(patches.grip(Vector3::UnitZ(), {0.01, 0.0, kBottom}, kMargin), Vector3(0.01, 0.0, kBottom));
+}
+
+/// A pressed face that turns about its normal resists with the torque of even pressure,
+///     mu N times the mean distance of the face's points from its middle,
+/// and a face that slides with mu N. The corners alone would resist with 1.88 times that torque.
+TEST(EvenPressure, TurnsAFaceWithTheTorqueOfEvenPressure) {
+  constexpr double kLength = 0.04, kWidth = 0.03, kRatio = 0.3;
+  const AnalyticField floor(HalfSpace{}, kVoxel);
+  SurfaceSamples samples = lower_face(kLength, kWidth, 30, 23);
+  const SampledBody body(samples, Vector3::Constant(2e-4));
+  Pose start;
+  start.translation.z() = kMargin - kBottom;
+  for (const double offset : {0.0, 0.003}) {  // of the load's centre from the middle
+    AnalyticRun<AnalyticField, ContactCycle<true>> run(floor, body, start);
+    run.parameters.margin = kMargin;
+    run.parameters.friction = {kRatio, kRatio, 0.0};
+    const auto device = [&](double angle) {
+      Pose pose = start;
+      pose.translation.z() -= 0.006;
+      // a small turn about y moves the load's centre along x
+      const double k = run.parameters.coupling_translation / run.parameters.coupling_rotation;
+      pose.rotation = exp_rotation(Vector3(0.0, 0.0, angle)) * exp_rotation(Vector3(0.0, 0.006 * offset * k, 0.0));
+      return pose;
+    };
+    for (int i = 0; i < 50; ++i) ASSERT_EQ(run.step(device(0.0)), Status::kOk);
+    for (int i = 0; i < 1000; ++i) ASSERT_EQ(run.step(device(5e-4 * i)), Status::kOk);
+    const Wrench& wrench = run.report.force.spring_W;
+    const Vector3 lever = run.state.H_WS.rotation._transformVector(Vector3(0.0, 0.0, kBottom));
+    const double load = wrench.force.z();
+    const Vector3 at_face = wrench.torque - lever.cross(wrench.force);
+    const Eigen::Vector2d centre(-at_face.y() / load, at_face.x() / load);
+    ASSERT_NEAR(centre.norm(), offset, 2e-4);
+    // in the frame of the face; the torque about the load's centre
+    const Vector3 to_centre(centre.x(), centre.y(), 0.0);
+    const double torque = (at_face - to_centre.cross(wrench.force)).z();
+    const Vector3 in_face = run.state.H_WS.rotation.conjugate()._transformVector(to_centre);
+    const double even = kRatio * load * mean_distance(kLength, kWidth, in_face.head<2>());
+    EXPECT_NEAR(std::fabs(torque), even, 0.05 * even) << offset;
+    EXPECT_FALSE(run.report.unconverged);
+  }
+}
+
+/// The friction of a face that slides without turning is mu N against the motion, whatever its shape.
+TEST(EvenPressure, LeavesSlidingFrictionAsItIs) {
+  constexpr double kRatio = 0.3;
+  const AnalyticField floor(HalfSpace{}, kVoxel);
+  const SampledBody body(lower_face(0.04, 0.03, 30, 23), Vector3::Constant(2e-4));
+  Pose start;
+  start.translation.z() = kMargin - kBottom;
+  AnalyticRun<AnalyticField, ContactCycle<true>> run(floor, body, start);
+  run.parameters.margin = kMargin;
+  run.parameters.friction = {kRatio, kRatio, 0.0};
+  for (int i = 0; i < 300; ++i) {
+    Pose device = start;
+    device.translation += Vector3(1e-4 * i, 0.0, -0.004);
+    ASSERT_EQ(run.step(device), Status::kOk);
+  }
+  const Vector3& force = run.report.force.spring_W.force;
+  EXPECT_NEAR(force.x(), -kRatio * force.z(), 1e-3 * force.z());
+  EXPECT_NEAR(force.y(), 0.0, 1e-3 * force.z());
+}
+
+}  // namespace
+}  // namespace godobject
