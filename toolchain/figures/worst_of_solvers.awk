@@ -4,7 +4,7 @@
 BEGIN { FS = "," }
 NR == 1 {
   for (i = 1; i <= NF; i++) at[$i] = i
-  print "solver,deepest point [mm],behind the plate [mm],force step [N],#1 [us],#2-#7 [us],cycles over 1 ms"
+  print "solver,deepest point [mm],behind the plate [mm],force step [N],look-ups [us],solver [us],cycles over 1 ms"
   next
 }
 {
