@@ -50,8 +50,9 @@ the other steps #2-#7; and a status:
                 moves out, with contact by up to a quarter of a voxel in a cycle, otherwise by a fifth of its depth.
                 Where the field has no direction it follows the device without force
   cut           the motion did not end in eight sub-steps, or an obstacle stopped it: it continues in the next cycle
-  overflow      contact only: more points near the surface than rows, or than the scene's point_budget allows; the god
-                object moves only as far as the other points are known to be free
+  overflow      contact only: more near points or near pairs of sharp edges than there is room for, or more near points
+                than the scene's point_budget allows; the god object moves only as far as the other ones are known to
+                be free
   infeasible    contact only: the required gaps cannot all be reached at once; none was allowed to shrink
   bad_input     the row was no pose (NaN, Inf, quaternion not of unit length): the god object was held, force and torque
                 are zero, exit code 65 at the end

@@ -59,8 +59,8 @@ struct SecondDirection {
   std::uint32_t found() const { return corners + on_edges + on_faces; }  ///< features before trimming
 };
 
-/// Most sharp edges of a body that edge against edge takes by default. Chosen: a thread has thousands, and more near
-/// pairs than NearEdges has room for.
+/// Most sharp edges of a body that edge against edge takes by default. Chosen: a thread has thousands of sharp edges,
+/// which make a cycle slow.
 inline constexpr std::uint32_t kMostEdgesByDefault = 1024;
 
 /// Findings about edge against edge: the sharp edges that the image stores.

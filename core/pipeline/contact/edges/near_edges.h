@@ -54,7 +54,7 @@ inline EdgeGap gap_at(const EdgeContacts& edges, const EdgePair& pair, const Pos
 
 /// The near pairs of a sub-step: those whose gap is below the search radius at the start of the motion.
 struct NearEdges {
-  /// Most near pairs. Chosen: 26 KiB; two threads that touch along a turn have some 40.
+  /// Most near pairs. Chosen: 26 KiB. Two threads have more; the pairs that find no room limit the motion.
   static constexpr std::uint32_t kCapacity = 256;
 
   std::uint32_t count = 0;
