@@ -11,7 +11,7 @@ configure_seven_joints() {  # fd|classical
       sed "s|^\[bus\]|[bus]\nfd = true|" firmware/devices/lwr.toml >"$device_file"
       compute=0.00045 ;;
     classical)
-      awk '/^bus = / { print "bus = " int(joints++ / 2); next } /^panel_bus = / { print "panel_bus = 3"; next } { print }' \
+      awk '/^bus = / { print "bus = " int((joints++) / 2); next } /^panel_bus = / { print "panel_bus = 3"; next } { print }' \
         firmware/devices/lwr.toml >"$device_file"
       compute=0.00035
       use_buses vcan0 vcan1 vcan2 vcan3 ;;

@@ -19,7 +19,7 @@ enum class Outcome : std::uint8_t {
   kContact,      ///< contacts constrain the god object
   kStartInside,  ///< the first pose penetrated, and the god object has not come out yet
   kCut,         ///< the motion was shortened so as not to jump over the surface; the remainder waits for the next cycle
-  kOverflow,    ///< `contact`: near points that matter found no row, or exceeded the workspace or the budget
+  kOverflow,    ///< `contact`: near points or edges that matter found no room, or exceeded the budget
   kBadInput,    ///< the input was refused; the god object stayed and the force is zero
   kInfeasible,  ///< `contact`: the constraints had no common solution; no gap was allowed to shrink
 };
