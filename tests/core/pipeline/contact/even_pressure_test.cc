@@ -51,8 +51,8 @@ SurfaceSamples lower_face(double length, double width, int per_length = 41, int 
 }
 
 /// Returns the mean distance from `centre` under the linear pressure on a rectangle with that centre: by a fine sum,
-/// and by the pressure's equations, not those of the code. Where the pressure would be negative the face does not
-/// carry.
+/// and by the pressure's equations, not those of the code. Negative pressure
+/// counts as none.
 double mean_distance(double length, double width, const Eigen::Vector2d& centre) {
   const double x2 = length * length / 12.0;  // second moments of a rectangle
   const double y2 = width * width / 12.0;
