@@ -37,7 +37,7 @@ class FinishContact : public ::testing::Test {
     return finish_contact(input_, result_, step_, q_, ContactLengths::make(q_), *memory_, state_, report_);
   }
   void push(const Vector3& normal, const Vector3& point, double multiplier) {
-    step_.forces[step_.force_count++] = {step_.force_count, point, normal, Vector3::Zero(), 0.0, multiplier};
+    step_.forces[step_.force_count++] = {step_.force_count, point, point, normal, Vector3::Zero(), 0.0, multiplier};
     step_.contact_count = step_.force_count;
   }
 
