@@ -23,19 +23,21 @@ using Eigen::Vector3d;
 
 class EdgeContact : public test::FolderTest {
  protected:
-  void compile(const TriangleMesh& still, const TriangleMesh& moving, double voxel_size, int points) {
+  /// `friction`: mu; 0: none.
+  void compile(const TriangleMesh& still, const TriangleMesh& moving, double voxel_size, int points,
+               double friction = 0.0) {
     std::ofstream(folder_ / "still.obj") << test::obj_text(still);
     std::ofstream(folder_ / "moving.obj") << test::obj_text(moving);
     std::ofstream(folder_ / "scene.toml") << fmt::format(
         "[still]\nmesh = \"still.obj\"\nvoxel_size = {}\n[moving]\nmesh = \"moving.obj\"\npoints = {}\nlevels = 4\n"
-        "[contact]\nedges = true\nboth_directions = false\n",
-        voxel_size, points);
+        "[contact]\nedges = true\nboth_directions = false\n{}",
+        voxel_size, points, friction == 0.0 ? "" : fmt::format("[friction]\nstatic = {0}\nkinetic = {0}\n", friction));
     CompileRequest request;
     request.scene_file = folder_ / "scene.toml";
     request.output = folder_ / "out.scene";
     compile_scene(request);
     image_ = std::make_unique<files::SceneImage>(files::SceneImage::read(request.output));
-    ASSERT_EQ(god_object_.start(image_->scene, Solver::kContact, false), Status::kOk);
+    ASSERT_EQ(god_object_.start(image_->scene, Solver::kContact, friction > 0.0), Status::kOk);
   }
 
   CycleReport move_to(const Vector3d& p, const Quaternion& rotation = Quaternion::Identity()) {
@@ -86,6 +88,52 @@ TEST_F(EdgeContact, LetsEdgesPassOverTheBorderOfAFace) {
       const CycleReport report = move_to({x, 0.0, 0.005});
       ASSERT_NEAR(report.force.spring_W.force.x(), 0.0, 0.02 * 10.0) << "at " << x << " with steps of " << step;
       ASSERT_NEAR(report.force.spring_W.force.z(), 10.0, 0.1) << "at " << x << " with steps of " << step;
+    }
+  }
+}
+
+/// A face that is pressed on a table and turns resists with the torque of even pressure: mu N times the least mean
+/// distance of its places. The load's centre is below the device. Over the edge of the table only a part of it touches,
+/// and the pressure grows towards the edge.
+TEST_F(EdgeContact, TurnsAFaceWithTheTorqueOfEvenPressure) {
+  constexpr double kRatio = 0.3;
+  constexpr double kPressed = 0.004;
+  for (const auto& [voxel_size, points] : {std::pair{0.002, 1500}, {0.002, 300}, {0.004, 300}}) {
+    compile(test::box_mesh({0.2, 0.1, 0.04}, {-0.1, -0.05, -0.04}), test::box_mesh({0.04, 0.03, 0.02}), voxel_size,
+            points, kRatio);
+    for (const double x : {0.0, 0.086, 0.089}) {
+      god_object_->reset();
+      for (int k = 0; k <= 100; ++k) move_to({x, 0.0, 0.0102 - (0.0002 + kPressed) * k / 100});
+      CycleReport report;
+      for (int k = 0; k < 500; ++k) {
+        report = move_to({x, 0.0, 0.01 - kPressed}, exp_rotation(Vector3d(0.0, 0.0, 2e-5 * k)));
+        ASSERT_EQ(report.outcome, Outcome::kContact);
+      }
+      // linear over the part on the table, from the back of the box to the edge, with its centre at x
+      const double back = -0.02;
+      const double front = std::min(0.02, 0.1 - x);
+      const double middle = 0.5 * (back + front);
+      const double variance = (front - back) * (front - back) / 12.0;
+      double least = 1.0;  // the box turns about the place where the mean distance is least
+      for (int k = -40; k <= 40; ++k) {
+        constexpr int kParts = 100;
+        double pressure = 0.0;
+        double moment = 0.0;
+        for (int i = 0; i < kParts; ++i) {
+          const double along = back + (front - back) * (i + 0.5) / kParts;
+          const double here = std::max(0.0, 1.0 - middle * (along - middle) / variance);
+          for (int j = 0; j < kParts; ++j) {
+            pressure += here;
+            moment += here * std::hypot(along - 2e-4 * k, 0.03 * ((j + 0.5) / kParts - 0.5));
+          }
+        }
+        least = std::min(least, moment / pressure);
+      }
+      const double expected = kRatio * report.force.spring_W.force.z() * least;
+      // over the edge four or five forces, of points and of edge pairs, share the load
+      const double tolerance = x == 0.0 ? 0.05 : 0.1;
+      EXPECT_NEAR(-report.force.spring_W.torque.z(), expected, tolerance * expected)
+          << x << " m, voxels of " << voxel_size << " m, " << points << " points";
     }
   }
 }

@@ -106,7 +106,7 @@ class ContactSubsteps {
   /// edge pairs imply are dropped, and rows that found no room are added, if the motion would violate them.
   void constrain() noexcept {
     if constexpr (kFriction) {
-      friction_.patches = patches_of(step_, memory_.workspace.samples, *scene_.shell, lengths_);
+      friction_.patches = patches_of(step_, memory_.workspace.samples, lengths_);
     }
     solve_in_best_metric();
     for (int round = 0; round < kMostImpliedRounds && !step_.infeasible && drop_implied_rows(); ++round) {

@@ -50,25 +50,51 @@ SurfaceSamples lower_face(double length, double width, int per_length = 41, int 
   return samples;
 }
 
-/// Returns the mean distance from `centre` under the linear pressure on a rectangle with that centre: by a fine sum,
-/// and by the pressure's equations, not those of the code. Negative pressure
-/// counts as none.
+/// Places of a face with their shares of the load.
+struct Load {
+  std::vector<Eigen::Vector2d> at;
+  std::vector<double> share;
+
+  /// Returns the least mean distance from any place: by Weiszfeld's method until it does not move.
+  double least_mean_distance() const {
+    Eigen::Vector2d x = Eigen::Vector2d::Zero();
+    double whole = 0.0;
+    for (const double here : share) whole += here;
+    double mean = 0.0;
+    for (int k = 0; k < 60; ++k) {
+      Eigen::Vector2d next = Eigen::Vector2d::Zero();
+      double weights = 0.0;
+      mean = 0.0;
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const double distance = std::max((at[i] - x).norm(), 1e-9);
+        mean += share[i] / whole * distance;
+        weights += share[i] / distance;
+        next += share[i] / distance * at[i];
+      }
+      x = next / weights;
+    }
+    return mean;
+  }
+};
+
+/// Returns the least mean distance under the linear pressure with the centre `centre` on a rectangle: by a fine sum,
+/// and by the pressure's equations, not those of the code. Negative pressure counts as none.
 double mean_distance(double length, double width, const Eigen::Vector2d& centre) {
   const double x2 = length * length / 12.0;  // second moments of a rectangle
   const double y2 = width * width / 12.0;
-  double pressure = 0.0, moment = 0.0;
-  constexpr int kParts = 400;
+  Load load;
+  constexpr int kParts = 100;
   for (int i = 0; i < kParts; ++i) {
     for (int j = 0; j < kParts; ++j) {
       const double x = length * ((i + 0.5) / kParts - 0.5);
       const double y = width * ((j + 0.5) / kParts - 0.5);
       const double p = 1.0 + centre.x() * x / x2 + centre.y() * y / y2;
       if (p <= 0.0) continue;
-      pressure += p;
-      moment += p * std::hypot(x - centre.x(), y - centre.y());
+      load.at.push_back({x, y});
+      load.share.push_back(p);
     }
   }
-  return moment / pressure;
+  return load.least_mean_distance();
 }
 
 /// Sample points that touch a floor, and the forces of the last cycle.
@@ -96,10 +122,9 @@ class OnFace {
     Parameters q;
     q.margin = kMargin;
     q.voxel_size = kVoxel;
-    return detail::patches_of(step, *near_, shell_, ContactLengths::make(q));
+    return detail::patches_of(step, *near_, ContactLengths::make(q));
   }
   NearPoints& near() { return *near_; }
-  Pointshell& shell() { return shell_; }
 
   ConstrainedStep step;
 
@@ -128,10 +153,12 @@ TEST(EvenPressure, IsLinearOverARectangleThatCornersHold) {
     const ContactPatch& face = patches.patch[0];
     const Eigen::Vector2d centre(kLength * (u - 0.5), kWidth * (v - 0.5));
     EXPECT_LT((face.centre - Vector3(centre.x(), centre.y(), kBottom)).norm(), 1e-8);
-    double of_forces = 0.0;
+    Load corners;
     for (std::uint32_t j = 0; j < 4; ++j) {
-      of_forces += on.step.forces[j].multiplier * (on.step.forces[j].point - face.centre).norm();
+      corners.at.push_back(on.step.forces[j].point.head<2>());
+      corners.share.push_back(on.step.forces[j].multiplier);
     }
+    const double of_forces = corners.least_mean_distance();
     const double expected = mean_distance(kLength, kWidth, centre) / of_forces;
     EXPECT_NEAR(face.share, expected, 0.01 * expected) << u << " " << v;
     // the points' friction acts on the lines to the centre, in the plane
@@ -173,16 +200,56 @@ TEST(EvenPressure, NeedsAFaceAndSeveralForces) {
   EXPECT_EQ(on.patches().count, 0u) << "points on a line";
 }
 
-/// Where the image has no normals, points of edges count as well: the share is larger, at most 1.
-TEST(EvenPressure, TakesAllPointsWithoutNormals) {
-  OnFace on(lower_face(0.04, 0.03));
-  on.push({0.02, 0.015, kBottom}, 1.0);
-  on.push({-0.02, -0.015, kBottom}, 1.0);
-  const double with = on.patches().patch[0].share;
-  on.shell().normal_x = nullptr;
-  const double without = on.patches().patch[0].share;
-  EXPECT_GT(without, with);
-  EXPECT_LE(without, 1.0);
+/// A disc, a ring, a square that stands on its corner and an ell, with points at random and others along the rim.
+TEST(EvenPressure, KnowsFacesOfOtherShapes) {
+  constexpr double kHalf = 0.02;
+  struct Shape {
+    const char* name;
+    bool (*inside)(double x, double y);
+    double tolerance;
+  };
+  const Shape shapes[] = {
+      {"disc", [](double x, double y) { return std::hypot(x, y) < kHalf; }, 0.03},
+      {"ring", [](double x, double y) { return std::hypot(x, y) < kHalf && std::hypot(x, y) > 0.6 * kHalf; }, 0.08},
+      {"diamond", [](double x, double y) { return std::fabs(x) + std::fabs(y) < kHalf; }, 0.03},
+      {"ell", [](double x, double y) { return x < -0.2 * kHalf || y < -0.2 * kHalf; }, 0.08}};
+  Random random(5);
+  for (int face = 0; face < 40; ++face) {
+    const Shape& shape = shapes[face % 4];
+    // in the face's plane, whose axes the code chooses
+    const Eigen::AngleAxisd turn(face < 4 ? 0.0 : random.between(0.0, M_PI), Vector3::UnitZ());
+    SurfaceSamples samples;
+    while (samples.points.size() < 1000) {
+      Vector3 p = random.in_cube(kHalf);
+      if (!shape.inside(p.x(), p.y())) continue;
+      if (samples.points.size() % 2 == 1) {  // on the way out to the rim
+        while (shape.inside(1.01 * p.x(), 1.01 * p.y()) && p.head<2>().cwiseAbs().maxCoeff() < 0.99 * kHalf) p *= 1.01;
+      }
+      samples.points.push_back(turn * Vector3(p.x(), p.y(), kBottom));
+      samples.normals.push_back(Vector3::UnitZ());
+    }
+    OnFace on(samples);
+    // two forces whose centre is the shape's
+    Load even;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (int i = 0; i < 100; ++i) {
+      for (int j = 0; j < 100; ++j) {
+        const Eigen::Vector2d at(kHalf * ((i + 0.5) / 50.0 - 1.0), kHalf * ((j + 0.5) / 50.0 - 1.0));
+        if (!shape.inside(at.x(), at.y())) continue;
+        even.at.push_back(at);
+        even.share.push_back(1.0);
+        sum += at;
+      }
+    }
+    const Vector3 centre(sum.x() / static_cast<double>(even.at.size()), sum.y() / static_cast<double>(even.at.size()),
+                         kBottom);
+    on.push(turn * (centre + Vector3(0.03, 0.0, 0.0)), 1.0);
+    on.push(turn * (centre - Vector3(0.03, 0.0, 0.0)), 1.0);
+    const ContactPatches patches = on.patches();
+    ASSERT_EQ(patches.count, 1u) << shape.name;
+    const double expected = even.least_mean_distance();
+    EXPECT_NEAR(0.03 * patches.patch[0].share, expected, shape.tolerance * expected) << shape.name;
+  }
 }
 
 /// Forces inside of the face never act farther out than they are.
@@ -220,7 +287,7 @@ TEST(EvenPressure, TellsTwoFacesApart) {
 }
 
 /// A pressed face that turns about its normal resists with the torque of even pressure,
-///     mu N times the mean distance of the face's points from its middle,
+///     mu N times the least mean distance of its places,
 /// and a face that slides with mu N. The corners alone would resist with 1.88 times that torque.
 TEST(EvenPressure, TurnsAFaceWithTheTorqueOfEvenPressure) {
   constexpr double kLength = 0.04, kWidth = 0.03, kRatio = 0.3;
