@@ -131,8 +131,14 @@ class CoveredPart {
     ++count_;
     low_x_ = std::min(low_x_, x);
     high_x_ = std::max(high_x_, x);
-    low_y_ = std::min(low_y_, y);
-    high_y_ = std::max(high_y_, y);
+    if (y < low_y_) {
+      low_y_ = y;
+      x_of_lowest_ = x;
+    }
+    if (y > high_y_) {
+      high_y_ = y;
+      x_of_highest_ = x;
+    }
   }
   /// Call it after the last `widen`. False: too few points, or all on one line along an axis.
   bool divide() noexcept {
@@ -146,15 +152,16 @@ class CoveredPart {
   void occupy(double x, double y) noexcept {
     const int column = part(x - low_x_, high_x_ - low_x_, cells_);
     occupied_ |= std::uint64_t{1} << (column + kMostCells * part(y - low_y_, high_y_ - low_y_, cells_));
-    int row = part(y - low_y_, high_y_ - low_y_, HullSide::kRows);
-    if (y == low_y_) row = -1;
-    if (y == high_y_) row = HullSide::kRows;
+    const int row = part(y - low_y_, high_y_ - low_y_, HullSide::kRows);
     left_.add(row, x, y);
     right_.add(row, x, y);
   }
   void close() noexcept {
-    left_.close();
-    right_.close();
+    for (HullSide* const side : {&left_, &right_}) {
+      side->add(-1, x_of_lowest_, low_y_);
+      side->add(HullSide::kRows, x_of_highest_, high_y_);
+      side->close();
+    }
   }
 
   /// Calls visit(x, y, area) for rectangles that fill the part [m, m^2].
@@ -190,6 +197,7 @@ class CoveredPart {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double low_x_ = kInfinity, high_x_ = -kInfinity;
   double low_y_ = kInfinity, high_y_ = -kInfinity;
+  double x_of_lowest_ = 0.0, x_of_highest_ = 0.0;
   std::uint32_t count_ = 0;
   int cells_ = 0;
   std::uint64_t occupied_ = 0;
