@@ -13,7 +13,7 @@ namespace godobject {
 /// Runs one cycle of `contact`: the least-constraint motion over the contact points, in certified sub-steps; no filter.
 ///
 /// Guarantee: a point whose stored distance is positive never gets one <= 0, whatever the device does (certificate.h).
-/// No sharp edge of the moving body that the scene has crosses one of the still body (edge_certificate.h). After a
+/// No stored sharp edge of the moving body crosses one of the still body (edge_certificate.h). After a
 /// first pose that penetrates, the guarantee begins when the god object has come out.
 ///
 /// The remainder of a shortened motion becomes the next sub-step. Another sub-step also follows a motion that took a

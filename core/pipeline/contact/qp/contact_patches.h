@@ -18,7 +18,7 @@ struct ContactPatch {
 
 /// The faces that carried load in the last cycle.
 struct ContactPatches {
-  static constexpr std::uint32_t kMost = 2;  ///< of six forces, a face has at least two
+  static constexpr std::uint32_t kMost = 2;  ///< chosen; the points of a third face keep their own places
 
   std::array<ContactPatch, kMost> patch;
   std::uint32_t count = 0;

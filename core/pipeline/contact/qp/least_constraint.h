@@ -9,7 +9,7 @@
 
 namespace godobject {
 
-/// The coefficients of Coulomb and viscous friction at every contact.
+/// Coulomb and viscous friction: the coefficients at every contact, and the faces whose friction acts elsewhere.
 struct ContactFriction {
   double static_ratio = 0.0;    ///< mu_s [1]
   double kinetic_ratio = 0.0;   ///< mu_k <= mu_s [1]
