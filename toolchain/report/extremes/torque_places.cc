@@ -18,13 +18,18 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kPlaceVoxel = 2.0 * kMillimetre;
-constexpr double kMayChangeBy = 0.05;              ///< allowed change per cycle, share of a joint's torque limit
-constexpr double kHalfWidth = 30.0 * kMillimetre;  ///< of the still body
-constexpr double kDepth = 40.0 * kMillimetre;      ///< of the block, its top at z = 0
+constexpr double kMayChangeBy = 0.05;          ///< allowed change per cycle, share of a joint's torque limit
+constexpr double kDepth = 40.0 * kMillimetre;  ///< of the block, its top at z = 0
 constexpr int kPathCycles = 2200;
 
 Vector3 half_of_body(Place place) {
   return kMillimetre * (place == Place::kGridBorder ? Vector3(30.0, 4.0, 4.0) : Vector3(10.0, 8.0, 6.0));
+}
+
+/// Returns half the width of the still body. A body that starts inside has its shortest way out through the top: where
+/// it hangs over an edge, its god object rightly jumps when it comes free of that edge.
+double half_of_still(Place place) {
+  return kMillimetre * (place == Place::kStartInside || place == Place::kStartDeep ? 60.0 : 30.0);
 }
 
 Vector3 top_of_grid(const SceneView& scene) {
@@ -85,10 +90,11 @@ files::SceneImage place_scene(Place place, const std::filesystem::path& work) {
   const double bottom = place == Place::kMedialAxis ? -kPlaceVoxel : -kDepth;
   const double top = place == Place::kMedialAxis ? kPlaceVoxel : 0.0;
   const Vector3 half_body = half_of_body(place);
+  const double half = half_of_still(place);
   const std::filesystem::path body = work / "body.ply";
   write_ply(box_mesh(-half_body, half_body), body);
   return compile("place",
-                 {.still = {.mesh = box_mesh({-kHalfWidth, -kHalfWidth, bottom}, {kHalfWidth, kHalfWidth, top})},
+                 {.still = {.mesh = box_mesh({-half, -half, bottom}, {half, half, top})},
                   .body = body,
                   .points = 60,
                   .settings = {.voxel_size = kPlaceVoxel, .safety_distance = 1.5 * kPlaceVoxel}},
