@@ -86,7 +86,7 @@ class Writer:
 
     def call(self, place, at, choose, kept):
         """Alternatives of class type; one that does not compile becomes the original."""
-        self.write(f'::mutant::pick({choose}, [&] {{ return ::mutant::value(')
+        self.write(f'::mutant::pick({choose}, [&] {{ return ::mutant::value(', (at, 0))
         following = self.span(place.start, place.end, at + 1, (at, 0))
         self.write('); }')
         texts = dict(kept)

@@ -17,7 +17,7 @@ import schemata
 
 HERE = pathlib.Path(__file__).resolve().parent
 BLOCK = 4096  # numbers of places that a file may use
-ROUNDS = 8  # builds until all mutants that do not compile are dropped
+ROUNDS = 30  # until all mutants that do not compile are dropped; an error often hides others
 
 
 @dataclasses.dataclass
@@ -75,6 +75,7 @@ class Tree:
         self.found = {}
         self.dropped = {}  # path -> {(place, alternative)}
         self.owners = {}
+        self.unread = None  # units that the compiler has not yet read without an error
 
     def files(self):
         if not (self.root / '.git').exists():
@@ -113,7 +114,7 @@ class Tree:
 
     def configure(self, build, *options):
         subprocess.run(['cmake', '-S', str(self.copy), '-B', str(build), '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release',
-                        '-DCMAKE_CXX_FLAGS=-w -fdiagnostics-color=never -fno-diagnostics-show-caret',
+                        '-DCMAKE_CXX_FLAGS=-w -fdiagnostics-color=never -fno-diagnostics-show-caret -ftemplate-backtrace-limit=0',
                         '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG', f'-DCMAKE_EXE_LINKER_FLAGS={self.object}', *options],
                        check=True, stdout=subprocess.DEVNULL)
 
@@ -189,23 +190,19 @@ class Tree:
                 raise SystemExit(f'mutation: does not compile after {ROUNDS} rounds; see {log}')
 
     def read(self, log):
-        """Lets the compiler read each mutated file that has changed since it was read without an error."""
-        mark = self.work / 'read.json'
-        digest = hashlib.sha256(b''.join((self.copy / name).read_bytes() for name in self.sources)).hexdigest()
-        if mark.exists() and json.loads(mark.read_text()) == digest:
-            return True
-
+        """Lets the compiler read each mutated file until it has read it without an error. A mutant that is dropped later
+        cannot cause one."""
         def one(entry):
             command = re.sub(r' -o \S+ -c ', ' -fsyntax-only ', entry['command'])
             return subprocess.run(command, shell=True, cwd=entry['directory'], capture_output=True, text=True, errors='replace')
 
+        if self.unread is None:
+            self.unread = self.units()
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            results = list(pool.map(one, self.units()))
+            results = list(pool.map(one, self.unread))
         log.write_text(''.join(result.stderr for result in results))
-        if any(result.returncode for result in results):
-            return False
-        mark.write_text(json.dumps(digest))
-        return True
+        self.unread = [entry for entry, result in zip(self.unread, results) if result.returncode]
+        return not self.unread
 
     def make(self, programs, log):
         with log.open('w') as output:
