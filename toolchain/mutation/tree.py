@@ -191,17 +191,21 @@ class Tree:
 
     def read(self, log):
         """Lets the compiler read each mutated file until it has read it without an error. A mutant that is dropped later
-        cannot cause one."""
+        cannot cause one. Does nothing if the files are those that were read last."""
         def one(entry):
             command = re.sub(r' -o \S+ -c ', ' -fsyntax-only ', entry['command'])
             return subprocess.run(command, shell=True, cwd=entry['directory'], capture_output=True, text=True, errors='replace')
 
+        mark = self.work / 'read.key'
+        key = hashlib.sha256(b''.join((self.copy / name).read_bytes() for name in self.sources)).hexdigest()
         if self.unread is None:
-            self.unread = self.units()
+            self.unread = [] if mark.exists() and mark.read_text() == key else self.units()
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             results = list(pool.map(one, self.unread))
         log.write_text(''.join(result.stderr for result in results))
         self.unread = [entry for entry, result in zip(self.unread, results) if result.returncode]
+        if not self.unread:
+            mark.write_text(key)
         return not self.unread
 
     def make(self, programs, log):
