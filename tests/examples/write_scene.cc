@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
   using namespace godobject;
-  if (argc != 2) {
+  if (argc != 2 || argv[1][0] == '-') {
     std::cerr << "usage: write_scene OUT.scene\n";
     return 64;
   }

@@ -225,6 +225,16 @@ TEST_F(ReplayTest, SaysWhenNothingCameNear) {
   EXPECT_NE(output_.find("no sample point within the stored band"), std::string::npos) << output_;
 }
 
+TEST_F(ReplayTest, SaysThatAPathSeemsToBeInMillimetres) {
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,nan,0,90,1,0,0,0\n0.001,0,0,90,1,0,0,0\n";
+  ASSERT_EQ(run(""), 65) << output_;
+  EXPECT_NE(output_.find("path.csv:3: the moving mesh is 90 m away"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("positions are in metres"), std::string::npos) << output_;
+  std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.9,1,0,0,0\n";  // 15 radii away: free flight
+  ASSERT_EQ(run(""), 0) << output_;
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+}
+
 TEST_F(ReplayTest, SaysWhereTheFieldTellsNoDepth) {
   std::ofstream(folder_ / "path.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0.02,1,0,0,0\n";
   for (const std::string solver : kSolvers) {

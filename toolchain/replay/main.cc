@@ -1,4 +1,5 @@
 #include <cfenv>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@
 namespace {
 
 using godobject::Solver;
+using godobject::Vector3;
 using godobject::command::ExitCode;
 using godobject::command::Failure;
 using godobject::precision::MeshOverlap;
@@ -154,6 +156,26 @@ Pipeline pipeline_of(const Options& options, const godobject::SceneView& scene) 
   return pipeline;
 }
 
+/// Returns a line for a path that leads farther from the still mesh than anybody works, or "". A path in millimetres
+/// does.
+std::string far_path_note(const std::string& poses, const godobject::files::PosePath& path,
+                          const godobject::SceneView& scene) {
+  constexpr double kFar = 30.0;  // times the diagonal of the stored field
+  const auto& grid = scene.grid;
+  const Vector3 extent =
+      godobject::format::kBrickCells * grid.voxel_size * Vector3(grid.bricks[0], grid.bricks[1], grid.bricks[2]);
+  const Vector3 centre = Eigen::Map<const Vector3>(grid.origin) + 0.5 * extent;
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    const double away = (path.poses[i].translation - centre).norm();
+    if (!std::isfinite(away) || away <= kFar * extent.norm()) continue;
+    return fmt::format(
+        "{}:{}: the moving mesh is {:.3g} m away from the still one, whose field is {:.3g} m long; "
+        "positions are in metres: check the unit\n",
+        poses, path.lines[i], away, extent.norm());
+  }
+  return "";
+}
+
 void replay_file(const Options& options) {
   godobject::files::output_target(options.output);  // refused before anything is read
   auto image = godobject::files::SceneImage::read(options.scene);
@@ -162,6 +184,7 @@ void replay_file(const Options& options) {
   const Pipeline pipeline = pipeline_of(options, scene);
   const std::optional<MeshOverlap> meshes = mesh_overlap(options, scene);
   const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses);
+  fmt::print(stderr, "{}", far_path_note(options.poses, path, scene));
   godobject::files::AtomicFile out(options.output);
   godobject::replay::Summary summary;
   {
