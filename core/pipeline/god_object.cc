@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kAlignment = 64;
 static_assert(alignof(CompiledSession) <= kAlignment);
 static_assert(std::is_trivially_destructible_v<CompiledSession>);
-static_assert(sizeof(CompiledSession) < 1024 * 1024);
+static_assert(sizeof(CompiledSession) < 1792 * 1024);
 
 }  // namespace
 

@@ -26,7 +26,7 @@ struct ContactWorkspace {
   NearEdges edges;
   std::array<float, 2 * NearPoints::kCapacity> distances;  ///< of all near points, for the selection of rows [m]
 };
-static_assert(sizeof(ContactWorkspace) < 896 * 1024);
+static_assert(sizeof(ContactWorkspace) < 1664 * 1024);
 
 /// Step #1 of `contact` in both directions and for edge against edge, with the memory of how far each node, point and
 /// pair is from being near. The results do not depend on that memory.
