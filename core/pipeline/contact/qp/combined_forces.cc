@@ -5,21 +5,18 @@
 #include "core/pipeline/contact/qp/contact_forces.h"
 
 namespace godobject::detail {
-namespace {
-
-/// The forces of up to two active sets.
-struct Forces {
-  std::array<ContactForce, 2 * ActiveSet::kCapacity> force;
-  std::size_t count = 0;
-};
-
-/// Replaces the forces of the step by at most six of `all` with the same sum. Among the points z with c . z >= 0 for
-/// all generators c, the one nearest to minus the sum is zero, and its multipliers give the sum.
+// Among the points z with c . z >= 0 for all generators c, the one nearest to minus the sum is zero, and its
+// multipliers give the sum.
 void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept {
+  if (all.count <= step.forces.size()) {
+    step.force_count = static_cast<std::uint32_t>(all.count);
+    for (std::size_t j = 0; j < all.count; ++j) step.forces[j] = all.force[j];
+    return count_contacts(step);
+  }
   using Basis = DualActiveSet<std::size_t>;
-  constexpr int kMostAdditions = 4 * Basis::kCapacity;
-  constexpr double kRounding = 1e-12;  // derived: rounding of a sum of twelve vectors, with room to spare
-  std::array<Vector6, 2 * ActiveSet::kCapacity> c;
+  constexpr int kMostAdditions = 8 * Basis::kCapacity;
+  constexpr double kRounding = 1e-12;  // derived: rounding of a sum of 21 vectors, with room to spare
+  std::array<Vector6, std::tuple_size_v<decltype(all.force)>> c;
   Vector6 sum = Vector6::Zero();
   for (std::size_t i = 0; i < all.count; ++i) {
     const ContactForce& force = all.force[i];
@@ -48,21 +45,14 @@ void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexce
     force = all.force[basis[j].tag];
     force.multiplier = basis[j].multiplier;
   }
+  count_contacts(step);
 }
-
-}  // namespace
 
 void add_forces(const ContactSet& set, ConstrainedStep& step) noexcept {
   Forces all;
-  for (; all.count < step.force_count; ++all.count) all.force[all.count] = step.forces[all.count];
-  for (int j = 0; j < set.active().size(); ++j) all.force[all.count++] = force_of(set, j);
-  if (all.count > step.forces.size()) {
-    store_sum(all, set.metric().gyration, step);
-  } else {
-    step.force_count = static_cast<std::uint32_t>(all.count);
-    for (std::size_t j = 0; j < all.count; ++j) step.forces[j] = all.force[j];
-  }
-  count_contacts(step);
+  for (std::uint32_t j = 0; j < step.force_count; ++j) all.add(step.forces[j]);
+  for (int j = 0; j < set.active().size(); ++j) all.add(force_of(set, j));
+  store_sum(all, set.metric().gyration, step);
 }
 
 }  // namespace godobject::detail

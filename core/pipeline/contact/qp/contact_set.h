@@ -48,6 +48,9 @@ struct Slip {
 /// the set returns, every contact has at least one half space.
 class ContactSet {
  public:
+  /// Each contact except the one that enters has a half space.
+  static constexpr int kMaxContacts = ActiveSet::kCapacity + 1;
+
   /// `friction` null: there are no contacts, and half spaces are those of the rows. The arguments must outlive the set.
   /// `last`: the last motion, which decides between static and kinetic friction.
   ContactSet(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric, const ContactFriction* friction,
@@ -57,8 +60,10 @@ class ContactSet {
   const CouplingMetric& metric() const noexcept { return metric_; }
   const ContactFriction* friction() const noexcept { return friction_; }
   const Motion& last() const noexcept { return last_; }
-  CouplingSpace& space() noexcept { return space_; }
   const CouplingSpace& space() const noexcept { return space_; }
+  /// Sets the metric with viscous friction: H = I + mu_v sum of w_i T_i' T_i, where w_i is the contact's share of the
+  /// load and T_i maps the motion to the slip of the contact. `load`: of each contact [m].
+  void set_viscous_metric(const std::array<double, kMaxContacts>& load) noexcept;
   /// Returns the wanted motion in the coordinates of `space` [m].
   Vector6 target() const noexcept { return space_.target(wanted_); }
 
@@ -100,6 +105,8 @@ class ContactSet {
 
   /// Makes the row a contact without shift and returns its number. The caller must add a half space of it.
   int open(std::uint32_t row) noexcept;
+  /// Makes a contact without half spaces a row again; the last contact takes its number.
+  void close(int contact) noexcept;
   /// Makes contacts without a half space rows again.
   void close_idle() noexcept;
   /// Makes all contacts rows again; the active set stays.
@@ -127,9 +134,6 @@ class ContactSet {
   void restore(const Saved& saved) noexcept;
 
  private:
-  // each contact except the one that enters has a half space
-  static constexpr int kMaxContacts = ActiveSet::kCapacity + 1;
-
   ContactRows& rows_;
   const CouplingMetric& metric_;
   const ContactFriction* friction_;

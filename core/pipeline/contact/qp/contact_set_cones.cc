@@ -18,6 +18,23 @@ ActiveSet::Inequality ContactSet::cone_half_space(int contact_index, const Vecto
   return half_space;
 }
 
+void ContactSet::set_viscous_metric(const std::array<double, kMaxContacts>& load) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < contact_count_; ++k) sum += load[static_cast<std::size_t>(k)];
+  Matrix6 H = Matrix6::Identity();
+  for (int k = 0; k < contact_count_ && sum > 0.0; ++k) {
+    const Contact& c = contact(k);
+    Matrix3 cross;  // v = x + r x P = x - P x r at the grip P
+    cross << 0.0, -c.grip.z(), c.grip.y(), c.grip.z(), 0.0, -c.grip.x(), -c.grip.y(), c.grip.x(), 0.0;
+    Eigen::Matrix<double, 3, 6> velocity;
+    velocity << Matrix3::Identity(), -cross / space_.gyration();
+    const Eigen::Matrix<double, 3, 6> tangential = velocity - c.normal * (c.normal.transpose() * velocity);
+    const double share = load[static_cast<std::size_t>(k)] / sum;
+    H += friction_->viscous_step * share * tangential.transpose() * tangential;
+  }
+  space_.set_metric(H);
+}
+
 int ContactSet::open(std::uint32_t row) noexcept {
   Contact& c = contact(contact_count_);
   const Vector3 normal = rows_.normal(row).normalized();  // in single precision it would tilt a slip of nanometres
@@ -30,6 +47,12 @@ int ContactSet::open(std::uint32_t row) noexcept {
   c.ratio = ratio_of(c);
   rows_.required_gain[row] = -FLT_MAX;
   return contact_count_++;
+}
+
+void ContactSet::close(int contact_index) noexcept {
+  Contact& c = contact(contact_index);
+  rows_.required_gain[c.row] = static_cast<float>(c.required_gain);
+  c = contact(--contact_count_);
 }
 
 void ContactSet::close_idle() noexcept {

@@ -65,27 +65,12 @@ void assemble(const ContactSet& set, const Vector6& target, NewtonSystem& system
   }
 }
 
-/// Sets the metric with viscous friction: H = I + mu_v sum of w_i T_i' T_i, where w_i is the contact's share of the
-/// load and T_i maps the motion to the contact's slip.
+/// Sets the metric with viscous friction to the multipliers of the half spaces.
 void set_viscous_metric(ContactSet& set) noexcept {
-  const ActiveSet& active = set.active();
-  double load = 0.0;
-  for (int j = 0; j < active.size(); ++j) load += active[j].multiplier;
-  Matrix6 H = Matrix6::Identity();
-  for (int k = 0; k < set.contact_count() && load > 0.0; ++k) {
-    const Contact& c = set.contact(k);
-    double share = 0.0;
-    for (int j = 0; j < active.size(); ++j) {
-      if (active[j].tag.contact == k) share += active[j].multiplier / load;
-    }
-    Matrix3 cross;  // v = x + r x P = x - P x r at the grip P
-    cross << 0.0, -c.grip.z(), c.grip.y(), c.grip.z(), 0.0, -c.grip.x(), -c.grip.y(), c.grip.x(), 0.0;
-    Eigen::Matrix<double, 3, 6> velocity;
-    velocity << Matrix3::Identity(), -cross / set.space().gyration();
-    const Eigen::Matrix<double, 3, 6> tangential = velocity - c.normal * (c.normal.transpose() * velocity);
-    H += set.friction()->viscous_step * share * tangential.transpose() * tangential;
-  }
-  set.space().set_metric(H);
+  std::array<double, ContactSet::kMaxContacts> load{};
+  for (int j = 0; j < set.active().size(); ++j)
+    load[static_cast<std::size_t>(set.active()[j].tag.contact)] += set.active()[j].multiplier;
+  set.set_viscous_metric(load);
 }
 
 /// Turns half space `j` of a slipping contact against the slip of the motion `m`. True: it turned by more than the

@@ -5,6 +5,7 @@
 #include "core/pipeline/contact/qp/coulomb_newton.h"
 #include "core/pipeline/contact/qp/meet_rows.h"
 #include "core/pipeline/contact/qp/shifted_cones.h"
+#include "core/pipeline/contact/qp/smoothed_coulomb.h"
 
 namespace godobject::detail {
 namespace {
@@ -60,6 +61,24 @@ void conclude(ContactSet& set, ConstrainedStep& step) noexcept {
   set.close_all();
 }
 
+/// Solves Coulomb's law by the smoothing method and concludes. A motion within the tolerance comes to rest, if forces
+/// inside the cones can hold the body. False: it was not solved.
+bool conclude_smoothed(ContactSet& set, ConstrainedStep& step) noexcept {
+  const ContactSet::Saved found = set.save();
+  if (!solve_smoothed(set, step)) return false;
+  const Motion& m = step.motion;
+  const double gyration = set.metric().gyration;
+  const double square = m.translation.squaredNorm() + gyration * gyration * m.rotation.squaredNorm();
+  if (square > set.metric().tolerance * set.metric().tolerance) return true;
+  set.restore(found);
+  if (sticks(set)) {
+    conclude(set, step);
+  } else {
+    set.close_all();
+  }
+  return true;
+}
+
 /// Ends with the nearest motion that meets all rows, since Coulomb's law was not solved. False: infeasible.
 bool conclude_with_rows(ContactSet& set, ConstrainedStep& step) noexcept {
   take_forces(set, step);
@@ -105,6 +124,7 @@ bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
     conclude(set, step);
     return true;
   }
+  if (conclude_smoothed(set, step)) return true;
   const ContactSet::Saved found = set.save();
   const bool feasible = conclude_with_rows(set, step);
   // without a force there is nothing that the motion could differ for

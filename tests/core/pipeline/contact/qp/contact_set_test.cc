@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -312,10 +313,11 @@ TEST(ContactSet, RestartsWithoutContactsAndInTheMetricOfTheCoupling) {
   Random random(9);
   for (const bool from_motion : {false, true}) {
     SetBench bench;
+    bench.friction.viscous_step = 1.5;
     bench.push_random(random, 3);
     ContactSet set = bench.set();
-    set.space().set_metric(random_metric(random));
     ASSERT_TRUE(set.enter(1, bench.wanted));
+    set.set_viscous_metric({1.0});
     set.active().start(Vector6::Constant(0.001));
     const Vector6 here = set.plain_motion();
     from_motion ? set.restart_from_motion() : set.restart();
@@ -327,6 +329,56 @@ TEST(ContactSet, RestartsWithoutContactsAndInTheMetricOfTheCoupling) {
     EXPECT_EQ(set.active().z(), set.plain_motion()) << "the metric without viscous friction";
     EXPECT_EQ(set.target(), wanted);
   }
+}
+
+/// In the metric H a load has the squared length load' H^-1 load. Two contacts on the plane z = 0 share a load 3 : 1,
+/// and mu_v is 2: along x the metric is 1 + 2, along z it is 1. A turn about y by 1 / rho moves no point, which lie on
+/// the y axis, along the plane; a turn about z by 1 / rho moves them by y / rho.
+TEST(ContactSet, SharesViscousFrictionByLoad) {
+  SetBench bench;
+  bench.friction.viscous_step = 2.0;
+  bench.rows->push(0, Vector3::UnitZ(), Vector3(0.0, 0.01, 0.0), 0.0);
+  bench.rows->push(1, Vector3::UnitZ(), Vector3(0.0, -0.03, 0.0), 0.0);
+  const double rho = kSetMetric.gyration;
+  const double along_z = 2.0 * (0.75 * 0.01 * 0.01 + 0.25 * 0.03 * 0.03) / (rho * rho);
+  const double mixed = -2.0 * (0.75 * 0.01 - 0.25 * 0.03) / rho;  // of a shift along x and a turn about z: 0
+  ASSERT_NEAR(mixed, 0.0, 1e-15);
+  const std::pair<Motion, double> cases[] = {{{Vector3(1.0, 0.0, 0.0), Vector3::Zero()}, 1.0 / 3.0},
+                                             {{Vector3(0.0, 1.0, 0.0), Vector3::Zero()}, 1.0 / 3.0},
+                                             {{Vector3(0.0, 0.0, 1.0), Vector3::Zero()}, 1.0},
+                                             {{Vector3::Zero(), Vector3(0.0, 1.0 / rho, 0.0)}, 1.0},
+                                             {{Vector3::Zero(), Vector3(0.0, 0.0, 1.0 / rho)}, 1.0 / (1.0 + along_z)}};
+  for (const auto& [wanted, square] : cases) {
+    bench.wanted = wanted;
+    ContactSet set = bench.set();
+    set.open(0);
+    set.open(1);
+    set.set_viscous_metric({3e-3, 1e-3});
+    EXPECT_NEAR(set.target().squaredNorm(), square, 1e-8) << "rows are in single precision";
+    set.set_viscous_metric({});
+    EXPECT_NEAR(set.target().squaredNorm(), 1.0, 1e-12) << "no load, no friction";
+    set.close_all();
+  }
+}
+
+TEST(ContactSet, ClosesOneContactAndGivesItsNumberToTheLast) {
+  Random random(10);
+  SetBench bench;
+  bench.push_random(random, 3);
+  ContactSet set = bench.set();
+  for (std::uint32_t row = 0; row < 3; ++row) set.open(row);
+  set.close(0);
+  ASSERT_EQ(set.contact_count(), 2);
+  EXPECT_EQ(set.contact(0).row, 2u);
+  EXPECT_EQ(set.contact(1).row, 1u);
+  EXPECT_FALSE(bench.is_excluded(0));
+  EXPECT_EQ(bench.rows->required_gain[0], -1e-3f);
+  EXPECT_TRUE(bench.is_excluded(1) && bench.is_excluded(2));
+  set.close(1);
+  set.close(0);
+  EXPECT_EQ(set.contact_count(), 0);
+  EXPECT_EQ(bench.rows->required_gain[1], -2e-3f);
+  EXPECT_EQ(bench.rows->required_gain[2], -3e-3f);
 }
 
 // -- forces
