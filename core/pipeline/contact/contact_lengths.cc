@@ -32,10 +32,9 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.sphere = q.mass.sphere;
   lengths.point_budget = q.point_budget;
   lengths.metric.gyration = std::sqrt(q.coupling_rotation / q.coupling_translation);
-  // not below the rounding; measured: with 1e-2 m friction is not found in 37 instead of 11 cycles in the handle, with
-  // 1e-4 m in 12 instead of 5 through the sheet
+  // chosen, and not below the rounding
   lengths.metric.tolerance = std::max(1e-3 * q.margin, 1e-6 * q.voxel_size);
-  // derived: rounding of stored distances; with 1e-7 and 1e-5 friction is not found in up to 5 more or fewer cycles
+  // derived: rounding of stored distances
   lengths.metric.still = 1e-6 * q.voxel_size;
   return lengths;
 }

@@ -16,8 +16,8 @@ namespace godobject::detail {
 ///     share = (least integral of p |q - x| / integral of p) / (least sum of N_i |P_i - x| / sum of N_i),  at most 1.5.
 /// The integrals go over the part of the plane that touching sample points cover: the octagon around them, less empty
 /// cells of a grid. Its error is 0.2 % for a rectangle, 2 % for a disc and 7 % for a ring, if some hundred points
-/// touch. Friction of the forces N_i at c + share (P_i - c) equals friction of the same loads in other points of the
-/// face: the wrench is one that the points of the face could have.
+/// touch. Up to a share of 1 friction of the forces N_i at c + share (P_i - c) equals friction of the same loads in
+/// points between the P_i: the wrench is one that the points could have.
 ///
 /// `samples`: near points of the moving body, at the start of the motion. Cost: twice some 5 ns for each of them, and 2
 /// us, for each face; nothing without a second force on a face. Real-time safe.

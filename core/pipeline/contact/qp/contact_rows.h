@@ -25,8 +25,7 @@ struct GapLaw {
 };
 
 /// Share of a lost gap that one sub-step regains. Measured (godobject-replay, the demo's paths): peak forces are the
-/// same from 0.05 to 1. With 0.1 friction is not found in 50 instead of 15 cycles in the peg's hole, with 0.05 in 101;
-/// with 0.5 in 7. With 1 a cycle in the handle takes all eight sub-steps.
+/// same from 0.05 to 1; with 1 a cycle in the handle takes all eight sub-steps.
 inline constexpr double kRecovery = 0.3;
 
 /// The linear constraints on the motion (x, r) of the god object in one sub-step, in the body frame S, one a contact

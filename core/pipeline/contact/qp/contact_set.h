@@ -45,10 +45,10 @@ struct Slip {
 };
 
 /// The problem, the active set with its motion, and the contacts of its half spaces. Whenever a function that changes
-/// the set returns, every contact has at least one half space.
+/// the set returns, every contact has at least one half space; within solve_smoothed contacts have none.
 class ContactSet {
  public:
-  /// Each contact except the one that enters has a half space.
+  /// Derived: each has a half space, except the one that enters.
   static constexpr int kMaxContacts = ActiveSet::kCapacity + 1;
 
   /// `friction` null: there are no contacts, and half spaces are those of the rows. The arguments must outlive the set.
@@ -61,6 +61,9 @@ class ContactSet {
   const ContactFriction* friction() const noexcept { return friction_; }
   const Motion& last() const noexcept { return last_; }
   const CouplingSpace& space() const noexcept { return space_; }
+  void set_space(const CouplingSpace& space) noexcept { space_ = space; }
+  /// Returns the wanted motion as (x, rho r) [m].
+  const Vector6& wanted() const noexcept { return wanted_; }
   /// Sets the metric with viscous friction: H = I + mu_v sum of w_i T_i' T_i, where w_i is the contact's share of the
   /// load and T_i maps the motion to the slip of the contact. `load`: of each contact [m].
   void set_viscous_metric(const std::array<double, kMaxContacts>& load) noexcept;
@@ -103,7 +106,7 @@ class ContactSet {
   /// Returns the half space of a contact's cone for d = `slip`.
   ActiveSet::Inequality cone_half_space(int contact, const Vector3& slip) const noexcept;
 
-  /// Makes the row a contact without shift and returns its number. The caller must add a half space of it.
+  /// Makes the row a contact without shift and returns its number. The caller must add a half space of it, or close it.
   int open(std::uint32_t row) noexcept;
   /// Makes a contact without half spaces a row again; the last contact takes its number.
   void close(int contact) noexcept;
@@ -146,7 +149,7 @@ class ContactSet {
   std::uint32_t additions_ = 0;
 };
 
-/// A copy of the active set and its contacts, without the metric.
+/// A copy of the active set and its contacts, without the metric: after a change of it the caller restores that, too.
 struct ContactSet::Saved {
   ActiveSet active;
   std::array<Contact, kMaxContacts> contacts;

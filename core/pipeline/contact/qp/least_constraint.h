@@ -15,7 +15,7 @@ struct ContactFriction {
   double kinetic_ratio = 0.0;   ///< mu_k <= mu_s [1]
   double viscous_step = 0.0;    ///< mu_v / (k_D k_VC,x T) [1]: the contacts share it in proportion to their loads
   double face_thickness = 0.0;  ///< of ContactPatches::grip [m]
-  ContactPatches patches = {};  ///< on which friction acts nearer to the load's centre
+  ContactPatches patches = {};  ///< on which friction acts elsewhere than at the points
 };
 
 /// A contact force on the god object: multiplier normal at `point`, and -multiplier ratio slip at `grip`. A ray of the
@@ -111,7 +111,8 @@ inline constexpr int kMostFrictionAdditions = 512;
 ///    mu^2 / (1 + mu^2) a round.
 /// 4. After these rounds: the smoothing Newton method of solve_smoothed, which is slower and fails less often.
 /// 5. A motion within the tolerances comes to rest if the cones without shifts can hold the body.
-/// 6. If all of that fails (`unconverged`), mostly because the law has no solution, the motion is projected on the rows:
+/// 6. If all of that fails (`unconverged`), mostly because the law has no solution, the motion is projected on the
+/// rows:
 ///    all rows are met, and the forces are those of the cones and of these rows.
 /// 7. If that motion is farther from the wanted one than rest is, which no friction explains, it is replaced by rest if
 ///    the cones without shifts can hold the body, and otherwise by the motion without friction, the nearest that meets

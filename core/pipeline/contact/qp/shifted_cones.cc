@@ -95,7 +95,7 @@ bool rests(const ContactSet& set) noexcept {
 void come_to_rest(ContactSet& set) noexcept {
   if (set.contact_count() == 0 || set.plain_motion().norm() > set.metric().tolerance || rests(set)) return;
   const ContactSet::Saved found = set.save();
-  if (!sticks(set)) set.restore(found);
+  if (!sticks(set) || !rests(set)) set.restore(found);
 }
 
 }  // namespace godobject::detail
