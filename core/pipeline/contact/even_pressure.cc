@@ -259,10 +259,6 @@ double even_distance(const FaceLoad& face, const NearPoints& samples, const Cont
   return mean_distance_of(part);
 }
 
-/// Most that friction moves away from the load's centre. Chosen: the points that carry the load may lie nearer to it
-/// than the places of the face do.
-constexpr double kMostShare = 1.5;
-
 }  // namespace
 
 ContactPatches patches_of(const ConstrainedStep& last, const NearPoints& samples,
@@ -275,7 +271,7 @@ ContactPatches patches_of(const ConstrainedStep& last, const NearPoints& samples
     if (!(face.mean_distance > lengths.margin)) continue;
     const double even = even_distance(face, samples, lengths);
     if (!(even > 0.0)) continue;
-    found.patch[found.count++] = {face.normal, face.centre, std::min(kMostShare, even / face.mean_distance)};
+    found.patch[found.count++] = {face.normal, face.centre, std::min(1.0, even / face.mean_distance)};
   }
   return found;
 }

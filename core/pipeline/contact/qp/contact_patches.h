@@ -8,8 +8,8 @@
 namespace godobject {
 
 /// A flat face on which the body rests. The rows hold it at some of its points, mostly corners; a real face carries its
-/// load all over. The friction of its points acts nearer to the load's centre, or farther out by half at most, so that
-/// its torque about the normal is that of a pressure that is linear over the face. In S.
+/// load all over. The friction of its points acts nearer to the load's centre, so that its torque about the normal is
+/// that of a pressure that is linear over the face. In S.
 struct ContactPatch {
   Vector3 normal = Vector3::Zero();  ///< unit
   Vector3 centre = Vector3::Zero();  ///< of the load [m]
