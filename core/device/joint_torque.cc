@@ -161,6 +161,7 @@ Status joint_torque(const ArmModel& model, const JointTorqueParameters& paramete
   result = JointTorque();
   const JointVector limits = torque_limits(model);
   const JointVector gravity = gravity_torque(model, request.kinematics);
+  result.gravity = gravity;
   if (!gravity.allFinite()) return Status::kNotFinite;
   result.gravity = gravity.cwiseMax(-limits).cwiseMin(limits);
   result.gravity_clipped = result.gravity != gravity;

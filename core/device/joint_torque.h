@@ -61,8 +61,9 @@ struct JointTorque {
 /// springs.
 ///
 /// `kNotFinite`: an input or a result is not finite, or the singular values were not found. Then `torque` is gravity
-/// within the limits, or zero if gravity is not finite either, and the caller stops.
-/// Cost: 5 us for seven joints (one eigenvalue problem of size six). Real-time safe.
+/// within the limits, and the caller stops. If gravity is not finite either, `torque` is zero and `gravity` tells it,
+/// so that the caller can hold the arm with an earlier torque. Cost: 5 us for seven joints (one eigenvalue problem of
+/// size six). Real-time safe.
 Status joint_torque(const ArmModel& model, const JointTorqueParameters& parameters, const TorqueRequest& request,
                     JointTorque& result) noexcept;
 

@@ -19,7 +19,7 @@ using Path = std::filesystem::path;
 std::optional<std::string> first_line(const Path& file) {
   std::ifstream stream(file);
   std::string line;
-  if (!stream || !std::getline(stream, line)) return std::nullopt;
+  if (!std::getline(stream, line)) return std::nullopt;
   return line;
 }
 

@@ -441,6 +441,25 @@ TEST(SceneLimits, OfPointsAreTheirSpheres) {
   }
 }
 
+/// The body's sphere holds each of its points: the bound on a body's displacement requires it.
+TEST(SceneLimits, OfTheBodysSphereHoldForEachPoint) {
+  ImageParts valid = test::whole_image();
+  valid.item<format::Body>(SectionId::kBody).radius = 1.0;
+  const std::size_t nodes = valid.count<format::Node>(SectionId::kNodes);
+  for (std::size_t i = 0; i < nodes; ++i) valid.item<format::Node>(SectionId::kNodes, i).radius = 1.0f;
+  const format::Body body = valid.item<format::Body>(SectionId::kBody);
+  ASSERT_EQ(status_of(valid), Status::kOk);
+  ASSERT_GT(body.point_count, 2u);
+  for (std::uint32_t i = 0; i < body.point_count; ++i) {
+    ImageParts image = valid;
+    float& x = image.item<float>(SectionId::kPoints, i);
+    x = static_cast<float>(body.sphere_center[0] + 1.01 * body.sphere_radius);
+    EXPECT_EQ(status_of(image), Status::kImageValue) << "point " << i;
+    x = static_cast<float>(body.sphere_center[0]);
+    EXPECT_EQ(status_of(image), Status::kOk) << "point " << i;
+  }
+}
+
 TEST(SceneLimits, OfANormalsLengthAreAThousandth) {
   ImageParts image = point_image();
   const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ(), Vector3(0.48, -0.6, 0.64)};

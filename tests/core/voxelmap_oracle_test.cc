@@ -344,10 +344,39 @@ TEST(VoxelmapOracle, LooksUpBatchesOfAnySize) {
   }
 }
 
+/// What stands in a batch behind its points has no effect, not even an exception of the processor.
+TEST(VoxelmapOracle, LooksAtNoPointBehindABatch) {
+  test::Random random(12);
+  const FieldParts parts = test::random_field({}, random);
+  const Voxelmap map = parts.map();
+  constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
+    SCOPED_TRACE(kernel.name);
+    for (std::uint32_t count = 0; count <= SampleBatch::kCapacity; ++count) {
+      const Pose H0 = any_pose(parts.grid, random);
+      Pose H1 = H0;
+      H1.translation += parts.grid.voxel_size * random.direction();
+      SampleBatch batch;
+      fill(batch, parts.grid, H0, random, count);
+      for (float* axis : {batch.x, batch.y, batch.z}) {
+        std::fill(axis + count, axis + SampleBatch::kCapacity, std::numeric_limits<float>::quiet_NaN());
+      }
+      std::fill_n(batch.from_clearance, SampleBatch::kCapacity, std::numeric_limits<double>::quiet_NaN());
+      for (std::uint32_t i = 0; i < count; ++i) batch.from_clearance[i] = map.sample(H0 * point(batch, i)).clearance;
+      std::feclearexcept(FE_ALL_EXCEPT);
+      map.samples_by(&kernel, H1, batch);
+      ASSERT_EQ(std::fetestexcept(kWatched), 0) << "samples, " << count << " points";
+      map.free_chords_by(&kernel, H0, H1, batch);
+      ASSERT_EQ(std::fetestexcept(kWatched), 0) << "chords, " << count << " points";
+    }
+  }
+}
+
 TEST(VoxelmapOracle, LooksUpOneByOneWhereNothingIsStored) {
   test::Random random(8);
   FieldParts parts = test::random_field({.refined = false}, random);
-  parts.bricks = {};  // then the map has no address of a brick
+  parts.bricks = std::vector<format::Brick>();
+  ASSERT_EQ(parts.bricks.data(), nullptr) << "the map has the address of a brick";
   for (std::uint32_t& entry : parts.index) entry = format::index_entry::encode_far(false, 0.25f);
   const Voxelmap map = parts.map();
   const Pose H = any_pose(parts.grid, random);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/random.h"
@@ -37,6 +38,32 @@ TEST(PassivityObserver, CountsWhatActsAndNotWhatIsSent) {
   between.reset();
   EXPECT_EQ(between.absorbed(), 0.0);
   EXPECT_NEAR(after(between, 3), -0.35, 1e-15);
+}
+
+/// A torque of one period acts from the delay on for one period, and the joint moves evenly: the energy is that of the
+/// part of this period that is over.
+TEST(PassivityObserver, CountsATorqueExactlyWhileItActs) {
+  for (const double delay : {0.0, 0.25, 1.0, 1.25, 2.9, 13.5, 14.0}) {
+    PassivityObserver observer(delay);
+    for (int k = 0; k <= 40; ++k) {
+      observer.observe(joint(0.1 * k));
+      EXPECT_NEAR(observer.absorbed(), -0.2 * std::clamp(k - delay, 0.0, 1.0), 1e-14) << delay << ", sample " << k;
+      observer.send(joint(k == 0 ? 2.0 : 0.0));
+    }
+  }
+}
+
+/// Where the joint was before its first position is not known, also if a torque acts already.
+TEST(PassivityObserver, AddsNoEnergyUpToItsFirstPosition) {
+  PassivityObserver observer(0.0);
+  for (int session = 0; session < 2; ++session) {
+    observer.send(joint(2.0));
+    observer.observe(joint(5.0));
+    EXPECT_EQ(observer.absorbed(), 0.0) << session;
+    observer.observe(joint(5.1));
+    EXPECT_NEAR(observer.absorbed(), -0.2, 1e-14) << session;
+    observer.reset();
+  }
 }
 
 TEST(PassivityObserver, BringsTheDelayIntoItsRange) {
@@ -159,6 +186,27 @@ TEST(PassivityController, ForgetsASurplusOnceNothingIsRenderedButNotADebt) {
   EXPECT_GT(controller.apply(kSurplus - 0.01, kPush, kIn).force.z(), 10.0);
   controller.reset();
   EXPECT_EQ(controller.apply(0.0, kPush, kIn).force, kPush.force);
+}
+
+TEST(PassivityController, IsAsANewOneAfterAReset) {
+  const PassivityController::Parameters parameters{.most_damping = 50.0, .period = kPeriod};
+  PassivityController used(parameters), fresh(parameters);
+  for (const double absorbed : {0.2, -1e-4}) {
+    used.apply(absorbed, kPush, kIn);  // with damping and without
+    used.reset();
+    EXPECT_EQ(used.damping(), fresh.damping());
+    EXPECT_EQ(used.damping(), 0.0);
+  }
+  used.apply(0.1, {}, kIn);
+  used.reset();
+  for (int k = 0; k < PassivityController::kForget - 1; ++k) {
+    used.apply(0.1, {}, kIn);
+    fresh.apply(0.1, {}, kIn);
+  }
+  for (const double absorbed : {0.05, -1e-4, -1.0}) {
+    EXPECT_EQ(used.apply(absorbed, kPush, kIn).force, fresh.apply(absorbed, kPush, kIn).force) << absorbed;
+    EXPECT_EQ(used.damping(), fresh.damping()) << absorbed;
+  }
 }
 
 TEST(PassivityController, StaysFiniteAtTheEdgesOfNumbers) {

@@ -161,6 +161,23 @@ TEST_F(SceneFileTest, RefusesAnotherVersion) {
   test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
 }
 
+/// The first bytes tell another file from a damaged image, whatever its length.
+TEST_F(SceneFileTest, CallsWhatBeginsInAnotherWayOrIsTooShortNoSceneImage) {
+  std::string other = text_;  // of the length that its header tells
+  other[0] = 'g';
+  for (const std::string& text : {other, std::string(), std::string("solid bunny\n"), std::string(100'000, 'x'),
+                                  text_.substr(0, 8), text_.substr(0, sizeof(format::Header) - 1)}) {
+    write(text);
+    const auto [code, words] = refusal(file_);
+    EXPECT_EQ(code, ExitCode::kBadData);
+    EXPECT_NE(words.find("a.scene: is not a scene image; compile the scene again"), std::string::npos) << words;
+  }
+  write(text_.substr(0, sizeof(format::Header)));
+  const auto [code, words] = refusal(file_);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  EXPECT_NE(words.find("a.scene: the scene image is truncated"), std::string::npos) << words;
+}
+
 TEST_F(SceneFileTest, RefusesWhatIsHugeWithoutTakingMemory) {
   std::filesystem::resize_file(file_, std::uintmax_t{1} << 40);  // a hole
   const auto [code, words] = refusal(file_);

@@ -167,6 +167,7 @@ TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(290)) << "on no machine it is earlier";
   EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words_;  // a busy machine may be too late
   EXPECT_TRUE(says("waking late: p50")) << words_;
+  EXPECT_TRUE(says("\nround trip: p50 ") && !says(" of 0 cycles")) << "each figure has cycles: " << words_;
 }
 
 TEST_F(ControllerCommandTest, CommissionsTheSimulatedDrives) {

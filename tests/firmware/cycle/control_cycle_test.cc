@@ -291,6 +291,29 @@ TEST_F(ControlCycleTest, StopsInTheCycleOfAReadingThatIsNotFinite) {
   }
 }
 
+/// Numbers of the arm that spoil the tool's pose, or the gravity torque alone, stand for any error in the computation.
+TEST_F(ControlCycleTest, HoldsTheArmAsInTheCycleBeforeWhenItsPoseOrGravityIsNotFinite) {
+  for (double* number : {&arm_.model.joints[6].a, &arm_.model.H_RA.translation[0], &arm_.model.H_FM.translation[1],
+                         &arm_.model.gravity_R[2]}) {
+    drives_ = FakeDrives(7);
+    drives_.reading.position = q0_;
+    make();
+    run_to(Mode::kRunning);
+    press(0.033);
+    const JointVector gravity = gravity_torque(arm_.model, forward_kinematics(arm_.model, drives_.reading.position));
+    ASSERT_GT(gravity.norm(), 1.0);
+    const double good = *number;
+    *number = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 2; ++i) {
+      step();
+      EXPECT_EQ(cycle_->record().status, Status::kNotFinite);
+      EXPECT_EQ(cycle_->record().fault, Fault::kComputation);
+      EXPECT_LT((drives_.sent.torque - gravity).norm(), 1e-9) << "the arm is held, nothing is rendered";
+    }
+    *number = good;
+  }
+}
+
 /// Calls `each` with every number of the arm that a cycle computes with.
 template <class Each>
 void each_number(ArmModel& arm, Each&& each) {

@@ -13,7 +13,7 @@ class FakeDrives final : public hal::JointDrives {
   explicit FakeDrives(int joint_count) : joint_count_(joint_count) { reading.enable_switch = true; }
 
   int joint_count() const noexcept override { return joint_count_; }
-  void request() noexcept override {}
+  void request() noexcept override { ++requests; }
   std::int64_t collect_ns() const noexcept override { return 0; }
   /// The enable switch is released at first, as who asks for power must have it.
   void receive(hal::JointReading& out) noexcept override {
@@ -46,6 +46,7 @@ class FakeDrives final : public hal::JointDrives {
 
   hal::JointReading reading;
   hal::JointCommand sent;
+  int requests = 0;
   int sends = 0;
   bool fails_to_send = false;
 

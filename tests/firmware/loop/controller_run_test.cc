@@ -164,6 +164,7 @@ TEST_F(ControllerRunTest, EndsAfterItsCycles) {
   run();
   EXPECT_EQ(cycle_->record().mode, Mode::kEnded);
   EXPECT_EQ(drives_.sends, 121) << "the last one is told that its time is over";
+  EXPECT_EQ(drives_.requests, 121) << "each cycle asks for its own samples";
   EXPECT_EQ(reads_, 121u);
   EXPECT_EQ(modes_.size(), 17u) << "cycles 7, 14, .. 119";
   EXPECT_EQ(report_.computing.count(), 121u);

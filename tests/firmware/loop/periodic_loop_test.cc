@@ -269,6 +269,32 @@ TEST(PeriodicLoop, MeasuresLatenessAndComputingTimeOfEachCycle) {
   EXPECT_EQ(statistics.compute.largest_ns(), 300'000);
 }
 
+/// Periods that pass between the first deadline and the first waking are skipped ones, as between any two cycles.
+TEST(PeriodicLoop, TellsTheFirstCycleOfItsLateWaking) {
+  for (const auto& [late, overrun, skipped] :
+       std::initializer_list<std::array<std::int64_t, 3>>{{0, 0, 0},
+                                                          {400'000, 0, 0},
+                                                          {600'000, 0, 1},
+                                                          {1'000'000, 1'000'000, 1},
+                                                          {1'600'000, 1'600'000, 2},
+                                                          {2'400'000, 2'400'000, 2},
+                                                          {7'200'000, 7'200'000, 7}}) {
+    LateClock clock({late});
+    clock.now = 3'000'001;
+    LoopStatistics statistics;
+    LoopEvents heard;
+    run_periodically(
+        clock, kPeriod_ns, 0, statistics, [] {},
+        [&](const LoopEvents& events) {
+          heard = events;
+          return false;
+        },
+        [](const CycleTimes&) {});
+    EXPECT_EQ(heard.overrun_ns, overrun) << late;
+    EXPECT_EQ(heard.skipped, static_cast<std::uint32_t>(skipped)) << late;
+  }
+}
+
 /// The first deadline is the next whole period, also where the clock shows one already.
 TEST(PeriodicLoop, BeginsAtTheNextWholePeriod) {
   for (const auto& [now, first] : std::initializer_list<std::array<std::int64_t, 2>>{

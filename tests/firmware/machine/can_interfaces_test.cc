@@ -1,6 +1,8 @@
 #include "firmware/machine/can_interfaces.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -395,6 +397,27 @@ TEST(CanInterface, LengthsBoundWhatIsRead) {
   EXPECT_TRUE(parse_link(bare)) << "without an attribute";
   bare[0] = static_cast<std::uint8_t>(bare.size() - 1);
   EXPECT_FALSE(parse_link(bare));
+}
+
+/// The lowest descriptor that is free.
+int free_descriptor() {
+  const int descriptor = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ::close(descriptor);
+  return descriptor;
+}
+
+/// Also in a process whose standard input is closed, which gets its descriptor, 0, for the socket.
+TEST(CanInterface, AQuestionLeavesNoDescriptorOpen) {
+  for (const bool without_input : {false, true}) {
+    const int input = without_input ? ::fcntl(0, F_DUPFD_CLOEXEC, 100) : -1;
+    if (without_input) ::close(0);
+    const int before = free_descriptor();
+    static_cast<void>(read_can_interface("lo"));
+    EXPECT_EQ(free_descriptor(), before) << without_input;
+    if (input < 0) continue;
+    ::dup2(input, 0);
+    ::close(input);
+  }
 }
 
 TEST(CanInterface, NamesThatNoInterfaceCanHaveAreNotAskedFor) {

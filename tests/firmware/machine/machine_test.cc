@@ -1,13 +1,17 @@
 // Tests the examination of a machine for real-time work, and the real-time setup of the loop.
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -302,6 +306,32 @@ TEST(RealTimeSettings, AreAnyProcessorAndAHighPriority) {
   EXPECT_EQ(RealTimeSettings{}.priority, 80);
 }
 
+/// The thread gets the processor that it names, 0 too, and no other; without one it keeps those that it has.
+TEST(RealTimeSetup, BindsTheThreadToItsProcessor) {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  ASSERT_EQ(::sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  for (int cpu = -1, tried = 0; cpu < CPU_SETSIZE && tried < 4; ++cpu) {
+    if (cpu >= 0 && !CPU_ISSET(static_cast<std::size_t>(cpu), &allowed)) continue;
+    ++tried;
+    cpu_set_t expected = allowed;
+    if (cpu >= 0) {
+      CPU_ZERO(&expected);
+      CPU_SET(static_cast<std::size_t>(cpu), &expected);
+    }
+    cpu_set_t bound;
+    CPU_ZERO(&bound);
+    std::vector<std::string> missing;
+    std::thread([&] {
+      missing = set_up_real_time({.cpu = cpu, .priority = 1});
+      ::sched_getaffinity(0, sizeof bound, &bound);
+      ::munlockall();  // or the next thread's whole stack would be locked
+    }).join();
+    EXPECT_TRUE(CPU_EQUAL(&bound, &expected)) << cpu;
+    for (const std::string& line : missing) EXPECT_EQ(line.find("not bound"), std::string::npos) << line;
+  }
+}
+
 TEST(RealTimeSetup, SaysWhatItMayNotDoAndTheLoopNeedsNoPageAfterIt) {
   const test::Arm arm = test::lwr();
   const test::SceneImage image = test::ball_over_plate();
@@ -345,6 +375,7 @@ TEST(RealTimeSetup, SaysWhatItMayNotDoAndTheLoopNeedsNoPageAfterIt) {
   EXPECT_EQ(faults, 0);
   for (const std::string& line : missing) {
     EXPECT_NE(line.find("limits.d"), std::string::npos) << line;
+    EXPECT_EQ(line.find(std::strerror(EINVAL)), std::string::npos) << "no right helps: " << line;
     std::printf("not permitted here: %s\n", line.c_str());
   }
   EXPECT_NE(describe_machine().find("processors"), std::string::npos);

@@ -97,6 +97,35 @@ TEST(Projection, SlipsAtTheEndOfALeverByHand) {
   }
 }
 
+/// A lever of L^2 = 6 Jh that points anywhere about the normal; the wanted motion turns with it. In the lever's frame,
+/// by hand: a force along the lever moves the contact point by 1, one across it by 1 + 6, as one along the normal does.
+/// So nu = 0.1 mm, and |l| = mu_k nu + c slip with a slip of w - |l| along the lever and of w - 7 |l| across it.
+TEST(Projection, SlipsAlikeWhereverTheLeverPoints) {
+  constexpr double L = 0.05, kJh = L * L / 6.0;
+  const MassModel mass = MassModel::make(Vector3::Constant(kJh), L, L);
+  const ProjectionFriction friction{0.3, 0.25, 0.5};
+  for (int step = 0; step < 16; ++step) {
+    const Matrix3 turn = exp_rotation(Vector3(0.0, 0.0, M_PI / 8.0 * step)).toRotationMatrix();
+    const Vector3 lever(L, 0.0, 0.0);
+    PenaltyContacts contacts;
+    contacts.depth = kFrictionSafety;  // p = 0: the contact point must not go down
+    contacts.count = 1;
+    contacts.wrench_S.force = 0.003 * Vector3::UnitZ();
+    contacts.wrench_S.torque = (turn * lever).cross(contacts.wrench_S.force);
+    for (const int axis : {0, 1}) {
+      Vector3 wanted(0.0, 0.0, -7e-4);
+      wanted[axis] = 7e-4;
+      Vector3 force(0.0, 0.0, 1e-4);
+      force[axis] = -(0.25 * 1e-4 + 0.5 * 7e-4) / (1.0 + 0.5 * (axis == 0 ? 1.0 : 7.0));
+      const Projection out = project({turn * wanted, Vector3::Zero()}, contacts, kFrictionSafety, kFrictionGain, mass,
+                                     &friction, ProjectionState{});
+      EXPECT_TRUE(out.next.slipping) << step << ", axis " << axis;
+      EXPECT_LT((out.next.wanted.translation - turn * (wanted + force)).norm(), 5e-8) << step << ", axis " << axis;
+      EXPECT_LT((out.next.wanted.rotation - turn * lever.cross(force) / kJh).norm(), 5e-6) << step << ", axis " << axis;
+    }
+  }
+}
+
 /// One contact of a body with any inertia and lever. The force line may carry a torque along itself.
 struct FrictionProblem {
   MassModel mass;

@@ -169,8 +169,37 @@ TEST(PushWithin, FindsPushesThatFacesCanGiveWhereAxesAreCoupled) {
   EXPECT_GT(found, kCases * 7 / 10);
 }
 
-/// By hand: the face at x = 0.1 pushes by 0.1. This moves y from 0.095 to 0.105, beyond its face. Each push p, q moves the
-/// other axis outwards by a tenth of it: p - 0.1 q = 0.1 and q - 0.1 p = -0.005, so q = 0.005 / 0.99.
+/// Along an axis the end moves by at most the push, so a push that grows by less than what is missing cannot suffice.
+TEST(PushWithin, GrowsAPushByNoLessThanIsMissing) {
+  Random random(5);
+  int steps = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const WorkspaceBox box = box_of(Vector3::Constant(-0.1), Vector3::Constant(0.1));
+    const Vector3 target = random.in_cube(0.2);
+    const Vector3 n = random.direction();
+    const Matrix3 yield = Matrix3::Identity() - random.between(0.0, 0.9) * n * n.transpose();
+    Vector3 last = Vector3::Zero();
+    Vector3 missing = Vector3::Zero();  // to the face of each axis that is pushed, or crossed
+    push_within(box, 1e-6, [&](const Vector3& push) noexcept {
+      const Vector3 end = target - yield * push;
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool let_go = push[axis] == 0.0 && last[axis] != 0.0;  // a face does not pull
+        if (!let_go) {
+          EXPECT_GE(std::fabs(push[axis] - last[axis]), std::fabs(missing[axis]) - 1e-12) << i << ", axis " << axis;
+        }
+        steps += missing[axis] != 0.0 ? 1 : 0;
+        const double nearest = box.nearest(end)[axis];
+        missing[axis] = end[axis] - (push[axis] > 0.0 ? 0.1 : push[axis] < 0.0 ? -0.1 : nearest);
+      }
+      last = push;
+      return end;
+    });
+  }
+  EXPECT_GT(steps, 5000);
+}
+
+/// By hand: the face at x = 0.1 pushes by 0.1. This moves y from 0.095 to 0.105, beyond its face. Each push p, q moves
+/// the other axis outwards by a tenth of it: p - 0.1 q = 0.1 and q - 0.1 p = -0.005, so q = 0.005 / 0.99.
 TEST(PushWithin, FollowsAPushThatMovesAnotherAxisOutOfTheBox) {
   const WorkspaceBox box = box_of(Vector3::Constant(-0.1), Vector3::Constant(0.1));
   for (int axis = 0; axis < 3; ++axis) {

@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "hal/cia402/bus_plan.h"
+#include "hal/clock.h"
 #include "sim/can_device.h"
+#include "sim/virtual_clock.h"
 #include "tests/sim/small_master.h"
 #include "tests/support/arms.h"
 #include "toolchain/command_line/failure.h"
@@ -216,6 +221,53 @@ TEST_F(CommissioningTest, TakesNoOtherErrorForTheDeadline) {
   }
   EXPECT_GE(shown, 1);
   EXPECT_LE(shown, 3);
+}
+
+/// A clock of a machine that pauses once; it counts the calls in a row after which no time has passed since the first.
+class PausingClock final : public hal::Clock {
+ public:
+  PausingClock(sim::World& world, std::span<const sim::LateWake> pauses) : clock_(world, pauses) {}
+  std::int64_t now_ns() noexcept override { return clock_.now_ns(); }
+  void sleep_until(std::int64_t ns) noexcept override {
+    const std::int64_t before_ns = now_ns();
+    clock_.sleep_until(ns);
+    at_once_ = now_ns() == before_ns ? at_once_ + 1 : 0;
+    most_at_once = std::max(most_at_once, at_once_);
+  }
+  int most_at_once = 0;
+
+ private:
+  sim::VirtualClock clock_;
+  int at_once_ = 0;
+};
+
+/// Cycles that a pause has left out are not made up for in a burst: the next one begins at once, each later one in its
+/// time. The drives do not watch their deadline here, so that they let the pause pass.
+TEST_F(CommissioningTest, MakesUpForNoCyclesAfterAPause) {
+  start();
+  for (int joint = 0; joint < 7; ++joint) device_->nodes().drive(joint).ignore_deadline();
+  // while it waits for the drives, between request and samples of a cycle
+  const sim::LateWake pauses[] = {{(now_ms() + 150) * 1'000'000 + 1, 10'000'000}};
+  PausingClock clock(*device_, pauses);
+  const std::int64_t begin_ms = now_ms();
+  const std::vector<JointTrial> trials = try_drives(*drives_, layout_, wires_, clock, {"can0", "can1", "can2"}, end_);
+  EXPECT_GT(now_ms() - begin_ms, 300);
+  EXPECT_LE(clock.most_at_once, 1);
+  for (const JointTrial& trial : trials) EXPECT_EQ(trial.after_ms, -1);
+}
+
+/// Either reaction alone is one, and the table tells which it was.
+TEST(CommissioningTable, ShowsOfAReactionOnlyWhatWasSeen) {
+  hal::BusLayout layout;
+  layout.joint_count = 2;
+  std::vector<JointTrial> trials(2);
+  trials[0].after_ms = 5;
+  trials[0].emergency = 0x8250;
+  trials[1].after_ms = 7;
+  trials[1].fault = true;
+  const std::string table = trial_table(layout, trials);
+  EXPECT_NE(table.find(" ms  emergency 8250 after 5 ms\n"), std::string::npos) << table;
+  EXPECT_NE(table.find(" ms  fault after 7 ms\n"), std::string::npos) << table;
 }
 
 TEST(CommissioningTable, HasEachNumberInItsPlace) {
