@@ -344,7 +344,7 @@ TEST(VoxelmapOracle, LooksUpBatchesOfAnySize) {
   }
 }
 
-/// What stands in a batch behind its points has no effect, not even an exception of the processor.
+/// The numbers in a batch behind its points have no effect, not even an exception of the processor.
 TEST(VoxelmapOracle, LooksAtNoPointBehindABatch) {
   test::Random random(12);
   const FieldParts parts = test::random_field({}, random);

@@ -1,4 +1,4 @@
-// The energy of the arcs on which points move, against the exact motion.
+// The energy of the arcs on which points move, against the exact motion, and the holding points at the end of a motion.
 #include "core/pipeline/contact/arrival.h"
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 
 #include "core/pipeline/contact/second_look.h"
 #include "godobject/pose.h"
+#include "tests/support/analytic_worlds.h"
+#include "tests/support/edge_set.h"
 
 namespace godobject::detail {
 namespace {
@@ -87,6 +89,96 @@ TEST(ArcEnergy, ByHand) {
   EXPECT_EQ(arc_energy(step), 0.0);
   step.motion.rotation = Vector3(0.0, 0.0, 0.1);
   EXPECT_NEAR(arc_energy(step), 0.03, 1e-15);
+}
+
+/// One holding point of each kind: a sample point over the floor z = 0, a feature point over the plane z = 0 of the
+/// body, and the crossing of two edges.
+struct ArrivalWorld {
+  test::AnalyticField floor{test::HalfSpace{}, 0.002};
+  test::SampledBody body{{{{0.01, 0.0, 0.0}}, {-Vector3::UnitZ()}}, Vector3::Constant(1e-4)};
+  test::SampledBody tip{{{{0.0, 0.004, 0.0}}, {-Vector3::UnitZ()}}, Vector3::Constant(1e-4)};
+  test::EdgeSet moving{{{Vector3(0.0, 0.0, -0.01), Vector3(0.0, 0.0, 0.01)}}};  // in W along y if turned about x
+  test::EdgeSet still{{{Vector3(-0.01, 0.0, 0.0), Vector3(0.01, 0.0, 0.0)}}};
+  Vector3 origin_W{0.1, -0.2, 0.3};
+  Pointshell shell = body.pointshell();
+  Parameters parameters;
+  ContactScene<test::AnalyticField, test::AnalyticField> scene{
+      floor, shell, {&floor, tip.pointshell(), origin_W, 0.05}, parameters, {moving.view(), still.view()}};
+
+  /// A pose that is turned by a right angle about an axis.
+  static Pose turned(const Vector3& axis, const Vector3& position) {
+    Pose pose;
+    pose.translation = position;
+    pose.rotation = exp_rotation(0.5 * M_PI * axis);
+    return pose;
+  }
+  /// A force on the crossing of the edges, of which the upper one is along the body's z axis.
+  static ContactForce force_on_edges() {
+    ContactForce force;
+    force.id = id_of({0, 0});
+    force.normal = Vector3::UnitY();  // in W upwards
+    force.multiplier = 2.0;
+    return force;
+  }
+};
+
+/// Expects the distances at both ends, and that the gradient times the displacement is their difference.
+void expect_end(const EndOfForce& end, double start, double stop, const Vector3& gradient_W) {
+  EXPECT_NEAR(end.at_start.distance, start, 1e-9);
+  EXPECT_NEAR(end.at_end.distance, stop, 1e-9);
+  EXPECT_LT((end.gradient_W - gradient_W).norm(), 1e-9);
+  EXPECT_NEAR(end.gradient_W.dot(end.displacement_W), stop - start, 1e-9);
+}
+
+TEST(EndOfForce, OfASamplePointIsTheFieldThere) {
+  const ArrivalWorld world;
+  ContactForce force;
+  const Pose H0 = ArrivalWorld::turned(Vector3::UnitZ(), {0.0, 0.0, 0.002});
+  const Pose H1 = ArrivalWorld::turned(Vector3::UnitZ(), {0.001, 0.0, 0.005});
+  expect_end(end_of(world.scene, H0, H1, force, true), 0.002, 0.005, Vector3::UnitZ());
+}
+
+/// The body's plane z = 0 is upright in W and faces -y, so the gap grows as the body moves along y.
+TEST(EndOfForce, OfAFeaturePointIsTheFieldOfTheBodyThere) {
+  const ArrivalWorld world;
+  const Vector3 tip_W = world.origin_W + Vector3(0.0, 0.004, 0.0);
+  ContactForce force;
+  force.id = kFeature;
+  const Pose H0 = ArrivalWorld::turned(Vector3::UnitX(), tip_W + Vector3(0.0, 0.003, 0.0));
+  const Pose H1 = ArrivalWorld::turned(Vector3::UnitX(), tip_W + Vector3(0.001, 0.005, 0.0));
+  expect_end(end_of(world.scene, H0, H1, force, true), 0.003, 0.005, Vector3::UnitY());
+}
+
+/// An edge passes over another one, or through it: then the gap is negative, and the normal is that of the start.
+TEST(EndOfForce, OfAnEdgePairIsItsGapThere) {
+  const ArrivalWorld world;
+  const Pose H0 = ArrivalWorld::turned(Vector3::UnitX(), {0.0, 0.0, 0.001});
+  for (const double stop : {0.003, 3e-5, -0.002}) {
+    const Pose H1 = ArrivalWorld::turned(Vector3::UnitX(), {0.001, 0.002, stop});
+    expect_end(end_of(world.scene, H0, H1, ArrivalWorld::force_on_edges(), true), 0.001, stop, Vector3::UnitZ());
+  }
+}
+
+/// A pair of edges that has left is no contact any more. One that comes too near lacks what is missing to the margin.
+TEST(Arrival, TellsWhetherAnEdgePairHasLeftOrLacksAPartOfItsMargin) {
+  const ArrivalWorld world;
+  const double margin = world.scene.lengths.margin;
+  const Pose H0 = ArrivalWorld::turned(Vector3::UnitX(), {0.0, 0.0, 0.001});
+  for (const double stop : {0.003, 3e-5, 1e-5, -0.002}) {
+    const Pose H1 = ArrivalWorld::turned(Vector3::UnitX(), {0.001, 0.002, stop});
+    ConstrainedStep step;
+    step.force_count = 1;
+    step.forces[0] = ArrivalWorld::force_on_edges();
+    step.motion = get_motion(H0.inverse() * H1);
+    const Arrival arrival = arrive(world.scene, H0, H1, step);
+    EXPECT_EQ(arrival.opened, stop > margin + world.scene.lengths.opening) << stop;
+    EXPECT_NEAR(arrival.rise, 0.0, 1e-12) << "its normal does not turn";
+    const EndGaps gaps = end_gaps(world.scene, H0, H1, step, 1.0);
+    EXPECT_NEAR(gaps.most, std::max(0.0, margin - stop), 1e-9);
+    if (stop > margin) continue;
+    EXPECT_EQ(gaps.id, id_of({0, 0}));
+    EXPECT_NEAR(gaps.sample.distance, stop, 1e-9);
+  }
 }
 
 /// Both directions: the distance of a linear field grows by n . (x + r x P) as the body moves, to first order. The pose

@@ -66,6 +66,16 @@ const SceneImage& corner() {
   return image;
 }
 
+/// The top is at z = 12 mm, the edges of the top at 20 mm from the axis.
+const SceneImage& flat_block() {
+  static const SceneImage image = image_of(
+      [](const Vector3& p) {
+        return analytic::box_distance(p, {0.02, 0.02, 0.012});
+      },
+      0.004);
+  return image;
+}
+
 /// A solid with thin parts, edges and a slot that the centre cannot pass.
 const SceneImage& maze() {
   static const SceneImage image = image_of(
@@ -281,13 +291,8 @@ TEST(BallCycle, FindsTheWayAlongAWallWhileAFaceOfTheWorkspaceHoldsIt) {
 /// The centre slides on a plate and past its edge; the device is 1 mm below the top. Beyond the edge nothing holds the
 /// centre: in the same cycle it goes to the device, and is released.
 TEST(BallCycle, GoesDownToTheDevicePastAnEdgeInTheSameCycle) {
-  static const SceneImage image = image_of(
-      [](const Vector3& p) {
-        return analytic::box_distance(p, {0.02, 0.02, 0.012});
-      },
-      0.004);
   for (const double begin : {0.0, 0.0002, 0.0005, 0.0008}) {
-    BallRun run(image, {0.014 + begin, 0.001, 0.0125});
+    BallRun run(flat_block(), {0.014 + begin, 0.001, 0.0125});
     int beyond = 0;
     for (int i = 1; i < 16; ++i) {
       const Vector3 goal(0.014 + begin + 0.001 * i, 0.001, 0.011);
@@ -306,6 +311,27 @@ TEST(BallCycle, GoesDownToTheDevicePastAnEdgeInTheSameCycle) {
     }
     EXPECT_GT(beyond, 3);
   }
+}
+
+/// The same with a device that is far below the top, so that the way down takes several sub-steps. The cycle ends with
+/// the one that reaches the device.
+TEST(BallCycle, TakesNoSubstepBeyondTheOneThatReachesTheDevice) {
+  int several = 0;
+  for (const double depth : {0.001, 0.003, 0.006}) {
+    for (const double begin : {0.0, 0.0002, 0.0005, 0.0008}) {
+      BallRun run(flat_block(), {0.014 + begin, 0.001, 0.0125});
+      for (int i = 1; i < 12; ++i) {
+        const Vector3 goal(0.014 + begin + 0.001 * i, 0.001, 0.012 - depth);
+        ASSERT_EQ(run.step(goal), Status::kOk);
+        const auto poses = run.path.poses();
+        for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
+          EXPECT_NE(poses[k].translation, goal) << depth << ' ' << begin << ' ' << i;
+        }
+        several += poses.size() > 1 && run.center() == goal ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(several, 0);
 }
 
 TEST(BallCycle, StaysWhereANumberIsNotFinite) {

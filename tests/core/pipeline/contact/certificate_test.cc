@@ -285,6 +285,36 @@ TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
   EXPECT_GT(failed, 20);
 }
 
+/// One point of many crosses the surface, while all others keep their balls. It is found whichever point is the
+/// suspect. `places`: of that point and of the suspect.
+void expect_the_one_that_crosses(std::uint32_t count, const std::vector<std::uint32_t>& places) {
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
+  const auto near = near_points(field, std::vector<Vector3>(count, Vector3(0.0, 0.0, 0.01)), Pose{});
+  Pose H1;
+  H1.translation.z() = -0.002;
+  Budget budget;
+  Obstacle none;
+  EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, none).holds());
+  for (const std::uint32_t low : places) {
+    near->z[low] = 1e-3f;
+    near->distance[low] = near->clearance[low] = 1e-3;
+    for (const std::uint32_t suspect : places) {
+      Obstacle obstacle;
+      obstacle.near = suspect;
+      EXPECT_FALSE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds())
+          << low << " suspect " << suspect;
+      EXPECT_EQ(obstacle.near, low) << "suspect " << suspect;
+    }
+    near->z[low] = 0.01f;
+    near->distance[low] = near->clearance[low] = 0.01;
+  }
+}
+
+TEST(Certificate, FindsTheOneThatCrossesWhateverPointIsTheSuspect) {
+  expect_the_one_that_crosses(200, {0, 1, 62, 63, 64, 65, 126, 127, 128, 190, 191, 192, 199});
+  expect_the_one_that_crosses(4200, {0, 63, 4031, 4032, 4095, 4096, 4097, 4159, 4160, 4199});
+}
+
 TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   Random random(16);
   const Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};

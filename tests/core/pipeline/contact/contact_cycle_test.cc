@@ -266,6 +266,29 @@ TEST(ContactCycle, SlidesWithTheKineticRatioOpposedToTheSlip) {
   }
 }
 
+/// By hand: at the speed v the tangential force is mu_k times the normal force, and mu_v v beside it, whatever the
+/// coupling and the period.
+TEST(ContactCycle, AddsTheViscousForceOfItsSpeed) {
+  const AnalyticField field(HalfSpace{}, kVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(1e-4));
+  constexpr double kSpeed = 0.1;     // [m/s]
+  constexpr double kViscous = 10.0;  // [Ns/m]
+  for (const double period : {1e-3, 2e-3}) {
+    for (const double coupling : {1.0, 0.8}) {
+      ContactRun<true> run(field, body, at({0.0, 0.0, 1e-4}));
+      run.parameters.friction = {0.2, 0.18, kViscous};
+      run.parameters.period = period;
+      run.parameters.coupling_translation = coupling;
+      for (int i = 0; i < 300; ++i) {
+        ASSERT_EQ(run.step(at({kSpeed * period * i, 0.0, -0.005})), Status::kOk);
+      }
+      const Vector3 force = run.report.force.spring_W.force;
+      EXPECT_GT(force.z(), 7.0);
+      EXPECT_NEAR(-force.x(), 0.18 * force.z() + kViscous * kSpeed, 0.01) << period << ' ' << coupling;
+    }
+  }
+}
+
 TEST(ContactCycle, FeelsAGrooveByItsHalfAngle) {
   for (const double opening : {60.0, 90.0, 120.0}) {
     const double half = 0.5 * opening * M_PI / 180.0;

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -157,6 +160,123 @@ TEST(ContactSubsteps, StoreTheMotionOfTheWholeCycle) {
   EXPECT_GT(all.far, 100);
 }
 
+/// A point falls onto a floor in one cycle, in any number of sub-steps: at first none finds the floor, then some do.
+/// The stored motion is the whole fall.
+TEST(ContactSubsteps, StoreTheWholeFallOfAPoint) {
+  const AnalyticField field(HalfSpace{}, kSubstepVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  int several = 0;
+  for (double height = 1e-4; height < 5e-3; height *= 1.1) {
+    SubstepRun<> run(field, body, pose_at({0.0, 0.0, height}));
+    const Vector3 before = run.state.H_WS.translation;
+    ASSERT_EQ(run.step(pose_at({0.0, 0.0, -1e-3})), Status::kOk);
+    const Vector3 fall = run.state.H_WS.translation - before;
+    EXPECT_LT((run.memory().last_step.motion.translation - fall).norm(), 1e-12) << height;
+    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << height;
+    several += run.memory().path.poses().size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(several, 10);
+}
+
+/// The rows are linear in the rotation. A body that is held, be it at a single point, turns by at most 0.1 rad in a
+/// sub-step.
+TEST(ContactSubsteps, TurnABodyThatOnePointHoldsInShortSteps) {
+  const AnalyticField field(HalfSpace{}, kSubstepVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  SubstepRun<> run(field, body, pose_at({0.0, 0.0, kSubstepMargin}));
+  const Pose device = pose_at({0.0, 0.0, -1e-3}, {0.3, -0.2, 0.35});
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    Pose from = run.state.H_WS;
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_EQ(run.report.contacts, 1u);
+    for (const Pose& to : run.memory().path.poses()) {
+      EXPECT_LT(get_motion(from.inverse() * to).rotation.norm(), 0.1 + 1e-9) << cycle;
+      from = to;
+    }
+  }
+  EXPECT_LT(get_motion(run.state.H_WS.inverse() * device).rotation.norm(), 1e-9) << "nothing holds the turn";
+}
+
+/// A floor, and beside it a slot, in whose middle the field has no direction.
+struct FloorBesideASlot {
+  static constexpr double kMiddle = -0.01;
+  static bool in_slot(const Vector3& p) noexcept { return p.x() < 0.5 * kMiddle; }
+  double distance(const Vector3& p) const noexcept { return in_slot(p) ? 5e-5 - std::fabs(p.x() - kMiddle) : p.z(); }
+  Vector3 gradient(const Vector3& p) const noexcept {
+    if (!in_slot(p)) return Vector3::UnitZ();
+    const double off = p.x() - kMiddle;
+    return std::fabs(off) < 1e-6 ? Vector3::Zero() : Vector3(off > 0.0 ? -1.0 : 1.0, 0.0, 0.0);
+  }
+};
+
+/// More near points than rows lie where the field has no direction, so that they need none. They take no row from the
+/// three feet on which the body comes to stand: it does so in one sub-step.
+TEST(ContactSubsteps, LeaveTheRowsToPointsWithADirection) {
+  const AnalyticField field(FloorBesideASlot{}, kSubstepVoxel);
+  SurfaceSamples samples;
+  for (std::uint32_t i = 0; i < ContactRows::kCapacity + 100; ++i) {
+    samples.points.push_back({FloorBesideASlot::kMiddle, 1e-3 * (i % 50) - 0.0245, 1e-3 * (i / 50)});
+  }
+  samples.points[1] = Vector3(0.006, -0.006, 0.0);
+  samples.points[2] = Vector3(0.006, 0.006, 0.0);
+  samples.points[3] = Vector3(-0.004, 0.0, 0.0);
+  samples.normals.assign(samples.points.size(), Vector3::UnitZ());
+  const SampledBody body(samples, Vector3::Constant(4e-4));
+  SubstepRun<> run(field, body, pose_at({0.0, 0.0, 1e-4}));
+  ASSERT_EQ(run.step(pose_at({0.0, 0.0, -2e-4})), Status::kOk);
+  EXPECT_EQ(run.report.substeps, 1u);
+  EXPECT_EQ(run.report.dropped, 0u);
+  EXPECT_EQ(run.report.outcome, Outcome::kContact);
+  EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.01 * kSubstepMargin);
+}
+
+/// The time of a look-up at TickingBlock.
+std::int64_t ticks_of_block = 0;
+std::int64_t block_clock() noexcept { return ticks_of_block; }
+
+/// A block at which each look-up takes a nanosecond of `block_clock`. Nothing else takes time.
+struct TickingBlock : Block {
+  double distance(const Vector3& p) const noexcept {
+    ++ticks_of_block;
+    return Block::distance(p);
+  }
+};
+
+/// Step #1 contains every look-up, also those of the certificate, and nothing else does.
+TEST(ContactSubsteps, CountTheTimeOfEachLookUpAsStep1) {
+  const AnalyticField field(TickingBlock{}, kSubstepVoxel);
+  const SampledBody body = box_body(4);
+  const Pointshell shell = body.pointshell();
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kSubstepVoxel;
+  q.margin = kSubstepMargin;
+  const ContactScene<AnalyticField, NoBodyField> scene(field, shell, {}, q);
+  const auto memory = std::make_unique<ContactMemory>();
+  memory->search.start(scene, {});
+  ProxyState state;
+  state.H_WS = memory->H_WD_last = pose_at({0.0, 0.0, 0.03});
+  state.started = true;
+  CycleReport report;
+  StepTimes times;
+  times.now_ns = block_clock;
+  int held = 0, several = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.02 * i;
+    CycleInput input;
+    input.H_WD = pose_at({0.02 * std::sin(t), 0.015 * std::sin(1.3 * t), 0.022},
+                         {0.2 * std::sin(0.7 * t), 0.2 * std::sin(0.9 * t), 0.3 * t});
+    const std::int64_t before = ticks_of_block;
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report, &times), Status::kOk);
+    EXPECT_EQ(times.step1_ns, ticks_of_block - before) << i;
+    EXPECT_EQ(times.solve_ns, 0) << i;
+    held += report.contacts > 0 ? 1 : 0;
+    several += memory->path.poses().size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(held, 50);
+  EXPECT_GT(several, 0);
+}
+
 /// A point slides on the top of a block and past its edge. The device is 0.3 mm below the top. Beyond the edge nothing
 /// holds the point: in the same cycle it goes to the device.
 TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
@@ -212,6 +332,52 @@ void expect_rows_to_give_way_to_the_faces() {
 TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspace) { expect_rows_to_give_way_to_the_faces<false>(); }
 TEST(ContactSubsteps, GiveWayToTheFacesOfTheWorkspaceWithFriction) { expect_rows_to_give_way_to_the_faces<true>(); }
 
+/// A slope that rises against the x axis.
+const Vector3 kRamp(0.6, 0.0, 0.8);
+
+/// A slope pushes a body against a face of the workspace. The face stops it there with friction, too, however the body
+/// is turned.
+TEST(ContactSubsteps, StopAtAFaceOfTheWorkspaceHoweverTheBodyIsTurned) {
+  const AnalyticField field(HalfSpace{kRamp, 0.0}, kSubstepVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const Vector3& turn : {Vector3(0.0, 0.0, 0.0), Vector3(0.0, 0.0, 0.5 * M_PI), Vector3(0.0, -0.5 * M_PI, 0.0),
+                              Vector3(0.4, -0.7, 1.1)}) {
+    SubstepRun<true> run(field, body, pose_at({0.0, 0.0, kSubstepMargin / 0.8}, turn));
+    run.parameters.friction = {0.18, 0.18, 0.0};
+    run.parameters.workspace = {true, {-inf, -inf, -inf}, {0.001, inf, inf}};
+    ASSERT_EQ(run.step(pose_at({0.001, 0.0, -0.008}, turn)), Status::kOk);
+    EXPECT_FALSE(run.report.unconverged) << turn.transpose();
+    const Vector3 at_face(0.001, 0.0, (kSubstepMargin - 0.6 * 0.001) / 0.8);
+    EXPECT_LT((run.state.H_WS.translation - at_face).norm(), 1e-6) << turn.transpose();
+  }
+}
+
+/// The gap between two parallel ramps.
+struct RampedSlot {
+  double half_width;
+  double distance(const Vector3& p) const noexcept { return half_width - std::fabs(kRamp.dot(p)); }
+  Vector3 gradient(const Vector3& p) const noexcept { return kRamp.dot(p) > 0.0 ? Vector3(-kRamp) : kRamp; }
+};
+
+/// Walls closer than twice the margin push against each other, and push the body against a face of the workspace.
+/// That the walls have no common solution is said whatever the face needs.
+TEST(ContactSubsteps, CallWallsInfeasibleAtAFaceOfTheWorkspaceWithFriction) {
+  const double gap = 0.5 * kSubstepMargin;
+  const AnalyticField field(RampedSlot{0.015 + gap}, kSubstepVoxel);
+  const SampledBody body({{0.015 * kRamp, -0.015 * kRamp}, {-kRamp, kRamp}}, Vector3::Constant(4e-5));
+  const double inf = std::numeric_limits<double>::infinity();
+  SubstepRun<true> run(field, body, Pose{});
+  run.parameters.friction = {0.1, 0.1, 0.0};
+  run.parameters.workspace = {true, {-inf, -inf, -inf}, {0.001, inf, inf}};
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(run.step(pose_at({0.001, 0.0, -0.008})), Status::kOk);
+    EXPECT_EQ(run.report.outcome, Outcome::kInfeasible) << i;
+    ASSERT_LE(run.state.H_WS.translation.x(), 0.001) << i;
+    ASSERT_LT(run.depth(), -0.9 * gap) << i;
+  }
+}
+
 /// A body that starts between walls that push against each other is nowhere held: no contact, no damping, and nothing
 /// for the next cycle. The device is in the middle, so that the spring hardly stretches.
 TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
@@ -231,6 +397,43 @@ TEST(ContactSubsteps, LeaveNoContactWhereWallsPushAgainstEachOther) {
     EXPECT_FALSE(run.memory().last_step.infeasible);
     ASSERT_EQ(run.memory().path.poses().size(), 1u);
   }
+}
+
+/// A floor, a wall beside the point `kUpper`, and just behind the wall's distance a ceiling that rises slowly along x.
+struct LowNiche {
+  static constexpr double kUpper = 0.009;
+  Vector3 ceiling{0.1, 0.0, -std::sqrt(0.99)};
+  double above = ceiling.z() * kUpper - 6e-5;
+
+  double distance(const Vector3& p) const noexcept { return std::min({p.z(), p.y() + 5e-5, ceiling.dot(p) - above}); }
+  Vector3 gradient(const Vector3& p) const noexcept {
+    if (distance(p) == p.z()) return Vector3::UnitZ();
+    return distance(p) == p.y() + 5e-5 ? Vector3::UnitY() : ceiling;
+  }
+};
+
+/// The lower end of a stick starts inside a floor and regains a share of its depth; then the upper end would meet a
+/// ceiling that the field at the start does not show. A way along the ceiling leads ten times as far aside. Such a
+/// second look, which leads away from the device, is not taken.
+TEST(ContactSubsteps, TakeNoSecondLookThatLeadsAwayFromTheDevice) {
+  const double depth = 1e-3;
+  const AnalyticField field(LowNiche{}, kSubstepVoxel);
+  const SampledBody body(
+      {{Vector3::Zero(), Vector3(0.0, 0.0, LowNiche::kUpper + depth)}, {Vector3::UnitZ(), -Vector3::UnitZ()}},
+      Vector3::Constant(4e-5));
+  SubstepRun<> run(field, body, pose_at({0.0, 0.0, -depth}));
+  run.state.started = false;
+  run.state.inside = true;
+  run.cycle.memory->last_step.motion.translation = Vector3::UnitX();  // long: the longest search radius
+  const Pose device = pose_at({0.0, 1e-4, -depth});
+  ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+  const Vector3 moved = run.state.H_WS.translation - Vector3(0.0, 0.0, -depth);
+  EXPECT_GT(moved.z(), 0.0) << "it comes out";
+  EXPECT_GT(moved.y(), 0.0) << "towards the device";
+  EXPECT_LT(std::fabs(moved.x()), kSubstepMargin) << "not aside";
+  const double regained = kRecovery * (depth + kSubstepMargin);
+  EXPECT_LT((run.state.H_WS.translation - device.translation).norm(), regained + kSubstepMargin);
 }
 
 /// Two faces of 2500 points each, more than there are rows, between walls closer than twice the margin: no motion
@@ -366,6 +569,51 @@ TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
   }
 }
 
+/// Near pairs that find no place in the list are counted in every cycle.
+TEST(ContactSubsteps, CountEdgePairsThatFindNoPlace) {
+  constexpr std::uint32_t kEdges = 17;
+  std::vector<std::pair<Vector3, Vector3>> along_x, along_y;
+  for (std::uint32_t i = 0; i < kEdges; ++i) {
+    const double at_line = 1e-3 * i - 0.008;
+    along_x.emplace_back(Vector3(-0.01, at_line, 0.0), Vector3(0.01, at_line, 0.0));
+    along_y.emplace_back(Vector3(at_line, -0.01, 0.0), Vector3(at_line, 0.01, 0.0));
+  }
+  const EdgeSet moving(along_y), still(along_x);
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body = box_body(2);
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, 1e-4}));
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {moving.view(), still.view()};
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    ASSERT_EQ(run.step(pose_at({0.0, 0.0, -1e-3})), Status::kOk);
+    EXPECT_EQ(run.report.dropped, kEdges * kEdges - NearEdges::kCapacity) << cycle;
+    EXPECT_EQ(run.report.outcome, Outcome::kOverflow) << cycle;
+    EXPECT_GT(run.state.H_WS.translation.z(), 0.0) << cycle;
+  }
+}
+
+/// A rod lies on a wire, is pressed down by 5 mm, and is to turn while it slides along itself. Both together would sink
+/// it into the wire by 1.6 um, which costs forty times the energy that they gain. The slide alone gains four times as
+/// much as the turn alone. The gap at the end of the motion shows it: in one cycle the rod slides on almost without the
+/// turn.
+TEST(ContactSubsteps, SlideARodOnAWireWithoutATurnThatCostsMore) {
+  const EdgeSet moving({{Vector3(0.0, -5e-4, 0.0), Vector3(0.0, 5e-4, 0.0)}});
+  const EdgeSet still({{Vector3(-0.01, 0.0, 0.0), Vector3(0.01, 0.0, 0.0)}});
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body({{Vector3(0.0, -5e-4, 0.0), Vector3(0.0, 5e-4, 0.0)}, {Vector3::UnitY(), -Vector3::UnitY()}},
+                         Vector3::Constant(1e-6));
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, kSubstepMargin}));
+  run.parameters.margin = kSubstepMargin;
+  run.parameters.coupling_rotation = 1e-8;  // a turn of 0.09 rad counts as much as 9 um
+  run.cycle.edges = {moving.view(), still.view()};
+  constexpr double kSlide = 1.8e-5;
+  constexpr double kTurn = 0.09;
+  ASSERT_EQ(run.step(pose_at({0.0, kSlide, kSubstepMargin - 5e-3}, {kTurn, 0.0, 0.0})), Status::kOk);
+  EXPECT_GT(run.state.H_WS.translation.y(), 0.8 * kSlide);
+  EXPECT_LT(std::fabs(log_rotation(run.state.H_WS.rotation).x()), 0.1 * kTurn);
+  EXPECT_EQ(run.report.substeps, 1u);
+}
+
 /// A plane that rises by 20 mrad.
 struct Slope {
   Vector3 normal = Vector3(0.02, 0.0, 1.0).normalized();
@@ -376,14 +624,14 @@ struct Slope {
 /// In a wedge between a slope and a face of the workspace a lost margin is regained 50 times as far along the wedge. No
 /// cycle leads by more than a margin farther from the device than rest, and the margin is regained in the end.
 TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
-  const AnalyticField field(Slope{}, kVoxel);
+  const AnalyticField field(Slope{}, kSubstepVoxel);
   const SampledBody body({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Constant(1e-4));
   for (const double depth : {1e-4, 1e-3}) {
-    const double lost = 0.75 * kMargin;
-    SubstepRun<> run(field, body, at((kMargin - lost) * Slope().normal));
+    const double lost = 0.75 * kSubstepMargin;
+    SubstepRun<> run(field, body, pose_at((kSubstepMargin - lost) * Slope().normal));
     run.parameters.workspace = {.limited = true, .low = Vector3::Constant(-1.0), .high = Vector3(1.0, 1.0, 1.0)};
     run.parameters.workspace.high.z() = run.state.H_WS.translation.z();
-    const Pose device = at(run.state.H_WS.translation - Vector3(0.0, 0.0, depth));
+    const Pose device = pose_at(run.state.H_WS.translation - Vector3(0.0, 0.0, depth));
     double farthest = 0.0;
     for (int cycle = 0; cycle < 400; ++cycle) {
       const double before = (run.state.H_WS.translation - device.translation).norm();
@@ -391,8 +639,8 @@ TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
       const double after = (run.state.H_WS.translation - device.translation).norm();
       farthest = std::max(farthest, after - before);
     }
-    EXPECT_LT(farthest, 1.01 * kMargin) << depth;
-    EXPECT_GT(Slope().distance(run.state.H_WS.translation), 0.9 * kMargin) << depth;
+    EXPECT_LT(farthest, 1.01 * kSubstepMargin) << depth;
+    EXPECT_GT(Slope().distance(run.state.H_WS.translation), 0.9 * kSubstepMargin) << depth;
   }
 }
 

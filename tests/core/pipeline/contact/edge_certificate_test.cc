@@ -1,6 +1,8 @@
 // The certificate and the rows of edge against edge, by hand. tests/watch/edge_pairs_test.cc has random motions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/pipeline/contact/edge_certificate.h"
@@ -88,6 +90,65 @@ TEST(EdgeCertificate, LetsABoxSlideOverTheEdgeOfAFace) {
   EXPECT_EQ(rows->count, 0u) << "the face holds the body";
 }
 
+/// Parallel edges along y. The moving one is at x = 0 and at the height of a margin, the still one ahead of it.
+struct Ahead {
+  test::EdgeSet moving{{{Vector3(0, -0.01, 2e-5), Vector3(0, 0.01, 2e-5)}}};
+  test::EdgeSet still{{{Vector3(1e-3, -0.01, 0), Vector3(1e-3, 0.01, 0)}}};
+  EdgeObstacle obstacle;
+
+  bool free(const Pose& H0, const Pose& H1, Budget& budget) {
+    const EdgeContacts edges{moving.view(), still.view()};
+    NearEdges near;
+    near.push({0, 0}, gap_at(edges, {0, 0}, H0));
+    return edges_are_free(edges, H0, H1, 1.6e-5, lengths(), near, budget, obstacle);
+  }
+};
+
+/// An edge slides over a face, or a face over an edge. The face is either one of its edge's two.
+TEST(EdgeCertificate, TakesThePlaneOfAnyFace) {
+  for (const int face : {0, 1}) {
+    for (const bool is_still : {true, false}) {
+      Ahead pair;
+      (is_still ? pair.still : pair.moving).edges()[0].normal[face][2] = is_still ? 1.0f : -1.0f;
+      Budget budget;
+      EXPECT_TRUE(pair.free(Pose{}, moved(5e-3, 0, 0), budget)) << is_still << ' ' << face;
+      EXPECT_EQ(budget.balls, Budget{}.balls) << "by the plane " << is_still << ' ' << face;
+    }
+  }
+}
+
+/// An edge over a face may come nearer to the edge of the face than the least gap: the face is nearer than its edge.
+TEST(EdgeCertificate, LeavesAnEdgeOverAFaceToTheFace) {
+  for (const bool has_faces : {true, false}) {
+    Ahead pair;
+    if (has_faces) {
+      pair.still.edges()[0].normal[0][2] = pair.still.edges()[0].normal[1][0] = 1.0f;
+      pair.moving.edges()[0].normal[0][2] = -1.0f;
+      pair.moving.edges()[0].normal[1][0] = 1.0f;
+    }
+    Budget budget;
+    EXPECT_EQ(pair.free(moved(9e-4, 0, -1e-5), moved(9.9e-4, 0, -1e-5), budget), has_faces);
+    if (has_faces) continue;
+    EXPECT_EQ(pair.obstacle.share, 1.0);
+    EXPECT_NEAR(pair.obstacle.gap.distance, std::sqrt(2.0) * 1e-5, 1e-10);
+  }
+}
+
+/// An edge passes over another one, from 20 heights before it to 20 heights behind it. The balls at both ends leave a
+/// gap in the middle, which one more ball covers.
+TEST(EdgeCertificate, SpendsNoMoreThanTheBudget) {
+  for (const int balls : {0, 1, 2}) {
+    Ahead pair;
+    Budget budget{balls};
+    EXPECT_EQ(pair.free(moved(-0.019, 0, 1e-3 - 2e-5), moved(0.021, 0, 1e-3 - 2e-5), budget), balls > 0) << balls;
+    EXPECT_EQ(pair.obstacle.exhausted, balls == 0);
+    EXPECT_EQ(budget.balls, std::max(0, balls - 1));
+    if (balls == 0) {
+      EXPECT_NEAR(pair.obstacle.share, 0.5, 0.01);
+    }
+  }
+}
+
 TEST(EdgeCertificate, LetsAnOverlapAtTheStartOut) {
   Cross cross(1e-3);
   cross.near.gap[0].distance = -1e-3;
@@ -133,6 +194,43 @@ TEST(EdgeRows, OfAnObstacleKeepTheBodyAMarginAway) {
   EXPECT_NEAR(static_cast<double>(rows->required_gain[0]), -(1e-3 - 2e-5), 1e-9);
   rows->count = ContactRows::kCapacity;
   EXPECT_FALSE(push_edge_obstacle({Pose{}, H1, step, 1.0, false}, lengths(), cross.edges, cross.near, obstacle, *rows));
+}
+
+/// An edge of the body turns about the body's origin by a share s of the angle a; its middle is L beside that origin.
+/// Along the normal (cos b, sin b, 0) the tangent promises L s a sin b; the arc gives L (cos b (cos(s a) - 1) + sin b
+/// sin(s a)). The obstacle lies at the share o of the chord. The loss is for the whole step: the difference times o /
+/// s.
+TEST(EdgeRows, OfAnObstacleMakeUpForTheLossOfTheArc) {
+  constexpr double kLever = 0.125, kAngle = 0.2;
+  const test::EdgeSet moving({{Vector3(0, 0, 0), Vector3(2.0 * kLever, 0, 0)}});
+  const test::EdgeSet still({{Vector3(0, 0, -0.1), Vector3(0, 0, 0.1)}});
+  const EdgeContacts edges{moving.view(), still.view()};
+  NearEdges near;
+  near.push({0, 0}, {.distance = 1e-3});
+  const Pose H0{exp_rotation(Vector3(0.3, -0.8, 0.5)), Vector3(0.1, 0.2, 0.3)};
+  const Motion step{Vector3::Zero(), Vector3(0, 0, kAngle)};
+  for (const double share : {1.0, 0.5, 0.125}) {
+    const Pose H1 = H0 * set_matrix({Vector3::Zero(), share * step.rotation});
+    for (const double of_chord : {1.0, 0.75, 0.25}) {
+      for (const double b : {0.0, 0.3, -0.4, 2.8}) {
+        EdgeObstacle obstacle;
+        obstacle.near = 0;
+        obstacle.share = of_chord;
+        obstacle.gap.place = 0.5;
+        obstacle.gap.normal = H0.rotation._transformVector(Vector3(std::cos(b), std::sin(b), 0.0));
+        const auto gain = [&](bool is_arc) {
+          const auto rows = std::make_unique<ContactRows>();
+          EXPECT_TRUE(push_edge_obstacle({H0, H1, step, share, is_arc}, lengths(), edges, near, obstacle, *rows));
+          return static_cast<double>(rows->required_gain[0]);
+        };
+        const double turn = share * kAngle;
+        const double promised = turn * std::sin(b);
+        const double arc = std::cos(b) * (std::cos(turn) - 1.0) + std::sin(b) * std::sin(turn);
+        const double loss = kLever * of_chord / share * (promised - arc);
+        EXPECT_NEAR(gain(true) - gain(false), std::max(0.0, loss), 1e-8) << share << ' ' << of_chord << ' ' << b;
+      }
+    }
+  }
 }
 
 }  // namespace

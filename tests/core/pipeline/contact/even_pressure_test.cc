@@ -200,6 +200,58 @@ TEST(EvenPressure, NeedsAFaceAndSeveralForces) {
   EXPECT_EQ(on.patches().count, 0u) << "points on a line";
 }
 
+/// A grid of twelve points is a face, eleven of them are not.
+TEST(EvenPressure, NeedsTwelvePointsThatTouch) {
+  SurfaceSamples grid;
+  for (int i = 0; i < 12; ++i) {
+    const int column = i % 4, row = i / 4;
+    grid.points.push_back({0.01 * (column - 1.5), 0.01 * (row - 1.0), kBottom});
+    grid.normals.push_back(Vector3::UnitZ());
+  }
+  OnFace on(grid);
+  on.push({0.03, 0.01, kBottom}, 1.0);
+  on.push({-0.03, -0.01, kBottom}, 1.0);
+  EXPECT_EQ(on.patches().count, 1u);
+  for (std::uint32_t away = 0; away < 12; ++away) {
+    on.near().distance[away] = 2.1 * kMargin;
+    EXPECT_EQ(on.patches().count, 0u) << "without point " << away;
+    on.near().distance[away] = kMargin;
+  }
+}
+
+/// A triangle with points at random and a load outside of it. Its mirror images have the same share.
+TEST(EvenPressure, IsThatOfTheMirroredFace) {
+  Random random(7);
+  std::uint32_t found = 0;
+  for (int face = 0; face < 30; ++face) {
+    const Vector3 corner = random.in_cube(0.02), to_second = random.in_cube(0.04), to_third = random.in_cube(0.04);
+    SurfaceSamples samples;
+    const int count = random.integer(12, 600);
+    for (int i = 0; i < count; ++i) {
+      const double a = random.between(0.0, 1.0), b = random.between(0.0, 1.0 - a);
+      const Vector3 p = corner + a * to_second + b * to_third;
+      samples.points.push_back({p.x(), p.y(), kBottom});
+      samples.normals.push_back(Vector3::UnitZ());
+    }
+    OnFace on(samples);
+    const Vector3 middle = corner + (to_second + to_third) / 3.0;
+    for (const Vector3& off : {Vector3(0.05, 0.0, 0.0), Vector3(-0.05, 0.01, 0.0), Vector3(0.0, -0.02, 0.0)}) {
+      on.push({middle.x() + off.x(), middle.y() + off.y(), kBottom}, 1.0);
+    }
+    const ContactPatches patches = on.patches();
+    found += patches.count;             // none where the points are hardly more than a line
+    for (const int axis : {0, 1, 0}) {  // across x, then across both, then across y
+      float* const coordinate = axis == 0 ? on.near().x : on.near().y;
+      for (std::uint32_t k = 0; k < on.near().count; ++k) coordinate[k] = -coordinate[k];
+      for (std::uint32_t j = 0; j < on.step.force_count; ++j) on.step.forces[j].point[axis] *= -1.0;
+      const ContactPatches mirrored = on.patches();
+      ASSERT_EQ(mirrored.count, patches.count) << face;
+      EXPECT_NEAR(mirrored.patch[0].share, patches.patch[0].share, 1e-9) << face;
+    }
+  }
+  EXPECT_GT(found, 20u);
+}
+
 /// A disc, a ring, a square that stands on its corner and an ell, with points at random and others along the rim.
 TEST(EvenPressure, KnowsFacesOfOtherShapes) {
   constexpr double kHalf = 0.02;

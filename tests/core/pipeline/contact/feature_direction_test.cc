@@ -63,6 +63,13 @@ class OnATip {
 
 Pose pose(const Vector3& translation, const Vector3& turn) { return {exp_rotation(turn), translation}; }
 
+TEST(FeatureContacts, AreNoneUnlessTheyAreSet) {
+  const FeatureContacts<AnalyticField> none;
+  EXPECT_EQ(none.map, nullptr);
+  EXPECT_EQ(none.origin_W, Vector3::Zero());
+  EXPECT_EQ(none.body_radius, 0.0);
+}
+
 /// A ball about the body's origin comes to rest where its centre is nearest to the device: on the line from the tip.
 TEST(FeatureDirection, HoldsABallOffATipAlongTheLineToTheDevice) {
   std::mt19937 random(5);

@@ -94,6 +94,18 @@ TEST(ImpliedRows, NeedBothPairs) {
   EXPECT_FALSE(stepped.implies(-0.002, 0.0)) << "parallel faces at different heights";
 }
 
+/// Only the pairs at hand count, not those of the question before.
+TEST(ImpliedRows, ForgetThePairsOfTheQuestionBefore) {
+  FaceOverAnEdge scene;
+  const Vector3 p = scene.H * Vector3(-0.002, 0.0, 0.0);
+  const double distance = std::hypot(p.x(), p.z());
+  const bool by_both = scene.implies_at(p, distance);
+  scene.near.count = 1;
+  const bool by_one = scene.implies_at(p, distance);  // at once, while the memory still has the other pair
+  EXPECT_TRUE(by_both);
+  EXPECT_FALSE(by_one);
+}
+
 /// The faces of bodies have normals that are not exactly unit vectors in single precision.
 TEST(ImpliedRows, KnowAFaceInAnyDirection) {
   test::Random random(5);

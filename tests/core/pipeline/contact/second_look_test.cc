@@ -164,6 +164,29 @@ TEST(PushObstacle, AsksForTheLossOfTheArcAtTheSharesOfStepAndChord) {
   }
 }
 
+/// A point at (L, 0, 0) turns about z, before a wall across x: its arc takes it back, its tangent does not.
+TEST(PushObstacle, TakesAnAttemptForTheWholeMotionAlongItsChord) {
+  Random random(7);
+  Meeting one(random, 1e-3, 1.0);
+  one.near->x[2] = 0.125f;
+  one.near->y[2] = one.near->z[2] = 0.0f;
+  one.p = Vector3(0.125, 0.0, 0.0);
+  one.step.rotation = Vector3(0.0, 0.0, 0.2);
+  one.H0 = Pose{};
+  one.H1 = set_matrix(one.step);
+  one.field = {Vector3::UnitX(), 1.0, -0.124};
+  one.obstacle.sample = one.field.sample(one.H1 * one.p);
+  const auto push = [&one](const Attempt& attempt) {
+    EXPECT_TRUE(push_obstacle<SampleDirection>(attempt, lengths_of(), *one.near, one.obstacle, *one.rows));
+    return one.gain();
+  };
+  const double of_chord = push({one.H0, one.H1, one.step, 1.0, false});
+  const double of_arc = push({one.H0, one.H1, one.step, 1.0, true});
+  EXPECT_NEAR(of_arc - of_chord, 0.125 * (1.0 - std::cos(0.2)), 1e-8);
+  EXPECT_EQ(push({.H0 = one.H0, .H1 = one.H1, .step = one.step}), of_chord);
+  EXPECT_EQ(push({.H0 = one.H0, .H1 = one.H1, .step = one.step, .is_arc = true}), of_arc);
+}
+
 /// No row: there is no room, the obstacle lies where the field is not known, or its gradient has no direction.
 TEST(PushObstacle, RefusesWhatCannotBecomeARow) {
   const double nan = std::nan("");

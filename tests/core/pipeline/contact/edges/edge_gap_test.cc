@@ -41,6 +41,27 @@ TEST(EdgeGap, IsNegativeWhereEachEdgeLiesInTheOthersWedge) {
   EXPECT_NEAR(edge_gap(keel({0.25, 0.5, 0.001}), roof(), 0.002).distance, 0.001, 1e-15) << "apart";
 }
 
+/// Each face of either edge can tell that the other edge is not inside: then the face is nearer, however deep the body
+/// of the face lies in that of the other edge. A nose has its tip towards y or -y.
+TEST(EdgeGap, IsNotNegativeWhereAFaceParts) {
+  const auto at = [](EdgeInW edge, double y) {
+    edge.end[0].y() += y;
+    edge.end[1].y() += y;
+    return edge;
+  };
+  for (const double side : {1.0, -1.0}) {
+    EdgeInW nose = roof();
+    nose.normal[0] = Vector3(0.0, side, 1.0).normalized();
+    nose.normal[1] = Vector3(0.0, side, -1.0).normalized();
+    const EdgeGap over_the_still_face = edge_gap(at(nose, 0.001 * side), roof(), 0.002);
+    EXPECT_NEAR(over_the_still_face.distance, 0.001, 1e-15) << side;
+    EXPECT_FALSE(over_the_still_face.is_nearest) << side;
+    const EdgeGap under_the_moving_face = edge_gap(at(roof(), -0.001 * side), nose, 0.002);
+    EXPECT_NEAR(under_the_moving_face.distance, 0.001, 1e-15) << side;
+    EXPECT_FALSE(under_the_moving_face.is_nearest) << side;
+  }
+}
+
 /// An edge over a face of the other edge is nearer to the face.
 TEST(EdgeGap, IsNotTheNearestOverAFace) {
   EXPECT_TRUE(edge_gap(keel({0.25, 0.5, 0.001}), roof()).is_nearest);
@@ -105,6 +126,16 @@ TEST(EdgeGap, IsTheLeastDistanceOfAllPlaces) {
     EXPECT_EQ(edge_distance(moving, still), gap.distance);
     EXPECT_NEAR((moving.end[0] + gap.place * (moving.end[1] - moving.end[0]) - gap.on_moving).norm(), 0.0, 1e-12);
   }
+}
+
+TEST(EdgeGap, StartsAtNoDistanceInNoDirection) {
+  const EdgeGap gap;
+  EXPECT_EQ(gap.distance, 0.0);
+  EXPECT_EQ(gap.normal, Vector3::Zero());
+  EXPECT_EQ(gap.on_moving, Vector3::Zero());
+  EXPECT_EQ(gap.on_still, Vector3::Zero());
+  EXPECT_EQ(gap.place, 0.0);
+  EXPECT_TRUE(gap.is_nearest);
 }
 
 TEST(EdgeInW, TurnsNormalsAndMovesEnds) {

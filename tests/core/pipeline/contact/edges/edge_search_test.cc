@@ -117,6 +117,43 @@ TEST(EdgeSearch, LimitsTheMotionByPairsWithoutAPlace) {
   }
 }
 
+/// The spheres of the still tree reach over the moving edge, so that the search looks at all branches below its root.
+/// It has visits for all of the smaller tree. The edges themselves are far apart.
+TEST(EdgeSearch, LooksAtAsManyBranchesAsItHasVisits) {
+  constexpr std::uint32_t kMost = EdgeSearch::kMostVisits;
+  const test::EdgeSet moving({{Vector3(0, 0, 0), Vector3(0.01, 0, 0)}});
+  for (const bool fits : {true, false}) {
+    const test::EdgeSet still(
+        Segments(fits ? kMost + 1 : kMost + 2, std::make_pair(Vector3(0, 0, 1), Vector3(0, 0.01, 1))));
+    std::vector<format::Node> nodes(still.view().nodes.begin(), still.view().nodes.end());
+    ASSERT_EQ(nodes.size(), 1 + (fits ? kMost : kMost + 2)) << "with the root, which is no branch to visit";
+    for (format::Node& node : nodes) node.radius = 2.0f;
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start({moving.view(), {still.view().edges, nodes}});
+    NearEdges near;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1e-3, 2e-3, 0.0, near);
+    EXPECT_EQ(near.count, 0u);
+    EXPECT_EQ(around.unlisted == 0, fits);
+    EXPECT_NEAR(around.free_displacement, fits ? 3e-3 : 0.0, 1e-15) << "branches without a visit may be anywhere";
+  }
+}
+
+TEST(EdgeSearch, NeedsEdgesOfBothBodies) {
+  const test::EdgeSet set({{Vector3(0, 0, 0), Vector3(0.01, 0, 0)}});
+  EXPECT_FALSE((EdgeContacts{set.view(), set.view()}.empty()));
+  for (const EdgeContacts& edges : {EdgeContacts{set.view(), {}}, EdgeContacts{{}, set.view()}, EdgeContacts{}}) {
+    ASSERT_TRUE(edges.empty());
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start(edges);
+    EXPECT_TRUE(search->is_free(1e9, 1e9));
+    NearEdges near;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1.0, 1.0, 0.0, near);
+    EXPECT_EQ(near.count, 0u);
+    EXPECT_EQ(around.unlisted, 0u);
+    EXPECT_GT(around.free_displacement, 1e9);
+  }
+}
+
 TEST(EdgeSearch, KnowsThatNothingIsNear) {
   const test::EdgeSet moving({{Vector3(0, 0, 0), Vector3(0.01, 0, 0)}});
   const test::EdgeSet still({{Vector3(0, 0, 0.05), Vector3(0, 0.01, 0.05)}});

@@ -142,6 +142,26 @@ INSTANTIATE_TEST_SUITE_P(
                       NewtonSeries{true, 0.3, 2.0, 496, 617}, NewtonSeries{true, 0.8, 2.0, 489, 600},
                       NewtonSeries{false, 0.3, 2.0, 470, 716}, NewtonSeries{false, 0.8, 2.0, 468, 729}));
 
+/// The contacts share viscous friction by their loads, so that a single one has all of it, however light its load is.
+/// By hand, with a viscous step of 1. The push is beside the centre, so that the motion changes by more than the load.
+TEST(SolveCoulombViscous, GivesALightContactAllOfTheFriction) {
+  for (const double press : {3.4e-8, 1e-7, 1e-5, 1e-3}) {
+    NewtonProblem p;
+    p.friction = {0.0, 0.0, 1.0};
+    p.push(Vector3::UnitZ(), Vector3(kNewtonMetric.gyration, 0.0, 0.0), 0.0);
+    p.wanted.translation = Vector3(6e-4, 8e-4, -press);
+    ContactSet set = p.set();
+    ASSERT_TRUE(detail::solve_coulomb(set)) << press;
+    ASSERT_EQ(set.contact_count(), 1) << press;
+    const Slip slip = set.slip_of(set.contact(0), set.motion());
+    EXPECT_NEAR(slip.approach, 0.0, kNewtonMetric.tolerance) << press;
+    // along x through the centre; along y at the lever of the gyration, where the force turns the body, too
+    EXPECT_NEAR(slip.speed * slip.direction.x(), 6e-4 / 2.0, 2.0 * kNewtonMetric.tolerance) << press;
+    EXPECT_NEAR(slip.speed * slip.direction.y(), 8e-4 / 3.0, 2.0 * kNewtonMetric.tolerance) << press;
+    set.close_all();
+  }
+}
+
 /// From the solution of the same problem nothing needs to enter, and the motion stays.
 TEST(SolveCoulombAgain, StaysAtItsSolution) {
   Random random(42);

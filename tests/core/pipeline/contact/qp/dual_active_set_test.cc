@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <random>
 #include <vector>
@@ -180,8 +181,23 @@ TEST(DualActiveSet, KeepsNoTwoInequalitiesThatDependOnEachOther) {
   EXPECT_EQ(set.z(), Vector6::Unit(0));
 }
 
-/// A gradient within a millionth of the span of the others counts as dependent. Here a member leaves before the
-/// inequality is refused: it returns, and the others have their multipliers again.
+/// A gradient within a millionth of the span of the others counts as dependent. By hand: x >= 1 and, with the sine s of
+/// the angle, s y >= sqrt(1 - s^2) x meet at y = 1 / tan(angle).
+TEST(DualActiveSet, TellsAnAngleOfAMillionthFromNone) {
+  for (const double sine : {1e-3, 1.2e-6, 0.8e-6, 0.0}) {
+    Set set;
+    set.start(Vector6::Zero());
+    ASSERT_TRUE(set.add(half_space(Vector6::Unit(0), 1.0)));
+    const double cosine = std::sqrt(1.0 - sine * sine);
+    const bool depends = sine < 1e-6;
+    EXPECT_EQ(set.add(half_space(-cosine * Vector6::Unit(0) + sine * Vector6::Unit(1), 0.0)), !depends) << sine;
+    EXPECT_EQ(set.size(), depends ? 1 : 2) << sine;
+    const double expected = depends ? 0.0 : cosine / sine;
+    EXPECT_NEAR(set.z()[0], 1.0, 1e-9) << sine;
+    EXPECT_NEAR(set.z()[1], expected, 1e-9 * expected) << sine;
+  }
+}
+
 /// Guesses that depend on others leave, wherever they stand; those behind them stay. By hand: z_i >= i + 1 for the
 /// first three coordinates, from the origin.
 TEST(DualActiveSet, KeepsTheGuessesBehindADependentOne) {
@@ -202,6 +218,7 @@ TEST(DualActiveSet, KeepsTheGuessesBehindADependentOne) {
   }
 }
 
+/// A member leaves before the inequality is refused: it returns, and the others have their multipliers again.
 TEST(DualActiveSet, RestoresTheMembersThatLeftBeforeARefusal) {
   Set set;
   set.start(Vector6::Zero());

@@ -2,6 +2,7 @@
 
 #include "core/pipeline/contact/qp/friction_solver.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <cstdio>
@@ -182,6 +183,65 @@ TEST(ConstrainedStep, StartsEmptyCopiesAllAndReleasesItsForces) {
     EXPECT_TRUE(copy.follows);
     EXPECT_FALSE(copy.infeasible || copy.unconverged);
     EXPECT_EQ(copy.motion.translation, step.motion.translation);
+  }
+}
+
+// -- where Coulomb's law is not solved
+
+/// A point in a groove of 33 degrees, both sides of which have lost their gap. Any motion out of the groove slips on
+/// both sides, where friction takes more than the sides push: the law has no solution. The result is the motion without
+/// friction, which is the nearest that regains both gaps.
+TEST(SolveWithFriction, LeadsOutOfAGrooveInWhichFrictionJams) {
+  constexpr double kLost = 1e-4, kSine = 0.28, kCosine = 0.96;  // of half the angle of the groove
+  for (const double ratio : {0.5, 1.0, 2.0}) {
+    for (const Vector3& wanted :
+         {Vector3(0.0, 2e-4, 0.0), Vector3(-1e-4, 1e-4, 0.0), Vector3(0.0, 1e-4, 1e-4), Vector3(0.0, 1e-4, -5e-5)}) {
+      Problem p;
+      p.friction = {ratio, ratio, 0.0};
+      p.push({kSine, 0.0, kCosine}, Vector3::Zero(), kLost);
+      p.push({kSine, 0.0, -kCosine}, Vector3::Zero(), kLost);
+      p.wanted.translation = wanted;
+      ConstrainedStep step;
+      p.solve(step);
+      EXPECT_TRUE(step.unconverged) << ratio << ' ' << wanted.transpose();
+      EXPECT_FALSE(step.infeasible) << ratio << ' ' << wanted.transpose();
+      const Vector3 expected(kLost / kSine, wanted.y(), 0.0);
+      EXPECT_LT((step.motion.translation - expected).norm(), 1e-8) << ratio << ' ' << wanted.transpose();
+      EXPECT_LT(step.motion.rotation.norm(), 1e-8) << ratio << ' ' << wanted.transpose();
+    }
+  }
+}
+
+/// A face that slid in the last cycle and has lost its gap. It may stick at three points and more; Newton's method has
+/// no room for their forces, and with viscous friction the smoothing method has none. Solved or not: the rows are met
+/// and stay as they were. Without a solution the motion leads no farther from the wanted one than rest or than the
+/// motion without friction does.
+TEST(SolveWithFriction, LiftsAFaceThatSlid) {
+  Random random(51);
+  for (int trial = 0; trial < 500; ++trial) {
+    Problem p;
+    const double ratio = random.between(1.0, 2.0);
+    p.friction = {ratio, ratio, 1.0};
+    for (int i = 0; i < 4; ++i)
+      p.push(Vector3::UnitZ(), {random.between(-kBody, kBody), random.between(-kBody, kBody), -kBody}, 1e-4);
+    p.wanted = {random.in_cube(1e-5), random.in_cube(1e-4)};
+    p.last.translation.x() = 1e-4;
+    ConstrainedStep step;
+    step.force_count = step.contact_count = 1;
+    step.forces[0].id = 99;  // of a point that is near no more
+    step.forces[0].normal = Vector3::UnitZ();
+    p.solve(step);
+    ASSERT_FALSE(step.infeasible) << trial;
+    for (std::uint32_t i = 0; i < p.rows->count; ++i) {
+      ASSERT_EQ(p.rows->required_gain[i], 1e-4f) << trial;
+      const Vector3 v = step.motion.translation + step.motion.rotation.cross(p.rows->point(i));
+      ASSERT_GE(v.z(), 1e-4 - 1.5 * kMetric.tolerance) << trial;
+    }
+    if (!step.unconverged) continue;
+    ConstrainedStep slippery;
+    least_constraint(*p.rows, p.wanted, kMetric, nullptr, p.last, slippery);
+    const auto reach = [&p](const Motion& m) { return (six(m) - six(p.wanted)).norm(); };
+    ASSERT_LE(reach(step.motion), std::max(1.0006 * reach({}), reach(slippery.motion) + kMetric.tolerance)) << trial;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/pipeline/contact/qp/shifted_cones.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -207,6 +208,36 @@ TEST(Sticks, DoesNotHoldABodyThatAGapLetsApproach) {
   EXPECT_NEAR(set.motion().translation.z(), -0.001, 1e-9);
   EXPECT_FALSE(detail::rests(set)) << "the motion exceeds the tolerance";
   set.close_all();
+}
+
+/// With the last addition the rows may be met. A locked body among many rows, of which rest meets all; every slip
+/// counts as rest.
+TEST(Sticks, TellsByTheMotionAfterTheLastAddition) {
+  const CouplingMetric all_is_still{.gyration = 0.158, .tolerance = 1e-8, .still = 1.0};
+  Random random(23);
+  int with_the_last = 0;
+  for (int problem = 0; problem < 150; ++problem) {
+    ConeBench bench;
+    for (int i = 0; i < 800; ++i) bench.push(random.direction(), random.in_cube(0.15), random.between(-1e-5, 0.0));
+    bench.wanted = {0.1 * random.direction(), random.direction()};
+    ContactSet set(*bench.rows, bench.wanted, all_is_still, &bench.friction, bench.last);
+    const bool holds = detail::sticks(set);
+    const Motion m = set.motion();
+    set.close_all();
+    double violation = 0.0;
+    for (std::uint32_t i = 0; i < bench.rows->count; ++i) {
+      const double moved = bench.rows->normal(i).dot(m.translation + m.rotation.cross(bench.rows->point(i)));
+      violation = std::max(violation, static_cast<double>(bench.rows->required_gain[i]) - moved);
+    }
+    if (violation < 0.9 * all_is_still.tolerance) {
+      EXPECT_TRUE(holds) << problem;
+    }
+    if (violation > 1.1 * all_is_still.tolerance) {
+      EXPECT_FALSE(holds) << problem;
+    }
+    with_the_last += holds && set.additions() == static_cast<std::uint32_t>(detail::kMostConeAdditions) ? 1 : 0;
+  }
+  EXPECT_GT(with_the_last, 0);
 }
 
 TEST(Rests, NeedsAContactAndAMotionWithinTheTolerance) {
