@@ -159,6 +159,7 @@ class ContactSubsteps {
   void advance() noexcept {
     const double remainder = (1.0 - share_.value()) * travel(lengths_.sphere, step_.motion);
     is_nearer_ = distance_gain() < 0.0;
+    if constexpr (kFriction) slide_on();
     step_.motion = motion_;
     last_motion_ = motion_;
     add_to_whole(motion_);
@@ -243,6 +244,18 @@ class ContactSubsteps {
            travel(lengths_.sphere, motion_) > lengths_.margin;
   }
 
+  /// Adds the motion to what friction opposes in the next sub-step, in the body frame there, if a contact carried load.
+  void slide_on() noexcept {
+    Motion& slid = friction_.slid;
+    if (step_.force_count == 0) {
+      slid = Motion{};
+      return;
+    }
+    const Quaternion back = exp_rotation(motion_.rotation).conjugate();
+    slid.translation = back * Vector3(slid.translation + motion_.translation);
+    slid.rotation = back * Vector3(slid.rotation + motion_.rotation);
+  }
+
   bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
 
   void add_to_whole(const Motion& motion) noexcept {
@@ -293,9 +306,7 @@ class ContactSubsteps {
   }
 
   /// Returns the squared length of a motion in `metric_` [m^2].
-  double squared(const Motion& motion) const noexcept {
-    return motion.translation.squaredNorm() + metric_.gyration * metric_.gyration * motion.rotation.squaredNorm();
-  }
+  double squared(const Motion& motion) const noexcept { return metric_.squared(motion); }
 
   /// Returns by how much the squared distance from the aim is larger after the step than at rest [m^2].
   double distance_gain() const noexcept {
@@ -420,6 +431,7 @@ class ContactSubsteps {
     move_to(input_.H_WD);
     add_to_whole(free_);
     memory_.edges_may_overlap = false;  // all edges are apart along the motion
+    friction_.slid = Motion{};
     step_.release();
     result_.smallest = std::numeric_limits<double>::infinity();
     result_.dropped = 0;
@@ -543,11 +555,8 @@ class ContactSubsteps {
     if (!(rise > (1.0 + kMostOvershoot - share) * share * squared(step_.motion))) return false;
     // measured again: surfaces that turn need not raise the energy
     const EndGaps gaps = end_gaps(scene_, H0_, H1_, step_, share);
-    const double squared_gyration = lengths_.metric.gyration * lengths_.metric.gyration;
-    const auto energy = [squared_gyration](const Motion& m) noexcept {
-      return m.translation.squaredNorm() + squared_gyration * m.rotation.squaredNorm();
-    };
-    const double fall = energy(free_) - energy(unconstrained_motion(H1_, input_.H_WD)) - gaps.energy;
+    const double fall =
+        lengths_.metric.squared(free_) - lengths_.metric.squared(unconstrained_motion(H1_, input_.H_WD)) - gaps.energy;
     const double overshoot = 1.0 - fall / (share * squared(step_.motion));
     if (!(overshoot > kMostOvershoot)) return false;
     opened_ = false;

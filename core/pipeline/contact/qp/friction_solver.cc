@@ -67,10 +67,7 @@ bool conclude_smoothed(ContactSet& set, ConstrainedStep& step) noexcept {
   const ContactSet::Saved found = set.save();
   const CouplingSpace space = set.space();
   if (!solve_smoothed(set, step)) return false;
-  const Motion& m = step.motion;
-  const double gyration = set.metric().gyration;
-  const double square = m.translation.squaredNorm() + gyration * gyration * m.rotation.squaredNorm();
-  if (square > set.metric().tolerance * set.metric().tolerance) return true;
+  if (set.metric().squared(step.motion) > set.metric().tolerance * set.metric().tolerance) return true;
   set.set_space(space);
   set.restore(found);
   if (sticks(set) && rests(set)) {

@@ -75,6 +75,37 @@ bool solve(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric
   return feasible;
 }
 
+bool is_zero(const Motion& motion) noexcept { return motion.translation.isZero(0.0) && motion.rotation.isZero(0.0); }
+
+Motion sum(const Motion& a, const Motion& b, double sign) noexcept {
+  return {a.translation + sign * b.translation, a.rotation + sign * b.rotation};
+}
+
+/// Adds the gap increases of a motion, times `sign`, to the required gains.
+void shift_gains(const Motion& motion, double sign, ContactRows& rows) noexcept {
+  for (std::uint32_t i = 0; i < rows.count; ++i) {
+    const double gain = rows.normal(i).dot(motion.translation + motion.rotation.cross(rows.point(i)));
+    rows.required_gain[i] += static_cast<float>(sign * gain);
+  }
+}
+
+/// Solves the problem with friction against the slip of the whole cycle. False: it was not solved, or leads farther
+/// from the wanted motion than rest is, by more than lost gaps require; then the step is as before.
+bool solve_for_whole_slip(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
+                          const ContactFriction& friction, const Motion& last, ConstrainedStep& step) noexcept {
+  constexpr double kNeeds = 1.001;  // of squares
+  const ConstrainedStep before = step;
+  shift_gains(friction.slid, 1.0, rows);
+  const bool feasible = solve(rows, sum(wanted, friction.slid, 1.0), metric, &friction, last, step);
+  shift_gains(friction.slid, -1.0, rows);
+  step.motion = sum(step.motion, friction.slid, -1.0);
+  const double left = metric.squared(sum(wanted, step.motion, -1.0));
+  if (feasible && !step.unconverged && left <= kNeeds * metric.squared(wanted)) return true;
+  step = before;
+  step.infeasible = step.unconverged = false;
+  return false;
+}
+
 }  // namespace
 
 void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
@@ -86,6 +117,12 @@ void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMet
     step.motion = wanted;
     step.follows = true;
     return;
+  }
+  if constexpr (kSceneTraits.friction) {
+    if (friction != nullptr && !is_zero(friction->slid) &&
+        solve_for_whole_slip(rows, wanted, metric, *friction, last, step)) {
+      return;
+    }
   }
   if (solve(rows, wanted, metric, friction, last, step)) return;
   // infeasible rows drop their required gap increase; then the zero motion meets all rows

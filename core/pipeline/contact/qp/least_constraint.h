@@ -16,6 +16,7 @@ struct ContactFriction {
   double viscous_step = 0.0;    ///< mu_v / (k_D k_VC,x T) [1]: the contacts share it in proportion to their loads
   double face_thickness = 0.0;  ///< of ContactPatches::grip [m]
   ContactPatches patches = {};  ///< on which friction acts elsewhere than at the points
+  Motion slid = {};             ///< in contact, of the same cycle's earlier sub-steps, in S [m, rad]
 };
 
 /// A contact force on the god object: multiplier normal at `point`, and -multiplier ratio slip at `grip`. A ray of the
@@ -72,6 +73,11 @@ struct CouplingMetric {
   double gyration = 0.158;  ///< rho = sqrt(k_VC,r / k_VC,x) [m]
   double tolerance = 2e-8;  ///< a required gain counts as met within this [m]
   double still = 2e-9;      ///< a slip below this counts as rest [m]
+
+  /// Returns the squared length of a motion, |x|^2 + rho^2 |r|^2 [m^2].
+  double squared(const Motion& motion) const noexcept {
+    return motion.translation.squaredNorm() + gyration * gyration * motion.rotation.squaredNorm();
+  }
 };
 
 /// Most inequalities that one attempt of `least_constraint` adds, without and with friction. The second is derived in
@@ -85,7 +91,7 @@ inline constexpr int kMostFrictionAdditions = 512;
 ///
 /// `wanted`: the unconstrained motion, in S. `friction` null: none. `last`: the last motion, in S. `step`: on entry the
 /// last cycle's result as warm start; of several rows with one id a force belongs to the one whose normal is closest.
-/// `rows` is unchanged afterwards, except for the required gains of infeasible rows.
+/// `rows` is unchanged afterwards, except for the required gains of infeasible rows, and for rounding with `slid`.
 ///
 /// Without friction: a convex quadratic programme in six variables, solved by a dual active set; the row violated most
 /// enters next. Rows that are infeasible together drop their required gap increase; then the zero motion is feasible.
@@ -97,7 +103,9 @@ inline constexpr int kMostFrictionAdditions = 512;
 /// (n - mu d) . v >= required gain - shift over all directions d. Only violated half spaces are generated, so the same
 /// active set solves the problem: a slipping contact has one half space, a sticking one up to three. Static friction
 /// applies to a point that did not slip in the motion `last`, kinetic friction to the others and to those that begin to
-/// slip. The steps are:
+/// slip. Friction opposes the slip of the whole cycle, that of `slid` and of the motion together: otherwise a later
+/// sub-step, in which the body only drops by micrometres, would turn away the friction of the cycle's slip. Where that
+/// problem is not solved, or its solution is farther from `wanted` than rest, `slid` does not count. The steps are:
 ///
 /// 1. Rest. If the loaded points hardly slipped in the last motion, the cones without shifts decide whether forces can
 ///    hold the body at rest; then they do.

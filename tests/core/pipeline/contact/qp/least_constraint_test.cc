@@ -664,6 +664,85 @@ TEST(LeastConstraintFriction, GripsInAGrooveByTheSineOfItsHalfAngle) {
   }
 }
 
+/// A body that has slid along a groove and then drops by micrometres keeps all of the friction along the groove, less
+/// what the smaller load makes: the slip of the cycle decides, not that of the drop.
+TEST(LeastConstraintFriction, OpposesTheSlipOfTheWholeCycle) {
+  constexpr double kRatio = 0.18;
+  constexpr double kPressed = 0.005;
+  constexpr double kGap = 3e-6;
+  const double along = std::sqrt(0.5);  // walls at 45 deg
+  Problem p;
+  for (const double side : {-1.0, 1.0}) p.push({side * along, 0.0, along}, Vector3::Zero(), -kGap);
+  constexpr double kSlide = 0.001;
+  const double drop = kGap / along;
+  const double drag = kRatio / along * kPressed;
+  // slip in the walls' directions, which is kGap, draws a small part of the friction up the walls
+  const double left = kRatio / along * (kPressed - drop) / (1.0 + kRatio * kGap / kSlide);
+  for (const double slide : {-kSlide, kSlide}) {
+    ContactFriction friction{kRatio, kRatio, 0.0};
+    friction.slid.translation.y() = slide;
+    const double sign = slide / kSlide;
+    p.wanted.translation = {0.0, sign * drag, -kPressed};
+    const ConstrainedStep step = p.solve(friction, friction.slid);
+    EXPECT_FALSE(step.unconverged);
+    EXPECT_NEAR(step.motion.translation.z(), -drop, 1e-9);
+    EXPECT_NEAR(sign * step.motion.translation.y(), drag - left, 1e-8);
+    EXPECT_NEAR(step.motion.translation.x(), 0.0, 1e-9);
+  }
+}
+
+/// Friction holds a body, but does not draw it back along the way that it has slid.
+TEST(LeastConstraintFriction, DrawsNothingBackThatHasSlid) {
+  Problem p;
+  p.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
+  ContactFriction friction{0.3, 0.3, 0.0};
+  friction.slid.translation.y() = 0.001;
+  for (const double left : {0.0, 1e-4}) {
+    p.wanted.translation = {0.0, left, -0.005};
+    const ConstrainedStep step = p.solve(friction, friction.slid);
+    EXPECT_EQ(step.motion.translation, Vector3::Zero()) << left;
+  }
+}
+
+/// The law for the whole slip is that of a problem that begins where the slip began. Where that one is not solved or
+/// leads away, the slip before does not count. The required gains stay.
+TEST(LeastConstraintFriction, IsTheProblemFromWhereTheSlipBegan) {
+  Random random(32);
+  int whole = 0;
+  for (int problem = 0; problem < 500; ++problem) {
+    const double ratio = random.between(0.05, 0.6);
+    ContactFriction friction{ratio, ratio, problem % 3 == 0 ? 0.1 : 0.0};
+    const ContactFriction without = friction;
+    Problem p = random_problem(random, 1 + problem % 20, true);
+    Problem begun = {std::make_unique<ContactRows>(*p.rows), p.wanted, p.metric};
+    const std::vector<float> needs(p.rows->required_gain, p.rows->required_gain + p.rows->count);
+    Problem unslid = {std::make_unique<ContactRows>(*p.rows), p.wanted, p.metric};
+    friction.slid = random.motion(1e-3, 1e-2);
+    begun.wanted.translation += friction.slid.translation;
+    begun.wanted.rotation += friction.slid.rotation;
+    for (std::uint32_t i = 0; i < begun.rows->count; ++i) {
+      const Vector3 moved = friction.slid.translation + friction.slid.rotation.cross(p.rows->point(i));
+      begun.rows->required_gain[i] += static_cast<float>(p.rows->normal(i).dot(moved));
+    }
+    const ConstrainedStep step = p.solve(friction, kSliding);
+    ConstrainedStep from_begin = begun.solve(without, kSliding);
+    from_begin.motion.translation -= friction.slid.translation;
+    from_begin.motion.rotation -= friction.slid.rotation;
+    const double rest = six(p.wanted, p.metric.gyration).norm();
+    const bool counts =
+        !from_begin.unconverged && !from_begin.infeasible && distance(from_begin.motion, p.wanted) < 1.0005 * rest;
+    const Motion expected = counts ? from_begin.motion : unslid.solve(without, kSliding).motion;
+    EXPECT_LT(distance(step.motion, expected), 2e-9) << "problem " << problem;
+    for (std::uint32_t i = 0; i < p.rows->count && !step.infeasible; ++i) {
+      ASSERT_NEAR(p.rows->required_gain[i], needs[i], 1e-9);
+    }
+    whole += counts ? 1 : 0;
+    if (HasFailure()) FAIL() << "problem " << problem;
+  }
+  EXPECT_GT(whole, 50);
+  EXPECT_LT(whole, 500);
+}
+
 TEST(LeastConstraintFriction, LeavesWhatRestsExactlyWhereItIs) {
   Random random(30);
   for (int problem = 0; problem < 500; ++problem) {
