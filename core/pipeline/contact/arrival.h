@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "core/pipeline/contact/contact_directions.h"
 #include "core/pipeline/contact/contact_limits.h"
@@ -14,6 +16,7 @@ namespace godobject::detail {
 /// The holding points at the end of a motion.
 struct Arrival {
   bool opened = false;  ///< one left the surface: it passed an edge, beyond which its row is not valid
+  double turn = 0.0;    ///< largest angle by which the normal of one has turned [rad, small]
   double rise = 0.0;    ///< of the energy because their surfaces have turned, see `arrive` [m^2]
 };
 
@@ -90,6 +93,16 @@ EndOfForce end_of(const ContactScene<Field, BodyField>& scene, const Pose& H0, c
   return end;
 }
 
+/// Returns the least angle between a direction in S and the normals of a point's forces: in the valley between two
+/// faces a point has one force of each, but the field there knows only one face [rad, small].
+inline double least_turn(const ConstrainedStep& step, std::uint32_t id, const Vector3& normal_S) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < step.force_count; ++i) {
+    if (step.forces[i].id == id) least = std::min(least, (step.forces[i].normal - normal_S).norm());
+  }
+  return least;
+}
+
 /// Looks up the holding points at the end of the motion v from H0 to H1.
 ///
 /// At the start of v the energy of coupling and contact forces falls by 2 |v|^2 per unit of the motion. By the rows it
@@ -110,6 +123,8 @@ Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, cons
     const double steepness = end.gradient_W.norm();
     if (!(steepness > kFlat)) continue;
     const Vector3 normal_W = H0.rotation._transformVector(force.normal);
+    const Vector3 turned_S = H0.rotation.conjugate() * Vector3(end.gradient_W / steepness);
+    arrival.turn = std::max(arrival.turn, least_turn(step, force.id, turned_S));
     arrival.rise -= force.multiplier * (end.gradient_W / steepness - normal_W).dot(end.displacement_W);
   }
   return arrival;

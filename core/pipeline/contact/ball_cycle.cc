@@ -124,7 +124,7 @@ class Center {
   void go(const Vector3& goal) noexcept {
     at_ = goal;
     held.count = 0;
-    cut = opened = is_provisional = false;
+    cut = outdated = is_provisional = false;
   }
 
   /// Runs one sub-step towards `goal`. False: no attempt was certified, and the centre stays.
@@ -132,7 +132,7 @@ class Center {
 
   Held held;
   bool cut = false;             ///< the motion was shortened so as not to jump over the surface
-  bool opened = false;          ///< the centre passed an edge, beyond which the active half spaces are not valid
+  bool outdated = false;        ///< the centre passed an edge, beyond which the active half spaces are not valid
   bool is_provisional = false;  ///< another motion may follow at once, as in ContactSubsteps
   bool infeasible = false;      ///< the half spaces had no common point
 
@@ -222,20 +222,23 @@ bool Center::push_obstacle(const Vector3& end) noexcept {
   return true;
 }
 
-/// Returns the overshoot of the whole motion as ContactSubsteps does, and sets `opened`.
+/// Returns the overshoot of the whole motion as ContactSubsteps does, and sets `outdated`.
 double Center::overshoot(const Vector3& motion) noexcept {
   const double steepness = there_.gradient.norm();
-  opened = held.count > 0 && there_.distance > lengths_.margin + lengths_.opening;
+  outdated = held.count > 0 && there_.distance > lengths_.margin + lengths_.opening;
   if (!(steepness > kFlat)) return 0.0;
+  double turn = std::numeric_limits<double>::infinity();  // from the nearest normal, as `least_turn`
   double rise = 0.0;
   double lost = 0.0;
   for (int i = 0; i < held.count; ++i) {
     const auto k = static_cast<std::size_t>(i);
+    turn = std::min(turn, (there_.gradient / steepness - held.normal[k]).norm());
     rise -= held.multiplier[k] * (there_.gradient / steepness - held.normal[k]).dot(motion);
     const double increase = steepness * held.normal[k].dot(motion);
     const double expected = detail::expected_distance(lengths_, here_.distance, increase);
     lost += 2.0 * held.multiplier[k] * (expected - there_.distance) / steepness;
   }
+  outdated |= held.count > 0 && turn > kMostTurn;
   const double square = motion.squaredNorm();
   return rise > kMostOvershoot * square ? lost / square : 0.0;
 }
@@ -257,7 +260,7 @@ bool Center::step(const Vector3& goal) noexcept {
   held.count = 0;
   motion_ = free;
   if (spaces_.count > 0) constrain(free);
-  opened = false;
+  outdated = false;
   MotionShare share(1.0);
   while (share.next()) {
     const Vector3 motion = share.value() * motion_;
@@ -266,7 +269,7 @@ bool Center::step(const Vector3& goal) noexcept {
     if (certify(end, share.least_gap(lengths_))) {
       if (share.is_whole() && share.has_next() && held.count > 0 && motion.norm() > lengths_.metric.tolerance) {
         if (const double over = overshoot(motion); over > kMostOvershoot) {
-          opened = false;
+          outdated = false;
           obstacle_.share = 1.0;
           obstacle_.sample = there_;
           if (!look_again(end, free, share)) share.stop_at(1.0 / (1.0 + over));
@@ -316,7 +319,8 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
     }
     if (!center.step(goal)) break;
     path.push({rotation, center.at()});
-  } while ((center.cut || center.opened || center.is_provisional) && !result.inside && result.substeps < kMaxSubsteps);
+  } while ((center.cut || center.outdated || center.is_provisional) && !result.inside &&
+           result.substeps < kMaxSubsteps);
   return result;
 }
 

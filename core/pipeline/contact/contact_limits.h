@@ -37,6 +37,11 @@ inline constexpr double kEdgeSlack = 3.0;
 /// (`passes_lowest_energy`). At 1 the god object would swing in a valley of the field without end; 0.5 halves the swing
 /// each cycle.
 inline constexpr double kMostOvershoot = 0.5;
+/// A further sub-step follows if the normal of a holding point has turned by more than this on the way [rad]: the force
+/// is that of the normals before the motion. Measured: without it a nut of 48 facets resists with 17 % of its torque
+/// though it has no friction, in both directions; with 0.02 1 %. That takes few more sub-steps in the demo's paths,
+/// 0.01 twice as much time on the nut.
+inline constexpr double kMostTurn = 0.02;
 /// A motion that ends farther from the wanted one than rest may do so by this many times the largest required gain,
 /// else its rows count as contradictory: a ball that fits tightly into a bore could regain its margins only by leaving
 /// it. Chosen: rounding gives levers above 10^4; a flat box in a bore 0.07 % wider than the box regains its margin with

@@ -133,7 +133,7 @@ class ContactSubsteps {
     limit_arcs();
     at_sample_ = at_feature_ = Obstacle{};
     at_edge_ = EdgeObstacle{};
-    opened_ = false;
+    is_outdated_ = false;
     may_look_at_end_ = true;
     while (share_.next()) {
       if (!set_trial_pose()) {
@@ -176,7 +176,7 @@ class ContactSubsteps {
 
   /// Tells whether another sub-step follows.
   bool remain() const noexcept {
-    return share_.value() != 0.0 && (result_.cut || opened_ || is_provisional()) && !result_.inside &&
+    return share_.value() != 0.0 && (result_.cut || is_outdated_ || is_provisional()) && !result_.inside &&
            budget_.balls > 0 && result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
   }
 
@@ -543,13 +543,13 @@ class ContactSubsteps {
   }
 
   /// Tells whether a free motion goes far beyond the lowest energy of the coupling, and prepares another attempt: with
-  /// the surface at its end, or else shorter. Sets `opened_`.
+  /// the surface at its end, or else shorter. Sets `is_outdated_`.
   ///
   /// Along the motion, a share of v, the energy of coupling and contact forces is M(t) = M(0) - 2 |v|^2 t + b t^2. Its
   /// value at the end, t = share, gives b; the lowest one is at t = |v|^2 / b = share / (1 + overshoot).
   bool passes_lowest_energy() noexcept {
     const Arrival arrival = arrive(scene_, H0_, H1_, step_);
-    opened_ = share_.is_whole() && arrival.opened;
+    is_outdated_ = share_.is_whole() && (arrival.opened || arrival.turn > kMostTurn);
     const double share = share_.value();
     const double rise = arrival.rise + share * share * excess_arc_energy();
     if (!(rise > (1.0 + kMostOvershoot - share) * share * squared(step_.motion))) return false;
@@ -559,7 +559,7 @@ class ContactSubsteps {
         lengths_.metric.squared(free_) - lengths_.metric.squared(unconstrained_motion(H1_, input_.H_WD)) - gaps.energy;
     const double overshoot = 1.0 - fall / (share * squared(step_.motion));
     if (!(overshoot > kMostOvershoot)) return false;
-    opened_ = false;
+    is_outdated_ = false;
     may_look_at_end_ = may_look_at_end_ && look_at_end(gaps);
     if (!may_look_at_end_) share_.stop_at(share / (1.0 + overshoot));
     return true;
@@ -664,9 +664,9 @@ class ContactSubsteps {
   std::uint32_t free_substeps_ = 0;
   double most_search_radius_ = 0.0;
   double longest_displacement_ = 0.0;  // of a point in a sub-step [m]
-  bool opened_ = false;
-  bool may_look_at_end_ = false;  // no second look at the end of a motion has failed in this sub-step
-  bool is_nearer_ = false;        // the last step leads nearer to the device
+  bool is_outdated_ = false;           // holding points have left the surface, or it has turned
+  bool may_look_at_end_ = false;       // no second look at the end of a motion has failed in this sub-step
+  bool is_nearer_ = false;             // the last step leads nearer to the device
 
   // state of the sub-step
   bool is_first_ = true;

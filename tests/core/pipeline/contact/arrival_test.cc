@@ -159,6 +159,34 @@ TEST(EndOfForce, OfAnEdgePairIsItsGapThere) {
   }
 }
 
+/// The plane in W does not turn, that of the body turns with it. Of two forces of one point the nearer one counts.
+TEST(Arrival, TellsByHowMuchTheNormalsHaveTurned) {
+  const ArrivalWorld world;
+  const Vector3 tip_W = world.origin_W + Vector3(0.0, 0.004, 0.0);
+  const Pose H0 = ArrivalWorld::turned(Vector3::UnitX(), tip_W + Vector3(0.0, 0.003, 0.0));
+  for (const double angle : {0.0, 0.01, 0.1}) {
+    Pose H1 = H0;
+    H1.rotation = exp_rotation({0.0, angle, 0.0}) * exp_rotation({0.0, 0.0, angle}) * H0.rotation;
+    ConstrainedStep step;
+    step.force_count = 2;
+    step.forces[0].multiplier = 3.0;
+    step.forces[0].normal = H0.rotation.conjugate() * Vector3::UnitZ();
+    step.forces[1].id = kFeature;
+    step.forces[1].multiplier = 1.0;
+    step.forces[1].normal = H0.rotation.conjugate() * Vector3::UnitY();
+    const double turned = (H1.rotation * H0.rotation.conjugate() * Vector3::UnitY() - Vector3::UnitY()).norm();
+    EXPECT_NEAR(arrive(world.scene, H0, H1, step).turn, turned, 1e-9) << angle;
+    step.force_count = 3;
+    step.forces[2] = step.forces[1];
+    step.forces[2].normal = H0.rotation.conjugate() * Vector3::UnitX();
+    EXPECT_NEAR(arrive(world.scene, H0, H1, step).turn, turned, 1e-9) << angle;
+    std::swap(step.forces[1], step.forces[2]);
+    EXPECT_NEAR(arrive(world.scene, H0, H1, step).turn, turned, 1e-9) << angle;
+    EXPECT_GE(turned, angle * (1.0 - angle));
+  }
+  EXPECT_EQ(arrive(world.scene, H0, H0, ConstrainedStep{}).turn, 0.0) << "without a force";
+}
+
 /// A pair of edges that has left is no contact any more. One that comes too near lacks what is missing to the margin.
 TEST(Arrival, TellsWhetherAnEdgePairHasLeftOrLacksAPartOfItsMargin) {
   const ArrivalWorld world;
