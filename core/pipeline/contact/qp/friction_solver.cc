@@ -102,9 +102,8 @@ bool conclude_without_friction(ContactSet& set, ConstrainedStep& step) noexcept 
 /// Tells whether the current motion is farther from the wanted one than rest is, by more than lost gaps require. In the
 /// metric without viscous friction.
 bool leads_away(const ContactSet& set) noexcept {
-  constexpr double kNeeds = 1.001;  // of squares
   const Vector6 wanted = set.target();
-  return (set.plain_motion() - wanted).squaredNorm() > kNeeds * wanted.squaredNorm();
+  return (set.plain_motion() - wanted).squaredNorm() > kMostByGaps * wanted.squaredNorm();
 }
 
 }  // namespace

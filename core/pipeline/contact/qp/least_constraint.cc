@@ -93,14 +93,13 @@ void shift_gains(const Motion& motion, double sign, ContactRows& rows) noexcept 
 /// from the wanted motion than rest is, by more than lost gaps require; then the step is as before.
 bool solve_for_whole_slip(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
                           const ContactFriction& friction, const Motion& last, ConstrainedStep& step) noexcept {
-  constexpr double kNeeds = 1.001;  // of squares
   const ConstrainedStep before = step;
   shift_gains(friction.slid, 1.0, rows);
   const bool feasible = solve(rows, sum(wanted, friction.slid, 1.0), metric, &friction, last, step);
   shift_gains(friction.slid, -1.0, rows);
   step.motion = sum(step.motion, friction.slid, -1.0);
   const double left = metric.squared(sum(wanted, step.motion, -1.0));
-  if (feasible && !step.unconverged && left <= kNeeds * metric.squared(wanted)) return true;
+  if (feasible && !step.unconverged && left <= detail::kMostByGaps * metric.squared(wanted)) return true;
   step = before;
   step.infeasible = step.unconverged = false;
   return false;

@@ -109,8 +109,7 @@ inline constexpr int kMostFrictionAdditions = 512;
 ///
 /// 1. Rest. If the loaded points hardly slipped in the last motion, the cones without shifts decide whether forces can
 ///    hold the body at rest; then they do.
-/// 2. Newton's method on Coulomb's law, from the active set. A slipping contact whose slip has the direction of its
-/// force
+/// 2. Newton's method on Coulomb's law, from the active set. A slipping contact whose slip has its force's direction
 ///    in two consecutive steps is held by three half spaces; a held contact whose force leaves the cone begins to slip.
 ///    Between two sets of forces the first that vanishes is dropped, so that contacts leave one at a time; a violated
 ///    row enters.
@@ -119,9 +118,8 @@ inline constexpr int kMostFrictionAdditions = 512;
 ///    mu^2 / (1 + mu^2) a round.
 /// 4. After these rounds: the smoothing Newton method of solve_smoothed, which is slower and fails less often.
 /// 5. A motion within the tolerances comes to rest if the cones without shifts can hold the body.
-/// 6. If all of that fails (`unconverged`), mostly because the law has no solution, the motion is projected on the
-/// rows:
-///    all rows are met, and the forces are those of the cones and of these rows.
+/// 6. If all of that fails (`unconverged`), mostly because the law has no solution, the motion is projected on all
+///    rows. They are met, and the forces are those of the cones and of these rows.
 /// 7. If that motion is farther from the wanted one than rest is, which no friction explains, it is replaced by rest if
 ///    the cones without shifts can hold the body, and otherwise by the motion without friction, the nearest that meets
 ///    all rows.

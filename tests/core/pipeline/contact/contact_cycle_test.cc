@@ -289,6 +289,66 @@ TEST(ContactCycle, AddsTheViscousForceOfItsSpeed) {
   }
 }
 
+/// A wheel of 5 mm about x whose rim is a groove with walls of the slope `angle`; 0: a flat rim.
+struct Wheel {
+  static constexpr double kRadius = 0.005;
+  double angle = 0.0;
+  double distance(const Vector3& p) const noexcept {
+    return std::cos(angle) * (std::hypot(p.y(), p.z()) - kRadius) - std::sin(angle) * std::fabs(p.x());
+  }
+  Vector3 gradient(const Vector3& p) const noexcept {
+    const double radius = std::hypot(p.y(), p.z());
+    const double side = p.x() < 0.0 ? std::sin(angle) : -std::sin(angle);
+    return {side, std::cos(angle) * p.y() / radius, std::cos(angle) * p.z() / radius};
+  }
+};
+
+constexpr double kAroundWheel = 0.06;  // of each cycle [rad]
+
+/// Draws two points, one on each wall, around the wheel, pressed by `press`. Calls `each` with the force's share along
+/// the rim and outwards, where the god object ends, once it has settled.
+template <bool kFriction, class Each>
+void draw_around(double angle, double press, const Each& each) {
+  constexpr double kAside = 0.001;
+  const AnalyticField field(Wheel{angle}, kVoxel);
+  const SampledBody body({{{-kAside, 0.0, 0.0}, {kAside, 0.0, 0.0}}, {-Vector3::UnitZ(), -Vector3::UnitZ()}},
+                         Vector3::Constant(1e-4));
+  const double height = Wheel::kRadius + kAside * std::tan(angle);
+  ContactRun<kFriction> run(field, body, at({0.0, 0.0, height + 1e-4}));
+  for (int i = 0; i < 200; ++i) {
+    const double around = kAroundWheel * std::max(0, i - 50);
+    ASSERT_EQ(run.step(at((height - press) * Vector3(0.0, std::sin(around), std::cos(around)))), Status::kOk);
+    if (i < 100) continue;
+    const Vector3 outwards = run.state.H_WS.translation.normalized();
+    const Vector3 force = run.report.force.spring_W.force;
+    each(force.dot(Vector3::UnitX().cross(outwards)), force.dot(outwards));
+  }
+}
+
+/// The surface turns by 0.06 rad under the points in each cycle.
+TEST(ContactCycle, HasTheForceOfTheSurfaceWhereItEnds) {
+  for (const double press : {1e-4, 1e-3}) {
+    draw_around<false>(0.0, press,
+                       [&](double along, double outwards) { EXPECT_LT(std::fabs(along), 0.02 * outwards) << press; });
+  }
+}
+
+/// Around the wheel the points drop by some 10 um a cycle, along the walls. By hand: each wall carries half of the load
+/// over the cosine of its slope, so friction is that much larger, whatever the load.
+TEST(ContactCycle, RubsAlongItsWayWhereItDropsAsideToo) {
+  constexpr double kSlope = M_PI / 4.0;
+  for (const double press : {5e-5, 2e-4, 1e-3}) {
+    double along_the_rim = 0.0;
+    double load = 0.0;
+    draw_around<true>(kSlope, press, [&](double along, double outwards) {
+      along_the_rim += std::fabs(along);
+      load += outwards;
+    });
+    EXPECT_NEAR(along_the_rim / load / (0.18 / std::cos(kSlope)), 1.0, 0.06)
+        << press << ", measured: 4 % at the least load";
+  }
+}
+
 TEST(ContactCycle, FeelsAGrooveByItsHalfAngle) {
   for (const double opening : {60.0, 90.0, 120.0}) {
     const double half = 0.5 * opening * M_PI / 180.0;
