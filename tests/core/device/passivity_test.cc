@@ -53,7 +53,8 @@ TEST(PassivityObserver, CountsATorqueExactlyWhileItActs) {
   }
 }
 
-/// Where the joint was before its first position is not known, also if a torque acts already.
+/// The observer does not know where the joint was before its first position, so no energy counts up to there. A torque
+/// that acts already changes nothing.
 TEST(PassivityObserver, AddsNoEnergyUpToItsFirstPosition) {
   PassivityObserver observer(0.0);
   for (int session = 0; session < 2; ++session) {
