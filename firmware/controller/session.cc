@@ -135,7 +135,7 @@ void Session::run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunR
                                   OperatorNotice& notice) {
   std::optional<HandLog> hand;
   const SimulatedArm* arm = link_->simulated_arm();
-  if (arm != nullptr && records.telemetry() != nullptr) hand.emplace(config_.telemetry.folder);
+  if (records.telemetry() != nullptr) hand.emplace(config_.telemetry.folder);
   run_controller(setup, clock, *cycle_, requests, ring_, report_, [&] {
     notice.look();
     records.drain();

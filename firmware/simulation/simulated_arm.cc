@@ -38,7 +38,7 @@ std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
   longer.reserve(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     const double at = static_cast<double>(i) / slower;
-    const auto before = std::min(static_cast<std::size_t>(at), path.size() - 1);
+    const auto before = static_cast<std::size_t>(at);
     const Pose& a = path[before];
     const Pose& b = path[std::min(before + 1, path.size() - 1)];
     const double share = at - static_cast<double>(before);
@@ -51,12 +51,11 @@ std::vector<Pose> read_path(const ControllerConfig& config, const Placement& pla
   const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_RM;
   if (config.simulation.path.empty()) return {rest};
   std::vector<Pose> path = files::read_pose_path(config.simulation.path).poses;
-  for (Pose& pose : path) {
+  for (const Pose& pose : path) {
     if (!pose.is_finite() || !(pose.rotation.norm() > 0.999 && pose.rotation.norm() < 1.001)) {
       throw Failure(ExitCode::kBadData, fmt::format("{}: has a row with an invalid pose; check its quaternions",
                                                     config.simulation.path.string()));
     }
-    pose.rotation.normalize();
   }
   path = in_room(path, placement);
   // tolerances chosen: across them the hand's spring (300 N/m, 3 Nm/rad) pulls with 3 N and 0.15 Nm

@@ -200,7 +200,6 @@ class ContactSubsteps {
       if (near.count == 0) return false;
       for (std::uint32_t f = 0; f < step_.force_count; ++f) {
         const std::uint32_t id = step_.forces[f].id;
-        if (is_edge_pair(id)) continue;
         const std::uint32_t row = rows_.find(id, 0);
         if (row == rows_.count) continue;  // several forces of one row
         const bool is_feature = (id & kFeature) != 0;

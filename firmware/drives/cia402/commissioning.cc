@@ -40,7 +40,6 @@ std::optional<int> set_mode(hal::CanBus& bus, hal::Clock& clock, int node, std::
     SdoResponse response;
     while (bus.receive(received)) {
       const hal::CanFrame& frame = received.frame;
-      if (received.own) continue;
       if (frame.id == cob(kCobTpdo2, node)) told = frame.length == 1 && static_cast<std::int8_t>(frame.data[0]) == mode;
       if (!parse_sdo_response(frame, response) || response.node != node || response.index != kMode) continue;
       refused = response.kind == SdoResponse::Kind::kAborted;
