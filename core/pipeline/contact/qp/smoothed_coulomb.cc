@@ -110,7 +110,7 @@ class SmoothedProblem {
 
   /// Returns the forces on the cones: a slipping contact has one, a sticking one three.
   Forces forces() const noexcept {
-    constexpr double kHalfRootThree = 0.8660254037844386;
+    constexpr double kSineOfThird = 0.8660254037844386;
     Forces found;
     for (int k = 0; k < set_.contact_count(); ++k) {
       const ConeContact& cone = cones_[static_cast<std::size_t>(k)];
@@ -125,8 +125,8 @@ class SmoothedProblem {
       const double third = load / set_.contact(k).ratio / 3.0;
       found.add(force(k, along, sticks ? third * (1.0 + 2.0 * share) : 3.0 * third));
       if (!sticks) continue;
-      found.add(force(k, -0.5 * along + kHalfRootThree * across, third * (1.0 - share)));
-      found.add(force(k, -0.5 * along - kHalfRootThree * across, third * (1.0 - share)));
+      found.add(force(k, -0.5 * along + kSineOfThird * across, third * (1.0 - share)));
+      found.add(force(k, -0.5 * along - kSineOfThird * across, third * (1.0 - share)));
     }
     return found;
   }
