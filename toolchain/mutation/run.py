@@ -71,8 +71,10 @@ class Runner:
         others = [test for test in reaching if test not in first]
         left = self.seconds
         for program, tests in [(test.program, [test]) for test in first] + list(suites.batches(others)):
+            left -= self.suite.start[program]
             tests = [test for test, sum_ in zip(tests, itertools.accumulate(t.seconds for t in tests)) if sum_ <= left]
             if not tests:
+                left += self.suite.start[program]
                 continue
             left -= sum(test.seconds for test in tests)
             killed = suites.kills(self.suite, mutant, program, tests)

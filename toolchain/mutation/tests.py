@@ -62,7 +62,7 @@ def run(command, environment, cpu_seconds, wall_seconds, folder):
 class Test:
     program: str
     name: str
-    seconds: float = 0.0
+    seconds: float = 0.0  # without the start of its program
     wall: float = 0.0
     reached: frozenset = frozenset()
 
@@ -90,6 +90,7 @@ class Suite:
         self.folder = tree.work / 'running'
         self.folder.mkdir(exist_ok=True)
         self.tests = []
+        self.start = {}  # seconds of processor time until a program runs its first test
         self.by_place = {}
         self.skipped = []
 
@@ -111,7 +112,9 @@ class Suite:
         for program in self.names:
             file = folder / (program + '.json')
             stored = json.loads(file.read_text()) if file.exists() else {}
-            known[program] = stored['tests'] if stored.get('digest') == self.digests[program] else {}
+            is_known = stored.get('digest') == self.digests[program] and 'start' in stored
+            known[program] = stored['tests'] if is_known else {}
+            self.start[program] = stored['start'] if is_known else self.seconds_to_start(program)
             todo += [(program, name) for name in list_tests(self.path(program)) if name not in known[program]]
         left = {program: sum(1 for p, _ in todo if p == program) for program in self.names}
         with concurrent.futures.ThreadPoolExecutor(self.tree.jobs) as pool:
@@ -119,7 +122,7 @@ class Suite:
                 known[program][name] = entry
                 left[program] -= 1
                 if left[program] == 0:
-                    text = json.dumps({'digest': self.digests[program], 'tests': known[program]})
+                    text = json.dumps({'digest': self.digests[program], 'start': self.start[program], 'tests': known[program]})
                     partial = folder / (program + '.partial')
                     partial.write_text(text)
                     partial.replace(folder / (program + '.json'))
@@ -130,12 +133,17 @@ class Suite:
                 if entry['code'] != 0:
                     self.skipped.append(f'{program} {name}')
                     continue
-                self.tests.append(Test(program, name, entry['seconds'], entry['wall'], frozenset(entry['reached'])))
+                seconds = max(0.0, entry['seconds'] - self.start[program])
+                self.tests.append(Test(program, name, seconds, entry['wall'], frozenset(entry['reached'])))
         for test in self.tests:
             for place in test.reached:
                 self.by_place.setdefault(place, []).append(test)
         for tests in self.by_place.values():
             tests.sort(key=lambda test: max(test.seconds, test.wall))
+
+    def seconds_to_start(self, program):
+        command = [str(self.path(program)), '--gtest_filter=-*']
+        return min(run(command, {}, 60, 60, self.folder).seconds for _ in range(3))
 
     def record_one(self, program, name):
         with tempfile.NamedTemporaryFile(dir=self.folder) as map_:
@@ -168,7 +176,7 @@ def batches(tests):
 
 def kills(suite, mutant, program, tests):
     """Runs the tests against the mutant; returns the name of the one that fails and how, or None."""
-    seconds = 10 * sum(test.seconds for test in tests) + 2
+    seconds = 10 * (suite.start[program] + sum(test.seconds for test in tests)) + 2
     wall = 20 * sum(test.wall for test in tests) + 30 + seconds
     command = [str(suite.path(program)), '--gtest_fail_fast', '--gtest_brief=1',
                '--gtest_filter=' + ':'.join(test.name for test in tests)]
