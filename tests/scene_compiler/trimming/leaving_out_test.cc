@@ -36,8 +36,8 @@ struct Bodies {
 
   std::string text() const {
     return fmt::format(
-        "[still]\nmesh = \"{}\"\nscale = {:#g}\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\nscale = {:#g}\n"
-        "points = 500\nlevels = 4\n{}{}",
+        "[still]\nmesh = \"{}\"\nscale = {:#g}\nvoxel_size = 0.004\nfield_tolerance = 0.5\n"
+        "[moving]\nmesh = \"{}\"\nscale = {:#g}\npoints = 500\nlevels = 4\n{}{}",
         mesh_file(still).string(), still_scale, mesh_file(moving).string(), moving_scale, more, kFriction);
   }
 };
@@ -204,8 +204,9 @@ TEST_F(LeavesOut, PointsInACavity) {
   const std::string cube_file = mesh_file("cube_100mm").string();
   const auto text = [](const std::string& still, const std::string& moving) {
     return fmt::format(
-        "[still]\nmesh = \"{}\"\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\npoints = 1000\nlevels = 4\n", still,
-        moving);
+        "[still]\nmesh = \"{}\"\nvoxel_size = 0.004\nfield_tolerance = 0.5\n"
+        "[moving]\nmesh = \"{}\"\npoints = 1000\nlevels = 4\n",
+        still, moving);
   };
   const CompileReport moving = compile(text(cube_file, hollow_file), "moving.scene");
   const LeftOut* const of_moving = item(moving, "own walls");
@@ -278,8 +279,8 @@ TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
                                      turned_inside_out(box(Vector3d::Constant(-kHollow), Vector3d::Constant(kHollow))));
   const std::string hollow_file = folder_.write("hollow.obj", obj(hollow)).string();
   const CompileReport report =
-      compile(fmt::format("[still]\nmesh = \"{}\"\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\npoints = 1000\n"
-                          "levels = 4\n[friction]\nstatic = 0.3\n",
+      compile(fmt::format("[still]\nmesh = \"{}\"\nvoxel_size = 0.004\nfield_tolerance = 0.5\n"
+                          "[moving]\nmesh = \"{}\"\npoints = 1000\nlevels = 4\n[friction]\nstatic = 0.3\n",
                           mesh_file("cube_100mm").string(), hollow_file),
               "less.scene");
   ASSERT_NE(item(report, "own walls"), nullptr);
@@ -327,8 +328,8 @@ TEST_F(LeavesOut, PointsInACavityThatChangeNoMotion) {
 
 /// Far above the middle of a face no edge of the cube is met: no second direction.
 TEST_F(LeavesOut, TheSecondDirectionWhereNoFeatureIsMet) {
-  const Bodies bodies{"cube_100mm", 3.0, "cube_100mm", 0.3, ""};
-  const format::Workspace workspace{{-0.02, -0.02, 0.15}, {0.02, 0.02, 0.2}};
+  const Bodies bodies{"cube_100mm", 2.0, "cube_100mm", 0.3, ""};
+  const format::Workspace workspace{{-0.02, -0.02, 0.1}, {0.02, 0.02, 0.15}};
   compile(bodies.text(), "all.scene");
   const CompileReport report = compile(bodies.text() + table(workspace), "less.scene");
   EXPECT_GT(report.second.found(), 0u);
