@@ -251,6 +251,44 @@ TEST(SceneLimits, OfANodesSphereHoldToTheLastBit) {
   }
 }
 
+/// Of the still body: an edge of the moving body must lie in its sphere, too, which is smaller.
+TEST(SceneLimits, OfASharpEdgeHoldToTheLastBit) {
+  const ImageParts valid = point_image();
+  const auto status_at = [&valid](auto set) {
+    ImageParts image = valid;
+    auto& edge = image.item<format::SharpEdge>(SectionId::kSharpEdges);
+    auto& node = image.item<format::Node>(SectionId::kSharpEdgeNodes);
+    node.radius = 1e7f;
+    set(edge, node);
+    return status_of(image);
+  };
+  using Edge = format::SharpEdge;
+  using Node = format::Node;
+  for (int end = 0; end < 2; ++end) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double limit : {-kFarthest, kFarthest}) {
+        const auto at = [&](double x) {
+          return status_at([=](Edge& edge, Node& node) {
+            edge.end[end][axis] = x;
+            node.center[axis] = static_cast<float>(0.5 * limit);  // the other end stays at the origin
+          });
+        };
+        EXPECT_EQ(at(limit), Status::kOk) << end << ' ' << axis;
+        EXPECT_EQ(at(std::nextafter(limit, 2.0 * limit)), Status::kImageValue) << end << ' ' << axis;
+      }
+      for (const float limit : {-1.001f, 1.001f}) {
+        const auto at = [&](float x) { return status_at([=](Edge& edge, Node&) { edge.normal[end][axis] = x; }); };
+        EXPECT_EQ(at(limit), Status::kOk) << end << ' ' << axis;
+        EXPECT_EQ(at(beyond(limit)), Status::kImageValue) << end << ' ' << axis;
+      }
+    }
+  }
+  const auto at = [&](float radius) { return status_at([=](Edge& edge, Node&) { edge.radius = radius; }); };
+  EXPECT_EQ(at(0.0f), Status::kOk);
+  EXPECT_EQ(at(1e6f), Status::kOk);
+  EXPECT_EQ(at(beyond(1e6f)), Status::kImageValue);
+}
+
 /// A count at its limit passes the check of values. Then the sections do not have the size that it says.
 TEST(SceneLimits, OfCountsComeBeforeTheSizesOfSections) {
   const ImageParts valid = point_image();

@@ -390,6 +390,25 @@ TEST(SceneStructure, OfATreeHasNoOtherNumbers) {
   }
 }
 
+/// A tree whose numbers fit each other, but which begins at the second point and so ends behind the last one. The
+/// spheres hold any point.
+TEST(SceneStructure, OfATreeBeginsAtTheFirstPoint) {
+  const test::SurfaceSamples one_point{{Vector3(0.5, 0.0, 0.0)}, {Vector3::UnitX()}};
+  for (const ImageParts& whole : {test::whole_image(), test::whole_image(one_point)}) {
+    for (const SectionId id : {SectionId::kNodes, SectionId::kFeatureNodes}) {
+      for (const std::uint32_t first : {0u, 1u}) {
+        ImageParts image = whole;
+        for (std::size_t i = 0; i < image.count<format::Node>(id); ++i) {
+          auto& node = image.item<format::Node>(id, i);
+          node.first_point += first;
+          node.radius = 1e7f;
+        }
+        EXPECT_EQ(status_of(image), first == 0 ? Status::kOk : Status::kImageValue) << static_cast<int>(id);
+      }
+    }
+  }
+}
+
 /// Sets a tree of `depth` nodes, each the only child of the one before, over the points of `image`.
 void set_chain(ImageParts& image, std::uint32_t depth, std::uint32_t levels) {
   const format::Node root = image.item<format::Node>(SectionId::kNodes);

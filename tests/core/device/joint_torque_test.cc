@@ -231,6 +231,24 @@ TEST(JointTorque, LeavesOutWhatTheArmCannotShow) {
   EXPECT_NEAR(result.rendered_P_R.force.y(), 5.0 * 0.09 / (0.09 + L * L), 1e-13);
 }
 
+/// A wrench that does no work at any joint is left out as a whole. Rounding makes that no more than all of it.
+TEST(JointTorque, LeavesOutNoMoreThanAllOfAWrench) {
+  Random random(17);
+  for (int i = 0; i < 500; ++i) {
+    const int joints = 1 + i % 5;
+    const Arm arm = with_strong_joints(without_additions(test::random_arm(random, joints)));
+    TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 3.0));
+    const Eigen::MatrixXd J = weighted_jacobian(arm, request);
+    const Eigen::MatrixXd U = Eigen::JacobiSVD<Eigen::MatrixXd>(J, Eigen::ComputeThinU).matrixU();
+    Vector6 wanted = Vector6::Zero();
+    for (int k = joints; k < 6; ++k) wanted += random.between(-10.0, 10.0) * U.col(k);
+    request.F_P_R = {wanted.head<3>(), arm.parameters.rotation_length * wanted.tail<3>()};
+    const JointTorque result = expect_ok(arm, request);
+    ASSERT_LE(result.left_out, 1.0) << i;
+    ASSERT_GE(result.left_out, 1.0 - 1e-12) << i;
+  }
+}
+
 TEST(JointTorque, KeepsTheDirectionOfWhatIsTooStrong) {
   Random random(5);
   for (int i = 0; i < 5000; ++i) {

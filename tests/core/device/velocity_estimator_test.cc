@@ -34,6 +34,11 @@ TEST_P(Window, ConstantVelocityIsExactFromTheSecondPositionOn) {
   }
 }
 
+TEST_P(Window, BeginsWithoutPositions) {
+  EXPECT_EQ(update(0.731), 0.0);
+  EXPECT_NEAR(update(0.731 + 2.0 * kSamplePeriod), 2.0, 1e-11);
+}
+
 TEST_P(Window, ConstantAccelerationIsLateByTheStatedDelay) {
   const double delay = 0.5 * (n_ - 1.0) * kSamplePeriod;
   EXPECT_DOUBLE_EQ(estimator_.delay(), delay);

@@ -74,6 +74,19 @@ TEST_F(DeviceFileTest, MayHaveANodeNumberOnEachBus) {
             std::string::npos);
 }
 
+/// The panel's node number is taken on its bus, also from the first and from the last joint.
+TEST_F(DeviceFileTest, RefusesThePanelsNodeForEachJointOnItsBus) {
+  const Device device = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  for (int i = 0; i < device.bus.joint_count; ++i) {
+    const hal::DriveConfig& drive = device.bus.drives[static_cast<std::size_t>(i)];
+    const std::string says = refusal("panel_bus = 2\npanel_node = 32",
+                                     fmt::format("panel_bus = {}\npanel_node = {}", drive.bus, drive.node));
+    EXPECT_NE(says.find(fmt::format("joint[{}].node = {} is also the panel's on the same bus", i + 1, drive.node)),
+              std::string::npos)
+        << i << says;
+  }
+}
+
 /// Torques in permille of the rated one, in 16 bits, reach 32 times it; joint 1 has a limit of 1.5 Nm and a gear of 10.
 TEST_F(DeviceFileTest, WantsARatedTorqueInProportionToTheLimit) {
   for (const double share : {0.0099, 0.0101, 0.015, 20.0, 31.9, 32.1, 60.0}) {

@@ -1,6 +1,8 @@
 #include "firmware/configuration/scene_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -110,6 +112,20 @@ TEST_F(SceneFileTest, RefusesWhatMayNotBeRead) {
   EXPECT_EQ(refusal(file_).first, ExitCode::kNoPermission);
 }
 
+/// There the first file that is opened gets the number 0.
+TEST_F(SceneFileTest, IsReadByAProcessWithoutStandardInput) {
+  const int input = ::dup(STDIN_FILENO);
+  ::close(STDIN_FILENO);
+  const auto [code, words] = refusal(file_);
+  const bool closed = ::fcntl(STDIN_FILENO, F_GETFD) < 0;
+  if (input >= 0) {
+    ::dup2(input, STDIN_FILENO);
+    ::close(input);
+  }
+  EXPECT_EQ(code, ExitCode::kOk) << words;
+  EXPECT_TRUE(closed) << "the file is not needed once it is copied";
+}
+
 TEST_F(SceneFileTest, RefusesEveryTruncationAndFlippedBits) {
   for (std::size_t size = text_.size(); size-- > 0;) {
     ASSERT_EQ(::truncate(file_.c_str(), static_cast<off_t>(size)), 0);
@@ -183,6 +199,26 @@ TEST_F(SceneFileTest, RefusesWhatIsHugeWithoutTakingMemory) {
   const auto [code, words] = refusal(file_);
   EXPECT_EQ(code, ExitCode::kBadData);
   test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
+}
+
+/// The file is a hole of 1 GiB behind its header; this process may take half of that.
+TEST_F(SceneFileTest, RefusesWhatDoesNotFitIntoTheMemory) {
+  auto header = *reinterpret_cast<const format::Header*>(image_.bytes().data());
+  header.total_bytes = SceneFile::kLargest;
+  write({reinterpret_cast<const char*>(&header), sizeof header});
+  std::filesystem::resize_file(file_, SceneFile::kLargest);
+  rlim_t pages = 0;
+  ASSERT_TRUE(std::ifstream("/proc/self/statm") >> pages);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  rlimit small = before;
+  small.rlim_cur =
+      std::min<rlim_t>(before.rlim_cur, pages * static_cast<rlim_t>(::getpagesize()) + SceneFile::kLargest / 2);
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &small), 0);
+  const auto [code, words] = refusal(file_);
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(code, ExitCode::kBadData);
+  EXPECT_NE(words.find("a.scene: does not fit into the memory"), std::string::npos) << words;
 }
 
 TEST_F(SceneFileTest, RefusesALengthThatItsHeaderDoesNotTell) {

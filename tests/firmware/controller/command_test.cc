@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -29,6 +30,14 @@ class ControllerCommandTest : public ControllerFolderTest {
   }
 
   bool says(const std::string& what) const { return words_.find(what) != std::string::npos; }
+
+  /// A number in the words: the group of the expression.
+  double number(const std::string& expression) const {
+    std::smatch match;
+    if (std::regex_search(words_, match, std::regex(expression))) return std::stod(match[1]);
+    ADD_FAILURE() << expression << " in " << words_;
+    return -1.0;
+  }
 
   std::string words_;
 };
@@ -60,6 +69,14 @@ TEST_F(ControllerCommandTest, RendersAPathAndLogsIt) {
   EXPECT_EQ(hand_rows, rows);
   EXPECT_GT(std::stod(last.substr(last.find(',') + 1)), 0.0) << "it was moved and pressed";
   EXPECT_TRUE(contact);
+}
+
+/// The cycle after the last one takes the power away.
+TEST_F(ControllerCommandTest, EndsAfterItsDurationAlsoAlongAPath) {
+  write_path();
+  write_controller("[simulation]\npath = \"path.csv\"\nbegin = 6.0\n");
+  EXPECT_EQ(run("c.toml --duration 0.25"), 0) << words_;
+  EXPECT_TRUE(says("rendered in 0 of 251 cycles")) << words_;
 }
 
 TEST_F(ControllerCommandTest, WarnsWhereTheSignTestIsLeftOut) {
@@ -168,6 +185,8 @@ TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
   EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words_;  // a busy machine may be too late
   EXPECT_TRUE(says("waking late: p50")) << words_;
   EXPECT_TRUE(says("\nround trip: p50 ") && !says(" of 0 cycles")) << "each figure has cycles: " << words_;
+  EXPECT_LE(number("\nround trip: .* of ([0-9]+) cycles"), number("\ncomputing: .* of ([0-9]+) cycles") - 4.0)
+      << "a cycle without samples has no round trip: the probe after the start has four of them";
 }
 
 TEST_F(ControllerCommandTest, CommissionsTheSimulatedDrives) {

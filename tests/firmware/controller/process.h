@@ -2,12 +2,16 @@
 
 #include <fcntl.h>
 #include <linux/capability.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,15 +24,18 @@ namespace godobject::firmware {
 
 struct ProcessSettings {
   rlim_t largest_file = RLIM_INFINITY;
-  std::string library{};                ///< for LD_PRELOAD; empty: none
-  std::filesystem::path interfaces{};   ///< folder of tests/support/fake_can.cc
-  bool real_time_rights = true;         ///< false: neither limits nor capabilities permit real-time work
-  const char* words = "log.txt";        ///< file for stdout and stderr
+  std::string library{};               ///< for LD_PRELOAD; empty: none
+  std::filesystem::path interfaces{};  ///< folder of tests/support/fake_can.cc
+  bool real_time_rights = true;        ///< false: neither limits nor capabilities permit real-time work
+  const char* words = "log.txt";       ///< file for stdout and stderr
+  bool may_pause = true;               ///< false: the kernel kills it with SIGSYS when it sleeps for a time
 };
 
 /// A program in a folder; killed with this.
 class Process {
  public:
+  static constexpr int kNoFilters = 99;  ///< exit code: this kernel cannot forbid system calls
+
   Process(const std::filesystem::path& folder, const std::string& program, const std::vector<std::string>& arguments,
           const ProcessSettings& settings = {}) {
     std::vector<std::string> words{program};
@@ -48,6 +55,7 @@ class Process {
       ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
     }
     if (!settings.real_time_rights) give_up_rights();
+    if (!settings.may_pause && !forbid_pauses()) ::_exit(kNoFilters);
     if (ready) ::execv(argv[0], argv.data());
     ::_exit(127);
   }
@@ -68,6 +76,12 @@ class Process {
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /// True if it has ended, or was killed; `wait` is still to come.
+  bool has_ended() const {
+    siginfo_t child{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &child, WEXITED | WNOHANG | WNOWAIT) == 0 && child.si_pid != 0;
   }
 
   /// Its open sockets.
@@ -96,6 +110,18 @@ class Process {
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_RTPRIO, &none);
     ::setrlimit(RLIMIT_MEMLOCK, &none);
+  }
+
+  /// The call behind nanosleep(3), clock_nanosleep(3), sleep(3) and usleep(3). ppoll(2) and the like stay.
+  static bool forbid_pauses() {
+    const sock_filter program[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_clock_nanosleep, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+    };
+    const sock_fprog filter{static_cast<unsigned short>(std::size(program)), const_cast<sock_filter*>(program)};
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
   }
 
   pid_t pid_;

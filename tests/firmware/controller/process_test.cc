@@ -158,6 +158,22 @@ TEST_F(ControllerProcessTest, IsStoppedForGoodByAPauseOfTheProcess) {
                 .cycles = -1});
 }
 
+/// A hand moves the tool at 0.1 m/s, which no torque may stop here. The fault is of no single joint.
+TEST_F(ControllerProcessTest, WaitsAfterAFaultUntilItIsAskedToEndAndThenNamesTheFaultLast) {
+  write_path();
+  write_controller(
+      "[start]\nsign_test = false\n[limits]\nforce = 0.5\nspeed = 0.02\nspeed_stop = 0.03\n"
+      "[simulation]\npath = \"path.csv\"\nbegin = 3.0\n");
+  Process process(folder_, GODOBJECT_CONTROLLER, {"c.toml", "--duration", "1e7"});
+  ASSERT_TRUE(see([&] { return says("kill -USR1 "); })) << text("log.txt");
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0) << "a fault that a reset clears does not make an end that was asked for a failure";
+  const std::string words = text("log.txt");
+  EXPECT_NE(words.find(", stopped "), std::string::npos) << "the summary has the time in this mode: " << words;
+  EXPECT_TRUE(words.ends_with("\ngodobject-controller: stopped: hand or joint was faster than its stop speed; reset\n"))
+      << words;
+}
+
 TEST_F(ControllerProcessTest, LeavesNothingHalfWrittenButTheLastRowWhenItIsKilled) {
   write_controller("[start]\nsign_test = false\n");
   Process process = start();

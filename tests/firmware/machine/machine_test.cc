@@ -300,6 +300,23 @@ TEST(MonotonicClock, NeverWakesBeforeItsTimeAndTellsAtOnceWhatHasPassed) {
   }
 }
 
+/// The system tells them in /proc, too. The load of the last minute changes now and then.
+TEST(DescribeMachine, NamesKernelProcessorsAndLoadAsTheSystemTellsThem) {
+  const auto first_word = [](const char* file) {
+    std::string word;
+    std::ifstream(file) >> word;
+    return word;
+  };
+  std::string load;
+  std::string line;
+  for (int attempt = 0; attempt < 10 && (load.empty() || load != first_word("/proc/loadavg")); ++attempt) {
+    load = first_word("/proc/loadavg");
+    line = describe_machine();
+  }
+  EXPECT_NE(line.find("Linux " + first_word("/proc/sys/kernel/osrelease") + " "), std::string::npos) << line;
+  EXPECT_TRUE(line.ends_with(fmt::format(", {} processors, load {}", ::sysconf(_SC_NPROCESSORS_ONLN), load))) << line;
+}
+
 /// The defaults that firmware/README.md names.
 TEST(RealTimeSettings, AreAnyProcessorAndAHighPriority) {
   EXPECT_EQ(RealTimeSettings{}.cpu, -1);

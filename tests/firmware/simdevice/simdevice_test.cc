@@ -195,6 +195,24 @@ TEST_F(SimdeviceTest, EndsAtASignalWithItsReport) {
   }
 }
 
+/// It answers each frame at once: a pause is for an interface with an error. A device that pauses is killed here.
+TEST_F(SimdeviceTest, PausesForNoFrame) {
+  const int planted = Process(folder_, "/bin/sleep", {"0.001"}, {.may_pause = false}).wait();
+  if (planted == Process::kNoFilters) GTEST_SKIP() << "not run: this kernel has no seccomp filters";
+  ASSERT_EQ(planted, -SIGSYS) << "the rule holds";
+  Process process(folder_, GODOBJECT_SIMDEVICE, {"c.toml", "--bus", "can0,can1,can2"},
+                  {.library = GODOBJECT_FAKE_CAN_LIBRARY, .interfaces = folder_ / "can", .may_pause = false});
+  const std::string wire = pipes(process).at(0);
+  const int open = ::open(wire.c_str(), O_RDWR | O_NONBLOCK);  // else `send` would wait for a device that has ended
+  for (int k = 0; k < 20 && !process.has_ended(); ++k) {
+    send(wire, 0x80);
+    wait_until([&] { return size_of(wire) == 0 || process.has_ended(); });
+  }
+  ::close(open);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 0) << text("log.txt");
+}
+
 TEST_F(SimdeviceTest, IsExaminedByTheDoctorAsInterfacesOfTheMachine) {
   const int code = start(GODOBJECT_CONTROLLER, {"doctor", "c.toml", "--bus", "can0,down1,none2"}).wait();
   EXPECT_EQ(code, 69);
@@ -228,6 +246,7 @@ TEST_F(SimdeviceTest, IsNotControlledWithoutRealTimeRights) {
     EXPECT_EQ(start(GODOBJECT_CONTROLLER, arguments, "log.txt", false).wait(), 77) << text("log.txt");
     EXPECT_TRUE(says("LimitMEMLOCK=") || says("LimitRTPRIO=")) << text("log.txt");
     EXPECT_FALSE(says("going on")) << text("log.txt");
+    EXPECT_TRUE(says("godobject-controller: bus.drive_delay = 0: ")) << "it warns before: " << text("log.txt");
   }
   write_controller("[start]\nsign_test = false\n");
   const int code = start(GODOBJECT_CONTROLLER, {"c.toml", "--real-time", "--duration", "0.1"}, "log.txt", false).wait();

@@ -313,6 +313,29 @@ TEST(BallCycle, GoesDownToTheDevicePastAnEdgeInTheSameCycle) {
   }
 }
 
+/// The device draws the centre over a ridge, by less than the tolerance a cycle. A motion that short ends the cycle,
+/// also where the surface turns: the centre slides down the other face in the next one.
+TEST(BallCycle, EndsWithAMotionWithinTheTolerance) {
+  const Vector3 left = Vector3(-0.1, 0.0, 1.0).normalized(), right = Vector3(0.1, 0.0, 1.0).normalized();
+  const SceneImage ridge = image_of([&](const Vector3& p) { return std::max(left.dot(p), right.dot(p)); }, 0.004);
+  BallRun run(ridge, {-4e-6, 0.001, 0.0});
+  run.state.H_WS.translation.z() = 0.1 * -4e-6 + run.q.margin;
+  Vector3 goal = run.center() - 0.001 * left;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(run.step(goal), Status::kOk);
+  ASSERT_LT(run.field().sample(run.center()).gradient.x(), 0.0) << "on the left face";
+  const double tolerance = run.lengths().metric.tolerance;
+  Vector3 before = run.center();
+  int cycles = 0;
+  for (; cycles < 3000 && (run.center() - before).norm() <= tolerance; ++cycles) {
+    before = run.center();
+    goal.x() += 0.3 * tolerance;
+    ASSERT_EQ(run.step(goal), Status::kOk);
+  }
+  EXPECT_LT(cycles, 3000);
+  EXPECT_GT(run.field().sample(before).gradient.x(), 0.0) << "the short motion over the ridge has ended its cycle";
+  EXPECT_GT(run.center().x(), 1e-4) << "towards the device, 1 mm below the left face";
+}
+
 /// The same with a device that is far below the top, so that the way down takes several sub-steps. The cycle ends with
 /// the one that reaches the device.
 TEST(BallCycle, TakesNoSubstepBeyondTheOneThatReachesTheDevice) {
@@ -562,6 +585,30 @@ TEST(BallCycle, SlidesAlongASlotWithoutRoomForTheMargins) {
     ASSERT_EQ(run.step({0.02, y, 0.0}), Status::kOk);
     ASSERT_NEAR(run.center().y(), y, 2.0 * run.lengths().metric.tolerance) << "cycle " << i;
   }
+}
+
+/// A slot becomes narrower than the wanted margins, but not than the least ones. In its middle the field has no
+/// direction, so no second look leads on. The centre follows the device all the same: at first by half of the way.
+TEST(BallCycle, GoesIntoANarrowSlotInWhoseMiddleTheFieldHasNoDirection) {
+  constexpr double kMiddle = 0.002;  // between two nodes of the field
+  const SceneImage slot = image_of(
+      [](const Vector3& p) {
+        const Vector3 q(std::fabs(p.x() - kMiddle), p.y(), p.z());
+        return std::min(0.008 - q.x(), analytic::box_distance(q - Vector3(0.055, 0.05, 0.0), {0.05, 0.05, 0.2}));
+      },
+      0.004);
+  const Vector3 start(kMiddle, -0.01, 0.0), goal(kMiddle, 0.03, 0.0);
+  BallRun run(slot, start);
+  run.q.margin = 0.005;
+  const FieldSample wide = run.field().sample(start), narrow = run.field().sample(goal);
+  ASSERT_LT(std::max(wide.gradient.norm(), narrow.gradient.norm()), kFlat);
+  ASSERT_GT(wide.distance, run.lengths().wanted_margin);
+  ASSERT_LT(narrow.distance, run.lengths().wanted_margin);
+  ASSERT_GT(narrow.distance, run.lengths().least_margin);
+  ASSERT_EQ(run.step(goal), Status::kOk);
+  EXPECT_EQ(run.center(), goal);
+  EXPECT_EQ(run.report.substeps, 2u);
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
 }
 
 /// Between walls that are nearer to each other than two margins no motion regains both gaps: none may shrink, and the

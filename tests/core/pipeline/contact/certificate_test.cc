@@ -34,7 +34,8 @@ struct Wire {
   Vector3 gradient(const Vector3& p) const noexcept { return Vector3(p.x(), p.y(), 0.0).normalized(); }
 };
 
-/// A field that counts its look-ups. `proves`: the bits that the kernel for whole chords returns.
+/// A field that counts its look-ups. `proves`: the bits that the kernel for whole chords returns. The kernel expects
+/// the field's values at the start of each chord.
 struct Counted {
   AnalyticField field;
   std::uint64_t proves = 0;
@@ -50,7 +51,16 @@ struct Counted {
     ++batches;
     field.samples(H, batch);
   }
-  std::uint64_t free_chords(const Pose&, const Pose&, SampleBatch&) const noexcept { return proves; }
+  std::uint64_t free_chords(const Pose& H0, const Pose&, SampleBatch& batch) const noexcept {
+    for (std::uint32_t i = 0; i < batch.count; ++i) {
+      const Vector3 p(static_cast<double>(batch.x[i]), static_cast<double>(batch.y[i]),
+                      static_cast<double>(batch.z[i]));
+      const FieldSample start = field.sample(H0 * p);
+      EXPECT_NEAR(batch.from_clearance[i], start.clearance, 1e-12);
+      EXPECT_NEAR(batch.from_distance[i], start.distance, 1e-12);
+    }
+    return proves;
+  }
   LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
   double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
   double lipschitz() const noexcept { return field.lipschitz(); }

@@ -197,6 +197,36 @@ TEST(ContactSubsteps, TurnABodyThatOnePointHoldsInShortSteps) {
   EXPECT_LT(get_motion(run.state.H_WS.inverse() * device).rotation.norm(), 1e-9) << "nothing holds the turn";
 }
 
+/// A floor, and a wall beside it across x. The field knows the nearer one.
+struct FloorBesideAWall {
+  double wall;
+  double distance(const Vector3& p) const noexcept { return std::min(p.z(), wall - p.x()); }
+  Vector3 gradient(const Vector3& p) const noexcept {
+    return p.z() < wall - p.x() ? Vector3(Vector3::UnitZ()) : Vector3(-Vector3::UnitX());
+  }
+};
+
+/// The same where a second look has found a wall, after which the way is short, but the turn is not.
+TEST(ContactSubsteps, TurnABodyInShortStepsAfterASecondLook) {
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  const Pose device = pose_at({2e-3, 0.0, -1e-3}, {0.3, -0.2, 0.35});
+  for (const double wall : {1.1e-4, 1.5e-4, 1.9e-4}) {
+    const AnalyticField field(FloorBesideAWall{wall}, kSubstepVoxel);
+    SubstepRun<> run(field, body, pose_at({0.0, 0.0, kSubstepMargin}));
+    for (int cycle = 0; cycle < 4; ++cycle) {
+      Pose from = run.state.H_WS;
+      ASSERT_EQ(run.step(device), Status::kOk);
+      for (const Pose& to : run.memory().path.poses()) {
+        EXPECT_LT(get_motion(from.inverse() * to).rotation.norm(), 0.1 + 1e-9) << wall << ' ' << cycle;
+        from = to;
+      }
+    }
+    EXPECT_LT(get_motion(run.state.H_WS.inverse() * device).rotation.norm(), 1e-6) << "nothing holds the turn";
+    EXPECT_NEAR(run.state.H_WS.translation.x(), wall - kSubstepMargin, 0.5 * kSubstepMargin);
+    EXPECT_LT(run.depth(), 0.0);
+  }
+}
+
 /// A floor, and beside it a slot, in whose middle the field has no direction.
 struct FloorBesideASlot {
   static constexpr double kMiddle = -0.01;
@@ -298,6 +328,26 @@ TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {
         EXPECT_EQ(run.report.contacts, 0u);
       }
     }
+  }
+}
+
+/// The same with a jump, of any length, past the edge. A search radius may end the first sub-step shortly before the
+/// device; from there the way is free. A cycle that ends at the device has no contact and no damping.
+TEST(ContactSubsteps, HaveNoContactWhereTheyEndAtTheDevice) {
+  const AnalyticField field(Block{}, kSubstepVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  for (int k = 10; k < 30; ++k) {
+    const double jump = 5e-5 * k;
+    SubstepRun<> run(field, body, pose_at({0.0187, 0.0, 0.01 + kSubstepMargin}));
+    for (int i = 1; i <= 3; ++i) ASSERT_EQ(run.step(pose_at({0.0187 + 4e-4 * i, 0.0, 0.0098})), Status::kOk);
+    ASSERT_EQ(run.report.contacts, 1u);
+    const Pose device = pose_at({0.0199 + jump, 0.0, 0.0098});
+    ASSERT_EQ(run.step(device, {{0.0, 0.0, -0.1}, Vector3::Zero()}), Status::kOk);
+    EXPECT_LT((run.state.H_WS.translation - device.translation).norm(), 1e-9) << jump;
+    EXPECT_EQ(run.report.contacts, 0u) << jump;
+    EXPECT_EQ(run.report.outcome, Outcome::kFree) << jump;
+    EXPECT_LT(run.report.force.total_W.force.norm(), 1e-4) << jump;
+    EXPECT_EQ(run.memory().last_step.force_count, 0u) << jump;
   }
 }
 
@@ -459,6 +509,45 @@ TEST(ContactSubsteps, CallWallsThatPushAgainstMorePointsThanRowsInfeasible) {
   }
 }
 
+/// A hollow ball about the origin.
+struct HollowBall {
+  static constexpr double kRadius = 0.1;
+  double distance(const Vector3& p) const noexcept { return kRadius - p.norm(); }
+  Vector3 gradient(const Vector3& p) const noexcept { return -p.normalized(); }
+};
+
+/// Most points, more than there are rows, lie at the bottom of a hollow ball; 64 neighbours lie below its top, to which
+/// the device goes. They get rows one at a time, as each motion would violate another one. A sub-step adds rows eight
+/// times. For some ways that is enough; for others a gap ends below the margin, and the report counts its point.
+TEST(ContactSubsteps, CountPointsThatStillLackARowAfterEightTimes) {
+  constexpr int kTop = 64;
+  constexpr int kAll = 16000;
+  SurfaceSamples samples;
+  for (int k = 0; k < kAll; ++k) {
+    const double z = k < kTop ? 1.0 - 0.5 * (k + 0.5) / kTop : -1.0;
+    const double aside = std::sqrt(1.0 - z * z);
+    const double gap = k < kTop ? 1e-4 : 5e-5 + 3e-5 * k / kAll;
+    const Vector3 out(aside * std::cos(2.4 * k), aside * std::sin(2.4 * k), z);
+    samples.points.push_back((HollowBall::kRadius - gap) * out);
+    samples.normals.push_back(-out);
+  }
+  const AnalyticField field(HollowBall{}, kSubstepVoxel);
+  const SampledBody body(samples, Vector3::Constant(4e-3));
+  int counted = 0, complete = 0;
+  for (const auto& [x, y] : {std::pair(0, -2), {2, -5}, {2, -4}, {0, 2}, {-3, 1}, {4, 4}}) {
+    SubstepRun<> run(field, body, Pose{});
+    ASSERT_EQ(run.step(pose_at({1.6e-3 * x, 1.6e-3 * y, 0.02})), Status::kOk);
+    EXPECT_GT(-run.depth(), 0.7 * kSubstepMargin) << x << ' ' << y;
+    EXPECT_EQ(run.report.outcome == Outcome::kOverflow, run.report.dropped > 0) << x << ' ' << y;
+    if (run.report.dropped == 0) {
+      EXPECT_GT(-run.depth(), kSubstepMargin - 2e-7) << x << ' ' << y;
+    }
+    ++(run.report.dropped > 0 ? counted : complete);
+  }
+  EXPECT_GT(counted, 0);
+  EXPECT_GT(complete, 0);
+}
+
 /// The second direction alone: a tilted block comes to lie on a bed of points 1 mm apart, more than there are rows.
 TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
   const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
@@ -566,6 +655,34 @@ TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
     for (double x = 0.0; x < 0.03; x += 1e-3) ASSERT_EQ(run.step(pose_at({x, 0.0, -0.003})), Status::kOk);
     EXPECT_EQ(run.report.contacts, 0u) << step;
     EXPECT_EQ(run.state.H_WS.translation.z(), -0.003) << step;
+  }
+}
+
+/// Edges of two solids may overlap until a pose is known with all of them apart, in contact, too. A keel above or in
+/// a roof is pressed down.
+TEST(ContactSubsteps, RememberThatNoEdgesOverlapAnyMore) {
+  EdgeSet moving({{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}});
+  EdgeSet still({{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}});
+  for (int face = 0; face < 2; ++face) {
+    const float side = face == 0 ? 0.8f : -0.8f;
+    moving.edges()[0].normal[face][0] = still.edges()[0].normal[face][1] = side;
+    moving.edges()[0].normal[face][2] = -0.6f;
+    still.edges()[0].normal[face][2] = 0.6f;
+  }
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body = box_body(2);
+  for (const double height : {kSubstepMargin, -1e-4}) {
+    AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, height}));
+    run.parameters.margin = kSubstepMargin;
+    run.cycle.edges = {moving.view(), still.view()};
+    for (int cycle = 0; cycle < 60; ++cycle) {
+      const bool overlapped = run.state.H_WS.translation.z() < 0.0;
+      ASSERT_EQ(run.step(pose_at({0.0, 0.0, -3e-4})), Status::kOk);
+      EXPECT_EQ(run.report.contacts, 1u) << height << ' ' << cycle;
+      if (overlapped && run.state.H_WS.translation.z() >= 0.0) continue;  // it comes out in this cycle
+      EXPECT_EQ(run.cycle.memory->edges_may_overlap, overlapped) << height << ' ' << cycle;
+    }
+    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << height;
   }
 }
 

@@ -68,6 +68,18 @@ TEST(EdgeCertificate, RefusesToCrossAndSaysWhere) {
   EXPECT_NEAR(obstacle.gap.distance, 4e-6, 1e-12);
 }
 
+/// Behind the count of near pairs may stand those of an earlier sub-step. They do not hold the body.
+TEST(EdgeCertificate, LooksAtTheCountedPairsOnly) {
+  EdgeObstacle obstacle;
+  Cross cross(1e-3);
+  const Pose through = moved(0, 0, -4e-3);
+  cross.near.push({0, 0}, cross.near.gap[0]);
+  for (const std::uint32_t count : {2u, 1u, 0u}) {
+    cross.near.count = count;
+    EXPECT_EQ(cross.free(through, obstacle), count == 0) << count;
+  }
+}
+
 /// Parallel edges of two boxes: the lower one slides off the face of the other at the height of a margin, and far.
 TEST(EdgeCertificate, LetsABoxSlideOverTheEdgeOfAFace) {
   const Vector3 low(0, -0.01, 2e-5);

@@ -304,6 +304,38 @@ TEST(EvenPressure, KnowsFacesOfOtherShapes) {
   }
 }
 
+/// A face of two pads, of three quarters and of one quarter of its area; between them nothing touches. The places are
+/// nearest to one in the larger pad, far from the load's centre.
+TEST(EvenPressure, KnowsAFaceOfTwoPads) {
+  constexpr double kWidth = 0.02;
+  constexpr double kCentre = 0.03;  // of the area; pads to 30 mm and from 70 to 80 mm
+  const auto is_on_pad = [](double y) { return y < 0.03 - 1e-9 || y > 0.07 + 1e-9; };
+  SurfaceSamples samples;
+  for (int i = 0; i <= 80; ++i) {
+    if (!is_on_pad(1e-3 * i)) continue;
+    for (int j = 0; j <= 40; ++j) {
+      samples.points.push_back({kWidth * (j / 40.0 - 0.5), 1e-3 * i - kCentre, kBottom});
+      samples.normals.push_back(Vector3::UnitZ());
+    }
+  }
+  Load even;
+  for (int i = 0; i < 160; ++i) {
+    const double y = 5e-4 * (i + 0.5);
+    if (!is_on_pad(y)) continue;
+    for (int j = 0; j < 40; ++j) {
+      even.at.push_back({kWidth * ((j + 0.5) / 40.0 - 0.5), y - kCentre});
+      even.share.push_back(1.0);
+    }
+  }
+  OnFace on(samples);
+  on.push({0.0, 0.04, kBottom}, 1.0);
+  on.push({0.0, -0.04, kBottom}, 1.0);
+  const ContactPatches patches = on.patches();
+  ASSERT_EQ(patches.count, 1u);
+  const double expected = even.least_mean_distance();
+  EXPECT_NEAR(0.04 * patches.patch[0].share, expected, 0.03 * expected);
+}
+
 /// Forces inside of the face never act farther out than they are.
 TEST(EvenPressure, LeavesForcesNearTheCentreWhereTheyAre) {
   OnFace on(lower_face(0.04, 0.03));

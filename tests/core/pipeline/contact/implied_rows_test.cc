@@ -170,7 +170,31 @@ TEST(ImpliedRows, AreNotThoseOfPointsFarAlongAParallelEdge) {
     return is_implied({Vector3(0, y, kHeight), kHeight, false}, edges, near, Pose{}, kMargin, 0.1 * kMargin);
   };
   EXPECT_TRUE(implies(near.gap[0].on_moving.y() + kMargin));
+  EXPECT_TRUE(implies(near.gap[0].on_moving.y() - 3.5 * kMargin)) << "within four margins";
+  EXPECT_FALSE(implies(near.gap[0].on_moving.y() - 4.5 * kMargin));
   EXPECT_FALSE(implies(near.gap[0].on_moving.y() + 1e-3));
+}
+
+/// The row of edges that cross holds the whole edge off the other one. By 0.05 rad and less they count as parallel.
+TEST(ImpliedRows, AreThoseOfPointsFarAlongAnEdgeThatCrosses) {
+  const test::EdgeSet still({{Vector3(0, -0.1, 0), Vector3(0, 0.1, 0)}});
+  const auto implies = [&](double angle) {
+    const Vector3 along(std::sin(angle), std::cos(angle), 0.0);
+    const Vector3 above(0.0, 0.0, kHeight);
+    const test::EdgeSet moving({{above - 0.005 * along, above + 0.005 * along}});
+    const EdgeContacts edges{moving.view(), still.view()};
+    NearEdges near;
+    near.push({0, 0}, gap_at(edges, {0, 0}, Pose{}));
+    const Vector3 p = above + 0.002 * along;
+    return is_implied({p, std::hypot(p.x(), p.z()), false}, edges, near, Pose{}, kMargin, 0.1 * kMargin);
+  };
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_FALSE(implies(0.03 * side));
+    EXPECT_FALSE(implies(0.045 * side));
+    EXPECT_TRUE(implies(0.055 * side));
+    EXPECT_TRUE(implies(0.09 * side));
+    EXPECT_TRUE(implies(1.5 * side));
+  }
 }
 
 /// Points of sheets lie on the rounds of edges, a radius off their middle lines.

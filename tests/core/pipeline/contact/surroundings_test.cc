@@ -118,6 +118,19 @@ TEST_F(SelectedRows, CountThePointsOfBothDirections) {
   EXPECT_EQ(detail::select_rows(*workspace_).stride, 5u);
 }
 
+/// A row regains 30 % of the gap that its point has lost; a gap above the margin may shrink to it.
+TEST_F(SelectedRows, RegainTheLostGapsOfTheirPoints) {
+  const double margin = ContactLengths::make({}).margin;
+  const double gap[] = {0.25 * margin, 0.5 * margin, margin, 3.0 * margin};
+  fill(workspace_->samples, 4, [&](std::uint32_t k) { return gap[k]; });
+  const ContactRows& rows = select();
+  ASSERT_EQ(rows.count, 4u);
+  const double gain[] = {0.225 * margin, 0.15 * margin, 0.0, -2.0 * margin};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(static_cast<double>(rows.required_gain[i]), gain[i], 1e-5 * margin) << i;
+  }
+}
+
 /// The field's frame is rotated against the shell's: the rows' normals are in S.
 TEST_F(SelectedRows, HaveNormalsInTheFrameOfTheBody) {
   fill(workspace_->samples, 8, [](std::uint32_t) { return 1e-5; });

@@ -28,11 +28,18 @@ using command::Failure;
 class CommissioningTest : public testing::Test {
  protected:
   void start(std::span<const sim::DriveFault> faults = {}, std::span<const sim::BusFault> bus_faults = {}) {
+    make_device(faults, bus_faults);
+    connect();
+  }
+  void make_device(std::span<const sim::DriveFault> faults = {}, std::span<const sim::BusFault> bus_faults = {}) {
     plant_.emplace(arm_, JointVector::Constant(0.3));
     device_ =
         std::make_unique<sim::CanDevice>(*plant_, layout_, hardware_, sim::CanScript{.faults = faults}, bus_faults);
     clock_ = std::make_unique<sim::VirtualClock>(*device_);
     wires_ = {&device_->bus(0), &device_->bus(1), &device_->bus(2)};
+  }
+  /// Starts the drives on `wires_`.
+  void connect() {
     drives_.emplace(layout_, wires_, hal::plan_buses(layout_).timing);
     ASSERT_EQ(drives_->bring_up(*clock_).status, hal::BringUpStatus::kOk);
   }
@@ -132,6 +139,28 @@ TEST_F(CommissioningTest, NamesTheJointsThatDoNotTellTheirModeAtOnce) {
   trials[1].mode_refused = true;  // untried: the watch of the parameters is left
   EXPECT_EQ(trial_objection(trials), "");
   EXPECT_NE(trial_table(layout_, trials).find("refused"), std::string::npos);
+}
+
+/// A mode is one byte. A longer frame that begins with the mode does not tell it, and an empty one does not either.
+TEST_F(CommissioningTest, TakesNoModeFromATpdo2OfAnotherLength) {
+  start();
+  const std::int64_t begin = now_ms();
+  const hal::DriveConfig& drive = layout_.drives[1];
+  for (const double length : {0.0, 2.0}) {
+    const sim::BusFault other_length[] = {{.kind = sim::BusFaultKind::kFrameLength,
+                                           .bus = drive.bus,
+                                           .first_cycle = begin,
+                                           .cycles = 100'000,
+                                           .id = static_cast<std::uint16_t>(0x280 + drive.node),
+                                           .value = length}};
+    start({}, other_length);
+    ASSERT_EQ(now_ms(), begin);
+    const std::vector<JointTrial> trials = run();
+    EXPECT_EQ(trials[1].mode_after_ms, -1) << length;
+    EXPECT_FALSE(trials[1].mode_refused);
+    EXPECT_GE(trials[0].mode_after_ms, 0);
+    EXPECT_EQ(trial_objection(trials).substr(0, 15), "joint 2: TPDO2 ");
+  }
 }
 
 /// A deadline that is longer than what was written shows in the watch of the parameters, too: either way it is no
@@ -254,6 +283,83 @@ TEST_F(CommissioningTest, MakesUpForNoCyclesAfterAPause) {
   EXPECT_GT(now_ms() - begin_ms, 300);
   EXPECT_LE(clock.most_at_once, 1);
   for (const JointTrial& trial : trials) EXPECT_EQ(trial.after_ms, -1);
+}
+
+/// A frame of the controller when it is handed over.
+struct HandedOver {
+  std::int64_t ns;
+  int bus;
+  int id;
+};
+
+/// An end of a bus whose frames of the controller are noted.
+class NotingBus final : public hal::CanBus {
+ public:
+  NotingBus(hal::CanBus& bus, int number, hal::Clock& clock, std::vector<HandedOver>& notes)
+      : bus_(bus), number_(number), clock_(clock), notes_(notes) {}
+  hal::SendResult send(const hal::CanFrame& frame) noexcept override {
+    notes_.push_back({clock_.now_ns(), number_, frame.id});
+    return bus_.send(frame);
+  }
+  bool receive(hal::ReceivedFrame& received) noexcept override { return bus_.receive(received); }
+  hal::BusHealth health() const noexcept override { return bus_.health(); }
+
+ private:
+  hal::CanBus& bus_;
+  int number_;
+  hal::Clock& clock_;
+  std::vector<HandedOver>& notes_;
+};
+
+/// A cycle on the wires: its SYNC on bus 0, and the joints that get torques after it.
+struct WireCycle {
+  std::int64_t sync_ns = 0;
+  std::vector<int> joints{};
+  std::vector<std::int64_t> torques_ns{};
+};
+
+std::vector<WireCycle> cycles_of(const std::vector<HandedOver>& frames, const hal::BusLayout& layout) {
+  std::vector<WireCycle> cycles;
+  for (const HandedOver& frame : frames) {
+    if (frame.bus == 0 && frame.id == 0x080) cycles.push_back({.sync_ns = frame.ns});
+    for (int i = 0; i < layout.joint_count && !cycles.empty(); ++i) {
+      const hal::DriveConfig& drive = layout.drives[static_cast<std::size_t>(i)];
+      if (frame.bus != drive.bus || frame.id != 0x200 + drive.node) continue;
+      cycles.back().joints.push_back(i);
+      cycles.back().torques_ns.push_back(frame.ns);
+    }
+  }
+  return cycles;
+}
+
+/// Ten cycles of 1 ms a joint: in one its position is read, five are without its frames (the deadline of 4 ms, seen
+/// with the next samples), and four have all frames again, one to reset and three without an alarm. In each the drives
+/// get the planned time between SYNC and torques to send their samples.
+TEST_F(CommissioningTest, TriesOneJointAfterTheOtherInWholeCycles) {
+  make_device();
+  std::vector<HandedOver> frames;
+  std::vector<std::unique_ptr<NotingBus>> ends;
+  for (std::size_t b = 0; b < wires_.size(); ++b) {
+    ends.push_back(std::make_unique<NotingBus>(*wires_[b], static_cast<int>(b), *clock_, frames));
+    wires_[b] = ends.back().get();
+  }
+  connect();
+  frames.clear();
+  run();
+  const std::vector<WireCycle> cycles = cycles_of(frames, layout_);
+  ASSERT_GT(cycles.size(), 70u);
+  const std::size_t first = cycles.size() - 70;
+  for (std::size_t k = 0; k < 70; ++k) {
+    const WireCycle& cycle = cycles[first + k];
+    const bool withheld = k % 10 >= 1 && k % 10 <= 5;
+    std::vector<int> joints;
+    for (int i = 0; i < 7; ++i) {
+      if (!withheld || i != static_cast<int>(k / 10)) joints.push_back(i);
+    }
+    EXPECT_EQ(cycle.joints, joints) << k;
+    EXPECT_EQ(cycle.sync_ns - cycles[first + k - 1].sync_ns, 1'000'000) << k;
+    for (const std::int64_t ns : cycle.torques_ns) EXPECT_EQ(ns - cycle.sync_ns, drives_->collect_ns()) << k;
+  }
 }
 
 /// Either reaction alone is one, and the table tells which it was.

@@ -92,8 +92,10 @@ TEST(EdgeGap, OfSheetsIsLessByTheirRadii) {
   moving.radius = 0.05;
   still.radius = 0.1;
   EXPECT_NEAR(edge_gap(moving, still).distance, 0.15, 1e-15);
+  EXPECT_NEAR(edge_distance(moving, still), 0.15, 1e-15);
   moving.end[0].z() = moving.end[1].z() = -0.3;
   EXPECT_NEAR(edge_gap(moving, still).distance, 0.15, 1e-15) << "a sheet has two outer sides";
+  EXPECT_NEAR(edge_distance(moving, still), 0.15, 1e-15) << "a sheet has two outer sides";
 }
 
 TEST(EdgeGap, EndsAtTheEndsOfTheEdges) {

@@ -117,6 +117,37 @@ TEST(EdgeSearch, LimitsTheMotionByPairsWithoutAPlace) {
   }
 }
 
+/// Returns 3000 short edges across the x axis, more than are remembered, at random heights. One of fifteen may be near,
+/// below 0.9 mm; the others are above 1.5 mm.
+Segments many_across(test::Random& random, bool some_are_near) {
+  Segments segments;
+  for (int k = 0; k < 3000; ++k) {
+    const double height = some_are_near && k % 15 == 0 ? random.between(2e-4, 9e-4) : random.between(1.5e-3, 2e-3);
+    segments.emplace_back(Vector3(0.005, -0.001, height), Vector3(0.005, 0.001, height));
+  }
+  return segments;
+}
+
+/// Without a place for all pairs the search remembers fewer, but all near ones; where those have a place anyway, it
+/// remembers as many as it can.
+TEST(EdgeSearch, RemembersThePairsThatMatterWhereNotAllHaveAPlace) {
+  test::Random random(7);
+  const test::EdgeSet moving({{Vector3(0, 0, 0), Vector3(0.01, 0, 0)}});
+  constexpr double kRadius = 1e-3, kSlack = 1e-3;
+  for (const bool some_are_near : {true, false}) {
+    const test::EdgeSet still(many_across(random, some_are_near));
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start({moving.view(), still.view()});
+    NearEdges near;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, kRadius, kSlack, 0.0, near);
+    EXPECT_EQ(around.unlisted, 0u) << some_are_near;
+    EXPECT_EQ(near.count, some_are_near ? 200u : 0u);
+    for (std::uint32_t i = 0; i < near.count; ++i) EXPECT_LT(near.gap[i].distance, kRadius);
+    EXPECT_GE(around.free_displacement, some_are_near ? kRadius : 1.5e-3);
+    EXPECT_LT(around.free_displacement, kRadius + kSlack) << "not all that is within reach";
+  }
+}
+
 /// The spheres of the still tree reach over the moving edge, so that the search looks at all branches below its root.
 /// It has visits for all of the smaller tree. The edges themselves are far apart.
 TEST(EdgeSearch, LooksAtAsManyBranchesAsItHasVisits) {

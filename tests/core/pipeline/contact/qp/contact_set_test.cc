@@ -525,6 +525,28 @@ TEST(CombinedForces, AreAtMostSixWithTheSameSum) {
   EXPECT_GT(merged, 100);
 }
 
+/// Entries behind the count do not count.
+TEST(CombinedForces, AreThoseOfTheCountOnly) {
+  Random random(15);
+  for (std::size_t count = 0; count <= 3 * ContactSet::kMaxContacts; ++count) {
+    detail::Forces all;
+    for (std::uint32_t i = 0; i < 3 * ContactSet::kMaxContacts; ++i) all.add(random_force(random, i));
+    all.count = count;
+    Vector6 sum = Vector6::Zero();
+    for (std::size_t i = 0; i < count; ++i) {
+      ConstrainedStep one;
+      one.force_count = 1;
+      one.forces[0] = all.force[i];
+      sum += sum_of(one, kSetMetric.gyration);
+    }
+    ConstrainedStep step;
+    detail::store_sum(all, kSetMetric.gyration, step);
+    ASSERT_LE(step.force_count, 6u);
+    EXPECT_LT((sum_of(step, kSetMetric.gyration) - sum).norm(), 1e-11) << count;
+    for (std::uint32_t j = 0; j < step.force_count; ++j) EXPECT_LT(step.forces[j].id, count);
+  }
+}
+
 TEST(CombinedForces, CancelWhereTheyOpposeEachOther) {
   SetBench bench;
   bench.rows->push(0, Vector3::UnitZ(), Vector3::Zero(), 0.0);

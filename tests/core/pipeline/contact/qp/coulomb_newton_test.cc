@@ -162,6 +162,34 @@ TEST(SolveCoulombViscous, GivesALightContactAllOfTheFriction) {
   }
 }
 
+/// A point slides along a wall on a floor. Its guessed friction on the floor leads away from the wall, by more than it
+/// is pressed against it: until the direction of slip fits, the wall would have to pull. It stays in the set. By hand,
+/// friction against the slip along y takes mu times both loads.
+TEST(SolveCoulombGuess, KeepsAContactThatPullsUntilTheDirectionsOfSlipFit) {
+  constexpr double kLoad = 4e-3;
+  for (const double share : {0.2, 0.5, 0.9}) {
+    NewtonProblem p;
+    p.friction = {0.5, 0.5, 0.0};
+    p.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
+    p.push(Vector3::UnitX(), Vector3::Zero(), 0.0);
+    const double press = share * 0.5 * kLoad;
+    p.wanted.translation = Vector3(-press, 5e-3, -kLoad);
+    p.last.translation.y() = 1e-3;
+    ContactSet set = p.set();
+    ASSERT_TRUE(set.enter(0, {-Vector3::UnitX(), Vector3::Zero()}));
+    ASSERT_TRUE(set.enter(1, {Vector3::UnitY(), Vector3::Zero()}));
+    set.active().at(0).multiplier = kLoad;
+    set.active().at(1).multiplier = press;
+    const std::uint32_t additions = set.additions();
+    ASSERT_TRUE(detail::solve_coulomb(set)) << share;
+    EXPECT_EQ(set.additions(), additions) << "no contact left and entered again, " << share;
+    EXPECT_EQ(set.contact_count(), 2) << share;
+    const Vector3 expected(0.0, 5e-3 - 0.5 * (kLoad + press), 0.0);
+    EXPECT_LT((set.motion().translation - expected).norm(), kNewtonMetric.tolerance) << share;
+    set.close_all();
+  }
+}
+
 /// From the solution of the same problem nothing needs to enter, and the motion stays.
 TEST(SolveCoulombAgain, StaysAtItsSolution) {
   Random random(42);

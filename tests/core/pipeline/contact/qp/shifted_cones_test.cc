@@ -240,6 +240,26 @@ TEST(Sticks, TellsByTheMotionAfterTheLastAddition) {
   EXPECT_GT(with_the_last, 0);
 }
 
+/// Where the additions are used up, a body is held only if no row and no contact is violated, whichever contact it is.
+TEST(Sticks, HoldsOnlyWhereAllContactsAreMet) {
+  const CouplingMetric metric{.gyration = 0.158, .tolerance = 1e-8, .still = 1e-6};
+  Random random(35);
+  int held = 0;
+  for (int problem = 0; problem < 700; ++problem) {
+    ConeBench bench;
+    for (int i = 0; i < 300; ++i) bench.push(random.direction(), random.in_cube(0.15), random.between(-1e-5, 0.0));
+    bench.wanted = {0.1 * random.direction(), random.direction()};
+    ContactSet set(*bench.rows, bench.wanted, metric, &bench.friction, bench.last);
+    const bool holds = detail::sticks(set);
+    const Motion m = set.motion();
+    set.close_all();
+    if (!holds) continue;
+    ++held;
+    EXPECT_EQ(bench.rows->most_violated(m, 1.1 * metric.tolerance).row, ContactRows::kNone) << problem;
+  }
+  EXPECT_GT(held, 0);
+}
+
 TEST(Rests, NeedsAContactAndAMotionWithinTheTolerance) {
   ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);

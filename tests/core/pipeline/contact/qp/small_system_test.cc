@@ -61,6 +61,31 @@ TEST(SmallSystem, SaysThatColumnsDependInAnyUnits) {
   }
 }
 
+/// A column is compared with its largest element, in whichever row that stands. By hand: of the rows (1e6, 1) and
+/// (1, 1e-6 (1 + e)) the elimination leaves 1e-6 e of the second column, whose largest element is 1.
+TEST(SmallSystem, ComparesAColumnWithItsLargestElement) {
+  for (int large = 0; large < kSize; ++large) {
+    for (int small = 0; small < kSize; ++small) {
+      if (large == small) continue;
+      for (const double e : {1e-6, 1e-10}) {
+        SmallSystem<kSize> system;
+        system.size = kSize;
+        int other = 2;  // columns of the other rows, which are those of the identity
+        for (int i = 0; i < kSize; ++i) {
+          system.rhs[i] = 1.0;
+          for (double& element : system.matrix[i]) element = 0.0;
+          if (i != large && i != small) system.matrix[i][other++] = 1.0;
+        }
+        system.matrix[large][0] = 1e6;
+        system.matrix[large][1] = 1.0;
+        system.matrix[small][0] = 1.0;
+        system.matrix[small][1] = 1e-6 * (1.0 + e);
+        EXPECT_EQ(system.solve(), 1e-6 * e > 1e-14) << large << ' ' << small << ' ' << e;
+      }
+    }
+  }
+}
+
 /// Without an exchange of rows the elimination would divide by zero, or by a pivot of rounding size.
 TEST(SmallSystem, ExchangesRowsWhereAPivotIsSmall) {
   Random random(43);

@@ -253,6 +253,62 @@ TEST(SolveSmoothedPoint, ObeysTheLawWithHardlyAnyFriction) {
   std::printf("[ measured ] solved %d of 300 with hardly any friction\n", solved);
 }
 
+/// A push straight onto a plane gives friction no direction at all.
+TEST(SolveSmoothedPoint, HoldsAPushStraightOntoAPlane) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {1.0, -1.0}) {
+      PegProblem p;
+      const Vector3 normal = side * Vector3::Unit(axis);
+      p.push(normal, -0.004 * normal, 0.0);
+      p.wanted.translation = -1e-3 * normal;
+      ContactSet set = p.set();
+      ConstrainedStep step;
+      ASSERT_TRUE(detail::solve_smoothed(set, step)) << normal.transpose();
+      expect_law(p, step, 0.1 * kPegMetric.tolerance);
+      EXPECT_FALSE(step.follows);
+      EXPECT_LT(in_metric(step.motion).norm(), kPegMetric.tolerance);
+    }
+  }
+}
+
+/// Two points of a peg slip in a motion that obeys the law. In a wedge other motions may obey it, too. Begun with the
+/// forces of the first motion, the method mostly finds that one.
+TEST(SolveSmoothedPoint, MostlyFindsTheMotionOfTheForcesThatItBeginsWith) {
+  Random random(49);
+  int found = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    PegProblem p;
+    constexpr double kRatio = 1.5;
+    p.friction = {kRatio, kRatio, 0.0};
+    const double size = std::pow(10.0, random.between(-6.0, -3.0));
+    const Motion m = p.last = random.motion(size, size / 0.01);
+    Vector6 sum = Vector6::Zero();
+    double load[2];
+    for (int i = 0; i < 2; ++i) {
+      const double side = i == 0 ? 1.0 : -1.0;
+      const Vector3 point(random.between(-0.004, 0.004), 0.004 * side, random.between(-0.01, 0.01));
+      const Vector3 normal = (Vector3(0.0, -side, 0.0) + 0.5 * random.in_cube(1.0)).normalized();
+      const Vector3 v = peg_velocity(m, point);
+      p.push(normal, point, normal.dot(v));
+      load[i] = std::pow(10.0, random.between(-4.0, -2.0));
+      sum += push_of(load[i] * (normal - kRatio * (v - normal.dot(v) * normal).normalized()), point);
+    }
+    const Vector6 wanted = in_metric(m) - sum;
+    p.wanted = {wanted.head<3>(), wanted.tail<3>() / kPegMetric.gyration};
+    ContactSet set = p.set();
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(set.enter(static_cast<std::uint32_t>(i), m));
+      set.active().at(i).multiplier = load[i];
+    }
+    ConstrainedStep step;
+    const bool solved = detail::solve_smoothed(set, step);
+    found += solved && (in_metric(step.motion) - in_metric(m)).norm() < 2.0 * kPegMetric.tolerance ? 1 : 0;
+    set.close_all();
+  }
+  std::printf("[ measured ] found the motion of the forces in %d of 400\n", found);
+  EXPECT_GT(found, 285);
+}
+
 /// With the drag of viscous friction the point may leave the plane by more than the tolerance, without it the point
 /// touches.
 TEST(SolveSmoothedPoint, EndsWhereViscousFrictionDecidesWhetherAPointTouches) {

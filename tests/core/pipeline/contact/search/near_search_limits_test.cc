@@ -133,6 +133,19 @@ TEST(NearSearch, ProvesNothingBesideANearPoint) {
   }
 }
 
+/// Without a shell no point is ever near, whatever shell the search had before.
+TEST(NearSearch, ForgetsTheShellThatItHadBefore) {
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  for (const bool remembers : {false, true}) {
+    Searcher<CountedField, detail::SampleDirection> at(field, ball_shell(), {}, remembers);
+    at.find(height(0.0205), 0.0, 0.001);
+    ASSERT_FALSE(at.search.is_free(0.0, 0.0));
+    at.search.start_without_shell();
+    EXPECT_TRUE(at.search.is_free(0.0, 0.0));
+    EXPECT_TRUE(at.search.is_free(1e6, kLongestMotion));
+  }
+}
+
 /// The points rest and the field turns about a far centre: a point at ten radii of the sphere is displaced by ten times
 /// the odometer's difference.
 TEST(NearSearch, CountsTheLeverOfAPointThatTheFieldPasses) {
