@@ -96,6 +96,7 @@ TEST(AnySetup, HasEveryOptionAndStaysInContact) {
   for (const int count : {viscous, sized, boxes, periods, budgets, without_memory, concave, all_friction}) {
     EXPECT_GT(count, 50);
   }
+  EXPECT_GT(static_cast<double>(touching), 0.75 * static_cast<double>(cycles));
   std::printf("[ measured ] %.1f %% of %lld cycles touch\n",
               100.0 * static_cast<double>(touching) / static_cast<double>(cycles), static_cast<long long>(cycles));
 }

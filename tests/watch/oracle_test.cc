@@ -117,7 +117,7 @@ TEST(MeshProperty, IsViolatedByAPointInTheMesh) {
   const PlateOracle nowhere(-10.0);  // a field without a surface
   WatchedSession session;
   session.directions.push_back({.field = &nowhere, .points = {Vector3::Zero()}, .mesh = &mesh, .mesh_accuracy = 1e-4});
-  session.parameters.voxel_size = 100.0;  // so that every point is near
+  session.parameters.voxel_size = 0.1;  // by the field every point is far
   Watch watch(session);
   WatchedCycle cycle;
   const auto go = [&](double z) {

@@ -1,5 +1,5 @@
 // Sessions that the fuzzer's generator draws, each short, with the watch on every cycle: analytic worlds, with and
-// without friction, all options together. The fuzzer's rows of godobject-report add compiled scenes.
+// without friction, all options together. compiled_sessions_test.cc has worlds from the scene compiler.
 #include <algorithm>
 #include <random>
 #include <string>

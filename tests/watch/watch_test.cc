@@ -1,7 +1,9 @@
 // The watch finds each planted fault, and finds nothing in the cycles of a correct solver.
 #include "toolchain/watch/watch.h"
 
+#include <array>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -204,6 +206,29 @@ void plant_in_the_motion(const Plant& plant) {
   });
 }
 
+void plant_under_friction(const Plant& plant) {
+  Setup groove = pressed(true);
+  groove.world = "groove";
+  groove.friction_static = groove.friction_kinetic = 0.2;
+  plant("FrictionWithTheSlipInAGroove", Property::kNoWork, groove, [](const Faulty& f) {
+    if (f.report.contacts == 0) return;
+    Pose moved = f.report.H_WS;
+    moved.translation.y() -= 2.0 * (moved.translation.y() - f.H_WD.translation.y());
+    f.move_to(moved);
+  });
+  const auto late = [](int cycles) {
+    return [poses = std::deque<Pose>(), cycles](const Faulty& f) mutable {
+      poses.push_back(f.report.H_WS);
+      if (poses.size() <= static_cast<std::size_t>(cycles)) return;
+      f.move_to(poses.front());
+      poses.pop_front();
+    };
+  };
+  plant("RubsACycleLate", Property::kNoPull, pressed(true), late(1));
+  plant("RubsThreeCyclesLate", Property::kNoPull, pressed(true), late(3));
+  plant("RubsInAGrooveThreeCyclesLate", Property::kNoPull, groove, late(3));
+}
+
 void plant_in_the_report(const Plant& plant) {
   const double voxel = 0.1 * 0.02;
   plant("WrongPenetration", Property::kReport, pressed(false),
@@ -214,6 +239,19 @@ void plant_in_the_report(const Plant& plant) {
         [](const Faulty& f) { f.report.outcome = Outcome::kOverflow; });
   plant("StartInsideWhileOutside", Property::kReport, pressed(false),
         [](const Faulty& f) { f.report.outcome = Outcome::kStartInside; });
+  Setup through = one_point(false);
+  through.world = "plate";
+  through.motion = "dash";
+  plant("TeleportThatSaysStartInside", Property::kReport, through, [](const Faulty& f) {
+    const Vector3 there = f.H_WD.translation;
+    if (f.H_WS_before.translation.z() * there.z() >= 0.0) return;
+    f.move_to(f.H_WD);  // into the plate first
+    Pose inside = f.H_WD;
+    inside.translation.z() = 0.0;
+    f.path.insert(f.path.begin(), inside);
+    f.report.outcome = Outcome::kStartInside;
+    f.report.contacts = 1;
+  });
   plant("PathThatEndsElsewhere", Property::kReport, pressed(false), [](const Faulty& f) { f.path.assign(1, Pose{}); });
 }
 
@@ -224,6 +262,7 @@ std::vector<Planted> planted_faults() {
   };
   plant_in_the_wrench(plant);
   plant_in_the_motion(plant);
+  plant_under_friction(plant);
   plant_in_the_report(plant);
   return all;
 }

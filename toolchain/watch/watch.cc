@@ -42,9 +42,10 @@ Watch::Watch(WatchedSession session)
       q_(session_.parameters),
       gyration_(std::sqrt(q_.coupling_rotation / q_.coupling_translation)) {
   for (Direction& direction : session_.directions) {
-    Points points{std::move(direction), {}, {}, {}};
+    Points points{std::move(direction), {}, {}, {}, {}};
     points.bound.assign(points.direction.points.size(), 0.0);
     points.is_exact.assign(points.direction.points.size(), false);
+    points.mesh_bound.assign(points.direction.points.size(), 0.0);
     points.in_mesh.assign(points.direction.points.size(), kUnknown);
     points_.push_back(std::move(points));
   }
@@ -82,7 +83,8 @@ void Watch::cycle(const WatchedCycle& cycle) {
     judge(Property::kReport, cycle.report.force.total_W.force.norm(), 0.0, [] { return "force before the start"; });
     return;
   }
-  if (!started_) start(H_WD);
+  const bool is_first = !started_;
+  if (is_first) start(H_WD);
   resting_ = (H_WD.translation - H_WD_last_.translation).norm() < 0.01 * q_.voxel_size &&
                      rotation_vector(H_WD.rotation.conjugate() * H_WD_last_.rotation).norm() * q_.mass.radius <
                          0.01 * q_.voxel_size
@@ -97,7 +99,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
   check_wrench(cycle);
   if (!is_contact) return;
   if (cycle.report.contacts > 0) ++findings_.touching;
-  check_report(cycle);
+  check_report(cycle, is_first || was_inside);
   if (is_inside_ || was_inside) return;
   check_distance(cycle);
   check_reference(cycle);
@@ -178,11 +180,11 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
       const Vector3 p1 = points.place(H1, i);
       const double displacement = (p1 - p0).norm();
       travelled_ = std::max(travelled_, displacement);
+      if (points.direction.mesh != nullptr) follow_mesh(points, i, p0, p1);
       const double may_lose = (1.0 + 1e-9) * lipschitz * displacement + session_.rounding;
       if (bound > may_lose + near) {
         bound -= may_lose;
         points.is_exact[i] = false;
-        points.in_mesh[i] = kUnknown;
         continue;
       }
       const double at_begin = points.is_exact[i] ? bound : field.distance(p0);
@@ -192,7 +194,6 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
       if (is_inside_) continue;
       judge(Property::kNoCrossing, falls_below(field, {p0, p1, at_begin, bound}, threshold, resolution) ? 1.0 : 0.0,
             0.0, [&] { return fmt::format("point {} from {} m to {} m", i, at_begin, bound); });
-      if (points.direction.mesh != nullptr) check_mesh(points, i, p0, p1);
     }
   }
   advance_edges(H0, H1);
@@ -224,6 +225,19 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
             [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });
     }
   }
+}
+
+/// Looks near points up in the mesh, with bounds of their own: a field that lacks a wall calls them far.
+void Watch::follow_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1) {
+  double& bound = points.mesh_bound[i];
+  const double may_lose = (1.0 + 1e-9) * (p1 - p0).norm() + session_.rounding;
+  if (bound > may_lose + 0.2 * q_.voxel_size || is_inside_) {
+    bound = std::max(0.0, bound - may_lose);
+    points.in_mesh[i] = kUnknown;
+    return;
+  }
+  check_mesh(points, i, p0, p1);
+  bound = points.in_mesh[i];
 }
 
 /// The stored surface may lie inside the mesh by its accuracy, and no point deeper.
@@ -346,7 +360,8 @@ bool Watch::is_at_device(const WatchedCycle& cycle) const {
          gyration_ * rotation_vector(H_WD.rotation.conjugate() * cycle.report.H_WS.rotation).norm() <= tolerance;
 }
 
-void Watch::check_report(const WatchedCycle& cycle) {
+/// `may_be_inside`: the session begins, or has not come out yet.
+void Watch::check_report(const WatchedCycle& cycle, bool may_be_inside) {
   const CycleReport& report = cycle.report;
   const auto check = [&](bool holds, const char* what) {
     judge(Property::kReport, holds ? 0.0 : 1.0, 0.0, [&] { return what; });
@@ -358,6 +373,7 @@ void Watch::check_report(const WatchedCycle& cycle) {
   if (report.outcome == Outcome::kContact) check(report.contacts > 0, "contact without a row that carries force");
   check((report.outcome == Outcome::kOverflow) <= (report.dropped > 0), "overflow without a dropped point");
   if (is_inside_) {
+    check(may_be_inside, "start_inside after it was outside");
     check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding, "start_inside with every point outside");
     return;
   }

@@ -81,8 +81,9 @@ class Watch {
   struct Points {
     Direction direction;
     std::vector<double> bound;
-    std::vector<bool> is_exact;   ///< the bound is the distance
-    std::vector<double> in_mesh;  ///< distance from the mesh; NaN: not looked up at this pose
+    std::vector<bool> is_exact;      ///< the bound is the distance
+    std::vector<double> mesh_bound;  ///< the same of the distance from the mesh, whatever the field says
+    std::vector<double> in_mesh;     ///< distance from the mesh; NaN: not looked up at this pose
     Vector3 place(const Pose& H_WS, std::size_t i) const;
   };
   /// A touching point at the god object's pose.
@@ -108,6 +109,7 @@ class Watch {
   void advance(const Pose& H0, const Pose& H1);
   void advance_edges(const Pose& H0, const Pose& H1);
   void push_edge_contacts(const Pose& H_WS, double reach, std::vector<Contact>& contacts) const;
+  void follow_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1);
   void check_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1);
   bool is_at_device(const WatchedCycle& cycle) const;
   double smallest_at(const Pose& H_WS);
@@ -122,15 +124,17 @@ class Watch {
   bool check_numbers(const WatchedCycle& cycle);
   void check_wrench(const WatchedCycle& cycle);
   void check_heuristic_damping(const WatchedCycle& cycle);
-  void check_report(const WatchedCycle& cycle);
+  void check_report(const WatchedCycle& cycle, bool may_be_inside);
   void check_distance(const WatchedCycle& cycle);
   void check_reference(const WatchedCycle& cycle);
-  void check_pushes(const WatchedCycle& cycle);
+  void check_pushes(const WatchedCycle& cycle, bool between_planes);
   Vector6 push_at(const WatchedCycle& cycle, Around places, bool& converged) const;
   const Contact* one_normal(const WatchedCycle& cycle, const std::vector<Contact>& contacts, int& count) const;
   void check_friction(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
   void check_damping(const WatchedCycle& cycle, const Contact& contact, double turned);
   void check_work(const WatchedCycle& cycle);
+  bool is_between_planes(const WatchedCycle& cycle) const;
+  void check_power(const WatchedCycle& cycle);
   void check_optimum(const WatchedCycle& cycle);
   void check_lag(const WatchedCycle& cycle);
   std::vector<Vector6> rays_at(const Pose& H_WS, const std::vector<Contact>& contacts, const WatchedCycle& cycle) const;

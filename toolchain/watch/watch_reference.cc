@@ -81,7 +81,9 @@ void Watch::check_reference(const WatchedCycle& cycle) {
   check_friction(cycle, contacts);
   check_work(cycle);
   if (findings_.touching % kReferenceEvery != 0) return;
-  check_pushes(cycle);
+  const bool between_planes = is_between_planes(cycle);
+  check_pushes(cycle, between_planes);
+  if (between_planes) check_power(cycle);
   if (!session_.friction) check_optimum(cycle);
 }
 
@@ -134,12 +136,15 @@ Vector6 Watch::push_at(const WatchedCycle& cycle, Around places, bool& converged
 }
 
 /// The spring's wrench is a sum of pushes. A point may also be held by a face that only places diagonally around it
-/// show: one that ends beside the point, hardly farther than its margin.
-void Watch::check_pushes(const WatchedCycle& cycle) {
+/// show: one that ends beside the point, hardly farther than its margin. A god object that lags is pulled from where
+/// the device has been, which shows with friction, too.
+void Watch::check_pushes(const WatchedCycle& cycle, bool between_planes) {
   const Outcome outcome = cycle.report.outcome;
-  if (outcome != Outcome::kContact || travelled_ > 0.02 * q_.voxel_size) return;
+  if (outcome != Outcome::kContact || (travelled_ > 0.02 * q_.voxel_size && !between_planes)) return;
   const Vector6 w = load(cycle.report);
-  const double bound = 0.05 * w.norm() + q_.stiffness * q_.coupling_translation * (q_.margin + session_.rounding);
+  const double turned = rotation_vector(H_WS_.rotation * H_WS_before_.rotation.conjugate()).norm();
+  const double bound =
+      (0.05 + turned) * w.norm() + q_.stiffness * q_.coupling_translation * (q_.margin + session_.rounding);
   bool converged = true;
   Vector6 pushes = push_at(cycle, Around::kAxes, converged);
   if (converged && (w - pushes).norm() > bound) pushes = push_at(cycle, Around::kDiagonals, converged);

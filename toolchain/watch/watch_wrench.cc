@@ -159,4 +159,33 @@ void Watch::check_work(const WatchedCycle& cycle) {
         [&] { return fmt::format("{} J in the last sub-step, by a wrench of {} N", w.dot(moved), w.norm()); });
 }
 
+/// Tells whether the cycle had one short motion between planes: the normals near the god object are the same before and
+/// after it.
+bool Watch::is_between_planes(const WatchedCycle& cycle) const {
+  constexpr double kSame = 1e-3;
+  const CycleReport& report = cycle.report;
+  if (report.outcome != Outcome::kContact || report.outside || cycle.path.size() > 1) return false;
+  if (travelled_ > 0.125 * q_.voxel_size) return false;
+  const auto lacks = [](const std::vector<Contact>& some, const Contact& contact) {
+    return std::none_of(some.begin(), some.end(),
+                        [&](const Contact& other) { return (other.normal_W - contact.normal_W).norm() < kSame; });
+  };
+  const std::vector<Contact> before = contacts_at(H_WS_before_, 0.25 * q_.voxel_size, 0.1 * q_.voxel_size);
+  const std::vector<Contact> after = contacts_at(H_WS_, 0.25 * q_.voxel_size, 0.1 * q_.voxel_size);
+  return std::none_of(before.begin(), before.end(), [&](const Contact& each) { return lacks(after, each); }) &&
+         std::none_of(after.begin(), after.end(), [&](const Contact& each) { return lacks(before, each); });
+}
+
+/// Between planes the contact force takes power: that of friction is negative, that of the normals only regains lost
+/// margins. So friction along the slip shows, whatever the number of normals.
+void Watch::check_power(const WatchedCycle& cycle) {
+  const CycleReport& report = cycle.report;
+  const Vector6 w = load(report);
+  const Vector3 turn = rotation_vector(report.H_WS.rotation * H_WS_before_.rotation.conjugate());
+  const Vector6 moved = stacked(report.H_WS.translation - H_WS_before_.translation, gyration_ * turn);
+  const double bound = (0.05 + 2.0 * turn.norm()) * moved.norm() + q_.margin + session_.rounding;
+  judge(Property::kNoWork, w.dot(moved), w.norm() * bound,
+        [&] { return fmt::format("{} J between planes, by a wrench of {} N", w.dot(moved), w.norm()); });
+}
+
 }  // namespace godobject::watch

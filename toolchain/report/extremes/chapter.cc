@@ -26,6 +26,7 @@ const char* const kViolations = "extremes_violations";
 const char* const kCycles = "extremes_cycles";
 const char* const kProperties = "extremes_properties";
 constexpr std::size_t kSlenderRow = 1;         ///< of kRows; it runs a million cycles
+constexpr std::size_t kBadInputRow = 3;        ///< only compiled worlds refuse invalid input
 constexpr std::uint32_t kMostStretches = 200;  ///< largest number of stretches of the fuzzer, each with a seed
 
 /// Results of a stretch of runs: the findings of its row, and a case file for each run with a violation.
@@ -70,21 +71,7 @@ class Tally {
   Sheet sheet_;
 };
 
-/// Chooses the compiled world of a setup. One mesh per stretch, because compiling takes as long as many runs.
-void choose_mesh(Setup& setup, std::int64_t cycles) {
-  constexpr const char* kMeshes[] = {"mesh-box", "mesh-ball", "mesh-turned", "mesh-plate", "mesh-cavity", "mesh-shell"};
-  constexpr const char* kBodies[] = {"box", "ball", "ell", "center", "box"};
-  setup.world = kMeshes[setup.seed % std::size(kMeshes)];
-  setup.body = kBodies[setup.seed / 7 % std::size(kBodies)];
-  if (setup.solver == format::Solver::kPaper && setup.body == "center") setup.body = "ball";
-  setup.voxel = std::max(setup.voxel, 0.1);
-  setup.points = std::clamp(setup.points, 60, 200);
-  setup.start = std::max(setup.start, 2.0);
-  setup.far = 0.0;
-  setup.bad_every = 17;
-  setup.cycles = static_cast<int>(std::min<std::int64_t>(20'000, std::max<std::int64_t>(cycles / 2, 500)));
-}
-
+/// One compiled world in a stretch of `cycles`, because compiling takes as long as many runs.
 CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t seed, bool meshes,
                    const ExtremesFault& fault, const std::filesystem::path& work) {
   std::mt19937 random(seed);
@@ -94,7 +81,8 @@ CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t se
     Setup setup = row == "fuzzer" ? any_setup(random) : setup_of(row, random);
     setup.cycles = static_cast<int>(std::min<std::int64_t>(setup.cycles, cycles));
     if (!compiled) {
-      choose_mesh(setup, cycles);
+      choose_mesh(setup);
+      setup.cycles = static_cast<int>(std::min<std::int64_t>(20'000, std::max<std::int64_t>(cycles / 2, 500)));
       compiled = true;
     } else if (setup.world == "compiled") {
       setup.world = "heap";
@@ -146,6 +134,12 @@ Section conclude(const std::vector<CaseOutcome>& outcomes, const std::filesystem
   return section;
 }
 
+/// Tells whether a stretch compiles a world, which takes seconds. The quick page, without --cycles, has few: those that
+/// are `needed`.
+bool compiles_a_world(const ExtremesRequest& request, bool needed) {
+  return !request.one_place && (!request.quick || request.cycles > 0 || needed);
+}
+
 }  // namespace
 
 Chapter extremes_chapter(const ExtremesRequest& request) {
@@ -194,10 +188,10 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
       "bad-input", inputs, [row, bad_inputs](const auto& work) { return bad_input(bad_inputs, row.fault, work); },
       quick ? 3.0 : 10.0);
   for (std::size_t i = 0; i < kRowCount; ++i) {
+    const bool meshes = compiles_a_world(request, i == kBadInputRow);
     add(
-        fmt::format("row-{}", i + 1), inputs,
-        [i, row, meshes = !request.one_place && !quick,
-         of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
+        fmt::format("row-{}", i + 1), fmt::format("{} compiled {}", inputs, meshes),
+        [i, row, meshes, of_row = !quick && i == kSlenderRow ? 10 * row_cycles : row_cycles](const auto& work) {
           return run_row(kRows[i], of_row, 1000 * (row.seed + 1) + static_cast<std::uint32_t>(i), meshes, row.fault,
                          work);
         },
@@ -217,10 +211,11 @@ Chapter extremes_chapter(const ExtremesRequest& request) {
   }
   for (std::int64_t i = 0; i < stretches; ++i) {
     const auto seed = request.seed * kMostStretches + static_cast<std::uint32_t>(i);
+    const bool meshes = compiles_a_world(request, i == 0);
     add(
         fmt::format("fuzzer-{:03}", i), fmt::format("quick {} cycles {} seed {}", quick, cycles / stretches, seed),
-        [seed, row, each = cycles / stretches](const auto& work) {
-          return run_row("fuzzer", each, seed, !row.quick, row.fault, work);
+        [seed, row, each = cycles / stretches, meshes](const auto& work) {
+          return run_row("fuzzer", each, seed, meshes, row.fault, work);
         },
         1e-4 * static_cast<double>(cycles / stretches));
   }

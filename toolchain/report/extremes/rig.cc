@@ -238,6 +238,18 @@ class AnalyticRig final : public Rig {
   std::unique_ptr<RigSession> session_ = std::make_unique<RigSession>();
 };
 
+TriangleMesh body_mesh_of(const Setup& setup) {
+  const double s = setup.scale * setup.body_scale;
+  if (setup.body == "ball") return ball_mesh(0.9 * s, 8);
+  if (setup.body == "center") return ball_mesh(0.9 * s, 24);
+  if (setup.body == "ell") {
+    return cell_solid({{{-0.4 * s, 0.1 * s, 0.8 * s}, {-0.4 * s, 0.1 * s, 0.8 * s}, {-0.25 * s, 0.25 * s}}},
+                      [](int i, int j, int) { return i == 0 || j == 0; });
+  }
+  const Vector3 half = half_edges(setup);
+  return box_mesh(-half, half);
+}
+
 TriangleMesh mesh_of(const Setup& setup) {
   const double s = setup.scale;
   Draw draw(setup.seed + 2);
@@ -254,7 +266,7 @@ TriangleMesh mesh_of(const Setup& setup) {
     return box_mesh({-3.0 * s, -3.0 * s, -2.0 * setup.voxel * s}, {3.0 * s, 3.0 * s, 0.0});
   if (setup.world == "mesh-shell") return sheet_mesh(3.0 * s);
   if (setup.world == "mesh-cavity") {
-    const Vector3 in = half_edges(setup) + Vector3::Constant(std::max(0.02, setup.width - 1.0) * s);
+    const Vector3 in = half_size_of_body(setup) + Vector3::Constant(std::max(0.02, setup.width - 1.0) * s);
     const Vector3 out = in + Vector3::Constant(0.6 * s);
     return cell_solid({{{-out.x(), -in.x(), in.x(), out.x()},
                         {-out.y(), -in.y(), in.y(), out.y()},
@@ -262,18 +274,6 @@ TriangleMesh mesh_of(const Setup& setup) {
                       [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; });
   }
   return box_mesh({-1.6 * s, -1.4 * s, -1.2 * s}, {1.6 * s, 1.4 * s, 0.0});
-}
-
-TriangleMesh body_mesh_of(const Setup& setup) {
-  const double s = setup.scale * setup.body_scale;
-  if (setup.body == "ball") return ball_mesh(0.9 * s, 8);
-  if (setup.body == "center") return ball_mesh(0.9 * s, 24);
-  if (setup.body == "ell") {
-    return cell_solid({{{-0.4 * s, 0.1 * s, 0.8 * s}, {-0.4 * s, 0.1 * s, 0.8 * s}, {-0.25 * s, 0.25 * s}}},
-                      [](int i, int j, int) { return i == 0 || j == 0; });
-  }
-  const Vector3 half = half_edges(setup);
-  return box_mesh(-half, half);
 }
 
 watch::MeshSurface surface_of(const TriangleMesh& mesh, const Pose& H) {
@@ -289,7 +289,7 @@ class CompiledRig final : public Rig {
       : setup_(setup),
         is_ball_(setup.body == "center"),
         is_shell_(setup.world == "mesh-shell"),
-        still_mesh_(mesh_of(setup)),
+        still_mesh_(moved(mesh_of(setup), placement(setup))),
         body_mesh_(body_mesh_of(setup)),
         image_(compile(setup, work)) {
     SceneView& scene = image_->scene;
@@ -343,7 +343,8 @@ class CompiledRig final : public Rig {
     watched.solver = setup_.solver;
     watched.friction = setup_.friction;
     watched.renders_ball = is_ball_ && setup_.solver == Solver::kContact && !setup_.friction;
-    watched.rounding = 1e-7 * setup_.voxel * setup_.scale;  // H_MB and its inverse; points in single precision
+    // H_MB and its inverse; points and the grid's origin in single precision
+    watched.rounding = 1e-7 * setup_.scale * (setup_.voxel + setup_.far);
     return watched;
   }
 
@@ -404,6 +405,12 @@ Vector3 inner_place(const Setup& setup) {
   Draw draw(setup.seed + 2);
   static_cast<void>(draw.between(0.0, 4.0));  // the number of solids
   return draw.in_cube(1.5 * setup.scale) - Vector3(0.0, 0.0, 1.5 * setup.scale);
+}
+
+Vector3 half_size_of_body(const Setup& setup) {
+  Vector3 half = Vector3::Zero();
+  for (const Vector3& v : body_mesh_of(setup).vertices) half = half.cwiseMax(v.cwiseAbs());
+  return half;
 }
 
 bool is_compiled(const Setup& setup) { return setup.world.starts_with("mesh"); }

@@ -24,6 +24,9 @@ class Rig {
 
 std::unique_ptr<Rig> make_rig(const Setup& setup, const std::filesystem::path& work);
 
+/// Returns half the edges of the box about the origin that holds the moving body of a compiled world [m].
+Vector3 half_size_of_body(const Setup& setup);
+
 /// Tells if the scene compiler makes the world. Such worlds take seconds, and refuse bad input themselves.
 bool is_compiled(const Setup& setup);
 

@@ -22,7 +22,7 @@ Seeker::Seeker(const Setup& setup) : setup_(setup), draw_(setup.seed) {
   H_OD.translation = s * Vector3(draw_.between(-0.5, 0.5), draw_.between(-0.5, 0.5), setup.start);
   if (setup.world == "slot" || setup.world == "bore" || setup.world == "groove") H_OD.translation.head<2>().setZero();
   const bool is_narrow = setup.world == "slot" || setup.world == "bore" || setup.world == "mesh-cavity";
-  if (setup.world == "mesh-cavity") H_OD.translation = Vector3(0.0, 0.0, -1.0 * setup.body_scale * 0.3 * s);
+  if (setup.world == "mesh-cavity") H_OD.translation = Vector3(0.0, 0.0, -half_size_of_body(setup).z());
   if (!is_narrow) H_OD.rotation = exp_rotation(draw_.between(0.0, 3.0) * draw_.direction());
   H_WD_ = H_WO * H_OD;
   H_WD_held_ = H_WD_;

@@ -1,7 +1,9 @@
 #include "toolchain/report/extremes/setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -103,6 +105,23 @@ Setup setup_of(const std::string& row, std::mt19937& random) {
     setup.cycles = 60;
   }
   return setup;
+}
+
+void choose_mesh(Setup& setup) {
+  constexpr const char* kMeshes[] = {"mesh-box", "mesh-ball", "mesh-plate", "mesh-turned", "mesh-cavity", "mesh-shell"};
+  constexpr std::size_t kConvex = 3;  // of these: only they take a ball that is rendered by its centre
+  constexpr const char* kBodies[] = {"box", "ball", "ell", "center", "box"};
+  const std::size_t mesh = setup.seed % std::size(kMeshes);
+  setup.world = kMeshes[mesh];
+  setup.body = kBodies[setup.seed / 7 % std::size(kBodies)];
+  const bool takes_center = mesh < kConvex && setup.solver != format::Solver::kPaper;
+  if (setup.body == "center" && !takes_center) setup.body = "ball";
+  setup.voxel = std::max(setup.voxel, 0.1);
+  setup.points = std::clamp(setup.points, 60, 200);
+  if (setup.seed / 64 % 8 != 0) setup.start = std::max(setup.start, 2.0);
+  setup.far = std::min(setup.far, 10.0);  // an image has coordinates in single precision
+  setup.period = 1e-3;
+  setup.bad_every = 17;
 }
 
 std::string case_file(const Setup& s, const std::string& found) {

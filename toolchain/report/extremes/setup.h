@@ -57,6 +57,9 @@ extern const char* const kRows[];
 extern const std::size_t kRowCount;
 Setup setup_of(const std::string& row, std::mt19937& random);
 
+/// Chooses a world from the scene compiler for a setup, and a body for it.
+void choose_mesh(Setup& setup);
+
 /// Returns the case file of a setup as JSON; `found` is its violation.
 std::string case_file(const Setup& setup, const std::string& found);
 
