@@ -39,8 +39,9 @@ struct LookUps {
   std::int64_t wrong_sign = 0;  ///< only where the exact distance exceeds a voxel
 };
 
-LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open, double distance_gain) {
-  std::mt19937 random(7);
+LookUps look_up(const SceneView& scene, const Vector3& half, int count, bool open, double distance_gain,
+                std::uint32_t seed) {
+  std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   LookUps found;
   for (int i = 0; i < count; ++i) {
@@ -111,7 +112,8 @@ CaseResult bad_meshes(const RowRequest& request, const std::filesystem::path& wo
       const auto told = compile_image(kind, text, folder);
       if (request.fault.refuses_meshes) throw command::Failure(command::ExitCode::kBadData, "planted");
       const auto image = files::SceneImage::read(folder / (kind + ".scene"));
-      const LookUps found = look_up(image.scene, half, look_ups, kind == "open", request.fault.distance_gain);
+      const LookUps found =
+          look_up(image.scene, half, look_ups, kind == "open", request.fault.distance_gain, 7 + request.seed);
       note(bound::kNotFinite, static_cast<double>(found.not_finite), of_each);
       if (is_repairable) note(bound::kWrongSign, static_cast<double>(found.wrong_sign), of_each);
       const bool reported = is_reported(kind, told_flaws(told.still.report, request.fault));
@@ -241,9 +243,7 @@ struct ClosedPath {
 /// mean, by the trapezoidal rule. Where the force changes by more than twice the stiffness times the motion, the god
 /// object jumped, round an edge for example; the rule's error would count as work there. So the smaller work counts.
 double least_work(const Wrench& before, const Wrench& after, const Motion& moved, const Parameters& q) {
-  const auto work = [&moved](const Wrench& F) {
-    return F.force.dot(moved.translation) + F.torque.dot(moved.rotation);
-  };
+  const auto work = [&moved](const Wrench& F) { return F.force.dot(moved.translation) + F.torque.dot(moved.rotation); };
   const double length = moved.translation.norm() + q.mass.radius * moved.rotation.norm();
   const bool jumps = (after.force - before.force).norm() > 2.0 * q.stiffness * length;
   return jumps ? std::min(work(before), work(after)) : 0.5 * (work(before) + work(after));
