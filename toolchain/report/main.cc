@@ -9,6 +9,7 @@
 #include "toolchain/command_line/progress.h"
 #include "toolchain/command_line/run.h"
 #include "toolchain/files/output_target.h"
+#include "toolchain/report/assembly/chapter.h"
 #include "toolchain/report/contact_quality/chapter.h"
 #include "toolchain/report/extremes/chapter.h"
 #include "toolchain/report/fault_table/chapter.h"
@@ -38,6 +39,7 @@ Chapters:
   precision  error against run time, and the recommended settings under a budget
   stability  theory and simulation, in virtual time
   extremes   numerical extremes, and a fuzzer whose violations become files for --replay
+  assembly   parts that fit tightly, compared with theory; with --quick only generated ones, which compile in seconds
 
 Exit codes: 0 done (missed rows included), 1 --replay: still violated, --known-misses: another row is missed, 64
 usage, 65 bad mesh or case file, 66 a mesh, device or test program is missing or unreadable, 70 gnuplot is missing, 74
@@ -77,6 +79,11 @@ std::vector<Chapter> chapters(const Options& options) {
   if (wanted(options, "extremes"))
     all.push_back(extremes_chapter(
         {.devices = options.devices, .cycles = options.cycles, .quick = options.contact.quick, .seed = options.seed}));
+  if (wanted(options, "assembly"))
+    all.push_back(assembly_chapter({.scenes = options.scenes,
+                                    .kept = kept_folder(options.output),
+                                    .quick = options.contact.quick,
+                                    .seed = options.seed}));
   return all;
 }
 
@@ -117,12 +124,14 @@ bool run_all(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures solvers, faults, precision, stability and numerical extremes, and makes one page of verdicts.",
-               "godobject-report");
+  CLI::App app(
+      "Measures solvers, faults, precision, stability, numerical extremes and assemblies, and makes a page of "
+      "verdicts.",
+      "godobject-report");
   app.footer(kFooter);
   Options options;
   app.add_option("--only", options.only, "chapter to make, may be repeated; default: all")
-      ->check(CLI::IsMember({"contact", "faults", "precision", "stability", "extremes"}))
+      ->check(CLI::IsMember({"contact", "faults", "precision", "stability", "extremes", "assembly"}))
       ->option_text("CHAPTER");
   app.add_flag("--quick", options.contact.quick, "less of everything, below three minutes on two cores");
   app.add_option("-j,--threads", options.threads, "cases at the same time")
@@ -133,7 +142,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(std::int64_t{1000}, std::int64_t{1'000'000'000'000}))
       ->option_text("N");
   app.add_option("--seed", options.seed,
-                 "seed of the fuzzer, and of the random loops, postures and motions of other rows")
+                 "seed of the fuzzer, and of the random loops, postures, motions and loads of other rows")
       ->check(CLI::Range(0u, 1'000'000u))
       ->option_text("N")
       ->capture_default_str();
