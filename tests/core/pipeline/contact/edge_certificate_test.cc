@@ -193,6 +193,22 @@ TEST(EdgeRows, AskForTheLostGap) {
   EXPECT_EQ(push_edges(H, lengths(), cross.near, *rows), 1u) << "only one of two pairs needs a row";
 }
 
+/// Where a face is nearer, its points hold the body. If they do not, the edges come nearer than the certificate keeps
+/// them apart, and the pair must lead away.
+TEST(EdgeRows, HoldEdgesOverAFaceThatItsPointsDoNotHold) {
+  const double limit = 0.5 * lengths().least_margin;
+  for (const double share : {1.1, 0.9, 1e-3}) {
+    Cross cross(share * limit);
+    cross.near.gap[0].is_nearest = false;
+    const auto rows = std::make_unique<ContactRows>();
+    EXPECT_EQ(push_edges(Pose{}, lengths(), cross.near, *rows), 0u);
+    EXPECT_EQ(rows->count, share < 1.0 ? 1u : 0u) << share;
+    if (share < 1.0) {
+      EXPECT_GT(rows->required_gain[0], 0.0f) << share;
+    }
+  }
+}
+
 TEST(EdgeRows, OfAnObstacleKeepTheBodyAMarginAway) {
   Cross cross(1e-3);
   const Pose H1 = moved(0, 0, -4e-3);
