@@ -96,6 +96,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
   if (is_contact) follow(cycle);
   H_WS_ = cycle.report.H_WS;
   H_WD_last_ = H_WD;
+  if (is_inside_) find_overlaps();  // the last points come out before the last edges
   check_wrench(cycle);
   if (!is_contact) return;
   if (cycle.report.contacts > 0) ++findings_.touching;
@@ -109,6 +110,11 @@ void Watch::start(const Pose& H_WD) {
   started_ = true;
   H_WS_ = H_WD;
   H_WD_last_ = H_WD;
+  find_overlaps();
+}
+
+/// Finds the pairs of edges that overlap at the god object's pose, by less than the way out of a cycle.
+void Watch::find_overlaps() {
   overlap_at_start_.assign(edge_bound_.size(), false);
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
     const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
@@ -215,11 +221,13 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
         continue;
       }
       const WatchedEdge& other = session_.still_edges[j];
-      const double at_begin = distance_of(from, other).gap;
+      const EdgeDistance begin = distance_of(from, other);
+      const double at_begin = begin.gap;
       bound = std::max(0.0, distance_of(to, other).gap);
       if (is_inside_) continue;
-      smallest_ = std::min(smallest_, at_begin);
-      if (overlap_at_start_[i * session_.still_edges.size() + j]) continue;
+      const bool may_overlap = overlap_at_start_[i * session_.still_edges.size() + j];
+      smallest_ = std::min(smallest_, may_overlap && begin.in_both_wedges ? -at_begin : at_begin);
+      if (may_overlap) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
             [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });

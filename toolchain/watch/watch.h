@@ -105,6 +105,7 @@ class Watch {
   }
 
   void start(const Pose& H_WD);
+  void find_overlaps();
   void follow(const WatchedCycle& cycle);
   void advance(const Pose& H0, const Pose& H1);
   void advance_edges(const Pose& H0, const Pose& H1);
@@ -137,6 +138,7 @@ class Watch {
   void check_power(const WatchedCycle& cycle);
   void check_optimum(const WatchedCycle& cycle);
   void check_lag(const WatchedCycle& cycle);
+  void check_progress(const WatchedCycle& cycle);
   std::vector<Vector6> rays_at(const Pose& H_WS, const std::vector<Contact>& contacts, const WatchedCycle& cycle) const;
   Vector6 load(const CycleReport& report) const;
 
@@ -147,7 +149,7 @@ class Watch {
   const Parameters& q_;
   double gyration_;
   std::vector<Points> points_;
-  std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, and are not judged
+  std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, until the session has come out
   std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;
@@ -163,6 +165,7 @@ class Watch {
   double travelled_ = 0.0;  // largest displacement of a point in this cycle [m]
   int resting_ = 0;         // cycles for which the device has hardly moved
   int behind_ = 0;          // of these, cycles in a row that ended away from the optimum
+  int stuck_ = 0;           // cycles in a row that were cut and hardly moved
   std::int64_t cycle_ = -1;
 };
 

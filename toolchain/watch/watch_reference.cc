@@ -56,6 +56,7 @@ void Watch::check_reference(const WatchedCycle& cycle) {
   const Pose H_WD = clamped(cycle.H_WD);
   const bool is_at = is_at_device(cycle);
   nearest_ = Nearest{};
+  if (is_at) stuck_ = 0;
   if (is_at && cycle_ % 4 != 0) return;  // then only the nearest point is of interest
   const std::vector<Contact> contacts = contacts_at(H_WS_, 0.125 * q_.voxel_size, 0.05 * q_.voxel_size);
   for (const Contact& contact : contacts) {
@@ -73,6 +74,7 @@ void Watch::check_reference(const WatchedCycle& cycle) {
     judge(Property::kArrives, is_clear(H_WS_before_, H_WD, clearance) ? 1.0 : 0.0, 0.0,
           [&] { return fmt::format("{} m from the device", stretch(H_WS_, H_WD).norm()); });
   }
+  check_progress(cycle);
   if (resting_ > 60) {
     check_lag(cycle);
   } else {
@@ -209,6 +211,15 @@ void Watch::check_optimum(const WatchedCycle& cycle) {
           return fmt::format("moved {} m, the reference {} m, {} m apart; {} m farther from the device", moved.norm(),
                              expected.norm(), (moved - expected).norm(), excess);
         });
+}
+
+/// A cut motion must go on in the next cycle, wherever the device is: a god object that stays where it is cut is stuck.
+void Watch::check_progress(const WatchedCycle& cycle) {
+  constexpr double kMostCycles = 50.0;
+  constexpr double kStill = 1e-4;  // [voxels]
+  const bool is_stuck = cycle.report.outcome == Outcome::kCut && travelled_ < kStill * q_.voxel_size;
+  stuck_ = is_stuck ? stuck_ + 1 : 0;
+  judge(Property::kLag, stuck_, kMostCycles, [&] { return fmt::format("cut where it is for {} cycles", stuck_); });
 }
 
 /// Under a device at rest the god object must not be cut short for long, unless it comes nearer by a ten thousandth of
