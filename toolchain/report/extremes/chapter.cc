@@ -144,7 +144,7 @@ bool compiles_a_world(const ExtremesRequest& request, bool needed) {
 
 Chapter extremes_chapter(const ExtremesRequest& request) {
   const std::int64_t cycles = request.cycles > 0  ? request.cycles
-                              : request.one_place ? 1'000
+                              : request.one_place ? 300
                               : request.quick     ? 20'000
                                                   : 100'000;
   const std::int64_t row_cycles = request.one_place ? 200 : request.quick ? 2'000 : 100'000;
