@@ -120,7 +120,8 @@ void Watch::find_overlaps() {
     const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      overlap_at_start_[i * session_.still_edges.size() + j] = pair.in_both_wedges && pair.gap < 0.25 * q_.voxel_size;
+      const bool in_solids = pair.in_both_wedges && pair.gap < 0.25 * q_.voxel_size;
+      overlap_at_start_[i * session_.still_edges.size() + j] = in_solids || pair.gap < 0.0;  // or within a sheet
     }
   }
 }
