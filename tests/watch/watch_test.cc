@@ -200,6 +200,13 @@ void plant_in_the_motion(const Plant& plant) {
     moved.translation = 0.1 * moved.translation + 0.9 * f.H_WS_before.translation;
     f.move_to(moved);
   });
+  Setup moving = pressed(false);
+  moving.motion = "press";
+  moving.speed = 200.0;  // never at rest for long
+  plant("CutForEverUnderAMovingDevice", Property::kLag, moving, [](const Faulty& f) {
+    f.report.outcome = Outcome::kCut;
+    f.move_to(f.H_WS_before);
+  });
   plant("CutForEver", Property::kLag, pressed(false), [](const Faulty& f) {
     f.report.outcome = Outcome::kCut;
     f.move_to(f.H_WS_before);
