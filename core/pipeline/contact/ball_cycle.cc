@@ -131,9 +131,8 @@ class Center {
   bool step(const Vector3& goal) noexcept;
 
   Held held;
-  bool cut = false;  ///< the motion was shortened so as not to jump over the surface
-  bool outdated =
-      false;  ///< the active half spaces are not valid at the end: it is past an edge, or the surface turned
+  bool cut = false;             ///< the motion was shortened so as not to jump over the surface
+  bool outdated = false;        ///< the half spaces do not hold at the end: it is past an edge, or the surface turned
   bool is_provisional = false;  ///< another motion may follow at once, as in ContactSubsteps
   bool infeasible = false;      ///< the half spaces had no common point
 

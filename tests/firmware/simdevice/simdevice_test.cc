@@ -195,7 +195,7 @@ TEST_F(SimdeviceTest, EndsAtASignalWithItsReport) {
   }
 }
 
-/// It answers each frame at once: a pause is for an interface with an error. A device that pauses is killed here.
+/// The device answers each frame at once and pauses only at an error of the interface. A pause kills it here.
 TEST_F(SimdeviceTest, PausesForNoFrame) {
   const int planted = Process(folder_, "/bin/sleep", {"0.001"}, {.may_pause = false}).wait();
   if (planted == Process::kNoFilters) GTEST_SKIP() << "not run: this kernel has no seccomp filters";

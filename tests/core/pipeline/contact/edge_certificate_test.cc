@@ -193,8 +193,8 @@ TEST(EdgeRows, AskForTheLostGap) {
   EXPECT_EQ(push_edges(H, lengths(), cross.near, *rows), 1u) << "only one of two pairs needs a row";
 }
 
-/// Where a face is nearer, its points hold the body. If they do not, the edges come nearer than the certificate keeps
-/// them apart, and the pair must lead away.
+/// A face that is nearer than its edge holds the body by its points. If they do not, the edges come nearer than the
+/// certificate keeps them apart, and the pair must lead away.
 TEST(EdgeRows, HoldEdgesOverAFaceThatItsPointsDoNotHold) {
   const double limit = 0.5 * lengths().least_margin;
   for (const double share : {1.1, 0.9, 1e-3}) {

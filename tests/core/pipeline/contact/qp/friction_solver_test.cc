@@ -281,7 +281,7 @@ TEST(SolveWithFriction, BringsAPegToRestThatSlid) {
   EXPECT_LT(creeps, 20);
 }
 
-/// Where the law is not solved, too, only forces lead away from the wanted motion. Two points hardly touch their planes
+/// Only forces lead away from the wanted motion, also if the law is not solved. Two points hardly touch their planes
 /// under much viscous friction. The motion must not keep what this viscous friction took while a point seemed to carry load.
 TEST(SolveWithFriction, LeavesTheWantedMotionOnlyWhereAForceActs) {
   Random random(53);

@@ -240,7 +240,7 @@ TEST(Sticks, TellsByTheMotionAfterTheLastAddition) {
   EXPECT_GT(with_the_last, 0);
 }
 
-/// Where the additions are used up, a body is held only if no row and no contact is violated, whichever contact it is.
+/// A body is held only if no row and no contact is violated, also after the last addition of the method.
 TEST(Sticks, HoldsOnlyWhereAllContactsAreMet) {
   const CouplingMetric metric{.gyration = 0.158, .tolerance = 1e-8, .still = 1e-6};
   Random random(35);
