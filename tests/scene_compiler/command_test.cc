@@ -14,7 +14,7 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/mesh/thin_places.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::command_test {
 namespace {
 
 struct Outcome {
@@ -224,4 +224,4 @@ TEST(Command, RefusesABudgetThatNothingFits) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::command_test

@@ -19,7 +19,7 @@
 #include "toolchain/scene_compiler/report_json.h"
 #include "toolchain/scene_compiler/report_text.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::compile_scene_test {
 namespace {
 
 /// A scene of two meshes, scaled by `size`.
@@ -346,4 +346,4 @@ TEST_F(CompileScene, DamageIsSeen) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::compile_scene_test

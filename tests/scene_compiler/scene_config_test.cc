@@ -8,7 +8,7 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::scene_config_test {
 namespace {
 
 constexpr const char* kStill = "[still]\nmesh = \"a.ply\"\nvoxel_size = 0.002\n";
@@ -180,4 +180,4 @@ TEST(SceneConfig, SaysWhenThereIsNoFile) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::scene_config_test

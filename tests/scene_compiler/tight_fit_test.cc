@@ -10,7 +10,7 @@
 #include "toolchain/files/scene_image.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::tight_fit_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -64,4 +64,4 @@ TEST(TightFit, CompilesToAnImageThatTheCoreOpens) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::tight_fit_test

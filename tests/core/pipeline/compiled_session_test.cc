@@ -10,7 +10,7 @@
 #include "tests/support/small_scenes.h"
 #include "toolchain/session/owned_god_object.h"
 
-namespace godobject::test {
+namespace godobject::test::compiled_session_test {
 namespace {
 
 constexpr double kFarthest = 1e7;
@@ -242,4 +242,4 @@ TEST_P(SessionInAWorkspace, IsOutsideByTheSmallestDistance) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::compiled_session_test

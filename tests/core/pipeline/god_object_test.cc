@@ -19,7 +19,7 @@
 #include "toolchain/files/aligned_bytes.h"
 #include "toolchain/session/owned_god_object.h"
 
-namespace godobject::test {
+namespace godobject::test::god_object_test {
 namespace {
 
 constexpr double kWorldRadius = 0.06;
@@ -497,4 +497,4 @@ TEST_P(EachPipeline, KeepsItsRotationAtUnitLength) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::god_object_test

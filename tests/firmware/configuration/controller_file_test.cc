@@ -13,7 +13,7 @@
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::controller_file_test {
 namespace {
 
 using command::ExitCode;
@@ -150,4 +150,4 @@ TEST_F(ControllerFileTest, PlacesTheMeshAtItsStartInThePosture) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::controller_file_test

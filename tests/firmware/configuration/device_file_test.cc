@@ -16,7 +16,7 @@
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::device_file_test {
 namespace {
 
 using command::ExitCode;
@@ -236,4 +236,4 @@ TEST_F(DeviceFileTest, HoldsAnotherMeshFrameWithTheSameMechanics) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::device_file_test

@@ -17,7 +17,7 @@
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::file_bounds_test {
 namespace {
 
 using command::ExitCode;
@@ -641,4 +641,4 @@ TEST_F(DeviceKeyTest, NeverTimesOutBeforeTheSecondHeartbeat) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::file_bounds_test

@@ -10,7 +10,7 @@
 #include "tests/support/small_scenes.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::gain_check_test {
 namespace {
 
 class GainCheckTest : public testing::Test {
@@ -195,4 +195,4 @@ TEST_F(GainCheckTest, WarnsWhereItIsNotPassiveAndWhereARadianCountsTooMuch) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::gain_check_test

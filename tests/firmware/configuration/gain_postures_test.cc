@@ -17,7 +17,7 @@
 #include "tests/support/small_scenes.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::gain_postures_test {
 namespace {
 
 /// The digits of `index` in this base, mirrored at the point: 6 = 110 in base 2 becomes 0.011 = 3/8.
@@ -320,4 +320,4 @@ TEST_F(GainPosturesTest, CouplingIsFeltWithTheSquareOfTheScale) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::gain_postures_test

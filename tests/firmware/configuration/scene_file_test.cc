@@ -49,7 +49,7 @@ extern "C" ssize_t pread(int descriptor, void* data, std::size_t size, off_t at)
   return ::syscall(SYS_pread64, descriptor, data, size, at);
 }
 
-namespace godobject::firmware {
+namespace godobject::firmware::scene_file_test {
 namespace {
 
 using command::ExitCode;
@@ -227,4 +227,4 @@ TEST_F(SceneFileTest, RefusesALengthThatItsHeaderDoesNotTell) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::scene_file_test

@@ -15,7 +15,7 @@
 #include "tests/firmware/controller/controller_folder.h"
 #include "tests/support/fault_record.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::command_test {
 namespace {
 
 class ControllerCommandTest : public ControllerFolderTest {
@@ -225,4 +225,4 @@ TEST_F(ControllerCommandTest, ExaminesTheMachine) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::command_test

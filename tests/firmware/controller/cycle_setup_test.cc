@@ -8,7 +8,7 @@
 #include "tests/support/arms.h"
 #include "tests/support/small_scenes.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::cycle_setup_test {
 namespace {
 
 class CycleSetupTest : public testing::Test {
@@ -136,4 +136,4 @@ TEST_F(CycleSetupTest, AgreesWithTheDefaultsOfTheCycle) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::cycle_setup_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-namespace godobject::firmware {
+namespace godobject::firmware::operator_notice_test {
 namespace {
 
 class OperatorNoticeTest : public testing::Test {
@@ -72,4 +72,4 @@ TEST_F(OperatorNoticeTest, RunsUntilItIsAskedToStop) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::operator_notice_test

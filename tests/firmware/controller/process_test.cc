@@ -17,7 +17,7 @@
 #include "tests/support/fault_record.h"
 #include "tests/support/ordinary_user.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::process_test {
 namespace {
 
 class ControllerProcessTest : public ControllerFolderTest {
@@ -261,4 +261,4 @@ TEST_F(ControllerProcessTest, SaysWhatItMayNotDoAndRunsOnASimulatedBus) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::process_test

@@ -6,7 +6,7 @@
 
 #include "firmware/machine/rt_setup.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::run_summary_test {
 namespace {
 
 RunReport& example(RunReport& report) {
@@ -71,4 +71,4 @@ TEST(RunSummary, HasLatenciesOnlyOfARealTimeRun) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::run_summary_test

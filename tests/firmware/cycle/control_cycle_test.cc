@@ -22,7 +22,7 @@
 #include "tests/support/allocation_guard.h"
 #include "tests/support/fault_record.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::control_cycle_test {
 namespace {
 
 TEST_F(ControlCycleTest, NeverRendersIfTheGodObjectWasNotStarted) {
@@ -586,4 +586,4 @@ TEST_F(ControlCycleTest, NeedsLittleStack) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::control_cycle_test

@@ -12,7 +12,7 @@
 #include "core/device/velocity_estimator.h"
 #include "tests/firmware/cycle/control_cycle_fixture.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::cycle_record_test {
 namespace {
 
 class CycleRecordTest : public ControlCycleTest {
@@ -366,4 +366,4 @@ TEST_F(CycleRecordTest, StopsForAnyAlarm) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::cycle_record_test

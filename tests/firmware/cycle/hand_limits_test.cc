@@ -6,7 +6,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::hand_limits_test {
 namespace {
 
 HandLimits limits() { return {10.0, 1.0, 0.5, 1.0, 2.0, 4.0}; }
@@ -140,4 +140,4 @@ TEST(HandLimits, DampNoMoreThanTheLargestForceHoweverFastTheHandIs) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::hand_limits_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::position_check_test {
 namespace {
 
 constexpr double kT = 1e-3;
@@ -531,4 +531,4 @@ TEST_F(PositionCheckTest, IgnoresJointsThatTheArmLacks) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::position_check_test

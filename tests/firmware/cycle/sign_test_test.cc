@@ -6,7 +6,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::sign_test_test {
 namespace {
 
 /// Joints of 10 Nm with inertia, viscous and dry friction, and a gain of 1 or -1 from torque to motion.
@@ -279,4 +279,4 @@ TEST(SignTest, RestartsAsIfItWereNew) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::sign_test_test

@@ -10,7 +10,7 @@
 
 #include "tests/firmware/cycle/supervisor_bench.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::supervisor_modes_test {
 namespace {
 
 using hal::PowerRequest;
@@ -540,4 +540,4 @@ TEST(SupervisorModes, StopsAtRestOnlyAfterTheHoldThoughTheDrivesRestAtOnce) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::supervisor_modes_test

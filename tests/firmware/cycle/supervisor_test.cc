@@ -8,7 +8,7 @@
 
 #include "tests/firmware/cycle/supervisor_bench.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::supervisor_test {
 namespace {
 
 using hal::PowerRequest;
@@ -724,4 +724,4 @@ TEST(Supervisor, NamesEveryModeAndFault) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::supervisor_test

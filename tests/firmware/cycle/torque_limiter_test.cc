@@ -10,7 +10,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::torque_limiter_test {
 namespace {
 
 Decision running(double share = 1.0) {
@@ -292,4 +292,4 @@ TEST(TorqueLimiter, SendsNothingIfALimitIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::torque_limiter_test

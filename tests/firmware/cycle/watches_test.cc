@@ -8,7 +8,7 @@
 #include "firmware/cycle/rate_watch.h"
 #include "tests/support/random.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::watches_test {
 namespace {
 
 TEST(RateWatch, CountsTheEventsOfTheLastThousandCycles) {
@@ -110,4 +110,4 @@ TEST(Observation, ClaimsNothingOfDrivesBeforeTheyAreSummarized) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::watches_test

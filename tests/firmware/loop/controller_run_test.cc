@@ -12,7 +12,7 @@
 #include "tests/support/small_scenes.h"
 #include "toolchain/files/aligned_bytes.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::controller_run_test {
 namespace {
 
 TEST(ControllerRun, RefusesToStartForWhatAResetDoesNotCure) {
@@ -205,4 +205,4 @@ TEST_F(ControllerRunTest, GoesOnAfterAFaultThatCanBeReset) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::controller_run_test

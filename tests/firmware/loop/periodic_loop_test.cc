@@ -11,7 +11,7 @@
 #include "firmware/cycle/overrun_watch.h"
 #include "tests/support/random.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::periodic_loop_test {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
@@ -312,4 +312,4 @@ TEST(PeriodicLoop, BeginsAtTheNextWholePeriod) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::periodic_loop_test

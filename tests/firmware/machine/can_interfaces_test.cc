@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace godobject::firmware {
+namespace godobject::firmware::can_interfaces_test {
 namespace {
 
 /// A netlink message put together number by number: rtnetlink(7), and the values of linux/can/netlink.h.
@@ -431,4 +431,4 @@ TEST(CanInterface, NamesThatNoInterfaceCanHaveAreNotAskedFor) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::can_interfaces_test

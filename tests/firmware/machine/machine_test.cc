@@ -36,7 +36,7 @@
 #include "tests/support/small_scenes.h"
 #include "toolchain/files/aligned_bytes.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::machine_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -399,4 +399,4 @@ TEST(RealTimeSetup, SaysWhatItMayNotDoAndTheLoopNeedsNoPageAfterIt) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::machine_test

@@ -26,7 +26,7 @@
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::bus_log_test {
 namespace {
 
 using hal::CanFrame;
@@ -351,4 +351,4 @@ TEST_F(BusLogTest, TsharkReadsFdFrames) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::bus_log_test

@@ -22,7 +22,7 @@
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::log_file_test {
 namespace {
 
 class LogFileTest : public test::FolderTest {
@@ -261,4 +261,4 @@ TEST_F(RunRecordsTest, DrainsBothRings) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::log_file_test

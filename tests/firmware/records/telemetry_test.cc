@@ -30,7 +30,7 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/files/aligned_bytes.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::telemetry_test {
 namespace {
 
 class TelemetryTest : public test::FolderTest {
@@ -290,4 +290,4 @@ TEST(WorkerThread, IsAskedToStop) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::telemetry_test

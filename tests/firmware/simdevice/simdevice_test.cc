@@ -17,7 +17,7 @@
 #include "tests/firmware/controller/process.h"
 #include "tests/support/fake_can.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::simdevice_test {
 namespace {
 
 class SimdeviceTest : public ControllerFolderTest {
@@ -310,4 +310,4 @@ TEST_F(SimdeviceTest, EndsAControllerThatHasNoDrivesWhenItIsAskedTo) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::simdevice_test

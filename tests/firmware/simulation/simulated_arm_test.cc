@@ -16,7 +16,7 @@
 #include "tests/support/random.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::simulated_arm_test {
 namespace {
 
 using command::ExitCode;
@@ -171,4 +171,4 @@ TEST_F(SimulatedArmTest, HoldsTheToolAtRestUntilThePathBegins) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::simulated_arm_test

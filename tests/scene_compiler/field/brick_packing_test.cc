@@ -9,7 +9,7 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/field/refinement.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::brick_packing_test {
 namespace {
 
 TEST(BrickPacking, RoundsSlopesUpByLittle) {
@@ -103,4 +103,4 @@ TEST(BrickPacking, IsNothingBesideTheFieldsTolerance) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::brick_packing_test

@@ -13,7 +13,7 @@
 #include "toolchain/scene_compiler/field/brick_packing.h"
 #include "toolchain/scene_compiler/field/refinement.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::clearance_bounds_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -211,4 +211,4 @@ TEST(ClearanceBounds, AreThoseOfTheFieldAsItIs) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::clearance_bounds_test

@@ -12,7 +12,7 @@
 #include "toolchain/scene_compiler/field/distance_transform.h"
 #include "toolchain/scene_compiler/field/refinement.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::distance_grid_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -188,4 +188,4 @@ TEST(DistanceTransform, IsExact) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::distance_grid_test

@@ -11,7 +11,7 @@
 #include "toolchain/scene_compiler/field/distance_grid.h"
 #include "toolchain/scene_compiler/field/refinement.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::field_oracle_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -83,4 +83,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, FieldOracle,
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::field_oracle_test

@@ -13,7 +13,7 @@
 #include "toolchain/scene_compiler/field/distance_probe.h"
 #include "toolchain/scene_compiler/mesh/triangle_tree.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::octant_nodes_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -99,4 +99,4 @@ TEST(DistanceProbe, TellsWhatTheSurfaceTells) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::octant_nodes_test

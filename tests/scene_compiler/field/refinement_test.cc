@@ -18,7 +18,7 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/field/brick_packing.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::refinement_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -392,4 +392,4 @@ TEST(Refinement, GivesTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::refinement_test

@@ -13,7 +13,7 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "tests/support/random.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::straight_edges_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -216,4 +216,4 @@ TEST(StraightEdges, AreNoneOfSheetsAndBalls) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::straight_edges_test

@@ -14,7 +14,7 @@
 #include "toolchain/scene_compiler/field/octant_nodes.h"
 #include "toolchain/scene_compiler/field/straight_edges.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::surface_check_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -128,4 +128,4 @@ TEST(SurfaceCheck, FindsTheSameMissesFromWhatHasChanged) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::surface_check_test

@@ -4,7 +4,7 @@
 
 #include "tests/scene_compiler/simple_meshes.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::mass_properties_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -113,4 +113,4 @@ TEST(MassProperties, OfPointsAreFiniteForOnePointAndForALine) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::mass_properties_test

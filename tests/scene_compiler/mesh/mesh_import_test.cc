@@ -13,7 +13,7 @@
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/mesh/polygon.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::mesh_import_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -284,4 +284,4 @@ TEST(MeshImport, RefusesWhatIsNoMeshWithFileAndCure) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::mesh_import_test

@@ -9,7 +9,7 @@
 
 #include "tests/scene_compiler/simple_meshes.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::near_triangles_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -80,4 +80,4 @@ TEST(NearTriangles, OfAnEmptyTreeAreFarAway) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::near_triangles_test

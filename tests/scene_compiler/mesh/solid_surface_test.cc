@@ -8,7 +8,7 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/field/distance_probe.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::solid_surface_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -143,4 +143,4 @@ TEST(DistanceProbe, GivesTheSameOnAWalkAsAlone) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::solid_surface_test

@@ -5,7 +5,7 @@
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::thin_places_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -92,4 +92,4 @@ TEST(ThinPlaces, IgnoresFacesInsideOfTheSolid) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::thin_places_test

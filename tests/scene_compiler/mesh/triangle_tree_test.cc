@@ -11,7 +11,7 @@
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::triangle_tree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -163,4 +163,4 @@ TEST(TriangleTree, HasHalfOfTheJumpOnAFaceAndNoNumberThatIsNotFiniteOnEdgesAndCo
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::triangle_tree_test

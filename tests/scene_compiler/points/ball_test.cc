@@ -21,7 +21,7 @@
 #include "toolchain/scene_compiler/report_text.h"
 #include "toolchain/session/owned_god_object.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::ball_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -436,4 +436,4 @@ TEST_F(BallScene, RefusesWhatItWouldRenderWrongly) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::ball_test

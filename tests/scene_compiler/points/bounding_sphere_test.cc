@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::bounding_sphere_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -99,4 +99,4 @@ TEST(BoundingSphere, OfManyPointsOnASphereIsThatSphere) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::bounding_sphere_test

@@ -20,7 +20,7 @@
 #include "toolchain/scene_compiler/points/point_tree.h"
 #include "toolchain/scene_compiler/points/sample_elimination.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::moving_body_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -433,4 +433,4 @@ TEST(MovingBody, ProgressAscendsToOne) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::moving_body_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::point_tree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -88,4 +88,4 @@ TEST(PointTree, HoldsManyCopiesOfOnePoint) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::point_tree_test

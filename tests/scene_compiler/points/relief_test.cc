@@ -10,7 +10,7 @@
 
 #include "tests/scene_compiler/simple_meshes.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::relief_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -105,4 +105,4 @@ TEST(Relief, FindsTheSameFallsForManyPlacesAtOnce) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::relief_test

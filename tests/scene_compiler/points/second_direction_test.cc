@@ -16,7 +16,7 @@
 #include "toolchain/scene_compiler/points/point_tree.h"
 #include "toolchain/scene_compiler/points/still_features.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::second_direction_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -279,4 +279,4 @@ TEST_P(Tools, EnterNoCoarseBallDeeperThanTheBound) {
 INSTANTIATE_TEST_SUITE_P(SpikeCombKnife, Tools, testing::Range(0, 3));
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::second_direction_test

@@ -8,7 +8,7 @@
 #include "tests/scene_compiler/simple_meshes.h"
 #include "toolchain/scene_compiler/points/sharp_edge_tree.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::sharp_edge_tree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -100,4 +100,4 @@ TEST(SharpEdges, HaveATreeWhoseSpheresContainThem) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::sharp_edge_tree_test

@@ -21,7 +21,7 @@
 #include "toolchain/scene_compiler/trimming/try_out.h"
 #include "toolchain/session/owned_god_object.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::leaving_out_test {
 namespace {
 
 constexpr const char* kFriction = "[friction]\nstatic = 0.3\n";
@@ -531,4 +531,4 @@ TEST_F(LeavesOut, AndTellsBytesAndTimesButKeepsTimesOutOfTheImage) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::leaving_out_test

@@ -13,7 +13,7 @@
 #include "toolchain/scene_compiler/points/sphere_tree.h"
 #include "toolchain/scene_compiler/trimming/pruned_tree.h"
 
-namespace godobject::scene_compiler {
+namespace godobject::scene_compiler::touchable_points_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -163,4 +163,4 @@ TEST(PrunedTree, KeepsOrderBitsAndStructureWhateverGoes) {
 }
 
 }  // namespace
-}  // namespace godobject::scene_compiler
+}  // namespace godobject::scene_compiler::touchable_points_test

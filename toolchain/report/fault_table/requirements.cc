@@ -7,9 +7,7 @@ const char* const kLoop = "closed_loop_faults_test";
 const char* const kCan = "closed_loop_can_faults_test";
 const char* const kCommand = "firmware_command_test";
 const char* const kStart = "firmware_start_test";
-const char* const kConfiguration = "firmware_configuration_test";
-const char* const kTelemetry = "firmware_telemetry_test";
-const char* const kCycle = "firmware_control_cycle_test";
+const char* const kCycle = "firmware_cycle_test";
 
 Injection loop_stop(const std::string& row) { return {kLoop, "Rows/ClosedLoopFault.StopsInTime/" + row}; }
 Injection loop_nuisance(const std::string& row) { return {kLoop, "Rows/ClosedLoopNuisance.IsGoneOnWith/" + row}; }
@@ -193,12 +191,12 @@ const std::vector<Requirement>& requirements() {
        -1,
        {{kCommand, "ControllerProcessTest.GoesOnWithoutItsTelemetryOnAFullDisk"},
         {kCommand, "ControllerProcessTest.GoesOnWhenItsFileMayNotGrow"},
-        {kTelemetry, "BusLogTest.CountsFramesThatAFullDiskDoesNotTake"}}},
+        {kStart, "BusLogTest.CountsFramesThatAFullDiskDoesNotTake"}}},
       {"telemetry's disk stalled",
        "dropped, counted; no overrun",
        Reaction::kGoesOn,
        -1,
-       {{kTelemetry, "TelemetryTest.DoesNotHoldUpTheLoopWhenTheDiskStalls"}}},
+       {{kStart, "TelemetryTest.DoesNotHoldUpTheLoopWhenTheDiskStalls"}}},
       {"telemetry on a network",
        "no socket except those of CAN",
        Reaction::kGoesOn,
@@ -224,8 +222,8 @@ const std::vector<Requirement>& requirements() {
        "REFUSE, naming the key",
        Reaction::kRefuse,
        -1,
-       {{kConfiguration, "ControllerFileTest.NamesLineAndKeyOfWhatIsWrong"},
-        {kConfiguration, "DeviceFileTest.NamesLineAndKeyOfWhatIsWrong"}}},
+       {{kStart, "ControllerFileTest.NamesLineAndKeyOfWhatIsWrong"},
+        {kStart, "DeviceFileTest.NamesLineAndKeyOfWhatIsWrong"}}},
       {"gain beyond the stability boundary",
        "REFUSE, naming the boundary",
        Reaction::kRefuse,

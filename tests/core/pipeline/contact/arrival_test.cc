@@ -14,7 +14,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/edge_set.h"
 
-namespace godobject::detail {
+namespace godobject::detail::arrival_test {
 namespace {
 
 /// One force at a random place, and a motion of a random direction and of size 1.
@@ -280,4 +280,4 @@ TEST(PushObstacle, AsksForTheLossOfTheArc) {
 }
 
 }  // namespace
-}  // namespace godobject::detail
+}  // namespace godobject::detail::arrival_test

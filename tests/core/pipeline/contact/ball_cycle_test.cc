@@ -17,7 +17,7 @@
 #include "tests/support/random.h"
 #include "tests/support/scene_image_builder.h"
 
-namespace godobject::test {
+namespace godobject::test::ball_cycle_test {
 namespace {
 
 constexpr double kHalf = 0.04;  // of the region with a surface [m]
@@ -629,4 +629,4 @@ TEST(BallCycle, StaysBetweenWallsWithoutRoomForTheMargins) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::ball_cycle_test

@@ -16,7 +16,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::certificate_test {
 namespace {
 
 using detail::Budget;
@@ -392,4 +392,4 @@ TEST(MotionIsFree, IsTrueWithoutNearPointsAndForgetsThatLookUpsWereUsedUp) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::certificate_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/analytic_worlds.h"
 
-namespace godobject::test {
+namespace godobject::test::contact_cycle_test {
 namespace {
 
 constexpr double kVoxel = 0.002;
@@ -654,4 +654,4 @@ TEST(ContactCycle, DoesNotKnowWhereTheOriginIs) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::contact_cycle_test

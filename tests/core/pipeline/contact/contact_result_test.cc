@@ -13,7 +13,7 @@
 #include "tests/support/random.h"
 #include "toolchain/watch/least_distance.h"
 
-namespace godobject::test {
+namespace godobject::test::contact_result_test {
 namespace {
 
 using detail::ContactResult;
@@ -293,4 +293,4 @@ TEST(GapLaw, RegainsAShareOfALostGap) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::contact_result_test

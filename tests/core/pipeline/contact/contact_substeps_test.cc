@@ -19,7 +19,7 @@
 #include "tests/support/edge_set.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::contact_substeps_test {
 namespace {
 
 constexpr double kSubstepVoxel = 0.002;
@@ -804,4 +804,4 @@ TEST(ContactSubsteps, DrawAnEdgeOverAnEdgeWithoutCatching) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::contact_substeps_test

@@ -9,7 +9,7 @@
 #include "core/pipeline/contact/edge_rows.h"
 #include "tests/support/edge_set.h"
 
-namespace godobject::detail {
+namespace godobject::detail::edge_certificate_test {
 namespace {
 
 ContactLengths lengths() {
@@ -262,4 +262,4 @@ TEST(EdgeRows, OfAnObstacleMakeUpForTheLossOfTheArc) {
 }
 
 }  // namespace
-}  // namespace godobject::detail
+}  // namespace godobject::detail::edge_certificate_test

@@ -11,7 +11,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/random.h"
 
-namespace godobject {
+namespace godobject::even_pressure_test {
 namespace {
 
 using test::AnalyticField;
@@ -431,4 +431,4 @@ TEST(EvenPressure, LeavesSlidingFrictionAsItIs) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::even_pressure_test

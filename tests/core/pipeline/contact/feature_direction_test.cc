@@ -10,7 +10,7 @@
 #include "core/pipeline/contact/contact_cycle.h"
 #include "tests/support/analytic_worlds.h"
 
-namespace godobject::test {
+namespace godobject::test::feature_direction_test {
 namespace {
 
 constexpr double kFeatureVoxel = 0.002;
@@ -162,4 +162,4 @@ TEST(FeatureDirection, LetsNoTipThroughAPlate) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::feature_direction_test

@@ -12,7 +12,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::find_near_test {
 namespace {
 
 using detail::FeatureDirection;
@@ -235,4 +235,4 @@ TEST(PushRows, AppendsBehindTheRowsThatThereAre) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::find_near_test

@@ -7,7 +7,7 @@
 #include "tests/support/edge_set.h"
 #include "tests/support/random.h"
 
-namespace godobject::detail {
+namespace godobject::detail::implied_rows_test {
 namespace {
 
 constexpr double kMargin = 2e-5;
@@ -237,4 +237,4 @@ TEST(ImpliedRows, AreThoseOfFeaturePointsToo) {
 }
 
 }  // namespace
-}  // namespace godobject::detail
+}  // namespace godobject::detail::implied_rows_test

@@ -7,7 +7,7 @@
 
 #include "core/pipeline/contact/second_look.h"
 
-namespace godobject::detail {
+namespace godobject::detail::motion_share_test {
 namespace {
 
 TEST(MotionShare, OfAWholeMotionIsNotCut) {
@@ -126,4 +126,4 @@ TEST(MostArcGain, IsAQuarterOfWhatTheTriedShareGains) {
 }
 
 }  // namespace
-}  // namespace godobject::detail
+}  // namespace godobject::detail::motion_share_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject {
+namespace godobject::overlap_test {
 namespace {
 
 using detail::FeatureDirection;
@@ -121,4 +121,4 @@ TEST_F(OverlapTest, IsTheLeastSquaresSolutionInBothDirections) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::overlap_test

@@ -12,7 +12,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::detail {
+namespace godobject::detail::second_look_test {
 namespace {
 
 using test::Random;
@@ -271,4 +271,4 @@ TEST(ExpectedDistance, LeadsToTheMarginOrByTheGapLawTowardsIt) {
 }
 
 }  // namespace
-}  // namespace godobject::detail
+}  // namespace godobject::detail::second_look_test

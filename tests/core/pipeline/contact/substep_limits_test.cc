@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-namespace godobject::test {
+namespace godobject::test::substep_limits_test {
 namespace {
 
 constexpr double kBodyRadius = 0.1;
@@ -126,4 +126,4 @@ TEST(CutOff, ShortensAMotionToTheFaceAndExpressesItInTheMovingFrame) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::substep_limits_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::surroundings_test {
 namespace {
 
 constexpr std::uint32_t kRows = ContactRows::kCapacity;
@@ -252,4 +252,4 @@ TEST(LeftOutRows, AreCountedAlsoWhenThereIsNoRoom) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::surroundings_test

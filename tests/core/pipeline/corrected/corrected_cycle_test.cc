@@ -12,7 +12,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::corrected_cycle_test {
 namespace {
 
 constexpr double kVoxel = 0.002;
@@ -284,4 +284,4 @@ TEST(StepTimes, BeginAtZero) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::corrected_cycle_test

@@ -9,7 +9,7 @@
 #include "core/pipeline/paper/paper_cycle.h"
 #include "tests/support/analytic_worlds.h"
 
-namespace godobject::test {
+namespace godobject::test::corrected_test {
 namespace {
 
 using Floor = AnalyticField;
@@ -303,4 +303,4 @@ TEST(DeviceForce, DampsTheApproachAndNeverPulls) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::corrected_test

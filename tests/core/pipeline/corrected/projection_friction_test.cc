@@ -10,7 +10,7 @@
 #include "core/pipeline/corrected/projection.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::projection_friction_test {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -218,4 +218,4 @@ TEST(Projection, MeetsCoulombsLawAtAnyContact) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::projection_friction_test

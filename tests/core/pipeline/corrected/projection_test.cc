@@ -11,7 +11,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::projection_test {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -291,4 +291,4 @@ TEST(PenaltyContacts, HaveADirectionUnlessTheyCancel) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::projection_test

@@ -16,7 +16,7 @@
 #include "core/pipeline/penalty/closed_form_finish.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::commit_test {
 namespace {
 
 const double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
@@ -291,4 +291,4 @@ TEST(Outcome, HasAWordForEach) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::commit_test

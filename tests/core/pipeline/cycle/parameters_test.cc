@@ -7,7 +7,7 @@
 #include "tests/support/random.h"
 #include "tests/support/scene_image_builder.h"
 
-namespace godobject::test {
+namespace godobject::test::parameters_test {
 namespace {
 
 /// Moments 1, 2 and 2.5 (10^-4 m^2): sums of two second moments 1.75, 0.75 and 0.25. The semi-axes squared are five
@@ -161,4 +161,4 @@ TEST(Parameters, GiveAPointTheExtentOfAVoxel) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::parameters_test

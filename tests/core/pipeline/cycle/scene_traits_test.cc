@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace godobject {
+namespace godobject::scene_traits_test {
 namespace {
 
 using format::Solver;
@@ -83,4 +83,4 @@ TEST(IsBall, IsOnePointAtTheCentreOfMass) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::scene_traits_test

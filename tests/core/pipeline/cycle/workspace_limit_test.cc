@@ -8,7 +8,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::workspace_limit_test {
 namespace {
 
 WorkspaceBox box_of(const Vector3& low, const Vector3& high) {
@@ -256,4 +256,4 @@ TEST(PushFaces, AreTheSixHalfSpacesOfTheBox) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::workspace_limit_test

@@ -15,7 +15,7 @@
 #include "tests/support/scene_image_builder.h"
 #include "toolchain/session/owned_god_object.h"
 
-namespace godobject::test {
+namespace godobject::test::workspace_test {
 namespace {
 
 constexpr double kWorldRadius = 0.06;
@@ -247,4 +247,4 @@ TEST(Workspace, LetsTheContactSolverSlideAlongAFaceThatASurfacePushesItAgainst) 
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::workspace_test

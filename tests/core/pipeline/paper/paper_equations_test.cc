@@ -10,7 +10,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::paper_equations_test {
 namespace {
 
 using Matrix4 = Eigen::Matrix4d;
@@ -349,4 +349,4 @@ TEST(PaperFriction, SlipsOnTheEdgeOfItsConeAndRestsWithoutTangent) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::paper_equations_test

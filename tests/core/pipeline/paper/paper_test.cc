@@ -8,7 +8,7 @@
 #include "core/pipeline/paper/paper_cycle.h"
 #include "tests/support/analytic_worlds.h"
 
-namespace godobject::test {
+namespace godobject::test::paper_test {
 namespace {
 
 using Floor = AnalyticField;
@@ -149,4 +149,4 @@ TEST(ProxyFilter, TakesTheShareThatTheCutOffGives) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::paper_test

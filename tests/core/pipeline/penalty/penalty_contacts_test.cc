@@ -13,7 +13,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::penalty_contacts_test {
 namespace {
 
 constexpr double kVoxel = 0.002;
@@ -337,4 +337,4 @@ TEST(SmallestDistance, IsThatOfAllPoints) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::penalty_contacts_test

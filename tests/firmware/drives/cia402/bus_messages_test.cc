@@ -7,7 +7,7 @@
 
 #include "firmware/cycle/fault.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::bus_messages_test {
 namespace {
 
 const std::vector<std::string> kNames{"can0", "can1"};
@@ -139,4 +139,4 @@ TEST(BusMessages, ASummaryHasTheCountsOfTheJointsThatAreThere) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::bus_messages_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace godobject::firmware {
+namespace godobject::firmware::bus_plan_table_test {
 namespace {
 
 hal::BusLayout three_on_one() {
@@ -111,4 +111,4 @@ TEST(BusPlanTable, HasEachNumberInItsPlace) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::bus_plan_table_test

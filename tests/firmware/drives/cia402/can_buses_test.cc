@@ -29,7 +29,7 @@ extern "C" int socket(int domain, int type, int protocol) noexcept {
   return static_cast<int>(::syscall(SYS_socket, domain, type, protocol));
 }
 
-namespace godobject::firmware {
+namespace godobject::firmware::can_buses_test {
 namespace {
 
 using command::ExitCode;
@@ -73,4 +73,4 @@ TEST(CanBuses, SplitsNamesAtTheirCommas) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::can_buses_test

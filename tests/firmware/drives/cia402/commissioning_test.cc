@@ -19,7 +19,7 @@
 #include "tests/support/arms.h"
 #include "toolchain/command_line/failure.h"
 
-namespace godobject::firmware {
+namespace godobject::firmware::commissioning_test {
 namespace {
 
 using command::Failure;
@@ -426,4 +426,4 @@ TEST(CommissioningTable, HasEachNumberInItsPlace) {
 }
 
 }  // namespace
-}  // namespace godobject::firmware
+}  // namespace godobject::firmware::commissioning_test

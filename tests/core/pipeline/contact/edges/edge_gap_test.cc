@@ -8,7 +8,7 @@
 #include "core/pipeline/contact/edges/edge_gap.h"
 #include "tests/support/random.h"
 
-namespace godobject {
+namespace godobject::edge_gap_test {
 namespace {
 
 /// An edge of a sheet without thickness.
@@ -161,4 +161,4 @@ TEST(EdgeInW, TurnsNormalsAndMovesEnds) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::edge_gap_test

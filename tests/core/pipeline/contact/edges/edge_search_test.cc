@@ -11,7 +11,7 @@
 #include "tests/support/edge_set.h"
 #include "tests/support/random.h"
 
-namespace godobject {
+namespace godobject::edge_search_test {
 namespace {
 
 using Segments = std::vector<std::pair<Vector3, Vector3>>;
@@ -204,4 +204,4 @@ TEST(EdgeSearch, KnowsThatNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::edge_search_test

@@ -9,7 +9,7 @@
 #include "godobject/pose.h"
 #include "tests/support/random.h"
 
-namespace godobject {
+namespace godobject::contact_rows_test {
 namespace {
 
 TEST(ContactRows, FindTheRowThatIsViolatedMost) {
@@ -166,4 +166,4 @@ TEST(ContactRows, TakeAGapAtTheToleranceForTheMargin) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::contact_rows_test

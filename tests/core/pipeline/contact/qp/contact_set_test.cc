@@ -15,7 +15,7 @@
 #include "core/pipeline/contact/qp/meet_rows.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::contact_set_test {
 namespace {
 
 using detail::ActiveSet;
@@ -622,4 +622,4 @@ TEST(MeetRows, AddsNoActiveRowAgain) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::contact_set_test

@@ -12,7 +12,7 @@
 #include "core/pipeline/contact/qp/contact_set.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::coulomb_newton_test {
 namespace {
 
 using detail::Contact;
@@ -212,4 +212,4 @@ TEST(SolveCoulombAgain, StaysAtItsSolution) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::coulomb_newton_test

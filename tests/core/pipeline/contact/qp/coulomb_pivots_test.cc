@@ -13,7 +13,7 @@
 #include "core/pipeline/contact/qp/contact_set.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::coulomb_pivots_test {
 namespace {
 
 using detail::Contact;
@@ -425,4 +425,4 @@ TEST_F(CoulombPivots, DropNoForceThatEndsAtZero) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::coulomb_pivots_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace godobject::test {
+namespace godobject::test::dual_active_set_test {
 namespace {
 
 struct NoTag {};
@@ -269,4 +269,4 @@ TEST(DualActiveSet, RemovesTheStrongestPullFirst) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::dual_active_set_test

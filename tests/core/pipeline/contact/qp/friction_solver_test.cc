@@ -14,7 +14,7 @@
 #include "core/pipeline/contact/qp/contact_set.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::friction_solver_test {
 namespace {
 
 using detail::ContactSet;
@@ -411,4 +411,4 @@ INSTANTIATE_TEST_SUITE_P(
                       Series{"wedge, 1.5", 2, 1.5, 0.0, 20, 11220}));
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::friction_solver_test

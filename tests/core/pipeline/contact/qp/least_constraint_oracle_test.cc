@@ -13,7 +13,7 @@
 #include "tests/support/random.h"
 #include "toolchain/watch/least_distance.h"
 
-namespace godobject::test {
+namespace godobject::test::least_constraint_oracle_test {
 namespace {
 
 using watch::HalfPlane;
@@ -193,4 +193,4 @@ TEST(LeastConstraint, FindsWhatAnIndependentSolverFindsOnDegenerateRows) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::least_constraint_oracle_test

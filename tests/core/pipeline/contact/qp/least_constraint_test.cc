@@ -15,7 +15,7 @@
 #include "tests/support/random.h"
 #include "tests/support/slow_projection.h"
 
-namespace godobject::test {
+namespace godobject::test::least_constraint_test {
 namespace {
 
 constexpr double kBody = 0.03;  // half the size of the body [m]
@@ -989,4 +989,4 @@ TEST(LeastConstraintFriction, LeadsNoFartherThanRest) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::least_constraint_test

@@ -16,7 +16,7 @@
 #include "tests/support/random.h"
 #include "tests/support/slow_projection.h"
 
-namespace godobject::test {
+namespace godobject::test::shifted_cones_test {
 namespace {
 
 using detail::Additions;
@@ -364,4 +364,4 @@ TEST(ComeToRest, LeavesAMotionThatIsLongerThanTheTolerance) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::shifted_cones_test

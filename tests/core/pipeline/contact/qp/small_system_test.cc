@@ -10,7 +10,7 @@
 
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::small_system_test {
 namespace {
 
 constexpr int kSize = 5;
@@ -152,4 +152,4 @@ TEST(SmallSystem, RefusesAColumnOfZeros) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::small_system_test

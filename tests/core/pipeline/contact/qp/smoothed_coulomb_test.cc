@@ -14,7 +14,7 @@
 #include "core/pipeline/contact/qp/coulomb_newton.h"
 #include "tests/support/random.h"
 
-namespace godobject::test {
+namespace godobject::test::smoothed_coulomb_test {
 namespace {
 
 using detail::ContactSet;
@@ -411,4 +411,4 @@ TEST(SolveSmoothedPoint, MakesRoomForRowsThatMatter) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::smoothed_coulomb_test

@@ -18,7 +18,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/small_scenes.h"
 
-namespace godobject::test {
+namespace godobject::test::due_calendar_test {
 namespace {
 
 TEST(DueCalendar, TakesWhatIsDueAndNothingElse) {
@@ -464,4 +464,4 @@ TEST(DueCalendar, HoldsAShellOfOnePoint) {
 TEST(DueCalendar, NeedsNoMemoryForAnEmptyShell) { EXPECT_EQ(DueCalendar::memory(Pointshell{}), 0u); }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::due_calendar_test

@@ -14,7 +14,7 @@
 #include "godobject/pose.h"
 #include "tests/support/random.h"
 
-namespace godobject {
+namespace godobject::near_points_test {
 namespace {
 
 /// The clearances of the points are about as long as their displacements: some longer, some shorter.
@@ -220,4 +220,4 @@ TEST(SampleBits, SayWhatHoldsOfEachPoint) {
 }
 
 }  // namespace
-}  // namespace godobject
+}  // namespace godobject::near_points_test

@@ -15,7 +15,7 @@
 #include "tests/support/random.h"
 #include "tests/support/small_scenes.h"
 
-namespace godobject::test {
+namespace godobject::test::near_search_limits_test {
 namespace {
 
 constexpr double kVoxel = 0.002;
@@ -431,4 +431,4 @@ TEST(Odometer, AddsTheFarthestDisplacementsOfTheSphere) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::near_search_limits_test

@@ -14,7 +14,7 @@
 #include "tests/support/analytic_worlds.h"
 #include "tests/support/small_scenes.h"
 
-namespace godobject::test {
+namespace godobject::test::near_search_test {
 namespace {
 
 /// A field that counts its look-ups.
@@ -311,4 +311,4 @@ TEST(Odometer, IsNeverBehindAnyPoint) {
 }
 
 }  // namespace
-}  // namespace godobject::test
+}  // namespace godobject::test::near_search_test
