@@ -503,6 +503,26 @@ TEST(JointTorque, OverflowIsNotFinite) {
   EXPECT_TRUE(result.torque == result.gravity);
 }
 
+/// The point is finite, but the square of its lever is not. All axes of the planar arm are parallel: there is no sum of
+/// infinite numbers with different signs.
+TEST(JointTorque, AtAPointWhoseLeverHasNoSquareIsNotFinite) {
+  Random random(13);
+  Arm planar = test::random_arm(random, 3);
+  planar.model.H_RA = {};
+  for (ArmJoint& joint : planar.model.joints) joint.alpha = 0.0;
+  for (const Arm& arm : {planar, test::lwr(), test::desktop6()}) {
+    for (const Vector3& direction : {Vector3(1.0, 0.0, 0.0), Vector3(0.0, 1.0, 0.0), Vector3(-0.6, 0.8, 0.0)}) {
+      TorqueRequest request = request_at(arm.model, JointVector::Constant(0.4));
+      request.F_P_R = {Vector3(1.0, 2.0, 3.0), Vector3(0.1, 0.2, 0.3)};
+      request.p_RP = 1e160 * direction;
+      JointTorque result;
+      EXPECT_EQ(joint_torque(arm.model, arm.parameters, request, result), Status::kNotFinite);
+      EXPECT_TRUE(result.torque == result.gravity);
+      EXPECT_TRUE(result.torque.allFinite());
+    }
+  }
+}
+
 TEST(JointTorque, DoesNotAllocate) {
   if (!test::AllocationGuard::works()) GTEST_SKIP() << "not run: a sanitizer holds the allocation functions";
   Random random(11);

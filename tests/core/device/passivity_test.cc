@@ -131,6 +131,31 @@ TEST(PassivityController, LeavesTheWrenchAloneWithoutADebt) {
   EXPECT_EQ(off.apply(-1.0, kPush, kIn).force, kPush.force);
 }
 
+/// Also where the square of the power is too small for a number.
+TEST(PassivityController, DampsNothingWithoutADebtHoweverSmallWrenchAndMotionAre) {
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  for (const double force : {1e-150, 1e-3, 10.0}) {
+    for (const double speed : {1e-200, 1e-50, 0.1}) {
+      const Wrench F{{0.0, 0.0, force}, {0.0, 0.1 * force, 0.0}};
+      const Wrench out = controller.apply(0.0, F, {{0.0, 0.0, -speed}, {}});
+      EXPECT_EQ(out.force, F.force) << force << ", " << speed;
+      EXPECT_EQ(out.torque, F.torque) << force << ", " << speed;
+      EXPECT_EQ(controller.damping(), 0.0) << force << ", " << speed;
+    }
+  }
+}
+
+/// By hand, for a period of 1 ms and a length of 0.1 m: 1 Nm counts as 10 N, 1 rad/s as 0.1 m/s. A debt of 1e-4 J is
+/// paid by 1 N at 0.1 m/s, and by 0.1 Nm at 1 rad/s.
+TEST(PassivityController, CountsWithTheStatedPeriodAndLengthUnlessToldOtherwise) {
+  PassivityController controller({.most_damping = 50.0});
+  EXPECT_NEAR(controller.apply(-1e-4, kPush, kIn).force.z(), 11.0, 1e-12);
+  EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
+  const Wrench out = controller.apply(-1e-4, {{}, {0.0, 0.0, 1.0}}, {{}, {0.0, 0.0, -1.0}});
+  EXPECT_NEAR(out.torque.z(), 1.1, 1e-13);
+  EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
+}
+
 TEST(PassivityController, PaysTheDebtWithinAPeriodWhereItMay) {
   PassivityController controller({.most_damping = 50.0, .period = kPeriod});
   // by hand: 1e-4 J in 1 ms at 0.1 m/s are 1 N

@@ -198,7 +198,21 @@ TEST_F(SceneFileTest, RefusesWhatIsHugeWithoutTakingMemory) {
   std::filesystem::resize_file(file_, std::uintmax_t{1} << 40);  // a hole
   const auto [code, words] = refusal(file_);
   EXPECT_EQ(code, ExitCode::kBadData);
+  EXPECT_NE(words.find("a.scene: is larger than 1 GiB; compile the scene again"), std::string::npos) << words;
   test::record_start(static_cast<int>(code), words.substr(words.find(": ") + 2));
+}
+
+/// The length decides before anything else is looked at: a hole without a header, of the largest size and a byte more.
+TEST_F(SceneFileTest, NamesTheLengthOfWhatIsLargerThanAnyImage) {
+  ASSERT_EQ(SceneFile::kLargest, std::size_t{1} << 30);
+  write("");
+  for (const std::size_t more : {0u, 1u}) {
+    std::filesystem::resize_file(file_, SceneFile::kLargest + more);
+    const auto [code, words] = refusal(file_);
+    EXPECT_EQ(code, ExitCode::kBadData);
+    const char* why = more == 0 ? "a.scene: is not a scene image;" : "a.scene: is larger than 1 GiB;";
+    EXPECT_NE(words.find(why), std::string::npos) << words;
+  }
 }
 
 /// The file is a hole of 1 GiB behind its header; this process may take half of that.

@@ -113,6 +113,26 @@ TEST_F(ControllerCommandTest, RefusesInOneLineWithTheRightCode) {
   EXPECT_TRUE(says("set workspace.start to its first pose")) << words_;
 }
 
+/// The panel has the emergency stop. A simulated arm needs none.
+TEST_F(ControllerCommandTest, DrivesHardwareOnlyWithAPanel) {
+  const std::string lwr = GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml";
+  std::string device = text(lwr);
+  for (const std::string key : {"panel_bus = 2\n", "panel_node = 32\n"}) {
+    ASSERT_NE(device.find(key), std::string::npos) << key;
+    device.erase(device.find(key), key.size());
+  }
+  std::ofstream(folder_ / "without_panel.toml") << device;
+  std::string file = text("c.toml");
+  file.replace(file.find(lwr), lwr.size(), "without_panel.toml");
+  std::ofstream(folder_ / "c.toml") << file;
+  for (const char* command : {"", "commission "}) {
+    EXPECT_EQ(run(std::string(command) + "c.toml --bus none0,none1,none2"), 78) << words_;
+    EXPECT_TRUE(says("lwr: bus.panel_bus is missing; without a panel there is no emergency stop")) << words_;
+    EXPECT_FALSE(says("none0")) << "it looks for no interface: " << words_;
+  }
+  EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;
+}
+
 /// Runs the command of the unit with interfaces that no machine has: it must look for them and simulate nothing.
 TEST_F(ControllerCommandTest, UnitOfSystemdDrivesBuses) {
   std::ifstream unit(GODOBJECT_FIRMWARE_DIR "/systemd/godobject-controller.service");
@@ -177,6 +197,16 @@ TEST_F(ControllerCommandTest, WritesNothingWithoutAFolderForLogs) {
   EXPECT_EQ(files, (std::set<std::string>{"c.toml", "log.txt", "plate.scene"}));
 }
 
+TEST_F(ControllerCommandTest, WritesItsLogsWhereItsFileSaysUnlessTheCommandNamesAFolder) {
+  write_controller("[start]\nsign_test = false\n[telemetry]\nfolder = \"usual\"\n");
+  EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "usual" / "telemetry.csv")) << words_;
+  std::filesystem::remove_all(folder_ / "usual");
+  EXPECT_EQ(run("c.toml --duration 0.01 --log other"), 0) << words_;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "other" / "telemetry.csv")) << words_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "usual")) << words_;
+}
+
 TEST_F(ControllerCommandTest, KeepsToTheClockOnRequest) {
   write_controller("[loop]\nreal_time = true\npriority = 1\n");
   const auto begin = std::chrono::steady_clock::now();
@@ -202,6 +232,18 @@ TEST_F(ControllerCommandTest, CommissionsTheSimulatedDrives) {
   EXPECT_EQ(run("commission"), 64);
   EXPECT_EQ(run("commission --help"), 0);
   EXPECT_TRUE(says("Exit codes: 0 ")) << words_;
+}
+
+/// Not even a path that cannot be read matters.
+TEST_F(ControllerCommandTest, CommissionsUnderAHandThatHoldsStillWhateverItsPath) {
+  ASSERT_EQ(run("commission c.toml"), 0) << words_;
+  const std::string still = words_;
+  write_path();
+  for (const char* path : {"path.csv", "nothing.csv"}) {
+    write_controller(fmt::format("[simulation]\npath = \"{}\"\nbegin = 0.0\n", path));
+    EXPECT_EQ(run("commission c.toml"), 0) << words_;
+    EXPECT_EQ(words_, still) << path;
+  }
 }
 
 TEST_F(ControllerCommandTest, CountsCyclesThatComputeForLongerThanThePlanSays) {

@@ -181,6 +181,31 @@ TEST_F(CycleRecordTest, CountsCyclesInWhichTheJointsCannotGiveTheWholeWrench) {
   EXPECT_LT(counters().scaled, counters().cycles);
 }
 
+/// A cycle that finds a fault renders nothing, whatever it has computed before.
+TEST_F(CycleRecordTest, CountsNoLimitInTheCycleThatStops) {
+  for (ArmJoint& joint : arm_.model.joints) joint.torque = std::min(joint.torque, 30.0);
+  setup_.hand.force = 100.0;
+  scene_.settings.stiffness = 20'000.0;
+  make();
+  run_to(Mode::kRunning);
+  press(0.036);
+  const CycleCounters before = counters();
+  step();
+  ASSERT_EQ(record().mode, Mode::kRunning);
+  const CycleCounters rendering = counters();
+  ASSERT_EQ(rendering.scaled, before.scaled + 1) << "the joints cannot give the whole wrench";
+  ASSERT_EQ(rendering.clipped, before.clipped + 1) << "the hand may not get it";
+  drives_.reading.emergency_stop = true;
+  step();
+  EXPECT_EQ(record().mode, Mode::kStopping);
+  EXPECT_EQ(record().share, 0.0);
+  EXPECT_EQ(counters().cycles, rendering.cycles + 1);
+  EXPECT_EQ(counters().scaled, rendering.scaled);
+  EXPECT_EQ(counters().clipped, rendering.clipped);
+  EXPECT_EQ(counters().slowed, rendering.slowed);
+  EXPECT_EQ(counters().unconverged, rendering.unconverged);
+}
+
 TEST_F(CycleRecordTest, CountsCyclesWithATorqueAtItsRateLimit) {
   setup_.torque.rate = 0.001;
   setup_.supervisor.prepare_cycles = 1005;
@@ -351,7 +376,44 @@ TEST_F(CycleRecordTest, PassesTheOperatorsRequestsOn) {
   EXPECT_EQ(record().mode, Mode::kEnded);
 }
 
-/// A drive that restarts raises an alarm; only that one asks for the sign test again.
+/// Joints that yield to what pushes them beside gravity pass the sign test. After an alarm and a reset it is repeated
+/// only if a drive has restarted: that drive may have been exchanged.
+TEST_F(CycleRecordTest, RepeatsTheSignTestOnlyAfterADriveHasRestarted) {
+  setup_.supervisor.sign_test = true;
+  make();
+  for (int i = 0; i < 5000 && record().mode != Mode::kRunning; ++i) {
+    step();
+    JointVector& q = drives_.reading.position;
+    const JointVector push = drives_.sent.torque - gravity_torque(arm_.model, forward_kinematics(arm_.model, q));
+    for (int k = 0; k < 7; ++k) {
+      const double limit = arm_.model.joints[static_cast<std::size_t>(k)].torque;
+      const double rest = q0_[k] + (record().mode == Mode::kSignTest ? 2.0 * push[k] / limit : 0.0);
+      q[k] += 0.1 * (rest - q[k]);
+    }
+  }
+  ASSERT_EQ(record().mode, Mode::kRunning);
+  const auto mode_after = [&](hal::Alarm alarm) {
+    drives_.reading.alarm = alarm;
+    step();
+    EXPECT_EQ(record().fault, Fault::kAlarm);
+    drives_.reading.alarm = hal::Alarm::kNone;
+    run_to(Mode::kStopped);
+    drives_.reading.enable_switch = false;
+    LoopEvents events;
+    events.reset_requested = true;
+    step(events);
+    run_to(Mode::kIdle);
+    step();
+    drives_.reading.enable_switch = true;
+    run_to(Mode::kEnabling);
+    for (int i = 0; i < 1000 && record().mode == Mode::kEnabling; ++i) step();
+    return record().mode;
+  };
+  EXPECT_EQ(mode_after(hal::Alarm::kHeartbeatLost), Mode::kArmed);
+  run_to(Mode::kRunning);
+  EXPECT_EQ(mode_after(hal::Alarm::kNodeReset), Mode::kSignTest);
+}
+
 TEST_F(CycleRecordTest, StopsForAnyAlarm) {
   for (int i = 1; i <= static_cast<int>(hal::Alarm::kPanelSilent); ++i) {
     drives_ = FakeDrives(7);

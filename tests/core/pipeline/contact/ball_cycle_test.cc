@@ -170,6 +170,20 @@ TEST(BallCycle, LiesOnAPlaneAtTheMargin) {
   EXPECT_EQ(run.report.outcome, Outcome::kFree);
 }
 
+/// A centre that starts exactly on the surface does not penetrate: the plane holds it, and it regains the margin.
+TEST(BallCycle, DoesNotStartInsideOnTheSurface) {
+  BallRun run(plane(), Vector3::Zero());
+  run.state.started = false;
+  ASSERT_EQ(run.gap(), 0.0);
+  for (int i = 0; i < 3; ++i) {
+    const double before = run.gap();
+    ASSERT_EQ(run.step({0.0, 0.0, -0.002}), Status::kOk);
+    EXPECT_FALSE(run.state.inside) << i;
+    EXPECT_EQ(run.report.outcome, Outcome::kContact) << i;
+    EXPECT_GT(run.gap(), before) << i;
+  }
+}
+
 TEST(BallCycle, LiesInAGrooveAndInACornerAtTheMargins) {
   BallRun in_groove(groove(), {0.0, 0.0, 0.01});
   const Vector3 deep(0.001, 0.005, -0.006);

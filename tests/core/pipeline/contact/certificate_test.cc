@@ -344,6 +344,24 @@ TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   EXPECT_LE(field.batches, 4) << "64 points a batch";
 }
 
+/// Beside a plane at the height h each chord of length 4.999 h takes three free balls beside those of its ends. Each
+/// is proved once, also that of the suspect.
+TEST(Certificate, ProvesEachChordOnceWhateverPointIsTheSuspect) {
+  constexpr std::uint32_t kPoints = 150;
+  constexpr double kHeight = 0.001;
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
+  const auto near = near_points(field, std::vector<Vector3>(kPoints, Vector3(0.0, 0.0, kHeight)), Pose{});
+  Pose H1;
+  H1.translation.x() = 4.999 * kHeight;
+  for (const std::uint32_t suspect : {0u, 1u, 63u, 64u, 65u, 127u, 128u, kPoints - 1, kPoints, Obstacle::kNone}) {
+    Budget budget{1000};
+    Obstacle obstacle;
+    obstacle.near = suspect;
+    EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds()) << suspect;
+    EXPECT_EQ(1000 - budget.balls, 3 * static_cast<int>(kPoints)) << suspect;
+  }
+}
+
 /// A chord that the field's kernel proves free needs no ball; but the gap at its end counts all the same.
 TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
   Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};

@@ -597,6 +597,39 @@ TEST(ContactSubsteps, LayABlockOnMoreFeaturePointsThanRows) {
   }
 }
 
+/// A block starts 0.1 mm deep on a feature point; no sample point is inside. It counts as a start inside until the
+/// block has come out, and never again.
+TEST(ContactSubsteps, KnowAStartThatOnlyAFeaturePointPenetrates) {
+  const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
+  const Block shape{{0.03, 0.02, 0.015}};
+  const AnalyticField block(shape, kSubstepVoxel);
+  const SampledBody body = box_body(3);
+  const SampledBody still({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Ones());
+  const Vector3 origin_W(0.1, -0.2, 0.3);
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kSubstepVoxel;
+  q.margin = kSubstepMargin;
+  const Pointshell shell = body.pointshell();
+  const ContactScene<AnalyticField, AnalyticField> scene(nothing, shell, {&block, still.pointshell(), origin_W, 0.05},
+                                                         q);
+  const auto memory = std::make_unique<ContactMemory>();
+  memory->search.start(scene, {});
+  ProxyState state;
+  CycleReport report;
+  CycleInput input;
+  state.H_WS = input.H_WD = pose_at(origin_W + Vector3(0.0, 0.0, 0.015 - 1e-4));
+  const auto gap = [&] { return shape.distance(state.H_WS.inverse() * origin_W); };
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    const double before = gap();
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+    EXPECT_EQ(state.inside, before < 0.0) << cycle;
+    EXPECT_EQ(report.outcome == Outcome::kStartInside, before < 0.0) << cycle;
+  }
+  EXPECT_FALSE(state.inside);
+  EXPECT_NEAR(gap(), kSubstepMargin, 0.1 * kSubstepMargin);
+}
+
 /// The memory of a cycle does not outlive a reset.
 TEST(ContactMemory, ForgetsTheLastCycleWhenReset) {
   const auto memory = std::make_unique<ContactMemory>();
@@ -623,6 +656,7 @@ struct EdgeCycle {
   EdgeContacts edges;
   std::unique_ptr<ContactMemory> memory = std::make_unique<ContactMemory>();
   bool is_first = true;
+  bool has_friction = false;
   template <class Field>
   Status operator()(const Field& field, const Pointshell& shell, const Parameters& q, const CycleInput& input,
                     ProxyState& state, CycleReport& report) {
@@ -632,9 +666,52 @@ struct EdgeCycle {
       memory->H_WD_last = state.H_WS;
     }
     is_first = false;
-    return contact_cycle<false>(scene, input, *memory, state, report);
+    return has_friction ? contact_cycle<true>(scene, input, *memory, state, report)
+                        : contact_cycle<false>(scene, input, *memory, state, report);
   }
 };
+
+/// Far from any surface a cycle is one step to the device, whether its own search or an earlier one proves the way
+/// free.
+TEST(ContactSubsteps, GoToTheDeviceInOneStepWhereNothingIsNear) {
+  Random random(21);
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body = box_body(2);
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, 0.02}));
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    const Pose before = run.state.H_WS;
+    const Pose device = pose_at(random.in_cube(0.01), random.in_cube(0.1));
+    ASSERT_EQ(run.step(device), Status::kOk);
+    const auto path = run.cycle.memory->path.poses();
+    ASSERT_EQ(path.size(), 1u) << cycle;
+    EXPECT_TRUE(path[0] == device) << cycle;
+    EXPECT_EQ(run.report.outcome, Outcome::kFree) << cycle;
+    const Motion& stored = run.cycle.memory->last_step.motion;
+    EXPECT_LT((stored.translation - get_motion(before.inverse() * device).translation).norm(), 1e-9) << cycle;
+  }
+}
+
+/// The same with edges. A motion of 5 mm that starts 30 mm from all of them is one step, however many edges the bodies
+/// have.
+TEST(ContactSubsteps, GoToTheDeviceInOneStepFarFromManyEdges) {
+  std::vector<std::pair<Vector3, Vector3>> low, high;
+  for (int i = 0; i < 400; ++i) {
+    const double x = 0.005 * i;
+    low.emplace_back(Vector3(x, -0.001, 0.0), Vector3(x, 0.001, 0.0));
+    high.emplace_back(Vector3(x, -0.001, 0.03), Vector3(x, 0.001, 0.03));
+  }
+  const EdgeSet moving(high), still(low);
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body = box_body(2);
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, Pose{});
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {moving.view(), still.view()};
+  const Pose device = pose_at({0.004, 0.0, 0.003});
+  ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_EQ(run.cycle.memory->path.poses().size(), 1u);
+  EXPECT_TRUE(run.state.H_WS == device);
+  EXPECT_EQ(run.report.outcome, Outcome::kFree);
+}
 
 /// No point is near, so the edges alone hold the body, however far it flew before and however fast it comes.
 TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
@@ -800,6 +877,108 @@ TEST(ContactSubsteps, DrawAnEdgeOverAnEdgeWithoutCatching) {
       most = std::max(most, std::fabs(force.dot(run.state.H_WS.rotation._transformVector(along))) / force.norm());
     }
     EXPECT_LT(most, bound) << step;
+  }
+}
+
+/// An edge with points lies over the table's edge, at the margin m. Pressed down, it is to slide along itself. A point
+/// s before the table's edge has the distance D = hypot(s, m) from it, and may come nearer by D - m: the edge may slide
+/// by D (D - m) / s, least for the nearest point. The edges imply the rows of all points. Of those that hold, three are
+/// dropped in a sub-step, one after the other; the fourth one holds the edge.
+TEST(ContactSubsteps, DropImpliedRowsThreeTimes) {
+  const Vector3 along = Vector3(1.0, 0.0, -1.0).normalized();
+  const Vector3 out = Vector3(1.0, 0.0, 1.0).normalized();
+  constexpr double kSpacing = 2e-6;
+  SurfaceSamples samples;
+  samples.points = {-0.01 * along, 0.01 * along};
+  for (int i = 1; i <= 8; ++i) samples.points.push_back(-kSpacing * i * along);
+  samples.normals.assign(samples.points.size(), -out);
+  const SampledBody body(samples, Vector3::Constant(4e-4));
+  const EdgeSet moving({{-0.01 * along, 0.01 * along}});
+  const EdgeSet still({{Vector3(0.0, -0.1, 0.0), Vector3(0.0, 0.1, 0.0)}});
+  const AnalyticField field(TableEdge{}, kSubstepVoxel);
+  const Vector3 start = kSubstepMargin * out;
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at(start));
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {moving.view(), still.view()};
+  ASSERT_EQ(run.step(pose_at(start - 1e-3 * out + 3e-5 * along)), Status::kOk);
+  const auto path = run.cycle.memory->path.poses();
+  ASSERT_FALSE(path.empty());
+  const Vector3 first = path[0].translation - start;
+  const double distance = std::hypot(4.0 * kSpacing, kSubstepMargin);
+  EXPECT_NEAR(first.dot(along), distance * (distance - kSubstepMargin) / (4.0 * kSpacing), 2e-7);
+  EXPECT_NEAR(first.dot(out), 0.0, 1e-7) << "the table's edge holds it";
+}
+
+/// The edge of a table whose stored distances are 1 um too small.
+struct LowTableEdge : TableEdge {
+  double distance(const Vector3& p) const noexcept { return TableEdge::distance(p) - 1e-6; }
+};
+
+/// An edge with a point lies on the table's edge, at the margin, and friction holds it. By the field the point has lost
+/// 1 um and would lift the edge, but the row of the edges implies its row. The rays of the point's friction cone are
+/// several forces of that one row; the row of the edges stays, and the edge rests.
+TEST(ContactSubsteps, KeepTheRowsOfEdgesThatFrictionHolds) {
+  const Vector3 along = Vector3(1.0, 0.0, -1.0).normalized();
+  const Vector3 out = Vector3(1.0, 0.0, 1.0).normalized();
+  const SampledBody body({{Vector3::Zero(), -0.01 * along, 0.01 * along}, {-out, -out, -out}}, Vector3::Constant(4e-4));
+  const EdgeSet moving({{-0.01 * along, 0.01 * along}});
+  const EdgeSet still({{Vector3(0.0, -0.1, 0.0), Vector3(0.0, 0.1, 0.0)}});
+  const AnalyticField field(LowTableEdge{}, kSubstepVoxel);
+  const Vector3 start = kSubstepMargin * out;
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at(start));
+  run.parameters.margin = kSubstepMargin;
+  run.parameters.friction = {0.2, 0.18, 0.0};
+  run.cycle.edges = {moving.view(), still.view()};
+  run.cycle.has_friction = true;
+  ASSERT_EQ(run.step(pose_at(start - 1e-3 * out + 2e-5 * along)), Status::kOk);
+  EXPECT_LT((run.state.H_WS.translation - start).norm(), 1e-8);
+  const ConstrainedStep& last = run.cycle.memory->last_step;
+  EXPECT_GT(last.force_count, 0u);
+  for (std::uint32_t k = 0; k < last.force_count; ++k) EXPECT_TRUE(detail::is_edge_pair(last.forces[k].id)) << k;
+}
+
+/// A floor that rises by 8 um beyond x = 0.1 mm, which its gradient does not show.
+struct HiddenRise {
+  double distance(const Vector3& p) const noexcept {
+    return p.z() - 8e-6 * std::clamp((p.x() - 1e-4) / 1e-4, 0.0, 1.0);
+  }
+  Vector3 gradient(const Vector3& /*p*/) const noexcept { return Vector3::UnitZ(); }
+};
+
+/// The motion of a point along the floor would end below the wanted margin. The surface that a second look sees there
+/// allows the same motion, so looking again and again would not help: the motion is halved at once.
+TEST(ContactSubsteps, HalveAMotionThatASecondLookDoesNotChange) {
+  const AnalyticField field(HiddenRise{}, kSubstepVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Constant(4e-5));
+  SubstepRun<> run(field, body, pose_at({0.0, 0.0, kSubstepMargin}));
+  ASSERT_EQ(run.step(pose_at({2e-4, 0.0, -1e-3})), Status::kOk);
+  const auto path = run.memory().path.poses();
+  ASSERT_FALSE(path.empty());
+  EXPECT_NEAR(path[0].translation.x(), 1e-4, 1e-6);
+  EXPECT_NEAR(path[0].translation.z(), kSubstepMargin, 1e-7);
+  EXPECT_LT(run.depth(), 0.0);
+}
+
+/// The walls of a slit as narrow as a point. The field has no direction there, and its distances fall twice as fast as
+/// the walls come nearer.
+struct NarrowSlit {
+  double distance(const Vector3& p) const noexcept { return 1e-12 - 2.0 * std::fabs(p.x()); }
+  Vector3 gradient(const Vector3& /*p*/) const noexcept { return Vector3::Zero(); }
+};
+
+/// No share of a motion through the walls is free, and no second look leads on. The god object stays exactly where it
+/// is, and the cycle says that it cut the motion.
+TEST(ContactSubsteps, StayWhereNoShareOfTheMotionIsFree) {
+  const AnalyticField field(NarrowSlit{}, kSubstepVoxel);
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitX()}}, Vector3::Constant(4e-5));
+  const Pose start = pose_at({0.0, 0.01, 0.02}, {0.1, -0.2, 0.3});
+  SubstepRun<> run(field, body, start);
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    ASSERT_EQ(run.step(pose_at({1e-3, 0.01, 0.02}, {0.1, -0.2, 0.3})), Status::kOk);
+    EXPECT_TRUE(run.state.H_WS == start) << cycle;
+    EXPECT_LT(run.depth(), 0.0) << cycle;
+    EXPECT_EQ(run.report.outcome, Outcome::kCut) << cycle;
+    EXPECT_EQ(run.memory().last_step.motion.translation, Vector3::Zero()) << cycle;
   }
 }
 

@@ -200,6 +200,16 @@ TEST(EvenPressure, NeedsAFaceAndSeveralForces) {
   EXPECT_EQ(on.patches().count, 0u) << "points on a line";
 }
 
+/// A face whose forces carry no load has no patch.
+TEST(EvenPressure, HasNoPatchOnAFaceWithoutLoad) {
+  SurfaceSamples face = lower_face(0.04, 0.03);
+  for (Vector3& p : face.points) p.z() = 0.0;
+  OnFace on(face);
+  on.push({0.02, 0.015, 0.0}, 0.0);
+  on.push({-0.02, -0.015, 0.0}, 0.0);
+  EXPECT_EQ(on.patches().count, 0u);
+}
+
 /// A grid of twelve points is a face, eleven of them are not.
 TEST(EvenPressure, NeedsTwelvePointsThatTouch) {
   SurfaceSamples grid;
@@ -216,6 +226,32 @@ TEST(EvenPressure, NeedsTwelvePointsThatTouch) {
     on.near().distance[away] = 2.1 * kMargin;
     EXPECT_EQ(on.patches().count, 0u) << "without point " << away;
     on.near().distance[away] = kMargin;
+  }
+  on.near().count = 11;
+  EXPECT_EQ(on.patches().count, 0u) << "what lies behind the last point is no point";
+}
+
+/// Three points along one side and a few along the other cover their rectangle, also between the points.
+TEST(EvenPressure, CoversARectangleOfFewPoints) {
+  constexpr double kLength = 0.04, kWidth = 0.03;
+  const double of_forces = 0.5 * std::hypot(kLength, kWidth);
+  const double expected = mean_distance(kLength, kWidth, Eigen::Vector2d::Zero()) / of_forces;
+  for (const int more : {5, 6, 8, 9}) {
+    for (const bool is_turned : {false, true}) {
+      const int columns = is_turned ? more : 3, rows = is_turned ? 3 : more;
+      SurfaceSamples grid;
+      for (int i = 0; i < columns * rows; ++i) {
+        const double u = i % columns / (columns - 1.0), v = i / columns / (rows - 1.0);
+        grid.points.push_back({kLength * (u - 0.5), kWidth * (v - 0.5), kBottom});
+        grid.normals.push_back(Vector3::UnitZ());
+      }
+      OnFace on(grid);
+      on.push({0.5 * kLength, 0.5 * kWidth, kBottom}, 1.0);
+      on.push({-0.5 * kLength, -0.5 * kWidth, kBottom}, 1.0);
+      const ContactPatches patches = on.patches();
+      ASSERT_EQ(patches.count, 1u) << columns << " by " << rows;
+      EXPECT_NEAR(patches.patch[0].share, expected, 0.05 * expected) << columns << " by " << rows;
+    }
   }
 }
 

@@ -118,6 +118,19 @@ TEST_F(SelectedRows, CountThePointsOfBothDirections) {
   EXPECT_EQ(detail::select_rows(*workspace_).stride, 5u);
 }
 
+/// A quarter of the rows are taken by stride: no more points than that, and not fewer than necessary.
+TEST_F(SelectedRows, AreTakenByTheLeastStrideThatFits) {
+  constexpr std::uint32_t kRoom = kRows / 4;
+  for (std::uint32_t times = 5; times <= 9; ++times) {
+    for (const std::uint32_t count : {times * kRoom - 1, times * kRoom, times * kRoom + 1}) {
+      fill(workspace_->samples, count, [](std::uint32_t) { return 1e-5; });
+      const std::uint32_t stride = detail::select_rows(*workspace_).stride;
+      EXPECT_LE(count, stride * kRoom) << count;
+      EXPECT_GT(count, (stride - 1) * kRoom) << count;
+    }
+  }
+}
+
 /// A row regains 30 % of the gap that its point has lost; a gap above the margin may shrink to it.
 TEST_F(SelectedRows, RegainTheLostGapsOfTheirPoints) {
   const double margin = ContactLengths::make({}).margin;

@@ -311,6 +311,17 @@ class NotingBus final : public hal::CanBus {
   std::vector<HandedOver>& notes_;
 };
 
+/// Puts an end that notes its frames before each wire.
+std::vector<std::unique_ptr<NotingBus>> note_frames(std::span<hal::CanBus*> wires, hal::Clock& clock,
+                                                    std::vector<HandedOver>& notes) {
+  std::vector<std::unique_ptr<NotingBus>> ends;
+  for (std::size_t b = 0; b < wires.size(); ++b) {
+    ends.push_back(std::make_unique<NotingBus>(*wires[b], static_cast<int>(b), clock, notes));
+    wires[b] = ends.back().get();
+  }
+  return ends;
+}
+
 /// A cycle on the wires: its SYNC on bus 0, and the joints that get torques after it.
 struct WireCycle {
   std::int64_t sync_ns = 0;
@@ -338,11 +349,7 @@ std::vector<WireCycle> cycles_of(const std::vector<HandedOver>& frames, const ha
 TEST_F(CommissioningTest, TriesOneJointAfterTheOtherInWholeCycles) {
   make_device();
   std::vector<HandedOver> frames;
-  std::vector<std::unique_ptr<NotingBus>> ends;
-  for (std::size_t b = 0; b < wires_.size(); ++b) {
-    ends.push_back(std::make_unique<NotingBus>(*wires_[b], static_cast<int>(b), *clock_, frames));
-    wires_[b] = ends.back().get();
-  }
+  const auto ends = note_frames(wires_, *clock_, frames);
   connect();
   frames.clear();
   run();
@@ -359,6 +366,28 @@ TEST_F(CommissioningTest, TriesOneJointAfterTheOtherInWholeCycles) {
     EXPECT_EQ(cycle.joints, joints) << k;
     EXPECT_EQ(cycle.sync_ns - cycles[first + k - 1].sync_ns, 1'000'000) << k;
     for (const std::int64_t ns : cycle.torques_ns) EXPECT_EQ(ns - cycle.sync_ns, drives_->collect_ns()) << k;
+  }
+}
+
+/// A drive without a reaction gets no frames for its deadline and kPatience_ms; its test has one cycle before that and
+/// four after it. Each other test takes ten cycles, as above.
+TEST_F(CommissioningTest, WaitsForAReactionForTheDeadlineAndItsPatience) {
+  make_device();
+  std::vector<HandedOver> frames;
+  const auto ends = note_frames(wires_, *clock_, frames);
+  connect();
+  frames.clear();
+  device_->nodes().drive(2).ignore_deadline();
+  EXPECT_EQ(run()[2].after_ms, -1);
+  constexpr int kWaits = 4 + kPatience_ms;
+  constexpr std::size_t kAll = 6 * 10 + 1 + kWaits + 4;
+  const std::vector<WireCycle> cycles = cycles_of(frames, layout_);
+  ASSERT_GT(cycles.size(), kAll);
+  for (int joint = 0; joint < 7; ++joint) {
+    const auto without = std::count_if(cycles.end() - kAll, cycles.end(), [joint](const WireCycle& cycle) {
+      return std::find(cycle.joints.begin(), cycle.joints.end(), joint) == cycle.joints.end();
+    });
+    EXPECT_EQ(without, joint == 2 ? kWaits : 5) << joint;
   }
 }
 

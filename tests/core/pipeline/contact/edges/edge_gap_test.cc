@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/pipeline/contact/edges/edge_gap.h"
 #include "tests/support/random.h"
@@ -84,6 +85,34 @@ TEST(EdgeGap, HasADirectionWhereEdgesMeet) {
   const EdgeGap on_each_other =
       edge_gap({{roof().end[0], roof().end[1]}, {Vector3::UnitY(), -Vector3::UnitZ()}, 0.0}, roof());
   EXPECT_NEAR(on_each_other.normal.norm(), 1.0, 1e-12) << "parallel";
+}
+
+/// Two wedges on either side of a plane touch in it with their edges. The normal is that of the plane, away from the
+/// still wedge, however the wedges lean: also a sharp one that almost lies on the plane.
+TEST(EdgeGap, HasTheNormalOfThePlaneBetweenWedgesThatMeet) {
+  test::Random random(7);
+  for (int k = 0; k < 300; ++k) {
+    const Matrix3 R = exp_rotation(3.0 * random.direction()).toRotationMatrix();
+    // faces of a wedge whose edge leaves the origin at an angle in the plane; they tilt by less than 3 rad together
+    const auto wedge = [&](double side, double angle) {
+      const Vector3 along(std::cos(angle), std::sin(angle), 0.0);
+      const Vector3 up = side * Vector3::UnitZ();
+      const Vector3 across = up.cross(along);
+      const double first = random.between(0.0, 3.0), second = random.between(0.0, 3.0 - first);
+      EdgeInW edge{{R * (-random.between(0.5, 2.0) * along), R * (random.between(0.5, 2.0) * along)},
+                   {R * (std::cos(first) * up + std::sin(first) * across),
+                    R * (std::cos(second) * up - std::sin(second) * across)},
+                   0.0};
+      if (k % 2 == 0) std::swap(edge.normal[0], edge.normal[1]);
+      return edge;
+    };
+    const double angle = random.between(-3.0, 3.0);
+    const EdgeInW still = wedge(1.0, angle);
+    const EdgeInW moving = wedge(-1.0, angle + random.between(0.1, 3.0));
+    const EdgeGap gap = edge_gap(moving, still);
+    EXPECT_NEAR(gap.distance, 0.0, 1e-12) << k;
+    EXPECT_LT((gap.normal - R * Vector3::UnitZ()).norm(), 1e-9) << k;
+  }
 }
 
 TEST(EdgeGap, OfSheetsIsLessByTheirRadii) {

@@ -190,6 +190,28 @@ TEST(SolveCoulombGuess, KeepsAContactThatPullsUntilTheDirectionsOfSlipFit) {
   }
 }
 
+/// A point slides straight on, so that one step finds the motion, whatever speed was guessed. The speed by which the
+/// next step would turn the friction is the new one, but a quarter of the last one at least.
+TEST(SolveCoulombSpeed, FallsToAQuarterAtMost) {
+  constexpr double kSlip = 1e-4, kLoad = 4e-3;
+  const double guessed_and_expected[][2] = {{0.5, 1.0}, {1.0, 1.0}, {3.9, 1.0}, {6.0, 1.5}, {40.0, 10.0}};
+  for (const auto& [guessed, expected] : guessed_and_expected) {
+    NewtonProblem p;
+    p.friction = {0.5, 0.5, 0.0};
+    p.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);
+    p.wanted.translation = Vector3(kSlip + 0.5 * kLoad, 0.0, -kLoad);
+    p.last.translation.x() = kSlip;
+    ContactSet set = p.set();
+    ASSERT_TRUE(set.enter(0, p.last));
+    set.contact(0).slips = true;
+    set.contact(0).speed = guessed * kSlip;
+    ASSERT_TRUE(detail::solve_coulomb(set)) << guessed;
+    EXPECT_NEAR(set.motion().translation.x(), kSlip, 1e-12) << guessed;
+    EXPECT_NEAR(set.contact(0).speed, expected * kSlip, 1e-9 * kSlip) << guessed;
+    set.close_all();
+  }
+}
+
 /// From the solution of the same problem nothing needs to enter, and the motion stays.
 TEST(SolveCoulombAgain, StaysAtItsSolution) {
   Random random(42);

@@ -347,6 +347,37 @@ TEST(ComeToRest, ReplacesACreepThatTheConesCanHold) {
   }
 }
 
+/// A point whose lost gap the cone regains sticks at the height of the gap. It rests there only if that is a motion
+/// within the tolerance; otherwise the set stays as it was. All lengths over the tolerance.
+TEST(ComeToRest, NeedsAHeldMotionWithinTheToleranceToo) {
+  const double unit = kConeMetric.tolerance;
+  const Vector3 creeping(-0.3, 0.0, 0.2);
+  for (const double gap : {0.0, 0.5, 0.95, 1.05, 2.0}) {
+    ConeBench bench;
+    bench.push(Vector3::UnitZ(), Vector3::Zero(), gap * unit);
+    bench.wanted.translation = unit * Vector3(0.3, 0.0, -1.0);
+    ContactSet set = bench.set();
+    const int k = set.open(0);
+    ASSERT_TRUE(set.active().guess(set.cone_half_space(k, Vector3::UnitX())));
+    // the half space z - 0.5 x >= gap - 0.5 shift turns the wanted motion into the creep, by 1.2 of (-0.5, 1)
+    const double shift = 2.0 * (gap - 0.35) * unit;
+    set.contact(k).shift = shift;
+    set.resolve();
+    ASSERT_LT((set.motion().translation - unit * creeping).norm(), 1e-6 * unit);
+    const Vector6 before = set.plain_motion();
+    detail::come_to_rest(set);
+    ASSERT_EQ(set.contact_count(), 1);
+    EXPECT_EQ(detail::rests(set), gap < 1.0) << gap;
+    if (gap < 1.0) {
+      EXPECT_LT((set.motion().translation - unit * Vector3(0.0, 0.0, gap)).norm(), 0.05 * unit) << gap;
+    } else {
+      EXPECT_EQ(set.plain_motion(), before) << gap;
+      EXPECT_EQ(set.contact(0).shift, shift) << gap;
+    }
+    set.close_all();
+  }
+}
+
 TEST(ComeToRest, LeavesAMotionThatIsLongerThanTheTolerance) {
   ConeBench bench;
   bench.push(Vector3::UnitZ(), Vector3::Zero(), 0.0);

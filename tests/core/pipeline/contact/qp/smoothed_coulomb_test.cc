@@ -390,6 +390,67 @@ TEST(SolveSmoothedPoint, LeavesTheMetricAloneWhereThereIsNoSolution) {
   set.close_all();
 }
 
+/// Points press on a body from all sides with forces whose sum is zero to the last bit, and nothing moves. Forces that
+/// cancel are none: a solution without forces is the wanted motion.
+TEST(SolveSmoothedPoint, FollowsTheWantedMotionIfAllForcesCancel) {
+  for (const int axes : {2, 3}) {
+    PegProblem p;
+    p.friction = {0.5, 0.5, 0.0};  // all products are exact
+    for (int axis = 0; axis < axes; ++axis) {
+      for (const double side : {1.0, -1.0})
+        p.push(-side * Vector3::Unit(axis), 0.0078125 * side * Vector3::Unit(axis), 0.0);
+    }
+    const std::vector<float> gains = p.gains();
+    ContactSet set = p.set();
+    for (std::uint32_t row = 0; row < p.rows->count; ++row) {
+      ASSERT_TRUE(set.enter(row, {}));
+      set.active().at(static_cast<int>(row)).multiplier = 0.1875;
+    }
+    ConstrainedStep step;  // with the result of another cycle
+    step.motion.translation = Vector3::Ones();
+    step.unconverged = true;
+    if (detail::solve_smoothed(set, step)) {
+      expect_law(p, step, 0.1 * kPegMetric.tolerance);
+      EXPECT_FALSE(step.unconverged);
+    }
+    set.close_all();
+    EXPECT_EQ(p.gains(), gains);
+  }
+}
+
+/// A box on three feet, against two stops and an end stop: six points, all of which it needs. A fourth foot below its
+/// middle, which lifts it, takes the place of a far point that bears nothing, whatever the number of that contact is.
+TEST(SolveSmoothedPoint, MakesRoomByTheContactThatBearsNothing) {
+  constexpr double kHalf = 0.01;
+  for (std::uint32_t far = 0; far < 6; ++far) {
+    PegProblem p;
+    p.friction = {0.05, 0.05, 0.0};
+    const auto push_far = [&](std::uint32_t row) {
+      if (row == far) p.push(Vector3::UnitZ(), {0.0, 0.0, kHalf}, -1.0);
+    };
+    std::uint32_t row = 0;
+    for (const double angle : {0.0, 2.0 * M_PI / 3.0, -2.0 * M_PI / 3.0}) {
+      push_far(row++);
+      p.push(Vector3::UnitZ(), {0.02 * std::cos(angle), 0.02 * std::sin(angle), -kHalf}, 0.0);
+    }
+    for (const double x : {-0.02, 0.02}) {
+      push_far(row++);
+      p.push(Vector3::UnitY(), {x, -kHalf, 0.0}, 0.0);
+    }
+    push_far(row);
+    p.push(Vector3::UnitX(), {-kHalf, 0.0, 0.0}, 0.0);
+    p.push(Vector3::UnitZ(), {0.0, 0.0, -kHalf}, 1e-5);  // the fourth foot
+    ASSERT_EQ(p.rows->count, 8u);
+    p.wanted.translation = Vector3(-1e-3, -1e-3, -3e-3);
+    ContactSet set = p.set();
+    for (std::uint32_t i = 0; i < 6; ++i) ASSERT_TRUE(set.enter(i, p.wanted));
+    ConstrainedStep step;
+    ASSERT_TRUE(detail::solve_smoothed(set, step)) << far;
+    expect_law(p, step, 0.1 * kPegMetric.tolerance);
+    EXPECT_NEAR(step.motion.translation.z(), 1e-5, 1e-6) << far;
+  }
+}
+
 /// More rows of one face than contacts fit: those without force make room.
 TEST(SolveSmoothedPoint, MakesRoomForRowsThatMatter) {
   Random random(44);

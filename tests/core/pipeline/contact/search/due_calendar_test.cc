@@ -363,8 +363,8 @@ TEST(DueCalendar, LeavesListsAloneThatAreNotDue) {
   calendar.take(0);
   calendar.take_due(1100, [](std::uint32_t) { FAIL() << "no item is filed"; });
   calendar.file(7, 9000);
-  const std::uint64_t last_list = 1100 + 2047;
-  for (const std::uint64_t now : {1100ull, 1200ull, 2000ull, 3000ull}) {
+  const unsigned long long last_list = 1100 + 2047;
+  for (const std::uint64_t now : {1100ull, 1200ull, 2000ull, 3000ull, 3120ull, 3140ull, last_list - 1}) {
     calendar.take_due(now, [](std::uint32_t) { FAIL() << "not due yet"; });
     EXPECT_EQ(calendar.certain(), last_list) << now;
   }

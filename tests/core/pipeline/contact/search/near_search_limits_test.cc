@@ -187,6 +187,25 @@ TEST(NearSearch, KnowsWithoutMemoryTheNearestOfAllPoints) {
   }
 }
 
+/// A search without near points looks up early what is due soon. So a point that stays where it is, a millimetre beyond
+/// a quarter of the longest motion, needs no search until the body has travelled that quarter.
+TEST(NearSearch, LooksAQuarterOfTheLongestMotionAhead) {
+  const SampledBody body({{Vector3::Zero()}, {-Vector3::UnitZ()}}, Vector3::Ones());
+  const Pointshell shell = body.pointshell();
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  constexpr double kRadius = 0.001;
+  constexpr double kAhead = 0.25 * kLongestMotion;
+  for (const bool remembers : {false, true}) {
+    Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, remembers);
+    for (int i = 0; i < 200; ++i) {
+      const double travelled = 1e-4 * i;  // along the plane
+      at.find(height(kRadius + kAhead + 0.001), travelled, kRadius);
+      ASSERT_TRUE(at.near.empty());
+      ASSERT_TRUE(at.search.is_free(travelled + kAhead - kTick, kRadius)) << i;
+    }
+  }
+}
+
 /// Whatever a search claims to be free is so: before each search of a walk, its claim is compared with all points.
 template <class Shape>
 void expect_true_claims(const Shape& shape, bool remembers, unsigned seed) {
@@ -290,6 +309,30 @@ TEST(NearSearch, LooksUpFewItemsInSlowMotion) {
                       }),
               1, 0);
   expect_work("at rest", work_of(1000, [](int) { return height(0.0201); }), 1159, 11000);
+}
+
+/// Bounds of points that may be near serve the choice within a budget: they are looked up only if there is a choice.
+TEST(NearSearch, ComparesBoundsOnlyBeyondItsBudget) {
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  Searcher<CountedField, detail::SampleDirection> at(field, ball_shell(), {}, true);
+  const auto work_at_rest = [&](std::uint32_t points) {
+    field.bounds = field.exact = 0;
+    at.find(height(0.0201), 0.0, 0.001, {points, 0.0});
+    return Work{field.bounds, field.exact};
+  };
+  for (int i = 0; i < 3; ++i) work_at_rest(1000);
+  const Work ample = work_at_rest(1000);
+  const std::vector<std::uint32_t> near = at.near;
+  ASSERT_GT(ample.exact, 5);
+  const auto points = static_cast<std::uint32_t>(ample.exact);  // one for each point that may be near
+  const Work enough = work_at_rest(points);
+  EXPECT_EQ(enough.bounds, ample.bounds);
+  EXPECT_EQ(enough.exact, ample.exact);
+  EXPECT_EQ(at.near, near);
+  EXPECT_TRUE(at.left_out.empty());
+  const Work scarce = work_at_rest(points - 1);
+  EXPECT_EQ(scarce.bounds, ample.bounds + ample.exact);
+  EXPECT_LT(scarce.exact, ample.exact);
 }
 
 // -- the choice within a budget
