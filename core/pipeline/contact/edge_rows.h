@@ -14,8 +14,8 @@
 namespace godobject::detail {
 
 /// Appends the rows of near pairs, unless a face is nearer, while there is room; returns how many found none. Pairs
-/// within half a margin have a row all the same: the stored field, less exact than the edges, may leave the face no
-/// points that hold, and the certificate would stop the body at the edge for good. H: pose of S in W. Real-time safe.
+/// within a margin have a row all the same: the stored field, less exact than the edges, may leave the face no points
+/// that hold, and the certificate would stop the body at the edge for good. H: pose of S in W. Real-time safe.
 inline std::uint32_t push_edges(const Pose& H, const ContactLengths& lengths, const NearEdges& near,
                                 ContactRows& rows) noexcept {
   const GapLaw law = lengths.gap_law();
@@ -23,7 +23,7 @@ inline std::uint32_t push_edges(const Pose& H, const ContactLengths& lengths, co
   std::uint32_t dropped = 0;
   for (std::uint32_t k = 0; k < near.count; ++k) {
     const EdgeGap& gap = near.gap[k];
-    if (!gap.is_nearest && gap.distance > 0.5 * lengths.least_margin) continue;
+    if (!gap.is_nearest && gap.distance > lengths.margin) continue;
     if (rows.full()) {
       ++dropped;
       continue;

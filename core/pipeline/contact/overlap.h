@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/qp/dual_active_set.h"
 #include "core/pipeline/contact/search/near_points.h"
@@ -38,14 +36,7 @@ class Overlap {
 
   /// Returns the way out of one cycle in S [m, rad]. `wanted`: the motion to the device, with the weight of a
   /// thousandth of the points.
-  Motion way_out(const Motion& wanted) const noexcept {
-    const double weight = 1e-3 * squares_.trace();
-    if (!(weight > 0.0)) return wanted;
-    Vector6 to_device;
-    to_device << wanted.translation, lengths_.metric.gyration * wanted.rotation;
-    const Vector6 y = (squares_ + weight * Matrix6::Identity()).ldlt().solve(sums_ + weight * to_device);
-    return {y.head<3>(), y.tail<3>() / lengths_.metric.gyration};
-  }
+  Motion way_out(const Motion& wanted) const noexcept;
 
  private:
   const ContactLengths& lengths_;

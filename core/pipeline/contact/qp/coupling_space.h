@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/pipeline/contact/qp/dual_active_set.h"
@@ -18,10 +17,7 @@ class CouplingSpace {
   /// Sets the metric |x|^2 + rho^2 |r|^2.
   void reset() noexcept { whitened_ = false; }
   /// Sets the metric H, in the coordinates (x, rho r), positive definite.
-  void set_metric(const Matrix6& H) noexcept {
-    whiten_ = Eigen::LLT<Matrix6>(H).matrixL().solve(Matrix6::Identity());
-    whitened_ = true;
-  }
+  void set_metric(const Matrix6& H) noexcept;
 
   double gyration() const noexcept { return gyration_; }
 

@@ -190,13 +190,14 @@ TEST(EdgeRows, AskForTheLostGap) {
   EXPECT_EQ(push_edges(H, lengths(), cross.near, *rows), 1u) << "no room";
   cross.near.push({0, 0}, cross.near.gap[0]);
   cross.near.gap[1].is_nearest = false;
+  cross.near.gap[1].distance = 1.1 * lengths().margin;
   EXPECT_EQ(push_edges(H, lengths(), cross.near, *rows), 1u) << "only one of two pairs needs a row";
 }
 
-/// A face that is nearer than its edge holds the body by its points. If they do not, the edges come nearer than the
-/// certificate keeps them apart, and the pair must lead away.
+/// A face that is nearer than its edge holds the body by its points. If they do not, the edges come nearer than a margin,
+/// and the pair must lead away.
 TEST(EdgeRows, HoldEdgesOverAFaceThatItsPointsDoNotHold) {
-  const double limit = 0.5 * lengths().least_margin;
+  const double limit = lengths().margin;
   for (const double share : {1.1, 0.9, 1e-3}) {
     Cross cross(share * limit);
     cross.near.gap[0].is_nearest = false;
