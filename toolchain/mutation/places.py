@@ -368,6 +368,15 @@ class Walk:
         if cursor.kind == KIND.CALL_EXPR:
             self.call(cursor, text, spelled)
 
+    def loses_sign(self, cursor):
+        """Whether only the length of the expression is used, so that its operands may be swapped."""
+        start, end = self.range(cursor)
+        before, after = self.text[max(0, start - 5):start], self.text[end:end + 20]
+        if re.match(r'\.(norm|squaredNorm)\(\)', after):
+            return True  # of a call
+        in_brackets = re.search(r'(^|[^\w>])\($', before) and re.match(r'\)\.(norm|squaredNorm)\(\)', after)
+        return bool(in_brackets or re.search(r'\babs\($', before) and after.startswith(')'))
+
     def binary(self, cursor, infix, spelled):
         left, symbol, right = infix
         operands = self.operands
@@ -396,13 +405,13 @@ class Walk:
             if symbol in ('+', '-'):
                 place.add('sign', text, self.join(left, ARITHMETIC[symbol], right))
             elif symbol in ('*', '/') and not numbers and not is_number(operands[1].type):
-                if is_number(operands[0].type):
-                    return  # a number commutes
+                if is_number(operands[0].type) or operands[0].type.get_canonical().kind == cindex.TypeKind.VECTOR:
+                    return  # a number commutes, and so does a vector of numbers
                 place.add('operands swapped', text, self.join(f'({right})', symbol, f'({left})'))
                 return
             else:
                 place.add('arithmetic', text, self.join(left, ARITHMETIC[symbol], right))
-            if symbol == '-' and left != right:
+            if symbol == '-' and left != right and not self.loses_sign(cursor):
                 place.add('operands swapped', text, f'({right}) {symbol} ({left})')
 
     def arguments(self, cursor):
@@ -450,7 +459,7 @@ class Walk:
         if method and not is_void:
             if function in DROPPED_METHODS and not inner:
                 self.expression(cursor).add('frame', text, f'({method.group(1)})')
-            if function == 'cross' and len(inner) == 1:
+            if function == 'cross' and len(inner) == 1 and not self.loses_sign(cursor):
                 self.expression(cursor).add('operands swapped', text, f'({inner[0]}).cross({method.group(1)})')
             if function == 'allFinite':
                 self.expression(cursor).add('guard always', text, 'true')
