@@ -390,8 +390,8 @@ TEST(SolveSmoothedPoint, LeavesTheMetricAloneWhereThereIsNoSolution) {
   set.close_all();
 }
 
-/// Points press on a body from all sides with forces whose sum is zero to the last bit, and nothing moves. Forces that
-/// cancel are none: a solution without forces is the wanted motion.
+/// Points press on a body from all sides with forces whose sum is zero to the last bit, and nothing moves. So the solution
+/// is that without forces: the wanted motion.
 TEST(SolveSmoothedPoint, FollowsTheWantedMotionIfAllForcesCancel) {
   for (const int axes : {2, 3}) {
     PegProblem p;
