@@ -235,6 +235,37 @@ TEST(Refinement, MakesACavityTrueToTheSameLengthOnEitherSide) {
   }
 }
 
+/// A thickened sheet ends in half cylinders, with parts of balls at its corners; outside a fold is round, too.
+TEST(Refinement, MakesRimsCornersAndFoldsOfASheetTrue) {
+  constexpr double s = 0.002;
+  std::mt19937_64 random(14);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  TriangleMesh folded = test::sheet_mesh(0.02);
+  folded.vertices.insert(folded.vertices.end(), {{0.01, 0.01, 0.02}, {0.01, -0.01, 0.02}});
+  folded.triangles.insert(folded.triangles.end(), {{1, 5, 4}, {1, 4, 2}});
+  for (const TriangleMesh& sheet : {test::sheet_mesh(0.02), folded}) {
+    const TriangleMesh mesh = test::moved(sheet, any_motion(random, s));
+    const RefinedField field(SolidSurface(mesh, SurfaceKind::kShell, 2.0 * s), s);
+    const BruteForce truth(mesh);
+    Worst worst;
+    int judged = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+      const Vector3d a = mesh.vertices[t[random() % 3]];
+      const Vector3d b = mesh.vertices[t[random() % 3]];
+      const Vector3d direction = Vector3d(normal(random), normal(random), normal(random)).normalized();
+      const Vector3d p = a + unit(random) * (b - a) + s * direction;
+      if (truth.distance(p) < (1.0 - 1e-9) * s) continue;  // within the sheet
+      worst.add(field.map.sample(p).distance);
+      ++judged;
+    }
+    EXPECT_GT(judged, 1000);
+    EXPECT_LE(worst.into, 1.1 * kRefinedTolerance * s) << "between the points that the compiler compares";
+    EXPECT_LE(worst.off, 1.1 * kOff * s);
+  }
+}
+
 /// Where bricks cannot be fine enough, the report names the worst place. No place on the surface is worse.
 TEST(Refinement, NamesTheWorstPlaceOfAToleranceThatIsOutOfReach) {
   std::mt19937_64 random(22);

@@ -6,6 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -23,6 +28,8 @@ constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is bl
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
+constexpr int kRimSteps = 6;          // of a right angle about a rim
+constexpr double kRim = 0.94;         // cosine of the least angle of a fold whose outside is checked like a rim
 constexpr std::size_t kTriangleParts = 128;  // of the triangles, at least, that are compared in parallel
 constexpr std::size_t kMostTogether = 256;
 constexpr double kCellDiagonal = 1.7320508075688774;  // of a cell's edge
@@ -40,6 +47,7 @@ class SurfaceCheck {
         compared_(compared.after),
         marked_(tree.brick_count()) {
     compared_.resize(surface.dilation() > 0.0 ? tree.brick_count() : surface.mesh().triangles.size());
+    find_rims();
   }
 
   Misses run(const std::vector<std::uint32_t>& triangles, const parallel::Progress& progress) {
@@ -118,7 +126,74 @@ class SurfaceCheck {
       for (Vector3d& corner : raised) corner += side * surface_.thickness() * sides.normal;
       missed = check_piece(raised, sides) || missed;
     }
+    for (std::size_t i = 0; component.shell && i < 3; ++i) {
+      if (rims_.contains(edge_key(triangle[i], triangle[(i + 1) % 3])))
+        missed = walk_rim(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], sides) || missed;
+    }
     set_seen(number, worst);
+    return missed;
+  }
+
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  static Edge edge_key(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+  /// Finds the edges of shells at which the thickened sheet is round: where it ends, branches or is folded.
+  void find_rims() {
+    const auto& mesh = surface_.mesh();
+    std::map<Edge, std::vector<Vector3d>> normals;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (!surface_.components()[surface_.component_of_triangle()[i]].shell) continue;
+      const auto& t = mesh.triangles[i];
+      const Vector3d& a = mesh.vertices[t[0]];
+      const Vector3d n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();
+      for (std::size_t k = 0; k < 3; ++k) normals[edge_key(t[k], t[(k + 1) % 3])].push_back(n);
+    }
+    for (const auto& [edge, of_faces] : normals) {
+      if (of_faces.size() != 2 || std::abs(of_faces[0].dot(of_faces[1])) < kRim) rims_.insert(edge);
+    }
+  }
+
+  /// Checks the round surface about an edge of a sheet, from end to end, and about its ends. `opposite` is the
+  /// triangle's third corner. True if a point is missed.
+  bool walk_rim(const Vector3d& from, const Vector3d& to, const Vector3d& opposite, Sides& sides) {
+    const Vector3d along = (to - from).normalized();
+    const Vector3d inward = opposite - from - along.dot(opposite - from) * along;
+    const Vector3d outward = -inward.normalized();
+    std::vector<Vector3d> about_edge;
+    std::vector<Vector3d> about_end;
+    for (int i = -kRimSteps; i <= kRimSteps; ++i) {
+      const double angle = 0.5 * std::numbers::pi * i / kRimSteps;
+      const Vector3d across = std::cos(angle) * outward + std::sin(angle) * sides.normal;
+      about_edge.push_back(across);
+      for (int k = -kRimSteps; k <= kRimSteps; ++k) {
+        const double lean = 0.5 * std::numbers::pi * k / kRimSteps;
+        about_end.push_back(std::cos(lean) * across + std::sin(lean) * along);
+      }
+    }
+    const double length = (to - from).norm();
+    bool missed = false;
+    bool same_steps = true;  // as in an earlier comparison, so far
+    for (double at = 0.0; at < length;) {
+      const Vector3d p = from + at * along;
+      const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(p + 0.5 * surface_.thickness() * outward));
+      same_steps = same_steps && is_seen(leaf, sides.seen);
+      missed = check_around(p, at == 0.0 ? about_end : about_edge, same_steps, sides) || missed;
+      at += kEdgeSpacing * tree_.cell_edge(leaf.level);
+    }
+    return check_around(to, about_end, true, sides) || missed;
+  }
+
+  /// Checks the points at half the sheet's thickness from `p` in the directions, as far as they are on its surface.
+  bool check_around(const Vector3d& p, const std::vector<Vector3d>& directions, bool same_steps, Sides& sides) {
+    bool missed = false;
+    for (const Vector3d& direction : directions) {
+      const Vector3d q = p + 0.5 * surface_.thickness() * direction;
+      const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(q));
+      if (leaf.brick == BrickTree::kNone || (same_steps && is_seen(leaf, sides.seen))) continue;
+      const double close = kStepOff * tree_.cell_edge(leaf.level);
+      const auto matters = [&] { return std::abs(sides.above.signed_distance(q)) < close; };
+      missed = check_value(q, leaf, 0.0, matters, sides.worst) || missed;
+    }
     return missed;
   }
 
@@ -270,6 +345,7 @@ class SurfaceCheck {
   const SurfaceTolerance tolerance_;
   std::vector<std::uint32_t>& compared_;
   std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants to be halved, by brick
+  std::set<Edge> rims_;                            ///< edges of shells, by their vertices
 };
 
 }  // namespace
