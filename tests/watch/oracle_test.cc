@@ -110,6 +110,27 @@ TEST_F(StoredFieldTest, IsAsTheCoreLooksItUp) {
   }
 }
 
+/// A box of 2 x 4 x 6, grown by half: faces, edges and corners stand half outside of the box.
+TEST(GrownSurface, StandsAtItsDistanceFromTheMesh) {
+  const auto box = report::box_mesh({-1.0, -2.0, -3.0}, {1.0, 2.0, 3.0});
+  const GrownSurface grown({box.vertices, box.triangles}, 0.5, false);
+  EXPECT_NEAR(grown.distance({1.7, 0.0, 0.0}), 0.2, 1e-12);
+  EXPECT_NEAR(grown.distance({1.3, 2.4, 0.0}), 0.0, 1e-12) << "3, 4, 5 from the edge";
+  EXPECT_NEAR(grown.distance({0.9, 0.0, 0.0}), -0.6, 1e-12);
+  EXPECT_TRUE(grown.gradient({0.9, 0.0, 0.0}).normalized().isApprox(Vector3::UnitX(), 1e-12));
+}
+
+TEST(GrownSurface, OfASheetHasTwoSidesAndARoundRim) {
+  const auto sheet = report::sheet_mesh(1.0);
+  const GrownSurface thick({sheet.vertices, sheet.triangles}, 0.1, true);
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_NEAR(thick.distance({0.2, -0.3, 0.25 * side}), 0.15, 1e-12) << side;
+    EXPECT_NEAR(thick.distance({0.2, -0.3, 0.06 * side}), -0.04, 1e-12) << side;
+    EXPECT_NEAR(thick.distance({1.3, 0.0, 0.4 * side}), 0.4, 1e-12) << "3, 4, 5 from the rim";
+    EXPECT_TRUE(thick.gradient({0.2, -0.3, 0.25 * side}).normalized().isApprox(side * Vector3::UnitZ(), 1e-12)) << side;
+  }
+}
+
 /// A point that a wrong field lets into the mesh is found.
 TEST(MeshProperty, IsViolatedByAPointInTheMesh) {
   const auto box = report::box_mesh({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0});

@@ -141,6 +141,15 @@ void plant_in_the_wrench(const Plant& plant) {
   });
   plant("NoDamping", Property::kDamping, one_point(false),
         [](const Faulty& f) { f.report.force.total_W = f.report.force.spring_W; });
+  plant("DampingOfThreeQuartersInSeveralContacts", Property::kDamping, pressed(false), [](const Faulty& f) {
+    if (f.report.contacts < 2) return;
+    DeviceForce& F = f.report.force;
+    F.total_W.force = 0.75 * F.total_W.force + 0.25 * F.spring_W.force;
+    F.total_W.torque = 0.75 * F.total_W.torque + 0.25 * F.spring_W.torque;
+  });
+  plant("NoDampingOfSeveralContacts", Property::kDamping, pressed(false), [](const Faulty& f) {
+    if (f.report.contacts > 1) f.report.force.total_W = f.report.force.spring_W;
+  });
 }
 
 /// The same plane.
@@ -216,6 +225,7 @@ void plant_in_the_motion(const Plant& plant) {
 void plant_under_friction(const Plant& plant) {
   Setup groove = pressed(true);
   groove.world = "groove";
+  groove.cycles = 6000;
   groove.friction_static = groove.friction_kinetic = 0.2;
   plant("FrictionWithTheSlipInAGroove", Property::kNoWork, groove, [](const Faulty& f) {
     if (f.report.contacts == 0) return;

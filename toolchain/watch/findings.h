@@ -12,7 +12,7 @@ enum class Property : std::uint8_t {
   kStatus,      ///< all: a valid input is accepted; an invalid one is refused, without force
   kSpring,      ///< all: the spring wrench is the coupling's stretch times its stiffness, in W
   kDamper,      ///< all: the damping takes power from the device and is at most b_D times its velocity
-  kDamping,     ///< one kind of contact: the damped force is the projection that core/README.md states
+  kDamping,     ///< one contact: its size; several between planes, without friction: what a projection may take off
   kNoCrossing,  ///< `contact`: no chord of any point, in any sub-step, meets the stored surface
   kMesh,        ///< `contact`, with a mesh: no point is deeper in it than the field's accuracy, nor jumps through it
   kWorkspace,   ///< with a box: the centre of mass stays in it

@@ -1,21 +1,23 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "toolchain/watch/oracle.h"
 
 namespace godobject::watch {
 
-/// A closed triangle mesh as an exact oracle: distance to the nearest triangle, sign by the angle-weighted normal of
-/// the nearest face, edge or vertex (Baerentzen and Aanaes, IEEE TVCG 11, 2005). It shares no code with the scene
-/// compiler.
+/// A triangle mesh as an exact oracle: distance to the nearest triangle, sign by the angle-weighted normal of the
+/// nearest face, edge or vertex (Baerentzen and Aanaes, IEEE TVCG 11, 2005). Of an open mesh the sign means nothing. It
+/// shares no code with the scene compiler.
 class MeshSurface final : public Oracle {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
 
-  /// Counter-clockwise seen from outside; closed and oriented.
+  /// Counter-clockwise seen from outside, oriented.
   MeshSurface(std::vector<Vector3> vertices, std::vector<Triangle> triangles);
 
   double distance(const Vector3& p) const override;
@@ -51,6 +53,30 @@ class MeshSurface final : public Oracle {
   std::vector<Vector3> vertex_normals_;               ///< angle-weighted
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;
+};
+
+/// The surface at a distance from a mesh: a solid grown all round, as the centre of a ball meets it, or a sheet made
+/// thick.
+class GrownSurface final : public Oracle {
+ public:
+  /// `distance` >= 0 [m]; a sheet gets twice that thickness.
+  GrownSurface(MeshSurface mesh, double distance, bool is_sheet)
+      : mesh_(std::move(mesh)), grown_by_(distance), is_sheet_(is_sheet) {}
+
+  double distance(const Vector3& p) const override {
+    const double to_mesh = mesh_.distance(p);
+    return (is_sheet_ ? std::abs(to_mesh) : to_mesh) - grown_by_;
+  }
+  Vector3 gradient(const Vector3& p) const override {
+    const bool is_behind = is_sheet_ && mesh_.distance(p) < 0.0;
+    return is_behind ? Vector3(-mesh_.gradient(p)) : mesh_.gradient(p);
+  }
+  double lipschitz() const override { return 1.0; }
+
+ private:
+  MeshSurface mesh_;
+  double grown_by_;
+  bool is_sheet_;
 };
 
 }  // namespace godobject::watch

@@ -136,6 +136,8 @@ class Watch {
   void check_work(const WatchedCycle& cycle);
   bool is_between_planes(const WatchedCycle& cycle) const;
   void check_power(const WatchedCycle& cycle);
+  void check_damped_load(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
+  bool may_touch_the_box(const CycleReport& report) const;
   void check_optimum(const WatchedCycle& cycle);
   void check_lag(const WatchedCycle& cycle);
   void check_progress(const WatchedCycle& cycle);

@@ -86,6 +86,7 @@ void Watch::check_reference(const WatchedCycle& cycle) {
   const bool between_planes = is_between_planes(cycle);
   check_pushes(cycle, between_planes);
   if (between_planes) check_power(cycle);
+  if (between_planes && !session_.friction) check_damped_load(cycle, contacts);
   if (!session_.friction) check_optimum(cycle);
 }
 

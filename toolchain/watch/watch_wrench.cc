@@ -87,10 +87,14 @@ const Watch::Contact* Watch::one_normal(const WatchedCycle& cycle, const std::ve
   for (const Contact& contact : contacts_at(H_WS_before_, 0.25 * q_.voxel_size, 0.1 * q_.voxel_size)) {
     if ((contact.normal_W - first->normal_W).norm() > 1e-3) return nullptr;
   }
-  if (!q_.workspace.limited) return first;
+  return may_touch_the_box(report) ? nullptr : first;
+}
+
+/// Tells whether a face of the workspace box may carry force.
+bool Watch::may_touch_the_box(const CycleReport& report) const {
+  if (!q_.workspace.limited) return false;
   const Vector3& p = report.H_WS.translation;
-  const double to_face = std::min((p - q_.workspace.low).minCoeff(), (q_.workspace.high - p).minCoeff());
-  return to_face < q_.margin ? nullptr : first;
+  return std::min((p - q_.workspace.low).minCoeff(), (q_.workspace.high - p).minCoeff()) < q_.margin;
 }
 
 /// Contacts that all have one normal: size of the friction. One contact that slips: its direction, and the damping.
@@ -186,6 +190,34 @@ void Watch::check_power(const WatchedCycle& cycle) {
   const double bound = (0.05 + 2.0 * turn.norm()) * moved.norm() + q_.margin + session_.rounding;
   judge(Property::kNoWork, w.dot(moved), w.norm() * bound,
         [&] { return fmt::format("{} J between planes, by a wrench of {} N", w.dot(moved), w.norm()); });
+}
+
+/// Between planes, without friction: the damped load is the projection of the load less b_D v on the cone of the
+/// normals that carry it. So what the projection takes off is not larger than b_D v, and at right angles to what it
+/// leaves. The box's faces are not damped, and contacts that oppose each other carry a load of rounding.
+void Watch::check_damped_load(const WatchedCycle& cycle, const std::vector<Contact>& contacts) {
+  const CycleReport& report = cycle.report;
+  if (may_touch_the_box(report)) return;
+  for (const Contact& one : contacts) {
+    for (const Contact& other : contacts) {
+      if (one.normal_W.dot(other.normal_W) < -0.9) return;
+    }
+  }
+  const Vector6 damped = stacked(report.force.total_W.force, report.force.total_W.torque / gyration_);
+  const Vector6 damping = q_.damping * q_.coupling_translation *
+                          stacked(cycle.velocity_W.translation, gyration_ * cycle.velocity_W.rotation);
+  const Vector6 taken = load(report) - damping - damped;
+  // the load is that of the normals at the start of the cycle and of the linear motion
+  const double turned = rotation_vector(report.H_WS.rotation * H_WS_before_.rotation.conjugate()).norm();
+  const double error = q_.stiffness * q_.coupling_translation * (0.1 * q_.margin + 4.0 * session_.rounding) +
+                       2.0 * turned * (1.0 + q_.mass.radius / gyration_) * load(report).norm();
+  judge(Property::kDamping, std::abs(taken.dot(damped)),
+        0.02 * damping.norm() * damped.norm() + error * (taken.norm() + damped.norm()), [&] {
+          return fmt::format("of a load of {} N damping leaves {} N, and {} N of what it takes lie along that",
+                             load(report).norm(), damped.norm(), std::abs(taken.dot(damped)) / damped.norm());
+        });
+  judge(Property::kDamping, taken.norm(), 1.01 * damping.norm() + error,
+        [&] { return fmt::format("{} N are taken off beside a damping of {} N", taken.norm(), damping.norm()); });
 }
 
 }  // namespace godobject::watch

@@ -238,10 +238,12 @@ class AnalyticRig final : public Rig {
   std::unique_ptr<RigSession> session_ = std::make_unique<RigSession>();
 };
 
+double ball_radius(const Setup& setup) { return 0.9 * setup.scale * setup.body_scale; }
+
 TriangleMesh body_mesh_of(const Setup& setup) {
   const double s = setup.scale * setup.body_scale;
-  if (setup.body == "ball") return ball_mesh(0.9 * s, 8);
-  if (setup.body == "center") return ball_mesh(0.9 * s, 24);
+  if (setup.body == "ball") return ball_mesh(ball_radius(setup), 8);
+  if (setup.body == "center") return ball_mesh(ball_radius(setup), 24);
   if (setup.body == "ell") {
     return cell_solid({{{-0.4 * s, 0.1 * s, 0.8 * s}, {-0.4 * s, 0.1 * s, 0.8 * s}, {-0.25 * s, 0.25 * s}}},
                       [](int i, int j, int) { return i == 0 || j == 0; });
@@ -302,10 +304,9 @@ class CompiledRig final : public Rig {
     started_ = god_object_.start(scene, setup.solver, setup.friction, setup.remembers);
     still_.emplace(image_->bytes.span(), watch::kStillField);
     if (scene.has_features()) body_.emplace(image_->bytes.span(), watch::kBodyField);
-    if (!is_ball_ && !is_shell_) {
-      still_surface_.emplace(surface_of(still_mesh_, {}));
-      body_surface_.emplace(surface_of(body_mesh_, H_BM_));
-    }
+    const double grown_by = is_ball_ ? ball_radius(setup) : is_shell_ ? setup.voxel * setup.scale : 0.0;
+    still_surface_.emplace(surface_of(still_mesh_, {}), grown_by, is_shell_);
+    body_surface_.emplace(surface_of(body_mesh_, H_BM_));
   }
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {
@@ -324,17 +325,18 @@ class CompiledRig final : public Rig {
     const SceneView& scene = image_->scene;
     watch::WatchedSession watched;
     // the compiler judges the tolerance at samples; between them a corner of a cavity was 3 % deeper
-    const double accuracy = 1.5 * kFieldTolerance * setup_.voxel * setup_.scale;
+    double accuracy = 1.5 * kFieldTolerance * setup_.voxel * setup_.scale;
+    if (is_ball_) accuracy += kBallFacets * ball_radius(setup_);
     watched.directions.push_back({.field = &*still_,
                                   .points = points_of(scene.pointshell),
                                   .points_move = true,
-                                  .mesh = still_surface_ ? &*still_surface_ : nullptr,
+                                  .mesh = &*still_surface_,
                                   .mesh_accuracy = accuracy});
     if (body_) {
       watched.directions.push_back({.field = &*body_,
                                     .points = points_of(scene.features, scene.features_origin),
                                     .points_move = false,
-                                    .mesh = body_surface_ ? &*body_surface_ : nullptr,
+                                    .mesh = &*body_surface_,
                                     .mesh_accuracy = accuracy + slack_});
     }
     watched.moving_edges = watch::watched_edges(scene.body_edges);
@@ -350,6 +352,7 @@ class CompiledRig final : public Rig {
 
  private:
   static constexpr double kFieldTolerance = 0.05;  // default of the scene file [voxels]
+  static constexpr double kBallFacets = 0.0043;    // derived: 1 - cos^2(3.75 degrees), the depth of the facets' middles
 
   std::unique_ptr<files::SceneImage> compile(const Setup& setup, const std::filesystem::path& work) {
     const std::filesystem::path file = work / "body.ply";
@@ -382,7 +385,7 @@ class CompiledRig final : public Rig {
   std::unique_ptr<files::SceneImage> image_;
   std::optional<watch::StoredField> still_;
   std::optional<watch::StoredField> body_;
-  std::optional<watch::MeshSurface> still_surface_;
+  std::optional<watch::GrownSurface> still_surface_;
   std::optional<watch::MeshSurface> body_surface_;
   OwnedGodObject god_object_;
   Pose H_BM_;
