@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "toolchain/report/extremes/rig.h"
 
 namespace godobject::report {
 namespace {
 
-constexpr int kPatience = 6;  // cycles without contact
+constexpr int kPatience = 6;           // cycles without contact, before the device looks for it
+constexpr int kLost = 30 * kPatience;  // the same, before it tries to come out of the still body
 
 /// Returns a number between low and high with an even logarithm.
 double spread(Draw& draw, double low, double high) { return low * std::pow(high / low, draw.between(0.0, 1.0)); }
@@ -65,7 +67,28 @@ Vector3 Seeker::away_from_world(const Pose& H_WS) {
   if (setup_.world == "slot") away = Vector3(draw_.between(-1.0, 1.0) < 0.0 ? -1.0 : 1.0, 0.0, 0.0);
   if (setup_.world == "bore") away = Vector3(draw_.between(-1.0, 1.0), draw_.between(-1.0, 1.0), 0.0);
   if (setup_.world == "mesh-cavity") away = draw_.direction();
+  if (setup_.returns) away = way_back(p_O).value_or(away);
   return H_WO.rotation._transformVector(away.normalized());
+}
+
+/// Returns the way from the middle of the scene to a place that is beside the still body, out of the cavity or out of
+/// the workspace box, if it is.
+std::optional<Vector3> Seeker::way_back(const Vector3& p_O) const {
+  const double s = setup_.scale;
+  Vector3 middle(0.0, 0.0, 0.0);
+  bool is_lost = (is_compiled(setup_) || setup_.world == "plate") && std::hypot(p_O.x(), p_O.y()) > 1.5 * s;
+  if (setup_.world == "mesh-cavity") {
+    middle.z() = -half_size_of_body(setup_).z();
+    is_lost = (p_O - middle).norm() > 0.5 * s;
+  }
+  const Vector3 box(0.0, 0.0, 0.5 * s * setup_.body_scale);
+  const Vector3 in_box = placement(setup_).rotation._transformVector(p_O - box);
+  if (setup_.workspace > 0.0 && in_box.cwiseAbs().maxCoeff() > setup_.workspace * s) {
+    middle = box;
+    is_lost = true;
+  }
+  if (!is_lost) return std::nullopt;
+  return p_O - middle;
 }
 
 /// Moves the device towards the place at `depth_` behind the god object, along the last normal.
@@ -94,6 +117,11 @@ Pose Seeker::next(const Pose& H_WS, const watch::Nearest& nearest) {
     mode_ = Mode::kSlide;
     depth_ = std::max(depth_, 0.1 * setup_.scale);
     left_ = total_ = 60;
+    if (setup_.returns) drift_W_.setZero();
+    if (setup_.returns && without_contact_ >= kLost) {
+      mode_ = Mode::kLeave;
+      without_contact_ = 0;
+    }
   }
   switch (mode_) {
     case Mode::kSlide:

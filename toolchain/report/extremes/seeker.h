@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "toolchain/report/extremes/draw.h"
 #include "toolchain/report/extremes/setup.h"
@@ -9,8 +10,8 @@
 namespace godobject::report {
 
 /// A device that looks for contact and stays in it: it presses, slides, spins, jumps, dashes through, rests and
-/// seldom leaves. Each pose depends on the god object's last pose and nearest point, so that a run can be repeated with
-/// the same solver only.
+/// seldom leaves. It looks for contact that it has lost. Each pose depends on the god object's last pose and nearest
+/// point, so that a run can be repeated with the same solver only.
 class Seeker {
  public:
   explicit Seeker(const Setup& setup);
@@ -23,6 +24,7 @@ class Seeker {
 
   void choose_mode();
   Vector3 away_from_world(const Pose& H_WS);
+  std::optional<Vector3> way_back(const Vector3& p_O) const;
   void press(const Pose& H_WS);
 
   Setup setup_;

@@ -50,7 +50,7 @@ Setup any_setup(std::mt19937& random) {
   setup.scale = choice.one_in(2) ? 0.02 : choice.spread(1e-3, 1e3);
   setup.far = choice.one_in(4) ? choice.spread(1.0, 1e3) : 0.0;
   setup.width = choice.one_in(2) ? choice.spread(1.0001, 1.1) : choice.between(0.6, 2.0);
-  setup.start = choice.one_in(8) ? choice.between(-3.0, 1.0) : choice.between(1.0, 2.0);
+  setup.start = choice.one_in(8) ? choice.between(-3.0, 1.0) : choice.between(1.0, 1.5);
   setup.cycles = 1000;
   setup.depth = choice.spread(1e-3, 3.0);
   setup.speed = choice.spread(0.1, 500.0);
@@ -64,6 +64,7 @@ Setup any_setup(std::mt19937& random) {
   setup.friction_viscous = choice.one_in(4) ? choice.spread(0.1, 30.0) : 0.0;
   setup.body_scale = choice.one_in(3) ? choice.spread(0.2, 3.0) : 1.0;
   setup.workspace = choice.one_in(4) ? choice.between(0.5, 3.0) : 0.0;
+  if (setup.world == "heap" && setup.workspace > 0.0) setup.workspace += 1.5;  // else the box may hold no solid
   setup.period = choice.one_in(3) ? choice.spread(1.25e-4, 1e-2) : 1e-3;
   setup.point_budget = choice.one_in(6) ? static_cast<int>(choice.spread(4.0, 200.0)) : 0;
   setup.remembers = !choice.one_in(8);
@@ -155,7 +156,8 @@ std::string case_file(const Setup& s, const std::string& found) {
                                 {"workspace", s.workspace},
                                 {"period", s.period},
                                 {"point_budget", s.point_budget},
-                                {"remembers", s.remembers}}
+                                {"remembers", s.remembers},
+                                {"returns", s.returns}}
              .dump(1) +
          "\n";
 }
@@ -199,6 +201,7 @@ Setup read_case(const std::string& text) {
   s.period = all.value("period", 1e-3);
   s.point_budget = all.value("point_budget", 0);
   s.remembers = all.value("remembers", true);
+  s.returns = all.value("returns", false);  // files of generator 2 lack it
   return s;
 }
 

@@ -10,7 +10,7 @@
 namespace godobject::report {
 
 /// Number of the generator below; with another number a seed gives other setups.
-inline constexpr int kGenerator = 2;
+inline constexpr int kGenerator = 3;
 
 /// One run of a solver with all numbers, as in a case file. Lengths are multiples of `scale`.
 struct Setup {
@@ -44,6 +44,7 @@ struct Setup {
   double period = 1e-3;           ///< [s]
   int point_budget = 0;           ///< 0: none
   bool remembers = true;          ///< with the memory of the search
+  bool returns = true;            ///< seek: leads back a device that has lost the still body, or is stuck inside
 
   double safety_distance() const { return 1.5 * voxel * scale; }
   double margin() const { return 0.01 * voxel * scale; }
