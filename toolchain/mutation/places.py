@@ -398,15 +398,15 @@ class Walk:
         elif symbol in ARITHMETIC:
             if any(word in spelled for word in LOGGED):
                 return
-            if symbol in ('<<', '>>', '&', '|', '^', '%') and not numbers and \
-                    cursor.type.get_canonical().kind != cindex.TypeKind.VECTOR:
+            are_vectors = cursor.type.get_canonical().kind == cindex.TypeKind.VECTOR  # of numbers, element by element
+            if symbol in ('<<', '>>', '&', '|', '^', '%') and not numbers and not are_vectors:
                 return
             place = self.expression(cursor)
             if symbol in ('+', '-'):
                 place.add('sign', text, self.join(left, ARITHMETIC[symbol], right))
-            elif symbol in ('*', '/') and not numbers and not is_number(operands[1].type):
-                if is_number(operands[0].type) or operands[0].type.get_canonical().kind == cindex.TypeKind.VECTOR:
-                    return  # a number commutes, and so does a vector of numbers
+            elif symbol in ('*', '/') and not are_vectors and not numbers and not is_number(operands[1].type):
+                if is_number(operands[0].type):
+                    return  # a number commutes
                 place.add('operands swapped', text, self.join(f'({right})', symbol, f'({left})'))
                 return
             else:

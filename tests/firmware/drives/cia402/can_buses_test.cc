@@ -183,8 +183,8 @@ Opened open_can0(const std::string& description, const std::string& what) {
   return opened;
 }
 
-/// An interface that lacks what the bus needs is refused, one that lacks less gives a warning. Both messages tell what to
-/// do.
+/// An interface that lacks what the bus needs is refused, one that lacks less gives a warning. Both messages tell what
+/// to do.
 TEST(CanBuses, RefusesAnInterfaceThatOpensButDoesNotFit) {
   const Opened good = open_can0(description_of_can0(1'000'000, 1000), "can0: txqueuelen");
   EXPECT_EQ(good.refusal, "");

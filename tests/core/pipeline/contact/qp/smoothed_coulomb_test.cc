@@ -390,9 +390,9 @@ TEST(SolveSmoothedPoint, LeavesTheMetricAloneWhereThereIsNoSolution) {
   set.close_all();
 }
 
-/// Points press on a body from all sides with forces whose sum is zero to the last bit, and nothing moves. So the solution
-/// is that without forces: the wanted motion.
-TEST(SolveSmoothedPoint, FollowsTheWantedMotionIfAllForcesCancel) {
+/// Points press on a body from all sides with forces whose sum is zero to the last bit, and nothing moves. A step has
+/// no force then, but friction: that is no solution.
+TEST(SolveSmoothedPoint, IsNoneOfForcesThatBalanceEachOther) {
   for (const int axes : {2, 3}) {
     PegProblem p;
     p.friction = {0.5, 0.5, 0.0};  // all products are exact
@@ -409,10 +409,7 @@ TEST(SolveSmoothedPoint, FollowsTheWantedMotionIfAllForcesCancel) {
     ConstrainedStep step;  // with the result of another cycle
     step.motion.translation = Vector3::Ones();
     step.unconverged = true;
-    if (detail::solve_smoothed(set, step)) {
-      expect_law(p, step, 0.1 * kPegMetric.tolerance);
-      EXPECT_FALSE(step.unconverged);
-    }
+    EXPECT_FALSE(detail::solve_smoothed(set, step)) << axes;
     set.close_all();
     EXPECT_EQ(p.gains(), gains);
   }
