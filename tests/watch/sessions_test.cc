@@ -38,8 +38,8 @@ TEST_P(WatchedSessions, HoldEveryProperty) {
     const report::Setup setup = session_in(world, number, attempt);
     const Findings found = run_setup(setup, *make_rig(setup, {}));
     EXPECT_EQ(found.violations(), 0) << case_file(setup, found.first());
-    // a reference that did not converge judges nothing
-    EXPECT_LE(found.not_converged, 1 + found[Property::kNoPull].judged / 50) << case_file(setup, "not converged");
+    // a reference that did not converge judges nothing; thin bodies between solids have the most of these
+    EXPECT_LE(found.not_converged, 3 + found[Property::kNoPull].judged / 50) << case_file(setup, "not converged");
     touches = found.touching > 0;
   }
   EXPECT_TRUE(touches) << "no session touches";
