@@ -29,6 +29,16 @@ std::span<const Vector3> directions_to(bool diagonals) {
   return std::span(all).first(diagonals ? all.size() : 6);
 }
 
+/// Returns the slope of the distance by differences over `step` to either side.
+Vector3 slope_at(const Oracle& field, const Vector3& p, double step) {
+  Vector3 slope;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 to_side = step * Vector3::Unit(axis);
+    slope[axis] = (field.distance(p + to_side) - field.distance(p - to_side)) / (2.0 * step);
+  }
+  return slope;
+}
+
 }  // namespace
 
 Vector3 Watch::Points::place(const Pose& H_WS, std::size_t i) const {
@@ -280,10 +290,10 @@ double Watch::smallest_at(const Pose& H_WS) {
   return smallest;
 }
 
-/// Appends the contact of a point, given in the field's frame, with the plane that the field has at `at`.
-void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Vector3& at,
+/// Appends the contact of a point, given in the field's frame, with the plane through `at`.
+void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Plane& plane,
                          double reach, std::vector<Contact>& contacts) const {
-  const Vector3 gradient = points.direction.field->gradient(at);
+  const auto& [at, gradient] = plane;
   const double steepness = gradient.norm();
   if (!(steepness > 1e-3)) return;
   const double gap = (points.direction.field->distance(at) + gradient.dot(p - at)) / steepness;
@@ -325,26 +335,34 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
 }
 
 /// Returns the planes of the surface at the points within `reach`, and those between edges. At an edge or in a valley a
-/// point has several: those of the places around it, too.
+/// point has several: those of the places around it, too. Where the field passes from one representation to another its
+/// gradient is not the slope of its values, which hold the body as well: with diagonals both count.
 std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, double around, Around places) const {
   std::vector<Contact> contacts;
+  const bool is_thorough = places == Around::kDiagonals;
   for (const Points& points : points_) {
+    const Oracle& field = *points.direction.field;
     for (std::size_t i = 0; i < points.bound.size(); ++i) {
-      if (points.bound[i] > reach + points.direction.field->lipschitz() * travelled_) continue;
+      if (points.bound[i] > reach + field.lipschitz() * travelled_) continue;
       const Vector3 p = points.place(H_WS, i);
-      if (!(points.direction.field->distance(p) <= reach)) continue;
+      if (!(field.distance(p) <= reach)) continue;
       const std::size_t first = contacts.size();
-      push_contact(points, H_WS, i, p, p, reach, contacts);
+      const auto push = [&](const Plane& plane) {
+        const std::size_t count = contacts.size();
+        push_contact(points, H_WS, i, p, plane, reach, contacts);
+        if (contacts.size() == count) return;
+        const auto is_same = [&](const Contact& c) { return (c.normal_W - contacts.back().normal_W).norm() <= 1e-6; };
+        const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
+        if (std::any_of(begin, contacts.end() - 1, is_same)) contacts.pop_back();
+      };
+      const auto push_at = [&](const Vector3& at) {
+        push({at, field.gradient(at)});
+        if (is_thorough) push({at, slope_at(field, at, 0.01 * q_.voxel_size)});
+      };
+      push_at(p);
       for (const double radius : {3.0 * q_.margin, around}) {
         if (radius > around) continue;
-        for (const Vector3& to_place : directions_to(places == Around::kDiagonals)) {
-          push_contact(points, H_WS, i, p, p + radius * to_place, reach, contacts);
-          for (std::size_t k = first; k + 1 < contacts.size(); ++k) {
-            if ((contacts[k].normal_W - contacts.back().normal_W).norm() > 1e-6) continue;
-            contacts.pop_back();  // the same plane
-            break;
-          }
-        }
+        for (const Vector3& to_place : directions_to(is_thorough)) push_at(p + radius * to_place);
       }
     }
   }

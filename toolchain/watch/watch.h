@@ -114,7 +114,12 @@ class Watch {
   void check_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1);
   bool is_at_device(const WatchedCycle& cycle) const;
   double smallest_at(const Pose& H_WS);
-  void push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Vector3& at,
+  /// A plane of a field, through `at`.
+  struct Plane {
+    Vector3 at;
+    Vector3 gradient;
+  };
+  void push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Plane& plane,
                     double reach, std::vector<Contact>& contacts) const;
   /// The places around a point whose planes count: along the axes, or also between them.
   enum class Around { kAxes, kDiagonals };
