@@ -369,7 +369,7 @@ class Walk:
             self.call(cursor, text, spelled)
 
     def loses_sign(self, cursor):
-        """Whether only the length of the expression is used, so that its operands may be swapped."""
+        """Tells whether only the length of the expression is used: then its operands may be swapped."""
         start, end = self.range(cursor)
         before, after = self.text[max(0, start - 5):start], self.text[end:end + 20]
         if re.match(r'\.(norm|squaredNorm)\(\)', after):

@@ -324,8 +324,8 @@ class CompiledRig final : public Rig {
   watch::WatchedSession watched() const override {
     const SceneView& scene = image_->scene;
     watch::WatchedSession watched;
-    // the compiler compares the field's values on the mesh: where the field is flat, beside a ridge over a valley, its
-    // zero level was 1.8 times as deep
+    // The compiler holds the field's values on the mesh to the tolerance. Where the field is flat, its zero level lies
+    // up to 1.8 times as deep.
     double accuracy = 2.0 * kFieldTolerance * setup_.voxel * setup_.scale;
     if (is_ball_) accuracy += kBallFacets * ball_radius(setup_);
     watched.directions.push_back({.field = &*still_,
