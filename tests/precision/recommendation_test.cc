@@ -83,6 +83,7 @@ TEST(Recommendation, ListsRefusedImagesAndChoosesAmongTheOthers) {
     EXPECT_NE(words.find("refused: " + name(images[refused]) + ": " + found.refused[0].reason), std::string::npos)
         << words;
     EXPECT_EQ(json(found, 10'000.0)["refused"][0]["points"], images[refused].points);
+    EXPECT_EQ(json(found, 10'000.0)["refused"][0]["reason"], found.refused[0].reason);
   }
   EXPECT_FALSE(json(all, 10'000.0).contains("refused"));
 }

@@ -131,6 +131,20 @@ TEST_F(ReplayOfCrossingEdges, MeasuresTheOverlapThatNoPointSees) {
       << verdict_text(report_);
 }
 
+/// The watch looks at every cycle with code of its own: it finds nothing, until the mesh is another than the one that was
+/// compiled.
+TEST_F(ReplayOfCrossingEdges, IsJudgedByTheWatch) {
+  compile(true);
+  write_path(0.7);
+  ASSERT_EQ(run("--watch scene.toml"), 0) << output_;
+  EXPECT_NE(output_.find("watch: 400 cycles, "), std::string::npos) << output_;
+  EXPECT_NE(output_.find(" 0 of "), std::string::npos) << output_;
+  EXPECT_NE(output_.find("points deeper in the mesh than the field's accuracy: 0 of "), std::string::npos) << output_;
+  write("cube.obj", test::obj_text(test::box_mesh(Vector3::Constant(1.05 * kEdge))));
+  EXPECT_EQ(run("--watch scene.toml"), 70) << output_;
+  EXPECT_NE(output_.find("points deeper in the mesh than the field's accuracy"), std::string::npos) << output_;
+}
+
 /// Whatever the angle of the edges, the meshes stay apart, but the contact is felt.
 TEST_F(ReplayOfCrossingEdges, KeepsEdgesApart) {
   compile(true);
@@ -162,6 +176,7 @@ TEST_F(ReplayOfCrossingEdges, RefusesTheMeshesOfAnotherScene) {
       std::string::npos)
       << output_;
   EXPECT_EQ(run("--meshes absent.toml"), 66) << output_;
+  EXPECT_EQ(run("--watch other.toml"), 78) << output_;
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // Sessions in worlds from the scene compiler, with the watch on every cycle: one of each kind of mesh, both directions.
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/folder_test.h"
+#include "toolchain/report/extremes/compiled_world.h"
 #include "toolchain/report/extremes/run.h"
 
 namespace godobject::watch {
@@ -55,6 +57,31 @@ TEST_F(CompiledSessions, HoldEveryPropertyAndJudgeEach) {
   for (std::size_t i = 0; i < kPropertyCount; ++i) {
     const auto property = static_cast<Property>(i);
     EXPECT_GT(all[property].judged, 0) << describe(property);
+  }
+}
+
+/// A case file brings back a later session of a world, though it compiles the world again.
+TEST_F(CompiledSessions, LaterOnesComeBackFromTheirCaseFiles) {
+  std::mt19937 random(4);
+  const report::Setup first = session_in("mesh-turned", false, random);
+  const auto world = std::make_shared<const report::CompiledWorld>(first, folder_);
+  std::int64_t touching = 0;
+  for (int i = 0; i < 3; ++i) {
+    report::Setup setup = any_session_in(first, random);
+    setup.cycles = 400;
+    const auto rig = make_rig_in(world, setup);
+    const Findings found = run_setup(setup, *rig);
+    EXPECT_EQ(found.violations(), 0) << case_file(setup, found.first());
+    const report::Setup read = report::read_case(case_file(setup, ""));
+    const auto again = make_rig(read, folder_);
+    const Findings repeated = run_setup(read, *again);
+    EXPECT_EQ(repeated.touching, found.touching);
+    for (std::size_t k = 0; k < kPropertyCount; ++k) {
+      EXPECT_EQ(repeated.tallies[k].judged, found.tallies[k].judged);
+      EXPECT_EQ(repeated.tallies[k].worst, found.tallies[k].worst) << describe(static_cast<Property>(k));
+    }
+    EXPECT_NE(found.touching, touching) << "another motion";
+    touching = found.touching;
   }
 }
 

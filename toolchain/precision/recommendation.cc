@@ -252,7 +252,11 @@ nlohmann::ordered_json json(const Recommendation& recommendation, double budget_
   nlohmann::ordered_json all{{"budget_ns", budget_ns}, {"chosen", nullptr}, {"tried", nlohmann::ordered_json::array()}};
   if (recommendation.chosen) all["chosen"] = json(recommendation.tried[*recommendation.chosen]);
   for (const Result& result : recommendation.tried) all["tried"].push_back(json(result));
-  for (const RefusedImage& image : recommendation.refused) all["refused"].push_back(json(image.setting));
+  for (const RefusedImage& image : recommendation.refused) {
+    nlohmann::ordered_json refused = json(image.setting);
+    refused["reason"] = image.reason;
+    all["refused"].push_back(std::move(refused));
+  }
   return all;
 }
 

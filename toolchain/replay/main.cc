@@ -18,6 +18,7 @@
 #include "toolchain/files/stiffness.h"
 #include "toolchain/precision/mesh_overlap.h"
 #include "toolchain/replay/replay.h"
+#include "toolchain/replay/replay_watch.h"
 #include "toolchain/scene_compiler/image_meshes.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
@@ -28,6 +29,7 @@ using godobject::Vector3;
 using godobject::command::ExitCode;
 using godobject::command::Failure;
 using godobject::precision::MeshOverlap;
+using godobject::replay::ReplayWatch;
 using godobject::scene_compiler::SceneConfig;
 
 const char* const kFooter = R"(Examples:
@@ -35,6 +37,7 @@ const char* const kFooter = R"(Examples:
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o paper.csv --solver paper --friction off
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o soft.csv --stiffness 500
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o exact.csv --meshes bunny_teapot.toml
+  godobject-replay bunny_teapot.scene bunny_teapot.csv -o seen.csv --watch bunny_teapot.toml
 
 Solvers: contact, the least-constraint motion over all contact points, in sub-steps that never let a point cross a
 surface; corrected, one projection from one wrench for all contacts; paper, the published heuristic, for comparison.
@@ -63,18 +66,24 @@ Where no sample point is inside, edges and faces between the points may still ov
 report says. With --meshes the column mesh_overlap follows: the largest depth [m] of any point of either mesh, on its
 faces and edges too, in the other one, within a thousandth of a voxel or a hundredth; 0 if they do not overlap. That
 takes some milliseconds for each cycle near contact.
+With --watch every cycle is judged by properties that any correct solver has, by code that shares nothing with the
+solver: no chord of any point meets the stored surface or the meshes, forces are pushes at touching points, the god
+object is as near to the device as another method comes, and others. Lines that begin with "watch:" tell how often each
+was judged and violated. That takes seconds for a thousand cycles.
 Forces are neither limited nor smoothed here; the controller that drives the device does that.
 The last line printed counts the cycles with these four, and with contact the cycles whose friction did not converge to
 Coulomb's law within the tolerance; their gaps hold all the same.
 
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is complete then), 66 an input is
-missing or cannot be read, 74 cannot write, 77 no permission to write, 78 --friction on for a scene without friction,
---meshes with a bad scene file or that of another scene, or a scene that needs a part that this build leaves out.)";
+missing or cannot be read, 70 --watch found a violation (OUT.csv is complete then), 74 cannot write, 77 no permission to
+write, 78 --friction on for a scene without friction, --meshes or --watch with a bad scene file or that of another
+scene, or a scene that needs a part that this build leaves out.)";
 
 struct Options {
   std::string scene, poses, output;
   std::string solver, friction;  ///< empty: the scene's
   std::string meshes;            ///< scene file; empty: the overlap is not measured
+  std::string watch;             ///< scene file; empty: the cycles are not judged
   std::optional<double> stiffness;
 };
 
@@ -93,14 +102,23 @@ std::string overlap_text(const Options& options, const godobject::replay::Summar
   return fmt::format(", the meshes overlap by up to {:.4f} mm, at {:.3f} s", 1e3 * summary.overlap, summary.overlap_at);
 }
 
-/// Returns the meshes of the options, if they are those of the image.
-std::optional<MeshOverlap> mesh_overlap(const Options& options, const godobject::SceneView& scene) {
-  if (options.meshes.empty()) return {};
-  const SceneConfig config = godobject::scene_compiler::read_scene_config(options.meshes);
+/// Returns a scene file, if its meshes are those of the image.
+SceneConfig scene_file_of(const Options& options, const std::string& file, const godobject::SceneView& scene) {
+  SceneConfig config = godobject::scene_compiler::read_scene_config(file);
   const std::string difference = godobject::scene_compiler::difference_of_meshes(scene, config);
-  if (difference.empty()) return std::optional<MeshOverlap>(std::in_place, config);
+  if (difference.empty()) return config;
   throw Failure(ExitCode::kBadConfig, fmt::format("{}: is not the scene file of {}: {}; name the one that was compiled",
-                                                  options.meshes, options.scene, difference));
+                                                  file, options.scene, difference));
+}
+
+/// Prints what the watch found. Throws Failure (kInternal) if a property is violated.
+void tell_findings(const Options& options, const godobject::watch::Findings& findings) {
+  fmt::print("{}", godobject::replay::findings_text(findings));
+  if (findings.violations() == 0) return;
+  throw Failure(ExitCode::kInternal,
+                fmt::format("{}: the watch found {} violations along {}, the first: {}; the solver or the scene image "
+                            "is at fault: report it with both files",
+                            options.scene, findings.violations(), options.poses, findings.first()));
 }
 
 /// Returns the number of cycles with each outcome that limits the motion.
@@ -182,7 +200,10 @@ void replay_file(const Options& options) {
   if (options.stiffness) image.scene.settings.stiffness = checked_stiffness(*options.stiffness);
   const godobject::SceneView& scene = image.scene;
   const Pipeline pipeline = pipeline_of(options, scene);
-  const std::optional<MeshOverlap> meshes = mesh_overlap(options, scene);
+  std::optional<MeshOverlap> meshes;
+  if (!options.meshes.empty()) meshes.emplace(scene_file_of(options, options.meshes, scene));
+  std::optional<ReplayWatch> watch;
+  if (!options.watch.empty()) watch.emplace(image, scene_file_of(options, options.watch, scene));
   const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses);
   fmt::print(stderr, "{}", far_path_note(options.poses, path, scene));
   godobject::files::AtomicFile out(options.output);
@@ -191,7 +212,8 @@ void replay_file(const Options& options) {
     godobject::command::Progress progress;
     godobject::replay::Outputs outputs{.write_row = [&](const std::string& row) { out.write(row); },
                                        .progress = [&](double share) { progress.show("replay", share); },
-                                       .overlap = {}};
+                                       .overlap = {},
+                                       .watch = watch ? &*watch : nullptr};
     if (meshes) outputs.overlap = [&](const godobject::Pose& H_WM) { return meshes->depth(H_WM); };
     summary = godobject::replay::replay(scene, pipeline.solver, pipeline.friction, path, outputs);
   }
@@ -200,6 +222,7 @@ void replay_file(const Options& options) {
   fmt::print("{}: {} cycles, {}{}, peak force {:.2f} N; {}; floating-point exceptions:{}\n", options.output,
              summary.cycles, point_text(summary.deepest, scene.voxelmap.band()), overlap_text(options, summary),
              summary.peak_force, outcomes_text(summary, contact_friction), float_exceptions(summary.float_exceptions));
+  if (watch) tell_findings(options, watch->findings());
   if (summary.bad_rows == 0) return;
   throw Failure(ExitCode::kBadData,
                 fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), the first of {} such rows, "
@@ -226,6 +249,9 @@ int main(int argc, char** argv) {
   app.add_option("--stiffness", options.stiffness, "k_D [N/m], 1e-6 to 1e8; default: the scene's coupling.stiffness")
       ->type_name("NUMBER");
   app.add_option("--meshes", options.meshes, "scene file of X.scene: also measure how deep its meshes overlap")
+      ->type_name("SCENE.toml");
+  app.add_option("--watch", options.watch,
+                 "scene file of X.scene: also judge every cycle by properties that any correct solver has")
       ->type_name("SCENE.toml");
   return godobject::command::run(app, argc, argv, [&] { replay_file(options); });
 }

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cfenv>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/pipeline/penalty/penalty_contacts.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/replay/replay_watch.h"
 #include "toolchain/session/owned_god_object.h"
 #include "toolchain/timing/stopwatch.h"
 
@@ -27,6 +29,16 @@ void append(std::string& row, const Pose& pose) {
   fmt::format_to(std::back_inserter(row), ",{},{},{},{}", q.w(), q.x(), q.y(), q.z());
 }
 
+/// Tells whether the controller must accept a pose, as GodObject::update promises.
+bool is_pose(const Pose& H_WM) {
+  constexpr double kUnit = 1e-3;
+  constexpr double kFarthest = 1e7;  // [m]
+  return H_WM.is_finite() && std::abs(H_WM.rotation.norm() - 1.0) < kUnit &&
+         H_WM.translation.cwiseAbs().maxCoeff() <= kFarthest;
+}
+
+Pose body_pose(const Pose& H_WM, const Pose& H_MB) { return Pose{H_WM.rotation.normalized(), H_WM.translation} * H_MB; }
+
 }  // namespace
 
 const char* const kColumns =
@@ -45,6 +57,7 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
                   "the scene image was compiled without this solver or without friction; compile it without "
                   "--only-solver, or with a [friction] table");
   }
+  if (outputs.watch != nullptr) outputs.watch->start({solver, friction, god_object.parameters()});
   Summary summary;
   std::string row = kColumns;
   if (outputs.overlap) row += std::string(",") + kOverlapColumn;
@@ -56,6 +69,15 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
     const Status status = god_object->update({path.poses[i], Motion{}}, report, &times);
     summary.float_exceptions |= std::fetestexcept(kWatched);
 
+    if (outputs.watch != nullptr) {
+      const Pose& H_WM = path.poses[i];
+      outputs.watch->cycle({.H_WD = is_pose(H_WM) ? body_pose(H_WM, scene.H_MB) : H_WM,
+                            .velocity_W = {},
+                            .is_valid = is_pose(H_WM),
+                            .status = status,
+                            .report = report,
+                            .path = god_object->session()->path().poses()});
+    }
     ++summary.cycles;
     ++summary.by_outcome[static_cast<std::size_t>(report.outcome)];
     if (status != Status::kOk && summary.bad_rows++ == 0) summary.first_bad_line = path.lines[i];

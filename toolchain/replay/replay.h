@@ -12,6 +12,8 @@
 
 namespace godobject::replay {
 
+class ReplayWatch;
+
 /// The summary of a replay, beside its rows.
 struct Summary {
   std::size_t cycles = 0;
@@ -42,6 +44,7 @@ struct Outputs {
   std::function<void(double)> progress;               ///< 0 .. 1
   /// Returns the depth at which the meshes overlap at a pose of the moving mesh's frame [m]; may be empty.
   std::function<double(const Pose&)> overlap;
+  ReplayWatch* watch = nullptr;  ///< judges every cycle; may be null
 };
 
 /// Runs the god object along the path, one cycle for each pose. Everything except the two timing columns depends on the

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <random>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,8 @@
 #include "toolchain/files/work_folder.h"
 #include "toolchain/report/extremes/bad_input.h"
 #include "toolchain/report/extremes/bounds.h"
+#include "toolchain/report/extremes/compiled_world.h"
+#include "toolchain/report/extremes/rig.h"
 #include "toolchain/report/extremes/rows.h"
 #include "toolchain/report/extremes/run.h"
 #include "toolchain/report/extremes/setup.h"
@@ -71,23 +75,69 @@ class Tally {
   Sheet sheet_;
 };
 
-/// One compiled world in a stretch of `cycles`, because compiling takes as long as many runs.
+/// Draws the sessions of a stretch: half of the cycles in compiled worlds, if there are any. Compiling takes as long as
+/// ten thousand cycles, so a world holds many sessions.
+class Sessions {
+ public:
+  Sessions(std::string row, bool meshes, std::uint32_t seed, std::filesystem::path work)
+      : row_(std::move(row)), meshes_(meshes), random_(seed), work_(std::move(work)) {}
+
+  /// Returns the next session; `cycles` of the stretch are left. Its world stays until the next call.
+  Setup next(std::int64_t cycles) {
+    Setup setup;
+    if (meshes_ && compiled_ <= analytic_) {
+      setup = next_compiled();
+      setup.cycles = static_cast<int>(std::clamp<std::int64_t>(cycles / 2, 500, kCompiledSession));
+      compiled_ += setup.cycles;
+    } else {
+      setup = any();
+      if (setup.world == "compiled") setup.world = "heap";
+      world_is_next_ = false;
+      setup.cycles = static_cast<int>(std::min<std::int64_t>(setup.cycles, cycles));
+      analytic_ += setup.cycles;
+    }
+    return setup;
+  }
+
+  std::unique_ptr<Rig> rig(const Setup& setup) const {
+    return world_is_next_ ? make_rig_in(world_, setup) : make_rig(setup, work_);
+  }
+
+ private:
+  static constexpr int kCompiledSession = 2'500;  // cycles
+  static constexpr std::int64_t kCyclesOfAWorld = 100'000;
+
+  Setup any() { return row_ == "fuzzer" ? any_setup(random_) : setup_of(row_, random_); }
+
+  Setup next_compiled() {
+    world_is_next_ = true;
+    if (world_ != nullptr && compiled_ < world_until_) return any_session_in(of_world_, random_);
+    of_world_ = any();
+    choose_mesh(of_world_);
+    world_ = std::make_shared<const CompiledWorld>(of_world_, work_);
+    world_until_ = compiled_ + kCyclesOfAWorld;
+    return of_world_;
+  }
+
+  std::string row_;
+  bool meshes_;
+  std::mt19937 random_;
+  std::filesystem::path work_;
+  Setup of_world_;
+  std::shared_ptr<const CompiledWorld> world_;
+  bool world_is_next_ = false;
+  std::int64_t world_until_ = 0;  // cycles in compiled worlds
+  std::int64_t compiled_ = 0;     // cycles drawn so far
+  std::int64_t analytic_ = 0;
+};
+
 CaseResult run_row(const std::string& row, std::int64_t cycles, std::uint32_t seed, bool meshes,
                    const ExtremesFault& fault, const std::filesystem::path& work) {
-  std::mt19937 random(seed);
+  Sessions sessions(row, meshes, seed, work);
   Tally tally(row);
-  bool compiled = !meshes;
   while (tally.cycles() < cycles) {
-    Setup setup = row == "fuzzer" ? any_setup(random) : setup_of(row, random);
-    setup.cycles = static_cast<int>(std::min<std::int64_t>(setup.cycles, cycles));
-    if (!compiled) {
-      choose_mesh(setup);
-      setup.cycles = static_cast<int>(std::min<std::int64_t>(20'000, std::max<std::int64_t>(cycles / 2, 500)));
-      compiled = true;
-    } else if (setup.world == "compiled") {
-      setup.world = "heap";
-    }
-    const auto rig = make_rig(setup, work);
+    const Setup setup = sessions.next(cycles - tally.cycles());
+    const auto rig = sessions.rig(setup);
     watch::Findings found = run_setup(setup, *rig);
     if (fault.violated) {
       ++found[*fault.violated].violated;

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "core/pipeline/cycle/workspace_limit.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
 #include "core/pipeline/session.h"
 #include "toolchain/report/analytic/sampled_body.h"
 #include "toolchain/report/analytic/solid.h"
-#include "toolchain/report/contact_quality/compiled_scene.h"
-#include "toolchain/report/contact_quality/meshes.h"
+#include "toolchain/report/extremes/compiled_world.h"
 #include "toolchain/report/extremes/draw.h"
 #include "toolchain/session/owned_god_object.h"
-#include "toolchain/watch/mesh_surface.h"
-#include "toolchain/watch/stored_field.h"
+#include "toolchain/watch/oracle.h"
 
 namespace godobject::report {
 namespace {
@@ -67,16 +63,6 @@ Solid solid_of(const Setup& setup) {
     }
   }
   return Solid(heap);
-}
-
-/// Returns the half edges of bodies that are boxes, or degenerate boxes.
-Vector3 half_edges(const Setup& setup) {
-  const double s = setup.scale * setup.body_scale;
-  if (setup.body == "needle") return s * Vector3(1.0, 0.001, 0.001);
-  if (setup.body == "flat") return s * Vector3(0.8, 0.6, 0.0);
-  if (setup.body == "line") return s * Vector3(1.0, 0.0, 0.0);
-  if (setup.body == "point") return Vector3::Zero();
-  return s * Vector3(0.8, 0.5, 0.3);
 }
 
 /// An ell: two boxes with a common edge, about the middle of their corner; a concave body.
@@ -151,9 +137,9 @@ Parameters parameters_of(const Setup& setup, const MassModel& mass) {
 
 double rounding_of(const Setup& setup) { return 1e-12 * setup.scale * (1.0 + setup.far); }
 
-std::vector<Vector3> points_of(const Pointshell& shell, const Vector3& origin = Vector3::Zero()) {
+std::vector<Vector3> points_of(const Pointshell& shell) {
   std::vector<Vector3> points;
-  for (std::size_t i = 0; i < shell.size; ++i) points.push_back(shell.point(i) + origin);
+  for (std::size_t i = 0; i < shell.size; ++i) points.push_back(shell.point(i));
   return points;
 }
 
@@ -238,75 +224,22 @@ class AnalyticRig final : public Rig {
   std::unique_ptr<RigSession> session_ = std::make_unique<RigSession>();
 };
 
-double ball_radius(const Setup& setup) { return 0.9 * setup.scale * setup.body_scale; }
-
-TriangleMesh body_mesh_of(const Setup& setup) {
-  const double s = setup.scale * setup.body_scale;
-  if (setup.body == "ball") return ball_mesh(ball_radius(setup), 8);
-  if (setup.body == "center") return ball_mesh(ball_radius(setup), 24);
-  if (setup.body == "ell") {
-    return cell_solid({{{-0.4 * s, 0.1 * s, 0.8 * s}, {-0.4 * s, 0.1 * s, 0.8 * s}, {-0.25 * s, 0.25 * s}}},
-                      [](int i, int j, int) { return i == 0 || j == 0; });
-  }
-  const Vector3 half = half_edges(setup);
-  return box_mesh(-half, half);
-}
-
-TriangleMesh mesh_of(const Setup& setup) {
-  const double s = setup.scale;
-  Draw draw(setup.seed + 2);
-  if (setup.world == "mesh-ball") return moved(ball_mesh(1.2 * s, 12), {Quaternion::Identity(), {0.0, 0.0, -1.2 * s}});
-  if (setup.world == "mesh-turned") {
-    const std::vector<TurnedCorner> profile = {{0.0, -2.0 * s},
-                                               {draw.between(0.8, 1.6) * s, -2.0 * s},
-                                               {draw.between(0.4, 0.8) * s, -draw.between(0.8, 1.4) * s},
-                                               {draw.between(0.8, 1.6) * s, -draw.between(0.1, 0.5) * s},
-                                               {0.0, 0.0}};
-    return turned_solid(profile, 24);
-  }
-  if (setup.world == "mesh-plate")
-    return box_mesh({-3.0 * s, -3.0 * s, -2.0 * setup.voxel * s}, {3.0 * s, 3.0 * s, 0.0});
-  if (setup.world == "mesh-shell") return sheet_mesh(3.0 * s);
-  if (setup.world == "mesh-cavity") {
-    const Vector3 in = half_size_of_body(setup) + Vector3::Constant(std::max(0.02, setup.width - 1.0) * s);
-    const Vector3 out = in + Vector3::Constant(0.6 * s);
-    return cell_solid({{{-out.x(), -in.x(), in.x(), out.x()},
-                        {-out.y(), -in.y(), in.y(), out.y()},
-                        {-in.z() - out.z(), -2.0 * in.z(), 0.0}}},
-                      [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; });
-  }
-  return box_mesh({-1.6 * s, -1.4 * s, -1.2 * s}, {1.6 * s, 1.4 * s, 0.0});
-}
-
-watch::MeshSurface surface_of(const TriangleMesh& mesh, const Pose& H) {
-  std::vector<Vector3> vertices;
-  for (const Vector3& v : mesh.vertices) vertices.push_back(H * v);
-  return {std::move(vertices), mesh.triangles};
-}
-
-/// A world from the scene compiler with the whole pipeline and both directions.
+/// A session in a world from the scene compiler with the whole pipeline and both directions.
 class CompiledRig final : public Rig {
  public:
-  CompiledRig(const Setup& setup, const std::filesystem::path& work)
-      : setup_(setup),
-        is_ball_(setup.body == "center"),
-        is_shell_(setup.world == "mesh-shell"),
-        still_mesh_(moved(mesh_of(setup), placement(setup))),
-        body_mesh_(body_mesh_of(setup)),
-        image_(compile(setup, work)) {
-    SceneView& scene = image_->scene;
+  CompiledRig(const Setup& setup, std::shared_ptr<const CompiledWorld> world)
+      : setup_(setup), world_(std::move(world)), H_BM_(world_->scene().H_MB.inverse()) {
+    SceneView scene = world_->scene();
     format::Settings& settings = scene.settings;
+    settings.stiffness = setup.stiffness;
     settings.damping = setup.damping;
+    settings.coupling_rotation = setup.coupling_rotation * setup.scale * setup.scale;
+    settings.friction_static = setup.friction_static;
+    settings.friction_kinetic = setup.friction_kinetic;
     settings.friction_viscous = setup.friction_viscous;
     settings.point_budget = static_cast<std::uint32_t>(setup.point_budget);
     scene.workspace = workspace_of(setup);
-    H_BM_ = scene.H_MB.inverse();
     started_ = god_object_.start(scene, setup.solver, setup.friction, setup.remembers);
-    still_.emplace(image_->bytes.span(), watch::kStillField);
-    if (scene.has_features()) body_.emplace(image_->bytes.span(), watch::kBodyField);
-    const double grown_by = is_ball_ ? ball_radius(setup) : is_shell_ ? setup.voxel * setup.scale : 0.0;
-    still_surface_.emplace(surface_of(still_mesh_, {}), grown_by, is_shell_);
-    body_surface_.emplace(surface_of(body_mesh_, H_BM_));
   }
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {
@@ -322,78 +255,29 @@ class CompiledRig final : public Rig {
   std::span<const Pose> path() const override { return god_object_->session()->path().poses(); }
 
   watch::WatchedSession watched() const override {
-    const SceneView& scene = image_->scene;
-    watch::WatchedSession watched;
-    // The compiler holds the field's values on the mesh to the tolerance. Where the field is flat, its zero level lies
-    // up to 1.8 times as deep.
-    double accuracy = 2.0 * kFieldTolerance * setup_.voxel * setup_.scale;
-    if (is_ball_) accuracy += kBallFacets * ball_radius(setup_);
-    watched.directions.push_back({.field = &*still_,
-                                  .points = points_of(scene.pointshell),
-                                  .points_move = true,
-                                  .mesh = &*still_surface_,
-                                  .mesh_accuracy = accuracy});
-    if (body_) {
-      watched.directions.push_back({.field = &*body_,
-                                    .points = points_of(scene.features, scene.features_origin),
-                                    .points_move = false,
-                                    .mesh = &*body_surface_,
-                                    .mesh_accuracy = accuracy + slack_});
-    }
-    watched.moving_edges = watch::watched_edges(scene.body_edges);
-    watched.still_edges = watch::watched_edges(scene.edges);
-    watched.parameters = god_object_.parameters();
-    watched.solver = setup_.solver;
-    watched.friction = setup_.friction;
-    watched.renders_ball = is_ball_ && setup_.solver == Solver::kContact && !setup_.friction;
     // H_MB and its inverse; points and the grid's origin in single precision
-    watched.rounding = 1e-7 * setup_.scale * (setup_.voxel + setup_.far);
-    return watched;
+    const double rounding = 1e-7 * setup_.scale * (setup_.voxel + setup_.far);
+    return world_->watched({setup_.solver, setup_.friction, god_object_.parameters()}, rounding);
   }
 
  private:
-  static constexpr double kFieldTolerance = 0.05;  // default of the scene file [voxels]
-  static constexpr double kBallFacets = 0.0043;    // derived: 1 - cos^2(3.75 degrees), the depth of the facets' middles
-
-  std::unique_ptr<files::SceneImage> compile(const Setup& setup, const std::filesystem::path& work) {
-    const std::filesystem::path file = work / "body.ply";
-    write_ply(body_mesh_, file);
-    const auto report =
-        compile_image("fuzz",
-                      {.still = {.mesh = still_mesh_, .shell = is_shell_},
-                       .body = file,
-                       .ball = is_ball_,
-                       .points = static_cast<std::uint32_t>(std::max(setup.points, 20)),
-                       .edges = true,
-                       .settings = {.voxel_size = setup.voxel * setup.scale,
-                                    .safety_distance = setup.safety_distance(),
-                                    .margin = setup.margin(),
-                                    .stiffness = setup.stiffness,
-                                    .coupling_rotation = setup.coupling_rotation * setup.scale * setup.scale,
-                                    .friction_static = setup.friction_static,
-                                    .friction_kinetic = setup.friction_kinetic}},
-                      work);
-    slack_ = report.second.slack;
-    return std::make_unique<files::SceneImage>(files::SceneImage::read(work / "fuzz.scene"));
-  }
-
   Setup setup_;
-  bool is_ball_;
-  bool is_shell_;
-  TriangleMesh still_mesh_;
-  TriangleMesh body_mesh_;
-  double slack_ = 0.0;
-  std::unique_ptr<files::SceneImage> image_;
-  std::optional<watch::StoredField> still_;
-  std::optional<watch::StoredField> body_;
-  std::optional<watch::GrownSurface> still_surface_;
-  std::optional<watch::MeshSurface> body_surface_;
-  OwnedGodObject god_object_;
+  std::shared_ptr<const CompiledWorld> world_;
   Pose H_BM_;
+  OwnedGodObject god_object_;
   Status started_ = Status::kOk;
 };
 
 }  // namespace
+
+Vector3 half_edges(const Setup& setup) {
+  const double s = setup.scale * setup.body_scale;
+  if (setup.body == "needle") return s * Vector3(1.0, 0.001, 0.001);
+  if (setup.body == "flat") return s * Vector3(0.8, 0.6, 0.0);
+  if (setup.body == "line") return s * Vector3(1.0, 0.0, 0.0);
+  if (setup.body == "point") return Vector3::Zero();
+  return s * Vector3(0.8, 0.5, 0.3);
+}
 
 Pose placement(const Setup& setup) {
   Pose H_WO;
@@ -411,17 +295,15 @@ Vector3 inner_place(const Setup& setup) {
   return draw.in_cube(1.5 * setup.scale) - Vector3(0.0, 0.0, 1.5 * setup.scale);
 }
 
-Vector3 half_size_of_body(const Setup& setup) {
-  Vector3 half = Vector3::Zero();
-  for (const Vector3& v : body_mesh_of(setup).vertices) half = half.cwiseMax(v.cwiseAbs());
-  return half;
-}
-
 bool is_compiled(const Setup& setup) { return setup.world.starts_with("mesh"); }
 
 std::unique_ptr<Rig> make_rig(const Setup& setup, const std::filesystem::path& work) {
-  if (is_compiled(setup)) return std::make_unique<CompiledRig>(setup, work);
+  if (is_compiled(setup)) return make_rig_in(std::make_shared<const CompiledWorld>(setup, work), setup);
   return std::make_unique<AnalyticRig>(setup);
+}
+
+std::unique_ptr<Rig> make_rig_in(std::shared_ptr<const CompiledWorld> world, const Setup& setup) {
+  return std::make_unique<CompiledRig>(setup, std::move(world));
 }
 
 }  // namespace godobject::report

@@ -22,7 +22,16 @@ class Rig {
   virtual watch::WatchedSession watched() const = 0;
 };
 
+class CompiledWorld;
+
+/// Returns a solver at its start in the world of the setup.
 std::unique_ptr<Rig> make_rig(const Setup& setup, const std::filesystem::path& work);
+
+/// Returns one in a world that is compiled already.
+std::unique_ptr<Rig> make_rig_in(std::shared_ptr<const CompiledWorld> world, const Setup& setup);
+
+/// Returns half the edges of a moving body that is a box, or a degenerate box [m].
+Vector3 half_edges(const Setup& setup);
 
 /// Returns half the edges of the box about the origin that holds the moving body of a compiled world [m].
 Vector3 half_size_of_body(const Setup& setup);

@@ -36,7 +36,7 @@ Motion velocity_between(const Pose& before, const Pose& now, double period) {
 }  // namespace
 
 std::vector<Pose> device_path(const Setup& setup) {
-  Draw draw(setup.seed);
+  Draw draw(setup.seed + setup.session);
   const double s = setup.scale;
   const Vector3 axis = draw.direction();
   const Vector3 way = draw.direction();

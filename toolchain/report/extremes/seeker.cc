@@ -17,7 +17,7 @@ double spread(Draw& draw, double low, double high) { return low * std::pow(high 
 
 }  // namespace
 
-Seeker::Seeker(const Setup& setup) : setup_(setup), draw_(setup.seed) {
+Seeker::Seeker(const Setup& setup) : setup_(setup), draw_(setup.seed + setup.session) {
   const Pose H_WO = placement(setup);
   const double s = setup.scale;
   Pose H_OD;

@@ -108,6 +108,18 @@ Setup setup_of(const std::string& row, std::mt19937& random) {
   return setup;
 }
 
+namespace {
+
+/// Keeps what a session chooses within what compiled worlds take; `seed` decides whether it may begin inside.
+void fit_session(Setup& setup, std::uint32_t seed) {
+  if (setup.body == "center" && setup.solver == format::Solver::kPaper) setup.solver = format::Solver::kContact;
+  if (seed / 64 % 8 != 0) setup.start = std::max(setup.start, 2.0);
+  setup.period = 1e-3;
+  setup.bad_every = 17;
+}
+
+}  // namespace
+
 void choose_mesh(Setup& setup) {
   constexpr const char* kMeshes[] = {"mesh-box", "mesh-ball", "mesh-plate", "mesh-turned", "mesh-cavity", "mesh-shell"};
   constexpr std::size_t kConvex = 3;  // of these: only they take a ball that is rendered by its centre
@@ -119,10 +131,25 @@ void choose_mesh(Setup& setup) {
   if (setup.body == "center" && !takes_center) setup.body = "ball";
   setup.voxel = std::max(setup.voxel, 0.1);
   setup.points = std::clamp(setup.points, 60, 200);
-  if (setup.seed / 64 % 8 != 0) setup.start = std::max(setup.start, 2.0);
   setup.far = std::min(setup.far, 10.0);  // an image has coordinates in single precision
-  setup.period = 1e-3;
-  setup.bad_every = 17;
+  fit_session(setup, setup.seed);
+}
+
+Setup any_session_in(const Setup& world, std::mt19937& random) {
+  Setup session = any_setup(random);
+  session.session = session.seed;
+  session.row = world.row;
+  session.world = world.world;
+  session.body = world.body;
+  session.seed = world.seed;
+  session.scale = world.scale;
+  session.far = world.far;
+  session.width = world.width;
+  session.voxel = world.voxel;
+  session.points = world.points;
+  session.body_scale = world.body_scale;
+  fit_session(session, session.session);
+  return session;
 }
 
 std::string case_file(const Setup& s, const std::string& found) {
@@ -157,7 +184,8 @@ std::string case_file(const Setup& s, const std::string& found) {
                                 {"period", s.period},
                                 {"point_budget", s.point_budget},
                                 {"remembers", s.remembers},
-                                {"returns", s.returns}}
+                                {"returns", s.returns},
+                                {"session", s.session}}
              .dump(1) +
          "\n";
 }
@@ -202,6 +230,7 @@ Setup read_case(const std::string& text) {
   s.point_budget = all.value("point_budget", 0);
   s.remembers = all.value("remembers", true);
   s.returns = all.value("returns", false);  // files of generator 2 lack it
+  s.session = all.value("session", 0u);     // files of generator 3 lack it
   return s;
 }
 

@@ -10,7 +10,7 @@
 namespace godobject::report {
 
 /// Number of the generator below; with another number a seed gives other setups.
-inline constexpr int kGenerator = 3;
+inline constexpr int kGenerator = 4;
 
 /// One run of a solver with all numbers, as in a case file. Lengths are multiples of `scale`.
 struct Setup {
@@ -44,6 +44,7 @@ struct Setup {
   double period = 1e-3;           ///< [s]
   int point_budget = 0;           ///< 0: none
   bool remembers = true;          ///< with the memory of the search
+  std::uint32_t session = 0;      ///< number of the motion; a compiled world holds many sessions
   bool returns = true;            ///< seek: leads back a device that has lost the still body, or is stuck inside
 
   double safety_distance() const { return 1.5 * voxel * scale; }
@@ -60,6 +61,9 @@ Setup setup_of(const std::string& row, std::mt19937& random);
 
 /// Chooses a world from the scene compiler for a setup, and a body for it.
 void choose_mesh(Setup& setup);
+
+/// Returns a random session in the compiled world of a setup.
+Setup any_session_in(const Setup& world, std::mt19937& random);
 
 /// Returns the case file of a setup as JSON; `found` is its violation.
 std::string case_file(const Setup& setup, const std::string& found);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/pipeline/cycle/parameters.h"
+#include "core/scene/scene_view.h"
+#include "toolchain/watch/stored_field.h"
+#include "toolchain/watch/watch.h"
+
+namespace godobject::watch {
+
+/// The exact surface of a body.
+struct ExactSurface {
+  const Oracle* mesh = nullptr;  ///< in the frame of its body; null: it is not known
+  double accuracy = 0.0;         ///< largest depth of the stored surface inside the mesh [m]
+};
+
+/// The choices of a session, beside its scene.
+struct SessionChoice {
+  Solver solver = Solver::kContact;
+  bool friction = false;
+  Parameters parameters = {};  ///< as the session has them
+};
+
+/// A compiled scene as the watch sees it: fields, points and edges of the image.
+class WatchedScene {
+ public:
+  /// `scene` is the view of `image`; both outlive this object. Throws std::runtime_error if the image lacks a field.
+  WatchedScene(std::span<const std::byte> image, const SceneView& scene);
+
+  /// Returns what the watch needs to know of a session. It refers to this object and to the surfaces' oracles.
+  /// `still` is in W, `moving` in the moving body's frame B. `rounding`: of coordinates [m].
+  WatchedSession session(const SessionChoice& choice, const ExactSurface& still, const ExactSurface& moving,
+                         double rounding) const;
+
+ private:
+  const SceneView& scene_;
+  StoredField still_;
+  std::optional<StoredField> moving_;  ///< of the second direction
+};
+
+}  // namespace godobject::watch
