@@ -18,10 +18,6 @@ using scene_compiler::SolidSurface;
 
 namespace {
 
-// The compiler holds the field's values on the mesh to the tolerance. Where the field is flat, its zero level lies up
-// to 1.8 times as deep.
-constexpr double kFlat = 2.0;
-
 /// A body of several components, open or overlapping, as the compiler understands it.
 class ManyComponents final : public watch::Oracle {
  public:
@@ -69,8 +65,8 @@ ReplayWatch::ReplayWatch(const files::SceneImage& image, const SceneConfig& conf
       scene_(image.bytes.span(), image.scene),
       still_(exact_surface(config.still, config.thickness, scene_compiler::ball_radius(image.scene), Pose{})),
       moving_(exact_surface(config.moving, config.thickness, 0.0, image.scene.H_MB)),
-      still_surface_{still_.get(), kFlat * config.surface_tolerance(config.voxel_size).inside},
-      moving_surface_{moving_.get(), kFlat * config.moving_tolerance().inside +
+      still_surface_{still_.get(), watch::kDepthBetween * config.surface_tolerance(config.voxel_size).inside},
+      moving_surface_{moving_.get(), watch::kDepthBetween * config.moving_tolerance().inside +
                                          std::min(config.moving_tolerance().outside, 0.5 * config.body_voxel_size)} {}
 
 void ReplayWatch::start(const watch::SessionChoice& choice) {

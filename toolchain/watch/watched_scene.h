@@ -11,6 +11,10 @@
 
 namespace godobject::watch {
 
+/// The depth of a stored surface inside its mesh, over the tolerance that the compiler holds at the points that it
+/// compares: between them it is a little larger.
+inline constexpr double kDepthBetween = 1.2;
+
 /// The exact surface of a body.
 struct ExactSurface {
   const Oracle* mesh = nullptr;  ///< in the frame of its body; null: it is not known

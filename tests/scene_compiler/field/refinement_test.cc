@@ -1,6 +1,7 @@
 #include "toolchain/scene_compiler/field/refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -266,6 +267,63 @@ TEST(Refinement, MakesRimsCornersAndFoldsOfASheetTrue) {
   }
 }
 
+/// A turned body with a waist. Between its bulges the stored field is flat.
+TriangleMesh waisted(const std::array<double, 3>& radius, const std::array<double, 3>& height, double top) {
+  constexpr std::uint32_t kAround = 24;
+  TriangleMesh mesh;
+  for (std::size_t k = 0; k < radius.size(); ++k) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kAround;
+      mesh.vertices.emplace_back(radius[k] * std::cos(angle), radius[k] * std::sin(angle), height[k]);
+    }
+  }
+  const auto low = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.emplace_back(0.0, 0.0, height[0]);
+  mesh.vertices.emplace_back(0.0, 0.0, top);
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const std::uint32_t next = (i + 1) % kAround;
+    mesh.triangles.push_back({low, next, i});
+    mesh.triangles.push_back({low + 1, 2 * kAround + i, 2 * kAround + next});
+    for (std::uint32_t k = 0; k < 2 * kAround; k += kAround) {
+      mesh.triangles.push_back({k + i, k + next, k + kAround + next});
+      mesh.triangles.push_back({k + i, k + kAround + next, k + kAround + i});
+    }
+  }
+  return mesh;
+}
+
+/// Where the field is flat, a small value on the mesh hides a zero level that lies deep.
+TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
+  std::mt19937_64 random(24);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double s = 0.002;
+  const double tolerance = kRefinedTolerance * s;
+  const auto between = [&](double low, double high) { return s * (low + (high - low) * unit(random)); };
+  for (int m = 0; m < 4; ++m) {
+    const TriangleMesh mesh = test::moved(
+        waisted({between(4, 8), between(2, 4), between(4, 8)}, {-10.0 * s, -between(4, 7), -between(0.5, 2.5)}, 0.0),
+        any_motion(random, s));
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
+    const RefinedField field(surface, s);
+    double deepest = 0.0;
+    for (int i = 0; i < 100'000; ++i) {
+      const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+      const Vector3d& a = mesh.vertices[t[0]];
+      const Vector3d along = mesh.vertices[t[1]] - a;
+      const Vector3d across = mesh.vertices[t[2]] - a;
+      const double u = unit(random);
+      const Vector3d p = a + u * along + (1.0 - u) * unit(random) * across;
+      const Vector3d inward = -along.cross(across).normalized();
+      for (double depth = 1.0; depth < 4.0; depth += 0.1) {
+        const Vector3d q = p + depth * tolerance * inward;
+        if (field.map.sample(q).distance <= 0.0) break;
+        deepest = std::max(deepest, -surface.signed_distance(q));
+      }
+    }
+    EXPECT_LE(deepest, 1.2 * tolerance);
+  }
+}
+
 /// Where bricks cannot be fine enough, the report names the worst place. No place on the surface is worse.
 TEST(Refinement, NamesTheWorstPlaceOfAToleranceThatIsOutOfReach) {
   std::mt19937_64 random(22);
@@ -323,6 +381,27 @@ TEST(Refinement, MakesTheFieldExactAlongStraightEdges) {
     }
   }
   EXPECT_GT(looked_at, 8000);
+}
+
+/// Along a crease the field rises gently where its exact stretch ends and interpolation begins. A step over a quarter
+/// of a voxel would hold a body that slides along the crease as friction does.
+TEST(Refinement, LeavesNoStepAtTheEndsOfStraightEdges) {
+  const double s = 0.002;
+  const TriangleMesh mesh = hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067});
+  const RefinedField field(SolidSurface(mesh, SurfaceKind::kSolid, 2.0 * s), s);
+  ASSERT_EQ(field.grid.edges.size(), 18u) << "those that are long enough, of both kinds";
+  for (const format::Edge& edge : field.grid.edges) {
+    const auto on_edge = [&edge](double t) -> Vector3d {
+      return Eigen::Map<const Vector3d>(edge.point) + t * Eigen::Map<const Vector3d>(edge.along);
+    };
+    const double step = 0.1 * edge.ramp;
+    double before = field.map.sample(on_edge(edge.begin)).distance;
+    for (double t = edge.begin + step; t <= edge.end; t += step) {
+      const double distance = field.map.sample(on_edge(t)).distance;
+      EXPECT_LE(std::abs(distance - before), 0.16 * step) << edge.side << " at " << on_edge(t).transpose();
+      before = distance;
+    }
+  }
 }
 
 /// For any shape of bricks and edges: the distances of two points differ by no more than the constant allows.

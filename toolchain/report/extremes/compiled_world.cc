@@ -68,9 +68,7 @@ CompiledWorld::CompiledWorld(const Setup& setup, const std::filesystem::path& wo
       image_(compile(setup, work)) {
   const bool is_ball = setup.body == "center";
   const bool is_shell = setup.world == "mesh-shell";
-  // The compiler holds the field's values on the mesh to the tolerance. Where the field is flat, its zero level lies up
-  // to 1.8 times as deep.
-  accuracy_ = 2.0 * kFieldTolerance * setup.voxel * setup.scale;
+  accuracy_ = watch::kDepthBetween * kFieldTolerance * setup.voxel * setup.scale;
   if (is_ball) accuracy_ += kBallFacets * ball_radius(setup);
   watched_.emplace(image_->bytes.span(), image_->scene);
   const double grown_by = is_ball ? ball_radius(setup) : is_shell ? setup.voxel * setup.scale : 0.0;

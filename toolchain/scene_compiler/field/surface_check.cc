@@ -24,7 +24,10 @@ namespace {
 using Eigen::Vector3d;
 using format::kBrickCells;
 
-constexpr double kBlendSlack = 0.65;  // of that, where a field that bends is blended with an edge
+// Chosen: of the tolerance, in bricks with an edge. There the field passes from the exact edge to interpolation within
+// a quarter of a voxel. An error would be a step, which holds a body that slides along the edge as friction does.
+constexpr double kBesideEdge = 0.05;
+constexpr double kSurelySteep = 0.1;  // of the tolerance: with a smaller value, a field as flat as 0.1 is deep enough
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
@@ -285,7 +288,7 @@ class SurfaceCheck {
 
   /// True if an error of the field on the surface is within the tolerance of the leaf.
   bool good(const BrickTree::Leaf& leaf, double error) const {
-    const double slack = tree_.edges_of(leaf.brick).empty() ? 1.0 : kBlendSlack;
+    const double slack = tree_.edges_of(leaf.brick).empty() ? 1.0 : kBesideEdge;
     return error <= slack * tolerance_.inside && error >= -slack * tolerance_.outside;
   }
 
@@ -293,7 +296,20 @@ class SurfaceCheck {
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
     if (leaf.brick == BrickTree::kNone) return false;
     const auto matters = [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); };
-    return check_value(p, leaf, 0.0, matters, sides.worst);
+    const bool missed = check_value(p, leaf, 0.0, matters, sides.worst);
+    return check_below(p, leaf, matters, sides) || missed;
+  }
+
+  /// Checks the point at the tolerance below p. Where the field is flat, its zero level may lie deeper than its value
+  /// at p tells.
+  template <class Matters>
+  bool check_below(const Vector3d& p, const BrickTree::Leaf& leaf, const Matters& matters, Sides& sides) {
+    if (tree_.interpolate(leaf, p) <= kSurelySteep * tolerance_.inside) return false;
+    const Vector3d q = p - tolerance_.inside * sides.normal;
+    const BrickTree::Leaf below = tree_.find(tree_.unit_cell(q));
+    if (below.brick == BrickTree::kNone || tree_.interpolate(below, q) <= 0.0 || !matters()) return false;
+    return check_value(
+        q, below, sides.below.signed_distance(q), [] { return true; }, sides.worst);
   }
 
   /// Checks p in `leaf`. `exact` is the distance there. A miss counts only if matters(); it is added to `worst` if no
