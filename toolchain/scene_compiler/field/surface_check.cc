@@ -308,8 +308,11 @@ class SurfaceCheck {
     const Vector3d q = p - tolerance_.inside * sides.normal;
     const BrickTree::Leaf below = tree_.find(tree_.unit_cell(q));
     if (below.brick == BrickTree::kNone || tree_.interpolate(below, q) <= 0.0 || !matters()) return false;
-    return check_value(
+    const double worst_before = sides.worst.in_tolerances;
+    const bool missed = check_value(
         q, below, sides.below.signed_distance(q), [] { return true; }, sides.worst);
+    if (sides.worst.in_tolerances > worst_before) sides.worst.at = p;
+    return missed;
   }
 
   /// Checks p in `leaf`. `exact` is the distance there. A miss counts only if matters(); it is added to `worst` if no
