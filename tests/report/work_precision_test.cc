@@ -63,7 +63,8 @@ TEST_F(WorkPrecisionTest, GivesTheSameErrorsFromSingleCasesAndSeveralThreads) {
   const std::string errors = text_of(together / "work_precision_errors.csv");
   EXPECT_EQ(text_of(single / "work_precision_errors.csv"), errors);
   EXPECT_NE(errors.find("bunny-teapot,contact,on,4,no,no,1000,"), std::string::npos) << errors;
-  EXPECT_NE(text_of(report_file(single)).find("under a budget of 20 us a cycle"), std::string::npos);
+  EXPECT_NE(text_of(report_file(single)).find("under a budget of 20 us a cycle"), std::string::npos)
+      << "a setting, or on a busy machine that there is none";
 }
 
 TEST_F(WorkPrecisionTest, TriesEachImageOnceUnderAName) {

@@ -151,7 +151,7 @@ TEST(Command, NamesTheVoxelEdgeThatAnAccuracyNeeds) {
   const auto compile = [&](const std::string& voxel_size) {
     const std::string text = "[still]\nmesh = \"" + mesh +
                              "\"\nscale = 0.2\naccuracy = 2e-5\nvoxel_size = " + voxel_size + "\n[moving]\nmesh = \"" +
-                             mesh + "\"\nscale = 0.1\npoints = 60\nlevels = 2\nvoxel_size = 0.0004\n";
+                             mesh + "\"\nscale = 0.1\npoints = 60\nlevels = 2\nvoxel_size = 0.0003\n";
     return run(kScenec + " " + folder.write("s.toml", text).string() + " -o " + folder.file("o.scene").string());
   };
   const Outcome refused = compile("0.002");

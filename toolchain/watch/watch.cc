@@ -10,6 +10,8 @@
 namespace godobject::watch {
 namespace {
 
+constexpr double kReach = 0.125;  // distances above it count as it in a report [voxels] (CycleReport::penetration)
+constexpr double kWayOut = 0.25;  // the deepest overlap of edges at the start of a session that it must see [voxels]
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns unit vectors to both sides along the axes; with `diagonals` also those to the edges and corners of a cube.
@@ -106,7 +108,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
   if (is_contact) follow(cycle);
   H_WS_ = cycle.report.H_WS;
   H_WD_last_ = H_WD;
-  if (is_inside_) find_overlaps();  // the last points come out before the last edges
+  if (is_inside_ || edges_overlap_) find_overlaps();  // the last points come out before the last edges
   check_wrench(cycle);
   if (!is_contact) return;
   if (cycle.report.contacts > 0) ++findings_.touching;
@@ -123,15 +125,21 @@ void Watch::start(const Pose& H_WD) {
   find_overlaps();
 }
 
-/// Finds the pairs of edges that overlap at the god object's pose, by less than the way out of a cycle.
+/// Finds the pairs of edges that overlap at the god object's pose. Edges that are farther apart than a voxel may lie in
+/// each other's wedges although their bodies are apart. As long as some pair overlaps, others may follow past the end
+/// of an edge, without crossing it.
 void Watch::find_overlaps() {
-  overlap_at_start_.assign(edge_bound_.size(), false);
+  if (!edges_overlap_ || is_inside_) overlap_at_start_.assign(edge_bound_.size(), false);
+  edges_overlap_ = false;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
     const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      const bool in_solids = pair.in_both_wedges && pair.gap < 0.25 * q_.voxel_size;
-      overlap_at_start_[i * session_.still_edges.size() + j] = in_solids || pair.gap < 0.0;  // or within a sheet
+      const bool in_solids = pair.in_both_wedges && pair.gap < q_.voxel_size;
+      const bool overlaps = in_solids || pair.gap < 0.0;  // or within a sheet
+      const std::size_t number = i * session_.still_edges.size() + j;
+      overlap_at_start_[number] = overlap_at_start_[number] || overlaps;
+      edges_overlap_ = edges_overlap_ || overlaps;
     }
   }
 }
@@ -237,7 +245,11 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       bound = std::max(0.0, distance_of(to, other).gap);
       if (is_inside_) continue;
       const bool may_overlap = overlap_at_start_[i * session_.still_edges.size() + j];
-      smallest_ = std::min(smallest_, may_overlap && begin.in_both_wedges ? -at_begin : at_begin);
+      const bool overlaps = may_overlap && begin.in_both_wedges;
+      // the session leads edges out that overlap by less; it does not see others
+      if (!overlaps || at_begin < kWayOut * q_.voxel_size) {
+        smallest_ = std::min(smallest_, overlaps ? -at_begin : at_begin);
+      }
       if (may_overlap) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
@@ -404,7 +416,7 @@ void Watch::check_report(const WatchedCycle& cycle, bool may_be_inside) {
     check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding, "start_inside with every point outside");
     return;
   }
-  const double shortest = 0.125 * q_.voxel_size;
+  const double shortest = kReach * q_.voxel_size;
   const double tolerance = 1e-5 * q_.voxel_size + session_.rounding;
   const double expected = -std::min(smallest_, shortest);
   if (report.dropped > 0) {  // points without a look-up may be nearer

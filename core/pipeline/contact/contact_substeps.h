@@ -468,9 +468,11 @@ class ContactSubsteps {
     if (!scene_.has_edges() || result_.inside) return;
     if constexpr (kSceneTraits.edges) {
       ContactSearch& search = memory_.search;
-      const EdgeSurroundings around = search.edges.find(
-          H0_, search.odometer.travelled(), search_radius_, kEdgeSlack * lengths_.longest_search_radius,
-          memory_.edges_may_overlap ? lengths_.longest_way_out : 0.0, near);
+      // every pair that overlaps is found: one that is not would be held on its wrong side from now on
+      const double deepest = memory_.edges_may_overlap ? lengths_.longest_way_out : 0.0;
+      const EdgeSurroundings around =
+          search.edges.find(H0_, search.odometer.travelled(), std::max(search_radius_, deepest),
+                            kEdgeSlack * lengths_.longest_search_radius, deepest, near);
       memory_.edges_may_overlap = memory_.edges_may_overlap && near.overlap();
       around_.unlisted += around.unlisted;
       around_.free_displacement = std::min(around_.free_displacement, around.free_displacement);
@@ -567,14 +569,13 @@ class ContactSubsteps {
   /// Solves again with the surface at the end of a motion that overshoots: that of the point that lacks most becomes a
   /// row. False: as of `look_again`.
   bool look_at_end(const EndGaps& gaps) noexcept {
-    if (!(gaps.most > 0.0)) return false;
     if (scene_.has_edges() && is_edge_pair(gaps.id)) return look_at_end_of_edge(pair_of(gaps.id));
     const bool is_sample = (gaps.id & kFeature) == 0;
     const NearPoints& near = is_sample ? memory_.workspace.samples : memory_.workspace.features;
     Obstacle& end = is_sample ? at_sample_ : at_feature_;
     const std::uint32_t* const begin = near.index;
     end.near = static_cast<std::uint32_t>(std::find(begin, begin + near.count, gaps.id & ~kFeature) - begin);
-    if (end.near == near.count) return false;
+    if (end.near == near.count) return false;  // or no point lacks anything
     end.share = 1.0;
     end.sample = gaps.sample;
     return look_again({.samples = !is_sample, .features = is_sample, .edges = true});

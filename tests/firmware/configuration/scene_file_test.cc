@@ -94,6 +94,31 @@ TEST_F(SceneFileTest, KeepsACopyThatLaterWritesDoNotReach) {
   test::record({.reaction = unchanged ? "goes on" : "changes", .found = "a private copy", .after = "", .cycles = -1});
 }
 
+/// The locked memory of this process, as the kernel counts it [bytes].
+std::size_t locked_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word && word != "VmLck:") {
+  }
+  std::size_t kilobytes = 0;
+  EXPECT_TRUE(status >> kilobytes);
+  return 1024 * kilobytes;
+}
+
+/// The user and the limit decide whether it may be locked.
+TEST_F(SceneFileTest, TellsWhetherTheKernelHasLockedItsMemory) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_MEMLOCK, &before), 0);
+  const rlimit nothing{.rlim_cur = 0, .rlim_max = before.rlim_max};
+  for (const rlimit& limit : {before, nothing}) {
+    ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &limit), 0);
+    const std::size_t others = locked_bytes();
+    const SceneFile scene(file_);
+    EXPECT_EQ(scene.locked(), locked_bytes() >= others + scene.size()) << limit.rlim_cur;
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &before), 0);
+}
+
 TEST_F(SceneFileTest, RefusesWhatIsNoRegularFile) {
   EXPECT_EQ(refusal(folder_ / "nothing").first, ExitCode::kNoInput);
   EXPECT_EQ(refusal(folder_).first, ExitCode::kNoInput);

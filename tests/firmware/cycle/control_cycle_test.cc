@@ -291,6 +291,31 @@ TEST_F(ControlCycleTest, StopsInTheCycleOfAReadingThatIsNotFinite) {
   }
 }
 
+/// The run ends in a cycle without a position, then a pause follows: over it no velocity is known. The cycle says so;
+/// the next one knows its velocity again.
+TEST_F(ControlCycleTest, TellsThatAPauseAfterNoPositionHasNoVelocity) {
+  for (int joint = 0; joint < 7; ++joint) {
+    drives_ = FakeDrives(7);
+    drives_.reading.position = q0_;
+    make();
+    drives_.reading.position[joint] = std::numeric_limits<double>::quiet_NaN();
+    LoopEvents end;
+    end.end_requested = true;
+    step(end);
+    ASSERT_EQ(cycle_->record().mode, Mode::kEnded);
+    EXPECT_EQ(cycle_->record().status, Status::kNotFinite);
+    drives_.reading.position = q0_;
+    LoopEvents late;
+    late.skipped = 2;
+    step(late);
+    EXPECT_EQ(cycle_->record().status, Status::kNotFinite) << joint;
+    EXPECT_TRUE(cycle_->record().qd.isZero(0.0)) << joint;
+    step();
+    EXPECT_EQ(cycle_->record().status, Status::kOk) << joint;
+    EXPECT_EQ(drives_.sent.power, hal::PowerRequest::kOff);
+  }
+}
+
 /// Numbers of the arm that spoil the tool's pose, or the gravity torque alone, stand for any error in the computation.
 TEST_F(ControlCycleTest, HoldsTheArmAsInTheCycleBeforeWhenItsPoseOrGravityIsNotFinite) {
   for (double* number : {&arm_.model.joints[6].a, &arm_.model.H_RA.translation[0], &arm_.model.H_FM.translation[1],

@@ -191,7 +191,13 @@ void recommend(const Field& field, Section& section) {
   const auto chosen = field.best("", kChosenBelow_us);
   judge_chosen(field, chosen, section);
   compare_with_paper(field, section);
-  if (!chosen) return;
+  if (!chosen) {
+    section.html += fmt::format(
+        "<p><b>{}: no setting stays under a budget of {:g} us a cycle</b>; run times are those of this machine and "
+        "of what runs beside.</p>\n",
+        files::html_text(field.scene), kBudget_us);
+    return;
+  }
   const double error = field.trades[*chosen].error;
   std::string html = fmt::format(
       "<p><b>{}: under a budget of {:g} us a cycle, use {}</b>: p99 {:.3g} us, wrench error {:.3g} % of the reference, "

@@ -28,6 +28,7 @@ using format::kBrickCells;
 // a quarter of a voxel. An error would be a step, which holds a body that slides along the edge as friction does.
 constexpr double kBesideEdge = 0.05;
 constexpr double kSurelySteep = 0.1;  // of the tolerance: with a smaller value, a field as flat as 0.1 is deep enough
+constexpr double kWholeDepth = 0.99;  // of the tolerance, but for rounding
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
 constexpr double kFaceSpacing = 1.0;  // of those on its faces, at most
 constexpr double kStepOff = 1e-3;     // from the surface, in cells: tells the body's surface from what lies within it
@@ -308,9 +309,11 @@ class SurfaceCheck {
     const Vector3d q = p - tolerance_.inside * sides.normal;
     const BrickTree::Leaf below = tree_.find(tree_.unit_cell(q));
     if (below.brick == BrickTree::kNone || tree_.interpolate(below, q) <= 0.0 || !matters()) return false;
+    const double exact = sides.below.signed_distance(q);
+    if (exact > -kWholeDepth * tolerance_.inside) return false;  // q is not as deep: near an edge, or in a thin wall
     const double worst_before = sides.worst.in_tolerances;
     const bool missed = check_value(
-        q, below, sides.below.signed_distance(q), [] { return true; }, sides.worst);
+        q, below, exact, [] { return true; }, sides.worst);
     if (sides.worst.in_tolerances > worst_before) sides.worst.at = p;
     return missed;
   }

@@ -4,9 +4,13 @@
 #include "core/pipeline/contact/certificate.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -359,6 +363,28 @@ TEST(Certificate, ProvesEachChordOnceWhateverPointIsTheSuspect) {
     obstacle.near = suspect;
     EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds()) << suspect;
     EXPECT_EQ(1000 - budget.balls, 3 * static_cast<int>(kPoints)) << suspect;
+  }
+}
+
+/// Vectors compare what stands behind the last chord, too. Whatever the memory contained before, these are numbers: a
+/// comparison with NaN would raise the exception that tells errors of a cycle.
+TEST(Certificate, ComparesNumbersAlsoBehindTheLastChord) {
+  using OfPlane = Certificate<AnalyticField>;
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
+  const Pose H0;
+  Pose H1;
+  H1.translation.x() = 0.003;  // three times the clearance
+  alignas(OfPlane) std::byte memory[sizeof(OfPlane)];
+  for (std::uint32_t count = 1; count <= 2 * SampleBatch::kAtOnce + 1; ++count) {
+    const auto near = near_points(field, std::vector<Vector3>(count, Vector3(0.0, 0.0, 0.001)), H0);
+    Budget budget;
+    Obstacle obstacle;
+    for (std::size_t i = 0; i < sizeof memory; ++i) *static_cast<volatile std::byte*>(memory + i) = std::byte{0xFF};
+    auto* const certificate = new (memory) OfPlane(field, H0, H1, 1e-5, kRounding, *near, budget, obstacle);
+    std::feclearexcept(FE_ALL_EXCEPT);
+    EXPECT_TRUE(certificate->holds()) << count;
+    EXPECT_EQ(std::fetestexcept(FE_INVALID), 0) << count;
+    std::destroy_at(certificate);
   }
 }
 

@@ -486,6 +486,32 @@ TEST(ContactSubsteps, TakeNoSecondLookThatLeadsAwayFromTheDevice) {
   EXPECT_LT((run.state.H_WS.translation - device.translation).norm(), regained + kSubstepMargin);
 }
 
+/// Two walls that stand almost face to face across x. The slot between them opens along z, slowly.
+struct OpeningSlot {
+  static constexpr double kSlope = 2e-4;
+  double half_width;
+  double distance(const Vector3& p) const noexcept { return half_width + kSlope * p.z() - std::fabs(p.x()); }
+  Vector3 gradient(const Vector3& p) const noexcept { return {p.x() > 0.0 ? -1.0 : 1.0, 0.0, kSlope}; }
+};
+
+/// A body has lost a quarter of both gaps. It could regain 1.5 um of each only 7.5 mm along the slot, and of one only
+/// half as far. Such rows count as contradictory: no gap shrinks, and the body stays with the device, whichever side
+/// has the first row.
+TEST(ContactSubsteps, StayInASlotThatOpensTooSlowlyToRegainItsMargins) {
+  const AnalyticField field(OpeningSlot{0.015 + 0.75 * kSubstepMargin}, kSubstepVoxel);
+  const Vector3 right(0.015, 0.0, 0.0);
+  for (const double side : {-1.0, 1.0}) {
+    const SampledBody body({{side * right, -side * right}, {-side * Vector3::UnitX(), side * Vector3::UnitX()}},
+                           Vector3::Constant(4e-4));
+    SubstepRun<> run(field, body, Pose{});
+    for (int i = 1; i <= 3; ++i) {
+      const Pose device = pose_at({0.0, 1e-4 * i, 0.0});
+      ASSERT_EQ(run.step(device), Status::kOk);
+      EXPECT_LT((run.state.H_WS.translation - device.translation).norm(), 1e-7) << side << ' ' << i;
+    }
+  }
+}
+
 /// Two faces of 2500 points each, more than there are rows, between walls closer than twice the margin: no motion
 /// regains both margins. The device turns, so that points without a row have to be added, and no gap shrinks.
 TEST(ContactSubsteps, CallWallsThatPushAgainstMorePointsThanRowsInfeasible) {
@@ -806,6 +832,32 @@ TEST(ContactSubsteps, SlideARodOnAWireWithoutATurnThatCostsMore) {
   EXPECT_GT(run.state.H_WS.translation.y(), 0.8 * kSlide);
   EXPECT_LT(std::fabs(log_rotation(run.state.H_WS.rotation).x()), 0.1 * kTurn);
   EXPECT_EQ(run.report.substeps, 1u);
+}
+
+/// A long rod across a wire turns about the place where they are nearest. No plane parts them in both poses, so free
+/// balls, of 0.99 times the gap each, have to cover the way of the rod's ends. An attempt has 64 of them. The first
+/// sub-step goes as far as they prove, not only a quarter of the way; the next ones complete the turn.
+TEST(ContactSubsteps, TurnARodOverAWireAsFarAsBallsProveItsWayFree) {
+  constexpr double kLever = 0.02;
+  constexpr double kTurn = 0.09;
+  const EdgeSet moving({{Vector3(0.0, -kLever, 0.0), Vector3(0.0, kLever, 0.0)}});
+  const EdgeSet still({{Vector3(-0.01, 0.0, 0.0), Vector3(0.01, 0.0, 0.0)}});
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body(
+      {{Vector3(0.0, -kLever, 0.0), Vector3(0.0, kLever, 0.0)}, {Vector3::UnitY(), -Vector3::UnitY()}},
+      Vector3::Constant(1e-4));
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, kSubstepMargin}));
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {moving.view(), still.view()};
+  run.cycle.memory->last_step.motion.translation = Vector3::UnitX();  // long: the longest search radius
+  const Pose device = pose_at({0.0, 0.0, kSubstepMargin}, {kTurn, 0.0, 0.0});
+  ASSERT_EQ(run.step(device), Status::kOk);
+  const auto path = run.cycle.memory->path.poses();
+  ASSERT_GT(path.size(), 1u);
+  const double covered = kMostBallsOfChord * 0.99 * kSubstepMargin;
+  EXPECT_NEAR(log_rotation(path[0].rotation).x(), covered / kLever, 0.01 * covered / kLever);
+  EXPECT_NEAR(log_rotation(run.state.H_WS.rotation).x(), kTurn, 1e-6);
+  EXPECT_LT((run.state.H_WS.translation - device.translation).norm(), 1e-6);
 }
 
 /// A plane that rises by 20 mrad.

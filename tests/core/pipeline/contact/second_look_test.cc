@@ -187,6 +187,21 @@ TEST(PushObstacle, TakesAnAttemptForTheWholeMotionAlongItsChord) {
   EXPECT_EQ(push({.H0 = one.H0, .H1 = one.H1, .step = one.step, .is_arc = true}), of_arc);
 }
 
+/// An obstacle of which only point and field are told lies at the end of the point's chord. On a plane the row tells
+/// the gap at the start of the chord, whatever its length.
+TEST(PushObstacle, TakesAnObstacleForTheEndOfItsChord) {
+  Random random(8);
+  Meeting one(random, 3e-3, 1.0);
+  const Vector3 displacement = one.H1 * one.p - one.H0 * one.p;
+  ASSERT_GT(std::fabs(one.field.normal.dot(displacement)), 1e-5);
+  Obstacle at_end;
+  at_end.near = one.obstacle.near;
+  at_end.sample = one.field.sample(one.H1 * one.p);
+  one.obstacle = at_end;
+  ASSERT_TRUE(one.push<SampleDirection>(false));
+  EXPECT_NEAR(one.gain(), (kMargin - 3e-3) / one.field.steepness, 1e-8);
+}
+
 /// No row: there is no room, the obstacle lies where the field is not known, or its gradient has no direction.
 TEST(PushObstacle, RefusesWhatCannotBecomeARow) {
   const double nan = std::nan("");

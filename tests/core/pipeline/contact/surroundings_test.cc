@@ -144,6 +144,18 @@ TEST_F(SelectedRows, RegainTheLostGapsOfTheirPoints) {
   }
 }
 
+/// As in the search, a gradient that is shorter than kFlat has no direction, and a longer one has.
+TEST_F(SelectedRows, AreThoseOfPointsWhoseGradientHasADirection) {
+  fill(workspace_->samples, 4, [](std::uint32_t) { return 1e-5; });
+  const double length[] = {0.0, 0.99 * kFlat, 1.01 * kFlat, 1.9 * kFlat};
+  for (std::uint32_t k = 0; k < 4; ++k) workspace_->samples.gradient_z[k] = static_cast<float>(length[k]);
+  const ContactRows& rows = select();
+  EXPECT_EQ(points(rows), (std::set<std::uint32_t>{2, 3}));
+  for (std::uint32_t i = 0; i < rows.count; ++i) {
+    EXPECT_LT((rows.normal(i) - Vector3::UnitZ()).norm(), 1e-6) << i;
+  }
+}
+
 /// The field's frame is rotated against the shell's: the rows' normals are in S.
 TEST_F(SelectedRows, HaveNormalsInTheFrameOfTheBody) {
   fill(workspace_->samples, 8, [](std::uint32_t) { return 1e-5; });

@@ -125,6 +125,24 @@ TEST_F(CommissioningTest, EndsWithWhatElseGoesWrong) {
   }
 }
 
+/// The last joint waits for its deadline in five cycles, four before the end. Another drive that trips meanwhile ends
+/// the test at once: its error is neither the joint's nor reset with it.
+TEST_F(CommissioningTest, EndsWhenAnotherDriveTripsWhileAJointWaitsForItsDeadline) {
+  start();
+  const std::int64_t begin = now_ms();
+  run();
+  const std::int64_t waits = now_ms() - 8;
+  for (int k = 0; k < 3; ++k) {
+    const sim::DriveFault trips[] = {{sim::FaultKind::kDriveTrips, 2, waits + k, 1}};
+    start(trips);
+    ASSERT_EQ(now_ms(), begin);
+    const std::string message = failure();
+    EXPECT_NE(message.find("joint 3"), std::string::npos) << k << ": " << message;
+    EXPECT_NE(message.find("2310"), std::string::npos) << k << ": " << message;
+    EXPECT_LE(now_ms(), waits + k + 2) << k;
+  }
+}
+
 TEST_F(CommissioningTest, NamesTheJointsThatDoNotTellTheirModeAtOnce) {
   start();
   device_->nodes().drive(1).objects().set(0x1A01, 0, 0);  // nothing in TPDO2

@@ -190,6 +190,31 @@ TEST(SolveCoulombGuess, KeepsAContactThatPullsUntilTheDirectionsOfSlipFit) {
   }
 }
 
+/// The wanted motion presses a point straight down, as far beside the centre as below it. The normal alone is guessed
+/// to hold it, and turns the body: the point slips, by the load. That is no solution, since friction would act against
+/// it. By hand, with friction mu the load is press / (2 - mu) and the slip (1 - 2 mu) times the load; from 1/2 on it
+/// holds.
+TEST(SolveCoulombGuess, FindsTheFrictionOfAPointThatItsOwnForceMoves) {
+  const double lever = kNewtonMetric.gyration;
+  constexpr double kPress = 4e-3;
+  for (const double mu : {0.1, 0.3, 0.45, 0.6}) {
+    NewtonProblem p;
+    p.friction = {mu, mu, 0.0};
+    p.push(Vector3::UnitZ(), Vector3(lever, 0.0, -lever), 0.0);
+    p.wanted.translation.z() = -kPress;
+    const std::vector<float> gains(1, 0.0f);
+    ContactSet set = p.set();
+    ASSERT_EQ(set.open(0), 0);
+    ASSERT_TRUE(set.active().guess(set.cone_half_space(0, Vector3::Zero())));
+    ASSERT_TRUE(detail::solve_coulomb(set)) << mu;
+    expect_coulomb(p, set, gains, 1e-9);
+    const Slip slip = set.slip_of(set.contact(0), set.motion());
+    EXPECT_NEAR(slip.approach, 0.0, 1e-9) << mu;
+    EXPECT_NEAR(slip.speed, std::max(0.0, 1.0 - 2.0 * mu) * kPress / (2.0 - mu), 1e-9) << mu;
+    set.close_all();
+  }
+}
+
 /// A point slides straight on, so that one step finds the motion, whatever speed was guessed. The speed by which the
 /// next step would turn the friction is the new one, but a quarter of the last one at least.
 TEST(SolveCoulombSpeed, FallsToAQuarterAtMost) {
