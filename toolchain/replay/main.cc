@@ -66,8 +66,8 @@ Where no sample point is inside, edges and faces between the points may still ov
 report says. With --meshes the column mesh_overlap follows: the largest depth [m] of any point of either mesh, on its
 faces and edges too, in the other one, within a thousandth of a voxel or a hundredth; 0 if they do not overlap. That
 takes some milliseconds for each cycle near contact.
-With --watch every cycle is judged by properties that any correct solver has, by code that shares nothing with the
-solver: no chord of any point meets the stored surface or the meshes, forces are pushes at touching points, the god
+With --watch every cycle is judged by properties that any correct solver has, by code that shares none with solver,
+search and certificate: no chord of any point meets the stored surface or the meshes, forces are pushes at touching points, the god
 object is as near to the device as another method comes, and others. Lines that begin with "watch:" tell how often each
 was judged and violated. That takes seconds for a thousand cycles.
 Forces are neither limited nor smoothed here; the controller that drives the device does that.
@@ -75,7 +75,7 @@ The last line printed counts the cycles with these four, and with contact the cy
 Coulomb's law within the tolerance; their gaps hold all the same.
 
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is complete then), 66 an input is
-missing or cannot be read, 70 --watch found a violation (OUT.csv is complete then), 74 cannot write, 77 no permission to
+missing or cannot be read, 70 --watch found a violation (before 65; OUT.csv is complete then), 74 cannot write, 77 no permission to
 write, 78 --friction on for a scene without friction, --meshes or --watch with a bad scene file or that of another
 scene, or a scene that needs a part that this build leaves out.)";
 
@@ -117,7 +117,7 @@ void tell_findings(const Options& options, const godobject::watch::Findings& fin
   if (findings.violations() == 0) return;
   throw Failure(ExitCode::kInternal,
                 fmt::format("{}: the watch found {} violations along {}, the first: {}; the solver or the scene image "
-                            "is at fault: report it with both files",
+                            "is at fault, unless a mesh or the scene file has changed since it was compiled",
                             options.scene, findings.violations(), options.poses, findings.first()));
 }
 

@@ -62,6 +62,7 @@ std::unique_ptr<watch::Oracle> exact_surface(const SceneConfig::Mesh& file, doub
 
 ReplayWatch::ReplayWatch(const files::SceneImage& image, const SceneConfig& config)
     : voxel_size_(config.voxel_size),
+      farthest_(Eigen::Map<const Vector3>(image.scene.grid.origin).cwiseAbs().maxCoeff()),
       scene_(image.bytes.span(), image.scene),
       still_(exact_surface(config.still, config.thickness, scene_compiler::ball_radius(image.scene), Pose{})),
       moving_(exact_surface(config.moving, config.thickness, 0.0, image.scene.H_MB)),
@@ -72,7 +73,7 @@ ReplayWatch::ReplayWatch(const files::SceneImage& image, const SceneConfig& conf
 void ReplayWatch::start(const watch::SessionChoice& choice) {
   constexpr double kSinglePrecision = 1e-7;  // of points and the grid's origin
   watch_ = std::make_unique<watch::Watch>(
-      scene_.session(choice, still_surface_, moving_surface_, kSinglePrecision * voxel_size_));
+      scene_.session(choice, still_surface_, moving_surface_, kSinglePrecision * (voxel_size_ + farthest_)));
 }
 
 std::string findings_text(const watch::Findings& findings) {

@@ -17,6 +17,9 @@ class ReplayWatch {
   /// kBadData) if a mesh cannot be used.
   ReplayWatch(const files::SceneImage& image, const scene_compiler::SceneConfig& config);
 
+  ReplayWatch(const ReplayWatch&) = delete;
+  ReplayWatch& operator=(const ReplayWatch&) = delete;
+
   /// Begins to watch a session that has just started.
   void start(const watch::SessionChoice& choice);
 
@@ -27,6 +30,7 @@ class ReplayWatch {
 
  private:
   double voxel_size_;
+  double farthest_;  ///< largest coordinate of the field's corner [m]
   watch::WatchedScene scene_;
   std::unique_ptr<watch::Oracle> still_, moving_;
   watch::ExactSurface still_surface_, moving_surface_;

@@ -129,7 +129,10 @@ void Watch::start(const Pose& H_WD) {
 /// each other's wedges although their bodies are apart. As long as some pair overlaps, others may follow past the end
 /// of an edge, without crossing it.
 void Watch::find_overlaps() {
-  if (!edges_overlap_ || is_inside_) overlap_at_start_.assign(edge_bound_.size(), false);
+  if (!edges_overlap_ || is_inside_) {
+    overlap_at_start_.assign(edge_bound_.size(), false);
+    began_deep_.assign(edge_bound_.size(), false);
+  }
   edges_overlap_ = false;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
     const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
@@ -138,11 +141,14 @@ void Watch::find_overlaps() {
       const bool in_solids = pair.in_both_wedges && pair.gap < q_.voxel_size;
       const bool overlaps = in_solids || pair.gap < 0.0;  // or within a sheet
       const std::size_t number = i * session_.still_edges.size() + j;
+      if (overlaps && pair.gap >= kWayOut * q_.voxel_size) began_deep_[number] = true;
       overlap_at_start_[number] = overlap_at_start_[number] || overlaps;
       edges_overlap_ = edges_overlap_ || overlaps;
     }
   }
+  if (!edges_overlap_) overlap_at_start_.assign(edge_bound_.size(), false);  // from now on none may cross another
 }
+
 bool Watch::check_numbers(const WatchedCycle& cycle) {
   const CycleReport& report = cycle.report;
   const bool is_ok = cycle.status == Status::kOk;
@@ -246,10 +252,9 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       if (is_inside_) continue;
       const bool may_overlap = overlap_at_start_[i * session_.still_edges.size() + j];
       const bool overlaps = may_overlap && begin.in_both_wedges;
-      // the session leads edges out that overlap by less; it does not see others
-      if (!overlaps || at_begin < kWayOut * q_.voxel_size) {
-        smallest_ = std::min(smallest_, overlaps ? -at_begin : at_begin);
-      }
+      // the session leads edges out that overlap by less than the way out; it takes others for edges that are apart
+      const bool is_seen = at_begin < kWayOut * q_.voxel_size && !began_deep_[i * session_.still_edges.size() + j];
+      smallest_ = std::min(smallest_, overlaps && is_seen ? -at_begin : at_begin);
       if (may_overlap) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,

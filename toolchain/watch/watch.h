@@ -157,6 +157,7 @@ class Watch {
   double gyration_;
   std::vector<Points> points_;
   std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, until the session has come out
+  std::vector<bool> began_deep_;        ///< of all pairs: they overlapped by more than the way out of a cycle
   bool edges_overlap_ = false;          ///< some of these still overlapped after the last cycle
   std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;

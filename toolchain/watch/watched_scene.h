@@ -34,6 +34,9 @@ class WatchedScene {
   /// `scene` is the view of `image`; both outlive this object. Throws std::runtime_error if the image lacks a field.
   WatchedScene(std::span<const std::byte> image, const SceneView& scene);
 
+  WatchedScene(const WatchedScene&) = delete;
+  WatchedScene& operator=(const WatchedScene&) = delete;
+
   /// Returns what the watch needs to know of a session. It refers to this object and to the surfaces' oracles.
   /// `still` is in W, `moving` in the moving body's frame B. `rounding`: of coordinates [m].
   WatchedSession session(const SessionChoice& choice, const ExactSurface& still, const ExactSurface& moving,

@@ -569,13 +569,14 @@ class ContactSubsteps {
   /// Solves again with the surface at the end of a motion that overshoots: that of the point that lacks most becomes a
   /// row. False: as of `look_again`.
   bool look_at_end(const EndGaps& gaps) noexcept {
+    if (!(gaps.most > 0.0)) return false;
     if (scene_.has_edges() && is_edge_pair(gaps.id)) return look_at_end_of_edge(pair_of(gaps.id));
     const bool is_sample = (gaps.id & kFeature) == 0;
     const NearPoints& near = is_sample ? memory_.workspace.samples : memory_.workspace.features;
     Obstacle& end = is_sample ? at_sample_ : at_feature_;
     const std::uint32_t* const begin = near.index;
     end.near = static_cast<std::uint32_t>(std::find(begin, begin + near.count, gaps.id & ~kFeature) - begin);
-    if (end.near == near.count) return false;  // or no point lacks anything
+    if (end.near == near.count) return false;
     end.share = 1.0;
     end.sample = gaps.sample;
     return look_again({.samples = !is_sample, .features = is_sample, .edges = true});

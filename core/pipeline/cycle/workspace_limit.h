@@ -76,7 +76,7 @@ bool push_within(const WorkspaceBox& box, double tolerance, EndOf&& end_of) noex
     out = beyond(end_of(push));
     const Vector3 step = push - last;
     for (const int axis : {0, 1, 2}) {
-      if (step[axis] == 0.0) continue;
+      if (step[axis] == 0.0 || out[axis] == 0.0) continue;
       yield[axis] = std::clamp((before[axis] - out[axis]) / step[axis], kLeastYield, 1.0);
     }
   }

@@ -303,7 +303,8 @@ TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
     const TriangleMesh mesh = test::moved(
         waisted({between(4, 8), between(2, 4), between(4, 8)}, {-10.0 * s, -between(4, 7), -between(0.5, 2.5)}, 0.0),
         any_motion(random, s));
-    const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
+    const TriangleMesh wound = m % 2 == 0 ? mesh : turned_inside_out(mesh);  // which is corrected
+    const SolidSurface surface(wound, SurfaceKind::kSolid, 2.0 * s);
     const RefinedField field(surface, s);
     double deepest = 0.0;
     for (int i = 0; i < 100'000; ++i) {

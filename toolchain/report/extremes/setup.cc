@@ -136,7 +136,7 @@ void choose_mesh(Setup& setup) {
 }
 
 Setup any_session_in(const Setup& world, std::mt19937& random) {
-  Setup session = any_setup(random);
+  Setup session = world.row == "fuzzer" ? any_setup(random) : setup_of(world.row, random);
   session.session = session.seed;
   session.row = world.row;
   session.world = world.world;

@@ -99,6 +99,7 @@ class SurfaceCheck {
     DistanceProbe& above;
     DistanceProbe& below;
     SurfaceError& worst;  ///< that no halving reduces
+    double outward;       ///< 1 if the normal leads out of the body, else -1
     std::uint32_t seen;   ///< joins up to this one were seen by an earlier comparison; kNone: there was none
   };
 
@@ -122,11 +123,12 @@ class SurfaceCheck {
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = surface_.mesh().vertices[triangle[i]];
     const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    Sides sides{normal, above, below, worst, seen(number)};
+    Sides sides{normal, above, below, worst, component.inside_out ? -1.0 : 1.0, seen(number)};
     bool missed = !component.shell && check_piece(corners, sides);
     for (const double side : {-0.5, 0.5}) {
       if (!component.shell) break;
       Corners raised = corners;
+      sides.outward = side < 0.0 ? -1.0 : 1.0;
       for (Vector3d& corner : raised) corner += side * surface_.thickness() * sides.normal;
       missed = check_piece(raised, sides) || missed;
     }
@@ -236,8 +238,9 @@ class SurfaceCheck {
     }
     const double length = std::sqrt(squared[longest]);
     if (!compare && length <= kBrickCells * tree_.cell_edge(0)) {
-      const Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-      const Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+      const Vector3d about = Vector3d::Constant(tolerance_.inside);  // the points below are looked up, too
+      const Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) - about;
+      const Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) + about;
       if (tree_.changed_in(low, high) <= sides.seen) return false;
       compare = true;
     }
@@ -306,10 +309,10 @@ class SurfaceCheck {
   template <class Matters>
   bool check_below(const Vector3d& p, const BrickTree::Leaf& leaf, const Matters& matters, Sides& sides) {
     if (tree_.interpolate(leaf, p) <= kSurelySteep * tolerance_.inside) return false;
-    const Vector3d q = p - tolerance_.inside * sides.normal;
+    const Vector3d q = p - tolerance_.inside * sides.outward * sides.normal;
     const BrickTree::Leaf below = tree_.find(tree_.unit_cell(q));
     if (below.brick == BrickTree::kNone || tree_.interpolate(below, q) <= 0.0 || !matters()) return false;
-    const double exact = sides.below.signed_distance(q);
+    const double exact = (sides.outward > 0.0 ? sides.below : sides.above).signed_distance(q);
     if (exact > -kWholeDepth * tolerance_.inside) return false;  // q is not as deep: near an edge, or in a thin wall
     const double worst_before = sides.worst.in_tolerances;
     const bool missed = check_value(
