@@ -67,17 +67,17 @@ report says. With --meshes the column mesh_overlap follows: the largest depth [m
 faces and edges too, in the other one, within a thousandth of a voxel or a hundredth; 0 if they do not overlap. That
 takes some milliseconds for each cycle near contact.
 With --watch every cycle is judged by properties that any correct solver has, by code that shares none with solver,
-search and certificate: no chord of any point meets the stored surface or the meshes, forces are pushes at touching points, the god
-object is as near to the device as another method comes, and others. Lines that begin with "watch:" tell how often each
-was judged and violated. That takes seconds for a thousand cycles.
+search and certificate: no chord of any point meets the stored surface or the meshes, forces are pushes at touching
+points, the god object is as near to the device as another method comes, and others. Lines that begin with "watch:" tell
+how often each was judged and violated. That takes seconds for a thousand cycles, more where whole faces touch.
 Forces are neither limited nor smoothed here; the controller that drives the device does that.
 The last line printed counts the cycles with these four, and with contact the cycles whose friction did not converge to
 Coulomb's law within the tolerance; their gaps hold all the same.
 
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is complete then), 66 an input is
-missing or cannot be read, 70 --watch found a violation (before 65; OUT.csv is complete then), 74 cannot write, 77 no permission to
-write, 78 --friction on for a scene without friction, --meshes or --watch with a bad scene file or that of another
-scene, or a scene that needs a part that this build leaves out.)";
+missing or cannot be read, 70 --watch found a violation (before 65; OUT.csv is complete then), 74 cannot write, 77 no
+permission to write, 78 --friction on for a scene without friction, --meshes or --watch with a bad scene file or that of
+another scene, or a scene that needs a part that this build leaves out.)";
 
 struct Options {
   std::string scene, poses, output;
