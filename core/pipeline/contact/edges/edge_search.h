@@ -42,8 +42,8 @@ class EdgeSearch {
 
   /// Finds all pairs whose gap is below `radius` [m]. H_WS: pose of the moving body, where the odometer reads
   /// `travelled` [m]. `slack`: pairs up to this much farther away are remembered [m]. `deepest`: as in edge_gap, not
-  /// above `radius` [m]. `near` must be empty. Cost: some 60 ns for each remembered pair that may be near, and seldom a visit
-  /// of the trees. Real-time safe.
+  /// above `radius` [m]. `near` must be empty. Cost: some 60 ns for each remembered pair that may be near, and seldom a
+  /// visit of the trees. Real-time safe.
   EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
                         NearEdges& near) noexcept;
 
