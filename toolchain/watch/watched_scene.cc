@@ -1,19 +1,14 @@
 #include "toolchain/watch/watched_scene.h"
 
-#include <vector>
-
 #include "core/pipeline/cycle/scene_traits.h"
 
 namespace godobject::watch {
-namespace {
 
-std::vector<Vector3> points_of(const Pointshell& shell, const Vector3& origin = Vector3::Zero()) {
+std::vector<Vector3> points_of(const Pointshell& shell, const Vector3& origin) {
   std::vector<Vector3> points;
   for (std::size_t i = 0; i < shell.size; ++i) points.push_back(shell.point(i) + origin);
   return points;
 }
-
-}  // namespace
 
 WatchedScene::WatchedScene(std::span<const std::byte> image, const SceneView& scene)
     : scene_(scene), still_(image, kStillField) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/pipeline/cycle/parameters.h"
 #include "core/scene/scene_view.h"
@@ -27,6 +28,9 @@ struct SessionChoice {
   bool friction = false;
   Parameters parameters = {};  ///< as the session has them
 };
+
+/// Returns the points of a body in its frame; `origin` is added to each [m].
+std::vector<Vector3> points_of(const Pointshell& shell, const Vector3& origin = Vector3::Zero());
 
 /// A compiled scene as the watch sees it: fields, points and edges of the image.
 class WatchedScene {

@@ -292,7 +292,8 @@ TriangleMesh waisted(const std::array<double, 3>& radius, const std::array<doubl
   return mesh;
 }
 
-/// Where the field is flat, a small value on the mesh hides a zero level that lies deep.
+/// The stored surface lies no deeper than the tolerance allows where the field is flat, too. A small value of the field
+/// on the mesh does not prove that: its zero level may lie several times as deep as the value says.
 TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
   std::mt19937_64 random(24);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -13,6 +13,7 @@
 #include "toolchain/report/extremes/draw.h"
 #include "toolchain/session/owned_god_object.h"
 #include "toolchain/watch/oracle.h"
+#include "toolchain/watch/watched_scene.h"
 
 namespace godobject::report {
 namespace {
@@ -137,12 +138,6 @@ Parameters parameters_of(const Setup& setup, const MassModel& mass) {
 
 double rounding_of(const Setup& setup) { return 1e-12 * setup.scale * (1.0 + setup.far); }
 
-std::vector<Vector3> points_of(const Pointshell& shell) {
-  std::vector<Vector3> points;
-  for (std::size_t i = 0; i < shell.size; ++i) points.push_back(shell.point(i));
-  return points;
-}
-
 /// The solid itself, as the watch sees it.
 class SolidOracle final : public watch::Oracle {
  public:
@@ -202,7 +197,7 @@ class AnalyticRig final : public Rig {
 
   watch::WatchedSession watched() const override {
     watch::WatchedSession watched;
-    watched.directions.push_back({.field = &oracle_, .points = points_of(shell_)});
+    watched.directions.push_back({.field = &oracle_, .points = watch::points_of(shell_)});
     watched.parameters = q_;
     watched.solver = setup_.solver;
     watched.friction = setup_.friction;
