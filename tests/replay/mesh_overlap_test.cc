@@ -140,6 +140,8 @@ TEST_F(ReplayOfCrossingEdges, IsJudgedByTheWatch) {
   ASSERT_EQ(run("--watch scene.toml"), 0) << output_;
   EXPECT_NE(output_.find("watch: 400 cycles, "), std::string::npos) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex(", 0 of [1-9][0-9]* properties violated"))) << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("\\nout.csv: 400 cycles, [^\\n]*\\n$")))
+      << "the last line, as ever";
   EXPECT_NE(output_.find("points deeper in the mesh than the field's accuracy: 0 of "), std::string::npos) << output_;
   write("cube.obj", test::obj_text(test::box_mesh(Vector3::Constant(1.05 * kEdge))));
   EXPECT_EQ(run("--watch scene.toml"), 70) << output_;

@@ -111,9 +111,8 @@ SceneConfig scene_file_of(const Options& options, const std::string& file, const
                                                   file, options.scene, difference));
 }
 
-/// Prints what the watch found. Throws Failure (kInternal) if a property is violated.
-void tell_findings(const Options& options, const godobject::watch::Findings& findings) {
-  fmt::print("{}", godobject::replay::findings_text(findings));
+/// Throws Failure (kInternal) if the watch found a violation.
+void require_no_violation(const Options& options, const godobject::watch::Findings& findings) {
   if (findings.violations() == 0) return;
   throw Failure(ExitCode::kInternal,
                 fmt::format("{}: the watch found {} violations along {}, the first: {}; the solver or the scene image "
@@ -218,11 +217,12 @@ void replay_file(const Options& options) {
     summary = godobject::replay::replay(scene, pipeline.solver, pipeline.friction, path, outputs);
   }
   out.commit();
+  if (watch) fmt::print("{}", godobject::replay::findings_text(watch->findings()));
   const bool contact_friction = pipeline.friction && pipeline.solver == Solver::kContact;
   fmt::print("{}: {} cycles, {}{}, peak force {:.2f} N; {}; floating-point exceptions:{}\n", options.output,
              summary.cycles, point_text(summary.deepest, scene.voxelmap.band()), overlap_text(options, summary),
              summary.peak_force, outcomes_text(summary, contact_friction), float_exceptions(summary.float_exceptions));
-  if (watch) tell_findings(options, watch->findings());
+  if (watch) require_no_violation(options, watch->findings());
   if (summary.bad_rows == 0) return;
   throw Failure(ExitCode::kBadData,
                 fmt::format("{}:{}: not a pose (NaN, Inf or quaternion not of unit length), the first of {} such rows, "
