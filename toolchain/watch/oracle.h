@@ -4,6 +4,12 @@
 
 namespace godobject::watch {
 
+/// A distance and its gradient at one place.
+struct Slope {
+  double distance = 0.0;               ///< [m]
+  Vector3 gradient = Vector3::Zero();  ///< need not be of unit length; zero where it is not known
+};
+
 /// A signed distance that the watch trusts: positive outside [m]. It shares no code with the solver's look-ups.
 class Oracle {
  public:
@@ -12,6 +18,8 @@ class Oracle {
   virtual double distance(const Vector3& p) const = 0;
   /// Returns the gradient of the distance. It need not be of unit length; it is zero where it is not known.
   virtual Vector3 gradient(const Vector3& p) const = 0;
+  /// Returns both: one look-up where a class has it.
+  virtual Slope slope(const Vector3& p) const { return {distance(p), gradient(p)}; }
   /// Returns a bound of |distance(p) - distance(q)| / |p - q|.
   virtual double lipschitz() const = 0;
 };

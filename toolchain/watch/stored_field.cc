@@ -97,9 +97,36 @@ StoredField::Place StoredField::descend(std::uint32_t entry, Vector3 at) const {
   return place;
 }
 
+/// Trilinear: along x, then y, then z.
+Slope StoredField::interpolate(const Place& place) {
+  int cell[3];
+  double f[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    cell[axis] = std::clamp(static_cast<int>(place.at[axis]), 0, kBrickCells - 1);
+    f[axis] = place.at[axis] - cell[axis];
+  }
+  Slope layer[2];
+  for (int z = 0; z < 2; ++z) {
+    double value[2], along_x[2];
+    for (int y = 0; y < 2; ++y) {
+      const double low = node(*place.brick, cell[0], cell[1] + y, cell[2] + z);
+      along_x[y] = node(*place.brick, cell[0] + 1, cell[1] + y, cell[2] + z) - low;
+      value[y] = low + f[0] * along_x[y];
+    }
+    layer[z].distance = value[0] + f[1] * (value[1] - value[0]);
+    layer[z].gradient = Vector3(along_x[0] + f[1] * (along_x[1] - along_x[0]), value[1] - value[0], 0.0);
+  }
+  Slope slope;
+  const double along_z = layer[1].distance - layer[0].distance;
+  slope.distance = place.unit * (layer[0].distance + f[2] * along_z);
+  slope.gradient = layer[0].gradient + f[2] * (layer[1].gradient - layer[0].gradient);
+  slope.gradient.z() = along_z;
+  slope.gradient *= place.unit / place.cell;
+  return slope;
+}
+
 /// format::Edge's formula.
-StoredField::Value StoredField::blend_with_edge(const format::Edge& edge, const Vector3& p,
-                                                const Value& interpolated) const {
+Slope StoredField::blend_with_edge(const format::Edge& edge, const Vector3& p, const Slope& interpolated) {
   const Vector3 from = p - vector(edge.point);
   const double t = vector(edge.along).dot(from);
   const double r = (from - t * vector(edge.along)).norm();
@@ -128,15 +155,15 @@ StoredField::Value StoredField::blend_with_edge(const format::Edge& edge, const 
     }
     wedge = nearest;
   }
-  Value value;
+  Slope value;
   value.distance = (1.0 - weight) * interpolated.distance + weight * (edge.side * wedge + edge.offset);
   // the weight's own gradient is left out: it multiplies the difference of wedge and interpolation, which is small
   value.gradient = (1.0 - weight) * interpolated.gradient + weight * edge.side * direction;
   return value;
 }
 
-StoredField::Value StoredField::look_up(const Vector3& p) const {
-  Value value;
+Slope StoredField::slope(const Vector3& p) const {
+  Slope value;
   value.distance = grid_.band;
   Vector3 at = (p - vector(grid_.origin)) / grid_.voxel_size;
   std::int64_t position[3];
@@ -153,24 +180,7 @@ StoredField::Value StoredField::look_up(const Vector3& p) const {
     return value;
   }
   const Place place = descend(entry, at);
-  int cell[3];
-  double f[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    cell[axis] = std::clamp(static_cast<int>(place.at[axis]), 0, kBrickCells - 1);
-    f[axis] = place.at[axis] - cell[axis];
-  }
-  Value interpolated;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int o[3] = {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
-    const double v = node(*place.brick, cell[0] + o[0], cell[1] + o[1], cell[2] + o[2]) * place.unit;
-    double w[3], s[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      w[axis] = o[axis] != 0 ? f[axis] : 1.0 - f[axis];
-      s[axis] = (o[axis] != 0 ? 1.0 : -1.0) / place.cell;
-    }
-    interpolated.distance += v * w[0] * w[1] * w[2];
-    interpolated.gradient += v * Vector3(s[0] * w[1] * w[2], w[0] * s[1] * w[2], w[0] * w[1] * s[2]);
-  }
+  const Slope interpolated = interpolate(place);
   value = place.has_edge ? blend_with_edge(edges_[place.brick->edge - 1u], p, interpolated) : interpolated;
   if (std::fabs(value.distance) >= grid_.band) {
     value.distance = std::copysign(grid_.band, value.distance);
@@ -178,8 +188,5 @@ StoredField::Value StoredField::look_up(const Vector3& p) const {
   }
   return value;
 }
-
-double StoredField::distance(const Vector3& p) const { return look_up(p).distance; }
-Vector3 StoredField::gradient(const Vector3& p) const { return look_up(p).gradient; }
 
 }  // namespace godobject::watch

@@ -29,17 +29,14 @@ class StoredField final : public Oracle {
   /// `image` is valid and outlives the field. Throws std::runtime_error if it lacks the sections.
   StoredField(std::span<const std::byte> image, const FieldSections& sections);
 
-  double distance(const Vector3& p) const override;
-  Vector3 gradient(const Vector3& p) const override;
+  double distance(const Vector3& p) const override { return slope(p).distance; }
+  Vector3 gradient(const Vector3& p) const override { return slope(p).gradient; }
+  Slope slope(const Vector3& p) const override;
   double lipschitz() const override { return lipschitz_; }
   double band() const { return grid_.band; }
   double voxel_size() const { return grid_.voxel_size; }
 
  private:
-  struct Value {
-    double distance = 0.0;
-    Vector3 gradient = Vector3::Zero();
-  };
   /// A brick, and the point in it, in cells of that brick.
   struct Place {
     const format::Brick* brick = nullptr;
@@ -49,9 +46,9 @@ class StoredField final : public Oracle {
     Vector3 at = Vector3::Zero();
   };
 
-  Value look_up(const Vector3& p) const;
   Place descend(std::uint32_t entry, Vector3 at) const;
-  Value blend_with_edge(const format::Edge& edge, const Vector3& p, const Value& interpolated) const;
+  static Slope interpolate(const Place& place);
+  static Slope blend_with_edge(const format::Edge& edge, const Vector3& p, const Slope& interpolated);
   double steepest() const;
 
   format::Grid grid_;

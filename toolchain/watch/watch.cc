@@ -31,8 +31,8 @@ std::span<const Vector3> directions_to(bool diagonals) {
   return std::span(all).first(diagonals ? all.size() : 6);
 }
 
-/// Returns the slope of the distance by differences over `step` to either side.
-Vector3 slope_at(const Oracle& field, const Vector3& p, double step) {
+/// Returns the gradient of the distance by differences over `step` to either side.
+Vector3 differences_at(const Oracle& field, const Vector3& p, double step) {
   Vector3 slope;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 to_side = step * Vector3::Unit(axis);
@@ -310,10 +310,10 @@ double Watch::smallest_at(const Pose& H_WS) {
 /// Appends the contact of a point, given in the field's frame, with the plane through `at`.
 void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Plane& plane,
                          double reach, std::vector<Contact>& contacts) const {
-  const auto& [at, gradient] = plane;
+  const auto& [at, distance, gradient] = plane;
   const double steepness = gradient.norm();
   if (!(steepness > 1e-3)) return;
-  const double gap = (points.direction.field->distance(at) + gradient.dot(p - at)) / steepness;
+  const double gap = (distance + gradient.dot(p - at)) / steepness;
   if (!(gap <= reach)) return;
   Contact contact;
   contact.gap = gap;
@@ -362,7 +362,8 @@ std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, d
     for (std::size_t i = 0; i < points.bound.size(); ++i) {
       if (points.bound[i] > reach + field.lipschitz() * travelled_) continue;
       const Vector3 p = points.place(H_WS, i);
-      if (!(field.distance(p) <= reach)) continue;
+      const Slope here = field.slope(p);
+      if (!(here.distance <= reach)) continue;
       const std::size_t first = contacts.size();
       const auto push = [&](const Plane& plane) {
         const std::size_t count = contacts.size();
@@ -372,14 +373,17 @@ std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, d
         const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
         if (std::any_of(begin, contacts.end() - 1, is_same)) contacts.pop_back();
       };
-      const auto push_at = [&](const Vector3& at) {
-        push({at, field.gradient(at)});
-        if (is_thorough) push({at, slope_at(field, at, 0.01 * q_.voxel_size)});
+      const auto push_at = [&](const Vector3& at, const Slope& slope) {
+        push({at, slope.distance, slope.gradient});
+        if (is_thorough) push({at, slope.distance, differences_at(field, at, 0.01 * q_.voxel_size)});
       };
-      push_at(p);
+      push_at(p, here);
       for (const double radius : {3.0 * q_.margin, around}) {
         if (radius > around) continue;
-        for (const Vector3& to_place : directions_to(is_thorough)) push_at(p + radius * to_place);
+        for (const Vector3& to_place : directions_to(is_thorough)) {
+          const Vector3 at = p + radius * to_place;
+          push_at(at, field.slope(at));
+        }
       }
     }
   }

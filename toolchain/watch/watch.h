@@ -117,6 +117,7 @@ class Watch {
   /// A plane of a field, through `at`.
   struct Plane {
     Vector3 at;
+    double distance = 0.0;  ///< of `at` [m]
     Vector3 gradient;
   };
   void push_contact(const Points& points, const Pose& H_WS, std::size_t i, const Vector3& p, const Plane& plane,
