@@ -42,10 +42,10 @@ struct RefinedField {
   RefinedField(const SolidSurface& surface, double s, double tolerance = kRefinedTolerance)
       : RefinedField(surface, s, SurfaceTolerance::of_depth(tolerance * s)) {}
 
-  RefinedField(const SolidSurface& surface, double s, const SurfaceTolerance& tolerance)
+  RefinedField(const SolidSurface& surface, double s, const SurfaceTolerance& tolerance, double slack = 0.0)
       : coarse(make_distance_grid(surface, s, default_band(s, 1.5 * s), {})),
         grid(coarse),
-        report(refine(grid, surface, tolerance, {})),
+        report(refine(grid, surface, tolerance, {}, slack)),
         coarse_bricks(packed_bricks(to_float(coarse))),
         bricks(packed_bricks(grid)),
         coarse_map(coarse.grid, coarse.index, coarse_bricks, {}),
@@ -323,6 +323,37 @@ TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
       }
     }
     EXPECT_LE(deepest, 1.2 * tolerance);
+  }
+}
+
+/// A body that is made smaller by a slack touches at the level so deep inside. There the field bends below each convex
+/// edge, and interpolation makes it shallower than it is.
+TEST(Refinement, MakesTheLevelOfTheSlackTrue) {
+  std::mt19937_64 random(25);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double s = 0.002;
+  const double slack = 0.25 * s;
+  const SurfaceTolerance tolerance = SurfaceTolerance::of_depth(kRefinedTolerance * s);
+  for (int m = 0; m < 4; ++m) {
+    const TriangleMesh body = m % 2 == 0 ? test::ball_mesh(9.0 * s, 10) : test::box_mesh({4.0 * s, 3.0 * s, 2.0 * s});
+    const TriangleMesh mesh = test::moved(body, any_motion(random, s));
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * s);
+    const RefinedField field(surface, s, tolerance, slack);
+    double deepest = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+      const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+      const Vector3d& a = mesh.vertices[t[0]];
+      const Vector3d along = mesh.vertices[t[1]] - a;
+      const Vector3d across = mesh.vertices[t[2]] - a;
+      const double u = unit(random);
+      const Vector3d p = a + u * along + (1.0 - u) * unit(random) * across;
+      const Vector3d inward = -along.cross(across).normalized();
+      for (double depth = 0.8; depth < 4.0; depth += 0.1) {
+        const Vector3d q = p + (slack + depth * tolerance.inside) * inward;
+        if (field.map.sample(q).distance > 0.0) deepest = std::max(deepest, -surface.signed_distance(q) - slack);
+      }
+    }
+    EXPECT_LE(deepest, 1.2 * tolerance.inside) << m;
   }
 }
 

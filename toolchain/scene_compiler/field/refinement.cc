@@ -49,7 +49,8 @@ class Refinement {
     std::uint32_t sloped = 0;  // joins after which all slopes were measured
     while (true) {
       const bool whole = triangles.size() == triangles_.size();
-      Misses misses = find_misses(surface_, tree, barred, tolerance_.times(kSlack), triangles, progress, &compared);
+      Misses misses =
+          find_misses(surface_, tree, barred, tolerance_.times(kSlack), slack_, triangles, progress, &compared);
       Wanted wanted = std::move(misses.wanted);
       if (wanted.empty() && !whole) {
         triangles = triangles_;  // halving a neighbour may have spoiled others
@@ -95,7 +96,8 @@ class Refinement {
     const std::vector<format::Edge> none;
     const BrickTree without(field_, none);
     std::vector<bool> needed(all.size());
-    const Misses misses = find_misses(surface_, without, barred_, tolerance_.times(kSlack), triangles_, progress);
+    const Misses misses =
+        find_misses(surface_, without, barred_, tolerance_.times(kSlack), slack_, triangles_, progress);
     for (const auto& [b, octants] : misses.wanted) {
       for (const std::uint32_t e : unrefined.edges_of(b)) needed[e] = true;
     }

@@ -43,11 +43,12 @@ class SurfaceCheck {
  public:
   /// `barred` bricks are never halved.
   SurfaceCheck(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
-               const SurfaceTolerance& tolerance, Compared& compared)
+               const SurfaceTolerance& tolerance, double slack, Compared& compared)
       : surface_(surface),
         tree_(tree),
         barred_(barred),
         tolerance_(tolerance),
+        slack_(slack),
         compared_(compared.after),
         marked_(tree.brick_count()) {
     compared_.resize(surface.dilation() > 0.0 ? tree.brick_count() : surface.mesh().triangles.size());
@@ -210,6 +211,20 @@ class SurfaceCheck {
     return missed;
   }
 
+  /// Returns the point `depth` below p, a point of the triangle.
+  static Vector3d below(const Vector3d& p, double depth, const Sides& sides) {
+    return p - depth * sides.outward * sides.normal;
+  }
+
+  /// True if nothing changed about p, which lies in `leaf`, and the points below it since an earlier comparison.
+  bool is_seen(const Vector3d& p, const BrickTree::Leaf& leaf, const Sides& sides) const {
+    const auto deep_is_seen = [&](double depth) {
+      return is_seen(tree_.find(tree_.unit_cell(below(p, depth, sides))), sides.seen);
+    };
+    return is_seen(leaf, sides.seen) && deep_is_seen(tolerance_.inside) &&
+           (slack_ == 0.0 || deep_is_seen(slack_ + tolerance_.inside));
+  }
+
   /// Checks points of an edge, from end to end. True if one of them is missed.
   bool walk(const Vector3d& from, const Vector3d& to, const Vector3d& center, Sides& sides) {
     const double length = (to - from).norm();
@@ -219,11 +234,11 @@ class SurfaceCheck {
       const Vector3d p = from + at / length * (to - from);
       const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(p));
       same_steps = same_steps && is_seen(leaf, sides.seen);
-      if (!same_steps) missed = check_point(p, leaf, center, sides) || missed;
+      if (!same_steps || !is_seen(p, leaf, sides)) missed = check_point(p, leaf, center, sides) || missed;
       at += kEdgeSpacing * tree_.cell_edge(leaf.level);
     }
     const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(to));
-    if (is_seen(leaf, sides.seen)) return missed;
+    if (is_seen(to, leaf, sides)) return missed;
     return check_point(to, leaf, center, sides) || missed;
   }
 
@@ -238,7 +253,7 @@ class SurfaceCheck {
     }
     const double length = std::sqrt(squared[longest]);
     if (!compare && length <= kBrickCells * tree_.cell_edge(0)) {
-      const Vector3d about = Vector3d::Constant(tolerance_.inside);  // the points below are looked up, too
+      const Vector3d about = Vector3d::Constant(slack_ + tolerance_.inside);  // the points below are looked up, too
       const Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) - about;
       const Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) + about;
       if (tree_.changed_in(low, high) <= sides.seen) return false;
@@ -300,23 +315,28 @@ class SurfaceCheck {
   bool check_point(const Vector3d& p, const BrickTree::Leaf& leaf, const Vector3d& center, Sides& sides) {
     if (leaf.brick == BrickTree::kNone) return false;
     const auto matters = [&] { return bounds_the_body(p, center, tree_.cell_edge(leaf.level), sides); };
-    const bool missed = check_value(p, leaf, 0.0, matters, sides.worst);
-    return check_below(p, leaf, matters, sides) || missed;
+    bool missed = check_value(p, leaf, 0.0, matters, sides.worst);
+    // with a steeper field the level 0 is no deeper than the tolerance, whatever the value at p
+    if (tree_.interpolate(leaf, p) > kSurelySteep * tolerance_.inside) {
+      missed = check_below(p, 0.0, matters, sides) || missed;
+    }
+    return slack_ > 0.0 ? check_below(p, slack_, matters, sides) || missed : missed;
   }
 
-  /// Checks the point at the tolerance below p. Where the field is flat, its zero level may lie deeper than its value
-  /// at p tells.
+  /// Checks the point at the tolerance below the level `depth` under p. Where the field is flat, its zero level may lie
+  /// deeper than its value at p tells. A body that is made smaller touches at the slack's level, where the field bends
+  /// although the surface does not.
   template <class Matters>
-  bool check_below(const Vector3d& p, const BrickTree::Leaf& leaf, const Matters& matters, Sides& sides) {
-    if (tree_.interpolate(leaf, p) <= kSurelySteep * tolerance_.inside) return false;
-    const Vector3d q = p - tolerance_.inside * sides.outward * sides.normal;
-    const BrickTree::Leaf below = tree_.find(tree_.unit_cell(q));
-    if (below.brick == BrickTree::kNone || tree_.interpolate(below, q) <= 0.0 || !matters()) return false;
+  bool check_below(const Vector3d& p, double depth, const Matters& matters, Sides& sides) {
+    const Vector3d q = below(p, depth + tolerance_.inside, sides);
+    const BrickTree::Leaf leaf = tree_.find(tree_.unit_cell(q));
+    if (leaf.brick == BrickTree::kNone || tree_.interpolate(leaf, q) <= -depth || !matters()) return false;
     const double exact = (sides.outward > 0.0 ? sides.below : sides.above).signed_distance(q);
-    if (exact > -kWholeDepth * tolerance_.inside) return false;  // q is not as deep: near an edge, or in a thin wall
+    // q may be less deep: near an edge, or in a thin wall
+    if (exact > -depth - kWholeDepth * tolerance_.inside) return false;
     const double worst_before = sides.worst.in_tolerances;
     const bool missed = check_value(
-        q, below, exact, [] { return true; }, sides.worst);
+        q, leaf, exact, [] { return true; }, sides.worst);
     if (sides.worst.in_tolerances > worst_before) sides.worst.at = p;
     return missed;
   }
@@ -368,6 +388,7 @@ class SurfaceCheck {
   const BrickTree& tree_;
   const std::vector<bool>& barred_;
   const SurfaceTolerance tolerance_;
+  const double slack_;
   std::vector<std::uint32_t>& compared_;
   std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants to be halved, by brick
   std::set<Edge> rims_;                            ///< edges of shells, by their vertices
@@ -376,10 +397,10 @@ class SurfaceCheck {
 }  // namespace
 
 Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
-                   const SurfaceTolerance& tolerance, const std::vector<std::uint32_t>& triangles,
+                   const SurfaceTolerance& tolerance, double slack, const std::vector<std::uint32_t>& triangles,
                    const parallel::Progress& progress, Compared* compared) {
   Compared nothing;
-  return SurfaceCheck(surface, tree, barred, tolerance, compared != nullptr ? *compared : nothing)
+  return SurfaceCheck(surface, tree, barred, tolerance, slack, compared != nullptr ? *compared : nothing)
       .run(triangles, progress);
 }
 

@@ -36,10 +36,12 @@ struct Compared {
 
 /// Compares the stored field with the surface on `triangles`: at points of their edges, half a cell apart, and of their
 /// faces, a cell apart, of a shell also about its rims and folds. A dilated surface, which has no mesh, is compared in
-/// all cells about it. The error must lie within `tolerance`. `barred` bricks cannot be halved. `compared` begins
-/// empty; a brick that is barred later must be touched. Without it all places are compared, with the same result.
+/// all cells about it. The error must lie within `tolerance`. With a `slack` [m] also the level so deep inside is
+/// compared, where a solid touches that is made smaller by it: it must not lie deeper than the tolerance. `barred`
+/// bricks cannot be halved. `compared` begins empty; a brick that is barred later must be touched. Without it all
+/// places are compared, with the same result.
 Misses find_misses(const SolidSurface& surface, const BrickTree& tree, const std::vector<bool>& barred,
-                   const SurfaceTolerance& tolerance, const std::vector<std::uint32_t>& triangles,
+                   const SurfaceTolerance& tolerance, double slack, const std::vector<std::uint32_t>& triangles,
                    const parallel::Progress& progress, Compared* compared = nullptr);
 
 }  // namespace godobject::scene_compiler
