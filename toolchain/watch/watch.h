@@ -172,6 +172,7 @@ class Watch {
   Pose H_WS_last_start_;    // at the start of the last sub-step
   Pose H_WD_last_;          // followed device pose
   double smallest_ = 0.0;   // distance of all points at the start of the last sub-step [m]
+  double doubtful_ = 0.0;   // of pairs of edges there that began too deep for the session, and are not any more [m]
   double travelled_ = 0.0;  // largest displacement of a point in this cycle [m]
   int resting_ = 0;         // cycles for which the device has hardly moved
   int behind_ = 0;          // of these, cycles in a row that ended away from the optimum

@@ -69,8 +69,11 @@ void Watch::check_reference(const WatchedCycle& cycle) {
   // the arc of a motion and the chords of its points differ by less than the clearance in motions of a voxel
   const Vector6 to_device = stretch(H_WS_before_, H_WD);
   const double away = to_device.head<3>().norm() + q_.mass.radius / gyration_ * to_device.tail<3>().norm();
+  constexpr double kMostTurn =
+      1.0;  // [rad]: a wider turn takes more sub-steps than a cycle has, however small the body
+  const bool turns_far = to_device.tail<3>().norm() > kMostTurn * gyration_;
   const bool exceeds_budget = q_.point_budget > 0 && cycle.report.outcome == Outcome::kOverflow;
-  if (contacts.empty() && away < q_.voxel_size && !session_.renders_ball && !exceeds_budget) {
+  if (contacts.empty() && away < q_.voxel_size && !turns_far && !session_.renders_ball && !exceeds_budget) {
     const double clearance = 0.25 * q_.voxel_size;
     judge(Property::kArrives, is_clear(H_WS_before_, H_WD, clearance) ? 1.0 : 0.0, 0.0,
           [&] { return fmt::format("{} m from the device", stretch(H_WS_, H_WD).norm()); });
