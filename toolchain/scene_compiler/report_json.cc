@@ -37,6 +37,7 @@ Json mesh_json(const SceneConfig::Mesh& mesh, const MeshFindings& facts, double 
             {"duplicate_triangles_dropped", r.duplicate_triangles},
             {"folded_triangles", r.folded_triangles},
             {"unreferenced_vertices_dropped", r.unreferenced_vertices},
+            {"cuts_at_slits", r.cuts_at_slits},
             {"boundary_edges", r.boundary_edges},
             {"nonmanifold_edges", r.nonmanifold_edges},
             {"triangles_turned", r.turned_triangles},

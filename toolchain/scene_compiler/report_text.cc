@@ -31,6 +31,7 @@ std::string mesh_text(const char* role, const SceneConfig::Mesh& mesh, const Mes
     if (count > 0) text += fmt::format("         {} {}\n", count, what);
   };
   note(r.boundary_edges, "boundary edges: the mesh is open, the winding number decides its side");
+  note(r.cuts_at_slits, "triangles cut where others' vertices lie on their edges, which closes slits");
   note(r.nonmanifold_edges, "edges of more than two triangles");
   note(r.turned_triangles, "triangles turned round: most of their neighbours have the other sense");
   note(r.misoriented_edges, "edges between triangles of opposite sense: the surface has only one side");

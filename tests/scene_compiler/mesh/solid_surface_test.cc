@@ -142,5 +142,27 @@ TEST(DistanceProbe, GivesTheSameOnAWalkAsAlone) {
   }
 }
 
+/// Walks that cross the surface all the time, some through its hole: the sides are those of a sum at each place.
+TEST(DistanceProbe, CountsCrossingsBesideAHole) {
+  TriangleMesh holed = test::ball_mesh(0.02, 6);
+  holed.triangles.erase(holed.triangles.begin() + 30);
+  const SolidSurface surface(holed, SurfaceKind::kSolid, 0.01);
+  ASSERT_FALSE(surface.sealed());
+  DistanceProbe probe(surface);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> any(0.0, 1.0);
+  int insides = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double step = i % 50 == 0 ? 0.02 : 1e-4;
+    const Vector3d direction = Vector3d(any(random), any(random), any(random)).normalized();
+    const Vector3d p = (0.019 + step * any(random)) * direction;
+    const double distance = probe.signed_distance(p);
+    ASSERT_EQ(distance, surface.signed_distance(p)) << i << " " << surface.winding_number(p);
+    insides += distance < 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(insides, 2000);
+  EXPECT_LT(insides, 18'000);
+}
+
 }  // namespace
 }  // namespace godobject::scene_compiler::solid_surface_test

@@ -8,8 +8,8 @@
 namespace godobject::scene_compiler {
 
 /// Signed distance along a walk, equal to SolidSurface::signed_distance but faster. The last answer bounds the next
-/// search. The winding number is summed again only far from the last sum, or after a step that crosses a triangle of
-/// solids with an open boundary. Without one, crossings are counted. Use one probe for each thread.
+/// search. The winding number is summed once; then the triangles that the walk crosses are counted. Near an open
+/// boundary of the solids it is summed again. Use one probe for each thread.
 class DistanceProbe {
  public:
   explicit DistanceProbe(const SolidSurface& surface) : surface_(surface) {}
@@ -26,15 +26,20 @@ class DistanceProbe {
 
  private:
   bool keeps_side(const Eigen::Vector3d& p, double step) const;
-  bool counts_crossings(const Eigen::Vector3d& p);
+  bool counts_crossings(const Eigen::Vector3d& p, double step);
+  void sum_winding(const Eigen::Vector3d& p);
+  std::optional<int> change_by_detour(const Eigen::Vector3d& p) const;
 
   const SolidSurface& surface_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
   double to_solids_ = -1.0;  ///< at the last point; negative: no answer yet
   double to_shells_ = -1.0;
   bool inside_ = false;
-  int winding_ = 0;         ///< winding number, if the solids have no open boundary
-  double path_left_ = 0.0;  ///< until the winding number must be summed again [m]
+  int winding_ = 0;              ///< winding number, if the solids have no open boundary
+  double path_left_ = 0.0;       ///< until the winding number must be summed again [m]
+  double winding_number_ = 0.0;  ///< of the last sum, and the triangles crossed since
+  Eigen::Vector3d summed_at_ = Eigen::Vector3d::Zero();
+  double travelled_ = 0.0;  ///< since then [m]
 };
 
 }  // namespace godobject::scene_compiler

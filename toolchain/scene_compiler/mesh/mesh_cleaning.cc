@@ -12,6 +12,7 @@
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
 #include "toolchain/scene_compiler/mesh/orientation.h"
+#include "toolchain/scene_compiler/mesh/slits.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -237,6 +238,7 @@ TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& name, MeshReport& 
   drop_loose_vertices(mesh);
   report.unreferenced_vertices = before - mesh.vertices.size() - report.welded_vertices;
   measure_box(mesh.vertices, name, report);
+  report.cuts_at_slits = close_slits(mesh, report.weld_tolerance);
   settle_topology(mesh, report);
   return mesh;
 }

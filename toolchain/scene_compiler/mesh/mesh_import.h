@@ -18,6 +18,7 @@ struct MeshReport {
   std::uint64_t duplicate_triangles = 0;   ///< dropped: another triangle has the same corners
   std::uint64_t folded_triangles = 0;      ///< stored in pairs of opposite sense: a fold without volume
   std::uint64_t unreferenced_vertices = 0;
+  std::uint64_t cuts_at_slits = 0;  ///< triangles cut where a vertex of others lies on their edge: see close_slits
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
   std::uint64_t boundary_edges = 0;               ///< edges of one triangle
@@ -38,10 +39,10 @@ inline constexpr double kMaxCoordinate = 1e5;
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{4} << 30;  ///< of a file, which is read as a whole
 
 /// Reads a PLY, STL or OBJ file, scales it to metres and cleans it: welds coincident vertices (within 1e-6 of the
-/// bounding box's diagonal), drops degenerate and duplicate triangles and unused vertices, and turns triangles round so that
-/// neighbours agree. Coordinates of STL and OBJ
-/// files have single precision. Throws Failure naming the file and the cure: kNoInput if it cannot be read, kBadData if
-/// it is larger than kMaxMeshBytes or contains no usable mesh.
+/// bounding box's diagonal), drops degenerate and duplicate triangles and unused vertices, closes slits, and turns
+/// triangles round so that neighbours agree. Coordinates of STL and OBJ files have single precision. Throws Failure
+/// naming the file and the cure: kNoInput if it cannot be read, kBadData if it is larger than kMaxMeshBytes or contains
+/// no usable mesh.
 TriangleMesh import_mesh(const std::filesystem::path& file, double scale, MeshReport& report);
 
 /// Does the cleaning only. `name` stands for the mesh in messages.
