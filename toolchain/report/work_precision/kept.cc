@@ -11,6 +11,7 @@
 #include "toolchain/files/output_target.h"
 #include "toolchain/report/study/made_once.h"
 #include "toolchain/report/study/result_file.h"
+#include "toolchain/report/work_precision/compiler_digest.h"
 #include "toolchain/scene_compiler/compile_scene.h"
 
 namespace godobject::report {
@@ -19,9 +20,10 @@ namespace {
 using precision::TracedCycle;
 using Numbers = std::array<double, 13>;
 
-std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& key, const char* ending) {
+std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& maker, const std::string& key,
+                              const char* ending) {
   files::make_output_folder(folder);
-  return folder / (digest(program_digest() + " " + key) + ending);
+  return folder / (digest(maker + " " + key) + ending);
 }
 
 Numbers numbers_of(const TracedCycle& cycle) {
@@ -45,7 +47,7 @@ TracedCycle cycle_of(const Numbers& n) {
 
 files::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
                              const scene_compiler::SceneConfig& config) {
-  const std::filesystem::path file = file_of(folder, key, ".scene");
+  const std::filesystem::path file = file_of(folder, compiler_digest(), key, ".scene");
   make_once(file, [&] {
     scene_compiler::compile_scene(
         {.scene_file = {}, .config = config, .output = file, .only_solver = {}, .choice = {}, .progress = {}});
@@ -55,7 +57,7 @@ files::SceneImage kept_image(const std::filesystem::path& folder, const std::str
 
 std::vector<TracedCycle> kept_cycles(const std::filesystem::path& folder, const std::string& key,
                                      const std::function<std::vector<TracedCycle>()>& run) {
-  const std::filesystem::path file = file_of(folder, key, ".cycles");
+  const std::filesystem::path file = file_of(folder, program_digest(), key, ".cycles");
   make_once(file, [&] {
     files::AtomicFile out(file);
     for (const TracedCycle& cycle : run()) {
