@@ -73,6 +73,9 @@ TEST(MeshSurface, IsTheBoxByHandAndTheEllByItsBoxes) {
     const Vector3 q = p.cwiseAbs() - Vector3(1.0, 2.0, 3.0);
     const double truth = q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
     ASSERT_NEAR(surface.distance(p), truth, 1e-13);
+    for (const double most : {1.0, 1.5, 0.5}) {  // as it is, too wide, and wrong
+      ASSERT_EQ(surface.distance_within(p, most * std::fabs(truth)), surface.distance(p));
+    }
   }
 }
 
@@ -117,6 +120,9 @@ TEST(GrownSurface, StandsAtItsDistanceFromTheMesh) {
   EXPECT_NEAR(grown.distance({1.7, 0.0, 0.0}), 0.2, 1e-12);
   EXPECT_NEAR(grown.distance({1.3, 2.4, 0.0}), 0.0, 1e-12) << "3, 4, 5 from the edge";
   EXPECT_NEAR(grown.distance({0.9, 0.0, 0.0}), -0.6, 1e-12);
+  for (const Vector3& p : {Vector3(1.7, 0.0, 0.0), Vector3(1.3, 2.4, 0.0), Vector3(0.9, 0.0, 0.0)}) {
+    EXPECT_EQ(grown.distance_within(p, std::fabs(grown.distance(p))), grown.distance(p));
+  }
   EXPECT_TRUE(grown.gradient({0.9, 0.0, 0.0}).normalized().isApprox(Vector3::UnitX(), 1e-12));
 }
 

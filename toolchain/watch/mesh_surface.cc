@@ -124,9 +124,9 @@ MeshSurface::Nearest MeshSurface::nearest_of(std::uint32_t triangle, const Vecto
   return at(a + vb / sum * ab + vc / sum * ac, face_normals_[triangle]);
 }
 
-MeshSurface::Nearest MeshSurface::nearest(const Vector3& p) const {
+MeshSurface::Nearest MeshSurface::nearest(const Vector3& p, double within) const {
   Nearest best;
-  best.squared = std::numeric_limits<double>::infinity();
+  best.squared = within;
   constexpr int kDeepest = 64;
   std::uint32_t stack[kDeepest];
   int depth = 0;
@@ -151,10 +151,18 @@ MeshSurface::Nearest MeshSurface::nearest(const Vector3& p) const {
   return best;
 }
 
-double MeshSurface::distance(const Vector3& p) const {
-  const Nearest near = nearest(p);
+double MeshSurface::signed_distance(const Nearest& near, const Vector3& p) {
   const double distance = std::sqrt(near.squared);
   return (p - near.point).dot(near.normal) < 0.0 ? -distance : distance;
+}
+
+double MeshSurface::distance(const Vector3& p) const { return signed_distance(nearest(p), p); }
+
+double MeshSurface::distance_within(const Vector3& p, double most) const {
+  constexpr double kRounding = 1e-9;
+  const double farther = (1.0 + kRounding) * most + kRounding * p.norm();
+  const Nearest near = nearest(p, farther * farther);
+  return near.squared < farther * farther ? signed_distance(near, p) : distance(p);  // `most` was wrong
 }
 
 Vector3 MeshSurface::gradient(const Vector3& p) const {

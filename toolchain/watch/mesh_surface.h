@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ class MeshSurface final : public Oracle {
   MeshSurface(std::vector<Vector3> vertices, std::vector<Triangle> triangles);
 
   double distance(const Vector3& p) const override;
+  double distance_within(const Vector3& p, double most) const override;
   Vector3 gradient(const Vector3& p) const override;
   double lipschitz() const override { return 1.0; }
 
@@ -42,7 +44,9 @@ class MeshSurface final : public Oracle {
   };
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
-  Nearest nearest(const Vector3& p) const;
+  /// Only triangles count that are nearer than the root of `within`; without one the result's `squared` is `within`.
+  Nearest nearest(const Vector3& p, double within = std::numeric_limits<double>::infinity()) const;
+  static double signed_distance(const Nearest& near, const Vector3& p);
   Nearest nearest_of(std::uint32_t triangle, const Vector3& p) const;
   bool triangle_meets(std::uint32_t triangle, const Vector3& p0, const Vector3& d) const;
 
@@ -65,6 +69,10 @@ class GrownSurface final : public Oracle {
 
   double distance(const Vector3& p) const override {
     const double to_mesh = mesh_.distance(p);
+    return (is_sheet_ ? std::abs(to_mesh) : to_mesh) - grown_by_;
+  }
+  double distance_within(const Vector3& p, double most) const override {
+    const double to_mesh = mesh_.distance_within(p, most + grown_by_);
     return (is_sheet_ ? std::abs(to_mesh) : to_mesh) - grown_by_;
   }
   Vector3 gradient(const Vector3& p) const override {

@@ -1,6 +1,7 @@
 #include "toolchain/watch/oracle.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace godobject::watch {
 namespace {
@@ -26,7 +27,9 @@ bool falls_below(const Oracle& oracle, const Chord& chord, double least, double 
     if (piece.above0 < 0.0 || piece.above1 < 0.0) return true;
     if (piece.above0 + piece.above1 > steepness * (piece.t1 - piece.t0) || piece.t1 - piece.t0 < shortest) continue;
     const double middle = 0.5 * (piece.t0 + piece.t1);
-    const double above = oracle.distance(chord.begin + middle * whole) - least;
+    const double nearer_end = std::min(std::fabs(piece.above0 + least), std::fabs(piece.above1 + least));
+    const double most = nearer_end + steepness * 0.5 * (piece.t1 - piece.t0);
+    const double above = oracle.distance_within(chord.begin + middle * whole, most) - least;
     if (depth + 2 > kDeepest) continue;
     stack[depth++] = {middle, above, piece.t1, piece.above1};
     stack[depth++] = {piece.t0, piece.above0, middle, above};

@@ -54,10 +54,11 @@ Watch::Watch(WatchedSession session)
       q_(session_.parameters),
       gyration_(std::sqrt(q_.coupling_rotation / q_.coupling_translation)) {
   for (Direction& direction : session_.directions) {
-    Points points{std::move(direction), {}, {}, {}, {}};
+    Points points{std::move(direction), {}, {}, {}, {}, {}};
     points.bound.assign(points.direction.points.size(), 0.0);
     points.is_exact.assign(points.direction.points.size(), false);
     points.mesh_bound.assign(points.direction.points.size(), 0.0);
+    points.mesh_most.assign(points.direction.points.size(), std::numeric_limits<double>::infinity());
     points.in_mesh.assign(points.direction.points.size(), kUnknown);
     points_.push_back(std::move(points));
   }
@@ -275,6 +276,7 @@ void Watch::follow_mesh(Points& points, std::size_t i, const Vector3& p0, const 
   const double may_lose = (1.0 + 1e-9) * (p1 - p0).norm() + session_.rounding;
   if (bound > may_lose + 0.2 * q_.voxel_size || is_inside_) {
     bound = std::max(0.0, bound - may_lose);
+    points.mesh_most[i] += may_lose;
     points.in_mesh[i] = kUnknown;
     return;
   }
@@ -286,8 +288,11 @@ void Watch::follow_mesh(Points& points, std::size_t i, const Vector3& p0, const 
 void Watch::check_mesh(Points& points, std::size_t i, const Vector3& p0, const Vector3& p1) {
   const Oracle& mesh = *points.direction.mesh;
   double& in_mesh = points.in_mesh[i];
-  const Chord chord{p0, p1, std::isnan(in_mesh) ? mesh.distance(p0) : in_mesh, mesh.distance(p1)};
+  const double at_begin = std::isnan(in_mesh) ? mesh.distance_within(p0, points.mesh_most[i]) : in_mesh;
+  const double at_end = mesh.distance_within(p1, std::fabs(at_begin) + mesh.lipschitz() * (p1 - p0).norm());
+  const Chord chord{p0, p1, at_begin, at_end};
   in_mesh = chord.at_end;
+  points.mesh_most[i] = std::fabs(at_end);
   const double most = points.direction.mesh_accuracy + 1e-6 * q_.voxel_size + session_.rounding;
   judge(Property::kMesh, falls_below(mesh, chord, -most, 1e-2 * q_.voxel_size) ? 1.0 : 0.0, 0.0, [&] {
     return fmt::format("from {} m to {} m outside of the mesh, by more than {} m", chord.at_begin, chord.at_end, most);

@@ -83,6 +83,7 @@ class Watch {
     std::vector<double> bound;
     std::vector<bool> is_exact;      ///< the bound is the distance
     std::vector<double> mesh_bound;  ///< the same of the distance from the mesh, whatever the field says
+    std::vector<double> mesh_most;   ///< an upper bound of its size
     std::vector<double> in_mesh;     ///< distance from the mesh; NaN: not looked up at this pose
     Vector3 place(const Pose& H_WS, std::size_t i) const;
   };
