@@ -170,6 +170,39 @@ TEST(Command, NamesTheVoxelEdgeThatAnAccuracyNeeds) {
       << compiled.output;
 }
 
+/// Without voxel edges the compiler finds some that hold the accuracy; edges that are stated stay as they are.
+TEST(Command, ChoosesVoxelEdgesForAnAccuracy) {
+  const ScratchFolder folder;
+  const std::string mesh = mesh_file("cube_100mm").string();
+  const auto compile = [&](const std::string& moving) {
+    const std::string text = "[still]\nmesh = \"" + mesh + "\"\nscale = 0.2\naccuracy = 1e-4\n[moving]\nmesh = \"" +
+                             mesh + "\"\nscale = 0.1\npoints = 60\nlevels = 2\n" + moving;
+    return run(kScenec + " " + folder.write("s.toml", text).string() + " -o " + folder.file("o.scene").string());
+  };
+  const Outcome compiled = compile("");
+  EXPECT_EQ(compiled.exit_code, 0) << compiled.output;
+  EXPECT_NE(compiled.output.find("chosen for the accuracy"), std::string::npos) << compiled.output;
+  EXPECT_NE(compiled.output.find("the stored surfaces lie within 0.1 mm of the meshes'"), std::string::npos)
+      << compiled.output;
+  // a block of 20 mm with a wall of 1 mm, which the first choice of 2.5 mm cannot hold
+  TriangleMesh hollow = test::box_mesh(Eigen::Vector3d::Constant(0.02));
+  const TriangleMesh cavity = test::box_mesh(Eigen::Vector3d::Constant(0.018));
+  for (const auto& t : cavity.triangles) hollow.triangles.push_back({8 + t[0], 8 + t[2], 8 + t[1]});
+  hollow.vertices.insert(hollow.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+  folder.write("hollow.obj", test::obj_text(hollow));
+  const std::string walls =
+      "[still]\nmesh = \"hollow.obj\"\nsurface = \"solid\"\naccuracy = 1e-4\n[moving]\nmesh = \"" + mesh +
+      "\"\nscale = 0.1\npoints = 60\nlevels = 2\nvoxel_size = 0.001\n";
+  const Outcome thin =
+      run(kScenec + " " + folder.write("w.toml", walls).string() + " -o " + folder.file("w.scene").string());
+  EXPECT_EQ(thin.exit_code, 0) << thin.output;
+  std::filesystem::remove(folder.file("o.scene"));
+  const Outcome refused = compile("voxel_size = 0.002\n");
+  EXPECT_EQ(refused.exit_code, 65) << refused.output;
+  EXPECT_NE(refused.output.find("Take moving.voxel_size = "), std::string::npos) << refused.output;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("o.scene")));
+}
+
 /// A small tilted cube, pressed on the top of a large one and moved along: one pose for each millisecond.
 std::string pressed_cube() {
   std::string rows = "t,px,py,pz,qw,qx,qy,qz\n";

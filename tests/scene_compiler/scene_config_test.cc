@@ -87,6 +87,31 @@ TEST(SceneConfig, ReadsAnAccuracyForBothBodiesInPlaceOfATolerance) {
                  ":5:", "leave one of them out");
 }
 
+TEST(SceneConfig, LeavesTheVoxelsToTheCompilerIfItStatesAnAccuracy) {
+  EXPECT_FALSE(read(std::string(kStill) + "accuracy = 1e-5\n" + kMoving).chooses_voxels);
+  const ScratchFolder folder;
+  const auto read_chosen = [&](const std::string& more, const VoxelSizes& chosen) {
+    return read_scene_config(
+        folder.write("scene.toml", "[still]\nmesh = \"a.ply\"\naccuracy = 1e-5\n" + std::string(kMoving) + more),
+        chosen);
+  };
+  const SceneConfig first = read_chosen("", {});
+  EXPECT_TRUE(first.chooses_voxels);
+  EXPECT_TRUE(first.chooses_body_voxels);
+  EXPECT_DOUBLE_EQ(first.voxel_size, 4e-4);
+  EXPECT_DOUBLE_EQ(first.body_voxel_size, 4e-4);
+  EXPECT_DOUBLE_EQ(first.between_points, 2e-4);
+  const SceneConfig next = read_chosen("", {1e-4, 5e-5});
+  EXPECT_DOUBLE_EQ(next.voxel_size, 1e-4);
+  EXPECT_DOUBLE_EQ(next.body_voxel_size, 5e-5);
+  EXPECT_DOUBLE_EQ(next.between_points, 1e-4);
+  EXPECT_DOUBLE_EQ(next.thickness, 2e-4) << "other lengths follow";
+  const SceneConfig stated = read_chosen("voxel_size = 3e-4\n", {1e-4, 5e-5});
+  EXPECT_FALSE(stated.chooses_body_voxels);
+  EXPECT_DOUBLE_EQ(stated.body_voxel_size, 3e-4);
+  EXPECT_EQ(stated.voxel_size, 1e-4);
+}
+
 TEST(SceneConfig, HasEdgeAgainstEdgeAsTold) {
   const std::string bodies = std::string(kStill) + kMoving;
   EXPECT_EQ(read(bodies).edges, std::nullopt);

@@ -8,7 +8,6 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include "toolchain/bench/build_facts.h"
 #include "toolchain/bench/cycle_times.h"
 #include "toolchain/command_line/source_commit.h"
 

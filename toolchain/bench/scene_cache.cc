@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "toolchain/bench/build_facts.h"
 #include "toolchain/files/atomic_file.h"
 #include "toolchain/files/output_target.h"
 #include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/compiler_digest.h"
 #include "toolchain/scene_compiler/scene_config.h"
 
 namespace godobject::bench {
@@ -44,7 +44,7 @@ files::SceneImage SceneCache::image(const std::filesystem::path& scene_file,
                                     const std::function<void(const char* phase, double done)>& progress) const {
   const scene_compiler::SceneConfig config = scene_compiler::read_scene_config(scene_file);
   Digest digest;
-  digest.add(kCompilerDigest);
+  digest.add(scene_compiler::compiler_digest());
   for (const auto& file : {scene_file, config.still.file, config.moving.file}) digest.add(bytes_of(file));
   const auto image = folder_ / fmt::format("{}-{:016x}.scene", scene_file.stem().string(), digest.value());
   if (!std::filesystem::exists(image)) {

@@ -104,7 +104,9 @@ std::string overlap_text(const Options& options, const godobject::replay::Summar
 
 /// Returns a scene file, if its meshes are those of the image.
 SceneConfig scene_file_of(const Options& options, const std::string& file, const godobject::SceneView& scene) {
-  SceneConfig config = godobject::scene_compiler::read_scene_config(file);
+  godobject::scene_compiler::VoxelSizes of_image{scene.voxelmap.voxel_size(), {}};
+  if (scene.has_features()) of_image.moving = scene.body_map.voxel_size();
+  SceneConfig config = godobject::scene_compiler::read_scene_config(file, of_image);
   const std::string difference = godobject::scene_compiler::difference_of_meshes(scene, config);
   if (difference.empty()) return config;
   throw Failure(ExitCode::kBadConfig, fmt::format("{}: is not the scene file of {}: {}; name the one that was compiled",

@@ -115,14 +115,15 @@ void require_accuracy(const SceneConfig& config, const RefinementReport& refined
   }
   if (refined.worst.in_tolerances <= 1.0) return;
   const Eigen::Vector3d& at = refined.worst.at;
-  throw command::Failure(
-      command::ExitCode::kBadData,
+  const double voxel_size = 0.9 * grid.voxel_size / refined.worst.in_tolerances;
+  throw AccuracyMissed(
       fmt::format(
           "{}.mesh: the stored surface would be {:.3g} m {} the mesh at ({:.4g}, {:.4g}, {:.4g}) m, and accuracy "
           "= {:g} allows less; bricks cannot be finer there. Take {}.voxel_size = {:.2g}, or close the mesh if "
           "it is open there, or take a larger accuracy",
           body, std::abs(refined.worst.error), refined.worst.error > 0.0 ? "inside" : "outside", at.x(), at.y(), at.z(),
-          *config.accuracy, body, 0.9 * grid.voxel_size / refined.worst.in_tolerances));
+          *config.accuracy, body, voxel_size),
+      std::string_view(body) == "still", voxel_size);
 }
 
 struct FeaturePhase {

@@ -1,5 +1,6 @@
 #include "toolchain/scene_compiler/compile_scene.h"
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "toolchain/files/atomic_file.h"
 #include "toolchain/files/scene_image.h"
 #include "toolchain/scene_compiler/compile_phases.h"
+#include "toolchain/scene_compiler/mesh/mesh_import.h"
 #include "toolchain/scene_compiler/report_json.h"
 
 namespace godobject::scene_compiler {
@@ -25,8 +27,9 @@ void require_held(const SceneConfig& config, std::optional<format::Solver> only_
                   format::kSolverNames[static_cast<std::size_t>(*only_solver)]));
 }
 
-CompileTarget target_of(const CompileRequest& request) {
-  CompileTarget target{request.config ? *request.config : read_scene_config(request.scene_file), request.only_solver};
+CompileTarget target_of(const CompileRequest& request, const VoxelSizes& chosen) {
+  CompileTarget target{request.config ? *request.config : read_scene_config(request.scene_file, chosen),
+                       request.only_solver};
   require_held(target.config, target.only_solver);
   return target;
 }
@@ -89,11 +92,36 @@ SectionBytes provenance(const CompileReport& report) {
   return {format::SectionId::kProvenance, {text.begin(), text.end()}};
 }
 
-}  // namespace
+/// Returns the shortest edge of a body's bounding box; of a flat sheet the shorter edge that it has [m].
+double shortest_edge(const SceneConfig::Mesh& mesh) {
+  constexpr double kFlat = 1e-6;  // of the longest
+  MeshReport report;
+  import_mesh(mesh.file, mesh.scale, report);
+  const Eigen::Vector3d edges = report.high - report.low;
+  double shortest = edges.maxCoeff();
+  for (const double edge : edges) {
+    if (edge > kFlat * edges.maxCoeff()) shortest = std::min(shortest, edge);
+  }
+  return shortest;
+}
 
-CompileReport compile_scene(const CompileRequest& request) {
+/// Returns the voxel edges to begin with: large ones, but small beside the bodies.
+VoxelSizes first_choice(const SceneConfig& config) {
+  constexpr double kVoxelsAcross = 4.0;
+  const double shortest = std::min(shortest_edge(config.still), shortest_edge(config.moving));
+  return {std::max(*config.accuracy, std::min(config.voxel_size, shortest / kVoxelsAcross)), {}};
+}
+
+/// Refuses settings that were read from a file without voxel edges: other lengths in them follow a first guess.
+void require_file(const CompileRequest& request) {
+  if (!request.config) return;
+  throw command::Failure(command::ExitCode::kBadConfig,
+                         "a scene whose settings are changed needs still.voxel_size; compile it alone, and state the "
+                         "edge that is chosen");
+}
+
+CompileReport compile(const CompileRequest& request, const CompileTarget& target) {
   PhaseClock clock(request.progress);
-  const CompileTarget target = target_of(request);
   const Bodies bodies = read_bodies(target.config, clock);
   const Obstacle obstacle = make_obstacle(target.config, bodies, clock);
   const SolidSurface& surface = obstacle.surface(bodies);
@@ -127,6 +155,32 @@ CompileReport compile_scene(const CompileRequest& request) {
   report.image_bytes = clock.run("write", [&](const auto&) { return write_image(sections, request.output); });
   report.seconds = clock.seconds();
   return report;
+}
+
+}  // namespace
+
+CompileReport compile_scene(const CompileRequest& request) {
+  constexpr int kMostTries = 8;     // two or three mostly: the errors of a try tell the edge of the next
+  constexpr double kSmaller = 0.3;  // of an edge at which the voxels are too coarse for walls or a small body
+  CompileTarget target = target_of(request, {});
+  if (!target.config.chooses_voxels) return compile(request, target);
+  require_file(request);
+  VoxelSizes chosen = first_choice(target.config);
+  for (int tries = 1;; ++tries) {
+    target = target_of(request, chosen);
+    const bool is_last = tries == kMostTries;
+    try {
+      return compile(request, target);
+    } catch (const AccuracyMissed& missed) {
+      const bool may_choose = missed.of_still() || target.config.chooses_body_voxels;
+      if (is_last || !may_choose || missed.voxel_size() < *target.config.accuracy) throw;
+      (missed.of_still() ? chosen.still : chosen.moving) = missed.voxel_size();
+    } catch (const command::Failure& failure) {
+      const double smaller = kSmaller * target.config.voxel_size;
+      if (is_last || failure.exit_code() != command::ExitCode::kBadData || smaller < *target.config.accuracy) throw;
+      chosen.still = smaller;
+    }
+  }
 }
 
 }  // namespace godobject::scene_compiler

@@ -160,12 +160,13 @@ std::string field_text(const CompileReport& report) {
   const format::Grid& g = report.field.grid;
   const std::uint64_t finer = report.field.refinement.finer;
   std::string text = fmt::format(
-      "field    {} x {} x {} voxels of {}, distances stored up to {} from the surface (the band): {} of {} positions "
+      "field    {} x {} x {} voxels of {}{}, distances stored up to {} from the surface (the band): {} of {} positions "
       "stored as bricks of {} x {} x {} voxels; {} finer bricks in addition\n"
       "         rounded to multiples of {}, half of that in bricks halved once, a quarter in those halved twice, ...\n",
       g.bricks[0] * format::kBrickCells, g.bricks[1] * format::kBrickCells, g.bricks[2] * format::kBrickCells,
-      millimetres(g.voxel_size), millimetres(g.band), g.brick_count - finer, report.field.brick_positions,
-      format::kBrickCells, format::kBrickCells, format::kBrickCells, finer, millimetres(g.quantum));
+      millimetres(g.voxel_size), report.config.chooses_voxels ? ", chosen for the accuracy" : "", millimetres(g.band),
+      g.brick_count - finer, report.field.brick_positions, format::kBrickCells, format::kBrickCells,
+      format::kBrickCells, finer, millimetres(g.quantum));
   if (report.field.seams.cells > 0) {
     text += fmt::format(
         "         seams in {} cells, where holes of the mesh leave the side undefined: the distance jumps by up to {}, "

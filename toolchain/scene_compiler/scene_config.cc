@@ -19,7 +19,11 @@ using Range = TomlTable::Range;
 
 constexpr Range kScale{1e-9, 1e9};
 constexpr Range kVoxel{1e-8, 1e4};
+constexpr Range kAccuracy{1e-9, 1e2};
 constexpr Range kRatio{0.0, 10.0};
+/// Of the accuracy: a voxel edge that is mostly too large, so that the first choice costs little time.
+constexpr double kFirstVoxel = 40.0;
+constexpr double kBetweenPoints = 20.0;  // of the accuracy: default of between_points where voxels follow the accuracy
 
 SceneConfig::Mesh read_mesh(const TomlTable& table, const std::filesystem::path& folder) {
   SceneConfig::Mesh mesh;
@@ -94,7 +98,7 @@ std::optional<format::Workspace> read_workspace(const TomlTable& table) {
 
 }  // namespace
 
-SceneConfig read_scene_config(const std::filesystem::path& file) {
+SceneConfig read_scene_config(const std::filesystem::path& file, const VoxelSizes& chosen) {
   const toml::table root = files::parse_toml_file(file);
   files::allow_tables(root, file, {"still", "moving", "contact", "friction", "paper", "coupling", "workspace"});
   const auto table = [&](const char* name) { return TomlTable(root, name, file); };
@@ -104,7 +108,14 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   const TomlTable still = table("still");
   still.allow({"mesh", "scale", "voxel_size", "surface", "thickness", "field_tolerance", "accuracy"});
   config.still = read_mesh(still, folder);
-  config.voxel_size = still.number("voxel_size", kVoxel, TomlTable::Example{"0.002"});
+  config.chooses_voxels = still.has("accuracy") && !still.has("voxel_size");
+  if (config.chooses_voxels) {
+    const double accuracy = still.number("accuracy", kAccuracy, TomlTable::Example{"1e-5"});
+    config.voxel_size = chosen.still.value_or(kFirstVoxel * accuracy);
+    if (still.has("thickness")) config.voxel_size = std::min(config.voxel_size, still.number("thickness", kVoxel, 1.0));
+  } else {
+    config.voxel_size = still.number("voxel_size", kVoxel, TomlTable::Example{"0.002"});
+  }
   const double s = config.voxel_size;
   config.thickness = still.number("thickness", {s, 100.0 * s}, 2.0 * s);
   config.field_tolerance = still.number("field_tolerance", {1e-3, 1e3}, 0.05);
@@ -118,7 +129,9 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
   const TomlTable moving = table("moving");
   moving.allow({"mesh", "scale", "points", "levels", "surface", "voxel_size", "ball"});
   config.moving = read_mesh(moving, folder);
-  config.body_voxel_size = moving.number("voxel_size", kVoxel, s);
+  config.chooses_body_voxels = config.chooses_voxels && !moving.has("voxel_size");
+  config.body_voxel_size =
+      moving.number("voxel_size", kVoxel, config.chooses_body_voxels ? chosen.moving.value_or(s) : s);
   config.points = static_cast<std::uint32_t>(moving.whole_number("points", {1.0, format::kMaxPoints}, 5000));
   config.ball = moving.flag("ball", false);
   config.levels = static_cast<std::uint32_t>(moving.whole_number("levels", {1.0, format::kMaxLevels}, 7));
@@ -134,7 +147,8 @@ SceneConfig read_scene_config(const std::filesystem::path& file) {
 
   if (contact.has("edges")) config.edges = contact.flag("edges", true);
   config.both_directions = contact.flag("both_directions", true);
-  config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, s);
+  const double between = config.chooses_voxels ? std::min(s, kBetweenPoints * *config.accuracy) : s;
+  config.between_points = contact.number("between_points", {1e-3 * s, 64.0 * s}, between);
 
   settings.point_budget =
       static_cast<std::uint32_t>(contact.whole_number("point_budget", {0.0, format::kMaxPoints}, 0.0));

@@ -20,16 +20,18 @@ struct SceneConfig {
   };
 
   Mesh still;
-  double voxel_size = 0.0;  ///< s [m]
-  double thickness = 0.0;   ///< of shells [m]
+  double voxel_size = 0.0;      ///< s [m]
+  bool chooses_voxels = false;  ///< the file states an accuracy and no still.voxel_size: the compiler chooses it
+  double thickness = 0.0;       ///< of shells [m]
   /// Largest depth of the stored surface inside a body; outside it 5 times as much [voxels]
   double field_tolerance = 0.0;
   /// In place of field_tolerance: largest distance between the stored surfaces and the meshes', on either side [m]
   std::optional<double> accuracy;
   Mesh moving;
-  double body_voxel_size = 0.0;  ///< of the moving body's own field [m]
-  bool ball = false;             ///< the moving mesh is a ball, to be rendered by its centre alone
-  std::uint32_t points = 0;      ///< no meaning for a ball, like the next three members
+  double body_voxel_size = 0.0;      ///< of the moving body's own field [m]
+  bool chooses_body_voxels = false;  ///< nor moving.voxel_size
+  bool ball = false;                 ///< the moving mesh is a ball, to be rendered by its centre alone
+  std::uint32_t points = 0;          ///< no meaning for a ball, like the next three members
   std::uint32_t levels = 0;
   std::optional<bool> edges;                   ///< edge against edge; not set: if edges are few
   bool both_directions = true;                 ///< also feature points of the still body in the moving body's field
@@ -51,8 +53,15 @@ struct SceneConfig {
   }
 };
 
-/// Reads and checks a scene file. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line and key
-/// for an unknown key, a missing key, a wrong type or a value out of range.
-SceneConfig read_scene_config(const std::filesystem::path& file);
+/// Voxel edges for a scene file that leaves them to the compiler [m].
+struct VoxelSizes {
+  std::optional<double> still;   ///< not set: a first guess from the accuracy
+  std::optional<double> moving;  ///< not set: as the still body's
+};
+
+/// Reads and checks a scene file. `chosen` stands for voxel edges that a file with an accuracy leaves out; other
+/// lengths have defaults that follow them. Throws Failure: kNoInput if it cannot be read; kBadConfig naming file, line
+/// and key for an unknown key, a missing key, a wrong type or a value out of range.
+SceneConfig read_scene_config(const std::filesystem::path& file, const VoxelSizes& chosen = {});
 
 }  // namespace godobject::scene_compiler

@@ -39,16 +39,17 @@ Examples:
 A scene file (TOML; lengths in metres, defaults in brackets):
   [still]     mesh, scale [1], voxel_size, surface [auto|solid|shell], thickness of shells [2 voxel_size],
               field_tolerance at the surface, in voxels [0.05; a large one: bricks are never refined],
-              or accuracy: largest distance between the stored surfaces of both bodies and the meshes [m]; refused
-              with the voxel edge that it needs where bricks cannot be fine enough
+              or accuracy: largest distance between the stored surfaces of both bodies and the meshes [m]. Without
+              voxel_size the compiler then chooses both bodies' voxel edges; with it the accuracy is refused, and the
+              edge that it needs is named, where bricks cannot be fine enough
   [moving]    mesh, scale [1], surface [auto], points [5000], levels [7],
               voxel_size of its own field [still.voxel_size],
               ball [false]: render the mesh, a ball, by its centre alone, against a convex still body, without points
               and second direction; no torque arises, with friction none either
   [contact]   solver [contact|corrected|paper], safety_distance [1.5 voxel_size], margin [0.01 voxel_size],
               both_directions [true]: also points of the still body in the moving body's field,
-              between_points [voxel_size]: largest depth of the bodies between their points; points are added until it
-              holds,
+              between_points [voxel_size; if that is chosen, at most 20 accuracy]: largest depth of the bodies between
+              their points; points are added until it holds,
               edges [true if no body has more than {} sharp edges]: keep sharp edges of one body from crossing those
               of the other,
               point_budget [0: none]: near points of either body that a sub-step looks up, nearest first; beyond
@@ -94,6 +95,12 @@ void choose_within_budget(const Options& options, CompileRequest& request) {
     throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget chooses points and directions, a ball has only its "
                                                     "centre; leave out moving.ball or --budget",
                                                     options.scene_file));
+  }
+  if (config.chooses_voxels) {
+    throw Failure(ExitCode::kBadConfig,
+                  fmt::format("{}: --budget changes the voxel edge, and still.voxel_size is missing; "
+                              "compile without --budget, and state the edge that is chosen",
+                              options.scene_file));
   }
   if (config.workspace) {
     throw Failure(ExitCode::kBadConfig, fmt::format("{}: --budget tries motions outside the workspace; leave out "

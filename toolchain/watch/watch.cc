@@ -203,7 +203,7 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
   const double resolution = 1e-2 * q_.voxel_size;
   const double near = 0.2 * q_.voxel_size;
   smallest_ = std::numeric_limits<double>::infinity();
-  doubtful_ = std::numeric_limits<double>::infinity();
+  doubtful_.clear();
   for (Points& points : points_) {
     const Oracle& field = *points.direction.field;
     const double lipschitz = field.lipschitz();
@@ -261,7 +261,7 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       const bool is_near = at_begin < kWayOut * q_.voxel_size;
       const bool began_deep = began_deep_[i * session_.still_edges.size() + j];
       smallest_ = std::min(smallest_, overlaps && is_near && !began_deep ? -at_begin : at_begin);
-      if (overlaps && is_near && began_deep) doubtful_ = std::min(doubtful_, -at_begin);
+      if (overlaps && is_near && began_deep) doubtful_.push_back(at_begin);
       if (may_overlap) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
@@ -438,8 +438,10 @@ void Watch::check_report(const WatchedCycle& cycle, bool may_be_inside) {
   }
   const double shortest = kReach * q_.voxel_size;
   const double tolerance = 1e-5 * q_.voxel_size + session_.rounding;
-  const bool counts_doubtful = doubtful_ < smallest_ && std::fabs(report.penetration + doubtful_) <= tolerance;
-  const double expected = -std::min(counts_doubtful ? doubtful_ : smallest_, shortest);
+  const bool counts_doubtful = std::any_of(doubtful_.begin(), doubtful_.end(), [&](double depth) {
+    return depth > -smallest_ && std::fabs(report.penetration - depth) <= tolerance;
+  });
+  const double expected = counts_doubtful ? report.penetration : -std::min(smallest_, shortest);
   if (report.dropped > 0) {  // points without a look-up may be nearer
     return judge(Property::kReport, report.penetration - expected, tolerance, [&] {
       return fmt::format("penetration {} m, the smallest distance of all points is {} m", report.penetration,

@@ -100,6 +100,31 @@ TEST(Slits, StayOpenIfTheyAreWide) {
   }
 }
 
+/// The pieces of a triangle as thin as the tolerance would be flat or turned, and an edge would get a third triangle.
+TEST(Slits, AreLeftWhereACutWouldDoHarm) {
+  constexpr double kWide = 0.1;
+  for (const double height : {0.05, 1.0}) {
+    for (const bool has_rib : {false, true}) {
+      TriangleMesh mesh;
+      mesh.vertices = {{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {1.0, height, 0.0}, {2.0, 0.06, 0.0}, {1.5, -1.0, 0.0}};
+      mesh.triangles = {{0, 1, 2}, {3, 0, 4}, {1, 3, 4}};
+      if (has_rib) {
+        mesh.vertices.emplace_back(2.5, 0.0, 1.0);
+        mesh.triangles.push_back({3, 1, 5});
+      }
+      const std::uint64_t cuts = close_slits(mesh, kWide);
+      if (height > kWide) {
+        EXPECT_EQ(cuts, has_rib ? 0u : 1u);
+      }
+      for (const auto& t : mesh.triangles) {
+        if (std::find(t.begin(), t.end(), 5u) != t.end()) continue;  // the rib
+        const Vector3d& a = mesh.vertices[t[0]];
+        EXPECT_GT((mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).z(), 1e-3) << height << " " << has_rib;
+      }
+    }
+  }
+}
+
 /// A part whose faces were divided on one side only is imported without an open edge, and its distances stay.
 TEST(Slits, AreClosedOnImport) {
   Divider divider(test::box_mesh({0.02, 0.03, 0.01}), 7);

@@ -11,8 +11,8 @@
 #include "toolchain/files/output_target.h"
 #include "toolchain/report/study/made_once.h"
 #include "toolchain/report/study/result_file.h"
-#include "toolchain/report/work_precision/compiler_digest.h"
 #include "toolchain/scene_compiler/compile_scene.h"
+#include "toolchain/scene_compiler/compiler_digest.h"
 
 namespace godobject::report {
 namespace {
@@ -47,7 +47,7 @@ TracedCycle cycle_of(const Numbers& n) {
 
 files::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
                              const scene_compiler::SceneConfig& config) {
-  const std::filesystem::path file = file_of(folder, compiler_digest(), key, ".scene");
+  const std::filesystem::path file = file_of(folder, scene_compiler::compiler_digest(), key, ".scene");
   make_once(file, [&] {
     scene_compiler::compile_scene(
         {.scene_file = {}, .config = config, .output = file, .only_solver = {}, .choice = {}, .progress = {}});

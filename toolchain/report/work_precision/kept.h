@@ -17,8 +17,8 @@ namespace godobject::report {
 files::SceneImage kept_image(const std::filesystem::path& folder, const std::string& key,
                              const scene_compiler::SceneConfig& config);
 
-/// Returns the cycles of `run`; `key` names all inputs except the program. They are stored in the machine's byte order. Throws Failure (kBadData)
-/// if the file ends within a cycle.
+/// Returns the cycles of `run`; `key` names all inputs except the program. They are stored in the machine's byte order.
+/// Throws Failure (kBadData) if the file ends within a cycle.
 std::vector<precision::TracedCycle> kept_cycles(const std::filesystem::path& folder, const std::string& key,
                                                 const std::function<std::vector<precision::TracedCycle>()>& run);
 

@@ -11,6 +11,7 @@
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/contact_quality/signals.h"
 #include "toolchain/report/work_precision/bounds.h"
+#include "toolchain/report/study/result_file.h"
 #include "toolchain/report/work_precision/kept.h"
 #include "toolchain/scene_compiler/points/sample_elimination.h"
 
@@ -111,8 +112,11 @@ scene_compiler::SceneConfig scene_config(const ImageTrial& trial) {
 files::SceneImage image_of(const ImageTrial& trial, const scene_compiler::SceneConfig& config) {
   scene_compiler::SceneConfig compiled = precision::with(config, trial.image.setting);
   compiled.moving.scale *= trial.fault.body_scale;
+  // this program says what the name of a setting means
   return kept_image(
-      trial.kept, fmt::format("{} image {} scale {}", trial.inputs, trial.image.name, compiled.moving.scale), compiled);
+      trial.kept,
+      fmt::format("{} {} image {} scale {}", program_digest(), trial.inputs, trial.image.name, compiled.moving.scale),
+      compiled);
 }
 
 /// Returns all solvers, each with and without friction.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,10 @@ class Slits {
     for (const MeshEdges::Edge& edge : edges.all()) {
       const auto sides = edges.sides(edge);
       if (sides.size() == 1) open(edge.low, edge.high, sides[0].triangle);
+    }
+    for (const MeshEdges::Edge& edge : edges.all()) {
+      const bool is_shut = edges.sides(edge).size() > 1 && beside_.contains(edge.low) && beside_.contains(edge.high);
+      if (is_shut) shut_.insert(key(edge.low, edge.high));
     }
   }
 
@@ -54,7 +59,9 @@ class Slits {
     const auto& corners = mesh_.triangles[triangle];
     for (const std::uint32_t end : {a, b}) {
       for (const std::uint32_t x : beside_.at(end)) {
-        if (std::find(corners.begin(), corners.end(), x) == corners.end() && lies_on(x, a, b)) return x;
+        if (std::find(corners.begin(), corners.end(), x) == corners.end() && lies_on(x, a, b) &&
+            can_cut(triangle, x, a, b))
+          return x;
       }
     }
     return {};
@@ -66,6 +73,25 @@ class Slits {
     const double length = along.norm();
     const double at = from.dot(along) / length;
     return at > tolerance_ && at < length - tolerance_ && (from - at / length * along).norm() <= tolerance_;
+  }
+
+  /// False if a cut would turn or flatten a piece of a thin triangle, or give an edge a third triangle.
+  bool can_cut(std::uint32_t triangle, std::uint32_t x, std::uint32_t a, std::uint32_t b) const {
+    constexpr double kLeast = 0.1;  // of the piece's share of the triangle
+    const auto& t = mesh_.triangles[triangle];
+    const std::uint32_t opposite = *std::find_if(t.begin(), t.end(), [&](auto v) { return v != a && v != b; });
+    if (shut_.contains(key(a, x)) || shut_.contains(key(x, b)) || shut_.contains(key(x, opposite))) return false;
+    const auto area = [&](std::uint32_t from, std::uint32_t to) -> Vector3d {
+      const Vector3d& o = mesh_.vertices[opposite];
+      return (mesh_.vertices[from] - o).cross(mesh_.vertices[to] - o);
+    };
+    const Vector3d whole = area(a, b);
+    const double length = (mesh_.vertices[b] - mesh_.vertices[a]).norm();
+    const auto keeps = [&](std::uint32_t from, std::uint32_t to) {
+      const double share = (mesh_.vertices[to] - mesh_.vertices[from]).norm() / length;
+      return area(from, to).dot(whole) > kLeast * share * whole.squaredNorm();
+    };
+    return keeps(a, x) && keeps(x, b);
   }
 
   void cut(std::uint32_t triangle, std::uint32_t a, std::uint32_t b, std::uint32_t x) {
@@ -88,6 +114,7 @@ class Slits {
   void join(std::uint32_t a, std::uint32_t b, std::uint32_t triangle) {
     if (triangle_of_.contains(key(a, b))) {
       shut(a, b);
+      shut_.insert(key(a, b));
     } else {
       open(a, b, triangle);
     }
@@ -112,6 +139,7 @@ class Slits {
   double tolerance_;
   std::unordered_map<std::uint64_t, std::uint32_t> triangle_of_;          ///< of each open edge
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> beside_;  ///< by vertex: the other ends of open edges
+  std::unordered_set<std::uint64_t> shut_;  ///< edges of more than one triangle, with both ends on open edges
   std::vector<Ends> to_do_;
 };
 
