@@ -12,6 +12,7 @@
 #include "toolchain/scene_compiler/image/build_traits.h"
 #include "toolchain/scene_compiler/mesh/box.h"
 #include "toolchain/scene_compiler/mesh/outer_surface.h"
+#include "toolchain/scene_compiler/mesh/voxel_too_large.h"
 #include "toolchain/scene_compiler/points/second_direction.h"
 
 namespace godobject::scene_compiler {
@@ -101,10 +102,12 @@ double slack_of(const SceneConfig& config) {
   return std::min(config.moving_tolerance().outside, 0.5 * config.body_voxel_size);
 }
 
-/// Throws Failure (kBadData) with the cure if the scene wants an accuracy that the field does not reach.
+/// Throws VoxelTooLarge, or Failure (kBadData), with the cure if the scene wants an accuracy that the field does not
+/// reach.
 void require_accuracy(const SceneConfig& config, const RefinementReport& refined, const format::Grid& grid,
-                      const char* body) {
+                      VoxelTooLarge::Body of) {
   if (!config.accuracy) return;
+  const char* const body = of == VoxelTooLarge::Body::kStill ? "still" : "moving";
   constexpr double kRoundings = 8.0;  // quanta: nodes beside finer bricks are rounded to several
   if (*config.accuracy < kRoundings * grid.quantum) {
     throw command::Failure(
@@ -116,14 +119,14 @@ void require_accuracy(const SceneConfig& config, const RefinementReport& refined
   if (refined.worst.in_tolerances <= 1.0) return;
   const Eigen::Vector3d& at = refined.worst.at;
   const double voxel_size = 0.9 * grid.voxel_size / refined.worst.in_tolerances;
-  throw AccuracyMissed(
+  throw VoxelTooLarge(
       fmt::format(
           "{}.mesh: the stored surface would be {:.3g} m {} the mesh at ({:.4g}, {:.4g}, {:.4g}) m, and accuracy "
           "= {:g} allows less; bricks cannot be finer there. Take {}.voxel_size = {:.2g}, or close the mesh if "
           "it is open there, or take a larger accuracy",
           body, std::abs(refined.worst.error), refined.worst.error > 0.0 ? "inside" : "outside", at.x(), at.y(), at.z(),
           *config.accuracy, body, voxel_size),
-      std::string_view(body) == "still", voxel_size);
+      of, voxel_size);
 }
 
 struct FeaturePhase {
@@ -157,7 +160,7 @@ DistanceGrid make_body_field(const SceneConfig& config, const SolidSurface& body
   DistanceGrid field = make_distance_grid(body, config.body_voxel_size, band, parallel::part_of(progress, 0.0, 0.5));
   const RefinementReport refined =
       refine(field, body, config.moving_tolerance(), parallel::part_of(progress, 0.5, 1.0), slack);
-  require_accuracy(config, refined, field.grid, "moving");
+  require_accuracy(config, refined, field.grid, VoxelTooLarge::Body::kMoving);
   return field;
 }
 
@@ -222,7 +225,7 @@ FieldPhase make_field(const SceneConfig& config, const SolidSurface& obstacle, P
   phase.refinement = clock.run(kRefinementPhase, [&](const auto& progress) {
     return refine(phase.field, obstacle, config.surface_tolerance(config.voxel_size), progress);
   });
-  require_accuracy(config, phase.refinement, phase.field.grid, "still");
+  require_accuracy(config, phase.refinement, phase.field.grid, VoxelTooLarge::Body::kStill);
   return phase;
 }
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/compile_report.h"
 #include "toolchain/scene_compiler/image/scene_image.h"
 #include "toolchain/scene_compiler/image/scene_parts.h"
@@ -19,21 +18,6 @@ namespace godobject::scene_compiler {
 
 /// Name of the phase that refines the still body's field.
 inline constexpr const char* kRefinementPhase = "sharp edges";
-
-/// The scene wants an accuracy that a field does not reach with its voxels.
-class AccuracyMissed : public command::Failure {
- public:
-  /// `voxel_size`: an edge that would do, as far as the errors tell [m].
-  AccuracyMissed(const std::string& message, bool of_still, double voxel_size)
-      : Failure(command::ExitCode::kBadData, message), of_still_(of_still), voxel_size_(voxel_size) {}
-
-  bool of_still() const noexcept { return of_still_; }
-  double voxel_size() const noexcept { return voxel_size_; }
-
- private:
-  bool of_still_;  // the still body's field; else the moving body's
-  double voxel_size_;
-};
 
 /// The settings to compile, and the solver that the image is for; empty: all that the settings allow.
 struct CompileTarget {

@@ -12,6 +12,7 @@
 #include "toolchain/files/scene_image.h"
 #include "toolchain/scene_compiler/compile_phases.h"
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
+#include "toolchain/scene_compiler/mesh/voxel_too_large.h"
 #include "toolchain/scene_compiler/report_json.h"
 
 namespace godobject::scene_compiler {
@@ -92,7 +93,7 @@ SectionBytes provenance(const CompileReport& report) {
   return {format::SectionId::kProvenance, {text.begin(), text.end()}};
 }
 
-/// Returns the shortest edge of a body's bounding box; of a flat sheet the shorter edge that it has [m].
+/// Returns the shortest edge of a body's bounding box, except an edge without length, which a flat sheet has [m].
 double shortest_edge(const SceneConfig::Mesh& mesh) {
   constexpr double kFlat = 1e-6;  // of the longest
   MeshReport report;
@@ -112,7 +113,7 @@ VoxelSizes first_choice(const SceneConfig& config) {
   return {std::max(*config.accuracy, std::min(config.voxel_size, shortest / kVoxelsAcross)), {}};
 }
 
-/// Refuses settings that were read from a file without voxel edges: other lengths in them follow a first guess.
+/// Refuses settings in place of the file: their lengths have followed a first guess of the voxel edge.
 void require_file(const CompileRequest& request) {
   if (!request.config) return;
   throw command::Failure(command::ExitCode::kBadConfig,
@@ -160,25 +161,20 @@ CompileReport compile(const CompileRequest& request, const CompileTarget& target
 }  // namespace
 
 CompileReport compile_scene(const CompileRequest& request) {
-  constexpr int kMostTries = 8;     // two or three mostly: the errors of a try tell the edge of the next
-  constexpr double kSmaller = 0.3;  // of an edge at which the voxels are too coarse for walls or a small body
+  constexpr int kMostTries = 8;  // two or three mostly: what a try misses tells the edge of the next
   CompileTarget target = target_of(request, {});
   if (!target.config.chooses_voxels) return compile(request, target);
   require_file(request);
   VoxelSizes chosen = first_choice(target.config);
   for (int tries = 1;; ++tries) {
     target = target_of(request, chosen);
-    const bool is_last = tries == kMostTries;
     try {
       return compile(request, target);
-    } catch (const AccuracyMissed& missed) {
-      const bool may_choose = missed.of_still() || target.config.chooses_body_voxels;
-      if (is_last || !may_choose || missed.voxel_size() < *target.config.accuracy) throw;
-      (missed.of_still() ? chosen.still : chosen.moving) = missed.voxel_size();
-    } catch (const command::Failure& failure) {
-      const double smaller = kSmaller * target.config.voxel_size;
-      if (is_last || failure.exit_code() != command::ExitCode::kBadData || smaller < *target.config.accuracy) throw;
-      chosen.still = smaller;
+    } catch (const VoxelTooLarge& failure) {
+      const bool of_still = failure.body() == VoxelTooLarge::Body::kStill;
+      const bool may_choose = of_still || target.config.chooses_body_voxels;
+      if (tries == kMostTries || !may_choose || failure.voxel_size() < *target.config.accuracy) throw;
+      (of_still ? chosen.still : chosen.moving) = failure.voxel_size();
     }
   }
 }

@@ -14,7 +14,7 @@ namespace godobject::scene_compiler {
 
 struct CompileRequest {
   std::filesystem::path scene_file;
-  std::optional<SceneConfig> config = {};  ///< replaces the scene file
+  std::optional<SceneConfig> config = {};  ///< replaces the scene file, which must state still.voxel_size
   std::filesystem::path output;
   std::optional<format::Solver> only_solver;
   nlohmann::ordered_json choice = {};  ///< choice of the settings, for the provenance; null: the scene file states them
@@ -23,7 +23,8 @@ struct CompileRequest {
 };
 
 /// Reads the scene file and its meshes, builds the fields and points, measures them and writes the image. The image
-/// appears under its name only when it is complete. Deterministic: equal inputs give equal bytes. Throws Failure.
+/// appears under its name only when it is complete. Where the file leaves voxel edges to the compiler, it is compiled
+/// with smaller ones until they will do. Deterministic: equal inputs give equal bytes. Throws Failure.
 CompileReport compile_scene(const CompileRequest& request);
 
 }  // namespace godobject::scene_compiler

@@ -112,7 +112,9 @@ SceneConfig read_scene_config(const std::filesystem::path& file, const VoxelSize
   if (config.chooses_voxels) {
     const double accuracy = still.number("accuracy", kAccuracy, TomlTable::Example{"1e-5"});
     config.voxel_size = chosen.still.value_or(kFirstVoxel * accuracy);
-    if (still.has("thickness")) config.voxel_size = std::min(config.voxel_size, still.number("thickness", kVoxel, 1.0));
+    if (still.has("thickness")) {  // no voxel edge is larger
+      config.voxel_size = std::min(config.voxel_size, still.number("thickness", kVoxel, TomlTable::Example{"0.002"}));
+    }
   } else {
     config.voxel_size = still.number("voxel_size", kVoxel, TomlTable::Example{"0.002"});
   }

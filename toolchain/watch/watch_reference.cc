@@ -69,8 +69,8 @@ void Watch::check_reference(const WatchedCycle& cycle) {
   // the arc of a motion and the chords of its points differ by less than the clearance in motions of a voxel
   const Vector6 to_device = stretch(H_WS_before_, H_WD);
   const double away = to_device.head<3>().norm() + q_.mass.radius / gyration_ * to_device.tail<3>().norm();
-  constexpr double kMostTurn =
-      1.0;  // [rad]: a wider turn takes more sub-steps than a cycle has, however small the body
+  // a wider turn takes more sub-steps than a cycle has, however small the body [rad]
+  constexpr double kMostTurn = 1.0;
   const bool turns_far = to_device.tail<3>().norm() > kMostTurn * gyration_;
   const bool exceeds_budget = q_.point_budget > 0 && cycle.report.outcome == Outcome::kOverflow;
   if (contacts.empty() && away < q_.voxel_size && !turns_far && !session_.renders_ball && !exceeds_budget) {

@@ -292,6 +292,21 @@ TriangleMesh waisted(const std::array<double, 3>& radius, const std::array<doubl
   return mesh;
 }
 
+/// A point of a mesh, and the unit normal of its triangle into the body.
+struct MeshPlace {
+  Vector3d p, inward;
+};
+
+MeshPlace any_place(const TriangleMesh& mesh, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto& t = mesh.triangles[random() % mesh.triangles.size()];
+  const Vector3d& a = mesh.vertices[t[0]];
+  const Vector3d along = mesh.vertices[t[1]] - a;
+  const Vector3d across = mesh.vertices[t[2]] - a;
+  const double u = unit(random);
+  return {a + u * along + (1.0 - u) * unit(random) * across, -along.cross(across).normalized()};
+}
+
 /// The stored surface lies no deeper than the tolerance allows where the field is flat, too. A small value of the field
 /// on the mesh does not prove that: its zero level may lie several times as deep as the value says.
 TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
@@ -309,13 +324,7 @@ TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
     const RefinedField field(surface, s);
     double deepest = 0.0;
     for (int i = 0; i < 100'000; ++i) {
-      const auto& t = mesh.triangles[random() % mesh.triangles.size()];
-      const Vector3d& a = mesh.vertices[t[0]];
-      const Vector3d along = mesh.vertices[t[1]] - a;
-      const Vector3d across = mesh.vertices[t[2]] - a;
-      const double u = unit(random);
-      const Vector3d p = a + u * along + (1.0 - u) * unit(random) * across;
-      const Vector3d inward = -along.cross(across).normalized();
+      const auto [p, inward] = any_place(mesh, random);
       for (double depth = 1.0; depth < 4.0; depth += 0.1) {
         const Vector3d q = p + depth * tolerance * inward;
         if (field.map.sample(q).distance <= 0.0) break;
@@ -330,7 +339,6 @@ TEST(Refinement, MakesTheSurfaceTrueWhereTheFieldIsFlat) {
 /// edge, and interpolation makes it shallower than it is.
 TEST(Refinement, MakesTheLevelOfTheSlackTrue) {
   std::mt19937_64 random(25);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
   const double s = 0.002;
   const double slack = 0.25 * s;
   const SurfaceTolerance tolerance = SurfaceTolerance::of_depth(kRefinedTolerance * s);
@@ -341,13 +349,7 @@ TEST(Refinement, MakesTheLevelOfTheSlackTrue) {
     const RefinedField field(surface, s, tolerance, slack);
     double deepest = 0.0;
     for (int i = 0; i < 20'000; ++i) {
-      const auto& t = mesh.triangles[random() % mesh.triangles.size()];
-      const Vector3d& a = mesh.vertices[t[0]];
-      const Vector3d along = mesh.vertices[t[1]] - a;
-      const Vector3d across = mesh.vertices[t[2]] - a;
-      const double u = unit(random);
-      const Vector3d p = a + u * along + (1.0 - u) * unit(random) * across;
-      const Vector3d inward = -along.cross(across).normalized();
+      const auto [p, inward] = any_place(mesh, random);
       for (double depth = 0.8; depth < 4.0; depth += 0.1) {
         const Vector3d q = p + (slack + depth * tolerance.inside) * inward;
         if (field.map.sample(q).distance > 0.0) deepest = std::max(deepest, -surface.signed_distance(q) - slack);

@@ -1,9 +1,10 @@
 #include "toolchain/scene_compiler/mesh/slits.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <random>
-#include <vector>
+#include <utility>
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include "toolchain/path/pose_file.h"
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/contact_quality/signals.h"
-#include "toolchain/report/work_precision/bounds.h"
 #include "toolchain/report/study/result_file.h"
+#include "toolchain/report/work_precision/bounds.h"
 #include "toolchain/report/work_precision/kept.h"
 #include "toolchain/scene_compiler/points/sample_elimination.h"
 

@@ -15,7 +15,7 @@ void DistanceProbe::start(const Eigen::Vector3d& p, float distance, std::int16_t
   to_solids_ = std::abs(static_cast<double>(distance)) * kRounding;
   to_shells_ = std::numeric_limits<double>::infinity();
   inside_ = winding > 0;
-  winding_ = winding;
+  winding_number_ = winding;
   path_left_ = std::numeric_limits<double>::infinity();
 }
 
@@ -23,8 +23,9 @@ std::optional<std::int16_t> DistanceProbe::winding() const {
   const bool counted = to_solids_ >= 0.0 && surface_.sealed() && surface_.shell_triangles().empty() &&
                        !surface_.solid_triangles().empty() && surface_.dilation() == 0.0;
   using Limits = std::numeric_limits<std::int16_t>;
-  if (!counted || winding_ <= Limits::min() || winding_ > Limits::max()) return {};
-  return static_cast<std::int16_t>(winding_);
+  const long rounded = std::lround(winding_number_);
+  if (!counted || rounded <= Limits::min() || rounded > Limits::max()) return {};
+  return static_cast<std::int16_t>(rounded);
 }
 
 /// True if the step meets no triangle of a solid, ends included.
@@ -56,17 +57,12 @@ bool DistanceProbe::counts_crossings(const Eigen::Vector3d& p, double step) {
   std::optional<int> change = surface_.solid_triangles().winding_change(last_, p);
   if (!change && surface_.sealed() && step > 0.0) change = change_by_detour(p);
   if (!change) return false;
-  if (!surface_.sealed()) {
-    const double winding_number = winding_number_ + *change;
-    const double path_left = surface_.constant_side_path(summed_at_, winding_number) - travelled_ - step;
-    if (!(path_left > 0.0)) return false;
-    winding_number_ = winding_number;
-    path_left_ = path_left;
-    inside_ = winding_number > 0.5;
-    return true;
-  }
-  winding_ += *change;
-  inside_ = winding_ > 0;
+  const double winding_number = winding_number_ + *change;
+  const double path_left = surface_.constant_side_path(summed_at_, winding_number) - travelled_ - step;
+  if (!(path_left > 0.0)) return false;
+  winding_number_ = winding_number;
+  path_left_ = path_left;
+  inside_ = winding_number > 0.5;
   return true;
 }
 
@@ -75,7 +71,6 @@ void DistanceProbe::sum_winding(const Eigen::Vector3d& p) {
   summed_at_ = p;
   travelled_ = 0.0;
   inside_ = winding_number_ > 0.5;
-  winding_ = static_cast<int>(std::lround(winding_number_));
   path_left_ = surface_.constant_side_path(p, winding_number_);
 }
 

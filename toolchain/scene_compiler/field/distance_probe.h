@@ -35,7 +35,6 @@ class DistanceProbe {
   double to_solids_ = -1.0;  ///< at the last point; negative: no answer yet
   double to_shells_ = -1.0;
   bool inside_ = false;
-  int winding_ = 0;              ///< winding number, if the solids have no open boundary
   double path_left_ = 0.0;       ///< until the winding number must be summed again [m]
   double winding_number_ = 0.0;  ///< of the last sum, and the triangles crossed since
   Eigen::Vector3d summed_at_ = Eigen::Vector3d::Zero();

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/mesh/voxel_too_large.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -210,13 +210,14 @@ ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, cons
 void require_walls_that_last(const ThinReport& report, double voxel_size, const std::string& mesh_name) {
   const ThinPlaces& walls = report.walls;
   if (walls.lost_patch <= kRefusedFaces * voxel_size * voxel_size) return;
-  throw command::Failure(
-      command::ExitCode::kBadData,
+  const double voxel_that_holds = 0.5 * walls.lost_thickness;
+  throw VoxelTooLarge(
       fmt::format("{}: a wall of {:.3g} m over {:.2g} m^2 near ({:.4g}, {:.4g}, {:.4g}) is thinner than the "
                   "voxel of {:g} m and would be "
                   "lost; set voxel_size = {:.2g} or smaller, or surface = \"shell\" to thicken it",
                   mesh_name, walls.lost_thickness, walls.lost_patch, walls.lost_at.x(), walls.lost_at.y(),
-                  walls.lost_at.z(), voxel_size, 0.5 * walls.lost_thickness));
+                  walls.lost_at.z(), voxel_size, voxel_that_holds),
+      VoxelTooLarge::Body::kStill, voxel_that_holds);
 }
 
 }  // namespace godobject::scene_compiler

@@ -37,7 +37,7 @@ struct ThinReport {
 /// Finds walls (looking inward) and gaps (looking outward) from samples of the still surface, half a voxel apart.
 ThinReport find_thin_places(const SolidSurface& surface, double voxel_size, const parallel::Progress& progress);
 
-/// Throws Failure (kBadData) naming `mesh_name` and the cure if a wall is lost by kRefusalRule. Near-parallel means
+/// Throws VoxelTooLarge naming `mesh_name` and the cure if a wall is lost by kRefusalRule. Near-parallel means
 /// within ten degrees.
 void require_walls_that_last(const ThinReport& report, double voxel_size, const std::string& mesh_name);
 
