@@ -1,10 +1,12 @@
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 
+#include <array>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "tests/scene_compiler/brute_force.h"
+#include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/scene_compiler/field/distance_probe.h"
 
@@ -139,6 +141,19 @@ TEST(DistanceProbe, GivesTheSameOnAWalkAsAlone) {
       ASSERT_EQ(probe.signed_distance(p), surface.signed_distance(p))
           << name << " step " << i << " " << surface.winding_number(p);
     }
+  }
+}
+
+/// Steps through edges and corners of a box and through the diagonals of its faces, where a crossing is not sure.
+TEST(DistanceProbe, CountsStepsThroughEdges) {
+  const SolidSurface surface(test::box_mesh({2.0, 2.0, 2.0}), SurfaceKind::kSolid, 0.01);
+  ASSERT_TRUE(surface.sealed());
+  DistanceProbe probe(surface);
+  constexpr std::array<double, 5> kPlaces = {-1.5, -0.5, 0.0, 0.5, 1.5};
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3d p(kPlaces[random() % 5], kPlaces[random() % 5], kPlaces[random() % 5]);
+    ASSERT_EQ(probe.signed_distance(p), surface.signed_distance(p)) << i;
   }
 }
 
