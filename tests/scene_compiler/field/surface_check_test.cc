@@ -74,7 +74,10 @@ class Rounds {
     for (int k = 0; k < 3; ++k) want(wanted_, static_cast<std::uint32_t>(random_() % tree_.brick_count()), kAllOctants);
     for (const auto& [brick, octants] : wanted_) {
       const bool can = !barred_[brick] && tree_.level(brick) < format::kMaxRefinement;
-      if (!can || random_() % 3 == 0) continue;  // the rest in another round
+      if (!can || random_() % 3 == 0) {  // the rest in another round, in which it must be compared again
+        tree_.touch(brick);
+        continue;
+      }
       if (random_() % 16 == 0) {
         barred_[brick] = true;
         tree_.touch(brick);
