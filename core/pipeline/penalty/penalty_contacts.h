@@ -7,6 +7,7 @@
 
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
+#include "core/scene/sample_batch.h"
 #include "godobject/pose.h"
 
 namespace godobject {
@@ -129,14 +130,24 @@ PenaltyContacts penalty_contacts(const Field& field, const Pointshell& shell, co
 }
 
 /// Returns the smallest stored distance of all sample points at H_WS [m], at most the band. A replay reports minus this
-/// as the depth. Real-time safe.
+/// as the depth. Cost: as visit_points_below with a cutoff that shrinks after every 64 points only. Real-time safe.
 template <DistanceField Field>
 double smallest_distance(const Field& field, const Pointshell& shell, const Pose& H_WS) noexcept {
   double smallest = field.band();
-  visit_points_below(smallest, field, shell, H_WS, [&](std::size_t, const Vector3& p_W) noexcept {
-    smallest = std::min(smallest, field.sample(p_W).distance);
+  SampleBatch batch;
+  const auto look_up = [&]() noexcept {
+    field.samples(H_WS, batch);
+    for (std::uint32_t k = 0; k < batch.count; ++k) smallest = std::min(smallest, batch.distance[k]);
+    batch.count = 0;
+  };
+  visit_points_below(smallest, field, shell, H_WS, [&](std::size_t i, const Vector3&) noexcept {
+    batch.x[batch.count] = shell.x[i];
+    batch.y[batch.count] = shell.y[i];
+    batch.z[batch.count] = shell.z[i];
+    if (++batch.count == SampleBatch::kCapacity) look_up();
     return smallest;
   });
+  if (batch.count > 0) look_up();
   return smallest;
 }
 
