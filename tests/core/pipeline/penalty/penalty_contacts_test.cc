@@ -317,7 +317,7 @@ TEST(PenaltyContacts, BeginWithinTheLayer) {
 TEST(SmallestDistance, IsThatOfAllPoints) {
   Random random(6);
   for (int i = 0; i < 500; ++i) {
-    const TreeBody body(random, random.integer(1, 60), random.between(0.01, 0.05));
+    const TreeBody body(random, random.integer(1, 200), random.between(0.01, 0.05));
     const Pointshell shell = body.shell();
     CountingField field;
     const Pose H_WS = draw_pose(random);
