@@ -79,7 +79,7 @@ struct CellLanes {
   static constexpr int kY = format::kBrickNodes;
   static constexpr int kZ = format::kBrickNodes * format::kBrickNodes;
 
-  Ints stored;       ///< -1: the nodes define the field; 0: outside of the grid, far, or in a brick with an edge
+  Ints stored;       ///< -1: the nodes define the field; 0: outside of the grid, far, or in an exact brick
   Ints brick;        ///< index of the brick's first word
   Ints node;         ///< index of the cell's first node
   Floats at[3];      ///< position in the cell, 0 .. 1
@@ -100,7 +100,7 @@ struct CellLanes {
     Ints cell[3] = {x.cell & kCell, y.cell & kCell, z.cell & kCell};
     const Ints refined = within & is_refined(entry);
     if (Vectors::bits(refined) != 0) descend(f, refined, entry, cell);
-    stored = within & (entry >= 0) & ((entry & static_cast<int>(entry_of::kEdged)) == 0);
+    stored = within & (entry >= 0) & ((entry & static_cast<int>(entry_of::kExact)) == 0);
     brick = kBrickWords * (entry & static_cast<int>(entry_of::kNumber) & stored);
     node = brick + cell[0] + kY * cell[1] + kZ * cell[2];
   }
@@ -133,7 +133,7 @@ struct CellLanes {
       const Ints coarse = descends & (child < 0);
       if (Vectors::bits(coarse) != 0) {
         const Ints own = Vectors::gather(f.refined, (refinement + kOwn) & coarse);
-        entry = coarse ? own | (child & static_cast<int>(entry_of::kEdged)) : entry;
+        entry = coarse ? own | (child & static_cast<int>(entry_of::kExact)) : entry;
       }
       descends &= ~coarse;
       entry = descends ? child : entry;

@@ -20,7 +20,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 9;
+inline constexpr std::uint32_t kVersion = 10;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 28;
 
@@ -54,8 +54,8 @@ enum class SectionId : std::uint32_t {
   kFeaturePoints = 16,   ///< float x[n], y[n], z[n]: of the still body, relative to Features::origin, in tree order
   kFeatureNodes = 17,    ///< Node[]: their sphere tree, centres relative to Features::origin
 
-  kEdges = 18,      ///< Edge[]: edges of the still body; missing if no brick has one
-  kBodyEdges = 19,  ///< Edge[]: edges of the moving body, in B
+  kFacets = 18,      ///< Facet[]: of the still body, in W; missing if no brick is exact
+  kBodyFacets = 19,  ///< Facet[]: of the moving body, in B
 
   kWorkspace = 20,  ///< one Workspace; missing if the moving body may be everywhere
 
@@ -65,6 +65,9 @@ enum class SectionId : std::uint32_t {
   kSharpEdgeNodes = 22,  ///< Node[]: their sphere tree in pre-order; a node's points are edges, `level` is the depth
   kBodySharpEdges = 23,  ///< SharpEdge[]: of the moving body, in B, in tree order
   kBodySharpEdgeNodes = 24,  ///< Node[]
+
+  kExactBricks = 25,      ///< ExactBrick[]: of the still body; missing if no brick is exact
+  kBodyExactBricks = 26,  ///< ExactBrick[]: of the moving body
 };
 
 struct Header {
@@ -139,10 +142,11 @@ struct Grid {
   double quantum;          ///< unit of Brick::value in unrefined bricks [m]
   double outside_loss;     ///< a point outside the grid, at distance D from the surface's box, has the far clearance
                            ///< (see index_entry) D - outside_loss, less the error of the stored field [m]
+  double facet_offset;     ///< see ExactBrick [m]
   std::int32_t bricks[3];  ///< brick positions along x, y, z
   std::uint32_t brick_count;  ///< stored bricks, including those of refinements
 };
-static_assert(sizeof(Grid) == 144);
+static_assert(sizeof(Grid) == 152);
 
 inline constexpr int kBrickCells = 4;                ///< cells along an edge of a brick
 inline constexpr int kBrickNodes = kBrickCells + 1;  ///< nodes along an edge: neighbours share a face of nodes
@@ -166,10 +170,10 @@ struct alignas(64) Brick {
   /// Bound of the gradient's norm in this brick's position and its 26 neighbours, >= 1, coded by encode_lipschitz. From
   /// a position to its neighbour it changes at most by a factor of clearance_slope.
   std::uint16_t lipschitz;
-  /// Largest difference in this position between the field (refined, or with an edge) and the trilinear interpolation
-  /// of the position's own nodes [quanta]; 0 in octants.
+  /// Largest difference in this position between the field (refined or exact) and the trilinear interpolation of the
+  /// position's own nodes [quanta]; 0 in octants.
   std::uint16_t deviation;
-  std::uint16_t edge;  ///< 0: none; else 1 + the number of an Edge
+  std::uint16_t exact;  ///< 0: not exact; else 1 + the number of an ExactBrick
 };
 static_assert(sizeof(Brick) == 256);
 
@@ -177,7 +181,7 @@ inline constexpr int kLargestValue = 32767;      ///< largest |Brick::value|
 inline constexpr double kLargestQuantum = 1e-2;  ///< [voxels]
 inline constexpr double kMostRoundedOff = 8.0;   ///< largest rounding of a node [quanta]: half of 2^kMaxRefinement
 inline constexpr double kKeptBeyondBand = 4.0;   ///< largest distance of a node beyond the band [voxels]
-inline constexpr int kLargestUnsigned = 65535;   ///< largest Brick::deviation and Brick::edge
+inline constexpr int kLargestUnsigned = 65535;   ///< largest Brick::deviation and Brick::exact
 inline constexpr int kLipschitzShift = 11;       ///< see decode_lipschitz
 inline constexpr std::uint32_t kLipschitzOne = std::bit_cast<std::uint32_t>(1.0f);
 
@@ -193,34 +197,37 @@ constexpr std::uint16_t encode_lipschitz(float lipschitz) noexcept {
   return static_cast<std::uint16_t>((above + (1u << kLipschitzShift) - 1) >> kLipschitzShift);
 }
 
-/// A straight edge of the body. Along it trilinear interpolation would ripple. In bricks that refer to the edge the
-/// field is
-///
-///   phi(x) = (1 - w(x)) I[phi](x) + w(x) g(x),
-///
-/// with the trilinear interpolation I of the nodes, and the exact signed distance g to the infinite wedge of the edge,
-/// plus `offset`. With the coordinate t along the edge and the distance r from it,
-///
-///   w = min(2 (1 - r / R(t)), (t - begin) / ramp, (end - t) / ramp) within 0 .. 1,
-///   R = min(radius, end_radius + slope (t - begin), end_radius + slope (end - t)).
-///
-/// Every brick that is looked up and contains a point with w > 0 refers to the edge, and no brick to two edges. So the
-/// field is continuous.
-struct Edge {
-  double point[3];      ///< point on the edge with t = 0
-  double along[3];      ///< unit vector along the edge
-  double normal[2][3];  ///< unit normals of the faces: out of the body at a convex edge, into it at a re-entrant one
-  double face[2][3];    ///< unit vectors in the faces, perpendicular to the edge and away from it
-  double side;          ///< +1 convex, -1 re-entrant
-  double offset;        ///< [m]
-  double begin, end;    ///< [m]
-  double ramp;          ///< [m], > 0
-  double radius;        ///< [m], >= end_radius
-  double end_radius;    ///< [m], > 0
-  double slope;         ///< [1], >= 0
-  double reserved[6];   ///< 0
+/// A triangle of the mesh with unit normals out of the body. The signed distance of a point is its distance to the
+/// nearest facet. It is positive if the point lies on the side to which the normal of the nearest face, edge or vertex
+/// points (Baerentzen and Aanaes, Signed Distance Computation Using the Angle Weighted Pseudonormal, IEEE TVCG 2005).
+struct Facet {
+  double vertex[3][3];        ///< counter-clockwise from outside [m]
+  double normal[3];           ///< of the face
+  float edge_normal[3][3];    ///< of the edge from vertex k to vertex k + 1: mean of the two faces' normals
+  float vertex_normal[3][3];  ///< mean of the normals of the faces at the vertex, weighted by their angles there
 };
-static_assert(sizeof(Edge) == 256);
+static_assert(sizeof(Facet) == 168);
+
+inline constexpr int kBrickParts = kBrickCells * kBrickCells * kBrickCells;  ///< cells of a brick
+inline constexpr int kMostFacets = 64;                                       ///< of an ExactBrick
+inline constexpr std::uint16_t kOneWeight = 1u << 15;                        ///< ExactBrick::weight that stands for 1
+
+/// A brick in which the field is exact about edges, corners and narrow places, where trilinear interpolation would
+/// ripple. There the field is
+///
+///   phi(x) = (1 - I[w](x)) I[phi](x) + I[w](x) (g(x) + facet_offset),
+///
+/// with the trilinear interpolation I of the nodes' distances and weights w, and the signed distance g to the cell's
+/// facets. They are all that are nearest to any point of the cell. Weights are 0 or 1. On the border to a coarser brick
+/// they are interpolated, as values are. So the field is continuous.
+struct alignas(64) ExactBrick {
+  std::uint64_t cell[kBrickParts];     ///< facets of each cell, x fastest: bit i for facet[i]; at least one
+  std::uint32_t facet[kMostFacets];    ///< numbers of Facets, ascending; unused ones are 0
+  std::uint16_t weight[kBrickValues];  ///< of the nodes, in units of 1 / kOneWeight
+  std::uint16_t facet_count;           ///< 1 .. kMostFacets
+  std::uint32_t reserved;              ///< 0
+};
+static_assert(sizeof(ExactBrick) == 1024);
 
 /// A convex sharp edge between two vertices of the mesh: for contacts of edges with edges. Where the body is a
 /// thickened sheet, its surface lies `radius` from the edge.
@@ -235,7 +242,7 @@ static_assert(sizeof(SharpEdge) == 80);
 /// One entry of the brick index, or of a refinement.
 ///
 /// - bit 31 = 0: stored, and bit 30 = 0
-///   - bit 29 = 0: bits 0-27 are the brick's number; bit 28 = 1: the brick has an edge
+///   - bit 29 = 0: bits 0-27 are the brick's number; bit 28 = 1: the brick is exact
 ///   - bit 29 = 1: refined; bits 0-27 are the number of a Refined
 /// - bit 31 = 1: far, that is not stored; bit 30 is 1 inside and 0 outside; bits 0-29 are the far clearance E, a
 /// float's
@@ -248,14 +255,14 @@ inline constexpr std::uint32_t kFar = 1u << 31;
 inline constexpr std::uint32_t kInside = 1u << 30;    // with kFar
 inline constexpr std::uint32_t kLow = kInside - 1;    // with kFar: the clearance
 inline constexpr std::uint32_t kRefined = 1u << 29;   // without kFar
-inline constexpr std::uint32_t kEdged = 1u << 28;     // without kFar and kRefined
-inline constexpr std::uint32_t kNumber = kEdged - 1;  // without kFar: the number of a brick or a Refined
+inline constexpr std::uint32_t kExact = 1u << 28;     // without kFar and kRefined
+inline constexpr std::uint32_t kNumber = kExact - 1;  // without kFar: the number of a brick or a Refined
 
 /// Returns the entry of a far position. `clearance` >= 0 [m]; decoding returns at most one part in 4e6 less.
 constexpr std::uint32_t encode_far(bool inside, float clearance) noexcept {
   return kFar | (inside ? kInside : 0u) | (std::bit_cast<std::uint32_t>(clearance) >> 1);
 }
-/// An entry of Refined::child without a brick of its own; with kEdged if the parent's brick has an edge.
+/// An entry of Refined::child without a brick of its own; with kExact if the parent's brick is exact.
 inline constexpr std::uint32_t kCoarse = kFar;
 
 constexpr float far_clearance(std::uint32_t entry) noexcept { return std::bit_cast<float>((entry & kLow) << 1); }

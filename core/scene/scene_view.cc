@@ -107,6 +107,7 @@ bool valid_grid(const format::Grid& g) noexcept {
       2.0 * format::kMostRoundedOff * format::kLargestQuantum * (1 << format::kMaxRefinement);
   if (!in_range(g.lipschitz, 0.0, 2.0 + kRoundingSlope) || !in_range(g.lipschitz_seam, g.lipschitz, 1e6)) return false;
   if (!in_range(g.clearance_slope, 1.0, 1e6) || !in_range(g.outside_loss, 0.0, kLarge)) return false;
+  if (!in_range(g.facet_offset, -kLarge, kLarge)) return false;
   if (!in_range(g.quantum, 1e-15, format::kLargestQuantum * g.voxel_size)) return false;
   for (int axis = 0; axis < 3; ++axis) {
     if (g.bricks[axis] < 1 || g.bricks[axis] > format::kMaxBricksPerAxis) return false;
@@ -126,24 +127,24 @@ bool valid_clearances(std::span<const std::uint32_t> index) noexcept {
   return true;
 }
 
-/// Tells whether the brick that an entry or a refinement refers to exists and agrees about having an edge.
-bool valid_brick_name(std::uint32_t number, bool edged, std::span<const format::Brick> bricks) noexcept {
-  return number < bricks.size() && edged == (bricks[number].edge != 0);
+/// Tells whether the brick that an entry or a refinement refers to exists and agrees about being exact.
+bool valid_brick_name(std::uint32_t number, bool exact, std::span<const format::Brick> bricks) noexcept {
+  return number < bricks.size() && exact == (bricks[number].exact != 0);
 }
 
 /// Tells whether a refinement refers to its own nodes if and only if they are read.
 bool valid_own_nodes(const format::Refined& refined, bool of_position, std::span<const format::Brick> bricks) noexcept {
-  std::uint32_t coarse = 0;  // coarse children, which must all agree about having an edge
+  std::uint32_t coarse = 0;  // coarse children, which must all agree about being exact
   bool any = false;
   for (const std::uint32_t child : refined.child) {
     if ((child & format::index_entry::kFar) == 0) continue;
-    if ((child & ~format::index_entry::kEdged) != format::index_entry::kCoarse || (any && child != coarse))
+    if ((child & ~format::index_entry::kExact) != format::index_entry::kCoarse || (any && child != coarse))
       return false;
     any = true;
     coarse = child;
   }
   if (!any && !of_position) return refined.brick == format::kNoBrick;
-  return valid_brick_name(refined.brick, (coarse & format::index_entry::kEdged) != 0, bricks);
+  return valid_brick_name(refined.brick, (coarse & format::index_entry::kExact) != 0, bricks);
 }
 
 /// Walks all refinements in the order that the format prescribes, and expects each at the next number. So every
@@ -170,10 +171,10 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
         const std::uint32_t number = entry & format::index_entry::kNumber;
         if ((entry & format::index_entry::kRefined) == 0) {
           ++named;
-          if (!valid_brick_name(number, (entry & format::index_entry::kEdged) != 0, bricks)) return false;
+          if (!valid_brick_name(number, (entry & format::index_entry::kExact) != 0, bricks)) return false;
         } else {
           if (number != next || next >= refined.size() || depth == open.size()) return false;
-          if ((entry & format::index_entry::kEdged) != 0 || !valid_own_nodes(refined[next], depth == 0, bricks))
+          if ((entry & format::index_entry::kExact) != 0 || !valid_own_nodes(refined[next], depth == 0, bricks))
             return false;
           if (refined[next].brick != format::kNoBrick) ++named;
           open[depth++] = {&refined[next++], 0};
@@ -188,39 +189,51 @@ bool valid_entries(std::span<const std::uint32_t> index, std::span<const format:
   return next == refined.size() && named == bricks.size();
 }
 
-bool valid_bricks(std::span<const format::Brick> bricks, std::size_t edge_count) noexcept {
+bool valid_bricks(std::span<const format::Brick> bricks, std::size_t exact_count) noexcept {
   for (const format::Brick& brick : bricks) {
-    if (brick.edge > edge_count) return false;
+    if (brick.exact > exact_count) return false;
   }
   return true;
 }
 
-bool valid_edges(std::span<const format::Edge> edges) noexcept {
-  constexpr double kSlack = 1e-9;  // rounding of products of unit vectors
-  constexpr double kFarthest = 1e8;
-  using Row = double[3];
-  const auto dot = [](const Row& a, const Row& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto unit = [&](const Row& a) { return in_range(dot(a, a), 1.0 - kSlack, 1.0 + kSlack); };
-  const auto square = [&](const Row& a, const Row& b) { return in_range(dot(a, b), -kSlack, kSlack); };
-  for (const format::Edge& edge : edges) {
-    for (const double x : edge.point) {
-      if (!in_range(x, -kFarthest, kFarthest)) return false;
+bool valid_exact_bricks(std::span<const format::ExactBrick> bricks, std::size_t facet_count) noexcept {
+  for (const format::ExactBrick& brick : bricks) {
+    for (const std::uint16_t weight : brick.weight) {
+      if (weight > format::kOneWeight) return false;
     }
-    if (!unit(edge.along)) return false;
-    for (int i = 0; i < 2; ++i) {
-      if (!unit(edge.normal[i]) || !unit(edge.face[i]) || !square(edge.normal[i], edge.face[i]) ||
-          !square(edge.normal[i], edge.along) || !square(edge.face[i], edge.along)) {
+    if (brick.facet_count < 1 || brick.facet_count > format::kMostFacets || brick.reserved != 0) return false;
+    for (int i = 0; i < format::kMostFacets; ++i) {
+      const bool used = i < brick.facet_count;
+      if (used ? brick.facet[i] >= facet_count || (i > 0 && brick.facet[i] <= brick.facet[i - 1]) : brick.facet[i] != 0)
         return false;
+    }
+    const std::uint64_t all = ~std::uint64_t{0} >> (format::kMostFacets - brick.facet_count);
+    for (const std::uint64_t cell : brick.cell) {
+      if (cell == 0 || (cell & ~all) != 0) return false;
+    }
+  }
+  return true;
+}
+
+bool valid_facets(std::span<const format::Facet> facets) noexcept {
+  constexpr double kUnitWithin = 1e-9;
+  constexpr float kSingleWithin = 1e-5f;  // rounding to single precision
+  constexpr double kFarthest = 1e7;
+  const auto unit = [](const float(&v)[3]) {
+    const float squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    return squared >= 1.0f - kSingleWithin && squared <= 1.0f + kSingleWithin;
+  };
+  for (const format::Facet& facet : facets) {
+    const double(&n)[3] = facet.normal;
+    if (!in_range(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1.0 - kUnitWithin, 1.0 + kUnitWithin)) return false;
+    for (int k = 0; k < 3; ++k) {
+      for (const double x : facet.vertex[k]) {
+        if (!in_range(x, -kFarthest, kFarthest)) return false;
       }
-    }
-    if (!(edge.side == 1.0 || edge.side == -1.0) || !in_range(edge.offset, -kFarthest, kFarthest)) return false;
-    if (!in_range(edge.begin, -kFarthest, kFarthest) || !in_range(edge.end, edge.begin, kFarthest)) return false;
-    if (!in_range(edge.ramp, 1e-12, kFarthest) || !in_range(edge.end_radius, 1e-12, kFarthest) ||
-        !in_range(edge.radius, edge.end_radius, kFarthest) || !in_range(edge.slope, 0.0, 1.0)) {
-      return false;
-    }
-    for (const double x : edge.reserved) {
-      if (x != 0.0) return false;
+      if (!unit(facet.edge_normal[k]) || !unit(facet.vertex_normal[k])) return false;
+      const double(&from)[3] = facet.vertex[k];
+      const double(&to)[3] = facet.vertex[(k + 1) % 3];
+      if (from[0] == to[0] && from[1] == to[1] && from[2] == to[2]) return false;
     }
   }
   return true;
@@ -345,7 +358,7 @@ void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x,
 
 /// The sections that make up one voxelmap.
 struct MapSections {
-  SectionId grid, index, bricks, refined, edges;
+  SectionId grid, index, bricks, refined, facets, exact;
 };
 
 Status open_map(const Sections& sections, const MapSections& ids, format::Grid& grid, Voxelmap& map) noexcept {
@@ -359,14 +372,16 @@ Status open_map(const Sections& sections, const MapSections& ids, format::Grid& 
   const auto refined = as_array<format::Refined>(sections[ids.refined]);
   if (sections[ids.index].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
   if (sections[ids.bricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
-  const auto edges = as_array<format::Edge>(sections[ids.edges]);
+  const auto facets = as_array<format::Facet>(sections[ids.facets]);
+  const auto exact = as_array<format::ExactBrick>(sections[ids.exact]);
   if (sections[ids.refined].size() != refined.size_bytes()) return Status::kImageLayout;
-  if (sections[ids.edges].size() != edges.size_bytes()) return Status::kImageLayout;
-  if (!valid_clearances(index) || !valid_bricks(bricks, edges.size()) || !valid_entries(index, bricks, refined) ||
-      !valid_edges(edges)) {
+  if (sections[ids.facets].size() != facets.size_bytes()) return Status::kImageLayout;
+  if (sections[ids.exact].size() != exact.size_bytes()) return Status::kImageLayout;
+  if (!valid_clearances(index) || !valid_bricks(bricks, exact.size()) || !valid_entries(index, bricks, refined) ||
+      !valid_exact_bricks(exact, facets.size()) || !valid_facets(facets)) {
     return Status::kImageValue;
   }
-  map = Voxelmap(grid, index, bricks, refined, edges);
+  map = Voxelmap(grid, index, bricks, refined, exact, facets);
   return Status::kOk;
 }
 
@@ -404,7 +419,7 @@ Status open_features(const Sections& sections, SceneView& scene) noexcept {
   scene.features_origin = Vector3(features.origin[0], features.origin[1], features.origin[2]);
   return open_map(sections,
                   {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
-                   SectionId::kBodyEdges},
+                   SectionId::kBodyFacets, SectionId::kBodyExactBricks},
                   grid, scene.body_map);
 }
 
@@ -520,9 +535,10 @@ Status SceneView::open(std::span<const std::byte> image, SceneView& scene) noexc
   if (!read_one(sections[SectionId::kBody], opened.body)) return Status::kImageLayout;
   if (!valid_settings(opened.settings) || !valid_body(body)) return Status::kImageValue;
 
-  status = open_map(
-      sections, {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined, SectionId::kEdges},
-      opened.grid, opened.voxelmap);
+  status = open_map(sections,
+                    {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined,
+                     SectionId::kFacets, SectionId::kExactBricks},
+                    opened.grid, opened.voxelmap);
   if (status != Status::kOk) return status;
   // contacts begin at the safety distance: there the field must be known
   if (opened.grid.band < opened.settings.safety_distance) return Status::kImageValue;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/edge.h"
+#include "core/scene/facets.h"
 
 namespace godobject {
 namespace {
@@ -23,11 +23,12 @@ constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
 
 Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
                    std::span<const format::Brick> bricks, std::span<const format::Refined> refined,
-                   std::span<const format::Edge> edges) noexcept
+                   std::span<const format::ExactBrick> exact, std::span<const format::Facet> facets) noexcept
     : index_(index.data()),
       bricks_(bricks.data()),
       refined_(refined.data()),
-      edges_(edges.data()),
+      exact_(exact.data()),
+      facets_(facets),
       origin_(grid.origin[0], grid.origin[1], grid.origin[2]),
       surface_min_(grid.surface_min[0], grid.surface_min[1], grid.surface_min[2]),
       surface_max_(grid.surface_max[0], grid.surface_max[1], grid.surface_max[2]),
@@ -41,6 +42,7 @@ Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> inde
       clearance_slope_(grid.clearance_slope),
       assured_clearance_(near_band_ / lipschitz_),
       outside_off_(kFieldError * voxel_size_ + grid.outside_loss),
+      facet_offset_(grid.facet_offset),
       in_batches_(!bricks.empty() && index.size() < kMost &&
                   bricks.size() < kMost / (sizeof(format::Brick) / sizeof(std::int16_t)) &&
                   refined.size() < kMost / (sizeof(format::Refined) / sizeof(std::uint32_t))),
@@ -83,7 +85,7 @@ double Voxelmap::descend(Cell& cell) const noexcept {
     for (unsigned axis = 0; axis < 3; ++axis) octant |= (at[axis] >= kHalf ? 1u : 0u) << axis;
     const std::uint32_t child = refined.child[octant];
     if ((child & format::index_entry::kCoarse) != 0) {
-      cell.entry = refined.brick | (child & format::index_entry::kEdged);
+      cell.entry = refined.brick | (child & format::index_entry::kExact);
       break;
     }
     for (unsigned axis = 0; axis < 3; ++axis) at[axis] = 2.0 * (at[axis] - ((octant >> axis & 1u) != 0 ? kHalf : 0));
@@ -123,6 +125,60 @@ double Voxelmap::distance_to_box(const Vector3& p_W) const noexcept {
 /// kFieldError voxels.
 double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept { return distance_to_box(p_W) - outside_off_; }
 
+namespace {
+
+/// A cell's trilinear function, in single precision on whole numbers.
+struct Trilinear {
+  float value;
+  float gradient[3];  ///< per cell
+};
+
+template <class Number>
+Trilinear trilinear(const Number* nodes, float fx, float fy, float fz) noexcept {
+  const auto value = [nodes](int node) { return static_cast<float>(nodes[node]); };
+  const auto step = [nodes](int node) { return static_cast<float>(nodes[node + 1] - nodes[node]); };
+  const float d00 = step(0);
+  const float d10 = step(kStrideY);
+  const float d01 = step(kStrideZ);
+  const float d11 = step(kStrideZ + kStrideY);
+  const float x00 = value(0) + fx * d00;
+  const float x10 = value(kStrideY) + fx * d10;
+  const float x01 = value(kStrideZ) + fx * d01;
+  const float x11 = value(kStrideZ + kStrideY) + fx * d11;
+  const float y0 = x00 + fy * (x10 - x00);
+  const float y1 = x01 + fy * (x11 - x01);
+  const float d0 = d00 + fy * (d10 - d00);
+  const float d1 = d01 + fy * (d11 - d01);
+  return {y0 + fz * (y1 - y0), {d0 + fz * (d1 - d0), (x10 - x00) + fz * ((x11 - x01) - (x10 - x00)), y1 - y0}};
+}
+
+Vector3 vector(const float (&v)[3]) noexcept {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+}  // namespace
+
+/// Blends the interpolated field at p, in an exact brick, with the distance to its facets (format::ExactBrick).
+/// `cell_edge`: in voxels.
+void Voxelmap::blend(const format::ExactBrick& exact, int node, const Cell& cell, double cell_edge, const Vector3& p,
+                     ValueAndGradient& field) const noexcept {
+  const Trilinear weights = trilinear(exact.weight + node, cell.fx, cell.fy, cell.fz);
+  if (weights.value <= 0.0f) return;
+  constexpr double kUnit = 1.0 / format::kOneWeight;
+  const double weight = kUnit * static_cast<double>(weights.value);
+  const int number = cell.x + kBrickCells * (cell.y + kBrickCells * cell.z);
+  ValueAndGradient facets = facet_distance(facets_, exact, number, p);
+  facets.value += facet_offset_;
+  if (weight >= 1.0) {
+    field = facets;
+    return;
+  }
+  const double apart = facets.value - field.value;
+  field.value += weight * apart;
+  field.gradient +=
+      weight * (facets.gradient - field.gradient) + apart * kUnit * per_voxel_ / cell_edge * vector(weights.gradient);
+}
+
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   FieldSample sample;
   sample.distance = band_;
@@ -141,54 +197,26 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
     }
     return sample;
   }
-  double unit = quantum_;
-  if (cell.entry & format::index_entry::kRefined) unit *= descend(cell);
+  double cell_edge = 1.0;
+  if (cell.entry & format::index_entry::kRefined) cell_edge = descend(cell);
   const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
-  const std::int16_t* v = brick.value + cell.x + kStrideY * cell.y + kStrideZ * cell.z;
-  const auto value = [v](int node) { return static_cast<float>(v[node]); };
-  const auto step = [v](int node) { return static_cast<float>(v[node + 1] - v[node]); };
-  const float d00 = step(0);
-  const float d10 = step(kStrideY);
-  const float d01 = step(kStrideZ);
-  const float d11 = step(kStrideZ + kStrideY);
-  const float x00 = value(0) + cell.fx * d00;
-  const float x10 = value(kStrideY) + cell.fx * d10;
-  const float x01 = value(kStrideZ) + cell.fx * d01;
-  const float x11 = value(kStrideZ + kStrideY) + cell.fx * d11;
-  const float y0 = x00 + cell.fy * (x10 - x00);
-  const float y1 = x01 + cell.fy * (x11 - x01);
-  double distance = unit * static_cast<double>(y0 + cell.fz * (y1 - y0));
-  const bool edged = (cell.entry & format::index_entry::kEdged) != 0;
-  const double interpolated = distance;
-  ValueAndGradient weight;
-  ValueAndGradient wedge;
-  if (edged) {
-    const format::Edge& edge = edges_[brick.edge - 1];
-    weight = edge_weight(edge, p_W);
-    wedge = wedge_distance(edge, p_W);
-    distance += weight.value * (wedge.value - distance);
-  }
+  const int node = cell.x + kStrideY * cell.y + kStrideZ * cell.z;
+  const Trilinear interpolated = trilinear(brick.value + node, cell.fx, cell.fy, cell.fz);
+  ValueAndGradient field{quantum_ * cell_edge * static_cast<double>(interpolated.value),
+                         quantum_per_voxel_ * vector(interpolated.gradient)};
+  if (cell.entry & format::index_entry::kExact) blend(exact_[brick.exact - 1], node, cell, cell_edge, p_W, field);
   // A straight path as long as a brick's edge stays in the positions around this one, or it leaves the stored bricks
   // and enters them again at a value of at least the band, rounded.
-  if (distance > 0.0) {
-    sample.clearance = std::min(distance, near_band_) / static_cast<double>(format::decode_lipschitz(brick.lipschitz));
+  if (field.value > 0.0) {
+    sample.clearance =
+        std::min(field.value, near_band_) / static_cast<double>(format::decode_lipschitz(brick.lipschitz));
   }
-  if (!(std::fabs(distance) < band_)) {
-    if (distance < 0.0) sample.distance = -band_;
+  if (!(std::fabs(field.value) < band_)) {
+    if (field.value < 0.0) sample.distance = -band_;
     return sample;
   }
-  const float d0 = d00 + cell.fy * (d10 - d00);
-  const float d1 = d01 + cell.fy * (d11 - d01);
-  const float gx = d0 + cell.fz * (d1 - d0);
-  const float gy = (x10 - x00) + cell.fz * ((x11 - x01) - (x10 - x00));
-  const float gz = y1 - y0;
-  sample.distance = distance;
-  sample.gradient =
-      quantum_per_voxel_ * Vector3(static_cast<double>(gx), static_cast<double>(gy), static_cast<double>(gz));
-  if (edged) {
-    sample.gradient +=
-        weight.value * (wedge.gradient - sample.gradient) + (wedge.value - interpolated) * weight.gradient;
-  }
+  sample.distance = field.value;
+  sample.gradient = field.gradient;
   sample.known = true;
   return sample;
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/scene/clearance_kernel.h"
+#include "core/scene/facets.h"
 #include "core/scene/field.h"
 #include "core/scene/format.h"
 #include "core/scene/sample_kernel.h"
@@ -13,14 +14,15 @@ namespace godobject {
 
 /// The distance field of a compiled body, still or moving: trilinear value and gradient of signed distances stored in
 /// sparse bricks. A view; owns nothing. Real-time safe. Each call reads one brick: an index entry, at most
-/// format::kMaxRefinement entries of refinements, 8 nodes, and the brick's edge if it has one.
+/// format::kMaxRefinement entries of refinements, 8 nodes, and in an exact brick 8 weights and its facets.
 class Voxelmap {
  public:
   Voxelmap() = default;
 
   /// The parts must have been validated (SceneView::open does) and must outlive the view.
   Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
-           std::span<const format::Refined> refined, std::span<const format::Edge> edges = {}) noexcept;
+           std::span<const format::Refined> refined, std::span<const format::ExactBrick> exact = {},
+           std::span<const format::Facet> facets = {}) noexcept;
 
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return band_; }
@@ -32,9 +34,10 @@ class Voxelmap {
     return (center - surface_min_).cwiseMax(surface_max_ - center).norm();
   }
 
-  /// Returns the stored field at p_W and its exact gradient. The field is trilinear, except in bricks with an edge
-  /// (format::Edge). It is +band outside the grid and -band deep inside, both with `known` false. A point that is not
-  /// finite counts as outside. Within the band the clearance is the distance over Brick::lipschitz; beyond it, larger.
+  /// Returns the stored field at p_W and its exact gradient. The field is trilinear, except in exact bricks
+  /// (format::ExactBrick). It is +band outside the grid and -band deep inside, both with `known` false. A point that is
+  /// not finite counts as outside. Within the band the clearance is the distance over Brick::lipschitz; beyond it,
+  /// larger.
   FieldSample sample(const Vector3& p_W) const noexcept;
 
   /// As in DistanceField. Works in single precision on each position's own nodes, and subtracts bounds of both errors.
@@ -42,14 +45,14 @@ class Voxelmap {
   void clearances(const Pose& H, PointBatch& batch) const noexcept;
 
   /// As in DistanceField. The results equal those of `sample` to the last bit. Vectors do several points at a time;
-  /// points in bricks with an edge, and points where nothing is stored, are done one by one.
+  /// points in exact bricks, and points where nothing is stored, are done one by one.
   void samples(const Pose& H, SampleBatch& batch) const noexcept;
   /// The same with one of sample_kernels(); null: without vectors.
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
-  /// As in DistanceField. Proves chords through at most four cells without an edge. In each cell the field along the
-  /// chord is a cubic, and the proof is that its Bernstein coefficients are positive. Returns 0 if the processor has no
-  /// vectors: then free balls alone decide, and a cycle with long chords may have a different result.
+  /// As in DistanceField. Proves chords through at most four cells outside of exact bricks. In each cell the field
+  /// along the chord is a cubic, and the proof is that its Bernstein coefficients are positive. Returns 0 if the
+  /// processor has no vectors: then free balls alone decide, and a cycle with long chords may have a different result.
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;
   /// The same with one of sample_kernels(); null: 0. The batch was looked up by a kernel at least as wide.
   std::uint64_t free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,
@@ -86,6 +89,8 @@ class Voxelmap {
   detail::FieldOfNodes in_nodes(const Pose& H) const noexcept;
   bool locate(const Vector3& p_W, Cell& cell) const noexcept;
   double descend(Cell& cell) const noexcept;
+  void blend(const format::ExactBrick& exact, int node, const Cell& cell, double cell_edge, const Vector3& p,
+             ValueAndGradient& field) const noexcept;
   const format::Brick& unrefined(std::uint32_t entry) const noexcept;
   double outside_clearance(const Vector3& p_W) const noexcept;
   double far_clearance(const Cell& cell) const noexcept;
@@ -94,7 +99,8 @@ class Voxelmap {
   const std::uint32_t* index_ = nullptr;
   const format::Brick* bricks_ = nullptr;
   const format::Refined* refined_ = nullptr;
-  const format::Edge* edges_ = nullptr;
+  const format::ExactBrick* exact_ = nullptr;
+  std::span<const format::Facet> facets_;
   Vector3 origin_ = Vector3::Zero();
   Vector3 surface_min_ = Vector3::Zero();
   Vector3 surface_max_ = Vector3::Zero();
@@ -109,6 +115,7 @@ class Voxelmap {
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;
   double outside_off_ = 0.0;         ///< distance to the surface's box minus clearance, outside the grid [m]
+  double facet_offset_ = 0.0;        ///< added to the distance to facets [m]
   bool in_batches_ = false;          ///< index and nodes can be addressed with 32 bits
   Vector3 cells_ = Vector3::Zero();  ///< number of cells of the grid along x, y, z
   std::ptrdiff_t stride_y_ = 0;      ///< index difference of neighbouring positions in y; stride_z_ in z

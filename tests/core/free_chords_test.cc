@@ -58,7 +58,7 @@ class SlowWalk {
       const Vector3 p = chord.from + s * std::min(1.0, covered / length) * way;
       const SlowField::Place place = field_.place(p);
       note_faces(p, place, verdict);
-      if (!place.stored || place.edged) return verdict;
+      if (!place.stored || place.exact) return verdict;
       ++verdict.cells;
       const Vector3 direction = std::ldexp(1.0, place.level) * way / length;
       double step = to_cover - covered;
@@ -177,7 +177,7 @@ TEST_F(FreeChords, AreThoseOfASlowWalk) {
   std::vector<FieldParts> fields;
   fields.push_back(test::random_field({.bricks = {3, 2, 4}, .noise = 0.15, .refined = false}, random_));
   fields.push_back(test::random_field({.bricks = {2, 4, 3}, .voxel_size = 0.25, .noise = 0.3}, random_));
-  fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = 0.15, .edge_count = 6}, random_));
+  fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = 0.15, .exact = true}, random_));
   int free_after[5] = {}, blocked = 0, judged = 0;
   for (const FieldParts& parts : fields) {
     const SlowField field(parts);

@@ -45,7 +45,8 @@ struct Structures {
         workspace(image.item<format::Workspace>(SectionId::kWorkspace)),
         features(image.item<format::Features>(SectionId::kFeatures)),
         grid(image.item<format::Grid>(of_body ? SectionId::kBodyGrid : SectionId::kGrid)),
-        edge(image.item<format::Edge>(of_body ? SectionId::kBodyEdges : SectionId::kEdges)),
+        facet(image.item<format::Facet>(of_body ? SectionId::kBodyFacets : SectionId::kFacets)),
+        exact(image.item<format::ExactBrick>(of_body ? SectionId::kBodyExactBricks : SectionId::kExactBricks)),
         node(image.item<format::Node>(of_body ? SectionId::kFeatureNodes : SectionId::kNodes)) {}
 
   /// Shrinks the surface's box to a point and the safety distance to its least, so that they fit into any grid.
@@ -64,7 +65,8 @@ struct Structures {
   format::Workspace& workspace;
   format::Features& features;
   format::Grid& grid;
-  format::Edge& edge;
+  format::Facet& facet;
+  format::ExactBrick& exact;
   format::Node& node;
 };
 
@@ -156,20 +158,11 @@ TEST(SceneLimits, OfTheGridHoldToTheLastBit) {
   expect_limits(image, grid_limits(), true);
 }
 
-TEST(SceneLimits, OfAnEdgeHoldToTheLastBit) {
-  constexpr double kEnd = 1e8;
-  std::vector<Limits> table = {
-    LIMITS(-kEnd, kEnd, s.edge.offset = v),
-    LIMITS(-kEnd, kEnd, s.edge.end = kEnd; s.edge.begin = v),
-    LIMITS(-0.5, kEnd, s.edge.begin = -0.5; s.edge.end = v),
-    LIMITS(1e-12, kEnd, s.edge.ramp = v),
-    LIMITS(1e-12, kEnd, s.edge.radius = kEnd; s.edge.end_radius = v),
-    LIMITS(1e-12, 0.25, s.edge.radius = 0.25; s.edge.end_radius = v),
-    LIMITS(0.25, kEnd, s.edge.end_radius = 0.25; s.edge.radius = v),
-    LIMITS(0.0, 1.0, s.edge.slope = v),
-  };
-  for (int axis = 0; axis < 3; ++axis) table.push_back(LIMITS(-kEnd, kEnd, s.edge.point[axis] = v));
-  for (int word = 0; word < 6; ++word) table.push_back(LIMITS(0.0, 0.0, s.edge.reserved[word] = v));
+TEST(SceneLimits, OfAFacetHoldToTheLastBit) {
+  std::vector<Limits> table;
+  for (int k = 0; k < 3; ++k) {
+    for (int axis = 0; axis < 3; ++axis) table.push_back(LIMITS(-1e7, 1e7, s.facet.vertex[k][axis] = v));
+  }
   const ImageParts image = point_image();
   expect_limits(image, table);
   expect_limits(image, table, true);
@@ -364,10 +357,6 @@ TEST(SceneLimits, OfFlagsAndSolversAreChecked) {
     EXPECT_EQ(status_with([=](Structures& s) { s.body.inertia_from_points = flag; }), expected) << flag;
   }
   EXPECT_EQ(status_with([](Structures& s) { s.features.reserved = 1; }), Status::kImageValue);
-  EXPECT_EQ(status_with([](Structures& s) { s.edge.side = -1.0; }), Status::kOk);
-  for (const double side : {0.0, 0.999, 1.001, 2.0, -0.999, -1.001, -2.0, kNaN}) {
-    EXPECT_EQ(status_with([=](Structures& s) { s.edge.side = side; }), Status::kImageValue) << side;
-  }
 }
 
 TEST(SceneLimits, OfTheQuaternionsLengthAreAMillionthOfItsSquare) {
@@ -392,48 +381,66 @@ TEST(SceneLimits, OfTheQuaternionsLengthAreAMillionthOfItsSquare) {
 }
 
 /// Unit vectors of an edge in any direction: each component counts, and so does each pair.
-TEST(SceneLimits, OfAnEdgesFrameAreABillionth) {
+TEST(SceneLimits, OfAFacetsNormalsAreTheirRounding) {
   const ImageParts valid = point_image();
-  const Matrix3 turns[] = {Matrix3::Identity(), exp_rotation(Vector3(0.3, -1.1, 0.7)).toRotationMatrix(),
-                           exp_rotation(Vector3(-2.0, 0.4, 1.3)).toRotationMatrix()};
-  struct Frame {
-    Vector3 along, normal[2], face[2];
-  };
-  const auto status_of_frame = [&valid](const Matrix3& turn, const Frame& frame) {
+  const auto status_with = [&valid](auto change) {
     ImageParts image = valid;
-    format::Edge& edge = Structures(image).edge;
-    const auto store = [&turn](const Vector3& v, double* to) {
-      const Vector3 turned = turn * v;
-      std::copy_n(turned.data(), 3, to);
-    };
-    store(frame.along, edge.along);
-    for (int i = 0; i < 2; ++i) store(frame.normal[i], edge.normal[i]), store(frame.face[i], edge.face[i]);
+    Structures structures(image);
+    change(structures.facet);
     return status_of(image);
   };
-  const double a = 1.2;  // between the faces
-  const Frame exact{Vector3::UnitZ(),
-                    {Vector3::UnitX(), Vector3(std::cos(a), std::sin(a), 0.0)},
-                    {-Vector3::UnitY(), Vector3(std::sin(a), -std::cos(a), 0.0)}};
-  for (const Matrix3& turn : turns) {
-    EXPECT_EQ(status_of_frame(turn, exact), Status::kOk);
-    for (const double off : {-1.1e-9, -0.9e-9, 0.9e-9, 1.1e-9}) {
-      const Status expected = std::fabs(off) < 1e-9 ? Status::kOk : Status::kImageValue;
-      const double length = std::sqrt(1.0 + off);
-      const auto expect = [&](auto change, const char* what) {
-        Frame frame = exact;
-        change(frame);
-        EXPECT_EQ(status_of_frame(turn, frame), expected) << what << " off by " << off;
-      };
-      expect([=](Frame& f) { f.along *= length; }, "length of the direction");
-      for (int i = 0; i < 2; ++i) {
-        expect([=](Frame& f) { f.normal[i] *= length; }, "length of a normal");
-        expect([=](Frame& f) { f.face[i] *= length; }, "length of a face");
-        expect([=](Frame& f) { f.normal[i] += off * f.along; }, "normal and direction");
-        expect([=](Frame& f) { f.face[i] += off * f.along; }, "face and direction");
-        expect([=](Frame& f) { f.normal[i] += off * f.face[i]; }, "normal and face");
-      }
+  for (const double off : {-1.1, -0.9, 0.9, 1.1}) {
+    const Status expected = std::fabs(off) < 1.0 ? Status::kOk : Status::kImageValue;
+    EXPECT_EQ(status_with([=](format::Facet& f) { f.normal[2] = std::sqrt(1.0 + off * 1e-9); }), expected) << off;
+    const auto single = static_cast<float>(std::sqrt(1.0 + off * 1e-5));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(status_with([=](format::Facet& f) { f.edge_normal[k][2] = single; }), expected) << off;
+      EXPECT_EQ(status_with([=](format::Facet& f) { f.vertex_normal[k][2] = single; }), expected) << off;
     }
   }
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(status_with([=](format::Facet& f) { std::copy_n(f.vertex[k], 3, f.vertex[(k + 1) % 3]); }),
+              Status::kImageValue)
+        << "an edge without length";
+  }
+}
+
+TEST(SceneLimits, OfAnExactBrickAreItsOwnFacets) {
+  ImageParts valid = point_image();
+  const format::Facet facet = Structures(valid).facet;
+  valid.set<format::Facet>(SectionId::kFacets, {facet, facet, facet});
+  const auto status_with = [&valid](auto change) {
+    ImageParts image = valid;
+    change(image.item<format::ExactBrick>(SectionId::kExactBricks));
+    return status_of(image);
+  };
+  const auto two = [](format::ExactBrick& exact, std::uint32_t first, std::uint32_t second) {
+    exact.facet_count = 2;
+    exact.facet[0] = first;
+    exact.facet[1] = second;
+  };
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 2); }), Status::kOk);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 3); }), Status::kImageValue) << "one that is not there";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 2, 1); }), Status::kImageValue) << "not ascending";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 1, 1); }), Status::kImageValue) << "twice";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 2), e.cell[63] = 3; }), Status::kOk);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 2), e.cell[63] = 4; }), Status::kImageValue);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.cell[5] = 0; }), Status::kImageValue) << "a cell without any";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.facet[63] = 1; }), Status::kImageValue) << "beyond the count";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.weight[124] = format::kOneWeight; }), Status::kOk);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.weight[124] = format::kOneWeight + 1; }), Status::kImageValue);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.reserved = 1; }), Status::kImageValue);
+  for (const std::uint16_t count : {std::uint16_t{0}, std::uint16_t{65}, std::uint16_t{0xffff}}) {
+    EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.facet_count = count; }), Status::kImageValue) << count;
+  }
+  const auto all = [](format::ExactBrick& exact) {
+    exact.facet_count = 64;
+    for (std::uint32_t i = 0; i < 64; ++i) exact.facet[i] = i;
+    exact.cell[0] = ~std::uint64_t{0};
+  };
+  EXPECT_EQ(status_with(all), Status::kImageValue);
+  valid.set<format::Facet>(SectionId::kFacets, std::vector<format::Facet>(64, facet));
+  EXPECT_EQ(status_with(all), Status::kOk);
 }
 
 /// Sample points may leave R_max and the spheres of their nodes by the rounding of single precision, a millionth.

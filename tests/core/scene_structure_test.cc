@@ -26,7 +26,7 @@ using format::SectionId;
 using test::ImageParts;
 using test::SceneImage;
 
-constexpr std::uint32_t kSectionCount = 24;
+constexpr std::uint32_t kSectionCount = 26;
 
 Status status_of(std::span<const std::byte> bytes) {
   SceneView scene;
@@ -41,8 +41,8 @@ bool is_optional(SectionId id) { return id == SectionId::kProvenance || id == Se
 
 /// Sections that other sections refer to. Without them a number is wrong, not the layout.
 bool is_referred_to(SectionId id) {
-  return id == SectionId::kRefined || id == SectionId::kEdges || id == SectionId::kBodyRefined ||
-         id == SectionId::kBodyEdges;
+  return id == SectionId::kRefined || id == SectionId::kFacets || id == SectionId::kExactBricks ||
+         id == SectionId::kBodyRefined || id == SectionId::kBodyFacets || id == SectionId::kBodyExactBricks;
 }
 
 TEST(SceneStructure, NeedsEverySectionButTwo) {
@@ -63,8 +63,9 @@ TEST(SceneStructure, NeedsEverySectionButTwo) {
 TEST(SceneStructure, NeedsNoSecondDirection) {
   ImageParts image = test::whole_image();
   for (const SectionId id : {SectionId::kBodyGrid, SectionId::kFeatures}) image.leave_out(id);
-  for (const SectionId id : {SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
-                             SectionId::kFeaturePoints, SectionId::kFeatureNodes, SectionId::kBodyEdges}) {
+  for (const SectionId id :
+       {SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined, SectionId::kFeaturePoints,
+        SectionId::kFeatureNodes, SectionId::kBodyFacets, SectionId::kBodyExactBricks}) {
     EXPECT_EQ(status_of(image), Status::kOk);
     image.leave_out(id);
   }
@@ -115,12 +116,19 @@ TEST(SceneStructure, NeedsEveryItemOfItsArrays) {
     image[id].resize(image[id].size() + sizeof(format::Refined));
     EXPECT_EQ(status_of(image), Status::kImageValue) << "a refinement that none leads to";
   }
-  for (const SectionId id : {SectionId::kEdges, SectionId::kBodyEdges}) {
+  for (const SectionId id : {SectionId::kFacets, SectionId::kBodyFacets}) {
     ImageParts image = whole;
-    image.set<format::Edge>(id, {image.item<format::Edge>(id), test::edge_along_z()});
-    EXPECT_EQ(status_of(image), Status::kOk) << "an edge that no brick has";
-    image.item<format::Edge>(id, 1).ramp = 0.0;
-    EXPECT_EQ(status_of(image), Status::kImageValue) << "the second edge is checked as well";
+    image.set<format::Facet>(id, {image.item<format::Facet>(id), test::facet_along_z()});
+    EXPECT_EQ(status_of(image), Status::kOk) << "a facet that no brick has";
+    image.item<format::Facet>(id, 1).normal[2] = 0.5;
+    EXPECT_EQ(status_of(image), Status::kImageValue) << "the second facet is checked as well";
+  }
+  for (const SectionId id : {SectionId::kExactBricks, SectionId::kBodyExactBricks}) {
+    ImageParts image = whole;
+    image.set<format::ExactBrick>(id, {image.item<format::ExactBrick>(id), image.item<format::ExactBrick>(id)});
+    EXPECT_EQ(status_of(image), Status::kOk) << "an exact brick that no brick names";
+    image.item<format::ExactBrick>(id, 1).facet[0] = 1;
+    EXPECT_EQ(status_of(image), Status::kImageValue) << "the second one is checked as well";
   }
 }
 
@@ -187,10 +195,9 @@ TEST(SceneStructure, HasSharpEdgesInTheirSpheres) {
 
 TEST(SceneStructure, HasEverySectionOnce) {
   ImageParts image = test::whole_image();
-  image[id_of(25)].resize(8);
-  image[id_of(26)].resize(8);
+  image[id_of(27)].resize(8);
   EXPECT_EQ(status_of(image), Status::kOk);
-  image.rename(id_of(26), id_of(25));
+  image.rename(id_of(27), id_of(26));
   EXPECT_EQ(status_of(image), Status::kImageLayout);
 }
 
@@ -563,7 +570,7 @@ TEST(SceneStructure, OfATreeEndsWithALeaf) {
 }
 
 /// Returns parts of a ball whose refinements are nested and have coarse octants; no second direction.
-ImageParts refined_image(bool with_edge) {
+ImageParts refined_image(bool exact) {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
   description.surface_min = Vector3::Constant(-0.01);
@@ -581,7 +588,7 @@ ImageParts refined_image(bool with_edge) {
   description.coarse = [low](const Vector3& center, double edge) {
     return (center - low).x() > 1.2 * edge && (center - low).y() > 0.7 * edge;
   };
-  if (with_edge) description.edge = test::edge_along_z();
+  if (exact) description.facet = test::facet_along_z();
   return ImageParts(test::build_scene_image(description));
 }
 
@@ -632,9 +639,9 @@ class EntryReader {
     }
     return true;
   }
-  bool names(std::uint32_t number, bool edged) {
+  bool names(std::uint32_t number, bool exact) {
     ++named_;
-    return number < brick_count() && (image_.item<format::Brick>(SectionId::kBricks, number).edge != 0) == edged;
+    return number < brick_count() && (image_.item<format::Brick>(SectionId::kBricks, number).exact != 0) == exact;
   }
 
   ImageParts& image_;

@@ -47,7 +47,7 @@ SceneImage small_image() {
 
 /// Returns the same ball with refinements at two positions, 0 and 2, and in the first one's last octant, 1. The lowest
 /// octant of the second position is coarse.
-SceneImage refined_image(std::optional<format::Edge> edge = {}) {
+SceneImage refined_image(std::optional<format::Facet> facet = {}) {
   test::SceneDescription description;
   description.distance = [](const Vector3& p) { return test::ball_distance(p, 0.01); };
   description.surface_min = Vector3::Constant(-0.01);
@@ -63,7 +63,7 @@ SceneImage refined_image(std::optional<format::Edge> edge = {}) {
   description.coarse = [](const Vector3& center, double) {
     return (center - Vector3(0.02, -0.02, -0.02)).norm() < 1e-6;
   };
-  description.edge = edge;
+  description.facet = facet;
   return test::build_scene_image(description);
 }
 
@@ -415,39 +415,39 @@ constexpr Spoiled kRefinements[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Refinement, SceneRefusesRefinements, ::testing::ValuesIn(kRefinements));
 
-class SceneRefusesEdges : public ::testing::TestWithParam<Spoiled> {};
+class SceneRefusesFacets : public ::testing::TestWithParam<Spoiled> {};
 
-TEST_P(SceneRefusesEdges, EvenWithRightChecksums) {
-  SceneImage image = refined_image(test::edge_along_z());
+TEST_P(SceneRefusesFacets, EvenWithRightChecksums) {
+  SceneImage image = refined_image(test::facet_along_z());
   EXPECT_EQ(open_over_another(image.bytes()), Status::kOk);
   GetParam().spoil(image);
   EXPECT_EQ(describe(open_over_another(image.bytes())), std::string(describe(GetParam().status)));
 }
 
-#define EDGE(CHANGE) ITEM(format::Edge, kEdges, 0, CHANGE)
+#define FACET(CHANGE) ITEM(format::Facet, kFacets, 0, CHANGE)
+#define EXACT(CHANGE) ITEM(format::ExactBrick, kExactBricks, 0, CHANGE)
 
-constexpr Spoiled kEdges[] = {
-    {"a section cut short", Status::kImageLayout, SECTION(kEdges, x.bytes -= 8)},
-    {"no edges", Status::kImageValue, SECTION(kEdges, x.id = static_cast<SectionId>(22))},
-    {"a brick that names one too many", Status::kImageValue, BRICK(x.edge = 2)},
+constexpr Spoiled kFacets[] = {
+    {"a section of facets cut short", Status::kImageLayout, SECTION(kFacets, x.bytes -= 8)},
+    {"a section of exact bricks cut short", Status::kImageLayout, SECTION(kExactBricks, x.bytes -= 8)},
+    {"no facets", Status::kImageValue, SECTION(kFacets, x.id = static_cast<SectionId>(22))},
+    {"no exact bricks", Status::kImageValue, SECTION(kExactBricks, x.id = static_cast<SectionId>(27))},
+    {"a brick that names one too many", Status::kImageValue, BRICK(x.exact = 2)},
     {"a brick whose entry does not know", Status::kImageValue,
-     ITEM(std::uint32_t, kBrickIndex, 2, x &= ~format::index_entry::kEdged)},
-    {"an entry whose brick does not know", Status::kImageValue, ITEM(format::Brick, kBricks, 2, x.edge = 0)},
-    {"a point NaN", Status::kImageValue, EDGE(x.point[1] = std::numeric_limits<double>::quiet_NaN())},
-    {"a direction that is not unit", Status::kImageValue, EDGE(x.along[2] = 1.1)},
-    {"a normal that is not unit", Status::kImageValue, EDGE(x.normal[1][1] = 0.9)},
-    {"a normal along the edge", Status::kImageValue, EDGE(std::swap(x.normal[0][0], x.normal[0][2]))},
-    {"a face that leans", Status::kImageValue, EDGE(std::swap(x.face[1][0], x.face[1][1]))},
-    {"neither convex nor re-entrant", Status::kImageValue, EDGE(x.side = 0.5)},
-    {"an end before its begin", Status::kImageValue, EDGE(x.end = -0.02)},
-    {"no ramp", Status::kImageValue, EDGE(x.ramp = 0.0)},
-    {"no radius at the ends", Status::kImageValue, EDGE(x.end_radius = 0.0)},
-    {"wider at the ends", Status::kImageValue, EDGE(x.radius = 0.001)},
-    {"a slope upwards", Status::kImageValue, EDGE(x.slope = -0.1)},
-    {"an offset without end", Status::kImageValue, EDGE(x.offset = std::numeric_limits<double>::infinity())},
-    {"reserved words", Status::kImageValue, EDGE(x.reserved[5] = 1.0)},
+     ITEM(std::uint32_t, kBrickIndex, 2, x &= ~format::index_entry::kExact)},
+    {"an entry whose brick does not know", Status::kImageValue, ITEM(format::Brick, kBricks, 2, x.exact = 0)},
+    {"a vertex NaN", Status::kImageValue, FACET(x.vertex[2][1] = std::numeric_limits<double>::quiet_NaN())},
+    {"a normal that is not unit", Status::kImageValue, FACET(x.normal[2] = 1.1)},
+    {"a normal NaN", Status::kImageValue, FACET(x.normal[0] = std::numeric_limits<double>::quiet_NaN())},
+    {"an edge's normal that is not unit", Status::kImageValue, FACET(x.edge_normal[2][2] = 0.9f)},
+    {"a vertex's normal that is not unit", Status::kImageValue, FACET(x.vertex_normal[0][1] = 0.9f)},
+    {"a facet that is not there", Status::kImageValue, EXACT(x.facet[0] = 1)},
+    {"a cell without a facet", Status::kImageValue, EXACT(x.cell[63] = 0)},
+    {"a cell with another brick's facet", Status::kImageValue, EXACT(x.cell[0] = 2)},
+    {"a weight above 1", Status::kImageValue, EXACT(x.weight[124] = 40000)},
+    {"reserved words", Status::kImageValue, EXACT(x.reserved = 1)},
 };
-INSTANTIATE_TEST_SUITE_P(Edge, SceneRefusesEdges, ::testing::ValuesIn(kEdges));
+INSTANTIATE_TEST_SUITE_P(Facet, SceneRefusesFacets, ::testing::ValuesIn(kFacets));
 
 /// Returns a scene that halves the first position's first octant again and again, `depth` times in all, and also the
 /// position beside it. `last_coarse`: the last octant of each refinement is coarse.
@@ -504,7 +504,7 @@ TEST(Scene, RefusesRefinementsTooDeep) {
 
 /// An image with a flipped bit and a correct checksum may open or not; if it opens, it must be safe. Sanitizers judge.
 TEST(Scene, SurvivesEverySingleBitFlipInRefinements) {
-  SceneImage image = refined_image(test::edge_along_z());
+  SceneImage image = refined_image(test::facet_along_z());
   const auto bytes = test::section_bytes(image, SectionId::kRefined);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};

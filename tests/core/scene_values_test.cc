@@ -299,10 +299,12 @@ TEST(SceneObject, HasNoNormalWhereTheFieldIsFlat) {
     auto& brick = parts.item<format::Brick>(SectionId::kBricks, i);
     std::fill(std::begin(brick.value), std::end(brick.value), std::int16_t{3});
   }
+  auto& weights = parts.item<format::ExactBrick>(SectionId::kExactBricks).weight;
+  std::fill(std::begin(weights), std::end(weights), std::uint16_t{0});
   const test::SceneImage image = parts.assemble();
   Scene scene;
   ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
-  const Vector3 p(0.021, 0.022, 0.023);  // far from the edge
+  const Vector3 p(0.021, 0.022, 0.023);
   EXPECT_TRUE(scene.distance(p).known);
   EXPECT_EQ(scene.distance(p).normal_W, Vector3::Zero());
 }

@@ -21,7 +21,8 @@ using test::FieldParts;
 using test::RandomField;
 using test::SlowField;
 
-/// Maps of all kinds: with and without refinements, edges and far positions, and with different numbers of positions.
+/// Maps of all kinds: with and without refinements, exact bricks and far positions, and with different numbers of
+/// positions.
 std::vector<FieldParts> random_fields(test::Random& random, double noise) {
   std::vector<FieldParts> fields;
   fields.push_back(test::random_field({.bricks = {1, 1, 1}, .noise = noise, .refined = false, .far = false}, random));
@@ -30,7 +31,7 @@ std::vector<FieldParts> random_fields(test::Random& random, double noise) {
   test::renumber_bricks(fields.back());      // an octant has the first brick
   fields.back().grid.band = 3.6 * 0.25;      // no whole number of voxels
   fields.back().grid.lipschitz_seam = 0.25;  // flatter than any distance: 1 counts
-  fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = noise, .edge_count = 6}, random));
+  fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = noise, .exact = true}, random));
   return fields;
 }
 
@@ -71,7 +72,7 @@ TEST(VoxelmapOracle, AgreesAboutDistanceAndClearance) {
       if (parts.grid.band - std::fabs(expected.distance) < rounding) continue;
       ++known;
       ASSERT_TRUE(sample.known) << p.transpose();
-      if (slow.place(p).edged) continue;
+      if (slow.place(p).exact) continue;
       ASSERT_LE((sample.gradient - expected.gradient).norm(), 1e-5) << p.transpose();
     }
     EXPECT_GT(known, 500);
@@ -79,12 +80,12 @@ TEST(VoxelmapOracle, AgreesAboutDistanceAndClearance) {
   }
 }
 
-/// In a brick with an edge the gradient is that of the slow reader's differences, where these have no crease.
-TEST(VoxelmapOracle, AgreesAboutTheGradientAtAnEdge) {
+/// In an exact brick the gradient is that of the slow reader's differences, where these have no crease.
+TEST(VoxelmapOracle, AgreesAboutTheGradientInAnExactBrick) {
   test::Random random(2);
   int compared = 0;
   for (int k = 0; k < 4; ++k) {
-    const FieldParts parts = test::random_field({.bricks = {3, 4, 2}, .edge_count = 8, .refined = k > 1}, random);
+    const FieldParts parts = test::random_field({.bricks = {3, 4, 2}, .exact = true, .refined = k > 1}, random);
     const SlowField slow(parts);
     const Voxelmap map = parts.map();
     const double step = 1e-4 * parts.grid.voxel_size;
@@ -92,7 +93,7 @@ TEST(VoxelmapOracle, AgreesAboutTheGradientAtAnEdge) {
       const Vector3 p = any_point(parts.grid, random, 0.0);
       const SlowField::Place place = slow.place(p);
       const FieldSample sample = map.sample(p);
-      if (!place.edged || !sample.known) continue;
+      if (!place.exact || !sample.known) continue;
       const Vector3 direction = random.direction();
       const SlowField::Place ahead = slow.place(p + step * direction);
       const SlowField::Place behind = slow.place(p - step * direction);

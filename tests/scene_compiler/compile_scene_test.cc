@@ -201,7 +201,7 @@ TEST_F(CompileScene, SaysWhatTheFieldLosesAndTheRuleOfRefusal) {
 }
 
 TEST_F(CompileScene, CountsStoredPositionsApartFromFinerBricks) {
-  const CompileReport report = compile({.still = "cube_100mm"});
+  const CompileReport report = compile({.still = "sheet_open"});
   ASSERT_GT(report.field.refinement.refined, 0u);
   const std::string image = bytes_of(folder_.file("out.scene"));
   const Json index = inspect_json(files::SceneImage::read(folder_.file("out.scene")))["sections"]["brick_index"];

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <unistd.h>
 
+#include "tests/scene_compiler/simple_meshes.h"
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
 
 namespace godobject::scene_compiler {
@@ -71,6 +74,26 @@ inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
 inline TriangleMesh turned_inside_out(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
+}
+
+/// A cone with many faces on the plane z = 0: its apex is vertex 0, the middle of its ground vertex 1.
+inline TriangleMesh cone_mesh(double radius, double height, std::uint32_t faces) {
+  TriangleMesh cone;
+  cone.vertices = {{0, 0, height}, {0, 0, 0}};
+  for (std::uint32_t i = 0; i < faces; ++i) {
+    const double angle = 2.0 * M_PI * i / faces;
+    cone.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    const std::uint32_t here = 2 + i;
+    const std::uint32_t next = 2 + (i + 1) % faces;
+    cone.triangles.push_back({0, here, next});
+    cone.triangles.push_back({1, next, here});
+  }
+  return cone;
+}
+
+/// A block with a box-shaped cavity inside.
+inline TriangleMesh hollow_block(const Eigen::Vector3d& block, const Eigen::Vector3d& cavity) {
+  return joined(test::box_mesh(block), turned_inside_out(test::box_mesh(cavity)));
 }
 
 }  // namespace godobject::scene_compiler

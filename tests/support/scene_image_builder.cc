@@ -27,7 +27,7 @@ std::size_t padded(std::size_t bytes) {
 struct Brick {
   double value[format::kBrickValues];  ///< [m]
   int level;                           ///< number of halvings
-  std::uint16_t edge;
+  std::uint16_t exact;
 };
 
 /// The still body: grid, brick index, bricks.
@@ -219,19 +219,19 @@ class Octants {
   double slope_ = 0.0;
 };
 
-void name_edge(StoredField& field) {
+void make_exact(StoredField& field) {
   const auto name = [&field](std::uint32_t& entry) {
     if ((entry & (format::index_entry::kFar | format::index_entry::kRefined)) != 0) return;
-    field.bricks[entry & format::index_entry::kNumber].edge = 1;
-    entry |= format::index_entry::kEdged;
+    field.bricks[entry & format::index_entry::kNumber].exact = 1;
+    entry |= format::index_entry::kExact;
   };
   for (std::uint32_t& entry : field.index) name(entry);
   for (format::Refined& refined : field.refined) {
     for (std::uint32_t& entry : refined.child) {
       name(entry);
       if (entry != format::index_entry::kCoarse) continue;
-      field.bricks[refined.brick].edge = 1;
-      entry |= format::index_entry::kEdged;
+      field.bricks[refined.brick].exact = 1;
+      entry |= format::index_entry::kExact;
     }
   }
 }
@@ -259,11 +259,11 @@ std::vector<format::Brick> rounded_bricks(const SceneDescription& description, c
       rounded.value[i] = static_cast<std::int16_t>(std::lround(brick.value[i] / quantum));
     }
     rounded.lipschitz = format::encode_lipschitz(static_cast<float>(field.grid.clearance_slope));
-    if (description.refined || description.edge) {
+    if (description.refined || description.facet) {
       // two interpolations of one distance, each within half a voxel's diagonal of it
       rounded.deviation = static_cast<std::uint16_t>(std::ceil(1.76 * field.grid.voxel_size / field.grid.quantum));
     }
-    rounded.edge = brick.edge;
+    rounded.exact = brick.exact;
   }
   return bricks;
 }
@@ -297,7 +297,7 @@ StoredField store_field(const SceneDescription& description, double quantum) {
   double slope = 0.0;
   for (const Brick& brick : field.bricks) slope = std::max(slope, steepest(brick) / grid.voxel_size);
   if (description.refined) slope = std::max(slope, Octants(description, field).store());
-  if (description.edge) name_edge(field);
+  if (description.facet) make_exact(field);
   // single precision differences are taken again later; bricks say the same
   grid.lipschitz = static_cast<double>(static_cast<float>(slope * (1.0 + 1e-6)));
   const auto largest = std::max(1.0f, static_cast<float>(grid.lipschitz));
@@ -466,7 +466,14 @@ SceneImage build_scene_image(const SceneDescription& description) {
   const std::vector<format::Brick> bricks = rounded_bricks(description, field);
   sections.push_back(section(SectionId::kBricks, std::span(bricks)));
   if (!field.refined.empty()) sections.push_back(section(SectionId::kRefined, std::span(field.refined)));
-  if (description.edge) sections.push_back(section(SectionId::kEdges, std::span(&*description.edge, 1)));
+  format::ExactBrick exact{};
+  std::fill(std::begin(exact.weight), std::end(exact.weight), std::uint16_t{format::kOneWeight / 2});
+  std::fill(std::begin(exact.cell), std::end(exact.cell), std::uint64_t{1});
+  exact.facet_count = 1;
+  if (description.facet) {
+    sections.push_back(section(SectionId::kFacets, std::span(&*description.facet, 1)));
+    sections.push_back(section(SectionId::kExactBricks, std::span<const format::ExactBrick>(&exact, 1)));
+  }
   sections.push_back(section(SectionId::kBody, std::span(&stored.body, 1)));
   sections.push_back(section(SectionId::kPoints, std::span(points)));
   if (!description.normals.empty()) {

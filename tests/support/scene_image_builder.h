@@ -45,8 +45,9 @@ struct SceneDescription {
   /// Returns true if the octant of a refined brick with this centre and edge stays coarse. Empty: no octant does.
   std::function<bool(const Vector3& center, double edge)> coarse;
 
-  /// Exact edge to which every brick that is looked up refers. grid.lipschitz does not take the edge into account.
-  std::optional<format::Edge> edge;
+  /// The one facet of all bricks that are looked up: they are exact bricks with weights of a half. grid.lipschitz does
+  /// not take it into account.
+  std::optional<format::Facet> facet;
 
   std::vector<Vector3> points;    ///< in the body frame B; the image may store them in another order
   std::vector<Vector3> normals;   ///< unit, pointing into the body, one a point; empty: none, and no solver `paper`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace godobject::test {
 namespace {
@@ -41,7 +42,7 @@ class RandomEntries {
     for (unsigned octant = 0; octant < 8; ++octant) {
       const Vector3 side(octant & 1, octant >> 1 & 1, octant >> 2);
       const double half = 0.5 * format::kBrickCells / (1 << level);
-      const std::uint32_t child = coarse[octant] ? format::index_entry::kCoarse | (own & format::index_entry::kEdged)
+      const std::uint32_t child = coarse[octant] ? format::index_entry::kCoarse | (own & format::index_entry::kExact)
                                                  : stored(low + half * side, level + 1);
       parts_.refined[number].child[octant] = child;
     }
@@ -49,7 +50,7 @@ class RandomEntries {
   }
 
   /// Adds a brick whose lowest corner is `low` [voxels]. Returns its entry.
-  std::uint32_t brick(const Vector3& low, int level, bool may_have_edge = true) {
+  std::uint32_t brick(const Vector3& low, int level, bool may_be_exact = true) {
     const auto number = static_cast<std::uint32_t>(parts_.bricks.size());
     format::Brick& brick = parts_.bricks.emplace_back();
     const double offset = random_.between(-2.0, 2.0);
@@ -63,34 +64,45 @@ class RandomEntries {
     }
     brick.lipschitz = static_cast<std::uint16_t>(random_.integer(0, 6000));
     brick.deviation = static_cast<std::uint16_t>(random_.integer(0, 40));
-    if (of_.edge_count == 0 || !may_have_edge || !one_of(3)) return number;
-    brick.edge = static_cast<std::uint16_t>(random_.integer(1, of_.edge_count));
-    set_edge(parts_.edges[brick.edge - 1u], low + Vector3::Constant(2.0 / (1 << level)));
-    return number | format::index_entry::kEdged;
+    if (!of_.exact || !may_be_exact || !one_of(3)) return number;
+    add_exact(low, level);
+    brick.exact = static_cast<std::uint16_t>(parts_.exact.size());
+    return number | format::index_entry::kExact;
   }
 
-  /// Leads an edge near a point of the grid [voxels], so that its weights matter there.
-  void set_edge(format::Edge& edge, const Vector3& near) {
-    if (edge.ramp != 0.0) return;
+  /// Adds an exact brick: random weights, and for each cell some of the facets of a crooked tetrahedron near the brick.
+  void add_exact(const Vector3& low, int level) {
     const double s = of_.voxel_size;
-    const Matrix3 turn = exp_rotation(random_.between(0.0, 3.0) * random_.direction()).toRotationMatrix();
-    const double angle = random_.between(0.5, 2.6);
-    const auto store = [&turn](const Vector3& v, double* to) {
-      const Vector3 turned = turn * v;
-      std::copy_n(turned.data(), 3, to);
+    const double edge = 4.0 / (1 << level);
+    Vector3 vertex[4], vertex_normal[4], edge_normal[4][4];
+    const Vector3 middle = low + edge * (Vector3::Constant(0.5) + 0.3 * random_.direction());
+    for (int i = 0; i < 4; ++i) {
+      vertex[i] = vector(parts_.grid.origin) + s * (middle + edge * random_.direction());
+      vertex_normal[i] = random_.direction();
+      for (int k = 0; k < i; ++k) edge_normal[i][k] = edge_normal[k][i] = random_.direction();
+    }
+    const auto store = [](const Vector3& v, auto& to) {
+      for (int axis = 0; axis < 3; ++axis) to[axis] = static_cast<std::remove_reference_t<decltype(to[0])>>(v[axis]);
     };
-    store(Vector3::UnitZ(), edge.along);
-    store(Vector3::UnitX(), edge.normal[0]);
-    store(-Vector3::UnitY(), edge.face[0]);
-    const Vector3 face(-std::sin(angle), -std::cos(angle), 0.0);
-    store(face, edge.face[1]);
-    store({face.y(), -face.x(), 0.0}, edge.normal[1]);
-    const Vector3 point = vector(parts_.grid.origin) + s * (near + 0.3 * random_.direction());
-    std::copy_n(point.data(), 3, edge.point);
-    edge.side = one_of(2) ? 1.0 : -1.0;
-    edge.offset = random_.between(-0.2, 0.2) * s;
-    edge.begin = -4.0 * s, edge.end = 5.0 * s, edge.ramp = 1.5 * s;
-    edge.radius = 3.0 * s, edge.end_radius = 1.0 * s, edge.slope = 0.6;
+    const auto first = static_cast<std::uint32_t>(parts_.facets.size());
+    for (int face = 0; face < 4; ++face) {
+      format::Facet& facet = parts_.facets.emplace_back();
+      const int corner[3] = {(face + 1) % 4, (face + 2) % 4, (face + 3) % 4};
+      for (int k = 0; k < 3; ++k) {
+        store(vertex[corner[k]], facet.vertex[k]);
+        store(vertex_normal[corner[k]], facet.vertex_normal[k]);
+        store(edge_normal[corner[k]][corner[(k + 1) % 3]], facet.edge_normal[k]);
+      }
+      store((vertex[corner[1]] - vertex[corner[0]]).cross(vertex[corner[2]] - vertex[corner[0]]).normalized(),
+            facet.normal);
+    }
+    format::ExactBrick& exact = parts_.exact.emplace_back();
+    exact.facet_count = 4;
+    for (std::uint32_t face = 0; face < 4; ++face) exact.facet[face] = first + face;
+    for (std::uint64_t& cell : exact.cell) cell = static_cast<std::uint64_t>(random_.integer(1, 15));
+    for (std::uint16_t& weight : exact.weight) {
+      weight = static_cast<std::uint16_t>(one_of(2) ? random_.integer(0, 1) << 15 : random_.integer(0, 1 << 15));
+    }
   }
 
   const RandomField& of_;
@@ -114,7 +126,7 @@ FieldParts random_field(const RandomField& of, Random& random) {
     grid.surface_min[axis] = grid.origin[axis] + of.voxel_size * random.between(1.0, 2.0);
     grid.surface_max[axis] = grid.origin[axis] + of.voxel_size * (4.0 * grid.bricks[axis] - random.between(1.0, 2.0));
   }
-  parts.edges.resize(static_cast<std::size_t>(of.edge_count));
+  if (of.exact) grid.facet_offset = random.between(-0.2, 0.2) * of.voxel_size;
   RandomEntries entries(of, parts, random);
   for (int z = 0; z < of.bricks[2]; ++z) {
     for (int y = 0; y < of.bricks[1]; ++y) {
@@ -189,7 +201,7 @@ SlowField::Place SlowField::place(const Vector3& p) const {
     edge *= 0.5;
     ++place.level;
   }
-  place.edged = (entry >> 28) == 1;
+  place.exact = (entry >> 28) == 1;
   place.brick = &parts_.bricks[entry % (1u << 28)];
   for (int axis = 0; axis < 3; ++axis) {
     const double cells = (place.in_position[axis] - low[axis]) / (0.25 * edge);
@@ -223,28 +235,57 @@ Vector3 SlowField::slope(const Place& place) const {
   return slope;
 }
 
+double SlowField::weight(const Place& place) const {
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int up[3] = {corner % 2, corner / 2 % 2, corner / 4};
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) share *= up[axis] == 1 ? place.at[axis] : 1.0 - place.at[axis];
+    const int node = place.cell[0] + up[0] + 5 * (place.cell[1] + up[1] + 5 * (place.cell[2] + up[2]));
+    sum += share * exact_of(place).weight[node] / 32768.0;
+  }
+  return sum;
+}
+
+/// The nearest place of each facet by a search: along an edge, or on the plane if that lies in the triangle.
+double SlowField::facet_distance(const Place& place, const Vector3& p) const {
+  const format::ExactBrick& exact = exact_of(place);
+  const std::uint64_t of_cell = exact.cell[place.cell[0] + 4 * (place.cell[1] + 4 * place.cell[2])];
+  double nearest = HUGE_VAL;
+  Vector3 away = Vector3::Zero(), normal = Vector3::Zero();
+  const auto compare = [&](const Vector3& q, const Vector3& n) {
+    if ((p - q).norm() >= nearest) return;
+    nearest = (p - q).norm();
+    away = p - q;
+    normal = n;
+  };
+  const auto single = [](const float(&v)[3]) {
+    return Vector3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
+  };
+  for (int i = 0; i < 64; ++i) {
+    if ((of_cell >> i) % 2 == 0) continue;
+    const format::Facet& facet = parts_.facets[exact.facet[i]];
+    const Vector3 a = vector(facet.vertex[0]), b = vector(facet.vertex[1]), c = vector(facet.vertex[2]);
+    const Vector3 up = vector(facet.normal);
+    Matrix3 frame;  // p = a + x (b - a) + y (c - a) + z up
+    frame << b - a, c - a, up;
+    const Vector3 at = frame.inverse() * (p - a);
+    if (at.x() >= 0.0 && at.y() >= 0.0 && at.x() + at.y() <= 1.0) compare(p - at.z() * up, up);
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 from = vector(facet.vertex[k]), to = vector(facet.vertex[(k + 1) % 3]);
+      const double t = (p - from).dot(to - from) / (to - from).squaredNorm();
+      compare(from, single(facet.vertex_normal[k]));
+      if (t > 0.0 && t < 1.0) compare(from + t * (to - from), single(facet.edge_normal[k]));
+    }
+  }
+  return away.dot(normal) >= 0.0 ? nearest : -nearest;
+}
+
 double SlowField::stored(const Place& place, const Vector3& p) const {
   const double interpolated = parts_.grid.quantum * quanta(place, place.at);
-  if (!place.edged) return interpolated;
-  const format::Edge& edge = edge_of(place);
-  const Vector3 from = p - vector(edge.point);
-  const double t = vector(edge.along).dot(from);
-  const Vector3 across = from - t * vector(edge.along);
-  const double to_end = std::min(t - edge.begin, edge.end - t);
-  const double radius = std::min(edge.radius, edge.end_radius + edge.slope * to_end);
-  const double weight = std::clamp(std::min(2.0 * (1.0 - across.norm() / radius), to_end / edge.ramp), 0.0, 1.0);
-  bool inside = true;
-  double nearest = across.norm();
-  for (int i = 0; i < 2; ++i) {
-    const double along = std::max(0.0, vector(edge.face[i]).dot(across));
-    nearest = std::min(nearest, (across - along * vector(edge.face[i])).norm());
-    inside = inside && vector(edge.normal[i]).dot(across) <= 0.0;
-  }
-  // inside, the planes' distances bound the wedge; there the nearest point is on a face, as an angle is below 180
-  // degrees
-  if (inside) nearest = std::min(-vector(edge.normal[0]).dot(across), -vector(edge.normal[1]).dot(across));
-  const double wedge = edge.side * (inside ? -nearest : nearest) + edge.offset;
-  return (1.0 - weight) * interpolated + weight * wedge;
+  if (!place.exact) return interpolated;
+  const double w = weight(place);
+  return w == 0.0 ? interpolated : (1.0 - w) * interpolated + w * (facet_distance(place, p) + parts_.grid.facet_offset);
 }
 
 double SlowField::distance_to_box(const Vector3& p) const {

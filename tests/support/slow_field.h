@@ -16,9 +16,10 @@ struct FieldParts {
   std::vector<std::uint32_t> index;
   std::vector<format::Brick> bricks;
   std::vector<format::Refined> refined;
-  std::vector<format::Edge> edges;
+  std::vector<format::ExactBrick> exact;
+  std::vector<format::Facet> facets;
 
-  Voxelmap map() const { return {grid, index, bricks, refined, edges}; }
+  Voxelmap map() const { return {grid, index, bricks, refined, exact, facets}; }
 };
 
 /// Describes `random_field`.
@@ -26,7 +27,7 @@ struct RandomField {
   std::array<int, 3> bricks = {2, 3, 4};
   double voxel_size = 0x1p-7;  ///< a power of two: then points can be exactly on planes of the lattice
   double noise = 0.2;          ///< of each node, about a plane of slope 1 [voxels]
-  int edge_count = 0;          ///< a third of the bricks have one
+  bool exact = false;          ///< a third of the bricks is
   bool refined = true;         ///< a third of the positions is refined, and so on
   bool far = true;             ///< a quarter of the positions is not stored
 };
@@ -46,7 +47,7 @@ class SlowField {
     bool in_grid = false;
     std::uint32_t position = 0;  ///< entry of the index
     bool stored = false;
-    bool edged = false;
+    bool exact = false;
     const format::Brick* brick = nullptr;
     int level = 0;
     std::array<int, 3> cell{};
@@ -62,16 +63,19 @@ class SlowField {
   /// Returns the stored distance at p, beyond the band as well, where a brick is stored [m].
   double stored(const Vector3& p) const { return stored(place(p), p); }
   double stored(const Place& place, const Vector3& p) const;
-  /// Returns the gradient of the trilinear field without an edge [1].
+  /// Returns the gradient of the trilinear field without facets [1].
   Vector3 slope(const Place& place) const;
-  /// As Voxelmap::sample; without the gradient in a brick with an edge.
+  /// As Voxelmap::sample; without the gradient in an exact brick.
   FieldSample sample(const Vector3& p) const;
   /// Returns the clearance that Voxelmap::clearances subtracts rounding from: of the position's own nodes [m].
   double batch_clearance(const Vector3& p) const;
   LayerSample layer(const Vector3& p) const;
   double lower_bound(const Vector3& center, double radius) const;
 
-  const format::Edge& edge_of(const Place& place) const { return parts_.edges[place.brick->edge - 1u]; }
+  const format::ExactBrick& exact_of(const Place& place) const { return parts_.exact[place.brick->exact - 1u]; }
+  /// Returns the weight I[w] at a place of an exact brick, and the distance g to the facets of its cell [m].
+  double weight(const Place& place) const;
+  double facet_distance(const Place& place, const Vector3& p) const;
   double near_band() const;  ///< largest part of a distance that a clearance may use [m]
   double assured() const;    ///< clearance wherever nothing is stored outside [m]
 

@@ -10,22 +10,16 @@
 
 namespace godobject::test {
 
-/// Returns a convex edge along z.
-inline format::Edge edge_along_z() {
-  format::Edge edge{};
-  edge.along[2] = edge.normal[0][0] = edge.normal[1][1] = 1.0;
-  edge.face[0][1] = edge.face[1][0] = -1.0;
-  edge.side = 1.0;
-  edge.begin = -0.01;
-  edge.end = 0.01;
-  edge.ramp = 0.002;
-  edge.radius = 0.005;
-  edge.end_radius = 0.002;
-  edge.slope = 0.5;
-  return edge;
+/// Returns a facet that faces along z.
+inline format::Facet facet_along_z() {
+  format::Facet facet{};
+  facet.vertex[1][0] = facet.vertex[2][1] = 0.01;
+  facet.normal[2] = 1.0;
+  for (int k = 0; k < 3; ++k) facet.edge_normal[k][2] = facet.vertex_normal[k][2] = 1.0f;
+  return facet;
 }
 
-/// Returns a ball of 10 mm with a refined position, an edge and a workspace. The moving body is the same ball, with the
+/// Returns a ball of 10 mm with a refined position, a facet and a workspace. The moving body is the same ball, with the
 /// box of `points` as its sample points; feature points of the still body are these, shifted by (0.1, 0.2, 0.3) m. So
 /// the image has every section of the format.
 inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(0.01, 0.02, 0.03), 3)) {
@@ -41,7 +35,7 @@ inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(
   description.normals = points.normals;
   description.level_count = points.points.size() > 4 ? 3 : 1;
   description.refined = [](const Vector3& center, double size) { return size > 0.03 && center.maxCoeff() < 0.0; };
-  description.edge = edge_along_z();
+  description.facet = facet_along_z();
   description.workspace = format::Workspace{{-1.0, -2.0, -3.0}, {1.0, 2.0, -3.0}};
   description.H_MB.rotation = Quaternion(0.5, 0.5, -0.5, 0.5);
   description.H_MB.translation = Vector3(0.1, 0.2, 0.3);
@@ -55,7 +49,8 @@ inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(
   copy(SectionId::kBrickIndex, SectionId::kBodyBrickIndex);
   copy(SectionId::kBricks, SectionId::kBodyBricks);
   copy(SectionId::kRefined, SectionId::kBodyRefined);
-  copy(SectionId::kEdges, SectionId::kBodyEdges);
+  copy(SectionId::kFacets, SectionId::kBodyFacets);
+  copy(SectionId::kExactBricks, SectionId::kBodyExactBricks);
   copy(SectionId::kPoints, SectionId::kFeaturePoints);
   copy(SectionId::kNodes, SectionId::kFeatureNodes);
   const auto& body = image.item<format::Body>(SectionId::kBody);

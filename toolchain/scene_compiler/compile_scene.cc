@@ -39,7 +39,8 @@ CompileTarget target_of(const CompileRequest& request, const VoxelSizes& chosen)
 RefinementReport trimmed_refinement(RefinementReport refinement, const LeftOutBricks& left_out) {
   refinement.refined -= left_out.refined;
   refinement.finer -= left_out.all_bricks - left_out.positions;
-  refinement.edges -= left_out.edges;
+  refinement.exact -= left_out.exact;
+  refinement.facets -= left_out.facets;
   for (std::size_t i = 0; i < left_out.bricks.size(); ++i) refinement.bricks[i] -= left_out.bricks[i];
   return refinement;
 }

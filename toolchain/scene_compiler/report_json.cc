@@ -91,7 +91,8 @@ Json refinement_json(const CompileReport& report) {
           {"tolerance_outside_in_voxels", tolerance.outside / s},
           {"worst_beyond", {{"error", worst.error}, {"at", {worst.at.x(), worst.at.y(), worst.at.z()}}}},
           {"bricks_by_halvings", report.field.refinement.bricks},
-          {"straight_edges", report.field.refinement.edges},
+          {"exact_bricks", report.field.refinement.exact},
+          {"facets", report.field.refinement.facets},
           {"bytes", report.field.refinement.bytes()},
           {"nearer_than_half_a_voxel",
            {{"points", near.points},
@@ -119,7 +120,7 @@ Json second_direction_json(const CompileReport& report) {
   std::uint64_t bytes = 0;
   for (const auto& [id, section] : report.sections) {
     if ((id >= format::SectionId::kBodyGrid && id <= format::SectionId::kFeatureNodes) ||
-        id == format::SectionId::kBodyEdges) {
+        id == format::SectionId::kBodyFacets || id == format::SectionId::kBodyExactBricks) {
       bytes += section;
     }
   }
@@ -170,7 +171,7 @@ Json left_out_json(const CompileReport& report) {
     list.push_back({{"what", "points of the ball, which its centre stands for"},
                     {"count", report.config.points - 1},
                     {"bytes_saved", (report.config.points - 1) * point}});
-    list.push_back({{"what", "straight edges: the surface at the ball's radius has none"}, {"bytes_saved", nullptr}});
+    list.push_back({{"what", "facets: the surface at the ball's radius is round"}, {"bytes_saved", nullptr}});
   }
   if (report.second.features.point_count == 0) {
     const char* const why = report.ball                     ? "a ball meets a convex body where its centre is near"

@@ -205,9 +205,9 @@ std::string refinement_text(const CompileReport& report) {
   std::string text = fmt::format("finer    bricks by number of halvings, 0, 1, 2, ...: {}; {:.1f} KiB, {:.2f} s\n",
                                  fmt::join(report.field.refinement.bricks, ", "),
                                  static_cast<double>(report.field.refinement.bytes()) / 1024.0, seconds);
-  if (report.field.refinement.edges > 0) {
-    text += fmt::format("         {} stretches of straight edges, along which the field is exact\n",
-                        report.field.refinement.edges);
+  if (report.field.refinement.exact > 0) {
+    text += fmt::format("         {} bricks about edges, corners and narrow places are exact, with {} facets\n",
+                        report.field.refinement.exact, report.field.refinement.facets);
   }
   if (report.config.accuracy) text += fmt::format("         {}\n", surfaces_text(report.config));
   const auto look_up_text = [](double time) {

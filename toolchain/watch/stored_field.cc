@@ -41,7 +41,8 @@ StoredField::StoredField(std::span<const std::byte> image, const FieldSections& 
     : index_(section_of<std::uint32_t>(image, sections.index)),
       bricks_(section_of<format::Brick>(image, sections.bricks)),
       refined_(section_of<format::Refined>(image, sections.refined)),
-      edges_(section_of<format::Edge>(image, sections.edges)) {
+      facets_(section_of<format::Facet>(image, sections.facets)),
+      exact_(section_of<format::ExactBrick>(image, sections.exact)) {
   const auto grid = section_bytes(image, sections.grid);
   if (grid.size() != sizeof(grid_)) throw std::runtime_error("the scene image has no such field");
   std::memcpy(&grid_, grid.data(), sizeof(grid_));
@@ -49,8 +50,8 @@ StoredField::StoredField(std::span<const std::byte> image, const FieldSections& 
 }
 
 /// The trilinear field is nowhere steeper than the root of the sum of its largest differences along x, y and z in a
-/// cell. An edge adds the gradients of its wedge and of its weight, which falls from 1 to 0 over half of its radius
-/// while wedge and interpolation differ by less than that radius.
+/// cell. In an exact brick the gradients of the distance to facets and of the weight add to that: the weight changes by
+/// at most 1 along each edge of a cell, in which facets and interpolation differ by less than a cell.
 double StoredField::steepest() const {
   double most = 1.0;
   for (const format::Brick& brick : bricks_) {
@@ -67,7 +68,7 @@ double StoredField::steepest() const {
     }
     // quantum over cell edge is the same at every refinement: both are halved together
     const double slope = std::hypot(d[0], d[1], d[2]) * grid_.quantum / grid_.voxel_size;
-    most = std::max(most, brick.edge != 0 ? slope + 3.0 : slope);
+    most = std::max(most, brick.exact != 0 ? slope + 3.0 : slope);
   }
   return most;
 }
@@ -83,7 +84,7 @@ StoredField::Place StoredField::descend(std::uint32_t entry, Vector3 at) const {
     for (int axis = 0; axis < 3; ++axis) octant |= (at[axis] >= kHalf ? 1u : 0u) << axis;
     const std::uint32_t child = refined.child[octant];
     if ((child & format::index_entry::kCoarse) != 0) {
-      entry = refined.brick | (child & format::index_entry::kEdged);
+      entry = refined.brick | (child & format::index_entry::kExact);
       break;
     }
     for (int axis = 0; axis < 3; ++axis) at[axis] = 2.0 * (at[axis] - ((octant >> axis & 1u) != 0 ? kHalf : 0.0));
@@ -92,7 +93,7 @@ StoredField::Place StoredField::descend(std::uint32_t entry, Vector3 at) const {
     entry = child;
   }
   place.brick = &bricks_[entry & format::index_entry::kNumber];
-  place.has_edge = (entry & format::index_entry::kEdged) != 0;
+  place.is_exact = (entry & format::index_entry::kExact) != 0;
   place.at = at;
   return place;
 }
@@ -125,41 +126,62 @@ Slope StoredField::interpolate(const Place& place) {
   return slope;
 }
 
-/// format::Edge's formula.
-Slope StoredField::blend_with_edge(const format::Edge& edge, const Vector3& p, const Slope& interpolated) {
-  const Vector3 from = p - vector(edge.point);
-  const double t = vector(edge.along).dot(from);
-  const double r = (from - t * vector(edge.along)).norm();
-  const double to_end = std::min(t - edge.begin, edge.end - t);
-  if (to_end <= 0.0) return interpolated;
-  const double radius = std::min(edge.radius, edge.end_radius + edge.slope * to_end);
-  const double weight = std::clamp(std::min(2.0 * (1.0 - r / radius), to_end / edge.ramp), 0.0, 1.0);
-  if (weight == 0.0) return interpolated;
-
-  // signed distance to the wedge: inside, the nearer plane; outside, the nearer half plane, which ends at the edge
-  const double above[2] = {vector(edge.normal[0]).dot(from), vector(edge.normal[1]).dot(from)};
-  double wedge = 0.0;
-  Vector3 direction = Vector3::Zero();
-  if (above[0] <= 0.0 && above[1] <= 0.0) {
-    const int nearer = above[0] >= above[1] ? 0 : 1;
-    wedge = above[nearer];
-    direction = vector(edge.normal[nearer]);
-  } else {
-    double nearest = HUGE_VAL;
-    for (int side = 0; side < 2; ++side) {
-      const Vector3 in_face = std::max(0.0, vector(edge.face[side]).dot(from)) * vector(edge.face[side]);
-      const Vector3 away = from - t * vector(edge.along) - in_face;
-      if (away.norm() >= nearest) continue;
-      nearest = away.norm();
-      if (nearest > 0.0) direction = away / nearest;
+/// format::ExactBrick's formula.
+Slope StoredField::blend(const Place& place, const Vector3& p, const Slope& interpolated) const {
+  const format::ExactBrick& exact = exact_[place.brick->exact - 1u];
+  double weight = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    int number = 0, stride = 1;
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int cell = std::clamp(static_cast<int>(place.at[axis]), 0, kBrickCells - 1);
+      const int upper = corner >> axis & 1;
+      number += stride * (cell + upper);
+      stride *= kBrickNodes;
+      share *= 1.0 - std::fabs(place.at[axis] - cell - upper);
     }
-    wedge = nearest;
+    weight += share * exact.weight[number] / format::kOneWeight;
   }
+  if (weight <= 0.0) return interpolated;
+  const Slope facets = from_facets(exact, p);
   Slope value;
-  value.distance = (1.0 - weight) * interpolated.distance + weight * (edge.side * wedge + edge.offset);
-  // the weight's own gradient is left out: it multiplies the difference of wedge and interpolation, which is small
-  value.gradient = (1.0 - weight) * interpolated.gradient + weight * edge.side * direction;
+  value.distance = (1.0 - weight) * interpolated.distance + weight * (facets.distance + grid_.facet_offset);
+  // the weight's own gradient is left out: it multiplies the difference of both distances, which is small
+  value.gradient = (1.0 - weight) * interpolated.gradient + weight * facets.gradient;
   return value;
+}
+
+/// The distance to all facets of a brick, by the places nearest to p: of a plane, of three edges, of three vertices.
+Slope StoredField::from_facets(const format::ExactBrick& exact, const Vector3& p) const {
+  double least = HUGE_VAL;
+  Vector3 away = Vector3::Zero(), normal = Vector3::Zero();
+  const auto compare = [&](const Vector3& from_place, const Vector3& of_place) {
+    if (from_place.norm() >= least) return;
+    least = from_place.norm();
+    away = from_place;
+    normal = of_place;
+  };
+  const auto single = [](const float(&v)[3]) { return Vector3(v[0], v[1], v[2]); };
+  for (int i = 0; i < exact.facet_count; ++i) {
+    const format::Facet& facet = facets_[exact.facet[i]];
+    const Vector3 up = vector(facet.normal);
+    bool above = true;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 from = vector(facet.vertex[k]);
+      const Vector3 along = (vector(facet.vertex[(k + 1) % 3]) - from).normalized();
+      const double length = (vector(facet.vertex[(k + 1) % 3]) - from).norm();
+      const double t = along.dot(p - from);
+      above = above && up.cross(along).dot(p - from) >= 0.0;
+      compare(p - from, single(facet.vertex_normal[k]));
+      if (t > 0.0 && t < length) compare(p - from - t * along, single(facet.edge_normal[k]));
+    }
+    if (above) compare(up.dot(p - vector(facet.vertex[0])) * up, up);
+  }
+  Slope slope;
+  const double side = away.dot(normal) >= 0.0 ? 1.0 : -1.0;
+  slope.distance = side * least;
+  slope.gradient = least > 1e-12 ? Vector3(side / least * away) : normal.normalized();
+  return slope;
 }
 
 Slope StoredField::slope(const Vector3& p) const {
@@ -181,7 +203,7 @@ Slope StoredField::slope(const Vector3& p) const {
   }
   const Place place = descend(entry, at);
   const Slope interpolated = interpolate(place);
-  value = place.has_edge ? blend_with_edge(edges_[place.brick->edge - 1u], p, interpolated) : interpolated;
+  value = place.is_exact ? blend(place, p, interpolated) : interpolated;
   if (std::fabs(value.distance) >= grid_.band) {
     value.distance = std::copysign(grid_.band, value.distance);
     value.gradient.setZero();

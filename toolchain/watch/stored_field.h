@@ -13,14 +13,14 @@ namespace godobject::watch {
 
 /// The sections of a scene image that a field stands in: those of the still body, or those of the moving body.
 struct FieldSections {
-  format::SectionId grid, index, bricks, refined, edges;
+  format::SectionId grid, index, bricks, refined, facets, exact;
 };
-inline constexpr FieldSections kStillField{format::SectionId::kGrid, format::SectionId::kBrickIndex,
+inline constexpr FieldSections kStillField{format::SectionId::kGrid,   format::SectionId::kBrickIndex,
                                            format::SectionId::kBricks, format::SectionId::kRefined,
-                                           format::SectionId::kEdges};
-inline constexpr FieldSections kBodyField{format::SectionId::kBodyGrid, format::SectionId::kBodyBrickIndex,
+                                           format::SectionId::kFacets, format::SectionId::kExactBricks};
+inline constexpr FieldSections kBodyField{format::SectionId::kBodyGrid,   format::SectionId::kBodyBrickIndex,
                                           format::SectionId::kBodyBricks, format::SectionId::kBodyRefined,
-                                          format::SectionId::kBodyEdges};
+                                          format::SectionId::kBodyFacets, format::SectionId::kBodyExactBricks};
 
 /// A stored field, read from the bytes of an image as core/scene/format.h describes them. It shares no code with
 /// Voxelmap: look-ups are plain double precision, one at a time.
@@ -40,7 +40,7 @@ class StoredField final : public Oracle {
   /// A brick, and the point in it, in cells of that brick.
   struct Place {
     const format::Brick* brick = nullptr;
-    bool has_edge = false;
+    bool is_exact = false;
     double unit = 0.0;  ///< of the brick's values [m]
     double cell = 0.0;  ///< edge of the brick's cells [m]
     Vector3 at = Vector3::Zero();
@@ -48,14 +48,16 @@ class StoredField final : public Oracle {
 
   Place descend(std::uint32_t entry, Vector3 at) const;
   static Slope interpolate(const Place& place);
-  static Slope blend_with_edge(const format::Edge& edge, const Vector3& p, const Slope& interpolated);
+  Slope blend(const Place& place, const Vector3& p, const Slope& interpolated) const;
+  Slope from_facets(const format::ExactBrick& exact, const Vector3& p) const;
   double steepest() const;
 
   format::Grid grid_;
   std::span<const std::uint32_t> index_;
   std::span<const format::Brick> bricks_;
   std::span<const format::Refined> refined_;
-  std::span<const format::Edge> edges_;
+  std::span<const format::Facet> facets_;
+  std::span<const format::ExactBrick> exact_;
   double lipschitz_ = 1.0;
 };
 

@@ -49,7 +49,7 @@ DistanceGrid two_levels() {
 TEST(BrickPacking, RoundsToTheNearestByLevels) {
   DistanceGrid field = two_levels();
   field.bricks[1].deviation = static_cast<float>(2.5 * field.grid.quantum);
-  field.bricks[1].edge = 65535;
+  field.bricks[1].exact = 65535;
   const std::vector<format::Brick> packed = packed_bricks(field);
   for (std::size_t b = 0; b < 2; ++b) {
     const double unit = b == 0 ? field.grid.quantum : 0.5 * field.grid.quantum;
@@ -60,7 +60,7 @@ TEST(BrickPacking, RoundsToTheNearestByLevels) {
   EXPECT_EQ(packed[1].value[124], -32767);
   EXPECT_EQ(packed[0].deviation, 0);
   EXPECT_EQ(packed[1].deviation, 3);
-  EXPECT_EQ(packed[1].edge, 65535);
+  EXPECT_EQ(packed[1].exact, 65535);
 }
 
 TEST(BrickPacking, RefusesWhatDoesNotFit) {
@@ -70,7 +70,7 @@ TEST(BrickPacking, RefusesWhatDoesNotFit) {
     change(spoiled.bricks[1]);
     EXPECT_THROW(packed_bricks(spoiled), command::Failure);
   };
-  refuses([](Brick& brick) { brick.edge = 65536; });
+  refuses([](Brick& brick) { brick.exact = 65536; });
   refuses([](Brick& brick) { brick.lipschitz = 65536.0f; });
   refuses([&](Brick& brick) { brick.deviation = static_cast<float>(65536.0 * field.grid.quantum); });
   field.grid.quantum = 0.011 * field.grid.voxel_size;

@@ -47,8 +47,8 @@ TEST(OctantNodes, AreTheExactDistances) {
     SCOPED_TRACE(body_number++);
     const SolidSurface surface(body.mesh, body.kind, 2.0 * kVoxel, body.dilation);
     const DistanceGrid field = make_distance_grid(surface, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {});
-    const std::vector<format::Edge> no_edges;
-    const BrickTree tree(field, no_edges);
+    const SurfaceFacets no_facets;
+    const BrickTree tree(field, no_facets);
     for (int k = 0; k < 40; ++k) {
       const auto brick = static_cast<std::uint32_t>(random() % tree.brick_count());
       const Octants octants = measure_octants(surface, tree, brick);

@@ -1,7 +1,9 @@
 #include "toolchain/scene_compiler/field/surface_check.h"
 
 #include <cstring>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -12,7 +14,7 @@
 #include "tests/scene_compiler/simple_meshes.h"
 #include "toolchain/scene_compiler/field/cell_edges.h"
 #include "toolchain/scene_compiler/field/octant_nodes.h"
-#include "toolchain/scene_compiler/field/straight_edges.h"
+#include "toolchain/scene_compiler/field/surface_facets.h"
 
 namespace godobject::scene_compiler::surface_check_test {
 namespace {
@@ -38,6 +40,7 @@ std::vector<test::BodyOfMesh> compared_bodies() {
 
 void expect_same(const Misses& found, const Misses& wanted, int round) {
   EXPECT_EQ(found.wanted, wanted.wanted) << round;
+  EXPECT_EQ(found.exact, wanted.exact) << round;
   EXPECT_EQ(found.worst.error, wanted.worst.error) << round;
   EXPECT_EQ(found.worst.at, wanted.worst.at) << round;
 }
@@ -49,8 +52,8 @@ class Rounds {
       : slack_(seed % 2 == 0 ? 0.25 * kVoxelOfCheck : 0.0),
         surface_(body.mesh, body.kind, 2.0 * kVoxelOfCheck, body.dilation),
         field_(make_distance_grid(surface_, kVoxelOfCheck, default_band(kVoxelOfCheck, 1.5 * kVoxelOfCheck), {})),
-        edges_(straight_edges(surface_, kVoxelOfCheck, 2.0 * kVoxelOfCheck)),
-        tree_(field_, edges_),
+        facets_(surface_, 0.002 * kVoxelOfCheck),
+        tree_(field_, facets_),
         barred_(field_.bricks.size()),
         random_(seed) {
     triangles_.resize(surface_.mesh().triangles.size());
@@ -68,9 +71,15 @@ class Rounds {
     const Misses all = find_misses(surface_, tree_, barred_, tolerance, slack_, some, {});
     expect_same(find_misses(surface_, tree_, barred_, tolerance, slack_, some, {}, &compared_), all, round);
     wanted_ = all.wanted;
+    exact_ = all.exact;
   }
 
   void halve() {
+    for (const auto& [brick, cells] : exact_) {
+      tree_.touch(brick);
+      if (random_() % 3 != 0) tree_.make_exact(brick, cells);  // the rest in another round
+    }
+    if (random_() % 2 == 0) tree_.refuse(static_cast<std::uint32_t>(random_() % tree_.brick_count()));
     for (int k = 0; k < 3; ++k) want(wanted_, static_cast<std::uint32_t>(random_() % tree_.brick_count()), kAllOctants);
     for (const auto& [brick, octants] : wanted_) {
       const bool can = !barred_[brick] && tree_.level(brick) < format::kMaxRefinement;
@@ -92,33 +101,47 @@ class Rounds {
   /// All bricks must be joined as if every position had changed.
   void expect_joined(int round) {
     std::vector<Brick> stored;
-    for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) stored.push_back(tree_.stored(b));
+    std::vector<std::optional<format::ExactBrick>> exact;
+    for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) {
+      stored.push_back(tree_.stored(b));
+      exact.push_back(tree_.exact_brick(b));
+      if (exact.back()) ++exact_bricks_;
+    }
     for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) tree_.touch(b);
     tree_.join();
     for (std::uint32_t b = 0; b < tree_.brick_count(); ++b) {
       ASSERT_EQ(std::memcmp(stored[b].value, tree_.stored(b).value, sizeof(stored[b].value)), 0) << round << " " << b;
+      ASSERT_EQ(exact[b].has_value(), tree_.exact_brick(b).has_value()) << round << " " << b;
+      if (!exact[b]) continue;
+      for (int i = 0; i < format::kBrickValues; ++i) {
+        ASSERT_EQ(exact[b]->weight[i], tree_.exact_brick(b)->weight[i]) << round << " " << b << " " << i;
+      }
     }
     // the touching made a new comparison of everything necessary
     compare(round);
   }
 
   std::uint32_t bricks() const { return tree_.brick_count(); }
+  std::size_t exact_bricks() const { return exact_bricks_; }
 
  private:
   double slack_;
   SolidSurface surface_;
   DistanceGrid field_;
-  std::vector<format::Edge> edges_;
+  SurfaceFacets facets_;
   BrickTree tree_;
   std::vector<bool> barred_;
   std::vector<std::uint32_t> triangles_;
   std::mt19937 random_;
+  std::size_t exact_bricks_ = 0;
   Compared compared_;
   Wanted wanted_;
+  std::map<std::uint32_t, std::uint64_t> exact_;
 };
 
 TEST(SurfaceCheck, FindsTheSameMissesFromWhatHasChanged) {
   unsigned seed = 1;
+  std::size_t exact_bricks = 0;
   for (const test::BodyOfMesh& body : compared_bodies()) {
     SCOPED_TRACE(seed);
     Rounds rounds(body, seed++);
@@ -129,7 +152,9 @@ TEST(SurfaceCheck, FindsTheSameMissesFromWhatHasChanged) {
     }
     rounds.expect_joined(8);
     EXPECT_GT(rounds.bricks(), before + 50);
+    exact_bricks += rounds.exact_bricks();
   }
+  EXPECT_GT(exact_bricks, 100u);
 }
 
 }  // namespace

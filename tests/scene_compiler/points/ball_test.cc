@@ -105,15 +105,15 @@ double to_cube(const Vector3d& p) {
   return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
 }
 
-TEST(Dilation, LessensEveryDistanceAndLeavesNoEdge) {
+TEST(Dilation, LessensEveryDistanceAndLeavesNoFacet) {
   const SolidSurface cube = {test::box_mesh(Vector3d::Constant(2.0 * kHalfCube)), SurfaceKind::kSolid, 0.001, kRadius};
   const double band = default_band(kVoxel, 1.5 * kVoxel);
   for (const double tolerance : {0.05, 0.01}) {
     DistanceGrid grid = make_distance_grid(cube, kVoxel, band, {});
     const RefinementReport refined = refine(grid, cube, SurfaceTolerance::of_depth(tolerance * kVoxel), {});
-    EXPECT_EQ(refined.edges, 0u);
+    EXPECT_EQ(refined.exact, 0u);
     const std::vector<format::Brick> bricks = packed_bricks(grid);
-    const Voxelmap field(grid.grid, grid.index, bricks, grid.refined, grid.edges);
+    const Voxelmap field(grid.grid, grid.index, bricks, grid.refined, grid.exact, grid.facets);
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     double worst = 0.0;

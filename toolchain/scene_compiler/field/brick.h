@@ -10,7 +10,7 @@ namespace godobject::scene_compiler {
 struct Brick {
   float value[format::kBrickValues];  ///< [m]
   float lipschitz;                    ///< as format::decode_lipschitz returns it
-  std::uint32_t edge;
+  std::uint32_t exact;
   float deviation;  ///< [m]
 };
 

@@ -44,12 +44,12 @@ format::Brick packed(const Brick& brick, double quantum, int level) {
   }
   out.lipschitz = format::encode_lipschitz(brick.lipschitz);
   out.deviation = static_cast<std::uint16_t>(deviation_code(brick, quantum));
-  out.edge = static_cast<std::uint16_t>(brick.edge);
+  out.exact = static_cast<std::uint16_t>(brick.exact);
   return out;
 }
 
 bool fits(const Brick& brick, double quantum) {
-  return brick.lipschitz <= format::kLargestLipschitz && brick.edge <= format::kLargestUnsigned &&
+  return brick.lipschitz <= format::kLargestLipschitz && brick.exact <= format::kLargestUnsigned &&
          deviation_code(brick, quantum) <= format::kLargestUnsigned;
 }
 
@@ -68,10 +68,10 @@ std::vector<format::Brick> packed_bricks(const DistanceGrid& field) {
     if (fits(brick, quantum)) continue;
     throw command::Failure(
         command::ExitCode::kBadData,
-        fmt::format("a brick of the field exceeds a limit of the image: edge {} of {}, slope {:.3g} of {:.3g}, "
+        fmt::format("a brick of the field exceeds a limit of the image: exact brick {} of {}, slope {:.3g} of {:.3g}, "
                     "deviation {:.3g} "
                     "of {:.3g} m; close the mesh, or take a smaller voxel_size or a larger field_tolerance",
-                    brick.edge, format::kLargestUnsigned, brick.lipschitz, format::kLargestLipschitz, brick.deviation,
+                    brick.exact, format::kLargestUnsigned, brick.lipschitz, format::kLargestLipschitz, brick.deviation,
                     quantum * format::kLargestUnsigned));
   }
   const std::vector<int> levels = levels_of(field);

@@ -1,14 +1,16 @@
 #include "toolchain/scene_compiler/field/brick_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
-#include "core/scene/edge.h"
+#include "core/scene/facets.h"
 #include "toolchain/parallel/parallel.h"
+#include "toolchain/scene_compiler/field/cell_edges.h"
 #include "toolchain/scene_compiler/field/clearance_bounds.h"
-#include "toolchain/scene_compiler/field/straight_edges.h"
+#include "toolchain/scene_compiler/field/exact_bricks.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -37,6 +39,44 @@ std::uint8_t octant_at(const BrickTree::Units& unit_cell, int level) {
 
 bool is_coarse(std::uint32_t child) { return (child & format::index_entry::kCoarse) != 0; }
 
+unsigned octant_of(int cell) {
+  return octant_of_cell(cell % kBrickCells, cell / kBrickCells % kBrickCells, cell / (kBrickCells * kBrickCells));
+}
+
+/// Returns the cells of octants, one bit each.
+std::uint64_t cells_of_octants(std::uint8_t octants) {
+  std::uint64_t cells = 0;
+  for (int cell = 0; cell < format::kBrickParts; ++cell) {
+    if ((octants >> octant_of(cell) & 1) != 0) cells |= std::uint64_t{1} << cell;
+  }
+  return cells;
+}
+
+std::array<int, 3> steps_of_node(int node) {
+  return {node % kBrickNodes, node / kBrickNodes % kBrickNodes, node / (kBrickNodes * kBrickNodes)};
+}
+
+/// Returns the cells of a brick that share a node, one bit each.
+std::uint64_t cells_about(int node) {
+  static const auto kTable = [] {
+    std::array<std::uint64_t, kBrickValues> table{};
+    for (int i = 0; i < kBrickValues; ++i) {
+      for (int corner = 0; corner < 8; ++corner) {
+        int number = 0;
+        bool within = true;
+        for (std::size_t axis = 3; axis-- > 0;) {
+          const int cell = steps_of_node(i)[axis] - (corner >> axis & 1);
+          within = within && cell >= 0 && cell < kBrickCells;
+          number = kBrickCells * number + cell;
+        }
+        if (within) table[static_cast<std::size_t>(i)] |= std::uint64_t{1} << number;
+      }
+    }
+    return table;
+  }();
+  return kTable[static_cast<std::size_t>(node)];
+}
+
 /// Appends the octant if it is not among `octants` yet.
 void add(const BrickTree::Octant& octant, BrickTree::Octants& octants, std::size_t& count) {
   const auto end = octants.begin() + static_cast<std::ptrdiff_t>(count);
@@ -45,7 +85,7 @@ void add(const BrickTree::Octant& octant, BrickTree::Octants& octants, std::size
 
 }  // namespace
 
-BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>& edges)
+BrickTree::BrickTree(const DistanceGrid& field, const SurfaceFacets& facets)
     : field_(field),
       origin_(field.grid.origin[0], field.grid.origin[1], field.grid.origin[2]),
       voxel_size_(field.grid.voxel_size),
@@ -53,61 +93,68 @@ BrickTree::BrickTree(const DistanceGrid& field, const std::vector<format::Edge>&
       index_(field.index),
       places_(field.bricks.size()),
       changed_in_(field.bricks.size()),
-      edges_(edges),
-      edges_of_(field.bricks.size()) {
+      facets_(facets),
+      exact_cells_(field.bricks.size()),
+      refuses_(field.beside_seam),
+      passes_on_(field.bricks.size()),
+      weighed_(field.bricks.size()),
+      exact_(field.bricks.size()) {
+  refuses_.resize(field.bricks.size());
   for (std::size_t i = 0; i < index_.size(); ++i) {
     if ((index_[i] & format::index_entry::kFar) != 0) continue;
     const std::uint32_t brick = index_[i] & format::index_entry::kNumber;
     const BrickPosition p = lattice_.position(i);
     places_[brick] = {{kPositionUnits * p[0], kPositionUnits * p[1], kPositionUnits * p[2]}, 0, brick, 0};
   }
-  const double position_edge = kBrickCells * voxel_size_;
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    const Eigen::Map<const Vector3d> point(edges_[e].point);
-    const Eigen::Map<const Vector3d> along(edges_[e].along);
-    const Vector3d from = point + edges_[e].begin * along;
-    const Vector3d to = point + edges_[e].end * along;
-    BrickPosition low{};
-    BrickPosition high{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<Eigen::Index>(axis);
-      const auto position = [&](double x) { return static_cast<int>(std::floor((x - origin_[k]) / position_edge)); };
-      low[axis] = std::max(position(std::min(from[k], to[k]) - edges_[e].radius), 0);
-      high[axis] = std::min(position(std::max(from[k], to[k]) + edges_[e].radius), lattice_.size[axis] - 1);
-    }
-    for (int z = low[2]; z <= high[2]; ++z) {
-      for (int y = low[1]; y <= high[1]; ++y) {
-        for (int x = low[0]; x <= high[0]; ++x) {
-          const std::uint32_t entry = index_[lattice_.number({x, y, z})];
-          if ((entry & format::index_entry::kFar) == 0) find_edges(entry & format::index_entry::kNumber, {e});
-        }
-      }
-    }
-  }
 }
 
-/// Adds the edges of `among` whose tube may meet the brick.
-void BrickTree::find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among) {
-  const double half = 0.5 * kBrickCells * cell_edge(level(brick));
-  const Vector3d center = low(brick) + Vector3d::Constant(half);
-  for (const std::uint32_t e : among) {
-    if (reaches(edges_[e], center, half)) edges_of_[brick].push_back(e);
-  }
+double BrickTree::blended(std::uint32_t brick, const Vector3d& p, double interpolated) const {
+  if (!exact_[brick]) return interpolated;
+  const format::ExactBrick& exact = *exact_[brick];
+  const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
+  const double weight = interpolate(places_[brick], exact.weight, {units[0], units[1], units[2]}) / format::kOneWeight;
+  if (weight <= 0.0) return interpolated;
+  return interpolated + weight * (facet_distance(facets_.all(), exact, cell_of(brick, p), p).value - interpolated);
 }
 
-double BrickTree::with_edges(std::uint32_t brick, const Vector3d& p, double interpolated) const {
-  for (const std::uint32_t e : edges_of_[brick]) {
-    interpolated += edge_weight(edges_[e], p).value * (wedge_distance(edges_[e], p).value - interpolated);
-  }
-  return interpolated;
+void BrickTree::add_slope(std::uint32_t brick, double slack, FieldSlope& slope) const {
+  if (!exact_[brick]) return slope.add(stored(brick), whole(brick));
+  Brick smaller = stored(brick);
+  for (float& value : smaller.value) value += static_cast<float>(slack);
+  slope.add(smaller, whole(brick), *exact_[brick], facets_.all(), slack, low(brick));
 }
 
-void BrickTree::add_slope(std::uint32_t brick, FieldSlope& slope) const {
-  if (edges_of_[brick].empty()) {
-    slope.add(stored(brick), whole(brick));
-  } else {
-    slope.add(stored(brick), whole(brick), edges_[edges_of_[brick].front()], low(brick));
-  }
+bool BrickTree::turns_about(const Leaf& leaf, const Vector3d& p) const {
+  const double edge = cell_edge(leaf.level);
+  const auto near = facets_.near(cell_center(leaf.brick, cell_of(leaf.brick, p)), 0.5 * edge);
+  return near && facets_.turns(*near);
+}
+
+int BrickTree::cell_of(std::uint32_t brick, const Vector3d& p) const {
+  const Vector3d cells = (p - low(brick)) / cell_edge(level(brick));
+  const auto cell = [&](int axis) { return std::clamp(static_cast<int>(cells[axis]), 0, kBrickCells - 1); };
+  return cell(0) + kBrickCells * (cell(1) + kBrickCells * cell(2));
+}
+
+Vector3d BrickTree::cell_center(std::uint32_t brick, int cell) const {
+  const Vector3d at(cell % kBrickCells, cell / kBrickCells % kBrickCells, cell / (kBrickCells * kBrickCells));
+  return low(brick) + cell_edge(level(brick)) * (at + Vector3d::Constant(0.5));
+}
+
+void BrickTree::make_exact(std::uint32_t brick, std::uint64_t cells) {
+  // of the bricks that an image can name, because those that share a node with one of these become exact too
+  constexpr std::size_t kMost = format::kLargestUnsigned / 4;
+  if (refuses_[brick] || (exact_cells_[brick] | cells) == exact_cells_[brick]) return;
+  if (exact_cells_[brick] == 0 && ++made_exact_ > kMost) return refuse(brick);
+  exact_cells_[brick] |= cells;
+  touch(brick);
+}
+
+void BrickTree::refuse(std::uint32_t brick) {
+  refuses_[brick] = true;
+  passes_on_[brick] = true;
+  exact_cells_[brick] = 0;
+  touch(brick);
 }
 
 Vector3d BrickTree::low(std::uint32_t brick) const {
@@ -146,8 +193,9 @@ BrickTree::Leaf BrickTree::find(const Units& unit_cell) const {
   return {entry & format::index_entry::kNumber, level, octant_at(unit_cell, level)};
 }
 
-double BrickTree::interpolate(const Place& place, const Brick& brick, const std::array<double, 3>& units) const {
-  const float* corner = brick.value;
+template <class Values>
+double BrickTree::interpolate(const Place& place, const Values& nodes, const std::array<double, 3>& units) const {
+  const auto* corner = std::begin(nodes);
   std::array<double, 3> at{};
   constexpr std::array<int, 3> kStride = {1, kBrickNodes, kBrickNodes * kBrickNodes};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -168,13 +216,14 @@ double BrickTree::interpolate(const Place& place, const Brick& brick, const std:
 
 double BrickTree::interpolate(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return with_edges(leaf.brick, p,
-                    interpolate(places_[leaf.brick], stored(leaf.brick), {units[0], units[1], units[2]}));
+  return blended(leaf.brick, p,
+                 interpolate(places_[leaf.brick], stored(leaf.brick).value, {units[0], units[1], units[2]}));
 }
 
 double BrickTree::interpolate_exact(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return with_edges(leaf.brick, p, interpolate(places_[leaf.brick], exact(leaf.brick), {units[0], units[1], units[2]}));
+  return blended(leaf.brick, p,
+                 interpolate(places_[leaf.brick], exact(leaf.brick).value, {units[0], units[1], units[2]}));
 }
 
 std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p, Octants& octants) const {
@@ -246,10 +295,14 @@ void BrickTree::halve(std::uint32_t brick, std::uint8_t wanted, const std::array
     refined.child[octant] = brick_count();
     places_.push_back(place);
     fine_.push_back({octants[octant], octants[octant]});
-    edges_of_.emplace_back();
-    find_edges(brick_count() - 1, edges_of_[brick]);
+    exact_cells_.push_back(0);
+    passes_on_.push_back(passes_on_[brick]);
+    refuses_.push_back(passes_on_[brick] || (field_.beside_seam.size() > place.root && field_.beside_seam[place.root]));
+    weighed_.push_back(0);
+    exact_.emplace_back();
   }
   places_[brick].halved = static_cast<std::uint8_t>(places_[brick].halved | wanted);
+  exact_cells_[brick] &= cells_of_octants(whole(brick));
   touch(brick);
 }
 
@@ -305,7 +358,7 @@ void BrickTree::join_brick(std::uint32_t brick) {
   if (quantum_ > 0.0) round_nodes(places_[brick], fine.stored);
   visit_outer_nodes_on_coarser(brick, [&](int i, const Units& at, const Leaf& leaf) {
     fine.stored.value[i] = static_cast<float>(
-        interpolate(places_[leaf.brick], stored(leaf.brick),
+        interpolate(places_[leaf.brick], stored(leaf.brick).value,
                     {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])}));
   });
 }
@@ -323,16 +376,24 @@ std::uint32_t BrickTree::root_at(const BrickPosition& position) const {
 /// position, but from less than a voxel away: half a voxel at the first of them, a quarter at the next.
 void BrickTree::mark_changed() {
   ++joins_;
-  for (const std::uint32_t root : touched_) {
-    const Units& low = places_[root].low;
-    for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const BrickPosition step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
-      const BrickPosition own = {low[0] / kPositionUnits, low[1] / kPositionUnits, low[2] / kPositionUnits};
-      const std::uint32_t about = root_at(moved(own, step));
-      if (about != kNone) changed_in_[about] = joins_;
-    }
-  }
+  for (const std::uint32_t root : touched_) mark_changed_about(root);
   touched_.clear();
+}
+
+void BrickTree::mark_changed_about(std::uint32_t root) {
+  visit_about(root, [&](std::uint32_t about) { changed_in_[about] = joins_; });
+}
+
+/// Calls visit(brick) for the position of a root and those about it.
+template <class Visit>
+void BrickTree::visit_about(std::uint32_t root, const Visit& visit) const {
+  const Units& low = places_[root].low;
+  for (int neighbour = 0; neighbour < 27; ++neighbour) {
+    const BrickPosition step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
+    const BrickPosition own = {low[0] / kPositionUnits, low[1] / kPositionUnits, low[2] / kPositionUnits};
+    const std::uint32_t about = root_at(moved(own, step));
+    if (about != kNone) visit(about);
+  }
 }
 
 std::uint32_t BrickTree::changed_in(const Vector3d& low, const Vector3d& high) const {
@@ -351,6 +412,7 @@ std::uint32_t BrickTree::changed_in(const Vector3d& low, const Vector3d& high) c
 }
 
 void BrickTree::join() {
+  spread_exact_cells();
   mark_changed();
   const bool all = quantum_ > 0.0;  // rounding changes every position
   for (int level = 1; level <= format::kMaxRefinement; ++level) {
@@ -360,6 +422,180 @@ void BrickTree::join() {
     }
     parallel::for_each_index(bricks.size(), [&](std::size_t i) { join_brick(bricks[i]); });
   }
+  weigh();
+}
+
+/// A node of an exact cell that touches a coarser leaf takes its weight from there. So the leaf's cells about that node
+/// must be exact too. Fine to coarse.
+void BrickTree::spread_exact_cells() {
+  std::vector<char> about_touched(field_.bricks.size());
+  std::size_t marked = 0;
+  const auto mark_touched = [&] {
+    for (; marked < touched_.size(); ++marked) {
+      visit_about(touched_[marked], [&](std::uint32_t about) { about_touched[about] = 1; });
+    }
+  };
+  for (int level = format::kMaxRefinement; level > 0; --level) {
+    mark_touched();
+    for (std::uint32_t b = 0; b < brick_count(); ++b) {
+      if (places_[b].level != level || exact_cells_[b] == 0 || about_touched[places_[b].root] == 0) continue;
+      const std::uint64_t cells = exact_cells_[b];
+      visit_outer_nodes_on_coarser(b, [&](int i, const Units& at, const Leaf&) {
+        if ((cells & cells_about(i)) == 0) return;
+        for (int corner = 0; corner < 8; ++corner) {
+          Units cell = at;
+          for (std::size_t axis = 0; axis < 3; ++axis) cell[axis] -= corner >> axis & 1;
+          const Leaf leaf = find(cell);
+          if (leaf.brick == kNone || leaf.level >= level) continue;
+          make_exact(leaf.brick, std::uint64_t{1} << cell_at(places_[leaf.brick], cell));
+        }
+      });
+    }
+  }
+}
+
+/// Weighs the nodes of bricks that may have changed. A brick that refuses takes away the weights of the nodes that it
+/// shares with others: then again.
+void BrickTree::weigh() {
+  for (bool settled = false; !settled;) {
+    std::vector<char> about_exact(field_.bricks.size());
+    const std::unordered_set<std::uint64_t> nodes = nodes_of_weight_one(about_exact);
+    settled = true;
+    for (int level = 0; level <= format::kMaxRefinement; ++level) {
+      std::vector<std::uint32_t> bricks;
+      for (std::uint32_t b = 0; b < brick_count(); ++b) {
+        const std::uint32_t root = places_[b].root;
+        const bool changed = places_[b].level == level && changed_in_[root] == joins_;
+        if (changed && (about_exact[root] != 0 || exact_[b])) bricks.push_back(b);
+      }
+      std::vector<char> refused(bricks.size());
+      parallel::for_each_index(bricks.size(), [&](std::size_t i) {
+        weigh_brick(bricks[i], nodes);
+        refused[i] = exact_[bricks[i]] && !find_facets(bricks[i]) ? 1 : 0;
+      });
+      for (std::size_t i = 0; i < bricks.size(); ++i) {
+        if (refused[i] == 0) continue;
+        refuses_[bricks[i]] = true;
+        exact_cells_[bricks[i]] = 0;
+        mark_changed_about(places_[bricks[i]].root);
+        settled = false;
+      }
+    }
+  }
+}
+
+/// Returns the nodes of exact cells, by place, without those of bricks that refuse: all that changed positions have.
+/// Marks the positions about exact cells in `about_exact`.
+std::unordered_set<std::uint64_t> BrickTree::nodes_of_weight_one(std::vector<char>& about_exact) const {
+  std::vector<char> about_changed(field_.bricks.size());
+  for (std::uint32_t root = 0; root < about_changed.size(); ++root) {
+    if (changed_in_[root] != joins_) continue;
+    visit_about(root, [&](std::uint32_t about) { about_changed[about] = 1; });
+  }
+  std::unordered_set<std::uint64_t> nodes;
+  const auto visit = [&](std::uint32_t brick, std::uint64_t cells, const auto& node) {
+    for (int i = 0; i < kBrickValues; ++i) {
+      if ((cells & cells_about(i)) != 0) node(key({node_at(places_[brick], i), 0}));
+    }
+  };
+  for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    if (exact_cells_[b] == 0 || about_changed[places_[b].root] == 0) continue;
+    visit(b, exact_cells_[b], [&](std::uint64_t place) { nodes.insert(place); });
+    visit_about(places_[b].root, [&](std::uint32_t about) { about_exact[about] = 1; });
+  }
+  for (std::uint32_t b = 0; b < brick_count(); ++b) {
+    if (!refuses_[b] || about_exact[places_[b].root] == 0) continue;
+    // also those of coarser leaves that its outer nodes would take weights from
+    visit_outer_nodes_on_coarser(b, [&](int, const Units& at, const Leaf& leaf) {
+      visit_corners(at, leaf, [&](const Units& corner) { nodes.erase(key({corner, 0})); });
+    });
+    visit(b, cells_of_octants(whole(b)), [&](std::uint64_t place) { nodes.erase(place); });
+  }
+  return nodes;
+}
+
+/// `nodes`: those of weight 1, by key() at level 0.
+void BrickTree::weigh_brick(std::uint32_t brick, const std::unordered_set<std::uint64_t>& nodes) {
+  const Place& place = places_[brick];
+  format::ExactBrick exact{};
+  if (exact_[brick]) exact = *exact_[brick];
+  for (int i = 0; i < kBrickValues; ++i) {
+    exact.weight[i] = nodes.contains(key({node_at(place, i), 0})) ? format::kOneWeight : std::uint16_t{0};
+  }
+  visit_outer_nodes_on_coarser(brick, [&](int i, const Units& at, const Leaf& leaf) {
+    exact.weight[i] = 0;
+    if (!exact_[leaf.brick]) return;
+    exact.weight[i] = static_cast<std::uint16_t>(
+        std::lround(interpolate(places_[leaf.brick], exact_[leaf.brick]->weight,
+                                {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])})));
+  });
+  if (weighed_cells(brick, exact) != 0) {
+    exact_[brick] = exact;
+  } else {
+    exact_[brick].reset();
+    weighed_[brick] = 0;
+  }
+}
+
+/// Returns the cells with a weight in octants that are not halved, one bit each.
+std::uint64_t BrickTree::weighed_cells(std::uint32_t brick, const format::ExactBrick& exact) const {
+  std::uint64_t cells = 0;
+  for (int i = 0; i < kBrickValues; ++i) {
+    if (exact.weight[i] != 0) cells |= cells_about(i);
+  }
+  return cells & cells_of_octants(whole(brick));
+}
+
+/// Finds the facets of an exact brick and compares their distances with those of the nodes. False if they do not serve.
+bool BrickTree::find_facets(std::uint32_t brick) {
+  // distances of nodes are floats, and solids within solids, if any, are off by much more
+  constexpr double kRounding = 1e-4;  // of the cell's edge
+  if (refuses_[brick]) return false;
+  format::ExactBrick& exact = *exact_[brick];
+  const std::uint64_t cells = weighed_cells(brick, exact);
+  if ((cells & ~weighed_[brick]) == 0) return true;
+  const double edge = cell_edge(level(brick));
+  std::array<std::vector<std::uint32_t>, format::kBrickParts> of_cell;
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t cell = 0; cell < of_cell.size(); ++cell) {
+    if ((cells >> cell & 1) == 0) continue;
+    auto near = facets_.near(cell_center(brick, static_cast<int>(cell)), 0.5 * edge);
+    if (!near) return false;
+    std::vector<std::uint32_t> all;
+    std::set_union(numbers.begin(), numbers.end(), near->begin(), near->end(), std::back_inserter(all));
+    if (all.size() > format::kMostFacets) return false;
+    numbers = std::move(all);
+    of_cell[cell] = std::move(*near);
+  }
+  std::fill(std::begin(exact.facet), std::end(exact.facet), 0u);
+  std::copy(numbers.begin(), numbers.end(), std::begin(exact.facet));
+  exact.facet_count = static_cast<std::uint16_t>(numbers.size());
+  for (std::size_t cell = 0; cell < of_cell.size(); ++cell) {
+    exact.cell[cell] = of_cell[cell].empty() ? 1 : 0;  // not looked up
+    for (const std::uint32_t number : of_cell[cell]) {
+      const auto place = std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
+      exact.cell[cell] |= std::uint64_t{1} << place;
+    }
+  }
+  for (int i = 0; i < kBrickValues; ++i) {
+    const std::uint64_t about = cells & cells_about(i);
+    if (about == 0) continue;
+    const std::array<int, 3> node = steps_of_node(i);
+    const Vector3d p = low(brick) + edge * Vector3d(node[0], node[1], node[2]);
+    const double distance = facet_distance(facets_.all(), exact, std::countr_zero(about), p).value;
+    if (!(std::abs(distance - static_cast<double>(this->exact(brick).value[i])) <= kRounding * edge + facets_.flat()))
+      return false;
+  }
+  weighed_[brick] = cells;
+  return true;
+}
+
+int BrickTree::cell_at(const Place& place, const Units& unit_cell) {
+  int number = 0;
+  for (std::size_t axis = 3; axis-- > 0;) {
+    number = kBrickCells * number + (unit_cell[axis] - place.low[axis]) / cell_units(place.level);
+  }
+  return number;
 }
 
 std::uint64_t BrickTree::key(const Node& node) {
@@ -384,19 +620,27 @@ void BrickTree::find_factors() {
       if (places_[b].level != level || whole(b) == 0) continue;
       visit_outer_nodes_on_coarser(b, [&](int, const Units& at, const Leaf& leaf) {
         const int power = level - leaf.level + factor({at, level});
-        const int edge = cell_units(leaf.level);
-        const Units& low = places_[leaf.brick].low;
-        for (unsigned corner = 0; corner < 8; ++corner) {
-          Node node = {at, leaf.level};
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int beyond = (at[axis] - low[axis]) % edge;
-            node.at[axis] += (corner >> axis & 1) != 0 && beyond != 0 ? edge - beyond : -beyond;
-          }
-          int& most = factor_[key(node)];
+        visit_corners(at, leaf, [&](const Units& corner) {
+          int& most = factor_[key({corner, leaf.level})];
           most = std::max(most, power);
-        }
+        });
       });
     }
+  }
+}
+
+/// Calls visit(node) for the corners of the leaf's cell, face or edge that holds a place.
+template <class Visit>
+void BrickTree::visit_corners(const Units& at, const Leaf& leaf, const Visit& visit) const {
+  const int edge = cell_units(leaf.level);
+  const Units& low = places_[leaf.brick].low;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Units node = at;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int beyond = (at[axis] - low[axis]) % edge;
+      node[axis] += (corner >> axis & 1) != 0 && beyond != 0 ? edge - beyond : -beyond;
+    }
+    visit(node);
   }
 }
 
@@ -439,17 +683,15 @@ bool BrickTree::is_looked_up(std::uint32_t brick) const { return brick < field_.
 /// `number`: the number of each brick in the field.
 std::uint32_t BrickTree::write_entry(std::uint32_t entry, const std::vector<std::uint32_t>& number,
                                      std::vector<format::Refined>& refined) const {
-  const auto edged = [this](std::uint32_t brick) {
-    return edges_of_[brick].empty() ? 0u : format::index_entry::kEdged;
-  };
-  if ((entry & format::index_entry::kRefined) == 0) return number[entry] | edged(entry);
+  const auto exact = [this](std::uint32_t brick) { return exact_[brick] ? format::index_entry::kExact : 0u; };
+  if ((entry & format::index_entry::kRefined) == 0) return number[entry] | exact(entry);
   const format::Refined& from = refined_[entry & format::index_entry::kNumber];
   const std::size_t own = refined.size();
   refined.push_back({is_looked_up(from.brick) ? number[from.brick] : format::kNoBrick, {}});
   for (std::size_t octant = 0; octant < 8; ++octant) {
     const std::uint32_t child = from.child[octant];
     const std::uint32_t written =
-        is_coarse(child) ? format::index_entry::kCoarse | edged(from.brick) : write_entry(child, number, refined);
+        is_coarse(child) ? format::index_entry::kCoarse | exact(from.brick) : write_entry(child, number, refined);
     refined[own].child[octant] = written;
   }
   return format::index_entry::kRefined | static_cast<std::uint32_t>(own);
@@ -470,26 +712,23 @@ void BrickTree::write(DistanceGrid& field) const {
   for (std::size_t i = 0; i < fine_.size(); ++i) {
     if (number[whole_positions + i] != format::kNoBrick) field.bricks.push_back(fine_[i].stored);
   }
-  write_edges(number, field);
+  write_exact(number, field);
   field.grid.brick_count = count;
   bound_clearances(field);
 }
 
-void BrickTree::write_edges(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const {
-  std::vector<std::uint32_t> number(edges_.size());  // 1 + the number in the field
-  field.edges.clear();
+void BrickTree::write_exact(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const {
+  field.exact.clear();
   for (std::uint32_t b = 0; b < brick_count(); ++b) {
     if (brick_number[b] == format::kNoBrick) continue;
     Brick& brick = field.bricks[brick_number[b]];
-    brick.edge = 0;
-    if (whole(b) == 0 || edges_of_[b].empty()) continue;
-    const std::uint32_t edge = edges_of_[b].front();
-    if (number[edge] == 0) {
-      field.edges.push_back(edges_[edge]);
-      number[edge] = static_cast<std::uint32_t>(field.edges.size());
-    }
-    brick.edge = number[edge];
+    brick.exact = 0;
+    if (!exact_[b]) continue;
+    field.exact.push_back(*exact_[b]);
+    brick.exact = static_cast<std::uint32_t>(field.exact.size());
   }
+  field.facets = facets_.all();
+  leave_out_unnamed(field);
 }
 
 }  // namespace godobject::scene_compiler

@@ -2,12 +2,15 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "toolchain/scene_compiler/field/brick_lattice.h"
 #include "toolchain/scene_compiler/field/distance_grid.h"
 #include "toolchain/scene_compiler/field/field_slope.h"
+#include "toolchain/scene_compiler/field/surface_facets.h"
 
 namespace godobject::scene_compiler {
 
@@ -44,9 +47,9 @@ class BrickTree {
 
   using Octants = std::array<Octant, kMostAbout>;
 
-  /// Starts from a field without refinement. Stores references: `field` and `edges` must outlive the tree, and the
-  /// field must not change before `write`. The edges are those of the same surface.
-  BrickTree(const DistanceGrid& field, const std::vector<format::Edge>& edges);
+  /// Starts from a field without refinement. Stores references: `field` and `facets` must outlive the tree, and the
+  /// field must not change before `write`. The facets are those of the same surface.
+  BrickTree(const DistanceGrid& field, const SurfaceFacets& facets);
 
   std::uint32_t brick_count() const { return static_cast<std::uint32_t>(places_.size()); }
   int level(std::uint32_t brick) const { return places_[brick].level; }
@@ -68,7 +71,8 @@ class BrickTree {
   Units unit_cell(const Eigen::Vector3d& p) const;
   Leaf find(const Units& unit_cell) const;
 
-  /// Return the field at p [m], which `leaf` holds: with the stored and with the exact nodes.
+  /// Return the field at p [m], which `leaf` holds: with the stored and with the exact nodes. In an exact brick it is
+  /// blended with the distance to its facets (format::ExactBrick).
   double interpolate(const Leaf& leaf, const Eigen::Vector3d& p) const;
   double interpolate_exact(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
@@ -83,16 +87,36 @@ class BrickTree {
   /// coarser leaf that touches the brick, because such an octant is at least as large.
   std::array<Leaf, 26> leaves_about(std::uint32_t brick) const;
 
-  /// Returns the numbers of the edges with w > 0 somewhere in the brick. May include others.
-  const std::vector<std::uint32_t>& edges_of(std::uint32_t brick) const { return edges_of_[brick]; }
+  /// True if the next `join` can make cells of the brick exact: no seam is near, and nothing was found against it.
+  bool may_be_exact(std::uint32_t brick) const { return !refuses_[brick] && !facets_.empty(); }
 
-  /// Adds the slope of the octants that are not halved. The brick must name at most one edge.
-  void add_slope(std::uint32_t brick, FieldSlope& slope) const;
+  /// True if the surface turns about the cell that holds p (SurfaceFacets::turns), and few facets do it.
+  bool turns_about(const Leaf& leaf, const Eigen::Vector3d& p) const;
+
+  /// Returns the number of the brick's cell that holds p, x fastest.
+  int cell_of(std::uint32_t brick, const Eigen::Vector3d& p) const;
+
+  /// Returns the cells that are to be exact, one bit each.
+  std::uint64_t exact_cells(std::uint32_t brick) const { return exact_cells_[brick]; }
+
+  /// Makes cells of the brick exact from the next `join` on, one bit each. Where the brick, or one that shares a node
+  /// with such a cell, has too many facets or none that give its distances, it refuses instead.
+  void make_exact(std::uint32_t brick, std::uint64_t cells);
+
+  /// Makes no cell of the brick exact, nor of its octants, from the next `join` on.
+  void refuse(std::uint32_t brick);
+
+  /// Returns weights and facets of an exact brick: one with a node of a weight. Facets are numbered as in those that
+  /// the tree was made with.
+  const std::optional<format::ExactBrick>& exact_brick(std::uint32_t brick) const { return exact_[brick]; }
+
+  /// Adds the slope of the octants that are not halved, of the field that `round` makes with this slack.
+  void add_slope(std::uint32_t brick, double slack, FieldSlope& slope) const;
 
   /// Halves the `wanted` octants that are not halved yet: makes bricks of them with the nodes of `octants`.
   void halve(std::uint32_t brick, std::uint8_t wanted, const std::array<Brick, 8>& octants);
 
-  /// Makes the field continuous, coarse to fine: a node that touches a coarser leaf takes that leaf's value.
+  /// Makes the field continuous, coarse to fine: a node that touches a coarser leaf takes that leaf's value and weight.
   void join();
 
   /// Counts a brick as changed in the next `join`, as if an octant of it had been halved.
@@ -131,20 +155,33 @@ class BrickTree {
   };
 
   Leaf coarsest_about(std::uint32_t brick, const std::array<int, 3>& node, const std::array<Leaf, 26>& about) const;
-  void find_edges(std::uint32_t brick, const std::vector<std::uint32_t>& among);
   std::uint32_t root_at(const BrickPosition& position) const;
   void mark_changed();
+  void mark_changed_about(std::uint32_t root);
   void join_brick(std::uint32_t brick);
+  void spread_exact_cells();
+  void weigh();
+  void weigh_brick(std::uint32_t brick, const std::unordered_set<std::uint64_t>& nodes);
+  bool find_facets(std::uint32_t brick);
+  std::unordered_set<std::uint64_t> nodes_of_weight_one(std::vector<char>& about_exact) const;
+  template <class Visit>
+  void visit_corners(const Units& at, const Leaf& leaf, const Visit& visit) const;
+  template <class Visit>
+  void visit_about(std::uint32_t root, const Visit& visit) const;
+  std::uint64_t weighed_cells(std::uint32_t brick, const format::ExactBrick& exact) const;
   template <class Visit>
   void visit_outer_nodes_on_coarser(std::uint32_t brick, const Visit& visit) const;
+  Eigen::Vector3d cell_center(std::uint32_t brick, int cell) const;
+  static int cell_at(const Place& place, const Units& unit_cell);
   Units node_at(const Place& place, int node) const;
   static std::uint64_t key(const Node& node);
   int factor(const Node& node) const;
   void find_factors();
   void round_nodes(const Place& place, Brick& brick) const;
-  double interpolate(const Place& place, const Brick& brick, const std::array<double, 3>& units) const;
-  double with_edges(std::uint32_t brick, const Eigen::Vector3d& p, double interpolated) const;
-  void write_edges(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const;
+  template <class Values>
+  double interpolate(const Place& place, const Values& nodes, const std::array<double, 3>& units) const;
+  double blended(std::uint32_t brick, const Eigen::Vector3d& p, double interpolated) const;
+  void write_exact(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const;
   std::uint32_t& entry_of(std::uint32_t brick);
   bool is_looked_up(std::uint32_t brick) const;
   std::uint32_t write_entry(std::uint32_t entry, const std::vector<std::uint32_t>& number,
@@ -165,8 +202,13 @@ class BrickTree {
   double quantum_ = 0.0;  ///< 0: not rounded yet [m]
   /// By key(): power of two that divides a node's value, if it is not 0.
   std::unordered_map<std::uint64_t, int> factor_;
-  const std::vector<format::Edge>& edges_;
-  std::vector<std::vector<std::uint32_t>> edges_of_;  ///< by brick
+  const SurfaceFacets& facets_;
+  std::vector<std::uint64_t> exact_cells_;                ///< by brick, one bit each
+  std::size_t made_exact_ = 0;                            ///< bricks that had such a cell
+  std::vector<bool> refuses_;                             ///< by brick
+  std::vector<bool> passes_on_;                           ///< its octants refuse too, by brick
+  std::vector<std::uint64_t> weighed_;                    ///< cells for which facets were found, by brick
+  std::vector<std::optional<format::ExactBrick>> exact_;  ///< by brick; facets are numbered as in facets_
 };
 
 }  // namespace godobject::scene_compiler

@@ -131,10 +131,10 @@ class ClearanceBounds {
     }
     FieldSlope of_leaf(cell_edge, 2.0 * format::kMostRoundedOff * field_.grid.quantum);
     const Brick& brick = field_.bricks[number];
-    if (brick.edge == 0) {
+    if (brick.exact == 0) {
       of_leaf.add(brick, octants);
     } else {
-      of_leaf.add(brick, octants, field_.edges[brick.edge - 1], low);
+      of_leaf.add(brick, octants, field_.exact[brick.exact - 1], field_.facets, field_.grid.facet_offset, low);
     }
     // refined bricks have no seam: refinement leaves seams alone
     const bool halved = cell_edge < field_.grid.voxel_size;
@@ -153,7 +153,10 @@ class ClearanceBounds {
         }
       });
     }
-    if (brick.edge != 0) deviation += edge_deviation(brick, octants, field_.edges[brick.edge - 1], low, cell_edge);
+    if (brick.exact != 0) {
+      deviation += exact_deviation(brick, octants, field_.exact[brick.exact - 1], field_.facets,
+                                   field_.grid.facet_offset, low, cell_edge);
+    }
     facts.deviation = std::max(facts.deviation, deviation);
   }
 

@@ -24,7 +24,8 @@ struct DistanceGrid {
   std::vector<std::uint32_t> index;
   std::vector<Brick> bricks;
   std::vector<format::Refined> refined;
-  std::vector<format::Edge> edges;
+  std::vector<format::ExactBrick> exact;
+  std::vector<format::Facet> facets;
   std::vector<double> far_clearance;  ///< of far positions outside: bound of the distance at their centres [m]
   std::vector<bool> beside_seam;      ///< of each position's own brick: a seam lies in it or touches it
   SeamReport seams;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -25,11 +26,12 @@ class FieldSlope {
     });
   }
 
-  /// Adds a brick that names an edge, with its first node at `low`. Uses a bound of the gradient of format::Edge's
-  /// field:
+  /// Adds an exact brick with its first node at `low`; `offset` as format::Grid::facet_offset. Uses a bound of the
+  /// gradient of format::ExactBrick's field, with w for I[w]:
   ///
-  ///     |grad phi| <= (1 - w) |grad I[phi]| + w + |g - I[g]| |grad w|.
-  void add(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low);
+  ///     |grad phi| <= (1 - w) |grad I[phi]| + w + |g + offset - I[phi]| |grad w|.
+  void add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
+           std::span<const format::Facet> facets, double offset, const Eigen::Vector3d& low);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }
@@ -43,9 +45,9 @@ class FieldSlope {
   double seamed_ = 0.0;
 };
 
-/// Returns a bound of |phi - I[phi]| in octants of a brick that names an edge (format::Edge), with its first node at
-/// `low` [m].
-double edge_deviation(const Brick& brick, std::uint8_t octants, const format::Edge& edge, const Eigen::Vector3d& low,
-                      double cell_edge);
+/// Returns a bound of |phi - I[phi]| in octants of an exact brick with its first node at `low` [m].
+double exact_deviation(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
+                       std::span<const format::Facet> facets, double offset, const Eigen::Vector3d& low,
+                       double cell_edge);
 
 }  // namespace godobject::scene_compiler

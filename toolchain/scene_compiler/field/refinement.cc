@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -15,35 +16,38 @@
 #include "toolchain/scene_compiler/field/clearance_bounds.h"
 #include "toolchain/scene_compiler/field/field_slope.h"
 #include "toolchain/scene_compiler/field/octant_nodes.h"
-#include "toolchain/scene_compiler/field/straight_edges.h"
 #include "toolchain/scene_compiler/field/surface_check.h"
+#include "toolchain/scene_compiler/field/surface_facets.h"
 
 namespace godobject::scene_compiler {
 namespace {
 
 constexpr double kSlack = 0.85;  // of the tolerance: between the points that are looked at it may be worse
+constexpr double kFlat = 0.2;    // of the tolerance: height of a triangle that exact bricks leave out
 /// Of the refined field before it is rounded; SceneView::open takes gradients up to 2 and what rounding adds.
 constexpr double kSteepest = 1.95;
-constexpr double kWidestTube = 2.4;  // about a straight edge, in voxels
+constexpr double kSteepestExact = 4.0;  // in exact bricks, between the distance to facets and interpolation
 
 class Refinement {
  public:
-  Refinement(DistanceGrid& field, const SolidSurface& surface, const SurfaceTolerance& tolerance, double slack,
-             const parallel::Progress& progress)
-      : field_(field), surface_(surface), tolerance_(tolerance), slack_(slack), barred_(field.bricks.size()) {
+  Refinement(DistanceGrid& field, const SolidSurface& surface, const SurfaceTolerance& tolerance, double slack)
+      : field_(field),
+        surface_(surface),
+        tolerance_(tolerance),
+        slack_(slack),
+        facets_(surface, kFlat * tolerance.inside),
+        barred_(field.bricks.size()) {
     for (std::size_t i = 0; i < field.bricks.size(); ++i) {
       barred_[i] = field.beside_seam[i] && holds_seam(field.bricks[i], field.grid.voxel_size);
     }
     triangles_.resize(surface.mesh().triangles.size());
     std::iota(triangles_.begin(), triangles_.end(), 0u);
-    find_edges(progress);
   }
 
-  /// Refines the field. False if a position had to be barred or an edge left out: then start again without it.
+  /// Refines the field. False if a position had to be barred: then start again without it.
   bool run(const parallel::Progress& progress) {
-    BrickTree tree(field_, edges_);
+    BrickTree tree(field_, facets_);
     std::vector<bool> barred = barred_;
-    if (!part_edges(tree, barred)) return false;
     std::vector<std::uint32_t> triangles = triangles_;
     Compared compared;
     std::uint32_t sloped = 0;  // joins after which all slopes were measured
@@ -51,30 +55,35 @@ class Refinement {
       const bool whole = triangles.size() == triangles_.size();
       Misses misses =
           find_misses(surface_, tree, barred, tolerance_.times(kSlack), slack_, triangles, progress, &compared);
-      Wanted wanted = std::move(misses.wanted);
-      if (wanted.empty() && !whole) {
-        triangles = triangles_;  // halving a neighbour may have spoiled others
-        continue;
-      }
-      if (wanted.empty()) {
-        if (!beside_steep(tree, barred, sloped, wanted)) return false;
+      if (misses.wanted.empty() && misses.exact.empty()) {
+        if (!whole) {
+          triangles = triangles_;  // halving a neighbour may have spoiled others
+          continue;
+        }
+        Steep steep = find_steep(tree, barred, sloped);
+        if (!steep.possible) return false;
         sloped = tree.joins();
-        if (wanted.empty()) {
+        if (steep.wanted.empty() && steep.refused.empty()) {
           misses.worst.in_tolerances *= kSlack;
           if (misses.worst.in_tolerances > 1.0) report_.worst = misses.worst;
           break;
         }
+        for (const std::uint32_t brick : steep.refused) tree.refuse(brick);
+        misses.wanted = std::move(steep.wanted);
+        misses.triangles = triangles_;
       }
-      halve(tree, wanted, barred);
+
+      for (const auto& [brick, cells] : misses.exact) tree.make_exact(brick, cells);
+      halve(tree, misses.wanted, barred);
       tree.join();
       triangles = std::move(misses.triangles);
     }
     tree.round(slack_);
+    field_.grid.facet_offset = slack_;
     tree.write(field_);
-    for (format::Edge& edge : field_.edges) edge.offset += slack_;
-    if (slack_ != 0.0) bound_clearances(field_);  // of the edges too
     report_.refined = field_.refined.size();
-    report_.edges = field_.edges.size();
+    report_.exact = field_.exact.size();
+    report_.facets = field_.facets.size();
     report_.finer = field_.bricks.size() - barred_.size();
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
       if (tree.whole(b) != 0) ++report_.bricks[static_cast<std::size_t>(tree.level(b))];
@@ -85,67 +94,6 @@ class Refinement {
   const RefinementReport& report() const { return report_; }
 
  private:
-  /// Finds the straight edges whose tubes meet a brick in which the surface would be missed without them.
-  void find_edges(const parallel::Progress& progress) {
-    const format::Grid& grid = field_.grid;
-    // the tubes must lie within the stored band, less the error of interpolation
-    const double room = grid.band - kInterpolationError * grid.voxel_size;
-    const auto all = straight_edges(surface_, grid.voxel_size, std::min(kWidestTube * grid.voxel_size, room));
-    if (all.empty()) return;
-    const BrickTree unrefined(field_, all);
-    const std::vector<format::Edge> none;
-    const BrickTree without(field_, none);
-    std::vector<bool> needed(all.size());
-    const Misses misses =
-        find_misses(surface_, without, barred_, tolerance_.times(kSlack), slack_, triangles_, progress);
-    for (const auto& [b, octants] : misses.wanted) {
-      for (const std::uint32_t e : unrefined.edges_of(b)) needed[e] = true;
-    }
-    for (std::size_t e = 0; e < all.size(); ++e) {
-      if (needed[e]) edges_.push_back(all[e]);
-    }
-  }
-
-  /// Halves bricks until none names two edges. False if an edge had to be left out: then start again without it.
-  bool part_edges(BrickTree& tree, std::vector<bool>& barred) {
-    while (true) {
-      Wanted wanted;
-      std::vector<bool> left_out(edges_.size());
-      for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
-        if (tree.whole(b) == 0) continue;
-        const auto& edges = tree.edges_of(b);
-        // a seam's jump must not be blended
-        if (!edges.empty() && field_.beside_seam[tree.root(b)]) leave_out(edges, 0, left_out);
-        if (edges.size() < 2) continue;
-        if (barred[b] || tree.level(b) == format::kMaxRefinement) {
-          leave_out(edges, 1, left_out);
-        } else {
-          want(wanted, b, kAllOctants);
-        }
-      }
-      if (drop(left_out)) return false;
-      if (wanted.empty()) break;
-      halve(tree, wanted, barred);
-    }
-    tree.join();
-    return true;
-  }
-
-  static void leave_out(const std::vector<std::uint32_t>& edges, std::size_t but, std::vector<bool>& left_out) {
-    for (std::size_t i = but; i < edges.size(); ++i) left_out[edges[i]] = true;
-  }
-
-  /// Removes the left-out edges. True if there was any.
-  bool drop(const std::vector<bool>& left_out) {
-    std::vector<format::Edge> remaining;
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      if (!left_out[e]) remaining.push_back(edges_[e]);
-    }
-    const bool any = remaining.size() < edges_.size();
-    edges_ = std::move(remaining);
-    return any;
-  }
-
   /// Halves the wanted octants. Bars the bricks in which a seam would appear.
   void halve(BrickTree& tree, const Wanted& wanted, std::vector<bool>& barred) {
     if (tree.brick_count() + 8 * wanted.size() > kMaxBricks) {
@@ -175,52 +123,51 @@ class Refinement {
     barred.resize(tree.brick_count());
   }
 
-  /// Adds the bricks that must be halved because their slope is too steep: coarse values beside finer exact ones, or
-  /// the transition to an edge's exact distance. False if one cannot be halved. Then its whole position is barred, or
-  /// its edge left out. Positions that no join after `sloped` changed are not steep.
-  bool beside_steep(const BrickTree& tree, const std::vector<bool>& barred, std::uint32_t sloped, Wanted& wanted) {
-    bool possible = true;
-    std::vector<bool> left_out(edges_.size());
-    std::vector<char> steep(tree.brick_count());
+  /// Bricks whose slope is too steep, by what is to be done about them.
+  struct Steep {
+    Wanted wanted;                       ///< to be halved
+    std::vector<std::uint32_t> refused;  ///< to be exact no longer
+    bool possible = true;                ///< false: a position was barred
+  };
+
+  /// Finds the bricks whose slope is too steep: coarse values beside finer exact ones, or the transition to the
+  /// distance to facets. Positions that no join after `sloped` changed are not steep.
+  Steep find_steep(const BrickTree& tree, const std::vector<bool>& barred, std::uint32_t sloped) {
+    std::vector<char> is_steep(tree.brick_count());
     parallel::for_each_index(tree.brick_count(), [&](std::size_t i) {
       const auto b = static_cast<std::uint32_t>(i);
-      if (tree.whole(b) == 0 || (tree.level(b) == 0 && tree.edges_of(b).empty())) return;
+      if (tree.whole(b) == 0 || (tree.level(b) == 0 && !tree.exact_brick(b))) return;
       if (sloped != 0 && tree.changed_in(tree.root(b)) <= sloped) return;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
-      tree.add_slope(b, slope);
-      steep[i] = slope.largest_with_seams() > kSteepest ? 1 : 0;
+      tree.add_slope(b, slack_, slope);
+      is_steep[i] = slope.largest_with_seams() > (tree.exact_brick(b) ? kSteepestExact : kSteepest) ? 1 : 0;
     });
+    Steep steep;
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
-      if (steep[b] == 0) continue;
-      const bool edged = !tree.edges_of(b).empty();
-      bool found = false;
-      if (edged && !barred[b] && tree.level(b) < format::kMaxRefinement) {
-        want(wanted, b, kAllOctants);
+      if (is_steep[b] == 0) continue;
+      if (tree.exact_brick(b)) {
+        steep.refused.push_back(b);
         continue;
       }
+      bool found = false;
       for (const BrickTree::Leaf& leaf : tree.leaves_about(b)) {
         if (leaf.brick == BrickTree::kNone || leaf.level >= tree.level(b) || barred[leaf.brick]) continue;
-        want(wanted, leaf.brick, leaf.where().bit());
+        want(steep.wanted, leaf.brick, leaf.where().bit());
         found = true;
       }
       if (found) continue;
-      if (edged) {
-        leave_out(tree.edges_of(b), 0, left_out);
-      } else {
-        barred_[tree.root(b)] = true;
-      }
-      possible = false;
+      barred_[tree.root(b)] = true;
+      steep.possible = false;
     }
-    drop(left_out);
-    return possible;
+    return steep;
   }
 
   DistanceGrid& field_;
   const SolidSurface& surface_;
   const SurfaceTolerance tolerance_;
   double slack_;
+  const SurfaceFacets facets_;
   std::vector<std::uint32_t> triangles_;         // all
-  std::vector<format::Edge> edges_;              // in use
   std::vector<bool> barred_;                     // positions, by brick number
   std::map<std::array<int, 4>, Octants> known_;  // of bricks that were halved before a restart, by place
   RefinementReport report_;
@@ -230,15 +177,15 @@ class Refinement {
 
 RefinementReport refine(DistanceGrid& field, const SolidSurface& surface, const SurfaceTolerance& tolerance,
                         const parallel::Progress& progress, double slack) {
-  Refinement refinement(field, surface, tolerance, slack, progress);
+  Refinement refinement(field, surface, tolerance, slack);
   while (!refinement.run(progress)) {
   }
   return refinement.report();
 }
 
 void round_distances(DistanceGrid& field) {
-  const std::vector<format::Edge> no_edges;
-  BrickTree tree(field, no_edges);
+  const SurfaceFacets no_facets;
+  BrickTree tree(field, no_facets);
   tree.round(0.0);
   tree.write(field);
 }

@@ -37,11 +37,15 @@ struct RefinementReport {
       bricks{};               ///< leaf bricks by number of halvings, 0 .. kMaxRefinement
   std::uint64_t refined = 0;  ///< bricks with halved octants
   std::uint64_t finer = 0;    ///< bricks stored in addition to those of the positions
-  std::uint64_t edges = 0;    ///< stretches of straight edges along which the field is exact
+  std::uint64_t exact = 0;    ///< exact bricks
+  std::uint64_t facets = 0;   ///< of exact bricks
   SurfaceError worst;         ///< of those that exceed the tolerance; bricks cannot be halved there. 0: none
 
-  /// Returns the size of the finer bricks in the image.
-  std::uint64_t bytes() const { return finer * sizeof(format::Brick) + refined * sizeof(format::Refined); }
+  /// Returns the size of finer and exact bricks in the image.
+  std::uint64_t bytes() const {
+    return finer * sizeof(format::Brick) + refined * sizeof(format::Refined) + exact * sizeof(format::ExactBrick) +
+           facets * sizeof(format::Facet);
+  }
 };
 
 /// The stored surface may lie this far outside the exact one, in tolerances. A chosen value: penetration is worse than
@@ -52,8 +56,9 @@ inline SurfaceTolerance SurfaceTolerance::of_depth(double inside) { return {insi
 
 /// Refines `field` until it represents the surface of a solid, or the offset surface of a shell, within `tolerance`.
 ///
-/// Straight edges of solids that trilinear interpolation misses are stored as such (format::Edge). For that, bricks are
-/// halved until none names two edges, and where the transition to an edge's exact distance would be too steep.
+/// About edges, corners, thin walls and narrow gaps of solids, cells become exact (format::ExactBrick) where they err
+/// by more than a part of the tolerance. Bricks that would have too many facets, and those that would be too steep
+/// where the distance to facets passes to interpolation, do not.
 ///
 /// Remaining errors are refined: octants of bricks are halved, up to format::kMaxRefinement times. That happens where
 /// the field says "free" more than `tolerance.inside` inside the mesh (convex edges and corners, thin walls, into which

@@ -24,9 +24,9 @@ namespace {
 using Eigen::Vector3d;
 using format::kBrickCells;
 
-// Chosen: of the tolerance, in bricks with an edge. There the field passes from the exact edge to interpolation within
-// a quarter of a voxel. An error would be a step, which holds a body that slides along the edge as friction does.
-constexpr double kBesideEdge = 0.05;
+// Chosen: of the tolerance inside, error where the surface turns. From cell to cell it changes, and holds a body that
+// slides along an edge as friction does.
+constexpr double kRipple = 0.4;
 constexpr double kSurelySteep = 0.1;  // of the tolerance: with a smaller value, a field as flat as 0.1 is deep enough
 constexpr double kWholeDepth = 0.99;  // of the tolerance, but for rounding
 constexpr double kEdgeSpacing = 0.5;  // of points along the mesh's edges, in cells
@@ -50,7 +50,9 @@ class SurfaceCheck {
         tolerance_(tolerance),
         slack_(slack),
         compared_(compared.after),
-        marked_(tree.brick_count()) {
+        marked_(tree.brick_count()),
+        exact_(tree.brick_count()),
+        smooth_(tree.brick_count()) {
     compared_.resize(surface.dilation() > 0.0 ? tree.brick_count() : surface.mesh().triangles.size());
     find_rims();
   }
@@ -84,6 +86,8 @@ class SurfaceCheck {
     for (std::uint32_t b = 0; b < marked_.size(); ++b) {
       const std::uint8_t octants = marked_[b].load(std::memory_order_relaxed);
       if (octants != 0) misses.wanted.emplace_hint(misses.wanted.end(), b, octants);
+      const std::uint64_t cells = exact_[b].load(std::memory_order_relaxed);
+      if (cells != 0) misses.exact.emplace_hint(misses.exact.end(), b, cells);
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       if (missed[i] != 0) misses.triangles.push_back(triangles[i]);
@@ -305,10 +309,24 @@ class SurfaceCheck {
     }
   }
 
-  /// True if an error of the field on the surface is within the tolerance of the leaf.
-  bool good(const BrickTree::Leaf& leaf, double error) const {
-    const double slack = tree_.edges_of(leaf.brick).empty() ? 1.0 : kBesideEdge;
-    return error <= slack * tolerance_.inside && error >= -slack * tolerance_.outside;
+  /// True if an error of the field on the surface is within the tolerance.
+  bool good(double error) const { return error <= tolerance_.inside && error >= -tolerance_.outside; }
+
+  /// True if the cell of p in `leaf` is to become exact, where the field has this error.
+  template <class Matters>
+  bool wants_exact(const Vector3d& p, const BrickTree::Leaf& leaf, double error, const Matters& matters) {
+    if (std::abs(error) <= kRipple * tolerance_.inside || !tree_.may_be_exact(leaf.brick)) return false;
+    const std::uint64_t cell = std::uint64_t{1} << tree_.cell_of(leaf.brick, p);
+    const std::uint64_t not_again = tree_.exact_cells(leaf.brick) | smooth_[leaf.brick].load(std::memory_order_relaxed);
+    if ((not_again & cell) != 0) return false;
+    if ((exact_[leaf.brick].load(std::memory_order_relaxed) & cell) != 0) return true;
+    if (!tree_.turns_about(leaf, p)) {
+      smooth_[leaf.brick].fetch_or(cell, std::memory_order_relaxed);
+      return false;
+    }
+    if (!matters()) return false;
+    exact_[leaf.brick].fetch_or(cell, std::memory_order_relaxed);
+    return true;
   }
 
   /// Checks p in `leaf`. `center` is a point of the same triangle off its rim.
@@ -347,10 +365,11 @@ class SurfaceCheck {
   bool check_value(const Vector3d& p, const BrickTree::Leaf& leaf, double exact, const Matters& matters,
                    SurfaceError& worst) {
     const double error = tree_.interpolate(leaf, p) - exact;
-    if (good(leaf, error)) return false;
+    if (wants_exact(p, leaf, error, matters)) return true;
+    if (good(error)) return false;
     BrickTree::Octants about{};
-    const std::size_t count = good(leaf, tree_.interpolate_exact(leaf, p) - exact) ? tree_.coarser_about(leaf, p, about)
-                                                                                   : tree_.holding(leaf, p, about);
+    const std::size_t count = good(tree_.interpolate_exact(leaf, p) - exact) ? tree_.coarser_about(leaf, p, about)
+                                                                             : tree_.holding(leaf, p, about);
     bool possible = false;
     bool known = true;
     for (std::size_t i = 0; i < count; ++i) {
@@ -390,8 +409,10 @@ class SurfaceCheck {
   const SurfaceTolerance tolerance_;
   const double slack_;
   std::vector<std::uint32_t>& compared_;
-  std::vector<std::atomic<std::uint8_t>> marked_;  ///< octants to be halved, by brick
-  std::set<Edge> rims_;                            ///< edges of shells, by their vertices
+  std::vector<std::atomic<std::uint8_t>> marked_;   ///< octants to be halved, by brick
+  std::vector<std::atomic<std::uint64_t>> exact_;   ///< cells to become exact, by brick
+  std::vector<std::atomic<std::uint64_t>> smooth_;  ///< cells about which the surface does not turn, by brick
+  std::set<Edge> rims_;                             ///< edges of shells, by their vertices
 };
 
 }  // namespace

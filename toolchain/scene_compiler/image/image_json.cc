@@ -1,7 +1,9 @@
 #include "toolchain/scene_compiler/image/image_json.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "toolchain/scene_compiler/image/build_traits.h"
@@ -14,33 +16,34 @@ Json array_json(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 }  // namespace
 
 const char* section_name(format::SectionId id) {
-  switch (id) {
-    case format::SectionId::kSettings: return "settings";
-    case format::SectionId::kGrid: return "grid";
-    case format::SectionId::kBrickIndex: return "brick_index";
-    case format::SectionId::kBricks: return "bricks";
-    case format::SectionId::kBody: return "body";
-    case format::SectionId::kPoints: return "points";
-    case format::SectionId::kNormals: return "normals";
-    case format::SectionId::kNodes: return "nodes";
-    case format::SectionId::kProvenance: return "provenance";
-    case format::SectionId::kRefined: return "refined";
-    case format::SectionId::kBodyGrid: return "body_grid";
-    case format::SectionId::kBodyBrickIndex: return "body_brick_index";
-    case format::SectionId::kBodyBricks: return "body_bricks";
-    case format::SectionId::kBodyRefined: return "body_refined";
-    case format::SectionId::kFeatures: return "features";
-    case format::SectionId::kFeaturePoints: return "feature_points";
-    case format::SectionId::kFeatureNodes: return "feature_nodes";
-    case format::SectionId::kEdges: return "edges";
-    case format::SectionId::kBodyEdges: return "body_edges";
-    case format::SectionId::kWorkspace: return "workspace";
-    case format::SectionId::kSharpEdges: return "sharp_edges";
-    case format::SectionId::kSharpEdgeNodes: return "sharp_edge_nodes";
-    case format::SectionId::kBodySharpEdges: return "body_sharp_edges";
-    case format::SectionId::kBodySharpEdgeNodes: return "body_sharp_edge_nodes";
-  }
-  return "unknown";
+  static constexpr std::array kNames = {"settings",
+                                        "grid",
+                                        "brick_index",
+                                        "bricks",
+                                        "body",
+                                        "points",
+                                        "normals",
+                                        "nodes",
+                                        "provenance",
+                                        "refined",
+                                        "body_grid",
+                                        "body_brick_index",
+                                        "body_bricks",
+                                        "body_refined",
+                                        "features",
+                                        "feature_points",
+                                        "feature_nodes",
+                                        "facets",
+                                        "body_facets",
+                                        "workspace",
+                                        "sharp_edges",
+                                        "sharp_edge_nodes",
+                                        "body_sharp_edges",
+                                        "body_sharp_edge_nodes",
+                                        "exact_bricks",
+                                        "body_exact_bricks"};
+  const std::size_t number = static_cast<std::uint32_t>(id) - 1u;  // they are numbered from 1
+  return number < kNames.size() ? kNames[number] : "unknown";
 }
 
 Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

@@ -33,7 +33,10 @@ std::vector<SectionBytes> lay_out(const SceneParts& parts) {
   sections.push_back({SectionId::kBrickIndex, bytes_of(field.index)});
   sections.push_back({SectionId::kBricks, bytes_of(packed_bricks(field))});
   if (!field.refined.empty()) sections.push_back({SectionId::kRefined, bytes_of(field.refined)});
-  if (!field.edges.empty()) sections.push_back({SectionId::kEdges, bytes_of(field.edges)});
+  if (!field.exact.empty()) {
+    sections.push_back({SectionId::kFacets, bytes_of(field.facets)});
+    sections.push_back({SectionId::kExactBricks, bytes_of(field.exact)});
+  }
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
   if (!body.normals.empty() && holds_paper) sections.push_back({SectionId::kNormals, bytes_of(body.normals)});
@@ -50,7 +53,10 @@ std::vector<SectionBytes> lay_out(const SceneParts& parts) {
   sections.push_back({SectionId::kBodyBricks, bytes_of(packed_bricks(parts.body_field))});
   if (!parts.body_field.refined.empty())
     sections.push_back({SectionId::kBodyRefined, bytes_of(parts.body_field.refined)});
-  if (!parts.body_field.edges.empty()) sections.push_back({SectionId::kBodyEdges, bytes_of(parts.body_field.edges)});
+  if (!parts.body_field.exact.empty()) {
+    sections.push_back({SectionId::kBodyFacets, bytes_of(parts.body_field.facets)});
+    sections.push_back({SectionId::kBodyExactBricks, bytes_of(parts.body_field.exact)});
+  }
   sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
   sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
   sections.push_back({SectionId::kFeatureNodes, bytes_of(parts.features.nodes)});

@@ -46,6 +46,12 @@ void NearTriangles::finish(double radius) {
   std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) { return a.distance < b.distance; });
 }
 
+std::vector<std::uint32_t> NearTriangles::ids() const {
+  std::vector<std::uint32_t> ids;
+  for (const Near& near : near_) ids.push_back(near.triangle.id);
+  return ids;
+}
+
 double NearTriangles::distance(const Vector3d& p) const {
   const double aside = (p - center_).norm();
   double best = kAnyDistance;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,6 +24,9 @@ class NearTriangles {
   NearTriangles(const NearTriangles& larger, const Eigen::Vector3d& center, double radius);
 
   std::size_t size() const { return near_.size(); }
+
+  /// Returns the triangles' ids, the nearest to the centre first.
+  std::vector<std::uint32_t> ids() const;
 
   /// Returns the distance of a point in the ball to the nearest triangle of the tree, as TriangleTree::nearest finds
   /// it; infinity for an empty tree [m].

@@ -70,8 +70,8 @@ bool ray_meets_triangle(const Vector3d& origin, const Vector3d& direction, const
   return true;
 }
 
-/// A way to cross a triangle; kUnsure if rounding might decide.
-enum class Crossing { kNone, kInwards, kOutwards, kUnsure };
+/// A way to cross a triangle; kUnsureSide if rounding might decide.
+enum class Crossing { kNone, kInwards, kOutwards, kUnsureSide };
 
 Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::Triangle& triangle) noexcept {
   constexpr double kMargin = 1e-9;          // of the step and of the triangle
@@ -82,7 +82,7 @@ Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::
   const Vector3d normal = e1.cross(e2);
   const double norm = normal.norm();
   const double longest = std::sqrt(std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()}));
-  if (!(norm > kThinnestTurned * longest * longest)) return Crossing::kUnsure;
+  if (!(norm > kThinnestTurned * longest * longest)) return Crossing::kUnsureSide;
   const double height = norm / longest;
   const double step = (to - from).norm();
   const double reach = (from - triangle.a).norm() + step + longest;
@@ -93,7 +93,7 @@ Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::
   const double least = kMargin * step + off_plane;
   if (begin > least && end > least) return Crossing::kNone;
   if (begin < -least && end < -least) return Crossing::kNone;
-  if (std::abs(begin) <= least || std::abs(end) <= least) return Crossing::kUnsure;
+  if (std::abs(begin) <= least || std::abs(end) <= least) return Crossing::kUnsureSide;
   const Vector3d in_plane = from + begin / (begin - end) * (to - from) - triangle.a;
   const double u = in_plane.cross(e2).dot(normal) / (norm * norm);
   const double v = e1.cross(in_plane).dot(normal) / (norm * norm);
@@ -101,7 +101,7 @@ Crossing crossing(const Vector3d& from, const Vector3d& to, const TriangleTree::
   const double margin =
       kMargin + (2.0 * off_plane * step / std::abs(begin - end) + kRounding * reach) * longest / (height * height);
   if (inmost < -margin) return Crossing::kNone;
-  if (inmost <= margin) return Crossing::kUnsure;
+  if (inmost <= margin) return Crossing::kUnsureSide;
   return begin > 0.0 ? Crossing::kInwards : Crossing::kOutwards;
 }
 
@@ -334,7 +334,7 @@ std::optional<int> TriangleTree::winding_change(const Vector3d& from, const Vect
     }
     for (std::uint32_t i = node.right; i < node.right + node.count; ++i) {
       const Crossing found = crossing(from, to, triangles_[i]);
-      if (found == Crossing::kUnsure) return {};
+      if (found == Crossing::kUnsureSide) return {};
       if (found == Crossing::kInwards) ++change;
       if (found == Crossing::kOutwards) --change;
     }

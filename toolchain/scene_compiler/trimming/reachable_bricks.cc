@@ -10,6 +10,7 @@
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/scene_compiler/field/brick_lattice.h"
+#include "toolchain/scene_compiler/field/exact_bricks.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -46,7 +47,11 @@ class Selection {
   /// Renumbers the field. `field.index` must name exactly the entries that stay.
   void apply(LeftOutBricks& left_out) {
     number_bricks(left_out);
-    number_edges(left_out);
+    const std::size_t exact = field_.exact.size();
+    const std::size_t facets = field_.facets.size();
+    leave_out_unnamed(field_);
+    left_out.exact = exact - field_.exact.size();
+    left_out.facets = facets - field_.facets.size();
     std::vector<format::Refined> refined;
     for (std::uint32_t& entry : field_.index) entry = renumbered(entry, refined);
     field_.refined = std::move(refined);
@@ -67,21 +72,6 @@ class Selection {
     left_out.all_bricks = keeps_.size() - bricks.size();
     field_.bricks = std::move(bricks);
     field_.beside_seam = std::move(beside_seam);
-  }
-
-  void number_edges(LeftOutBricks& left_out) {
-    std::vector<std::uint32_t> number(field_.edges.size() + 1);  // from 1, as bricks name them
-    std::vector<format::Edge> edges;
-    for (Brick& brick : field_.bricks) {
-      if (brick.edge == 0) continue;
-      if (number[brick.edge] == 0) {
-        edges.push_back(field_.edges[brick.edge - 1]);
-        number[brick.edge] = static_cast<std::uint32_t>(edges.size());
-      }
-      brick.edge = number[brick.edge];
-    }
-    left_out.edges = field_.edges.size() - edges.size();
-    field_.edges = std::move(edges);
   }
 
   std::uint32_t renumbered(std::uint32_t entry, std::vector<format::Refined>& refined) const {

@@ -16,13 +16,15 @@ inline constexpr double kLookUpSlack = 1.0;
 /// Bricks that were left out of a field.
 struct LeftOutBricks {
   std::uint64_t positions = 0;
-  std::uint64_t edges = 0;                                         ///< straight edges that no brick names any more
+  std::uint64_t exact = 0;                                         ///< exact bricks
+  std::uint64_t facets = 0;                                        ///< facets that no exact brick has any more
   std::uint64_t refined = 0;                                       ///< bricks that were halved
   std::array<std::uint64_t, format::kMaxRefinement + 1> bricks{};  ///< leaf bricks, by number of halvings
 
   std::uint64_t all_bricks = 0;  ///< stored bricks, halved ones and octants included
   std::uint64_t bytes() const {
-    return all_bricks * sizeof(format::Brick) + refined * sizeof(format::Refined) + edges * sizeof(format::Edge);
+    return all_bricks * sizeof(format::Brick) + refined * sizeof(format::Refined) + exact * sizeof(format::ExactBrick) +
+           facets * sizeof(format::Facet);
   }
 };
 

@@ -1,0 +1,87 @@
+#include "core/scene/facets.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace godobject {
+namespace {
+
+using Vector3Map = Eigen::Map<const Vector3>;
+using Vector3fMap = Eigen::Map<const Eigen::Vector3f>;
+
+/// Nearer to an edge or a vertex than this the direction from it is lost in rounding [m]. Chosen: a thousandth of the
+/// smallest voxel that an image may have.
+constexpr double kOnEdge = 1e-12;
+
+/// The nearest place found so far.
+struct NearestPlace {
+  double squared_distance = std::numeric_limits<double>::infinity();
+  Vector3 from = Vector3::Zero();    ///< from the place to the point [m]
+  Vector3 normal = Vector3::Zero();  ///< of the face, edge or vertex on which it lies
+  bool on_face = false;
+};
+
+/// Compares the places of one edge, from `vertex` along `edge`. `from` leads from the vertex to the point.
+void compare_edge(const format::Facet& facet, int k, const Vector3& from, const Vector3& edge,
+                  NearestPlace& nearest) noexcept {
+  const double along = from.dot(edge);
+  const double squared_length = edge.squaredNorm();
+  Vector3 away = from;
+  const float* normal = facet.vertex_normal[k];
+  if (along >= squared_length) {
+    away -= edge;
+    normal = facet.vertex_normal[k == 2 ? 0 : k + 1];
+  } else if (along > 0.0) {
+    away -= along / squared_length * edge;
+    normal = facet.edge_normal[k];
+  }
+  const double squared = away.squaredNorm();
+  if (squared >= nearest.squared_distance) return;
+  nearest = {squared, away, Vector3fMap(normal).cast<double>(), false};
+}
+
+void compare(const format::Facet& facet, const Vector3& p, NearestPlace& nearest) noexcept {
+  const Vector3Map normal(facet.normal);
+  const Vector3 from[3] = {p - Vector3Map(facet.vertex[0]), p - Vector3Map(facet.vertex[1]),
+                           p - Vector3Map(facet.vertex[2])};
+  const double height = normal.dot(from[0]);
+  const double squared = height * height;
+  if (squared >= nearest.squared_distance) return;
+  bool above_face = true;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 edge = from[k] - from[k == 2 ? 0 : k + 1];
+    if (normal.cross(edge).dot(from[k]) >= 0.0) continue;
+    above_face = false;
+    compare_edge(facet, k, from[k], edge, nearest);
+  }
+  if (above_face) nearest = {squared, height * normal, normal, true};
+}
+
+ValueAndGradient signed_distance(const NearestPlace& nearest) noexcept {
+  const double distance = std::sqrt(nearest.squared_distance);
+  const double side = nearest.from.dot(nearest.normal) >= 0.0 ? 1.0 : -1.0;
+  if (nearest.on_face) return {side * distance, nearest.normal};
+  if (distance < kOnEdge) return {side * distance, nearest.normal.normalized()};
+  return {side * distance, side / distance * nearest.from};
+}
+
+}  // namespace
+
+ValueAndGradient facet_distance(std::span<const format::Facet> facets, std::span<const std::uint32_t> numbers,
+                                const Vector3& p) noexcept {
+  NearestPlace nearest;
+  for (const std::uint32_t number : numbers) compare(facets[number], p, nearest);
+  return signed_distance(nearest);
+}
+
+ValueAndGradient facet_distance(std::span<const format::Facet> facets, const format::ExactBrick& exact, int cell,
+                                const Vector3& p) noexcept {
+  NearestPlace nearest;
+  for (std::uint64_t left = exact.cell[cell]; left != 0; left &= left - 1) {
+    compare(facets[exact.facet[std::countr_zero(left)]], p, nearest);
+  }
+  return signed_distance(nearest);
+}
+
+}  // namespace godobject

@@ -1,0 +1,160 @@
+#include "core/scene/facets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "godobject/pose.h"
+#include "tests/support/random.h"
+
+namespace godobject {
+namespace {
+
+using Triangle = std::array<std::size_t, 3>;
+
+void store(const Vector3& v, double (&out)[3]) { std::copy(v.data(), v.data() + 3, out); }
+void store(const Vector3& v, float (&out)[3]) {
+  for (int axis = 0; axis < 3; ++axis) out[axis] = static_cast<float>(v[axis]);
+}
+
+/// The facets of a closed mesh, with normals computed face by face.
+std::vector<format::Facet> facets_of(const std::vector<Vector3>& vertices, const std::vector<Triangle>& triangles) {
+  const auto at = [&](const Triangle& t, std::size_t k) { return vertices[t[k % 3]]; };
+  const auto normal_of = [&](const Triangle& t) {
+    return Vector3((at(t, 1) - at(t, 0)).cross(at(t, 2) - at(t, 0)).normalized());
+  };
+  std::vector<format::Facet> facets;
+  for (const Triangle& t : triangles) {
+    format::Facet facet{};
+    store(normal_of(t), facet.normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      store(at(t, k), facet.vertex[k]);
+      Vector3 of_edge = normal_of(t), of_vertex = Vector3::Zero();
+      for (const Triangle& other : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          if (other[i] == t[(k + 1) % 3] && other[(i + 1) % 3] == t[k]) of_edge += normal_of(other);
+          if (other[i] != t[k]) continue;
+          const Vector3 one = at(other, i + 1) - at(other, i), two = at(other, i + 2) - at(other, i);
+          of_vertex += std::acos(one.normalized().dot(two.normalized())) * normal_of(other);
+        }
+      }
+      store(of_edge.normalized(), facet.edge_normal[k]);
+      store(of_vertex.normalized(), facet.vertex_normal[k]);
+    }
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+const std::vector<Triangle> kBoxTriangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                             {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+
+std::vector<Vector3> box_vertices(const Vector3& half_edges) {
+  std::vector<Vector3> vertices;
+  for (int i = 0; i < 8; ++i) {
+    vertices.push_back(half_edges.cwiseProduct(Vector3(i % 2 * 2 - 1, i / 2 % 2 * 2 - 1, i / 4 * 2 - 1)));
+  }
+  return vertices;
+}
+
+double box_distance(const Vector3& half_edges, const Vector3& p) {
+  const Vector3 beyond = p.cwiseAbs() - half_edges;
+  return beyond.cwiseMax(0.0).norm() + std::min(0.0, beyond.maxCoeff());
+}
+
+std::vector<std::uint32_t> all(std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
+  return numbers;
+}
+
+TEST(Facets, HaveTheDistanceOfABox) {
+  const Vector3 half(0.3, 0.2, 0.1);
+  test::Random random(1);
+  for (int turn = 0; turn < 5; ++turn) {
+    const Pose pose{exp_rotation(random.between(0.0, 3.0) * random.direction()), random.in_cube(2.0)};
+    std::vector<Vector3> vertices = box_vertices(half);
+    for (Vector3& v : vertices) v = pose * v;
+    const auto facets = facets_of(vertices, kBoxTriangles);
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3 p = random.in_cube(0.5);
+      const ValueAndGradient g = facet_distance(facets, all(12), pose * p);
+      ASSERT_NEAR(g.value, box_distance(half, p), 1e-12) << p.transpose();
+      ASSERT_NEAR(g.gradient.norm(), 1.0, 1e-12);
+      const double step = 1e-6;
+      const Vector3 direction = random.direction();
+      const double ahead = box_distance(half, p + step * direction), behind = box_distance(half, p - step * direction);
+      if (std::fabs(ahead - 2.0 * g.value + behind) > 1e-3 * step) continue;  // a crease within
+      ASSERT_NEAR(g.gradient.dot(pose.rotation * direction), (ahead - behind) / (2.0 * step), 1e-4) << p.transpose();
+    }
+  }
+}
+
+/// The corner of a room: the same box inside out.
+TEST(Facets, HaveTheDistanceOfACavity) {
+  const Vector3 half(0.3, 0.2, 0.1);
+  std::vector<Triangle> inward = kBoxTriangles;
+  for (Triangle& t : inward) std::swap(t[1], t[2]);
+  const auto facets = facets_of(box_vertices(half), inward);
+  test::Random random(2);
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3 p = random.in_cube(0.5);
+    ASSERT_NEAR(facet_distance(facets, all(12), p).value, -box_distance(half, p), 1e-12) << p.transpose();
+  }
+}
+
+/// A tetrahedron so sharp that at its apex most points outside lie behind two of its three faces.
+TEST(Facets, TellTheSideAboutASharpApex) {
+  const std::vector<Vector3> vertices = {{0, 0, 1}, {0.1, 0, 0}, {-0.05, 0.08, 0}, {-0.05, -0.08, 0}};
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  const auto facets = facets_of(vertices, triangles);
+  test::Random random(3);
+  int above_apex = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 p = Vector3(0, 0, 0.5) + random.in_cube(0.7);
+    bool inside = true;
+    for (const format::Facet& f : facets) {
+      const Vector3 n = Eigen::Map<const Vector3>(f.normal);
+      inside = inside && n.dot(p - Eigen::Map<const Vector3>(f.vertex[0])) < 0.0;
+    }
+    const double g = facet_distance(facets, all(4), p).value;
+    ASSERT_EQ(g < 0.0, inside) << p.transpose();
+    if (std::fabs(g - (p - vertices[0]).norm()) < 1e-12) ++above_apex;
+  }
+  EXPECT_GT(above_apex, 1000);
+}
+
+/// On the surface the gradient is the normal of a face; just off it, the direction from the nearest place.
+TEST(Facets, HaveANormalOnTheSurfaceItself) {
+  const auto facets = facets_of(box_vertices(Vector3::Constant(0.5)), kBoxTriangles);
+  const auto at = [&](const Vector3& p) { return facet_distance(facets, all(12), p); };
+  EXPECT_EQ(at({0.1, 0.2, 0.5}).gradient, Vector3::UnitZ());
+  EXPECT_EQ(at({0.1, 0.2, 0.5}).value, 0.0);
+  for (const Vector3& p : {Vector3(0.5, 0.2, 0.5), Vector3(0.5, -0.5, 0.5)}) {
+    EXPECT_EQ(at(p).value, 0.0);
+    EXPECT_EQ(at(p).gradient.cwiseProduct(p).sum(), 0.5) << "one face's";
+  }
+  const double tiny = 1e-9;
+  EXPECT_LE((at({0.5 + tiny, 0.2, 0.5 + tiny}).gradient - Vector3(1, 0, 1).normalized()).norm(), 1e-6);
+  EXPECT_LE((at({0.5 + tiny, 0.5 + tiny, 0.5 + tiny}).gradient - Vector3::Ones().normalized()).norm(), 1e-6);
+}
+
+TEST(Facets, OfOneCellAreThoseOfItsBits) {
+  const auto facets = facets_of(box_vertices(Vector3::Constant(0.5)), kBoxTriangles);
+  format::ExactBrick exact{};
+  exact.facet_count = 3;
+  exact.facet[0] = 2, exact.facet[1] = 3, exact.facet[2] = 10;
+  exact.cell[0] = 0b011;   // the upper face
+  exact.cell[63] = 0b100;  // half of the face at +x
+  const Vector3 p(0.7, -0.4, 0.8);
+  EXPECT_NEAR(facet_distance(facets, exact, 0, p).value, std::hypot(0.2, 0.3), 1e-12);
+  EXPECT_EQ(facet_distance(facets, exact, 63, p).value, facet_distance(facets, std::array{10u}, p).value);
+}
+
+}  // namespace
+}  // namespace godobject

@@ -1,0 +1,159 @@
+#include "toolchain/scene_compiler/field/surface_facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/scene/facets.h"
+#include "tests/scene_compiler/brute_force.h"
+#include "tests/scene_compiler/simple_meshes.h"
+#include "tests/scene_compiler/test_meshes.h"
+#include "tests/support/random.h"
+
+namespace godobject::scene_compiler::surface_facets_test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The facets near a cube give the mesh's distance, with its sign, at every point of the cube.
+TEST(SurfaceFacets, NearACubeGiveTheDistanceInIt) {
+  test::Random random(1);
+  for (const TriangleMesh& mesh : {test::moved(test::box_mesh({0.03, 0.02, 0.015}), test::odd_motion()),
+                                   test::ball_mesh(0.012, 8), load("bracket", 0.3)}) {
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.0);
+    const SurfaceFacets facets(surface, 0.0);
+    const BruteForce truth(surface.mesh());
+    int served = 0;
+    for (int i = 0; i < 300; ++i) {
+      const auto& t = mesh.triangles[static_cast<std::size_t>(random.integer(0, 1 << 30)) % mesh.triangles.size()];
+      const double half = random.between(2e-4, 1e-3);
+      const Vector3d center = mesh.vertices[t[0]] + 3.0 * half * random.in_cube(1.0);
+      const auto near = facets.near(center, half);
+      if (!near) continue;
+      ++served;
+      for (int k = 0; k < 20; ++k) {
+        const Vector3d p = center + half * random.in_cube(1.0);
+        const double sign = truth.winding_number(p) > 0.5 ? -1.0 : 1.0;
+        ASSERT_NEAR(facet_distance(facets.all(), *near, p).value, sign * truth.distance(p), 1e-9) << p.transpose();
+      }
+    }
+    EXPECT_GT(served, 150);
+  }
+}
+
+TEST(SurfaceFacets, AreNoneWhereTheyWouldNotTellTheSide) {
+  const Vector3d corner(0.015, 0.01, 0.0075);
+  const TriangleMesh box = test::box_mesh(2.0 * corner);
+  const auto none_near = [](const TriangleMesh& mesh, SurfaceKind kind, const Vector3d& at, double dilation = 0.0) {
+    const SolidSurface surface(mesh, kind, 1e-3, dilation);
+    return !SurfaceFacets(surface, 0.0).near(at, 5e-4);
+  };
+  Vector3d at = corner;
+  for (const auto& v : box.vertices) at = v;  // a vertex of the last triangle
+  EXPECT_FALSE(none_near(box, SurfaceKind::kSolid, at));
+  EXPECT_TRUE(none_near(box, SurfaceKind::kShell, at));
+  EXPECT_TRUE(none_near(box, SurfaceKind::kSolid, at, 0.003)) << "dilated";
+  TriangleMesh open = box;
+  at = open.vertices[open.triangles.back()[0]];
+  open.triangles.pop_back();
+  EXPECT_TRUE(none_near(open, SurfaceKind::kSolid, at)) << "at a hole";
+  // a fan of more facets than an exact brick may have
+  const TriangleMesh cone = cone_mesh(0.01, 0.02, 80);
+  EXPECT_TRUE(none_near(cone, SurfaceKind::kSolid, cone.vertices[0]));
+  EXPECT_FALSE(none_near(cone, SurfaceKind::kSolid, cone.vertices[2]));
+}
+
+/// A sliver folded over the face beside it, as exporters leave them, is left out and its slit is closed.
+TEST(SurfaceFacets, LeaveOutFoldedSlivers) {
+  TriangleMesh mesh = test::box_mesh({0.03, 0.02, 0.015});
+  const auto t = mesh.triangles[0];
+  const auto vertex = [&](std::uint32_t v) { return mesh.vertices[v]; };
+  const Vector3d inward = (vertex(t[2]) - 0.5 * (vertex(t[0]) + vertex(t[1]))).normalized();
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(0.5 * (vertex(t[0]) + vertex(t[1])) - 1e-6 * inward);  // beyond the edge
+  mesh.triangles[0] = {t[0], middle, t[2]};
+  mesh.triangles.push_back({middle, t[1], t[2]});
+  mesh.triangles.push_back({t[0], t[1], middle});  // the sliver, turned over
+  const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.0);
+  const Vector3d at = vertex(middle);
+  EXPECT_FALSE(SurfaceFacets(surface, 0.0).near(at, 5e-4));
+  const SurfaceFacets facets(surface, 2e-6);
+  const auto near = facets.near(at, 5e-4);
+  ASSERT_TRUE(near);
+  test::Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p = at + 5e-4 * random.in_cube(1.0);
+    ASSERT_NEAR(facet_distance(facets.all(), *near, p).value, surface.signed_distance(p), 2e-6) << p.transpose();
+  }
+}
+
+TEST(SurfaceFacets, TurnAtCreasesAndThinWallsOnly) {
+  const TriangleMesh box = test::box_mesh({0.03, 0.02, 1e-3});
+  const SurfaceFacets facets(SolidSurface(box, SurfaceKind::kSolid, 0.0), 0.0);
+  const Vector3d low = *std::min_element(box.vertices.begin(), box.vertices.end(),
+                                         [](const auto& a, const auto& b) { return a.sum() < b.sum(); });
+  const auto turns_at = [&](const Vector3d& from_corner, double half) {
+    return facets.turns(*facets.near(low + from_corner, half));
+  };
+  EXPECT_FALSE(turns_at({0.01, 0.01, 0.0}, 1e-4)) << "a face";
+  EXPECT_TRUE(turns_at({0.01, 0.01, 0.0}, 1e-3)) << "both faces of a wall";
+  EXPECT_TRUE(turns_at({0.01, 0.0, 0.0}, 1e-4)) << "an edge";
+  const TriangleMesh ball = test::ball_mesh(0.012, 16);
+  const SurfaceFacets round(SolidSurface(ball, SurfaceKind::kSolid, 0.0), 0.0);
+  EXPECT_FALSE(round.turns(*round.near(ball.vertices[20], 1e-4)));
+}
+
+/// The bound of the difference holds at random points, and is not far above the largest.
+TEST(FacetDifference, BoundsWhatIsMeasured) {
+  test::Random random(3);
+  const TriangleMesh mesh =
+      test::moved(hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067}), test::odd_motion());
+  const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.0);
+  const SurfaceFacets facets(surface, 0.0);
+  double loosest = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const auto& t = mesh.triangles[static_cast<std::size_t>(random.integer(0, 1 << 30)) % mesh.triangles.size()];
+    const double edge = 1e-3;
+    const double share = random.between(0.0, 1.0);
+    const Vector3d on_edge = mesh.vertices[t[0]] + share * (mesh.vertices[t[1]] - mesh.vertices[t[0]]);
+    const Vector3d center = on_edge + edge * random.in_cube(1.0);
+    const Vector3d low = center - Vector3d::Constant(0.5 * edge);
+    const auto near = facets.near(center, 0.5 * edge);
+    ASSERT_TRUE(near);
+    format::ExactBrick exact{};
+    exact.facet_count = static_cast<std::uint16_t>(near->size());
+    std::copy(near->begin(), near->end(), std::begin(exact.facet));
+    exact.cell[7] = ~std::uint64_t{0} >> (64 - near->size());
+    const double offset = random.between(-0.2, 0.2) * edge;
+    double corners[8];
+    for (unsigned c = 0; c < 8; ++c) {
+      corners[c] = surface.signed_distance(low + edge * Vector3d(c & 1, c >> 1 & 1, c >> 2)) + offset;
+    }
+    const auto bound = FacetDifference(facets.all(), exact, offset).largest(7, low, edge, corners);
+    double anywhere = 0.0, outside = 0.0;
+    for (int k = 0; k < 500; ++k) {
+      const Vector3d at = 0.5 * (random.in_cube(1.0) + Vector3d::Ones());
+      double interpolated = 0.0;
+      for (unsigned c = 0; c < 8; ++c) {
+        double weight = 1.0;
+        for (unsigned axis = 0; axis < 3; ++axis) weight *= (c >> axis & 1) != 0 ? at[axis] : 1.0 - at[axis];
+        interpolated += weight * corners[c];
+      }
+      const double g = surface.signed_distance(low + edge * at) + offset;
+      anywhere = std::max(anywhere, std::abs(g - interpolated));
+      if (g > 0.0 || interpolated > 0.0) outside = std::max(outside, std::abs(g - interpolated));
+    }
+    ASSERT_GE(bound.anywhere, anywhere - 1e-12);
+    ASSERT_GE(bound.outside, outside - 1e-12);
+    ASSERT_GE(bound.anywhere, bound.outside);
+    loosest = std::max(loosest, bound.anywhere - anywhere);
+  }
+  EXPECT_LT(loosest, 0.4e-3);
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler::surface_facets_test

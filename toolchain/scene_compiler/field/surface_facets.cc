@@ -1,0 +1,245 @@
+#include "toolchain/scene_compiler/field/surface_facets.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "core/scene/facets.h"
+#include "toolchain/scene_compiler/mesh/body_mesh.h"
+#include "toolchain/scene_compiler/mesh/flat_vertices.h"
+#include "toolchain/scene_compiler/mesh/mesh_edges.h"
+#include "toolchain/scene_compiler/mesh/mesh_normals.h"
+#include "toolchain/scene_compiler/mesh/near_triangles.h"
+#include "toolchain/scene_compiler/mesh/slits.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFolded = 1e-4;         // length of the sum of two unit normals that point against each other
+constexpr std::size_t kMostOfCube = 24;  // chosen: a look-up compares them all
+constexpr int kParts = 2;                // halvings of a cube in which the nearest triangles are searched
+constexpr double kHalfDiagonal = 0.86602540378443865;  // of a cube, of its edge
+
+Eigen::Map<const Vector3d> vector(const double (&v)[3]) { return Eigen::Map<const Vector3d>(v); }
+
+void store(const Vector3d& v, double (&out)[3]) { std::copy(v.data(), v.data() + 3, out); }
+
+void store(const Vector3d& v, float (&out)[3]) {
+  for (int axis = 0; axis < 3; ++axis) out[axis] = static_cast<float>(v[axis]);
+}
+
+/// Returns the mean of the normals of the faces at a vertex, weighted by their angles there.
+Vector3d vertex_normal(const TriangleMesh& mesh, const std::vector<Vector3d>& face_normals,
+                       const VertexCorners& corners, std::uint32_t vertex) {
+  Vector3d sum = Vector3d::Zero();
+  for (const std::size_t corner : corners.of(vertex)) {
+    sum += corner_angle(mesh, corner / 3, corner % 3) * face_normals[corner / 3];
+  }
+  return sum;
+}
+
+/// Adds the triangles that are near to one of the parts of a cube, divided so many times: the balls about small parts
+/// reach less far beyond them.
+void add_near(const NearTriangles& near, const Vector3d& center, double half_edge, int divisions,
+              std::vector<std::uint32_t>& numbers) {
+  if (divisions == 0 || near.size() <= 1) {
+    const std::vector<std::uint32_t> ids = near.ids();
+    numbers.insert(numbers.end(), ids.begin(), ids.end());
+    return;
+  }
+  for (int part = 0; part < 8; ++part) {
+    const Vector3d side((part & 1) != 0 ? 0.5 : -0.5, (part & 2) != 0 ? 0.5 : -0.5, (part & 4) != 0 ? 0.5 : -0.5);
+    const Vector3d middle = center + half_edge * side;
+    add_near(NearTriangles(near, middle, kHalfDiagonal * half_edge), middle, 0.5 * half_edge, divisions - 1, numbers);
+  }
+}
+
+/// Leaves out the triangles that are no higher than `flat`, closes the slits that they leave, and joins the triangles of
+/// flat faces.
+void leave_out_flat(TriangleMesh& mesh, double flat) {
+  std::erase_if(mesh.triangles, [&](const auto& t) {
+    const Vector3d& a = mesh.vertices[t[0]];
+    const Vector3d& b = mesh.vertices[t[1]];
+    const Vector3d& c = mesh.vertices[t[2]];
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    return (b - a).cross(c - a).norm() <= flat * longest;
+  });
+  close_slits(mesh, flat);
+  remove_flat_vertices(mesh, flat);
+}
+
+/// Returns the sum of the unit normals of the faces at an edge; zero where it tells no side.
+Vector3d edge_normal(const MeshEdges& edges, const std::vector<Vector3d>& face_normals, const MeshEdges::Edge& edge) {
+  const auto sides = edges.sides(edge);
+  if (sides.size() != 2 || sides[0].forward == sides[1].forward) return Vector3d::Zero();
+  const Vector3d sum = face_normals[sides[0].triangle] + face_normals[sides[1].triangle];
+  return sum.norm() < kFolded ? Vector3d::Zero() : sum;
+}
+
+}  // namespace
+
+SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(flat) {
+  if (surface.dilation() > 0.0) return;
+  BodyMesh body(surface);
+  TriangleMesh& mesh = body.mesh;
+  const bool solid = std::find(body.in_shell.begin(), body.in_shell.end(), true) == body.in_shell.end();
+  if (solid) {
+    leave_out_flat(mesh, flat);
+    body.in_shell.assign(mesh.triangles.size(), false);
+  }
+  const std::vector<Vector3d> normals = scene_compiler::face_normals(mesh);
+  const MeshEdges edges(mesh);
+  const VertexCorners corners(mesh);
+  facets_.resize(mesh.triangles.size());
+  valid_.resize(mesh.triangles.size());
+  std::vector<TriangleTree::Triangle> triangles;
+  for (std::size_t t = 0; t < facets_.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    triangles.push_back({mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]],
+                         static_cast<std::uint32_t>(t)});
+    valid_[t] = !body.in_shell[t] && !normals[t].isZero();
+    store(normals[t], facets_[t].normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      store(mesh.vertices[triangle[k]], facets_[t].vertex[k]);
+      const Vector3d normal = vertex_normal(mesh, normals, corners, triangle[k]);
+      valid_[t] = valid_[t] && normal.norm() >= kFolded;
+      store(normal.normalized(), facets_[t].vertex_normal[k]);
+    }
+  }
+  for (const MeshEdges::Edge& edge : edges.all()) {
+    const Vector3d normal = edge_normal(edges, normals, edge);
+    for (const MeshEdges::Side& side : edges.sides(edge)) {
+      const auto& triangle = mesh.triangles[side.triangle];
+      const auto k =
+          std::find(triangle.begin(), triangle.end(), side.forward ? edge.low : edge.high) - triangle.begin();
+      store(normal.normalized(), facets_[side.triangle].edge_normal[k]);
+      if (normal.isZero()) valid_[side.triangle] = false;
+    }
+  }
+  tree_ = TriangleTree(std::move(triangles));
+}
+
+std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& center, double half_edge) const {
+  if (facets_.empty()) return {};
+  const NearTriangles near(tree_, center, 2.0 * kHalfDiagonal * half_edge);
+  std::vector<std::uint32_t> numbers;
+  add_near(near, center, half_edge, kParts, numbers);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  if (numbers.size() > kMostOfCube) return {};
+  for (const std::uint32_t number : numbers) {
+    if (!valid_[number]) return {};
+  }
+  return numbers;
+}
+
+bool SurfaceFacets::turns(std::span<const std::uint32_t> facets) const {
+  for (std::size_t i = 1; i < facets.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (vector(facets_[facets[i]].normal).dot(vector(facets_[facets[k]].normal)) < kCreaseCosine) return true;
+    }
+  }
+  return false;
+}
+
+/// A cell with the distances at its corners.
+struct FacetDifference::Cell {
+  Vector3d low;
+  double edge;
+  const double (&corners)[8];
+
+  /// Interpolates at a place in the cell, 0 .. 1.
+  double interpolated(const Vector3d& at) const {
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      double share = 1.0;
+      for (unsigned axis = 0; axis < 3; ++axis) share *= (corner >> axis & 1) != 0 ? at[axis] : 1.0 - at[axis];
+      sum += share * corners[corner];
+    }
+    return sum;
+  }
+};
+
+/// A cube in a cell.
+struct FacetDifference::Box {
+  Vector3d center;  ///< 0 .. 1
+  double half_edge;
+};
+
+FacetDifference::Largest FacetDifference::largest(int cell, const Vector3d& low, double cell_edge,
+                                                  const double (&corners)[8]) const {
+  std::array<std::uint32_t, format::kMostFacets> numbers{};
+  std::size_t count = 0;
+  for (std::uint64_t left = exact_.cell[cell]; left != 0; left &= left - 1) {
+    numbers[count++] = exact_.facet[std::countr_zero(left)];
+  }
+  Largest largest;
+  add({low, cell_edge, corners}, {Vector3d::Constant(0.5), 0.5}, std::span(numbers).first(count), largest);
+  return largest;
+}
+
+/// Adds a box. Only the facets that are nearest to some point of the box count. There the gradient of g is the normal
+/// of one of them, or lies between those of several. So g is as far from its tangent plane at the centre as the normals
+/// are apart, per length. The difference of that plane and I[phi] is largest at a corner. Boxes are divided unless that
+/// cannot change the result by much.
+void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std::uint32_t> numbers,
+                          Largest& largest) const {
+  constexpr double kSmallest = 1.0 / 16.0;  // half edge of the last boxes, of the cell's edge
+  constexpr double kEnough = 0.05;         // of the cell's edge
+  const Vector3d p = cell.low + cell.edge * box.center;
+  const double radius = 2.0 * kHalfDiagonal * box.half_edge * cell.edge;
+  std::array<double, format::kMostFacets> distance{};
+  double nearest = std::numeric_limits<double>::infinity();
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const format::Facet& f = facets_[numbers[i]];
+    const Vector3d on = nearest_point_on_triangle(p, vector(f.vertex[0]), vector(f.vertex[1]), vector(f.vertex[2]));
+    distance[i] = (on - p).norm();
+    if (distance[i] >= nearest) continue;
+    nearest = distance[i];
+    normal = vector(f.normal);
+  }
+  std::array<std::uint32_t, format::kMostFacets> near{};
+  std::size_t count = 0;
+  double apart = 0.0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (distance[i] > nearest + 2.0 * radius) continue;
+    near[count++] = numbers[i];
+    apart = std::max(apart, (vector(facets_[numbers[i]].normal) - normal).norm());
+  }
+  const auto counting = std::span(near).first(count);
+  const double value = facet_distance(facets_, counting, p).value + offset_;
+  double bound = 0.0;
+  bool outside = value + radius > 0.0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vector3d side((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
+    const Vector3d away = box.half_edge * side;
+    const double plane = value + cell.edge * normal.dot(away);
+    const double interpolated = cell.interpolated(box.center + away);
+    outside = outside || interpolated > 0.0;
+    bound = std::max(bound, std::abs(plane - interpolated));
+  }
+  // between normals that are more than a right angle apart any direction may lie
+  if (apart > std::numbers::sqrt2) apart = 2.0;
+  bound += apart * radius;
+  if (bound <= (outside ? largest.outside : largest.anywhere)) return;
+  if (box.half_edge <= kSmallest || apart * radius <= kEnough * cell.edge) {
+    largest.anywhere = std::max(largest.anywhere, bound);
+    if (outside) largest.outside = bound;
+    return;
+  }
+  for (unsigned part = 0; part < 8; ++part) {
+    const Vector3d side((part & 1) != 0 ? 0.5 : -0.5, (part & 2) != 0 ? 0.5 : -0.5, (part & 4) != 0 ? 0.5 : -0.5);
+    add(cell, {box.center + box.half_edge * side, 0.5 * box.half_edge}, counting, largest);
+  }
+}
+
+}  // namespace godobject::scene_compiler

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/scene/format.h"
+#include "toolchain/scene_compiler/mesh/solid_surface.h"
+#include "toolchain/scene_compiler/mesh/triangle_tree.h"
+
+namespace godobject::scene_compiler {
+
+/// The facets of a surface's solids: its triangles, without those that are no higher than a length `flat` (exporters
+/// leave such slivers, often folded). Their neighbours close the slits. So distances are off by that length at most.
+///
+/// A facet of a shell, one without area, and one with an edge at which the surface is open, folded or branched, does
+/// not tell the side of a point. Near it there are no facets. A dilated surface is round and has none.
+class SurfaceFacets {
+ public:
+  SurfaceFacets() = default;
+  SurfaceFacets(const SolidSurface& surface, double flat);
+
+  const std::vector<format::Facet>& all() const { return facets_; }
+  bool empty() const { return facets_.empty(); }
+  double flat() const { return flat_; }
+
+  /// Returns the facets that may be the nearest ones of a point in the cube about `center`, ascending; none if one
+  /// of them does not tell the side, or if there are more than 24. Includes few others. Cost: a search
+  /// among all triangles, and some hundred distances for each that is near.
+  std::optional<std::vector<std::uint32_t>> near(const Eigen::Vector3d& center, double half_edge) const;
+
+  /// True if the surface turns by more than the crease angle among these facets: an edge, a corner, or another part of
+  /// the surface. There interpolation errs by a share of the cell, elsewhere by a share of its square.
+  bool turns(std::span<const std::uint32_t> facets) const;
+
+ private:
+  std::vector<format::Facet> facets_;
+  std::vector<char> valid_;
+  double flat_ = 0.0;
+  TriangleTree tree_;
+};
+
+/// Bounds the differences of an exact brick's interpolated distances from the distance to its facets.
+class FacetDifference {
+ public:
+  /// Stores references to both.
+  FacetDifference(std::span<const format::Facet> facets, const format::ExactBrick& exact, double offset)
+      : facets_(facets), exact_(exact), offset_(offset) {}
+
+  /// Bounds of |g + offset - I[phi]| in a cell [m].
+  struct Largest {
+    double anywhere = 0.0;
+    double outside = 0.0;  ///< where one of g + offset and I[phi] is positive
+  };
+
+  /// Returns the bounds in a cell at `low` with these distances at its corners, x fastest. Cost: some distances to
+  /// facets for each part of the cell in which g is about a plane; some hundreds where the surface turns.
+  Largest largest(int cell, const Eigen::Vector3d& low, double cell_edge, const double (&corners)[8]) const;
+
+ private:
+  struct Cell;
+  struct Box;
+  void add(const Cell& cell, const Box& box, std::span<const std::uint32_t> numbers, Largest& largest) const;
+
+  std::span<const format::Facet> facets_;
+  const format::ExactBrick& exact_;
+  double offset_;
+};
+
+}  // namespace godobject::scene_compiler
