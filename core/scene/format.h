@@ -208,9 +208,9 @@ struct Facet {
 };
 static_assert(sizeof(Facet) == 168);
 
-inline constexpr int kBrickParts = kBrickCells * kBrickCells * kBrickCells;  ///< cells of a brick
-inline constexpr int kMostFacets = 64;                                       ///< of an ExactBrick
-inline constexpr std::uint16_t kOneWeight = 1u << 15;                        ///< ExactBrick::weight that stands for 1
+inline constexpr int kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
+inline constexpr int kMostFacets = 64;                 ///< of an ExactBrick: one bit each in a cell's word
+inline constexpr std::uint16_t kOneWeight = 1u << 15;  ///< ExactBrick::weight that stands for 1
 
 /// A brick in which the field is exact about edges, corners and narrow places, where trilinear interpolation would
 /// ripple. There the field is
@@ -218,10 +218,11 @@ inline constexpr std::uint16_t kOneWeight = 1u << 15;                        ///
 ///   phi(x) = (1 - I[w](x)) I[phi](x) + I[w](x) (g(x) + facet_offset),
 ///
 /// with the trilinear interpolation I of the nodes' distances and weights w, and the signed distance g to the cell's
-/// facets. They are all that are nearest to any point of the cell. Weights are 0 or 1. On the border to a coarser brick
+/// facets. In a cell with a weight they are all that are nearest to any point of it; in any other cell no facet is
+/// looked up. Weights are 0 or 1. On the border to a coarser brick
 /// they are interpolated, as values are. So the field is continuous.
 struct alignas(64) ExactBrick {
-  std::uint64_t cell[kBrickParts];     ///< facets of each cell, x fastest: bit i for facet[i]; at least one
+  std::uint64_t cell[kCellsPerBrick];  ///< facets of each cell, x fastest: bit i for facet[i]; at least one
   std::uint32_t facet[kMostFacets];    ///< numbers of Facets, ascending; unused ones are 0
   std::uint16_t weight[kBrickValues];  ///< of the nodes, in units of 1 / kOneWeight
   std::uint16_t facet_count;           ///< 1 .. kMostFacets

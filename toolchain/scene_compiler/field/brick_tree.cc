@@ -46,7 +46,7 @@ unsigned octant_of(int cell) {
 /// Returns the cells of octants, one bit each.
 std::uint64_t cells_of_octants(std::uint8_t octants) {
   std::uint64_t cells = 0;
-  for (int cell = 0; cell < format::kBrickParts; ++cell) {
+  for (int cell = 0; cell < format::kCellsPerBrick; ++cell) {
     if ((octants >> octant_of(cell) & 1) != 0) cells |= std::uint64_t{1} << cell;
   }
   return cells;
@@ -117,11 +117,11 @@ double BrickTree::blended(std::uint32_t brick, const Vector3d& p, double interpo
   return interpolated + weight * (facet_distance(facets_.all(), exact, cell_of(brick, p), p).value - interpolated);
 }
 
-void BrickTree::add_slope(std::uint32_t brick, double slack, FieldSlope& slope) const {
+void BrickTree::add_slope(std::uint32_t brick, double slack, double enough, FieldSlope& slope) const {
   if (!exact_[brick]) return slope.add(stored(brick), whole(brick));
   Brick smaller = stored(brick);
   for (float& value : smaller.value) value += static_cast<float>(slack);
-  slope.add(smaller, whole(brick), *exact_[brick], facets_.all(), slack, low(brick));
+  slope.add(smaller, whole(brick), *exact_[brick], facets_.all(), slack, low(brick), enough);
 }
 
 bool BrickTree::turns_about(const Leaf& leaf, const Vector3d& p) const {
@@ -555,7 +555,7 @@ bool BrickTree::find_facets(std::uint32_t brick) {
   const std::uint64_t cells = weighed_cells(brick, exact);
   if ((cells & ~weighed_[brick]) == 0) return true;
   const double edge = cell_edge(level(brick));
-  std::array<std::vector<std::uint32_t>, format::kBrickParts> of_cell;
+  std::array<std::vector<std::uint32_t>, format::kCellsPerBrick> of_cell;
   std::vector<std::uint32_t> numbers;
   for (std::size_t cell = 0; cell < of_cell.size(); ++cell) {
     if ((cells >> cell & 1) == 0) continue;

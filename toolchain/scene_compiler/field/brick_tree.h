@@ -110,8 +110,9 @@ class BrickTree {
   /// the tree was made with.
   const std::optional<format::ExactBrick>& exact_brick(std::uint32_t brick) const { return exact_[brick]; }
 
-  /// Adds the slope of the octants that are not halved, of the field that `round` makes with this slack.
-  void add_slope(std::uint32_t brick, double slack, FieldSlope& slope) const;
+  /// Adds the slope of the octants that are not halved, of the field that `round` makes with this slack. `enough` as in
+  /// FieldSlope::add.
+  void add_slope(std::uint32_t brick, double slack, double enough, FieldSlope& slope) const;
 
   /// Halves the `wanted` octants that are not halved yet: makes bricks of them with the nodes of `octants`.
   void halve(std::uint32_t brick, std::uint8_t wanted, const std::array<Brick, 8>& octants);

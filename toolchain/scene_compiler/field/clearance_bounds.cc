@@ -129,18 +129,20 @@ class ClearanceBounds {
       if (octants == 0) return;
       number = refined.brick;
     }
+    double deviation = 0.0;
     FieldSlope of_leaf(cell_edge, 2.0 * format::kMostRoundedOff * field_.grid.quantum);
     const Brick& brick = field_.bricks[number];
     if (brick.exact == 0) {
       of_leaf.add(brick, octants);
     } else {
-      of_leaf.add(brick, octants, field_.exact[brick.exact - 1], field_.facets, field_.grid.facet_offset, low);
+      const format::ExactBrick& exact = field_.exact[brick.exact - 1];
+      deviation = of_leaf.add(brick, octants, exact, field_.facets, field_.grid.facet_offset, low);
     }
     // refined bricks have no seam: refinement leaves seams alone
     const bool halved = cell_edge < field_.grid.voxel_size;
     facts.smooth = std::max(facts.smooth, halved ? of_leaf.largest_with_seams() : of_leaf.largest());
     facts.seamed = std::max(facts.seamed, of_leaf.largest_with_seams());
-    double deviation = 0.0;
+    double off_own = 0.0;
     if (halved) {
       // trilinear in each of the leaf's cells, so largest at their nodes
       for_each_cell(brick, octants, [&](const CellEdges&, int x, int y, int z) {
@@ -148,16 +150,12 @@ class ClearanceBounds {
           const Vector3d at(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2));
           const Vector3d cells = (low - position.low + cell_edge * at) / field_.grid.voxel_size;
           const auto node = static_cast<int>(at.x() + format::kBrickNodes * (at.y() + format::kBrickNodes * at.z()));
-          deviation =
-              std::max(deviation, std::abs(static_cast<double>(brick.value[node]) - interpolated(position.own, cells)));
+          off_own =
+              std::max(off_own, std::abs(static_cast<double>(brick.value[node]) - interpolated(position.own, cells)));
         }
       });
     }
-    if (brick.exact != 0) {
-      deviation += exact_deviation(brick, octants, field_.exact[brick.exact - 1], field_.facets,
-                                   field_.grid.facet_offset, low, cell_edge);
-    }
-    facts.deviation = std::max(facts.deviation, deviation);
+    facts.deviation = std::max(facts.deviation, off_own + deviation);
   }
 
   template <class Visit>

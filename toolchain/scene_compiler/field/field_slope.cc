@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "toolchain/scene_compiler/field/surface_facets.h"
 
@@ -47,39 +48,38 @@ struct ExactCell {
 
 }  // namespace
 
-double exact_deviation(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
-                       std::span<const format::Facet> facets, double offset, const Vector3d& low, double cell_edge) {
+double FieldSlope::add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
+                       std::span<const format::Facet> facets, double offset, const Vector3d& low, double enough) {
   const FacetDifference difference(facets, exact, offset);
-  double largest = 0.0;
-  for_each_cell(brick, octants, [&](const CellEdges&, int x, int y, int z) {
-    const ExactCell cell(brick, exact, x, y, z);
-    if (cell.most_weight() == 0.0) return;
-    const double most =
-        difference.largest(cell_number(x, y, z), low + cell_edge * Vector3d(x, y, z), cell_edge, cell.distance)
-            .anywhere;
-    largest = std::max(largest, cell.most_weight() * most);
-  });
-  return largest;
-}
-
-void FieldSlope::add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
-                     std::span<const format::Facet> facets, double offset, const Vector3d& low) {
-  const FacetDifference difference(facets, exact, offset);
+  double deviation = 0.0;
   for_each_cell(brick, octants, [&](const CellEdges& edges, int x, int y, int z) {
     const double plain = edges.largest_gradient(voxel_size_);
     const ExactCell cell(brick, exact, x, y, z);
     const double least = cell.least_weight();
     const double most = cell.most_weight();
-    double gradient = std::max((1.0 - least) * plain + least, (1.0 - most) * plain + most);
-    if (least < most) {
-      const double apart =
-          difference.largest(cell_number(x, y, z), low + voxel_size_ * Vector3d(x, y, z), voxel_size_, cell.distance)
-              .outside;
-      gradient += cell.weight_slope() / voxel_size_ * apart;
+    const double mixed = std::max((1.0 - least) * plain + least, (1.0 - most) * plain + most);
+    const double per_apart = least < most ? cell.weight_slope() / voxel_size_ : 0.0;
+    const int number = cell_number(x, y, z);
+    const Vector3d at = low + voxel_size_ * Vector3d(x, y, z);
+    double gradient = mixed;
+    if (most > 0.0) {
+      const double coarse = enough > 0.0 ? difference.coarse(number, at, voxel_size_, cell.distance) : 0.0;
+      if (mixed + per_apart * coarse < enough) {
+        gradient += per_apart * coarse;
+        deviation = std::max(deviation, most * coarse);
+      } else {
+        // starts from the largest of the other cells: a smaller one need not be found
+        FacetDifference::Largest largest{deviation / most, std::numeric_limits<double>::infinity()};
+        if (per_apart > 0.0) largest.outside = std::max(0.0, (seamed_ / kRounding - mixed) / per_apart);
+        difference.raise(number, at, voxel_size_, cell.distance, largest);
+        if (per_apart > 0.0) gradient += per_apart * largest.outside;
+        deviation = std::max(deviation, most * largest.anywhere);
+      }
     }
     seamed_ = std::max(seamed_, gradient * kRounding);
     smooth_ = std::max(smooth_, gradient * kRounding);
   });
+  return deviation;
 }
 
 }  // namespace godobject::scene_compiler

@@ -30,8 +30,10 @@ class FieldSlope {
   /// gradient of format::ExactBrick's field, with w for I[w]:
   ///
   ///     |grad phi| <= (1 - w) |grad I[phi]| + w + |g + offset - I[phi]| |grad w|.
-  void add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
-           std::span<const format::Facet> facets, double offset, const Eigen::Vector3d& low);
+  ///
+  /// Returns a bound of |phi - I[phi]| [m]. Where a coarse bound of the gradient is below `enough`, both are coarse.
+  double add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
+             std::span<const format::Facet> facets, double offset, const Eigen::Vector3d& low, double enough = 0.0);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }
@@ -44,10 +46,5 @@ class FieldSlope {
   double smooth_ = 0.0;
   double seamed_ = 0.0;
 };
-
-/// Returns a bound of |phi - I[phi]| in octants of an exact brick with its first node at `low` [m].
-double exact_deviation(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
-                       std::span<const format::Facet> facets, double offset, const Eigen::Vector3d& low,
-                       double cell_edge);
 
 }  // namespace godobject::scene_compiler

@@ -139,7 +139,7 @@ class Refinement {
       if (tree.whole(b) == 0 || (tree.level(b) == 0 && !tree.exact_brick(b))) return;
       if (sloped != 0 && tree.changed_in(tree.root(b)) <= sloped) return;
       FieldSlope slope(tree.cell_edge(tree.level(b)));
-      tree.add_slope(b, slack_, slope);
+      tree.add_slope(b, slack_, kSteepestExact, slope);
       is_steep[i] = slope.largest_with_seams() > (tree.exact_brick(b) ? kSteepestExact : kSteepest) ? 1 : 0;
     });
     Steep steep;

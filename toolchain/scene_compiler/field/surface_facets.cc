@@ -24,7 +24,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFolded = 1e-4;         // length of the sum of two unit normals that point against each other
-constexpr std::size_t kMostOfCube = 24;  // chosen: a look-up compares them all
+constexpr std::size_t kMostPlanes = 24;  // of a cube's facets; chosen: a look-up compares them all
+constexpr double kSamePlane = 1e-6;      // length of the difference of two unit normals
 constexpr int kParts = 2;                // halvings of a cube in which the nearest triangles are searched
 constexpr double kHalfDiagonal = 0.86602540378443865;  // of a cube, of its edge
 
@@ -62,8 +63,8 @@ void add_near(const NearTriangles& near, const Vector3d& center, double half_edg
   }
 }
 
-/// Leaves out the triangles that are no higher than `flat`, closes the slits that they leave, and joins the triangles of
-/// flat faces.
+/// Leaves out the triangles that are no higher than `flat`, closes the slits that they leave, and joins the triangles
+/// of flat faces.
 void leave_out_flat(TriangleMesh& mesh, double flat) {
   std::erase_if(mesh.triangles, [&](const auto& t) {
     const Vector3d& a = mesh.vertices[t[0]];
@@ -134,10 +135,15 @@ std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& ce
   add_near(near, center, half_edge, kParts, numbers);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  if (numbers.size() > kMostOfCube) return {};
+  if (numbers.size() > format::kMostFacets) return {};
+  std::vector<Vector3d> planes;
   for (const std::uint32_t number : numbers) {
     if (!valid_[number]) return {};
+    const Vector3d normal = vector(facets_[number].normal);
+    const auto same = [&normal](const Vector3d& other) { return (other - normal).norm() <= kSamePlane; };
+    if (std::none_of(planes.begin(), planes.end(), same)) planes.push_back(normal);
   }
+  if (planes.size() > kMostPlanes) return {};
   return numbers;
 }
 
@@ -174,16 +180,25 @@ struct FacetDifference::Box {
   double half_edge;
 };
 
-FacetDifference::Largest FacetDifference::largest(int cell, const Vector3d& low, double cell_edge,
-                                                  const double (&corners)[8]) const {
+void FacetDifference::raise(int cell, const Vector3d& low, double cell_edge, const double (&corners)[8],
+                            Largest& largest) const {
   std::array<std::uint32_t, format::kMostFacets> numbers{};
   std::size_t count = 0;
   for (std::uint64_t left = exact_.cell[cell]; left != 0; left &= left - 1) {
     numbers[count++] = exact_.facet[std::countr_zero(left)];
   }
-  Largest largest;
   add({low, cell_edge, corners}, {Vector3d::Constant(0.5), 0.5}, std::span(numbers).first(count), largest);
-  return largest;
+}
+
+/// With shares s of the corners, |g - I[phi]| <= sum s |g - phi| <= sum s |p - corner| + largest |g - phi| at a corner.
+/// The sum of the ways is largest in the middle.
+double FacetDifference::coarse(int cell, const Vector3d& low, double cell_edge, const double (&corners)[8]) const {
+  double off = 0.0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vector3d p = low + cell_edge * Vector3d(corner & 1, corner >> 1 & 1, corner >> 2);
+    off = std::max(off, std::abs(facet_distance(facets_, exact_, cell, p).value + offset_ - corners[corner]));
+  }
+  return kHalfDiagonal * cell_edge + off;
 }
 
 /// Adds a box. Only the facets that are nearest to some point of the box count. There the gradient of g is the normal
@@ -193,7 +208,7 @@ FacetDifference::Largest FacetDifference::largest(int cell, const Vector3d& low,
 void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std::uint32_t> numbers,
                           Largest& largest) const {
   constexpr double kSmallest = 1.0 / 16.0;  // half edge of the last boxes, of the cell's edge
-  constexpr double kEnough = 0.05;         // of the cell's edge
+  constexpr double kEnough = 0.05;          // of the cell's edge
   const Vector3d p = cell.low + cell.edge * box.center;
   const double radius = 2.0 * kHalfDiagonal * box.half_edge * cell.edge;
   std::array<double, format::kMostFacets> distance{};
@@ -230,10 +245,10 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
   // between normals that are more than a right angle apart any direction may lie
   if (apart > std::numbers::sqrt2) apart = 2.0;
   bound += apart * radius;
-  if (bound <= (outside ? largest.outside : largest.anywhere)) return;
+  if (bound <= largest.anywhere && (!outside || bound <= largest.outside)) return;
   if (box.half_edge <= kSmallest || apart * radius <= kEnough * cell.edge) {
     largest.anywhere = std::max(largest.anywhere, bound);
-    if (outside) largest.outside = bound;
+    if (outside) largest.outside = std::max(largest.outside, bound);
     return;
   }
   for (unsigned part = 0; part < 8; ++part) {

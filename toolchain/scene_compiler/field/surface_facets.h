@@ -28,8 +28,8 @@ class SurfaceFacets {
   double flat() const { return flat_; }
 
   /// Returns the facets that may be the nearest ones of a point in the cube about `center`, ascending; none if one
-  /// of them does not tell the side, or if there are more than 24. Includes few others. Cost: a search
-  /// among all triangles, and some hundred distances for each that is near.
+  /// of them does not tell the side, if there are more than format::kMostFacets, or if they lie in more than 24 planes.
+  /// Includes few others. Cost: a search among all triangles, and some hundred distances for each that is near.
   std::optional<std::vector<std::uint32_t>> near(const Eigen::Vector3d& center, double half_edge) const;
 
   /// True if the surface turns by more than the crease angle among these facets: an edge, a corner, or another part of
@@ -56,9 +56,15 @@ class FacetDifference {
     double outside = 0.0;  ///< where one of g + offset and I[phi] is positive
   };
 
-  /// Returns the bounds in a cell at `low` with these distances at its corners, x fastest. Cost: some distances to
-  /// facets for each part of the cell in which g is about a plane; some hundreds where the surface turns.
-  Largest largest(int cell, const Eigen::Vector3d& low, double cell_edge, const double (&corners)[8]) const;
+  /// Raises `largest` to bounds in a cell at `low` with these distances at its corners, x fastest. Cost: some distances
+  /// to facets for each part of the cell in which g is about a plane; some hundreds where the surface turns. Parts that
+  /// do not raise the bounds cost less.
+  void raise(int cell, const Eigen::Vector3d& low, double cell_edge, const double (&corners)[8],
+             Largest& largest) const;
+
+  /// Returns a coarser bound of |g + offset - I[phi]| in a cell: g changes by at most the way from a corner. Cost:
+  /// eight distances to facets.
+  double coarse(int cell, const Eigen::Vector3d& low, double cell_edge, const double (&corners)[8]) const;
 
  private:
   struct Cell;
