@@ -79,7 +79,7 @@ struct CellLanes {
   static constexpr int kY = format::kBrickNodes;
   static constexpr int kZ = format::kBrickNodes * format::kBrickNodes;
 
-  Ints stored;       ///< -1: the nodes define the field; 0: outside of the grid, far, or in an exact brick
+  Ints stored;       ///< -1: the nodes define the field; 0: outside of the grid, far, or in a cell with facets
   Ints brick;        ///< index of the brick's first word
   Ints node;         ///< index of the cell's first node
   Floats at[3];      ///< position in the cell, 0 .. 1
@@ -100,9 +100,14 @@ struct CellLanes {
     Ints cell[3] = {x.cell & kCell, y.cell & kCell, z.cell & kCell};
     const Ints refined = within & is_refined(entry);
     if (Vectors::bits(refined) != 0) descend(f, refined, entry, cell);
-    stored = within & (entry >= 0) & ((entry & static_cast<int>(entry_of::kExact)) == 0);
+    stored = within & (entry >= 0);
     brick = kBrickWords * (entry & static_cast<int>(entry_of::kNumber) & stored);
     node = brick + cell[0] + kY * cell[1] + kZ * cell[2];
+    const Ints exact = stored & ((entry & static_cast<int>(entry_of::kExact)) != 0);
+    if (Vectors::bits(exact) != 0) {
+      const Ints number = cell[0] + format::kBrickCells * (cell[1] + format::kBrickCells * cell[2]);
+      stored &= ~(exact & has_facets(f, exact, number));
+    }
   }
 
   /// Returns the brick's bound of the gradient [1].
@@ -114,6 +119,17 @@ struct CellLanes {
  private:
   static Ints is_refined(Ints entry) noexcept {
     return (entry >= 0) & ((entry & static_cast<int>(format::index_entry::kRefined)) != 0);
+  }
+
+  /// Returns -1 where the cell of that number in an exact brick has facets.
+  Ints has_facets(const FieldOfNodes& f, Ints exact, Ints number) const noexcept {
+    constexpr int kDeviation = offsetof(format::Brick, deviation) / sizeof(std::int16_t);
+    static_assert(offsetof(format::Brick, exact) == offsetof(format::Brick, deviation) + sizeof(std::uint16_t));
+    static_assert(offsetof(format::ExactBrick, cell) == 0);
+    constexpr int kExactWords = sizeof(format::ExactBrick) / sizeof(std::uint32_t);
+    const Ints pair = Vectors::gather_pair(f.bricks + kDeviation, brick);
+    const Ints word = (kExactWords * (((pair >> 16) & 0xffff) - 1) + 2 * number) & exact;
+    return (Vectors::gather(f.exact, word) | Vectors::gather(f.exact + 1, word)) != 0;
   }
 
   /// Descends the refinements as Voxelmap::descend.

@@ -1,5 +1,6 @@
 #include "core/scene/facets.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -41,21 +42,25 @@ void compare_edge(const format::Facet& facet, int k, const Vector3& from, const 
   nearest = {squared, away, Vector3fMap(normal).cast<double>(), false};
 }
 
+/// Compares the nearest place of a facet. The triangle lies on the inner side of its edges' planes. So p is at least as
+/// far from it as from the intersection of its plane with the outer side of any of them: most facets end there.
 void compare(const format::Facet& facet, const Vector3& p, NearestPlace& nearest) noexcept {
-  const Vector3Map normal(facet.normal);
-  const Vector3 from[3] = {p - Vector3Map(facet.vertex[0]), p - Vector3Map(facet.vertex[1]),
-                           p - Vector3Map(facet.vertex[2])};
-  const double height = normal.dot(from[0]);
-  const double squared = height * height;
-  if (squared >= nearest.squared_distance) return;
-  bool above_face = true;
-  for (int k = 0; k < 3; ++k) {
-    const Vector3 edge = from[k] - from[k == 2 ? 0 : k + 1];
-    if (normal.cross(edge).dot(from[k]) >= 0.0) continue;
-    above_face = false;
-    compare_edge(facet, k, from[k], edge, nearest);
+  const Eigen::Map<const Eigen::Matrix4d> plane(facet.plane[0]);
+  const Eigen::Vector4d height = plane.col(0) * p.x() + plane.col(1) * p.y() + plane.col(2) * p.z() + plane.col(3);
+  const double squared = height[0] * height[0];
+  const double outside = std::max(std::max(height[1], height[2]), height[3]);
+  const double least = outside > 0.0 ? squared + outside * outside : squared;
+  if (least >= nearest.squared_distance) return;
+  if (outside <= 0.0) {
+    const Vector3 normal = face_normal(facet);
+    nearest = {squared, height[0] * normal, normal, true};
+    return;
   }
-  if (above_face) nearest = {squared, height * normal, normal, true};
+  for (int k = 0; k < 3; ++k) {
+    if (height[k + 1] <= 0.0) continue;
+    const Vector3 vertex = Vector3Map(facet.vertex[k]);
+    compare_edge(facet, k, p - vertex, Vector3Map(facet.vertex[k == 2 ? 0 : k + 1]) - vertex, nearest);
+  }
 }
 
 ValueAndGradient signed_distance(const NearestPlace& nearest) noexcept {
@@ -67,6 +72,16 @@ ValueAndGradient signed_distance(const NearestPlace& nearest) noexcept {
 }
 
 }  // namespace
+
+void set_planes(format::Facet& facet, const Vector3& normal) noexcept {
+  Eigen::Map<Eigen::Matrix4d> plane(facet.plane[0]);
+  for (int i = 0; i < 4; ++i) {
+    const Vector3Map vertex(facet.vertex[i == 0 ? 0 : i - 1]);
+    const Vector3 out =
+        i == 0 ? normal : Vector3((Vector3Map(facet.vertex[i % 3]) - vertex).cross(normal).normalized());
+    plane.row(i) << out.transpose(), -out.dot(vertex);
+  }
+}
 
 ValueAndGradient facet_distance(std::span<const format::Facet> facets, std::span<const std::uint32_t> numbers,
                                 const Vector3& p) noexcept {

@@ -201,12 +201,15 @@ constexpr std::uint16_t encode_lipschitz(float lipschitz) noexcept {
 /// nearest facet. It is positive if the point lies on the side to which the normal of the nearest face, edge or vertex
 /// points (Baerentzen and Aanaes, Signed Distance Computation Using the Angle Weighted Pseudonormal, IEEE TVCG 2005).
 struct Facet {
-  double vertex[3][3];        ///< counter-clockwise from outside [m]
-  double normal[3];           ///< of the face
+  double vertex[3][3];  ///< counter-clockwise from outside [m]
+  /// Planes n x + c = 0 with unit normals n: of the face, and through its edges at right angles to it, out of the
+  /// triangle. plane[0 .. 2][i] are the components of n, plane[3][i] is c [m]; i = 0 the face, i = 1 + k the edge from
+  /// vertex k to vertex k + 1.
+  double plane[4][4];
   float edge_normal[3][3];    ///< of the edge from vertex k to vertex k + 1: mean of the two faces' normals
   float vertex_normal[3][3];  ///< mean of the normals of the faces at the vertex, weighted by their angles there
 };
-static_assert(sizeof(Facet) == 168);
+static_assert(sizeof(Facet) == 272);
 
 inline constexpr int kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
 inline constexpr int kMostFacets = 64;                 ///< of an ExactBrick: one bit each in a cell's word
@@ -219,10 +222,10 @@ inline constexpr std::uint16_t kOneWeight = 1u << 15;  ///< ExactBrick::weight t
 ///
 /// with the trilinear interpolation I of the nodes' distances and weights w, and the signed distance g to the cell's
 /// facets. In a cell with a weight they are all that are nearest to any point of it; in any other cell no facet is
-/// looked up. Weights are 0 or 1. On the border to a coarser brick
+/// looked up. Where a cell has no facet, its nodes have no weight. Weights are 0 or 1. On the border to a coarser brick
 /// they are interpolated, as values are. So the field is continuous.
 struct alignas(64) ExactBrick {
-  std::uint64_t cell[kCellsPerBrick];  ///< facets of each cell, x fastest: bit i for facet[i]; at least one
+  std::uint64_t cell[kCellsPerBrick];  ///< facets of each cell, x fastest: bit i for facet[i]
   std::uint32_t facet[kMostFacets];    ///< numbers of Facets, ascending; unused ones are 0
   std::uint16_t weight[kBrickValues];  ///< of the nodes, in units of 1 / kOneWeight
   std::uint16_t facet_count;           ///< 1 .. kMostFacets

@@ -36,6 +36,7 @@ detail::FieldOfNodes Voxelmap::in_nodes(const Pose& H) const noexcept {
   f.index = index_;
   f.bricks = bricks_[0].value;
   f.refined = refined_ != nullptr ? &refined_[0].brick : &kNoRefinement;
+  f.exact = reinterpret_cast<const std::uint32_t*>(exact_);
   f.stride_y = static_cast<std::int32_t>(stride_y_);
   f.stride_z = static_cast<std::int32_t>(stride_z_);
   const Matrix3 R = H.rotation.toRotationMatrix();

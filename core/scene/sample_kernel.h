@@ -14,6 +14,7 @@ struct FieldOfNodes {
   const std::uint32_t* index;
   const std::int16_t* bricks;
   const std::uint32_t* refined;     ///< at least one word
+  const std::uint32_t* exact;       ///< words of the exact bricks, if a brick is exact
   std::int32_t stride_y, stride_z;  ///< of the index
   double to_field[3][4];            ///< from the points' frame; the last column is the translation [m]
   double origin[3];                 ///< of the grid [m]
@@ -26,7 +27,7 @@ struct FieldOfNodes {
 
 /// Looks up points `first` to `first + lanes` of a batch; the results equal those of Voxelmap::sample to the last bit.
 /// Returns a bit mask of the lanes that it left out: points outside the grid, points where nothing is stored, and
-/// points in bricks with an edge. These get only their position in the field's frame.
+/// points in cells of exact bricks that have facets. These get only their position in the field's frame.
 using LookUpSamples = std::uint32_t(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept;
 
 /// The change from the pose at which points are looked up (FieldOfNodes::to_field) to the pose at the end of their

@@ -196,6 +196,17 @@ bool valid_bricks(std::span<const format::Brick> bricks, std::size_t exact_count
   return true;
 }
 
+/// True if a node of the cell has a weight.
+bool has_weight(const format::ExactBrick& brick, int cell) noexcept {
+  constexpr int kCells = format::kBrickCells;
+  constexpr int kNodes = format::kBrickNodes;
+  const int low = cell % kCells + kNodes * (cell / kCells % kCells + kNodes * (cell / (kCells * kCells)));
+  for (int corner = 0; corner < 8; ++corner) {
+    if (brick.weight[low + (corner & 1) + kNodes * ((corner >> 1 & 1) + kNodes * (corner >> 2))] != 0) return true;
+  }
+  return false;
+}
+
 bool valid_exact_bricks(std::span<const format::ExactBrick> bricks, std::size_t facet_count) noexcept {
   for (const format::ExactBrick& brick : bricks) {
     for (const std::uint16_t weight : brick.weight) {
@@ -208,8 +219,9 @@ bool valid_exact_bricks(std::span<const format::ExactBrick> bricks, std::size_t 
         return false;
     }
     const std::uint64_t all = ~std::uint64_t{0} >> (format::kMostFacets - brick.facet_count);
-    for (const std::uint64_t cell : brick.cell) {
-      if (cell == 0 || (cell & ~all) != 0) return false;
+    for (int number = 0; number < format::kCellsPerBrick; ++number) {
+      const std::uint64_t facets = brick.cell[number];
+      if ((facets & ~all) != 0 || (facets == 0 && has_weight(brick, number))) return false;
     }
   }
   return true;
@@ -224,8 +236,11 @@ bool valid_facets(std::span<const format::Facet> facets) noexcept {
     return squared >= 1.0f - kSingleWithin && squared <= 1.0f + kSingleWithin;
   };
   for (const format::Facet& facet : facets) {
-    const double(&n)[3] = facet.normal;
-    if (!in_range(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1.0 - kUnitWithin, 1.0 + kUnitWithin)) return false;
+    for (int i = 0; i < 4; ++i) {
+      const double n[3] = {facet.plane[0][i], facet.plane[1][i], facet.plane[2][i]};
+      if (!in_range(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1.0 - kUnitWithin, 1.0 + kUnitWithin)) return false;
+      if (!in_range(facet.plane[3][i], -2.0 * kFarthest, 2.0 * kFarthest)) return false;
+    }
     for (int k = 0; k < 3; ++k) {
       for (const double x : facet.vertex[k]) {
         if (!in_range(x, -kFarthest, kFarthest)) return false;

@@ -31,7 +31,6 @@ std::vector<format::Facet> facets_of(const std::vector<Vector3>& vertices, const
   std::vector<format::Facet> facets;
   for (const Triangle& t : triangles) {
     format::Facet facet{};
-    store(normal_of(t), facet.normal);
     for (std::size_t k = 0; k < 3; ++k) {
       store(at(t, k), facet.vertex[k]);
       Vector3 of_edge = normal_of(t), of_vertex = Vector3::Zero();
@@ -46,6 +45,7 @@ std::vector<format::Facet> facets_of(const std::vector<Vector3>& vertices, const
       store(of_edge.normalized(), facet.edge_normal[k]);
       store(of_vertex.normalized(), facet.vertex_normal[k]);
     }
+    set_planes(facet, normal_of(t));
     facets.push_back(facet);
   }
   return facets;
@@ -119,7 +119,7 @@ TEST(Facets, TellTheSideAboutASharpApex) {
     const Vector3 p = Vector3(0, 0, 0.5) + random.in_cube(0.7);
     bool inside = true;
     for (const format::Facet& f : facets) {
-      const Vector3 n = Eigen::Map<const Vector3>(f.normal);
+      const Vector3 n = face_normal(f);
       inside = inside && n.dot(p - Eigen::Map<const Vector3>(f.vertex[0])) < 0.0;
     }
     const double g = facet_distance(facets, all(4), p).value;

@@ -391,11 +391,22 @@ TEST(SceneLimits, OfAFacetsNormalsAreTheirRounding) {
   };
   for (const double off : {-1.1, -0.9, 0.9, 1.1}) {
     const Status expected = std::fabs(off) < 1.0 ? Status::kOk : Status::kImageValue;
-    EXPECT_EQ(status_with([=](format::Facet& f) { f.normal[2] = std::sqrt(1.0 + off * 1e-9); }), expected) << off;
+    for (int i = 0; i < 4; ++i) {
+      const auto lengthen = [=](format::Facet& f) {
+        for (int axis = 0; axis < 3; ++axis) f.plane[axis][i] *= std::sqrt(1.0 + off * 1e-9);
+      };
+      EXPECT_EQ(status_with(lengthen), expected) << off;
+    }
     const auto single = static_cast<float>(std::sqrt(1.0 + off * 1e-5));
     for (int k = 0; k < 3; ++k) {
       EXPECT_EQ(status_with([=](format::Facet& f) { f.edge_normal[k][2] = single; }), expected) << off;
       EXPECT_EQ(status_with([=](format::Facet& f) { f.vertex_normal[k][2] = single; }), expected) << off;
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    for (const double c : {2e7, -2e7}) {
+      EXPECT_EQ(status_with([=](format::Facet& f) { f.plane[3][i] = c; }), Status::kOk);
+      EXPECT_EQ(status_with([=](format::Facet& f) { f.plane[3][i] = c * (1.0 + 1e-12); }), Status::kImageValue);
     }
   }
   for (int k = 0; k < 3; ++k) {

@@ -120,7 +120,7 @@ TEST(SceneStructure, NeedsEveryItemOfItsArrays) {
     ImageParts image = whole;
     image.set<format::Facet>(id, {image.item<format::Facet>(id), test::facet_along_z()});
     EXPECT_EQ(status_of(image), Status::kOk) << "a facet that no brick has";
-    image.item<format::Facet>(id, 1).normal[2] = 0.5;
+    image.item<format::Facet>(id, 1).plane[2][0] = 0.5;
     EXPECT_EQ(status_of(image), Status::kImageValue) << "the second facet is checked as well";
   }
   for (const SectionId id : {SectionId::kExactBricks, SectionId::kBodyExactBricks}) {

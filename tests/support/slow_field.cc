@@ -4,6 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/scene/facets.h"
+
 namespace godobject::test {
 namespace {
 
@@ -93,15 +95,28 @@ class RandomEntries {
         store(vertex_normal[corner[k]], facet.vertex_normal[k]);
         store(edge_normal[corner[k]][corner[(k + 1) % 3]], facet.edge_normal[k]);
       }
-      store((vertex[corner[1]] - vertex[corner[0]]).cross(vertex[corner[2]] - vertex[corner[0]]).normalized(),
-            facet.normal);
+      set_planes(facet,
+                 (vertex[corner[1]] - vertex[corner[0]]).cross(vertex[corner[2]] - vertex[corner[0]]).normalized());
     }
     format::ExactBrick& exact = parts_.exact.emplace_back();
     exact.facet_count = 4;
     for (std::uint32_t face = 0; face < 4; ++face) exact.facet[face] = first + face;
-    for (std::uint64_t& cell : exact.cell) cell = static_cast<std::uint64_t>(random_.integer(1, 15));
     for (std::uint16_t& weight : exact.weight) {
       weight = static_cast<std::uint16_t>(one_of(2) ? random_.integer(0, 1) << 15 : random_.integer(0, 1 << 15));
+    }
+    // half of the bricks have a corner without weights, whose cells may lack facets
+    const int first_weightless =
+        one_of(2) ? format::kBrickNodes : static_cast<int>(random_.integer(1, format::kBrickCells - 1));
+    for (int node = 0; node < format::kBrickValues; ++node) {
+      const int steps[3] = {node % format::kBrickNodes, node / format::kBrickNodes % format::kBrickNodes,
+                            node / (format::kBrickNodes * format::kBrickNodes)};
+      if (std::min({steps[0], steps[1], steps[2]}) >= first_weightless) exact.weight[node] = 0;
+    }
+    for (int number = 0; number < format::kCellsPerBrick; ++number) {
+      const int steps[3] = {number % format::kBrickCells, number / format::kBrickCells % format::kBrickCells,
+                            number / (format::kBrickCells * format::kBrickCells)};
+      const bool may_lack = std::min({steps[0], steps[1], steps[2]}) >= first_weightless;
+      exact.cell[number] = static_cast<std::uint64_t>(random_.integer(may_lack ? 0 : 1, 15));
     }
   }
 
@@ -266,7 +281,7 @@ double SlowField::facet_distance(const Place& place, const Vector3& p) const {
     if ((of_cell >> i) % 2 == 0) continue;
     const format::Facet& facet = parts_.facets[exact.facet[i]];
     const Vector3 a = vector(facet.vertex[0]), b = vector(facet.vertex[1]), c = vector(facet.vertex[2]);
-    const Vector3 up = vector(facet.normal);
+    const Vector3 up(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
     Matrix3 frame;  // p = a + x (b - a) + y (c - a) + z up
     frame << b - a, c - a, up;
     const Vector3 at = frame.inverse() * (p - a);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/scene/facets.h"
 #include "core/scene/format.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/image_parts.h"
@@ -14,7 +15,7 @@ namespace godobject::test {
 inline format::Facet facet_along_z() {
   format::Facet facet{};
   facet.vertex[1][0] = facet.vertex[2][1] = 0.01;
-  facet.normal[2] = 1.0;
+  set_planes(facet, Vector3::UnitZ());
   for (int k = 0; k < 3; ++k) facet.edge_normal[k][2] = facet.vertex_normal[k][2] = 1.0f;
   return facet;
 }

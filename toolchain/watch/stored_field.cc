@@ -164,7 +164,7 @@ Slope StoredField::from_facets(const format::ExactBrick& exact, const Vector3& p
   const auto single = [](const float(&v)[3]) { return Vector3(v[0], v[1], v[2]); };
   for (int i = 0; i < exact.facet_count; ++i) {
     const format::Facet& facet = facets_[exact.facet[i]];
-    const Vector3 up = vector(facet.normal);
+    const Vector3 up(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
     bool above = true;
     for (int k = 0; k < 3; ++k) {
       const Vector3 from = vector(facet.vertex[k]);

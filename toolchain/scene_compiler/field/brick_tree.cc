@@ -77,6 +77,19 @@ std::uint64_t cells_about(int node) {
   return kTable[static_cast<std::size_t>(node)];
 }
 
+/// Gives the brick's first facet to cells that have a weight but are not looked up, and none to cells without a weight.
+format::ExactBrick with_facets_where_weighed(format::ExactBrick exact) {
+  std::uint64_t weighed = 0;
+  for (int i = 0; i < kBrickValues; ++i) {
+    if (exact.weight[i] != 0) weighed |= cells_about(i);
+  }
+  for (int cell = 0; cell < format::kCellsPerBrick; ++cell) {
+    const std::uint64_t facets = exact.cell[cell] != 0 ? exact.cell[cell] : 1;
+    exact.cell[cell] = (weighed >> cell & 1) != 0 ? facets : 0;
+  }
+  return exact;
+}
+
 /// Appends the octant if it is not among `octants` yet.
 void add(const BrickTree::Octant& octant, BrickTree::Octants& octants, std::size_t& count) {
   const auto end = octants.begin() + static_cast<std::ptrdiff_t>(count);
@@ -571,7 +584,7 @@ bool BrickTree::find_facets(std::uint32_t brick) {
   std::copy(numbers.begin(), numbers.end(), std::begin(exact.facet));
   exact.facet_count = static_cast<std::uint16_t>(numbers.size());
   for (std::size_t cell = 0; cell < of_cell.size(); ++cell) {
-    exact.cell[cell] = of_cell[cell].empty() ? 1 : 0;  // not looked up
+    exact.cell[cell] = 0;
     for (const std::uint32_t number : of_cell[cell]) {
       const auto place = std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
       exact.cell[cell] |= std::uint64_t{1} << place;
@@ -724,7 +737,7 @@ void BrickTree::write_exact(const std::vector<std::uint32_t>& brick_number, Dist
     Brick& brick = field.bricks[brick_number[b]];
     brick.exact = 0;
     if (!exact_[b]) continue;
-    field.exact.push_back(*exact_[b]);
+    field.exact.push_back(with_facets_where_weighed(*exact_[b]));
     brick.exact = static_cast<std::uint32_t>(field.exact.size());
   }
   field.facets = facets_.all();

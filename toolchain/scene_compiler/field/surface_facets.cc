@@ -107,13 +107,13 @@ SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(f
     triangles.push_back({mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]],
                          static_cast<std::uint32_t>(t)});
     valid_[t] = !body.in_shell[t] && !normals[t].isZero();
-    store(normals[t], facets_[t].normal);
     for (std::size_t k = 0; k < 3; ++k) {
       store(mesh.vertices[triangle[k]], facets_[t].vertex[k]);
       const Vector3d normal = vertex_normal(mesh, normals, corners, triangle[k]);
       valid_[t] = valid_[t] && normal.norm() >= kFolded;
       store(normal.normalized(), facets_[t].vertex_normal[k]);
     }
+    set_planes(facets_[t], normals[t]);
   }
   for (const MeshEdges::Edge& edge : edges.all()) {
     const Vector3d normal = edge_normal(edges, normals, edge);
@@ -139,7 +139,7 @@ std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& ce
   std::vector<Vector3d> planes;
   for (const std::uint32_t number : numbers) {
     if (!valid_[number]) return {};
-    const Vector3d normal = vector(facets_[number].normal);
+    const Vector3d normal = face_normal(facets_[number]);
     const auto same = [&normal](const Vector3d& other) { return (other - normal).norm() <= kSamePlane; };
     if (std::none_of(planes.begin(), planes.end(), same)) planes.push_back(normal);
   }
@@ -150,7 +150,7 @@ std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& ce
 bool SurfaceFacets::turns(std::span<const std::uint32_t> facets) const {
   for (std::size_t i = 1; i < facets.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (vector(facets_[facets[i]].normal).dot(vector(facets_[facets[k]].normal)) < kCreaseCosine) return true;
+      if (face_normal(facets_[facets[i]]).dot(face_normal(facets_[facets[k]])) < kCreaseCosine) return true;
     }
   }
   return false;
@@ -220,7 +220,7 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
     distance[i] = (on - p).norm();
     if (distance[i] >= nearest) continue;
     nearest = distance[i];
-    normal = vector(f.normal);
+    normal = face_normal(f);
   }
   std::array<std::uint32_t, format::kMostFacets> near{};
   std::size_t count = 0;
@@ -228,7 +228,7 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (distance[i] > nearest + 2.0 * radius) continue;
     near[count++] = numbers[i];
-    apart = std::max(apart, (vector(facets_[numbers[i]].normal) - normal).norm());
+    apart = std::max(apart, (face_normal(facets_[numbers[i]]) - normal).norm());
   }
   const auto counting = std::span(near).first(count);
   const double value = facet_distance(facets_, counting, p).value + offset_;
