@@ -79,10 +79,11 @@ struct CellLanes {
   static constexpr int kY = format::kBrickNodes;
   static constexpr int kZ = format::kBrickNodes * format::kBrickNodes;
 
-  Ints stored;       ///< -1: the nodes define the field; 0: outside of the grid, far, or in a cell with facets
-  Ints brick;        ///< index of the brick's first word
-  Ints node;         ///< index of the cell's first node
-  Floats at[3];      ///< position in the cell, 0 .. 1
+  Ints stored;   ///< -1: the nodes define the field, with the facets if there are any; 0: outside of the grid, or far
+  Ints facets;   ///< format::cell_facets; 0: none
+  Ints brick;    ///< index of the brick's first word
+  Ints node;     ///< index of the cell's first node
+  Floats at[3];  ///< position in the cell, 0 .. 1
   Floats cell_edge;  ///< [voxels]
 
   [[gnu::always_inline]] CellLanes(const FieldOfNodes& f, const CellAxis<Vectors>& x, const CellAxis<Vectors>& y,
@@ -104,10 +105,20 @@ struct CellLanes {
     brick = kBrickWords * (entry & static_cast<int>(entry_of::kNumber) & stored);
     node = brick + cell[0] + kY * cell[1] + kZ * cell[2];
     const Ints exact = stored & ((entry & static_cast<int>(entry_of::kExact)) != 0);
+    facets = Ints{};
     if (Vectors::bits(exact) != 0) {
+      constexpr int kExactWords = sizeof(format::ExactBrick) / sizeof(std::uint32_t);
+      static_assert(offsetof(format::ExactBrick, cell) == 0);
       const Ints number = cell[0] + format::kBrickCells * (cell[1] + format::kBrickCells * cell[2]);
-      stored &= ~(exact & has_facets(f, exact, number));
+      facets = Vectors::gather(f.exact, (kExactWords * exact_brick(f) + number) & exact) & exact;
     }
+  }
+
+  /// Returns the numbers of the exact bricks; of no meaning where the brick is not exact.
+  Ints exact_brick(const FieldOfNodes& f) const noexcept {
+    constexpr int kDeviation = offsetof(format::Brick, deviation) / sizeof(std::int16_t);
+    static_assert(offsetof(format::Brick, exact) == offsetof(format::Brick, deviation) + sizeof(std::uint16_t));
+    return ((Vectors::gather_pair(f.bricks + kDeviation, brick) >> 16) & 0xffff) - 1;
   }
 
   /// Returns the brick's bound of the gradient [1].
@@ -119,17 +130,6 @@ struct CellLanes {
  private:
   static Ints is_refined(Ints entry) noexcept {
     return (entry >= 0) & ((entry & static_cast<int>(format::index_entry::kRefined)) != 0);
-  }
-
-  /// Returns -1 where the cell of that number in an exact brick has facets.
-  Ints has_facets(const FieldOfNodes& f, Ints exact, Ints number) const noexcept {
-    constexpr int kDeviation = offsetof(format::Brick, deviation) / sizeof(std::int16_t);
-    static_assert(offsetof(format::Brick, exact) == offsetof(format::Brick, deviation) + sizeof(std::uint16_t));
-    static_assert(offsetof(format::ExactBrick, cell) == 0);
-    constexpr int kExactWords = sizeof(format::ExactBrick) / sizeof(std::uint32_t);
-    const Ints pair = Vectors::gather_pair(f.bricks + kDeviation, brick);
-    const Ints word = (kExactWords * (((pair >> 16) & 0xffff) - 1) + 2 * number) & exact;
-    return (Vectors::gather(f.exact, word) | Vectors::gather(f.exact + 1, word)) != 0;
   }
 
   /// Descends the refinements as Voxelmap::descend.
@@ -165,7 +165,7 @@ struct CellLanes {
   }
 };
 
-/// The distances at the cells' eight nodes [quanta].
+/// The numbers at the cells' eight nodes: distances or weights.
 template <class Vectors>
 struct NodeLanes {
   using Floats = typename Vectors::Floats;
@@ -174,16 +174,42 @@ struct NodeLanes {
   Floats v000, v010, v001, v011;  ///< at the lower x; the digits are x, y, z
   Floats d00, d10, d01, d11;      ///< difference from the lower to the upper x; the digits are y, z
 
-  [[gnu::always_inline]] NodeLanes(const FieldOfNodes& f, const CellLanes<Vectors>& cell) noexcept {
+  /// `first`: indices of the cells' first nodes.
+  [[gnu::always_inline]] NodeLanes(const std::int16_t* nodes, Ints first) noexcept {
     constexpr int kY = CellLanes<Vectors>::kY;
     constexpr int kZ = CellLanes<Vectors>::kZ;
     // a node and the next along x
-    const auto pair = [&](int at) noexcept { return Vectors::gather_pair(f.bricks + at, cell.node); };
+    const auto pair = [&](int at) noexcept { return Vectors::gather_pair(nodes + at, first); };
     const auto node = [](Ints two) noexcept { return __builtin_convertvector(first_of(two), Floats); };
     const auto step = [](Ints two) noexcept { return __builtin_convertvector(second_of(two) - first_of(two), Floats); };
     const Ints p00 = pair(0), p10 = pair(kY), p01 = pair(kZ), p11 = pair(kZ + kY);
     v000 = node(p00), v010 = node(p10), v001 = node(p01), v011 = node(p11);
     d00 = step(p00), d10 = step(p10), d01 = step(p01), d11 = step(p11);
+  }
+};
+
+/// Trilinear interpolation of the numbers at the cells' nodes.
+template <class Vectors>
+struct TrilinearLanes {
+  using Floats = typename Vectors::Floats;
+
+  Floats value;
+  Floats gradient[3];  ///< per cell
+
+  [[gnu::always_inline]] TrilinearLanes(const NodeLanes<Vectors>& n, const Floats (&at)[3]) noexcept {
+    const auto& [fx, fy, fz] = at;
+    const Floats x00 = n.v000 + fx * n.d00;
+    const Floats x10 = n.v010 + fx * n.d10;
+    const Floats x01 = n.v001 + fx * n.d01;
+    const Floats x11 = n.v011 + fx * n.d11;
+    const Floats y0 = x00 + fy * (x10 - x00);
+    const Floats y1 = x01 + fy * (x11 - x01);
+    const Floats d0 = n.d00 + fy * (n.d10 - n.d00);
+    const Floats d1 = n.d01 + fy * (n.d11 - n.d01);
+    value = y0 + fz * (y1 - y0);
+    gradient[0] = d0 + fz * (d1 - d0);
+    gradient[1] = (x10 - x00) + fz * ((x11 - x01) - (x10 - x00));
+    gradient[2] = y1 - y0;
   }
 };
 

@@ -40,7 +40,117 @@ template <class Vectors>
   return (z00.at_from > least) & (second > least) & (third > least) & (end > least);
 }
 
-/// FindFreeChords for one vector of points.
+/// Pieces of chords in cells with facets whose free space is convex.
+template <class Vectors>
+struct PiecesAbovePlanes {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+  using Doubles = typename Vectors::Doubles;
+
+  Floats
+      least;   ///< of the heights of both ends above the planes [voxels]; negative where a piece is not above them all
+  Floats end;  ///< least height of the piece's end [voxels]
+
+  /// `from`, `to`: ends of the pieces, each component as its low and its high half [voxels from the grid's origin].
+  PiecesAbovePlanes(const FieldOfNodes& f, Ints facets, const Doubles (&from)[3][2], const Doubles (&to)[3][2]) noexcept
+      : least(Floats{} - 1.0f), end(least) {
+    for (std::uint32_t left = Vectors::bits(facets != 0); left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(left));
+      const auto word = static_cast<std::uint32_t>(facets[lane]);
+      const format::FacetSet& set = f.facet_sets[(word & format::cell_facets::kSet) - 1];
+      if (set.plane_count == 0) continue;
+      double from_m[3], to_m[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        from_m[axis] = f.origin[axis] + of_lane(from[axis], lane) / f.per_voxel;
+        to_m[axis] = f.origin[axis] + of_lane(to[axis], lane) / f.per_voxel;
+      }
+      double least_from = f.band;
+      double least_to = f.band;
+      for (std::uint32_t i = set.first; i < set.first + set.plane_count; ++i) {
+        const double(&plane)[4][4] = f.facets[f.facet_numbers[i]].plane;
+        const auto height = [&plane](const double(&p)[3]) noexcept {
+          return plane[0][0] * p[0] + plane[1][0] * p[1] + plane[2][0] * p[2] + plane[3][0];
+        };
+        const double from_height = height(from_m);
+        const double to_height = height(to_m);
+        least_from = from_height < least_from ? from_height : least_from;
+        least_to = to_height < least_to ? to_height : least_to;
+      }
+      const double least_of_both = least_from < least_to ? least_from : least_to;
+      if (least_of_both < 0.0) continue;
+      least[lane] = static_cast<float>((least_of_both + f.facet_offset) * f.per_voxel);
+      end[lane] = static_cast<float>((least_to + f.facet_offset) * f.per_voxel);
+    }
+  }
+
+ private:
+  static double of_lane(const Doubles (&halves)[2], std::uint32_t lane) noexcept {
+    constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
+    return halves[lane / kHalf][lane % kHalf];
+  }
+};
+
+/// The chords of one vector of points, in voxels from the grid's origin.
+template <class Vectors>
+struct ChordLanes {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+  using Doubles = typename Vectors::Doubles;
+  static constexpr float kShortest = 1e-12f;  // least divisor, chosen far below all rounding [voxels]
+
+  Doubles start[3][2];  ///< each component as its low and its high half
+  Floats way[3];        ///< from start to end
+  Floats length;
+  Floats per_length;
+
+  ChordLanes(const FieldOfNodes& f, const ChordEnds& ends, const SampleBatch& batch, std::uint32_t first) noexcept {
+    const Floats px = *reinterpret_cast<const Floats*>(batch.x + first);
+    const Floats py = *reinterpret_cast<const Floats*>(batch.y + first);
+    const Floats pz = *reinterpret_cast<const Floats*>(batch.z + first);
+    const Doubles low[3] = {Vectors::low(px), Vectors::low(py), Vectors::low(pz)};
+    const Doubles high[3] = {Vectors::high(px), Vectors::high(py), Vectors::high(pz)};
+    const auto mapped = [](const double(&m)[4], const Doubles(&p)[3]) noexcept {
+      return m[0] * p[0] + (m[1] * p[1] + m[2] * p[2]) + m[3];
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      start[axis][0] = (mapped(f.to_field[axis], low) - f.origin[axis]) * f.per_voxel;
+      start[axis][1] = (mapped(f.to_field[axis], high) - f.origin[axis]) * f.per_voxel;
+      way[axis] = Vectors::narrowed(mapped(ends.change[axis], low) * f.per_voxel,
+                                    mapped(ends.change[axis], high) * f.per_voxel);
+    }
+    const Floats zero = {};
+    length = Vectors::root(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    per_length = 1.0f / (length > kShortest ? length : zero + kShortest);
+  }
+
+  /// Sets `at` to the place after a share of the chord from another place.
+  void place(const Doubles (&from)[3][2], Floats share, Doubles (&at)[3][2]) const noexcept {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Floats done = share * way[axis];
+      at[axis][0] = from[axis][0] + Vectors::low(done);
+      at[axis][1] = from[axis][1] + Vectors::high(done);
+    }
+  }
+
+  /// Returns the length from a place in a cell to its face, at most `most` [voxels]. Sets the chord's direction
+  /// [cells per voxel].
+  Floats step_to_face(const CellLanes<Vectors>& cell, Floats most, Floats (&direction)[3]) const noexcept {
+    Floats step = most;
+    for (int axis = 0; axis < 3; ++axis) {
+      direction[axis] = way[axis] * per_length / cell.cell_edge;
+      const Floats room = direction[axis] > 0.0f ? 1.0f - cell.at[axis] : cell.at[axis];
+      const Floats speed = Vectors::larger(direction[axis], -direction[axis]);
+      const Ints moves = speed > kShortest;
+      const Floats to_face = room / (moves ? speed : Floats{} + 1.0f);
+      step = moves ? Vectors::smaller(step, to_face) : step;
+    }
+    return step;
+  }
+};
+
+/// FindFreeChords for one vector of points. A piece in a cell with facets is proved if the interpolated distance, where
+/// it counts, and the distance to the facets are positive along it. In convex free space the latter is the least of
+/// heights that change linearly.
 template <class Vectors>
 std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const SampleBatch& batch,
                           std::uint32_t first) noexcept {
@@ -48,69 +158,56 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   using Ints = typename Vectors::Ints;
   using Doubles = typename Vectors::Doubles;
   constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
-  constexpr int kCells = 4;            // most cells of a chord, chosen: a chord of a voxel crosses at most four
-  constexpr float kRounding = 2e-5f;   // of distances and positions at a slope and a length of 1 [voxels]
-  constexpr float kShortest = 1e-12f;  // least divisor, chosen far below kRounding [voxels]
+  constexpr int kCells = 4;           // most cells of a chord, chosen: a chord of a voxel crosses at most four
+  constexpr float kRounding = 2e-5f;  // of distances and positions at a slope and a length of 1 [voxels]
   const Floats zero = {};
 
-  const Floats px = *reinterpret_cast<const Floats*>(batch.x + first);
-  const Floats py = *reinterpret_cast<const Floats*>(batch.y + first);
-  const Floats pz = *reinterpret_cast<const Floats*>(batch.z + first);
-  const Doubles low_p[3] = {Vectors::low(px), Vectors::low(py), Vectors::low(pz)};
-  const Doubles high_p[3] = {Vectors::high(px), Vectors::high(py), Vectors::high(pz)};
-  const auto mapped = [](const double(&m)[4], const Doubles(&p)[3]) noexcept {
-    return m[0] * p[0] + (m[1] * p[1] + m[2] * p[2]) + m[3];
-  };
-  Doubles low[3], high[3];  // start of the chord
-  Floats chord[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = (mapped(f.to_field[axis], low_p) - f.origin[axis]) * f.per_voxel;
-    high[axis] = (mapped(f.to_field[axis], high_p) - f.origin[axis]) * f.per_voxel;
-    chord[axis] = Vectors::narrowed(mapped(ends.change[axis], low_p) * f.per_voxel,
-                                    mapped(ends.change[axis], high_p) * f.per_voxel);
-  }
-  const Floats length = Vectors::root(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
-  const Floats per_length = 1.0f / (length > kShortest ? length : zero + kShortest);
-  const Floats rounding = kRounding * (1.0f + length);
+  const ChordLanes<Vectors> chord(f, ends, batch, first);
+  const Floats rounding = kRounding * (1.0f + chord.length);
   // [voxels]
   const auto clearance = [&](const double* of) noexcept {
     const Floats found = Vectors::narrowed(*reinterpret_cast<const Doubles*>(of + first) * f.per_voxel,
                                            *reinterpret_cast<const Doubles*>(of + first + kHalf) * f.per_voxel);
     return Vectors::larger(found - rounding, zero);
   };
-  const Floats length_to_cover = length - clearance(batch.clearance);
+  const Floats length_to_cover = chord.length - clearance(batch.clearance);
   Floats covered = clearance(batch.from_clearance);
   Ints free = covered > length_to_cover;
   Ints searched = ~free;
   const auto quantum = static_cast<float>(f.quantum_per_voxel);
   const auto near_band = static_cast<float>(f.near_band * f.per_voxel);
   for (int cells = 0; cells < kCells && Vectors::bits(searched) != 0; ++cells) {
-    const Floats share = Vectors::smaller(covered * per_length, zero + 1.0f);  // also where the chord is done
+    const Floats share = Vectors::smaller(covered * chord.per_length, zero + 1.0f);  // also where the chord is done
+    Doubles from[3][2];
+    chord.place(chord.start, share, from);
     const auto axis_at = [&](int axis) noexcept {
-      const Floats done = share * chord[axis];
-      return CellAxis<Vectors>(low[axis] + Vectors::low(done), high[axis] + Vectors::high(done), f.cells[axis]);
+      return CellAxis<Vectors>(from[axis][0], from[axis][1], f.cells[axis]);
     };
     const CellLanes<Vectors> cell(f, axis_at(0), axis_at(1), axis_at(2));
     searched &= cell.stored;
-    // to the face of the cell
-    Floats step = Vectors::larger(length_to_cover - covered, zero);  // also where the chord is done
+    const Floats left = Vectors::larger(length_to_cover - covered, zero);  // also where the chord is done
     Floats direction[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      direction[axis] = chord[axis] * per_length / cell.cell_edge;
-      const Floats room = direction[axis] > 0.0f ? 1.0f - cell.at[axis] : cell.at[axis];
-      const Floats speed = Vectors::larger(direction[axis], -direction[axis]);
-      const Ints moves = speed > kShortest;
-      const Floats to_face = room / (moves ? speed : zero + 1.0f);
-      step = moves ? Vectors::smaller(step, to_face) : step;
-    }
+    const Floats step = chord.step_to_face(cell, left, direction);
     const Floats to[3] = {cell.at[0] + step * direction[0], cell.at[1] + step * direction[1],
                           cell.at[2] + step * direction[2]};
     const Floats unit = quantum * cell.cell_edge;  // [voxels]
     const Floats lipschitz = cell.lipschitz(f);
+    const Floats least = rounding * lipschitz;  // [voxels]
     Floats end;
-    searched &= stays_above<Vectors>(NodeLanes<Vectors>(f, cell), cell.at, to, rounding * lipschitz / unit, end);
+    const Ints above = stays_above<Vectors>(NodeLanes<Vectors>(f.bricks, cell.node), cell.at, to, least / unit, end);
+    Floats distance = unit * end;
+    const Ints facets = cell.facets & searched;
+    if (Vectors::bits(facets != 0) == 0) {
+      searched &= above;
+    } else {
+      Doubles until[3][2];
+      chord.place(from, step * chord.per_length, until);
+      const PiecesAbovePlanes<Vectors> planes(f, facets, from, until);
+      const Ints whole = facets < 0;  // the sign is format::cell_facets::kWhole
+      searched &= (above | whole) & ((facets == 0) | (planes.least > least));
+      distance = facets != 0 ? (whole ? planes.end : Vectors::smaller(distance, planes.end)) : distance;
+    }
     // and the free ball at the end of the step
-    const Floats distance = unit * end;
     const Floats ball = (distance < near_band ? distance : zero + near_band) / lipschitz - rounding;
     covered += step + (ball > 0.0f ? ball : zero);
     const Ints done = searched & (covered >= length_to_cover);

@@ -1,7 +1,6 @@
 #include "core/scene/facets.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -87,15 +86,6 @@ ValueAndGradient facet_distance(std::span<const format::Facet> facets, std::span
                                 const Vector3& p) noexcept {
   NearestPlace nearest;
   for (const std::uint32_t number : numbers) compare(facets[number], p, nearest);
-  return signed_distance(nearest);
-}
-
-ValueAndGradient facet_distance(std::span<const format::Facet> facets, const format::ExactBrick& exact, int cell,
-                                const Vector3& p) noexcept {
-  NearestPlace nearest;
-  for (std::uint64_t left = exact.cell[cell]; left != 0; left &= left - 1) {
-    compare(facets[exact.facet[std::countr_zero(left)]], p, nearest);
-  }
   return signed_distance(nearest);
 }
 

@@ -22,7 +22,7 @@ inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
 inline constexpr std::uint32_t kVersion = 10;
 inline constexpr std::size_t kAlignment = 64;
-inline constexpr std::size_t kMaxSections = 28;
+inline constexpr std::size_t kMaxSections = 32;
 
 inline constexpr std::int32_t kMaxBricksPerAxis = 4096;
 inline constexpr std::uint32_t kMaxPoints = 1u << 22;
@@ -68,6 +68,11 @@ enum class SectionId : std::uint32_t {
 
   kExactBricks = 25,      ///< ExactBrick[]: of the still body; missing if no brick is exact
   kBodyExactBricks = 26,  ///< ExactBrick[]: of the moving body
+
+  kFacetSets = 27,         ///< FacetSet[]: of the still body; missing if no brick is exact
+  kBodyFacetSets = 28,     ///< FacetSet[]: of the moving body
+  kFacetNumbers = 29,      ///< std::uint32_t[]: numbers of Facets, which FacetSets name; of the still body
+  kBodyFacetNumbers = 30,  ///< std::uint32_t[]: of the moving body
 };
 
 struct Header {
@@ -211,27 +216,40 @@ struct Facet {
 };
 static_assert(sizeof(Facet) == 272);
 
+/// Facets that are nearest to any point of a cell, for all cells that have the same ones. Their numbers stand in
+/// kFacetNumbers, in two parts, each ascending. The first part is empty unless the free space about the cell is convex.
+/// Then the distance of a point is its least height above the faces of the first part, if none is negative.
+struct FacetSet {
+  std::uint32_t first;        ///< of the numbers
+  std::uint16_t count;        ///< of the numbers, 1 .. kMostFacets
+  std::uint16_t plane_count;  ///< of the first part
+};
+static_assert(sizeof(FacetSet) == 8);
+
 inline constexpr int kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
-inline constexpr int kMostFacets = 64;                 ///< of an ExactBrick: one bit each in a cell's word
-inline constexpr std::uint16_t kOneWeight = 1u << 15;  ///< ExactBrick::weight that stands for 1
+inline constexpr int kMostFacets = 64;                 ///< of a FacetSet; chosen: a look-up may compare them all
+inline constexpr std::uint16_t kOneWeight = 1u << 14;  ///< ExactBrick::weight that stands for 1
 
 /// A brick in which the field is exact about edges, corners and narrow places, where trilinear interpolation would
 /// ripple. There the field is
 ///
 ///   phi(x) = (1 - I[w](x)) I[phi](x) + I[w](x) (g(x) + facet_offset),
 ///
-/// with the trilinear interpolation I of the nodes' distances and weights w, and the signed distance g to the cell's
-/// facets. In a cell with a weight they are all that are nearest to any point of it; in any other cell no facet is
-/// looked up. Where a cell has no facet, its nodes have no weight. Weights are 0 or 1. On the border to a coarser brick
-/// they are interpolated, as values are. So the field is continuous.
+/// with the trilinear interpolation I of the nodes' distances and weights w, and the signed distance g to the facets of
+/// the cell's set. A cell has a set if and only if one of its nodes has a weight. Weights are 0 or 1. On the border to
+/// a coarser brick they are interpolated, as values are. So the field is continuous.
 struct alignas(64) ExactBrick {
-  std::uint64_t cell[kCellsPerBrick];  ///< facets of each cell, x fastest: bit i for facet[i]
-  std::uint32_t facet[kMostFacets];    ///< numbers of Facets, ascending; unused ones are 0
+  std::uint32_t cell[kCellsPerBrick];  ///< of each cell, x fastest: see cell_facets
   std::uint16_t weight[kBrickValues];  ///< of the nodes, in units of 1 / kOneWeight
-  std::uint16_t facet_count;           ///< 1 .. kMostFacets
-  std::uint32_t reserved;              ///< 0
+  std::uint16_t reserved[3];           ///< 0
 };
-static_assert(sizeof(ExactBrick) == 1024);
+static_assert(sizeof(ExactBrick) == 512);
+
+/// One word of ExactBrick::cell: 0 without facets.
+namespace cell_facets {
+inline constexpr std::uint32_t kWhole = 1u << 31;  ///< all nodes of the cell have the weight 1
+inline constexpr std::uint32_t kSet = kWhole - 1;  ///< 1 + the number of a FacetSet
+}  // namespace cell_facets
 
 /// A convex sharp edge between two vertices of the mesh: for contacts of edges with edges. Where the body is a
 /// thickened sheet, its surface lies `radius` from the edge.

@@ -37,6 +37,10 @@ detail::FieldOfNodes Voxelmap::in_nodes(const Pose& H) const noexcept {
   f.bricks = bricks_[0].value;
   f.refined = refined_ != nullptr ? &refined_[0].brick : &kNoRefinement;
   f.exact = reinterpret_cast<const std::uint32_t*>(exact_);
+  f.facets = facets_.facets.data();
+  f.facet_sets = facets_.sets.data();
+  f.facet_numbers = facets_.numbers.data();
+  f.facet_offset = facet_offset_;
   f.stride_y = static_cast<std::int32_t>(stride_y_);
   f.stride_z = static_cast<std::int32_t>(stride_z_);
   const Matrix3 R = H.rotation.toRotationMatrix();
@@ -60,12 +64,14 @@ void Voxelmap::samples_by(const detail::SampleKernel* kernel, const Pose& H, Sam
   const std::uint32_t lanes = (batch.count + kernel->lanes - 1) / kernel->lanes * kernel->lanes;
   for (std::uint32_t i = batch.count; i < lanes; ++i) batch.x[i] = batch.y[i] = batch.z[i] = 0.0f;
   for (std::uint32_t first = 0; first < batch.count; first += kernel->lanes) {
-    for (std::uint32_t left = kernel->look_up(f, batch, first); left != 0; left &= left - 1) {
+    detail::LanesWithFacets with_facets;
+    for (std::uint32_t left = kernel->look_up(f, batch, first, with_facets); left != 0; left &= left - 1) {
       const std::uint32_t i = first + static_cast<std::uint32_t>(std::countr_zero(left));
       if (i >= batch.count) break;
-      const Vector3 p_field(batch.field_x[i], batch.field_y[i], batch.field_z[i]);
+      const Vector3 p_field = stored_position(batch, i);
       store_sample(p_field, sample(p_field), batch, i);
     }
+    blend_lanes(with_facets, batch, first);
   }
 }
 

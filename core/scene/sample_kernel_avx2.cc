@@ -6,8 +6,9 @@
 
 namespace godobject::detail {
 
-std::uint32_t look_up_samples_avx2(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept {
-  return sample_lanes<Avx2>(field, batch, first);
+std::uint32_t look_up_samples_avx2(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first,
+                                   LanesWithFacets& with_facets) noexcept {
+  return sample_lanes<Avx2>(field, batch, first, with_facets);
 }
 
 std::uint32_t free_chords_avx2(const FieldOfNodes& field, const ChordEnds& ends, const SampleBatch& batch,

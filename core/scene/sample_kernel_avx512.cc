@@ -6,8 +6,9 @@
 
 namespace godobject::detail {
 
-std::uint32_t look_up_samples_avx512(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first) noexcept {
-  return sample_lanes<Avx512>(field, batch, first);
+std::uint32_t look_up_samples_avx512(const FieldOfNodes& field, SampleBatch& batch, std::uint32_t first,
+                                     LanesWithFacets& with_facets) noexcept {
+  return sample_lanes<Avx512>(field, batch, first, with_facets);
 }
 
 std::uint32_t free_chords_avx512(const FieldOfNodes& field, const ChordEnds& ends, const SampleBatch& batch,

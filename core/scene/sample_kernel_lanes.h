@@ -24,29 +24,55 @@ template <class Vectors>
   return {(low - f.origin[axis]) * f.per_voxel, (high - f.origin[axis]) * f.per_voxel, f.cells[axis]};
 }
 
-/// Stores half of the results in double precision, as Voxelmap::sample computes them.
+/// Stores half of the results in double precision, as Voxelmap::sample computes them. Those of `open` lanes (-1) are
+/// not bounded.
 template <class Vectors>
 [[gnu::always_inline]] inline typename Vectors::Longs store_samples(const FieldOfNodes& f,
                                                                     typename Vectors::Doubles distance,
                                                                     typename Vectors::Doubles lipschitz,
                                                                     const typename Vectors::Doubles (&slope)[3],
-                                                                    SampleBatch& batch, std::uint32_t first) noexcept {
+                                                                    typename Vectors::Longs open, SampleBatch& batch,
+                                                                    std::uint32_t first) noexcept {
   using Doubles = typename Vectors::Doubles;
   using Longs = typename Vectors::Longs;
   const Doubles zero = {};
   const Longs known = (distance < f.band) & (-distance < f.band);
+  const Longs kept = known | open;
   const Doubles nearest = f.near_band < distance ? zero + f.near_band : distance;
   *reinterpret_cast<Doubles*>(batch.clearance + first) = distance > 0.0 ? nearest / lipschitz : zero;
   *reinterpret_cast<Doubles*>(batch.distance + first) =
-      known ? distance : (distance < 0.0 ? zero - f.band : zero + f.band);
-  *reinterpret_cast<Doubles*>(batch.gradient_x + first) = known ? f.quantum_per_voxel * slope[0] : zero;
-  *reinterpret_cast<Doubles*>(batch.gradient_y + first) = known ? f.quantum_per_voxel * slope[1] : zero;
-  *reinterpret_cast<Doubles*>(batch.gradient_z + first) = known ? f.quantum_per_voxel * slope[2] : zero;
+      kept ? distance : (distance < 0.0 ? zero - f.band : zero + f.band);
+  *reinterpret_cast<Doubles*>(batch.gradient_x + first) = kept ? f.quantum_per_voxel * slope[0] : zero;
+  *reinterpret_cast<Doubles*>(batch.gradient_y + first) = kept ? f.quantum_per_voxel * slope[1] : zero;
+  *reinterpret_cast<Doubles*>(batch.gradient_z + first) = kept ? f.quantum_per_voxel * slope[2] : zero;
   return known;
 }
 
+/// Sets what is blended with the distance to facets. One of the cells has facets.
 template <class Vectors>
-std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint32_t first) noexcept {
+void store_facets(const FieldOfNodes& f, const CellLanes<Vectors>& cell, typename Vectors::Floats lipschitz,
+                  LanesWithFacets& with_facets) noexcept {
+  using Floats = typename Vectors::Floats;
+  using Ints = typename Vectors::Ints;
+  constexpr int kExact = sizeof(format::ExactBrick) / sizeof(std::int16_t);
+  constexpr int kWeight = offsetof(format::ExactBrick, weight) / sizeof(std::int16_t);
+  *reinterpret_cast<Ints*>(with_facets.word) = cell.facets;
+  *reinterpret_cast<Floats*>(with_facets.cell_edge) = cell.cell_edge;
+  *reinterpret_cast<Floats*>(with_facets.lipschitz) = lipschitz;
+  // the sign is format::cell_facets::kWhole
+  if (Vectors::bits(cell.facets > 0) == 0) return;
+  const Ints of_weight = (kExact * cell.exact_brick(f) + cell.node - cell.brick) & (cell.facets > 0);
+  const NodeLanes<Vectors> nodes(reinterpret_cast<const std::int16_t*>(f.exact) + kWeight, of_weight);
+  const TrilinearLanes<Vectors> weight(nodes, cell.at);
+  *reinterpret_cast<Floats*>(with_facets.weight) = weight.value;
+  for (int axis = 0; axis < 3; ++axis) {
+    *reinterpret_cast<Floats*>(with_facets.weight_gradient[axis]) = weight.gradient[axis];
+  }
+}
+
+template <class Vectors>
+std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint32_t first,
+                           LanesWithFacets& with_facets) noexcept {
   using Floats = typename Vectors::Floats;
   using Ints = typename Vectors::Ints;
   using Doubles = typename Vectors::Doubles;
@@ -57,31 +83,23 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
   const CellLanes<Vectors> cell(f, store_position<Vectors>(f, 0, px, py, pz, batch.field_x + first),
                                 store_position<Vectors>(f, 1, px, py, pz, batch.field_y + first),
                                 store_position<Vectors>(f, 2, px, py, pz, batch.field_z + first));
-  const auto& [fx, fy, fz] = cell.at;
-  const NodeLanes<Vectors> n(f, cell);
-  const Floats x00 = n.v000 + fx * n.d00;
-  const Floats x10 = n.v010 + fx * n.d10;
-  const Floats x01 = n.v001 + fx * n.d01;
-  const Floats x11 = n.v011 + fx * n.d11;
-  const Floats y0 = x00 + fy * (x10 - x00);
-  const Floats y1 = x01 + fy * (x11 - x01);
-  const Floats distance = y0 + fz * (y1 - y0);
-  const Floats d0 = n.d00 + fy * (n.d10 - n.d00);
-  const Floats d1 = n.d01 + fy * (n.d11 - n.d01);
-  const Floats gx = d0 + fz * (d1 - d0);
-  const Floats gy = (x10 - x00) + fz * ((x11 - x01) - (x10 - x00));
-  const Floats gz = y1 - y0;
+  const TrilinearLanes<Vectors> field(NodeLanes<Vectors>(f.bricks, cell.node), cell.at);
   const Floats lipschitz = cell.lipschitz(f);
+  const Ints open = cell.facets != 0;
+  with_facets.bits = Vectors::bits(open);
+  if (with_facets.bits != 0) store_facets(f, cell, lipschitz, with_facets);
 
   constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
+  const auto& [gx, gy, gz] = field.gradient;
   const Doubles low_slope[3] = {Vectors::low(gx), Vectors::low(gy), Vectors::low(gz)};
   const Doubles high_slope[3] = {Vectors::high(gx), Vectors::high(gy), Vectors::high(gz)};
   const Doubles low_unit = f.quantum * Vectors::low(cell.cell_edge);
   const Doubles high_unit = f.quantum * Vectors::high(cell.cell_edge);
-  const Ints known = Vectors::mask(
-      store_samples<Vectors>(f, low_unit * Vectors::low(distance), Vectors::low(lipschitz), low_slope, batch, first),
-      store_samples<Vectors>(f, high_unit * Vectors::high(distance), Vectors::high(lipschitz), high_slope, batch,
-                             first + kHalf));
+  const Ints known =
+      Vectors::mask(store_samples<Vectors>(f, low_unit * Vectors::low(field.value), Vectors::low(lipschitz), low_slope,
+                                           Vectors::low_mask(open), batch, first),
+                    store_samples<Vectors>(f, high_unit * Vectors::high(field.value), Vectors::high(lipschitz),
+                                           high_slope, Vectors::high_mask(open), batch, first + kHalf));
   constexpr std::uint64_t kLanes = (std::uint64_t{1} << Vectors::kLanes) - 1;
   const auto bits = static_cast<std::uint64_t>(Vectors::bits(known & cell.stored));
   batch.known = (batch.known & ~(kLanes << first)) | bits << first;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace godobject {
 namespace {
@@ -196,33 +197,55 @@ bool valid_bricks(std::span<const format::Brick> bricks, std::size_t exact_count
   return true;
 }
 
-/// True if a node of the cell has a weight.
-bool has_weight(const format::ExactBrick& brick, int cell) noexcept {
+/// Returns the least and the largest weight of a cell's nodes.
+std::pair<std::uint16_t, std::uint16_t> range_of_weights(const format::ExactBrick& brick, int cell) noexcept {
   constexpr int kCells = format::kBrickCells;
   constexpr int kNodes = format::kBrickNodes;
   const int low = cell % kCells + kNodes * (cell / kCells % kCells + kNodes * (cell / (kCells * kCells)));
+  std::pair<std::uint16_t, std::uint16_t> range{format::kOneWeight, std::uint16_t{0}};
   for (int corner = 0; corner < 8; ++corner) {
-    if (brick.weight[low + (corner & 1) + kNodes * ((corner >> 1 & 1) + kNodes * (corner >> 2))] != 0) return true;
+    const std::uint16_t weight =
+        brick.weight[low + (corner & 1) + kNodes * ((corner >> 1 & 1) + kNodes * (corner >> 2))];
+    range = {std::min(range.first, weight), std::max(range.second, weight)};
   }
-  return false;
+  return range;
 }
 
-bool valid_exact_bricks(std::span<const format::ExactBrick> bricks, std::size_t facet_count) noexcept {
+bool valid_exact_bricks(std::span<const format::ExactBrick> bricks, std::size_t set_count) noexcept {
   for (const format::ExactBrick& brick : bricks) {
     for (const std::uint16_t weight : brick.weight) {
       if (weight > format::kOneWeight) return false;
     }
-    if (brick.facet_count < 1 || brick.facet_count > format::kMostFacets || brick.reserved != 0) return false;
-    for (int i = 0; i < format::kMostFacets; ++i) {
-      const bool used = i < brick.facet_count;
-      if (used ? brick.facet[i] >= facet_count || (i > 0 && brick.facet[i] <= brick.facet[i - 1]) : brick.facet[i] != 0)
-        return false;
+    for (const std::uint16_t word : brick.reserved) {
+      if (word != 0) return false;
     }
-    const std::uint64_t all = ~std::uint64_t{0} >> (format::kMostFacets - brick.facet_count);
     for (int number = 0; number < format::kCellsPerBrick; ++number) {
-      const std::uint64_t facets = brick.cell[number];
-      if ((facets & ~all) != 0 || (facets == 0 && has_weight(brick, number))) return false;
+      const std::uint32_t word = brick.cell[number];
+      const auto [least, most] = range_of_weights(brick, number);
+      const std::uint32_t whole = least == format::kOneWeight ? format::cell_facets::kWhole : 0;
+      const std::uint32_t set = word & format::cell_facets::kSet;
+      if ((word & format::cell_facets::kWhole) != whole || (set == 0) != (most == 0) || set > set_count) return false;
     }
+  }
+  return true;
+}
+
+bool ascends(std::span<const std::uint32_t> numbers) noexcept {
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] <= numbers[i - 1]) return false;
+  }
+  return true;
+}
+
+bool valid_facet_sets(const FacetLists& lists) noexcept {
+  for (const std::uint32_t number : lists.numbers) {
+    if (number >= lists.facets.size()) return false;
+  }
+  for (std::uint32_t i = 0; i < lists.sets.size(); ++i) {
+    const format::FacetSet& set = lists.sets[i];
+    if (set.count < 1 || set.count > format::kMostFacets || set.plane_count > set.count) return false;
+    if (set.first > lists.numbers.size() || set.count > lists.numbers.size() - set.first) return false;
+    if (!ascends(lists.planes_of(i)) || !ascends(lists.of(i).subspan(set.plane_count))) return false;
   }
   return true;
 }
@@ -373,7 +396,7 @@ void set_axes(std::span<const std::byte> values, std::size_t n, const float*& x,
 
 /// The sections that make up one voxelmap.
 struct MapSections {
-  SectionId grid, index, bricks, refined, facets, exact;
+  SectionId grid, index, bricks, refined, exact, facets, facet_sets, facet_numbers;
 };
 
 Status open_map(const Sections& sections, const MapSections& ids, format::Grid& grid, Voxelmap& map) noexcept {
@@ -387,13 +410,17 @@ Status open_map(const Sections& sections, const MapSections& ids, format::Grid& 
   const auto refined = as_array<format::Refined>(sections[ids.refined]);
   if (sections[ids.index].size() != positions * sizeof(std::uint32_t)) return Status::kImageLayout;
   if (sections[ids.bricks].size() != grid.brick_count * sizeof(format::Brick)) return Status::kImageLayout;
-  const auto facets = as_array<format::Facet>(sections[ids.facets]);
+  const FacetLists facets{as_array<format::Facet>(sections[ids.facets]),
+                          as_array<format::FacetSet>(sections[ids.facet_sets]),
+                          as_array<std::uint32_t>(sections[ids.facet_numbers])};
   const auto exact = as_array<format::ExactBrick>(sections[ids.exact]);
   if (sections[ids.refined].size() != refined.size_bytes()) return Status::kImageLayout;
-  if (sections[ids.facets].size() != facets.size_bytes()) return Status::kImageLayout;
+  if (sections[ids.facets].size() != facets.facets.size_bytes()) return Status::kImageLayout;
+  if (sections[ids.facet_sets].size() != facets.sets.size_bytes()) return Status::kImageLayout;
+  if (sections[ids.facet_numbers].size() != facets.numbers.size_bytes()) return Status::kImageLayout;
   if (sections[ids.exact].size() != exact.size_bytes()) return Status::kImageLayout;
   if (!valid_clearances(index) || !valid_bricks(bricks, exact.size()) || !valid_entries(index, bricks, refined) ||
-      !valid_exact_bricks(exact, facets.size()) || !valid_facets(facets)) {
+      !valid_exact_bricks(exact, facets.sets.size()) || !valid_facet_sets(facets) || !valid_facets(facets.facets)) {
     return Status::kImageValue;
   }
   map = Voxelmap(grid, index, bricks, refined, exact, facets);
@@ -432,10 +459,11 @@ Status open_features(const Sections& sections, SceneView& scene) noexcept {
                  {features.point_count, features.node_count, features.level_count, features.radius}, scene.features);
   if (status != Status::kOk) return status;
   scene.features_origin = Vector3(features.origin[0], features.origin[1], features.origin[2]);
-  return open_map(sections,
-                  {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
-                   SectionId::kBodyFacets, SectionId::kBodyExactBricks},
-                  grid, scene.body_map);
+  return open_map(
+      sections,
+      {SectionId::kBodyGrid, SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
+       SectionId::kBodyExactBricks, SectionId::kBodyFacets, SectionId::kBodyFacetSets, SectionId::kBodyFacetNumbers},
+      grid, scene.body_map);
 }
 
 bool valid_sharp_edges(std::span<const format::SharpEdge> edges) noexcept {
@@ -552,7 +580,7 @@ Status SceneView::open(std::span<const std::byte> image, SceneView& scene) noexc
 
   status = open_map(sections,
                     {SectionId::kGrid, SectionId::kBrickIndex, SectionId::kBricks, SectionId::kRefined,
-                     SectionId::kFacets, SectionId::kExactBricks},
+                     SectionId::kExactBricks, SectionId::kFacets, SectionId::kFacetSets, SectionId::kFacetNumbers},
                     opened.grid, opened.voxelmap);
   if (status != Status::kOk) return status;
   // contacts begin at the safety distance: there the field must be known

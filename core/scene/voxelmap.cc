@@ -23,7 +23,7 @@ constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
 
 Voxelmap::Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index,
                    std::span<const format::Brick> bricks, std::span<const format::Refined> refined,
-                   std::span<const format::ExactBrick> exact, std::span<const format::Facet> facets) noexcept
+                   std::span<const format::ExactBrick> exact, const FacetLists& facets) noexcept
     : index_(index.data()),
       bricks_(bricks.data()),
       refined_(refined.data()),
@@ -127,14 +127,8 @@ double Voxelmap::outside_clearance(const Vector3& p_W) const noexcept { return d
 
 namespace {
 
-/// A cell's trilinear function, in single precision on whole numbers.
-struct Trilinear {
-  float value;
-  float gradient[3];  ///< per cell
-};
-
 template <class Number>
-Trilinear trilinear(const Number* nodes, float fx, float fy, float fz) noexcept {
+detail::Trilinear trilinear(const Number* nodes, float fx, float fy, float fz) noexcept {
   const auto value = [nodes](int node) { return static_cast<float>(nodes[node]); };
   const auto step = [nodes](int node) { return static_cast<float>(nodes[node + 1] - nodes[node]); };
   const float d00 = step(0);
@@ -158,25 +152,55 @@ Vector3 vector(const float (&v)[3]) noexcept {
 
 }  // namespace
 
-/// Blends the interpolated field at p, in an exact brick, with the distance to its facets (format::ExactBrick).
-/// `cell_edge`: in voxels.
-void Voxelmap::blend(const format::ExactBrick& exact, int node, const Cell& cell, double cell_edge, const Vector3& p,
-                     ValueAndGradient& field) const noexcept {
-  const Trilinear weights = trilinear(exact.weight + node, cell.fx, cell.fy, cell.fz);
-  if (weights.value <= 0.0f) return;
-  constexpr double kUnit = 1.0 / format::kOneWeight;
-  const double weight = kUnit * static_cast<double>(weights.value);
-  const int number = cell.x + kBrickCells * (cell.y + kBrickCells * cell.z);
-  ValueAndGradient facets = facet_distance(facets_, exact, number, p);
+/// Blends the interpolated field at p with the distance to the facets of its cell (format::ExactBrick).
+void Voxelmap::blend(const CellOfFacets& cell, const Vector3& p, ValueAndGradient& field) const noexcept {
+  const bool whole = (cell.word & format::cell_facets::kWhole) != 0;
+  if (!whole && cell.weight.value <= 0.0f) return;
+  ValueAndGradient facets = facet_distance(facets_, (cell.word & format::cell_facets::kSet) - 1, p);
   facets.value += facet_offset_;
-  if (weight >= 1.0) {
+  if (whole) {
     field = facets;
     return;
   }
+  constexpr double kUnit = 1.0 / format::kOneWeight;
+  const double weight = kUnit * static_cast<double>(cell.weight.value);
   const double apart = facets.value - field.value;
   field.value += weight * apart;
-  field.gradient +=
-      weight * (facets.gradient - field.gradient) + apart * kUnit * per_voxel_ / cell_edge * vector(weights.gradient);
+  field.gradient += weight * (facets.gradient - field.gradient) +
+                    apart * kUnit * per_voxel_ / static_cast<double>(cell.edge) * vector(cell.weight.gradient);
+}
+
+/// Returns the sample of a stored value, with the bound of the gradient of its brick.
+FieldSample Voxelmap::sample_of(const ValueAndGradient& field, double lipschitz) const noexcept {
+  FieldSample sample;
+  sample.distance = band_;
+  // A straight path as long as a brick's edge stays in the positions around this one, or it leaves the stored bricks
+  // and enters them again at a value of at least the band, rounded.
+  if (field.value > 0.0) sample.clearance = std::min(field.value, near_band_) / lipschitz;
+  if (!(std::fabs(field.value) < band_)) {
+    if (field.value < 0.0) sample.distance = -band_;
+    return sample;
+  }
+  sample.distance = field.value;
+  sample.gradient = field.gradient;
+  sample.known = true;
+  return sample;
+}
+
+/// Blends the lanes with facets, which are points of the batch from `first` on.
+void Voxelmap::blend_lanes(const detail::LanesWithFacets& lanes, SampleBatch& batch,
+                           std::uint32_t first) const noexcept {
+  const auto& [x, y, z] = lanes.weight_gradient;
+  for (std::uint32_t left = lanes.bits; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t i = first + lane;
+    if (i >= batch.count) return;
+    const CellOfFacets cell{lanes.word[lane], lanes.cell_edge[lane], {lanes.weight[lane], {x[lane], y[lane], z[lane]}}};
+    const Vector3 p_field = stored_position(batch, i);
+    ValueAndGradient field{batch.distance[i], {batch.gradient_x[i], batch.gradient_y[i], batch.gradient_z[i]}};
+    blend(cell, p_field, field);
+    store_sample(p_field, sample_of(field, static_cast<double>(lanes.lipschitz[lane])), batch, i);
+  }
 }
 
 FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
@@ -201,24 +225,21 @@ FieldSample Voxelmap::sample(const Vector3& p_W) const noexcept {
   if (cell.entry & format::index_entry::kRefined) cell_edge = descend(cell);
   const format::Brick& brick = bricks_[cell.entry & format::index_entry::kNumber];
   const int node = cell.x + kStrideY * cell.y + kStrideZ * cell.z;
-  const Trilinear interpolated = trilinear(brick.value + node, cell.fx, cell.fy, cell.fz);
+  const detail::Trilinear interpolated = trilinear(brick.value + node, cell.fx, cell.fy, cell.fz);
   ValueAndGradient field{quantum_ * cell_edge * static_cast<double>(interpolated.value),
                          quantum_per_voxel_ * vector(interpolated.gradient)};
-  if (cell.entry & format::index_entry::kExact) blend(exact_[brick.exact - 1], node, cell, cell_edge, p_W, field);
-  // A straight path as long as a brick's edge stays in the positions around this one, or it leaves the stored bricks
-  // and enters them again at a value of at least the band, rounded.
-  if (field.value > 0.0) {
-    sample.clearance =
-        std::min(field.value, near_band_) / static_cast<double>(format::decode_lipschitz(brick.lipschitz));
+  if (cell.entry & format::index_entry::kExact) {
+    const format::ExactBrick& exact = exact_[brick.exact - 1];
+    const std::uint32_t word = exact.cell[cell.x + kBrickCells * (cell.y + kBrickCells * cell.z)];
+    if (word != 0) {
+      CellOfFacets of_facets{word, static_cast<float>(cell_edge), {}};
+      if ((word & format::cell_facets::kWhole) == 0) {
+        of_facets.weight = trilinear(exact.weight + node, cell.fx, cell.fy, cell.fz);
+      }
+      blend(of_facets, p_W, field);
+    }
   }
-  if (!(std::fabs(field.value) < band_)) {
-    if (field.value < 0.0) sample.distance = -band_;
-    return sample;
-  }
-  sample.distance = field.value;
-  sample.gradient = field.gradient;
-  sample.known = true;
-  return sample;
+  return sample_of(field, static_cast<double>(format::decode_lipschitz(brick.lipschitz)));
 }
 
 LayerSample Voxelmap::layer(const Vector3& p_W) const noexcept {

@@ -11,6 +11,15 @@
 #include "core/scene/sample_kernel.h"
 
 namespace godobject {
+namespace detail {
+
+/// A cell's trilinear function at a point, in single precision on whole numbers.
+struct Trilinear {
+  float value;
+  float gradient[3];  ///< per cell
+};
+
+}  // namespace detail
 
 /// The distance field of a compiled body, still or moving: trilinear value and gradient of signed distances stored in
 /// sparse bricks. A view; owns nothing. Real-time safe. Each call reads one brick: an index entry, at most
@@ -22,7 +31,7 @@ class Voxelmap {
   /// The parts must have been validated (SceneView::open does) and must outlive the view.
   Voxelmap(const format::Grid& grid, std::span<const std::uint32_t> index, std::span<const format::Brick> bricks,
            std::span<const format::Refined> refined, std::span<const format::ExactBrick> exact = {},
-           std::span<const format::Facet> facets = {}) noexcept;
+           const FacetLists& facets = {}) noexcept;
 
   double voxel_size() const noexcept { return voxel_size_; }
   double band() const noexcept { return band_; }
@@ -50,8 +59,9 @@ class Voxelmap {
   /// The same with one of sample_kernels(); null: without vectors.
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
-  /// As in DistanceField. Proves chords through at most four cells outside of exact bricks. In each cell the field
-  /// along the chord is a cubic, and the proof is that its Bernstein coefficients are positive. Returns 0 if the
+  /// As in DistanceField. Proves chords through at most four cells. In each cell the interpolated field along the chord
+  /// is a cubic, and the proof is that its Bernstein coefficients are positive. Of the distance to facets it is that
+  /// both ends are above the planes of convex free space; elsewhere there is none. Returns 0 if the
   /// processor has no vectors: then free balls alone decide, and a cycle with long chords may have a different result.
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;
   /// The same with one of sample_kernels(); null: 0. The batch was looked up by a kernel at least as wide.
@@ -86,11 +96,19 @@ class Voxelmap {
     float fx, fy, fz;     ///< position within the cell, 0 .. 1
   };
 
+  /// A cell with facets, and the interpolated weight at a point of it.
+  struct CellOfFacets {
+    std::uint32_t word;        ///< see format::cell_facets
+    float edge;                ///< [voxels]
+    detail::Trilinear weight;  ///< in units of 1 / kOneWeight; of no meaning where all nodes have the weight 1
+  };
+
   detail::FieldOfNodes in_nodes(const Pose& H) const noexcept;
   bool locate(const Vector3& p_W, Cell& cell) const noexcept;
   double descend(Cell& cell) const noexcept;
-  void blend(const format::ExactBrick& exact, int node, const Cell& cell, double cell_edge, const Vector3& p,
-             ValueAndGradient& field) const noexcept;
+  void blend(const CellOfFacets& cell, const Vector3& p, ValueAndGradient& field) const noexcept;
+  void blend_lanes(const detail::LanesWithFacets& lanes, SampleBatch& batch, std::uint32_t first) const noexcept;
+  FieldSample sample_of(const ValueAndGradient& field, double lipschitz) const noexcept;
   const format::Brick& unrefined(std::uint32_t entry) const noexcept;
   double outside_clearance(const Vector3& p_W) const noexcept;
   double far_clearance(const Cell& cell) const noexcept;
@@ -100,7 +118,7 @@ class Voxelmap {
   const format::Brick* bricks_ = nullptr;
   const format::Refined* refined_ = nullptr;
   const format::ExactBrick* exact_ = nullptr;
-  std::span<const format::Facet> facets_;
+  FacetLists facets_;
   Vector3 origin_ = Vector3::Zero();
   Vector3 surface_min_ = Vector3::Zero();
   Vector3 surface_max_ = Vector3::Zero();

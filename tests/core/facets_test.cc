@@ -144,16 +144,40 @@ TEST(Facets, HaveANormalOnTheSurfaceItself) {
   EXPECT_LE((at({0.5 + tiny, 0.5 + tiny, 0.5 + tiny}).gradient - Vector3::Ones().normalized()).norm(), 1e-6);
 }
 
-TEST(Facets, OfOneCellAreThoseOfItsBits) {
+TEST(Facets, OfASetAreThoseOfItsNumbers) {
   const auto facets = facets_of(box_vertices(Vector3::Constant(0.5)), kBoxTriangles);
-  format::ExactBrick exact{};
-  exact.facet_count = 3;
-  exact.facet[0] = 2, exact.facet[1] = 3, exact.facet[2] = 10;
-  exact.cell[0] = 0b011;   // the upper face
-  exact.cell[63] = 0b100;  // half of the face at +x
+  const std::vector<std::uint32_t> numbers = {10, 2, 3};
+  // half of the face at +x; the upper face
+  const std::vector<format::FacetSet> sets = {{0, 1, 0}, {1, 2, 0}};
+  const FacetLists lists{facets, sets, numbers};
   const Vector3 p(0.7, -0.4, 0.8);
-  EXPECT_NEAR(facet_distance(facets, exact, 0, p).value, std::hypot(0.2, 0.3), 1e-12);
-  EXPECT_EQ(facet_distance(facets, exact, 63, p).value, facet_distance(facets, std::array{10u}, p).value);
+  EXPECT_NEAR(facet_distance(lists, 1, p).value, std::hypot(0.2, 0.3), 1e-12);
+  EXPECT_EQ(facet_distance(lists, 0, p).value, facet_distance(facets, std::array{10u}, p).value);
+}
+
+/// A room whose walls are planes: the least height above them inside it, the distance to the facets outside.
+TEST(Facets, OfConvexSpaceArePlanes) {
+  const Vector3 half(0.3, 0.2, 0.1);
+  std::vector<Triangle> inward = kBoxTriangles;
+  for (Triangle& t : inward) std::swap(t[1], t[2]);
+  const auto facets = facets_of(box_vertices(half), inward);
+  std::vector<std::uint32_t> numbers = {0, 2, 4, 6, 8, 10, 1, 3, 5, 7, 9, 11};
+  const std::vector<format::FacetSet> sets = {{0, 12, 6}, {0, 12, 2}};
+  test::Random random(4);
+  int inside = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3 p = random.in_cube(0.5);
+    const ValueAndGradient g = facet_distance({facets, sets, numbers}, 0, p);
+    const ValueAndGradient by_facets = facet_distance(facets, all(12), p);
+    ASSERT_NEAR(g.value, -box_distance(half, p), 1e-12) << p.transpose();
+    ASSERT_LE((g.gradient - by_facets.gradient).norm(), 1e-9) << p.transpose();
+    if (g.value < 0.0) continue;
+    ++inside;
+    // only the planes of the first part count: those of the faces at -z and +z
+    const double above_two = facet_distance({facets, sets, numbers}, 1, p).value;
+    ASSERT_NEAR(above_two, 0.1 - std::fabs(p.z()), 1e-12);
+  }
+  EXPECT_GT(inside, 150);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct Verdict {
 
 /// Walks along a chord as DistanceField::free_chords allows it: a ball around each end, and between them at most four
 /// cells. In each cell the field along the chord is a cubic whose Bernstein coefficients must be positive; the cubic
-/// follows from four values. Positions and distances have an allowance for single precision.
+/// follows from four values. In a cell with facets both ends must be above the planes of the set's first part, and the
+/// cubic counts only if the cell is not whole. Positions and distances have an allowance for single precision.
 class SlowWalk {
  public:
   SlowWalk(const FieldParts& parts, const SlowField& field) : parts_(parts), field_(field) {}
@@ -58,7 +59,7 @@ class SlowWalk {
       const Vector3 p = chord.from + s * std::min(1.0, covered / length) * way;
       const SlowField::Place place = field_.place(p);
       note_faces(p, place, verdict);
-      if (!place.stored || place.exact) return verdict;
+      if (!place.stored) return verdict;
       ++verdict.cells;
       const Vector3 direction = std::ldexp(1.0, place.level) * way / length;
       double step = to_cover - covered;
@@ -67,7 +68,14 @@ class SlowWalk {
         if (direction[axis] < 0.0) step = std::min(step, place.at[axis] / -direction[axis]);
       }
       const double steepest = test::slow_lipschitz(place.brick->lipschitz);
-      const double end = least_of_cubic(place, step * direction, allowance * steepest, verdict);
+      double end = HUGE_VAL;
+      if (field_.facets_of(place) == nullptr || !field_.is_whole(place)) {
+        end = least_of_cubic(place, step * direction, allowance * steepest, verdict);
+      }
+      if (field_.facets_of(place) != nullptr) {
+        const double height = height_of_end(place, p, p + s * step / length * way, allowance * steepest, verdict);
+        end = std::min(end, height);
+      }
       if (end < 0.0) return verdict;
       const double ball = std::min(end, field_.near_band() / s) / steepest - allowance;
       const bool at_end = step == to_cover - covered;
@@ -98,6 +106,21 @@ class SlowWalk {
     for (int axis = 0; place.in_grid && !place.stored && axis < 3; ++axis) {
       verdict.doubt = std::min({verdict.doubt, place.in_position[axis], 4.0 - place.in_position[axis]});
     }
+  }
+
+  /// Returns the least height of a piece's end above the planes of its cell, or a negative number if one of its ends is
+  /// not more than `least` above them [voxels].
+  double height_of_end(const SlowField::Place& place, const Vector3& from, const Vector3& to, double least,
+                       Verdict& verdict) const {
+    const format::FacetSet& set = *field_.facets_of(place);
+    if (set.plane_count == 0) return -1.0;
+    const double s = parts_.grid.voxel_size;
+    for (const Vector3& p : {from, to}) {
+      const double height = field_.least_height(set, p);
+      if (!verdict.is_above(height / s, 0.0)) return -1.0;
+      if (!verdict.is_above((height + parts_.grid.facet_offset) / s, least)) return -1.0;
+    }
+    return (field_.least_height(set, to) + parts_.grid.facet_offset) / s;
   }
 
   /// Returns the distance at the end of a step in a cell, or a negative number if a coefficient is not above `least`

@@ -416,42 +416,66 @@ TEST(SceneLimits, OfAFacetsNormalsAreTheirRounding) {
   }
 }
 
-TEST(SceneLimits, OfAnExactBrickAreItsOwnFacets) {
-  ImageParts valid = point_image();
-  const format::Facet facet = Structures(valid).facet;
-  valid.set<format::Facet>(SectionId::kFacets, {facet, facet, facet});
+TEST(SceneLimits, OfAnExactBrickAreItsWeightsAndSets) {
+  const ImageParts valid = point_image();
   const auto status_with = [&valid](auto change) {
     ImageParts image = valid;
     change(image.item<format::ExactBrick>(SectionId::kExactBricks));
     return status_of(image);
   };
-  const auto two = [](format::ExactBrick& exact, std::uint32_t first, std::uint32_t second) {
-    exact.facet_count = 2;
-    exact.facet[0] = first;
-    exact.facet[1] = second;
+  const auto weigh = [](format::ExactBrick& exact, std::uint16_t weight) {
+    std::fill(std::begin(exact.weight), std::end(exact.weight), weight);
   };
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 2); }), Status::kOk);
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 3); }), Status::kImageValue) << "one that is not there";
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 2, 1); }), Status::kImageValue) << "not ascending";
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 1, 1); }), Status::kImageValue) << "twice";
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 2), e.cell[63] = 3; }), Status::kOk);
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { two(e, 0, 2), e.cell[63] = 4; }), Status::kImageValue);
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.cell[5] = 0; }), Status::kImageValue) << "a cell without any";
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.facet[63] = 1; }), Status::kImageValue) << "beyond the count";
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.weight[124] = format::kOneWeight; }), Status::kOk);
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.weight[124] = format::kOneWeight + 1; }), Status::kImageValue);
-  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.reserved = 1; }), Status::kImageValue);
-  for (const std::uint16_t count : {std::uint16_t{0}, std::uint16_t{65}, std::uint16_t{0xffff}}) {
-    EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.facet_count = count; }), Status::kImageValue) << count;
+  const auto fill = [](format::ExactBrick& exact, std::uint32_t word) {
+    std::fill(std::begin(exact.cell), std::end(exact.cell), word);
+  };
+  constexpr std::uint32_t kWhole = 1u << 31;
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.cell[5] = 0; }), Status::kImageValue) << "a cell without a set";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.cell[5] = 2; }), Status::kImageValue) << "one that is not there";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.cell[5] |= kWhole; }), Status::kImageValue);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { weigh(e, 0), fill(e, 0); }), Status::kOk);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { weigh(e, 0); }), Status::kImageValue) << "sets without weights";
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { weigh(e, 0), fill(e, 0), e.cell[63] = kWhole; }),
+            Status::kImageValue);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { weigh(e, 1 << 14), fill(e, kWhole | 1); }), Status::kOk);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { weigh(e, 1 << 14); }), Status::kImageValue);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { weigh(e, 1 << 14), fill(e, kWhole); }), Status::kImageValue);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.weight[124] = 1 << 14; }), Status::kOk);
+  EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.weight[124] = (1 << 14) + 1; }), Status::kImageValue);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(status_with([&](format::ExactBrick& e) { e.reserved[i] = 1; }), Status::kImageValue);
   }
-  const auto all = [](format::ExactBrick& exact) {
-    exact.facet_count = 64;
-    for (std::uint32_t i = 0; i < 64; ++i) exact.facet[i] = i;
-    exact.cell[0] = ~std::uint64_t{0};
+}
+
+TEST(SceneLimits, OfAFacetSetAreItsNumbers) {
+  ImageParts valid = point_image();
+  const format::Facet facet = Structures(valid).facet;
+  valid.set<format::Facet>(SectionId::kFacets, std::vector<format::Facet>(70, facet));
+  const auto status_with = [&valid](const format::FacetSet& set, const std::vector<std::uint32_t>& numbers) {
+    ImageParts image = valid;
+    image.set<format::FacetSet>(SectionId::kFacetSets, {set});
+    image.set<std::uint32_t>(SectionId::kFacetNumbers, numbers);
+    return status_of(image);
   };
-  EXPECT_EQ(status_with(all), Status::kImageValue);
-  valid.set<format::Facet>(SectionId::kFacets, std::vector<format::Facet>(64, facet));
-  EXPECT_EQ(status_with(all), Status::kOk);
+  EXPECT_EQ(status_with({0, 2, 0}, {0, 69}), Status::kOk);
+  EXPECT_EQ(status_with({0, 2, 0}, {0, 70}), Status::kImageValue) << "one that is not there";
+  EXPECT_EQ(status_with({0, 2, 0}, {2, 1}), Status::kImageValue) << "not ascending";
+  EXPECT_EQ(status_with({0, 2, 2}, {2, 1}), Status::kImageValue);
+  EXPECT_EQ(status_with({0, 2, 0}, {1, 1}), Status::kImageValue) << "twice";
+  EXPECT_EQ(status_with({0, 2, 1}, {2, 1}), Status::kOk) << "in two parts";
+  EXPECT_EQ(status_with({0, 4, 2}, {2, 5, 1, 4}), Status::kOk);
+  EXPECT_EQ(status_with({0, 4, 3}, {2, 5, 1, 4}), Status::kImageValue);
+  EXPECT_EQ(status_with({0, 2, 3}, {2, 5, 6}), Status::kImageValue) << "a first part that is longer";
+  EXPECT_EQ(status_with({0, 0, 0}, {2, 5}), Status::kImageValue) << "an empty set";
+  EXPECT_EQ(status_with({1, 2, 0}, {7, 1, 2}), Status::kOk);
+  EXPECT_EQ(status_with({2, 2, 0}, {7, 1, 2}), Status::kImageValue) << "beyond the numbers";
+  EXPECT_EQ(status_with({4, 1, 0}, {7, 1, 2}), Status::kImageValue);
+  EXPECT_EQ(status_with({0xffffffff, 1, 0}, {7, 1, 2}), Status::kImageValue);
+  std::vector<std::uint32_t> many;
+  for (std::uint32_t i = 0; i < 65; ++i) many.push_back(i);
+  EXPECT_EQ(status_with({1, 64, 0}, many), Status::kOk);
+  EXPECT_EQ(status_with({1, 64, 64}, many), Status::kOk);
+  EXPECT_EQ(status_with({0, 65, 0}, many), Status::kImageValue);
 }
 
 /// Sample points may leave R_max and the spheres of their nodes by the rounding of single precision, a millionth.

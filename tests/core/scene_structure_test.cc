@@ -26,7 +26,7 @@ using format::SectionId;
 using test::ImageParts;
 using test::SceneImage;
 
-constexpr std::uint32_t kSectionCount = 26;
+constexpr std::uint32_t kSectionCount = 30;
 
 Status status_of(std::span<const std::byte> bytes) {
   SceneView scene;
@@ -42,7 +42,9 @@ bool is_optional(SectionId id) { return id == SectionId::kProvenance || id == Se
 /// Sections that other sections refer to. Without them a number is wrong, not the layout.
 bool is_referred_to(SectionId id) {
   return id == SectionId::kRefined || id == SectionId::kFacets || id == SectionId::kExactBricks ||
-         id == SectionId::kBodyRefined || id == SectionId::kBodyFacets || id == SectionId::kBodyExactBricks;
+         id == SectionId::kFacetSets || id == SectionId::kFacetNumbers || id == SectionId::kBodyRefined ||
+         id == SectionId::kBodyFacets || id == SectionId::kBodyExactBricks || id == SectionId::kBodyFacetSets ||
+         id == SectionId::kBodyFacetNumbers;
 }
 
 TEST(SceneStructure, NeedsEverySectionButTwo) {
@@ -63,9 +65,9 @@ TEST(SceneStructure, NeedsEverySectionButTwo) {
 TEST(SceneStructure, NeedsNoSecondDirection) {
   ImageParts image = test::whole_image();
   for (const SectionId id : {SectionId::kBodyGrid, SectionId::kFeatures}) image.leave_out(id);
-  for (const SectionId id :
-       {SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined, SectionId::kFeaturePoints,
-        SectionId::kFeatureNodes, SectionId::kBodyFacets, SectionId::kBodyExactBricks}) {
+  for (const SectionId id : {SectionId::kBodyBrickIndex, SectionId::kBodyBricks, SectionId::kBodyRefined,
+                             SectionId::kFeaturePoints, SectionId::kFeatureNodes, SectionId::kBodyFacets,
+                             SectionId::kBodyExactBricks, SectionId::kBodyFacetSets, SectionId::kBodyFacetNumbers}) {
     EXPECT_EQ(status_of(image), Status::kOk);
     image.leave_out(id);
   }
@@ -81,7 +83,10 @@ TEST(SceneStructure, NeedsEverySectionsExactLength) {
   const ImageParts whole = test::whole_image();
   for (std::uint32_t number = 1; number <= kSectionCount; ++number) {
     const SectionId id = id_of(number);
+    const bool of_sets = id == SectionId::kFacetSets || id == SectionId::kBodyFacetSets;
+    const bool of_numbers = id == SectionId::kFacetNumbers || id == SectionId::kBodyFacetNumbers;
     for (const int bytes : {-8, -4, -1, 1, 4, 8, 64}) {
+      if ((of_sets && bytes % 8 == 0) || (of_numbers && bytes % 4 == 0)) continue;  // whole items
       ImageParts image = whole;
       image[id].resize(image[id].size() + static_cast<std::size_t>(bytes));
       EXPECT_EQ(status_of(image), id == SectionId::kProvenance ? Status::kOk : Status::kImageLayout)
@@ -127,7 +132,21 @@ TEST(SceneStructure, NeedsEveryItemOfItsArrays) {
     ImageParts image = whole;
     image.set<format::ExactBrick>(id, {image.item<format::ExactBrick>(id), image.item<format::ExactBrick>(id)});
     EXPECT_EQ(status_of(image), Status::kOk) << "an exact brick that no brick names";
-    image.item<format::ExactBrick>(id, 1).facet[0] = 1;
+    image.item<format::ExactBrick>(id, 1).cell[0] = 2;
+    EXPECT_EQ(status_of(image), Status::kImageValue) << "the second one is checked as well";
+  }
+  for (const SectionId id : {SectionId::kFacetSets, SectionId::kBodyFacetSets}) {
+    ImageParts image = whole;
+    image.set<format::FacetSet>(id, {image.item<format::FacetSet>(id), image.item<format::FacetSet>(id)});
+    EXPECT_EQ(status_of(image), Status::kOk) << "a set that no cell has";
+    image.item<format::FacetSet>(id, 1).first = 1;
+    EXPECT_EQ(status_of(image), Status::kImageValue) << "the second one is checked as well";
+  }
+  for (const SectionId id : {SectionId::kFacetNumbers, SectionId::kBodyFacetNumbers}) {
+    ImageParts image = whole;
+    image.set<std::uint32_t>(id, {0, 0});
+    EXPECT_EQ(status_of(image), Status::kOk) << "a number that no set has";
+    image.set<std::uint32_t>(id, {0, 1});
     EXPECT_EQ(status_of(image), Status::kImageValue) << "the second one is checked as well";
   }
 }
@@ -240,25 +259,25 @@ TEST(SceneStructure, HasAHeaderWithoutAWrongByte) {
 
 /// The header's own numbers decide before anything that they lead to is read, even the checksum.
 TEST(SceneStructure, JudgesTheHeaderBeforeItUsesIt) {
-  for (const std::uint32_t count : {0u, 28u, 0xffffffffu}) {
+  for (const std::uint32_t count : {0u, 32u, 0xffffffffu}) {
     const auto set = [count](format::Header& h) {
       h.section_count = count;
       h.header_bytes = static_cast<std::uint32_t>((64 + std::uint64_t{count} * 32 + 63) / 64 * 64);
     };
     EXPECT_EQ(status_with_header(set, false), Status::kImageLayout) << count;
   }
-  // a table of 27 sections is read, and its checksum does not hold
+  // a table of 31 sections is read, and its checksum does not hold
   const auto set = [](format::Header& h) {
-    h.section_count = 27;
-    h.header_bytes = 960;
+    h.section_count = 31;
+    h.header_bytes = 1088;
   };
   EXPECT_EQ(status_with_header(set, false), Status::kImageChecksum);
-  // a table of 28 is not read, although its first section's checksum does not hold
+  // a table of 32 is not read, although its first section's checksum does not hold
   SceneImage many = test::whole_image().assemble();
-  header_of(many).section_count = 28;
-  header_of(many).header_bytes = 960;
-  reinterpret_cast<format::Section*>(many.bytes().data() + 64)->offset = 960;
-  seal_header(many, 960);
+  header_of(many).section_count = 32;
+  header_of(many).header_bytes = 1088;
+  reinterpret_cast<format::Section*>(many.bytes().data() + 64)->offset = 1088;
+  seal_header(many, 1088);
   EXPECT_EQ(status_of(many.bytes()), Status::kImageLayout);
   EXPECT_EQ(status_of(std::span<const std::byte>()), Status::kImageTruncated);
   // a file that ends in its table

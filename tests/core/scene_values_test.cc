@@ -299,8 +299,7 @@ TEST(SceneObject, HasNoNormalWhereTheFieldIsFlat) {
     auto& brick = parts.item<format::Brick>(SectionId::kBricks, i);
     std::fill(std::begin(brick.value), std::end(brick.value), std::int16_t{3});
   }
-  auto& weights = parts.item<format::ExactBrick>(SectionId::kExactBricks).weight;
-  std::fill(std::begin(weights), std::end(weights), std::uint16_t{0});
+  parts.item<format::ExactBrick>(SectionId::kExactBricks) = {};
   const test::SceneImage image = parts.assemble();
   Scene scene;
   ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);

@@ -468,11 +468,14 @@ SceneImage build_scene_image(const SceneDescription& description) {
   if (!field.refined.empty()) sections.push_back(section(SectionId::kRefined, std::span(field.refined)));
   format::ExactBrick exact{};
   std::fill(std::begin(exact.weight), std::end(exact.weight), std::uint16_t{format::kOneWeight / 2});
-  std::fill(std::begin(exact.cell), std::end(exact.cell), std::uint64_t{1});
-  exact.facet_count = 1;
+  std::fill(std::begin(exact.cell), std::end(exact.cell), std::uint32_t{1});
+  const format::FacetSet facet_set{0, 1, 0};
+  const std::uint32_t facet_number = 0;
   if (description.facet) {
     sections.push_back(section(SectionId::kFacets, std::span(&*description.facet, 1)));
     sections.push_back(section(SectionId::kExactBricks, std::span<const format::ExactBrick>(&exact, 1)));
+    sections.push_back(section(SectionId::kFacetSets, std::span(&facet_set, 1)));
+    sections.push_back(section(SectionId::kFacetNumbers, std::span(&facet_number, 1)));
   }
   sections.push_back(section(SectionId::kBody, std::span(&stored.body, 1)));
   sections.push_back(section(SectionId::kPoints, std::span(points)));

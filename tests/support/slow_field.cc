@@ -99,25 +99,46 @@ class RandomEntries {
                  (vertex[corner[1]] - vertex[corner[0]]).cross(vertex[corner[2]] - vertex[corner[0]]).normalized());
     }
     format::ExactBrick& exact = parts_.exact.emplace_back();
-    exact.facet_count = 4;
-    for (std::uint32_t face = 0; face < 4; ++face) exact.facet[face] = first + face;
     for (std::uint16_t& weight : exact.weight) {
-      weight = static_cast<std::uint16_t>(one_of(2) ? random_.integer(0, 1) << 15 : random_.integer(0, 1 << 15));
+      weight = static_cast<std::uint16_t>(one_of(2) ? random_.integer(0, 1) << 14 : random_.integer(0, 1 << 14));
     }
-    // half of the bricks have a corner without weights, whose cells may lack facets
+    // half of the bricks have a corner without weights, whose cells lack facets; half have whole cells
+    const int last_whole = one_of(2) ? 2 : -1;
     const int first_weightless =
         one_of(2) ? format::kBrickNodes : static_cast<int>(random_.integer(1, format::kBrickCells - 1));
     for (int node = 0; node < format::kBrickValues; ++node) {
       const int steps[3] = {node % format::kBrickNodes, node / format::kBrickNodes % format::kBrickNodes,
                             node / (format::kBrickNodes * format::kBrickNodes)};
+      if (steps[0] <= last_whole) exact.weight[node] = format::kOneWeight;
       if (std::min({steps[0], steps[1], steps[2]}) >= first_weightless) exact.weight[node] = 0;
     }
-    for (int number = 0; number < format::kCellsPerBrick; ++number) {
-      const int steps[3] = {number % format::kBrickCells, number / format::kBrickCells % format::kBrickCells,
-                            number / (format::kBrickCells * format::kBrickCells)};
-      const bool may_lack = std::min({steps[0], steps[1], steps[2]}) >= first_weightless;
-      exact.cell[number] = static_cast<std::uint64_t>(random_.integer(may_lack ? 0 : 1, 15));
+    for (int number = 0; number < format::kCellsPerBrick; ++number) exact.cell[number] = word(exact, number, first);
+  }
+
+  /// Returns the word of a cell, with a new set of some of four facets if it has a weight. Two of three sets have a
+  /// first part.
+  std::uint32_t word(const format::ExactBrick& exact, int number, std::uint32_t first_facet) {
+    bool weighed = false;
+    bool whole = true;
+    for (int corner = 0; corner < 8; ++corner) {
+      const int node = number % 4 + corner % 2 + 5 * (number / 4 % 4 + corner / 2 % 2 + 5 * (number / 16 + corner / 4));
+      weighed = weighed || exact.weight[node] > 0;
+      whole = whole && exact.weight[node] == 1 << 14;
     }
+    if (!weighed) return 0;
+    std::vector<std::uint32_t> part[2];
+    const bool has_planes = !one_of(3);
+    for (std::uint32_t face = 0; face < 4; ++face) {
+      if (face < 3 && one_of(2)) continue;
+      part[has_planes && one_of(2) ? 0 : 1].push_back(first_facet + face);
+    }
+    parts_.facet_sets.push_back({static_cast<std::uint32_t>(parts_.facet_numbers.size()),
+                                 static_cast<std::uint16_t>(part[0].size() + part[1].size()),
+                                 static_cast<std::uint16_t>(part[0].size())});
+    for (const auto& numbers : part) {
+      parts_.facet_numbers.insert(parts_.facet_numbers.end(), numbers.begin(), numbers.end());
+    }
+    return static_cast<std::uint32_t>(parts_.facet_sets.size()) | (whole ? 1u << 31 : 0u);
   }
 
   const RandomField& of_;
@@ -257,15 +278,36 @@ double SlowField::weight(const Place& place) const {
     double share = 1.0;
     for (int axis = 0; axis < 3; ++axis) share *= up[axis] == 1 ? place.at[axis] : 1.0 - place.at[axis];
     const int node = place.cell[0] + up[0] + 5 * (place.cell[1] + up[1] + 5 * (place.cell[2] + up[2]));
-    sum += share * exact_of(place).weight[node] / 32768.0;
+    sum += share * exact_of(place).weight[node] / 16384.0;
   }
   return sum;
 }
 
+const format::FacetSet* SlowField::facets_of(const Place& place) const {
+  if (!place.exact) return nullptr;
+  const std::uint32_t word = exact_of(place).cell[place.cell[0] + 4 * (place.cell[1] + 4 * place.cell[2])];
+  return word == 0 ? nullptr : &parts_.facet_sets[word % (1u << 31) - 1];
+}
+
+bool SlowField::is_whole(const Place& place) const {
+  return exact_of(place).cell[place.cell[0] + 4 * (place.cell[1] + 4 * place.cell[2])] >> 31 == 1;
+}
+
+double SlowField::least_height(const format::FacetSet& set, const Vector3& p) const {
+  double least = HUGE_VAL;
+  for (std::uint32_t i = 0; i < set.plane_count; ++i) {
+    const format::Facet& facet = parts_.facets[parts_.facet_numbers[set.first + i]];
+    const Vector3 up(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
+    least = std::min(least, up.dot(p - vector(facet.vertex[0])));
+  }
+  return least;
+}
+
 /// The nearest place of each facet by a search: along an edge, or on the plane if that lies in the triangle.
 double SlowField::facet_distance(const Place& place, const Vector3& p) const {
-  const format::ExactBrick& exact = exact_of(place);
-  const std::uint64_t of_cell = exact.cell[place.cell[0] + 4 * (place.cell[1] + 4 * place.cell[2])];
+  const format::FacetSet& set = *facets_of(place);
+  const double height = least_height(set, p);
+  if (set.plane_count > 0 && height >= 0.0) return height;
   double nearest = HUGE_VAL;
   Vector3 away = Vector3::Zero(), normal = Vector3::Zero();
   const auto compare = [&](const Vector3& q, const Vector3& n) {
@@ -277,9 +319,8 @@ double SlowField::facet_distance(const Place& place, const Vector3& p) const {
   const auto single = [](const float(&v)[3]) {
     return Vector3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
   };
-  for (int i = 0; i < 64; ++i) {
-    if ((of_cell >> i) % 2 == 0) continue;
-    const format::Facet& facet = parts_.facets[exact.facet[i]];
+  for (std::uint32_t i = 0; i < set.count; ++i) {
+    const format::Facet& facet = parts_.facets[parts_.facet_numbers[set.first + i]];
     const Vector3 a = vector(facet.vertex[0]), b = vector(facet.vertex[1]), c = vector(facet.vertex[2]);
     const Vector3 up(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
     Matrix3 frame;  // p = a + x (b - a) + y (c - a) + z up
@@ -298,7 +339,7 @@ double SlowField::facet_distance(const Place& place, const Vector3& p) const {
 
 double SlowField::stored(const Place& place, const Vector3& p) const {
   const double interpolated = parts_.grid.quantum * quanta(place, place.at);
-  if (!place.exact) return interpolated;
+  if (facets_of(place) == nullptr) return interpolated;
   const double w = weight(place);
   return w == 0.0 ? interpolated : (1.0 - w) * interpolated + w * (facet_distance(place, p) + parts_.grid.facet_offset);
 }

@@ -18,8 +18,10 @@ struct FieldParts {
   std::vector<format::Refined> refined;
   std::vector<format::ExactBrick> exact;
   std::vector<format::Facet> facets;
+  std::vector<format::FacetSet> facet_sets;
+  std::vector<std::uint32_t> facet_numbers;
 
-  Voxelmap map() const { return {grid, index, bricks, refined, exact, facets}; }
+  Voxelmap map() const { return {grid, index, bricks, refined, exact, {facets, facet_sets, facet_numbers}}; }
 };
 
 /// Describes `random_field`.
@@ -76,6 +78,11 @@ class SlowField {
   /// Returns the weight I[w] at a place of an exact brick, and the distance g to the facets of its cell [m].
   double weight(const Place& place) const;
   double facet_distance(const Place& place, const Vector3& p) const;
+  /// Returns the set of a cell; none if the cell has no facets.
+  const format::FacetSet* facets_of(const Place& place) const;
+  bool is_whole(const Place& place) const;  ///< all nodes of the cell have the weight 1
+  /// Returns the least height of p above the faces of a set's first part; infinity if that is empty [m].
+  double least_height(const format::FacetSet& set, const Vector3& p) const;
   double near_band() const;  ///< largest part of a distance that a clearance may use [m]
   double assured() const;    ///< clearance wherever nothing is stored outside [m]
 

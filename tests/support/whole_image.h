@@ -52,6 +52,8 @@ inline ImageParts whole_image(const SurfaceSamples& points = sample_box(Vector3(
   copy(SectionId::kRefined, SectionId::kBodyRefined);
   copy(SectionId::kFacets, SectionId::kBodyFacets);
   copy(SectionId::kExactBricks, SectionId::kBodyExactBricks);
+  copy(SectionId::kFacetSets, SectionId::kBodyFacetSets);
+  copy(SectionId::kFacetNumbers, SectionId::kBodyFacetNumbers);
   copy(SectionId::kPoints, SectionId::kFeaturePoints);
   copy(SectionId::kNodes, SectionId::kFeatureNodes);
   const auto& body = image.item<format::Body>(SectionId::kBody);

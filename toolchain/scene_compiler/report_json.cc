@@ -120,7 +120,8 @@ Json second_direction_json(const CompileReport& report) {
   std::uint64_t bytes = 0;
   for (const auto& [id, section] : report.sections) {
     if ((id >= format::SectionId::kBodyGrid && id <= format::SectionId::kFeatureNodes) ||
-        id == format::SectionId::kBodyFacets || id == format::SectionId::kBodyExactBricks) {
+        id == format::SectionId::kBodyFacets || id == format::SectionId::kBodyExactBricks ||
+        id == format::SectionId::kBodyFacetSets || id == format::SectionId::kBodyFacetNumbers) {
       bytes += section;
     }
   }

@@ -42,6 +42,8 @@ StoredField::StoredField(std::span<const std::byte> image, const FieldSections& 
       bricks_(section_of<format::Brick>(image, sections.bricks)),
       refined_(section_of<format::Refined>(image, sections.refined)),
       facets_(section_of<format::Facet>(image, sections.facets)),
+      facet_sets_(section_of<format::FacetSet>(image, sections.facet_sets)),
+      facet_numbers_(section_of<std::uint32_t>(image, sections.facet_numbers)),
       exact_(section_of<format::ExactBrick>(image, sections.exact)) {
   const auto grid = section_bytes(image, sections.grid);
   if (grid.size() != sizeof(grid_)) throw std::runtime_error("the scene image has no such field");
@@ -130,6 +132,10 @@ Slope StoredField::interpolate(const Place& place) {
 Slope StoredField::blend(const Place& place, const Vector3& p, const Slope& interpolated) const {
   const format::ExactBrick& exact = exact_[place.brick->exact - 1u];
   double weight = 0.0;
+  int in_brick = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    in_brick = kBrickCells * in_brick + std::clamp(static_cast<int>(place.at[axis]), 0, kBrickCells - 1);
+  }
   for (int corner = 0; corner < 8; ++corner) {
     int number = 0, stride = 1;
     double share = 1.0;
@@ -143,7 +149,8 @@ Slope StoredField::blend(const Place& place, const Vector3& p, const Slope& inte
     weight += share * exact.weight[number] / format::kOneWeight;
   }
   if (weight <= 0.0) return interpolated;
-  const Slope facets = from_facets(exact, p);
+  const std::uint32_t set = (exact.cell[in_brick] & format::cell_facets::kSet) - 1;
+  const Slope facets = from_facets(facet_sets_[set], p);
   Slope value;
   value.distance = (1.0 - weight) * interpolated.distance + weight * (facets.distance + grid_.facet_offset);
   // the weight's own gradient is left out: it multiplies the difference of both distances, which is small
@@ -151,8 +158,8 @@ Slope StoredField::blend(const Place& place, const Vector3& p, const Slope& inte
   return value;
 }
 
-/// The distance to all facets of a brick, by the places nearest to p: of a plane, of three edges, of three vertices.
-Slope StoredField::from_facets(const format::ExactBrick& exact, const Vector3& p) const {
+/// The distance to all facets of a set, by the places nearest to p: of a plane, of three edges, of three vertices.
+Slope StoredField::from_facets(const format::FacetSet& set, const Vector3& p) const {
   double least = HUGE_VAL;
   Vector3 away = Vector3::Zero(), normal = Vector3::Zero();
   const auto compare = [&](const Vector3& from_place, const Vector3& of_place) {
@@ -162,8 +169,8 @@ Slope StoredField::from_facets(const format::ExactBrick& exact, const Vector3& p
     normal = of_place;
   };
   const auto single = [](const float(&v)[3]) { return Vector3(v[0], v[1], v[2]); };
-  for (int i = 0; i < exact.facet_count; ++i) {
-    const format::Facet& facet = facets_[exact.facet[i]];
+  for (const std::uint32_t number : facet_numbers_.subspan(set.first, set.count)) {
+    const format::Facet& facet = facets_[number];
     const Vector3 up(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
     bool above = true;
     for (int k = 0; k < 3; ++k) {

@@ -13,14 +13,16 @@ namespace godobject::watch {
 
 /// The sections of a scene image that a field stands in: those of the still body, or those of the moving body.
 struct FieldSections {
-  format::SectionId grid, index, bricks, refined, facets, exact;
+  format::SectionId grid, index, bricks, refined, exact, facets, facet_sets, facet_numbers;
 };
-inline constexpr FieldSections kStillField{format::SectionId::kGrid,   format::SectionId::kBrickIndex,
-                                           format::SectionId::kBricks, format::SectionId::kRefined,
-                                           format::SectionId::kFacets, format::SectionId::kExactBricks};
-inline constexpr FieldSections kBodyField{format::SectionId::kBodyGrid,   format::SectionId::kBodyBrickIndex,
-                                          format::SectionId::kBodyBricks, format::SectionId::kBodyRefined,
-                                          format::SectionId::kBodyFacets, format::SectionId::kBodyExactBricks};
+inline constexpr FieldSections kStillField{format::SectionId::kGrid,        format::SectionId::kBrickIndex,
+                                           format::SectionId::kBricks,      format::SectionId::kRefined,
+                                           format::SectionId::kExactBricks, format::SectionId::kFacets,
+                                           format::SectionId::kFacetSets,   format::SectionId::kFacetNumbers};
+inline constexpr FieldSections kBodyField{format::SectionId::kBodyGrid,        format::SectionId::kBodyBrickIndex,
+                                          format::SectionId::kBodyBricks,      format::SectionId::kBodyRefined,
+                                          format::SectionId::kBodyExactBricks, format::SectionId::kBodyFacets,
+                                          format::SectionId::kBodyFacetSets,   format::SectionId::kBodyFacetNumbers};
 
 /// A stored field, read from the bytes of an image as core/scene/format.h describes them. It shares no code with
 /// Voxelmap: look-ups are plain double precision, one at a time.
@@ -49,7 +51,7 @@ class StoredField final : public Oracle {
   Place descend(std::uint32_t entry, Vector3 at) const;
   static Slope interpolate(const Place& place);
   Slope blend(const Place& place, const Vector3& p, const Slope& interpolated) const;
-  Slope from_facets(const format::ExactBrick& exact, const Vector3& p) const;
+  Slope from_facets(const format::FacetSet& set, const Vector3& p) const;
   double steepest() const;
 
   format::Grid grid_;
@@ -57,6 +59,8 @@ class StoredField final : public Oracle {
   std::span<const format::Brick> bricks_;
   std::span<const format::Refined> refined_;
   std::span<const format::Facet> facets_;
+  std::span<const format::FacetSet> facet_sets_;
+  std::span<const std::uint32_t> facet_numbers_;
   std::span<const format::ExactBrick> exact_;
   double lipschitz_ = 1.0;
 };

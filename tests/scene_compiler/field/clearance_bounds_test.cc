@@ -29,7 +29,7 @@ DistanceGrid field_of(const SolidSurface& surface, double s, bool refined) {
 }
 
 Voxelmap map_of(const DistanceGrid& field, const std::vector<format::Brick>& bricks) {
-  return {field.grid, field.index, bricks, field.refined, field.exact, field.facets};
+  return {field.grid, field.index, bricks, field.refined, field.exact, field.facet_lists()};
 }
 
 struct Body {

@@ -52,7 +52,7 @@ struct RefinedField {
         coarse_bricks(packed_bricks(to_float(coarse))),
         bricks(packed_bricks(grid)),
         coarse_map(coarse.grid, coarse.index, coarse_bricks, {}),
-        map(grid.grid, grid.index, bricks, grid.refined, grid.exact, grid.facets) {}
+        map(grid.grid, grid.index, bricks, grid.refined, grid.exact, grid.facet_lists()) {}
 };
 
 /// Any rotation, anywhere within a voxel.
@@ -581,6 +581,8 @@ TEST(Refinement, GivesTheSameEveryTime) {
   };
   EXPECT_TRUE(same(one.grid.exact, other.grid.exact));
   EXPECT_TRUE(same(one.grid.facets, other.grid.facets));
+  EXPECT_TRUE(same(one.grid.facet_sets, other.grid.facet_sets));
+  EXPECT_EQ(one.grid.facet_numbers, other.grid.facet_numbers);
   EXPECT_GT(one.grid.exact.size(), 0u);
   EXPECT_EQ(std::memcmp(one.grid.refined.data(), other.grid.refined.data(),
                         one.grid.refined.size() * sizeof(format::Refined)),

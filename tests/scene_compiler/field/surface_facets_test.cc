@@ -45,6 +45,79 @@ TEST(SurfaceFacets, NearACubeGiveTheDistanceInIt) {
   }
 }
 
+/// Where the free space is convex, the least height above planes is the distance. There are planes wherever it is, and
+/// as few as can be told from the cell alone.
+TEST(SurfaceFacets, HavePlanesWhereTheFreeSpaceIsConvex) {
+  test::Random random(4);
+  const Vector3d half(0.015, 0.012, 0.009);
+  const TriangleMesh box = test::box_mesh(2.0 * half);
+  TriangleMesh room = hollow_block({0.06, 0.05, 0.04}, 2.0 * half);
+  int with_planes = 0, outside_box = 0, planes_of_rooms = 0;
+  for (const bool of_room : {true, false}) {
+    const auto motion = test::odd_motion();
+    const SolidSurface surface(test::moved(of_room ? room : box, motion), SurfaceKind::kSolid, 0.0);
+    const SurfaceFacets facets(surface, 0.0);
+    const BruteForce truth(surface.mesh());
+    for (int i = 0; i < 400; ++i) {
+      const double half_edge = random.between(2e-4, 1e-3);
+      Vector3d local = half.cwiseProduct(random.in_cube(0.5));
+      const int corners = i % 3;  // 0: about a face, 1: an edge, 2: a corner
+      for (int axis = 0; axis <= corners; ++axis) {
+        local[axis] = std::copysign(half[axis], local[axis]) + 2.0 * half_edge * random.between(-1.0, 1.0);
+      }
+      const Vector3d center = motion * local;
+      const auto near = facets.near(center, half_edge);
+      ASSERT_TRUE(near);
+      const auto planes = facets.convex_planes(center, half_edge, *near);
+      ASSERT_TRUE(std::includes(near->begin(), near->end(), planes.begin(), planes.end()));
+      if (!of_room && corners > 0) {
+        // the solid is convex there, the free space is not
+        ASSERT_TRUE(planes.size() <= 1) << center.transpose();
+        outside_box += planes.empty() ? 1 : 0;
+      }
+      if (of_room) {
+        ASSERT_FALSE(planes.empty()) << center.transpose();
+        ASSERT_LE(planes.size(), static_cast<std::size_t>(corners) + 1);
+        planes_of_rooms += static_cast<int>(planes.size());
+      }
+      if (planes.empty()) continue;
+      ++with_planes;
+      for (int k = 0; k < 20; ++k) {
+        const Vector3d p = center + half_edge * random.in_cube(1.0);
+        double least = HUGE_VAL;
+        for (const std::uint32_t number : planes) {
+          const format::Facet& f = facets.all()[number];
+          least = std::min(least, face_normal(f).dot(p) + f.plane[3][0]);
+        }
+        const bool inside = truth.winding_number(p) > 0.5;
+        ASSERT_EQ(least < 0.0, inside) << p.transpose();
+        if (!inside) {
+          ASSERT_NEAR(least, truth.distance(p), 1e-9) << p.transpose();
+        }
+      }
+    }
+  }
+  EXPECT_GT(with_planes, 400);
+  EXPECT_GT(outside_box, 150);
+  EXPECT_LT(planes_of_rooms, 900) << "of 400 cells";
+}
+
+/// A pocket whose wall ends near the cell has no planes: the foot of a point on the wall's plane may lie beyond its
+/// end.
+TEST(SurfaceFacets, HaveNoPlanesWhereAWallEnds) {
+  const double s = 1e-3;
+  const TriangleMesh room = hollow_block({0.06, 0.05, 0.04}, {0.03, 0.02, 2.0 * s});
+  const SurfaceFacets facets(SolidSurface(room, SurfaceKind::kSolid, 0.0), 0.0);
+  // in the room's flat corner both faces of the pocket are planes, as long as they bound convex space
+  const Vector3d corner(0.015, 0.0, s);
+  const auto planes_at = [&](const Vector3d& center) {
+    return facets.convex_planes(center, 0.25 * s, *facets.near(center, 0.25 * s)).size();
+  };
+  EXPECT_GE(planes_at(corner - Vector3d(0.5 * s, 0.0, 0.5 * s)), 2u);
+  // outside the block, at its edge, no space is convex
+  EXPECT_EQ(planes_at({0.03, 0.0, 0.02}), 0u);
+}
+
 TEST(SurfaceFacets, AreNoneWhereTheyWouldNotTellTheSide) {
   const Vector3d corner(0.015, 0.01, 0.0075);
   const TriangleMesh box = test::box_mesh(2.0 * corner);
@@ -126,16 +199,15 @@ TEST(FacetDifference, BoundsWhatIsMeasured) {
     const Vector3d low = center - Vector3d::Constant(0.5 * edge);
     const auto near = facets.near(center, 0.5 * edge);
     ASSERT_TRUE(near);
+    const format::FacetSet sets[] = {{}, {0, static_cast<std::uint16_t>(near->size()), 0}};
     format::ExactBrick exact{};
-    exact.facet_count = static_cast<std::uint16_t>(near->size());
-    std::copy(near->begin(), near->end(), std::begin(exact.facet));
-    exact.cell[7] = ~std::uint64_t{0} >> (64 - near->size());
+    exact.cell[7] = format::cell_facets::kWhole | 2;
     const double offset = random.between(-0.2, 0.2) * edge;
     double corners[8];
     for (unsigned c = 0; c < 8; ++c) {
       corners[c] = surface.signed_distance(low + edge * Vector3d(c & 1, c >> 1 & 1, c >> 2)) + offset;
     }
-    const FacetDifference difference(facets.all(), exact, offset);
+    const FacetDifference difference({facets.all(), sets, *near}, exact, offset);
     FacetDifference::Largest bound;
     difference.raise(7, low, edge, corners, bound);
     FacetDifference::Largest raised{0.3 * edge, 0.1 * edge};

@@ -113,7 +113,7 @@ TEST(Dilation, LessensEveryDistanceAndLeavesNoFacet) {
     const RefinementReport refined = refine(grid, cube, SurfaceTolerance::of_depth(tolerance * kVoxel), {});
     EXPECT_EQ(refined.exact, 0u);
     const std::vector<format::Brick> bricks = packed_bricks(grid);
-    const Voxelmap field(grid.grid, grid.index, bricks, grid.refined, grid.exact, grid.facets);
+    const Voxelmap field(grid.grid, grid.index, bricks, grid.refined, grid.exact, grid.facet_lists());
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     double worst = 0.0;

@@ -64,7 +64,7 @@ TEST(WithinReach, KeepsWhatComesNearAndLittleMore) {
   constexpr double kVoxel = 0.004;
   const DistanceGrid field = cube_field(0.03, kVoxel);
   const std::vector<format::Brick> bricks = packed_bricks(field);
-  const Voxelmap map(field.grid, field.index, bricks, field.refined, field.exact, field.facets);
+  const Voxelmap map(field.grid, field.index, bricks, field.refined, field.exact, field.facet_lists());
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);

@@ -77,15 +77,21 @@ std::uint64_t cells_about(int node) {
   return kTable[static_cast<std::size_t>(node)];
 }
 
-/// Gives the brick's first facet to cells that have a weight but are not looked up, and none to cells without a weight.
-format::ExactBrick with_facets_where_weighed(format::ExactBrick exact) {
+/// Finishes the words of a brick's cells. Cells that have a weight but are not looked up get the first set of the
+/// others.
+format::ExactBrick with_words(format::ExactBrick exact) {
   std::uint64_t weighed = 0;
+  std::uint64_t not_whole = 0;
   for (int i = 0; i < kBrickValues; ++i) {
     if (exact.weight[i] != 0) weighed |= cells_about(i);
+    if (exact.weight[i] != format::kOneWeight) not_whole |= cells_about(i);
   }
+  const auto first = std::find_if(std::begin(exact.cell), std::end(exact.cell), [](auto word) { return word != 0; });
+  const std::uint32_t any = *first;
   for (int cell = 0; cell < format::kCellsPerBrick; ++cell) {
-    const std::uint64_t facets = exact.cell[cell] != 0 ? exact.cell[cell] : 1;
-    exact.cell[cell] = (weighed >> cell & 1) != 0 ? facets : 0;
+    const std::uint32_t set = exact.cell[cell] != 0 ? exact.cell[cell] : any;
+    const std::uint32_t whole = (not_whole >> cell & 1) == 0 ? format::cell_facets::kWhole : 0;
+    exact.cell[cell] = (weighed >> cell & 1) != 0 ? set | whole : 0;
   }
   return exact;
 }
@@ -127,14 +133,15 @@ double BrickTree::blended(std::uint32_t brick, const Vector3d& p, double interpo
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
   const double weight = interpolate(places_[brick], exact.weight, {units[0], units[1], units[2]}) / format::kOneWeight;
   if (weight <= 0.0) return interpolated;
-  return interpolated + weight * (facet_distance(facets_.all(), exact, cell_of(brick, p), p).value - interpolated);
+  const std::uint32_t set = exact.cell[cell_of(brick, p)] - 1;
+  return interpolated + weight * (facet_distance(facet_lists(), set, p).value - interpolated);
 }
 
 void BrickTree::add_slope(std::uint32_t brick, double slack, double enough, FieldSlope& slope) const {
   if (!exact_[brick]) return slope.add(stored(brick), whole(brick));
   Brick smaller = stored(brick);
   for (float& value : smaller.value) value += static_cast<float>(slack);
-  slope.add(smaller, whole(brick), *exact_[brick], facets_.all(), slack, low(brick), enough);
+  slope.add(smaller, whole(brick), *exact_[brick], facet_lists(), slack, low(brick), enough);
 }
 
 bool BrickTree::turns_about(const Leaf& leaf, const Vector3d& p) const {
@@ -481,13 +488,17 @@ void BrickTree::weigh() {
         const bool changed = places_[b].level == level && changed_in_[root] == joins_;
         if (changed && (about_exact[root] != 0 || exact_[b])) bricks.push_back(b);
       }
-      std::vector<char> refused(bricks.size());
+      std::vector<std::optional<BrickFacets>> facets(bricks.size());
       parallel::for_each_index(bricks.size(), [&](std::size_t i) {
         weigh_brick(bricks[i], nodes);
-        refused[i] = exact_[bricks[i]] && !find_facets(bricks[i]) ? 1 : 0;
+        if (has_new_cells(bricks[i])) facets[i] = find_facets(bricks[i]);
       });
       for (std::size_t i = 0; i < bricks.size(); ++i) {
-        if (refused[i] == 0) continue;
+        if (!has_new_cells(bricks[i])) continue;
+        if (facets[i]) {
+          set_facets(bricks[i], *facets[i]);
+          continue;
+        }
         refuses_[bricks[i]] = true;
         exact_cells_[bricks[i]] = 0;
         mark_changed_about(places_[bricks[i]].root);
@@ -559,48 +570,47 @@ std::uint64_t BrickTree::weighed_cells(std::uint32_t brick, const format::ExactB
   return cells & cells_of_octants(whole(brick));
 }
 
-/// Finds the facets of an exact brick and compares their distances with those of the nodes. False if they do not serve.
-bool BrickTree::find_facets(std::uint32_t brick) {
+/// True if facets must be found for cells of the brick.
+bool BrickTree::has_new_cells(std::uint32_t brick) const {
+  return exact_[brick] && (refuses_[brick] || (weighed_cells(brick, *exact_[brick]) & ~weighed_[brick]) != 0);
+}
+
+/// Finds the facets of an exact brick and compares their distances with those of the nodes. None if they do not serve.
+std::optional<BrickTree::BrickFacets> BrickTree::find_facets(std::uint32_t brick) const {
   // distances of nodes are floats, and solids within solids, if any, are off by much more
   constexpr double kRounding = 1e-4;  // of the cell's edge
-  if (refuses_[brick]) return false;
-  format::ExactBrick& exact = *exact_[brick];
-  const std::uint64_t cells = weighed_cells(brick, exact);
-  if ((cells & ~weighed_[brick]) == 0) return true;
+  if (refuses_[brick]) return {};
+  const std::uint64_t cells = weighed_cells(brick, *exact_[brick]);
   const double edge = cell_edge(level(brick));
-  std::array<std::vector<std::uint32_t>, format::kCellsPerBrick> of_cell;
-  std::vector<std::uint32_t> numbers;
-  for (std::size_t cell = 0; cell < of_cell.size(); ++cell) {
+  BrickFacets facets;
+  for (int cell = 0; cell < format::kCellsPerBrick; ++cell) {
     if ((cells >> cell & 1) == 0) continue;
-    auto near = facets_.near(cell_center(brick, static_cast<int>(cell)), 0.5 * edge);
-    if (!near) return false;
-    std::vector<std::uint32_t> all;
-    std::set_union(numbers.begin(), numbers.end(), near->begin(), near->end(), std::back_inserter(all));
-    if (all.size() > format::kMostFacets) return false;
-    numbers = std::move(all);
-    of_cell[cell] = std::move(*near);
-  }
-  std::fill(std::begin(exact.facet), std::end(exact.facet), 0u);
-  std::copy(numbers.begin(), numbers.end(), std::begin(exact.facet));
-  exact.facet_count = static_cast<std::uint16_t>(numbers.size());
-  for (std::size_t cell = 0; cell < of_cell.size(); ++cell) {
-    exact.cell[cell] = 0;
-    for (const std::uint32_t number : of_cell[cell]) {
-      const auto place = std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
-      exact.cell[cell] |= std::uint64_t{1} << place;
-    }
+    const Vector3d center = cell_center(brick, cell);
+    auto near = facets_.near(center, 0.5 * edge);
+    if (!near) return {};
+    const auto planes = facets_.convex_planes(center, 0.5 * edge, *near);
+    std::erase_if(*near, [&](auto number) { return std::binary_search(planes.begin(), planes.end(), number); });
+    near->insert(near->begin(), planes.begin(), planes.end());
+    facets[static_cast<std::size_t>(cell)] = {std::move(*near), planes.size()};
   }
   for (int i = 0; i < kBrickValues; ++i) {
     const std::uint64_t about = cells & cells_about(i);
     if (about == 0) continue;
     const std::array<int, 3> node = steps_of_node(i);
     const Vector3d p = low(brick) + edge * Vector3d(node[0], node[1], node[2]);
-    const double distance = facet_distance(facets_.all(), exact, std::countr_zero(about), p).value;
-    if (!(std::abs(distance - static_cast<double>(this->exact(brick).value[i])) <= kRounding * edge + facets_.flat()))
-      return false;
+    const CellFacets& of_cell = facets[static_cast<std::size_t>(std::countr_zero(about))];
+    const double distance = facet_distance(facets_.all(), of_cell.numbers, p).value;
+    if (!(std::abs(distance - static_cast<double>(exact(brick).value[i])) <= kRounding * edge + facets_.flat()))
+      return {};
   }
-  weighed_[brick] = cells;
-  return true;
+  return facets;
+}
+
+void BrickTree::set_facets(std::uint32_t brick, const BrickFacets& facets) {
+  for (std::size_t cell = 0; cell < facets.size(); ++cell) {
+    exact_[brick]->cell[cell] = facets[cell].numbers.empty() ? 0 : 1 + sets_.number_of(facets[cell]);
+  }
+  weighed_[brick] = weighed_cells(brick, *exact_[brick]);
 }
 
 int BrickTree::cell_at(const Place& place, const Units& unit_cell) {
@@ -737,10 +747,12 @@ void BrickTree::write_exact(const std::vector<std::uint32_t>& brick_number, Dist
     Brick& brick = field.bricks[brick_number[b]];
     brick.exact = 0;
     if (!exact_[b]) continue;
-    field.exact.push_back(with_facets_where_weighed(*exact_[b]));
+    field.exact.push_back(with_words(*exact_[b]));
     brick.exact = static_cast<std::uint32_t>(field.exact.size());
   }
   field.facets = facets_.all();
+  field.facet_sets = sets_.sets();
+  field.facet_numbers = sets_.numbers();
   leave_out_unnamed(field);
 }
 

@@ -9,6 +9,7 @@
 
 #include "toolchain/scene_compiler/field/brick_lattice.h"
 #include "toolchain/scene_compiler/field/distance_grid.h"
+#include "toolchain/scene_compiler/field/facet_sets.h"
 #include "toolchain/scene_compiler/field/field_slope.h"
 #include "toolchain/scene_compiler/field/surface_facets.h"
 
@@ -106,9 +107,11 @@ class BrickTree {
   /// Makes no cell of the brick exact, nor of its octants, from the next `join` on.
   void refuse(std::uint32_t brick);
 
-  /// Returns weights and facets of an exact brick: one with a node of a weight. Facets are numbered as in those that
-  /// the tree was made with.
+  /// Returns weights and sets of facets (facet_lists) of an exact brick: one with a node of a weight.
   const std::optional<format::ExactBrick>& exact_brick(std::uint32_t brick) const { return exact_[brick]; }
+
+  /// Returns the facets that the tree was made with, and the sets that exact bricks name.
+  FacetLists facet_lists() const { return {facets_.all(), sets_.sets(), sets_.numbers()}; }
 
   /// Adds the slope of the octants that are not halved, of the field that `round` makes with this slack. `enough` as in
   /// FieldSlope::add.
@@ -163,7 +166,11 @@ class BrickTree {
   void spread_exact_cells();
   void weigh();
   void weigh_brick(std::uint32_t brick, const std::unordered_set<std::uint64_t>& nodes);
-  bool find_facets(std::uint32_t brick);
+  /// The facets of an exact brick's cells; none where a cell has no weight.
+  using BrickFacets = std::array<CellFacets, format::kCellsPerBrick>;
+  std::optional<BrickFacets> find_facets(std::uint32_t brick) const;
+  bool has_new_cells(std::uint32_t brick) const;
+  void set_facets(std::uint32_t brick, const BrickFacets& facets);
   std::unordered_set<std::uint64_t> nodes_of_weight_one(std::vector<char>& about_exact) const;
   template <class Visit>
   void visit_corners(const Units& at, const Leaf& leaf, const Visit& visit) const;
@@ -209,7 +216,8 @@ class BrickTree {
   std::vector<bool> refuses_;                             ///< by brick
   std::vector<bool> passes_on_;                           ///< its octants refuse too, by brick
   std::vector<std::uint64_t> weighed_;                    ///< cells for which facets were found, by brick
-  std::vector<std::optional<format::ExactBrick>> exact_;  ///< by brick; facets are numbered as in facets_
+  std::vector<std::optional<format::ExactBrick>> exact_;  ///< by brick; without cell_facets::kWhole
+  FacetSets sets_;
 };
 
 }  // namespace godobject::scene_compiler

@@ -136,7 +136,7 @@ class ClearanceBounds {
       of_leaf.add(brick, octants);
     } else {
       const format::ExactBrick& exact = field_.exact[brick.exact - 1];
-      deviation = of_leaf.add(brick, octants, exact, field_.facets, field_.grid.facet_offset, low);
+      deviation = of_leaf.add(brick, octants, exact, field_.facet_lists(), field_.grid.facet_offset, low);
     }
     // refined bricks have no seam: refinement leaves seams alone
     const bool halved = cell_edge < field_.grid.voxel_size;

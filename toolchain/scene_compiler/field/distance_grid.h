@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/scene/facets.h"
 #include "core/scene/format.h"
 #include "toolchain/parallel/parallel.h"
 #include "toolchain/scene_compiler/field/brick.h"
@@ -26,9 +27,13 @@ struct DistanceGrid {
   std::vector<format::Refined> refined;
   std::vector<format::ExactBrick> exact;
   std::vector<format::Facet> facets;
+  std::vector<format::FacetSet> facet_sets;
+  std::vector<std::uint32_t> facet_numbers;
   std::vector<double> far_clearance;  ///< of far positions outside: bound of the distance at their centres [m]
   std::vector<bool> beside_seam;      ///< of each position's own brick: a seam lies in it or touches it
   SeamReport seams;
+
+  FacetLists facet_lists() const { return {facets, facet_sets, facet_numbers}; }
 };
 
 /// Limits of a grid. 2^27 positions of 4 bytes and 2^23 bricks of 256 bytes take 0.5 and 2 GiB of the image.

@@ -4,8 +4,8 @@
 
 namespace godobject::scene_compiler {
 
-/// Leaves out of a field the exact bricks that no brick names, and the facets that no exact brick has. Renumbers the
-/// others in the order of the bricks, and of the facets.
+/// Leaves out of a field the exact bricks that no brick names, the sets of facets that no exact brick has, and the
+/// facets that no set has. Renumbers bricks and sets in the order of the bricks, and facets in their own order.
 void leave_out_unnamed(DistanceGrid& field);
 
 }  // namespace godobject::scene_compiler

@@ -49,7 +49,7 @@ struct ExactCell {
 }  // namespace
 
 double FieldSlope::add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
-                       std::span<const format::Facet> facets, double offset, const Vector3d& low, double enough) {
+                       const FacetLists& facets, double offset, const Vector3d& low, double enough) {
   const FacetDifference difference(facets, exact, offset);
   double deviation = 0.0;
   for_each_cell(brick, octants, [&](const CellEdges& edges, int x, int y, int z) {

@@ -32,8 +32,8 @@ class FieldSlope {
   ///     |grad phi| <= (1 - w) |grad I[phi]| + w + |g + offset - I[phi]| |grad w|.
   ///
   /// Returns a bound of |phi - I[phi]| [m]. Where a coarse bound of the gradient is below `enough`, both are coarse.
-  double add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact,
-             std::span<const format::Facet> facets, double offset, const Eigen::Vector3d& low, double enough = 0.0);
+  double add(const Brick& brick, std::uint8_t octants, const format::ExactBrick& exact, const FacetLists& facets,
+             double offset, const Eigen::Vector3d& low, double enough = 0.0);
 
   double largest() const { return smooth_; }
   double largest_with_seams() const { return seamed_; }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -75,6 +76,37 @@ void leave_out_flat(TriangleMesh& mesh, double flat) {
   });
   close_slits(mesh, flat);
   remove_flat_vertices(mesh, flat);
+}
+
+/// Returns the height of a point above the plane of a facet [m].
+double height(const format::Facet& facet, const Vector3d& p) { return face_normal(facet).dot(p) + facet.plane[3][0]; }
+
+/// True if two facets lie in one plane with their outer sides, within a length.
+bool same_plane(const format::Facet& facet, const format::Facet& other, double within) {
+  if ((face_normal(facet) - face_normal(other)).norm() > kSamePlane) return false;
+  return std::all_of(std::begin(facet.vertex), std::end(facet.vertex),
+                     [&](const double(&vertex)[3]) { return std::abs(height(other, vector(vertex))) <= within; });
+}
+
+/// Returns the part of a convex polygon in a cube; empty if there is none.
+std::vector<Vector3d> clipped(std::vector<Vector3d> polygon, const Vector3d& center, double half_edge) {
+  for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+    const int axis = side / 2;
+    const double sign = side % 2 == 0 ? 1.0 : -1.0;
+    std::vector<Vector3d> within;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vector3d& from = polygon[i];
+      const Vector3d& to = polygon[(i + 1) % polygon.size()];
+      const double from_room = half_edge - sign * (from[axis] - center[axis]);
+      const double to_room = half_edge - sign * (to[axis] - center[axis]);
+      if (from_room >= 0.0) within.push_back(from);
+      if ((from_room < 0.0) != (to_room < 0.0)) {
+        within.push_back(from + from_room / (from_room - to_room) * (to - from));
+      }
+    }
+    polygon = std::move(within);
+  }
+  return polygon;
 }
 
 /// Returns the sum of the unit normals of the faces at an edge; zero where it tells no side.
@@ -147,6 +179,55 @@ std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& ce
   return numbers;
 }
 
+/// Let D be a cube that holds the cell and the nearest places of all its points, and C the points of D on the outer
+/// side of the planes of all facets in D. If all these facets lie in C, then they are on its border. A face of C is
+/// convex, hence in one piece, and the surface has no border of its own; so it covers each face that it has a part of.
+/// The foot of a point of C on the lowest of the planes lies on the border of C, hence on a facet.
+std::vector<std::uint32_t> SurfaceFacets::convex_planes(const Vector3d& center, double half_edge,
+                                                        std::span<const std::uint32_t> near) const {
+  constexpr std::size_t kMost = 256;  // facets in D, chosen: bounds the cost
+  constexpr double kRounding = 2e-5;  // of a facet's height, in half edges
+  const double diagonal = 2.0 * kHalfDiagonal * half_edge;
+  const double least = -kRounding * half_edge;
+  const double reach = half_edge + diagonal + std::abs(facet_distance(facets_, near, center).value);
+  std::vector<std::vector<Vector3d>> parts;  // of facets in D
+  std::vector<std::uint32_t> planes;         // facets, one in each plane
+  bool serves = true;
+  tree_.within(center, 2.0 * kHalfDiagonal * reach, [&](const TriangleTree::Triangle& triangle) {
+    if (!serves) return;
+    std::vector<Vector3d> part = clipped({triangle.a, triangle.b, triangle.c}, center, reach);
+    if (part.empty()) return;
+    serves = valid_[triangle.id] != 0 && parts.size() < kMost;
+    const auto same = [&](std::uint32_t other) { return same_plane(facets_[triangle.id], facets_[other], -least); };
+    if (std::none_of(planes.begin(), planes.end(), same)) planes.push_back(triangle.id);
+    parts.push_back(std::move(part));
+  });
+  for (const std::uint32_t plane : planes) {
+    for (const std::vector<Vector3d>& part : parts) {
+      serves = serves && std::all_of(part.begin(), part.end(),
+                                     [&](const Vector3d& vertex) { return height(facets_[plane], vertex) >= least; });
+    }
+    if (!serves) return {};
+  }
+  if (!serves) return {};
+  std::vector<std::uint32_t> of_near;
+  for (const std::uint32_t number : near) {
+    const auto same = [&](std::uint32_t other) { return same_plane(facets_[number], facets_[other], -least); };
+    if (std::none_of(of_near.begin(), of_near.end(), same)) of_near.push_back(number);
+  }
+  // The difference of two heights changes linearly, so it is least at a corner.
+  const auto has_greater_height = [&](std::uint32_t number, std::uint32_t other) {
+    const Vector3d turn = face_normal(facets_[number]) - face_normal(facets_[other]);
+    return height(facets_[number], center) - height(facets_[other], center) > half_edge * turn.lpNorm<1>();
+  };
+  std::vector<std::uint32_t> lowest;
+  for (const std::uint32_t number : of_near) {
+    const auto below = [&](std::uint32_t other) { return has_greater_height(number, other); };
+    if (std::none_of(of_near.begin(), of_near.end(), below)) lowest.push_back(number);
+  }
+  return lowest;
+}
+
 bool SurfaceFacets::turns(std::span<const std::uint32_t> facets) const {
   for (std::size_t i = 1; i < facets.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -182,12 +263,7 @@ struct FacetDifference::Box {
 
 void FacetDifference::raise(int cell, const Vector3d& low, double cell_edge, const double (&corners)[8],
                             Largest& largest) const {
-  std::array<std::uint32_t, format::kMostFacets> numbers{};
-  std::size_t count = 0;
-  for (std::uint64_t left = exact_.cell[cell]; left != 0; left &= left - 1) {
-    numbers[count++] = exact_.facet[std::countr_zero(left)];
-  }
-  add({low, cell_edge, corners}, {Vector3d::Constant(0.5), 0.5}, std::span(numbers).first(count), largest);
+  add({low, cell_edge, corners}, {Vector3d::Constant(0.5), 0.5}, facets_.of(set_of(cell)), largest);
 }
 
 /// With shares s of the corners, |g - I[phi]| <= sum s |g - phi| <= sum s |p - corner| + largest |g - phi| at a corner.
@@ -196,7 +272,7 @@ double FacetDifference::coarse(int cell, const Vector3d& low, double cell_edge, 
   double off = 0.0;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vector3d p = low + cell_edge * Vector3d(corner & 1, corner >> 1 & 1, corner >> 2);
-    off = std::max(off, std::abs(facet_distance(facets_, exact_, cell, p).value + offset_ - corners[corner]));
+    off = std::max(off, std::abs(facet_distance(facets_, set_of(cell), p).value + offset_ - corners[corner]));
   }
   return kHalfDiagonal * cell_edge + off;
 }
@@ -215,7 +291,7 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
   double nearest = std::numeric_limits<double>::infinity();
   Vector3d normal = Vector3d::Zero();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const format::Facet& f = facets_[numbers[i]];
+    const format::Facet& f = facets_.facets[numbers[i]];
     const Vector3d on = nearest_point_on_triangle(p, vector(f.vertex[0]), vector(f.vertex[1]), vector(f.vertex[2]));
     distance[i] = (on - p).norm();
     if (distance[i] >= nearest) continue;
@@ -228,10 +304,10 @@ void FacetDifference::add(const Cell& cell, const Box& box, std::span<const std:
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (distance[i] > nearest + 2.0 * radius) continue;
     near[count++] = numbers[i];
-    apart = std::max(apart, (face_normal(facets_[numbers[i]]) - normal).norm());
+    apart = std::max(apart, (face_normal(facets_.facets[numbers[i]]) - normal).norm());
   }
   const auto counting = std::span(near).first(count);
-  const double value = facet_distance(facets_, counting, p).value + offset_;
+  const double value = facet_distance(facets_.facets, counting, p).value + offset_;
   double bound = 0.0;
   bool outside = value + radius > 0.0;
   for (unsigned corner = 0; corner < 8; ++corner) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/scene/facets.h"
 #include "core/scene/format.h"
 #include "toolchain/scene_compiler/mesh/solid_surface.h"
 #include "toolchain/scene_compiler/mesh/triangle_tree.h"
@@ -32,6 +33,12 @@ class SurfaceFacets {
   /// Includes few others. Cost: a search among all triangles, and some hundred distances for each that is near.
   std::optional<std::vector<std::uint32_t>> near(const Eigen::Vector3d& center, double half_edge) const;
 
+  /// Returns the facets of format::FacetSet's first part, ascending: of the planes of the facets near a cube (`near`),
+  /// those that are the lowest for some point of it. None unless the free space about the cube is convex. Cost: a
+  /// search among all triangles; then the height of each facet about the cube above the plane of each other one.
+  std::vector<std::uint32_t> convex_planes(const Eigen::Vector3d& center, double half_edge,
+                                           std::span<const std::uint32_t> near) const;
+
   /// True if the surface turns by more than the crease angle among these facets: an edge, a corner, or another part of
   /// the surface. There interpolation errs by a share of the cell, elsewhere by a share of its square.
   bool turns(std::span<const std::uint32_t> facets) const;
@@ -46,8 +53,8 @@ class SurfaceFacets {
 /// Bounds the differences of an exact brick's interpolated distances from the distance to its facets.
 class FacetDifference {
  public:
-  /// Stores references to both.
-  FacetDifference(std::span<const format::Facet> facets, const format::ExactBrick& exact, double offset)
+  /// Stores references to facets and brick.
+  FacetDifference(const FacetLists& facets, const format::ExactBrick& exact, double offset)
       : facets_(facets), exact_(exact), offset_(offset) {}
 
   /// Bounds of |g + offset - I[phi]| in a cell [m].
@@ -71,7 +78,9 @@ class FacetDifference {
   struct Box;
   void add(const Cell& cell, const Box& box, std::span<const std::uint32_t> numbers, Largest& largest) const;
 
-  std::span<const format::Facet> facets_;
+  std::uint32_t set_of(int cell) const { return (exact_.cell[cell] & format::cell_facets::kSet) - 1; }
+
+  FacetLists facets_;
   const format::ExactBrick& exact_;
   double offset_;
 };

@@ -41,7 +41,11 @@ const char* section_name(format::SectionId id) {
                                         "body_sharp_edges",
                                         "body_sharp_edge_nodes",
                                         "exact_bricks",
-                                        "body_exact_bricks"};
+                                        "body_exact_bricks",
+                                        "facet_sets",
+                                        "body_facet_sets",
+                                        "facet_numbers",
+                                        "body_facet_numbers"};
   const std::size_t number = static_cast<std::uint32_t>(id) - 1u;  // they are numbered from 1
   return number < kNames.size() ? kNames[number] : "unknown";
 }

@@ -36,6 +36,8 @@ std::vector<SectionBytes> lay_out(const SceneParts& parts) {
   if (!field.exact.empty()) {
     sections.push_back({SectionId::kFacets, bytes_of(field.facets)});
     sections.push_back({SectionId::kExactBricks, bytes_of(field.exact)});
+    sections.push_back({SectionId::kFacetSets, bytes_of(field.facet_sets)});
+    sections.push_back({SectionId::kFacetNumbers, bytes_of(field.facet_numbers)});
   }
   sections.push_back({SectionId::kBody, bytes_of_one(body.body)});
   sections.push_back({SectionId::kPoints, bytes_of(body.points)});
@@ -56,6 +58,8 @@ std::vector<SectionBytes> lay_out(const SceneParts& parts) {
   if (!parts.body_field.exact.empty()) {
     sections.push_back({SectionId::kBodyFacets, bytes_of(parts.body_field.facets)});
     sections.push_back({SectionId::kBodyExactBricks, bytes_of(parts.body_field.exact)});
+    sections.push_back({SectionId::kBodyFacetSets, bytes_of(parts.body_field.facet_sets)});
+    sections.push_back({SectionId::kBodyFacetNumbers, bytes_of(parts.body_field.facet_numbers)});
   }
   sections.push_back({SectionId::kFeatures, bytes_of_one(parts.features.header)});
   sections.push_back({SectionId::kFeaturePoints, bytes_of(parts.features.points)});
