@@ -89,4 +89,18 @@ ValueAndGradient facet_distance(std::span<const format::Facet> facets, std::span
   return signed_distance(nearest);
 }
 
+ValueAndGradient facet_distance(const FacetLists& lists, std::uint32_t set, const Vector3& p) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  const format::Facet* nearest = nullptr;
+  for (const std::uint32_t number : lists.planes_of(set)) {
+    const double(&plane)[4][4] = lists.facets[number].plane;
+    const double height = plane[0][0] * p.x() + plane[1][0] * p.y() + plane[2][0] * p.z() + plane[3][0];
+    if (height >= least) continue;
+    least = height;
+    nearest = &lists.facets[number];
+  }
+  if (nearest != nullptr && least >= 0.0) return {least, face_normal(*nearest)};
+  return facet_distance(lists.facets, lists.of(set), p);
+}
+
 }  // namespace godobject

@@ -101,7 +101,7 @@ std::uint32_t sample_lanes(const FieldOfNodes& f, SampleBatch& batch, std::uint3
                     store_samples<Vectors>(f, high_unit * Vectors::high(field.value), Vectors::high(lipschitz),
                                            high_slope, Vectors::high_mask(open), batch, first + kHalf));
   constexpr std::uint64_t kLanes = (std::uint64_t{1} << Vectors::kLanes) - 1;
-  const auto bits = static_cast<std::uint64_t>(Vectors::bits(known & cell.stored));
+  const auto bits = static_cast<std::uint64_t>(Vectors::bits(known & cell.stored & ~open));
   batch.known = (batch.known & ~(kLanes << first)) | bits << first;
   return Vectors::bits(~cell.stored);
 }

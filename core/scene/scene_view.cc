@@ -241,11 +241,11 @@ bool valid_facet_sets(const FacetLists& lists) noexcept {
   for (const std::uint32_t number : lists.numbers) {
     if (number >= lists.facets.size()) return false;
   }
-  for (std::uint32_t i = 0; i < lists.sets.size(); ++i) {
-    const format::FacetSet& set = lists.sets[i];
+  for (const format::FacetSet& set : lists.sets) {
     if (set.count < 1 || set.count > format::kMostFacets || set.plane_count > set.count) return false;
     if (set.first > lists.numbers.size() || set.count > lists.numbers.size() - set.first) return false;
-    if (!ascends(lists.planes_of(i)) || !ascends(lists.of(i).subspan(set.plane_count))) return false;
+    const auto numbers = lists.numbers.subspan(set.first, set.count);
+    if (!ascends(numbers.first(set.plane_count)) || !ascends(numbers.subspan(set.plane_count))) return false;
   }
   return true;
 }

@@ -54,7 +54,7 @@ class Voxelmap {
   void clearances(const Pose& H, PointBatch& batch) const noexcept;
 
   /// As in DistanceField. The results equal those of `sample` to the last bit. Vectors do several points at a time;
-  /// points in exact bricks, and points where nothing is stored, are done one by one.
+  /// distances to facets, and points where nothing is stored, are done one by one.
   void samples(const Pose& H, SampleBatch& batch) const noexcept;
   /// The same with one of sample_kernels(); null: without vectors.
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;

@@ -41,6 +41,8 @@ RefinementReport trimmed_refinement(RefinementReport refinement, const LeftOutBr
   refinement.finer -= left_out.all_bricks - left_out.positions;
   refinement.exact -= left_out.exact;
   refinement.facets -= left_out.facets;
+  refinement.sets -= left_out.sets;
+  refinement.numbers -= left_out.numbers;
   for (std::size_t i = 0; i < left_out.bricks.size(); ++i) refinement.bricks[i] -= left_out.bricks[i];
   return refinement;
 }

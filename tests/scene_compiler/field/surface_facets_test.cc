@@ -51,7 +51,7 @@ TEST(SurfaceFacets, HavePlanesWhereTheFreeSpaceIsConvex) {
   test::Random random(4);
   const Vector3d half(0.015, 0.012, 0.009);
   const TriangleMesh box = test::box_mesh(2.0 * half);
-  TriangleMesh room = hollow_block({0.06, 0.05, 0.04}, 2.0 * half);
+  TriangleMesh room = hollow_block({0.09, 0.08, 0.07}, 2.0 * half);
   int with_planes = 0, outside_box = 0, planes_of_rooms = 0;
   for (const bool of_room : {true, false}) {
     const auto motion = test::odd_motion();
@@ -102,20 +102,23 @@ TEST(SurfaceFacets, HavePlanesWhereTheFreeSpaceIsConvex) {
   EXPECT_LT(planes_of_rooms, 900) << "of 400 cells";
 }
 
-/// A pocket whose wall ends near the cell has no planes: the foot of a point on the wall's plane may lie beyond its
-/// end.
-TEST(SurfaceFacets, HaveNoPlanesWhereAWallEnds) {
-  const double s = 1e-3;
-  const TriangleMesh room = hollow_block({0.06, 0.05, 0.04}, {0.03, 0.02, 2.0 * s});
-  const SurfaceFacets facets(SolidSurface(room, SurfaceKind::kSolid, 0.0), 0.0);
-  // in the room's flat corner both faces of the pocket are planes, as long as they bound convex space
-  const Vector3d corner(0.015, 0.0, s);
-  const auto planes_at = [&](const Vector3d& center) {
-    return facets.convex_planes(center, 0.25 * s, *facets.near(center, 0.25 * s)).size();
-  };
-  EXPECT_GE(planes_at(corner - Vector3d(0.5 * s, 0.0, 0.5 * s)), 2u);
-  // outside the block, at its edge, no space is convex
-  EXPECT_EQ(planes_at({0.03, 0.0, 0.02}), 0u);
+/// A block ends beside a cell above a floor. Its upper face's plane cuts the cell, but no place of the block is nearest
+/// to a point of it.
+TEST(SurfaceFacets, HaveNoPlaneOfABodyBeside) {
+  const double h = 1e-3;
+  const Vector3d up = Vector3d::Ones().normalized();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.rotate(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up));
+  motion.pretranslate(-h * up);
+  const TriangleMesh floor = test::moved(test::box_mesh({60 * h, 60 * h, 20 * h}, {-30 * h, -30 * h, -20 * h}), motion);
+  const TriangleMesh block = test::box_mesh({6 * h, 8 * h, 2.9 * h}, {3.76 * h, -2.6 * h, -2.3 * h});
+  const SolidSurface surface(test::joined(floor, block), SurfaceKind::kSolid, 0.0);
+  const SurfaceFacets facets(surface, 0.0);
+  const auto near = facets.near(Vector3d::Zero(), h);
+  ASSERT_TRUE(near);
+  for (const std::uint32_t plane : facets.convex_planes(Vector3d::Zero(), h, *near)) {
+    EXPECT_LE((face_normal(facets.all()[plane]) - up).norm(), 1e-9);
+  }
 }
 
 TEST(SurfaceFacets, AreNoneWhereTheyWouldNotTellTheSide) {
@@ -134,6 +137,13 @@ TEST(SurfaceFacets, AreNoneWhereTheyWouldNotTellTheSide) {
   at = open.vertices[open.triangles.back()[0]];
   open.triangles.pop_back();
   EXPECT_TRUE(none_near(open, SurfaceKind::kSolid, at)) << "at a hole";
+  // two boxes that overlap by a corner: each is valid away from the other
+  const Eigen::Isometry3d to_corner(Eigen::Translation3d(1.8 * corner));
+  const TriangleMesh both = test::joined(box, test::moved(box, to_corner));
+  EXPECT_TRUE(none_near(both, SurfaceKind::kSolid, corner - Vector3d(2e-3, 0.0, 0.0)));
+  EXPECT_TRUE(none_near(both, SurfaceKind::kSolid, corner)) << "within the other one";
+  EXPECT_FALSE(none_near(test::joined(box, test::moved(box, Eigen::Isometry3d(Eigen::Translation3d(2.2 * corner)))),
+                         SurfaceKind::kSolid, corner));
   // a fan in more planes than a look-up should compare
   const TriangleMesh cone = cone_mesh(0.01, 0.02, 40);
   EXPECT_TRUE(none_near(cone, SurfaceKind::kSolid, cone.vertices[0]));

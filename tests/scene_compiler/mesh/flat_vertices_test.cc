@@ -1,6 +1,11 @@
 #include "toolchain/scene_compiler/mesh/flat_vertices.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -73,6 +78,37 @@ TEST(FlatVertices, KeepCavitiesAndConesAsTheyAre) {
     remove_flat_vertices(mesh, kFlat);
     EXPECT_LE(mesh.triangles.size(), 2 * coarse.triangles.size());
     expect_same_surface(fine, mesh);
+  }
+}
+
+/// Removals add up on a finely divided cylinder: each alone is flat.
+TEST(FlatVertices, OfAFineCylinderKeepItsSurface) {
+  constexpr double kRadius = 0.01;
+  constexpr std::uint32_t kAround = 512, kRings = 9;
+  TriangleMesh mesh;
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kAround;
+      mesh.vertices.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle), 1e-3 * ring);
+    }
+  }
+  for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const std::uint32_t a = ring * kAround + i, b = ring * kAround + (i + 1) % kAround;
+      mesh.triangles.push_back({a, b, a + kAround});
+      mesh.triangles.push_back({b, b + kAround, a + kAround});
+    }
+  }
+  for (const double flat : {1e-6, 1e-5, 3e-5}) {
+    TriangleMesh less = mesh;
+    remove_flat_vertices(less, flat);
+    EXPECT_LT(less.triangles.size(), mesh.triangles.size());
+    const BruteForce is(less);
+    double farthest = 0.0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); v += 7) {
+      farthest = std::max(farthest, is.distance(mesh.vertices[v]));
+    }
+    EXPECT_LE(farthest, flat) << less.triangles.size() << " triangles";
   }
 }
 

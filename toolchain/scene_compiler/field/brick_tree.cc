@@ -127,14 +127,16 @@ BrickTree::BrickTree(const DistanceGrid& field, const SurfaceFacets& facets)
   }
 }
 
-double BrickTree::blended(std::uint32_t brick, const Vector3d& p, double interpolated) const {
-  if (!exact_[brick]) return interpolated;
-  const format::ExactBrick& exact = *exact_[brick];
+double BrickTree::blended(const Leaf& leaf, const Vector3d& p, double interpolated) const {
+  if (!exact_[leaf.brick]) return interpolated;
+  const format::ExactBrick& exact = *exact_[leaf.brick];
+  const std::uint32_t word = exact.cell[cell_of(leaf, p)];
+  if (word == 0) return interpolated;
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  const double weight = interpolate(places_[brick], exact.weight, {units[0], units[1], units[2]}) / format::kOneWeight;
+  const double weight =
+      interpolate(places_[leaf.brick], exact.weight, {units[0], units[1], units[2]}) / format::kOneWeight;
   if (weight <= 0.0) return interpolated;
-  const std::uint32_t set = exact.cell[cell_of(brick, p)] - 1;
-  return interpolated + weight * (facet_distance(facet_lists(), set, p).value - interpolated);
+  return interpolated + weight * (facet_distance(facet_lists(), word - 1, p).value - interpolated);
 }
 
 void BrickTree::add_slope(std::uint32_t brick, double slack, double enough, FieldSlope& slope) const {
@@ -146,14 +148,19 @@ void BrickTree::add_slope(std::uint32_t brick, double slack, double enough, Fiel
 
 bool BrickTree::turns_about(const Leaf& leaf, const Vector3d& p) const {
   const double edge = cell_edge(leaf.level);
-  const auto near = facets_.near(cell_center(leaf.brick, cell_of(leaf.brick, p)), 0.5 * edge);
+  const auto near = facets_.near(cell_center(leaf.brick, cell_of(leaf, p)), 0.5 * edge);
   return near && facets_.turns(*near);
 }
 
-int BrickTree::cell_of(std::uint32_t brick, const Vector3d& p) const {
-  const Vector3d cells = (p - low(brick)) / cell_edge(level(brick));
-  const auto cell = [&](int axis) { return std::clamp(static_cast<int>(cells[axis]), 0, kBrickCells - 1); };
-  return cell(0) + kBrickCells * (cell(1) + kBrickCells * cell(2));
+int BrickTree::cell_of(const Leaf& leaf, const Vector3d& p) const {
+  constexpr int kHalf = kBrickCells / 2;
+  const Vector3d cells = (p - low(leaf.brick)) / cell_edge(leaf.level);
+  int number = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const int first = kHalf * (leaf.octant >> axis & 1);
+    number = kBrickCells * number + std::clamp(static_cast<int>(cells[axis]), first, first + kHalf - 1);
+  }
+  return number;
 }
 
 Vector3d BrickTree::cell_center(std::uint32_t brick, int cell) const {
@@ -236,14 +243,12 @@ double BrickTree::interpolate(const Place& place, const Values& nodes, const std
 
 double BrickTree::interpolate(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return blended(leaf.brick, p,
-                 interpolate(places_[leaf.brick], stored(leaf.brick).value, {units[0], units[1], units[2]}));
+  return blended(leaf, p, interpolate(places_[leaf.brick], stored(leaf.brick).value, {units[0], units[1], units[2]}));
 }
 
 double BrickTree::interpolate_exact(const Leaf& leaf, const Vector3d& p) const {
   const Vector3d units = (p - origin_) * (kUnits / voxel_size_);
-  return blended(leaf.brick, p,
-                 interpolate(places_[leaf.brick], exact(leaf.brick).value, {units[0], units[1], units[2]}));
+  return blended(leaf, p, interpolate(places_[leaf.brick], exact(leaf.brick).value, {units[0], units[1], units[2]}));
 }
 
 std::size_t BrickTree::holding(const Leaf& leaf, const Vector3d& p, Octants& octants) const {
@@ -499,13 +504,22 @@ void BrickTree::weigh() {
           set_facets(bricks[i], *facets[i]);
           continue;
         }
-        refuses_[bricks[i]] = true;
-        exact_cells_[bricks[i]] = 0;
-        mark_changed_about(places_[bricks[i]].root);
+        // the weight of one that refuses already comes from a coarser leaf
+        if (refuses_[bricks[i]]) {
+          visit_outer_nodes_on_coarser(bricks[i], [&](int, const Units&, const Leaf& leaf) { deny(leaf.brick); });
+        }
+        deny(bricks[i]);
         settled = false;
       }
     }
   }
+}
+
+/// Makes a brick refuse while bricks are weighed.
+void BrickTree::deny(std::uint32_t brick) {
+  refuses_[brick] = true;
+  exact_cells_[brick] = 0;
+  mark_changed_about(places_[brick].root);
 }
 
 /// Returns the nodes of exact cells, by place, without those of bricks that refuse: all that changed positions have.
@@ -594,14 +608,17 @@ std::optional<BrickTree::BrickFacets> BrickTree::find_facets(std::uint32_t brick
     facets[static_cast<std::size_t>(cell)] = {std::move(*near), planes.size()};
   }
   for (int i = 0; i < kBrickValues; ++i) {
-    const std::uint64_t about = cells & cells_about(i);
-    if (about == 0) continue;
     const std::array<int, 3> node = steps_of_node(i);
     const Vector3d p = low(brick) + edge * Vector3d(node[0], node[1], node[2]);
-    const CellFacets& of_cell = facets[static_cast<std::size_t>(std::countr_zero(about))];
-    const double distance = facet_distance(facets_.all(), of_cell.numbers, p).value;
-    if (!(std::abs(distance - static_cast<double>(exact(brick).value[i])) <= kRounding * edge + facets_.flat()))
-      return {};
+    for (std::uint64_t about = cells & cells_about(i); about != 0; about &= about - 1) {
+      const CellFacets& of_cell = facets[static_cast<std::size_t>(std::countr_zero(about))];
+      const format::FacetSet set{0, static_cast<std::uint16_t>(of_cell.numbers.size()),
+                                 static_cast<std::uint16_t>(of_cell.plane_count)};
+      const FacetLists lists{facets_.all(), std::span(&set, 1), of_cell.numbers};
+      const double distance = facet_distance(lists, 0, p).value;
+      if (!(std::abs(distance - static_cast<double>(exact(brick).value[i])) <= kRounding * edge + facets_.flat()))
+        return {};
+    }
   }
   return facets;
 }

@@ -94,8 +94,9 @@ class BrickTree {
   /// True if the surface turns about the cell that holds p (SurfaceFacets::turns), and few facets do it.
   bool turns_about(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
-  /// Returns the number of the brick's cell that holds p, x fastest.
-  int cell_of(std::uint32_t brick, const Eigen::Vector3d& p) const;
+  /// Returns the number of the brick's cell that holds p, x fastest: of those of the leaf's octant, in spite of
+  /// rounding.
+  int cell_of(const Leaf& leaf, const Eigen::Vector3d& p) const;
 
   /// Returns the cells that are to be exact, one bit each.
   std::uint64_t exact_cells(std::uint32_t brick) const { return exact_cells_[brick]; }
@@ -165,6 +166,7 @@ class BrickTree {
   void join_brick(std::uint32_t brick);
   void spread_exact_cells();
   void weigh();
+  void deny(std::uint32_t brick);
   void weigh_brick(std::uint32_t brick, const std::unordered_set<std::uint64_t>& nodes);
   /// The facets of an exact brick's cells; none where a cell has no weight.
   using BrickFacets = std::array<CellFacets, format::kCellsPerBrick>;
@@ -188,7 +190,7 @@ class BrickTree {
   void round_nodes(const Place& place, Brick& brick) const;
   template <class Values>
   double interpolate(const Place& place, const Values& nodes, const std::array<double, 3>& units) const;
-  double blended(std::uint32_t brick, const Eigen::Vector3d& p, double interpolated) const;
+  double blended(const Leaf& leaf, const Eigen::Vector3d& p, double interpolated) const;
   void write_exact(const std::vector<std::uint32_t>& brick_number, DistanceGrid& field) const;
   std::uint32_t& entry_of(std::uint32_t brick);
   bool is_looked_up(std::uint32_t brick) const;

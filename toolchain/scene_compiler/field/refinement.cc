@@ -84,6 +84,8 @@ class Refinement {
     report_.refined = field_.refined.size();
     report_.exact = field_.exact.size();
     report_.facets = field_.facets.size();
+    report_.sets = field_.facet_sets.size();
+    report_.numbers = field_.facet_numbers.size();
     report_.finer = field_.bricks.size() - barred_.size();
     for (std::uint32_t b = 0; b < tree.brick_count(); ++b) {
       if (tree.whole(b) != 0) ++report_.bricks[static_cast<std::size_t>(tree.level(b))];

@@ -39,12 +39,14 @@ struct RefinementReport {
   std::uint64_t finer = 0;    ///< bricks stored in addition to those of the positions
   std::uint64_t exact = 0;    ///< exact bricks
   std::uint64_t facets = 0;   ///< of exact bricks
+  std::uint64_t sets = 0;     ///< of facets
+  std::uint64_t numbers = 0;  ///< of facets in sets
   SurfaceError worst;         ///< of those that exceed the tolerance; bricks cannot be halved there. 0: none
 
   /// Returns the size of finer and exact bricks in the image.
   std::uint64_t bytes() const {
     return finer * sizeof(format::Brick) + refined * sizeof(format::Refined) + exact * sizeof(format::ExactBrick) +
-           facets * sizeof(format::Facet);
+           facets * sizeof(format::Facet) + sets * sizeof(format::FacetSet) + numbers * sizeof(std::uint32_t);
   }
 };
 

@@ -316,7 +316,7 @@ class SurfaceCheck {
   template <class Matters>
   bool wants_exact(const Vector3d& p, const BrickTree::Leaf& leaf, double error, const Matters& matters) {
     if (std::abs(error) <= kRipple * tolerance_.inside || !tree_.may_be_exact(leaf.brick)) return false;
-    const std::uint64_t cell = std::uint64_t{1} << tree_.cell_of(leaf.brick, p);
+    const std::uint64_t cell = std::uint64_t{1} << tree_.cell_of(leaf, p);
     const std::uint64_t not_again = tree_.exact_cells(leaf.brick) | smooth_[leaf.brick].load(std::memory_order_relaxed);
     if ((not_again & cell) != 0) return false;
     if ((exact_[leaf.brick].load(std::memory_order_relaxed) & cell) != 0) return true;

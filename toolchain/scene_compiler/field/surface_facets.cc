@@ -11,7 +11,9 @@
 #include <Eigen/Geometry>
 
 #include "core/scene/facets.h"
+#include "toolchain/parallel/parallel.h"
 #include "toolchain/scene_compiler/mesh/body_mesh.h"
+#include "toolchain/scene_compiler/mesh/components.h"
 #include "toolchain/scene_compiler/mesh/flat_vertices.h"
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
 #include "toolchain/scene_compiler/mesh/mesh_normals.h"
@@ -80,6 +82,28 @@ void leave_out_flat(TriangleMesh& mesh, double flat) {
 
 /// Returns the height of a point above the plane of a facet [m].
 double height(const format::Facet& facet, const Vector3d& p) { return face_normal(facet).dot(p) + facet.plane[3][0]; }
+
+using Corners = std::array<Vector3d, 3>;
+
+/// True if an edge of a triangle meets another triangle, off its plane or at one end.
+bool meets(const Corners& edges_of, const Corners& triangle) {
+  const Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& from = edges_of[k];
+    const Vector3d& to = edges_of[(k + 1) % 3];
+    const double from_height = normal.dot(from - triangle[0]);
+    const double to_height = normal.dot(to - triangle[0]);
+    if (from_height == to_height || (from_height > 0.0) == (to_height > 0.0)) continue;
+    const Vector3d at = from + from_height / (from_height - to_height) * (to - from);
+    bool within = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3d& corner = triangle[i];
+      within = within && normal.dot((triangle[(i + 1) % 3] - corner).cross(at - corner)) >= 0.0;
+    }
+    if (within) return true;
+  }
+  return false;
+}
 
 /// True if two facets lie in one plane with their outer sides, within a length.
 bool same_plane(const format::Facet& facet, const format::Facet& other, double within) {
@@ -158,6 +182,30 @@ SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(f
     }
   }
   tree_ = TriangleTree(std::move(triangles));
+  bar_crossing(mesh);
+}
+
+/// The facets that meet a facet of another component do not tell the side: beyond the line in which they meet they lie
+/// within the body.
+void SurfaceFacets::bar_crossing(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> component = connected_components(mesh).of_triangle;
+  if (std::all_of(component.begin(), component.end(), [](std::uint32_t c) { return c == 0; })) return;
+  const auto corners = [&](std::size_t t) {
+    const auto& triangle = mesh.triangles[t];
+    return Corners{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]};
+  };
+  std::vector<char> crosses(facets_.size());
+  parallel::for_each_index(facets_.size(), [&](std::size_t t) {
+    const Corners own = corners(t);
+    const Vector3d center = (own[0] + own[1] + own[2]) / 3.0;
+    const double radius = std::max({(own[0] - center).norm(), (own[1] - center).norm(), (own[2] - center).norm()});
+    tree_.within(center, radius, [&](const TriangleTree::Triangle& other) {
+      if (crosses[t] != 0 || component[other.id] == component[t]) return;
+      const Corners others = corners(other.id);
+      crosses[t] = meets(own, others) || meets(others, own) ? 1 : 0;
+    });
+  });
+  for (std::size_t t = 0; t < facets_.size(); ++t) valid_[t] = valid_[t] && crosses[t] == 0;
 }
 
 std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& center, double half_edge) const {
@@ -179,25 +227,31 @@ std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& ce
   return numbers;
 }
 
-/// Let D be a cube that holds the cell and the nearest places of all its points, and C the points of D on the outer
-/// side of the planes of all facets in D. If all these facets lie in C, then they are on its border. A face of C is
-/// convex, hence in one piece, and the surface has no border of its own; so it covers each face that it has a part of.
-/// The foot of a point of C on the lowest of the planes lies on the border of C, hence on a facet.
+/// Let D be a cube that holds the cell and the nearest places of all its points, E a cube with some room about D, and C
+/// the points of E on the outer side of the planes of all facets in E. If all these facets lie in C, then they are on
+/// its border. A face of C is convex, hence in one piece, and the surface has no border of its own; so it covers each
+/// face that it has a part of. The foot of a point of D on the lowest of the planes that have a facet in D lies on the
+/// border of C, hence on a facet. Facets count as in C that are lower by a rounding: one that enters E by so little
+/// does not reach D.
 std::vector<std::uint32_t> SurfaceFacets::convex_planes(const Vector3d& center, double half_edge,
                                                         std::span<const std::uint32_t> near) const {
-  constexpr std::size_t kMost = 256;  // facets in D, chosen: bounds the cost
+  constexpr std::size_t kMost = 256;  // facets in E, chosen: bounds the cost
   constexpr double kRounding = 2e-5;  // of a facet's height, in half edges
-  const double diagonal = 2.0 * kHalfDiagonal * half_edge;
   const double least = -kRounding * half_edge;
-  const double reach = half_edge + diagonal + std::abs(facet_distance(facets_, near, center).value);
-  std::vector<std::vector<Vector3d>> parts;  // of facets in D
+  // a point is at most half a diagonal from the centre, and as much farther from its nearest place than the centre is
+  const double half_diagonal = 2.0 * kHalfDiagonal * half_edge;
+  const double of_d = half_edge + half_diagonal + std::abs(facet_distance(facets_, near, center).value);
+  const double of_e = of_d + half_edge;
+  std::vector<std::vector<Vector3d>> parts;  // of facets in E
   std::vector<std::uint32_t> planes;         // facets, one in each plane
+  std::vector<std::uint32_t> in_d;
   bool serves = true;
-  tree_.within(center, 2.0 * kHalfDiagonal * reach, [&](const TriangleTree::Triangle& triangle) {
+  tree_.within(center, 2.0 * kHalfDiagonal * of_e, [&](const TriangleTree::Triangle& triangle) {
     if (!serves) return;
-    std::vector<Vector3d> part = clipped({triangle.a, triangle.b, triangle.c}, center, reach);
+    std::vector<Vector3d> part = clipped({triangle.a, triangle.b, triangle.c}, center, of_e);
     if (part.empty()) return;
     serves = valid_[triangle.id] != 0 && parts.size() < kMost;
+    if (!clipped(part, center, of_d).empty()) in_d.push_back(triangle.id);
     const auto same = [&](std::uint32_t other) { return same_plane(facets_[triangle.id], facets_[other], -least); };
     if (std::none_of(planes.begin(), planes.end(), same)) planes.push_back(triangle.id);
     parts.push_back(std::move(part));
@@ -207,11 +261,12 @@ std::vector<std::uint32_t> SurfaceFacets::convex_planes(const Vector3d& center, 
       serves = serves && std::all_of(part.begin(), part.end(),
                                      [&](const Vector3d& vertex) { return height(facets_[plane], vertex) >= least; });
     }
-    if (!serves) return {};
   }
   if (!serves) return {};
+  std::sort(in_d.begin(), in_d.end());
   std::vector<std::uint32_t> of_near;
   for (const std::uint32_t number : near) {
+    if (!std::binary_search(in_d.begin(), in_d.end(), number)) continue;
     const auto same = [&](std::uint32_t other) { return same_plane(facets_[number], facets_[other], -least); };
     if (std::none_of(of_near.begin(), of_near.end(), same)) of_near.push_back(number);
   }

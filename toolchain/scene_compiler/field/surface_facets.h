@@ -17,8 +17,9 @@ namespace godobject::scene_compiler {
 /// The facets of a surface's solids: its triangles, without those that are no higher than a length `flat` (exporters
 /// leave such slivers, often folded). Their neighbours close the slits. So distances are off by that length at most.
 ///
-/// A facet of a shell, one without area, and one with an edge at which the surface is open, folded or branched, does
-/// not tell the side of a point. Near it there are no facets. A dilated surface is round and has none.
+/// A facet of a shell, one without area, one with an edge at which the surface is open, folded or branched, and one
+/// that meets another component, does not tell the side of a point. Near it there are no facets. A dilated surface is
+/// round and has none.
 class SurfaceFacets {
  public:
   SurfaceFacets() = default;
@@ -44,6 +45,8 @@ class SurfaceFacets {
   bool turns(std::span<const std::uint32_t> facets) const;
 
  private:
+  void bar_crossing(const TriangleMesh& mesh);
+
   std::vector<format::Facet> facets_;
   std::vector<char> valid_;
   double flat_ = 0.0;

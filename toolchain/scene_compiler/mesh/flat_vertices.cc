@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,7 @@ class FlatVertices {
       for (const std::uint32_t v : mesh.triangles[t]) about_[v].push_back(t);
     }
     alive_.assign(mesh.triangles.size(), true);
+    off_.assign(mesh.triangles.size(), 0.0);
   }
 
   void remove() {
@@ -44,8 +46,9 @@ class FlatVertices {
     const std::vector<std::uint32_t> neighbours = neighbours_of(v);
     if (neighbours.size() != about.size()) return false;  // open, or no disc
     for (const std::uint32_t u : neighbours) {
-      if (!can_pull(v, u)) continue;
-      pull(v, u);
+      const std::optional<double> off = off_if_pulled(v, u);
+      if (!off || *off > flat_) continue;
+      pull(v, u, *off);
       return true;
     }
     return false;
@@ -68,23 +71,31 @@ class FlatVertices {
     return std::find(corners.begin(), corners.end(), v) != corners.end();
   }
 
-  /// True if v lies in the new triangles' planes, each new triangle faces as its old one, and the surface stays closed.
-  bool can_pull(std::uint32_t v, std::uint32_t u) const {
+  /// Returns how far the surface about v may be from the given one after v is pulled to u: as far as it is already, and
+  /// as far as v is from the new triangles' planes. None if a new triangle faces another way than its old one, or if
+  /// the surface would not stay closed.
+  std::optional<double> off_if_pulled(std::uint32_t v, std::uint32_t u) const {
     std::size_t shared = 0;
+    double before = 0.0;
+    double height = 0.0;
     for (const std::uint32_t t : about_[v]) {
+      before = std::max(before, off_[t]);
       if (has(t, u)) {
         ++shared;
         continue;
       }
-      if (!keeps_face(t, v, u)) return false;
+      const std::optional<double> of_face = height_above(t, v, u);
+      if (!of_face) return {};
+      height = std::max(height, *of_face);
     }
-    if (shared != 2) return false;
+    if (shared != 2) return {};
     // both ends of an edge must have only two neighbours in common
     const std::vector<std::uint32_t> of_v = neighbours_of(v);
     const std::vector<std::uint32_t> of_u = neighbours_of(u);
     std::vector<std::uint32_t> common;
     std::set_intersection(of_v.begin(), of_v.end(), of_u.begin(), of_u.end(), std::back_inserter(common));
-    return common.size() == 2 && goes_on(v, u);
+    if (common.size() != 2) return {};
+    return before + std::max(height, height_of_vanishing(v, u));
   }
 
   Vector3d area_vector(const Triangle& t) const {
@@ -92,7 +103,8 @@ class FlatVertices {
     return (mesh_.vertices[t[1]] - a).cross(mesh_.vertices[t[2]] - a);
   }
 
-  bool keeps_face(std::uint32_t t, std::uint32_t v, std::uint32_t u) const {
+  /// Returns the height of v above the plane of a triangle after v is pulled to u; none if it turns or is a sliver.
+  std::optional<double> height_above(std::uint32_t t, std::uint32_t v, std::uint32_t u) const {
     Triangle pulled = mesh_.triangles[t];
     std::replace(pulled.begin(), pulled.end(), v, u);
     const Vector3d area = area_vector(pulled);
@@ -100,34 +112,37 @@ class FlatVertices {
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, (mesh_.vertices[pulled[k]] - mesh_.vertices[pulled[(k + 1) % 3]]).norm());
     }
-    if (area.norm() <= 2.0 * flat_ * longest) return false;  // a sliver
+    if (area.norm() <= 2.0 * flat_ * longest) return {};
     const Vector3d normal = area.normalized();
     constexpr double kSameFace = 0.999;
-    return normal.dot(area_vector(mesh_.triangles[t]).normalized()) > kSameFace &&
-           std::abs(normal.dot(mesh_.vertices[v] - mesh_.vertices[u])) <= flat_;
+    if (normal.dot(area_vector(mesh_.triangles[t]).normalized()) <= kSameFace) return {};
+    return std::abs(normal.dot(mesh_.vertices[v] - mesh_.vertices[u]));
   }
 
-  /// True if the faces that vanish with the edge v u lie in faces that stay: each has a neighbour at v, off the edge,
-  /// in its plane.
-  bool goes_on(std::uint32_t v, std::uint32_t u) const {
+  /// Returns how far the faces that vanish with the edge v u are from faces that stay: of the neighbours at v, off the
+  /// edge, the one that is nearest to their plane.
+  double height_of_vanishing(std::uint32_t v, std::uint32_t u) const {
+    double most = 0.0;
     for (const std::uint32_t t : about_[v]) {
       if (!has(t, u)) continue;
       const Vector3d normal = area_vector(mesh_.triangles[t]).normalized();
-      const bool any = std::any_of(about_[v].begin(), about_[v].end(), [&](std::uint32_t other) {
-        if (has(other, u)) return false;
-        const auto& corners = mesh_.triangles[other];
-        const auto in_plane = [&](std::uint32_t w) {
-          return std::abs(normal.dot(mesh_.vertices[w] - mesh_.vertices[v])) <= flat_;
-        };
-        const bool beside = std::any_of(corners.begin(), corners.end(), [&](auto w) { return w != v && has(t, w); });
-        return beside && std::all_of(corners.begin(), corners.end(), in_plane);
-      });
-      if (!any) return false;
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t other : about_[v]) {
+        const Triangle& corners = mesh_.triangles[other];
+        if (has(other, u)) continue;
+        if (std::none_of(corners.begin(), corners.end(), [&](auto w) { return w != v && has(t, w); })) continue;
+        double height = 0.0;
+        for (const std::uint32_t w : corners) {
+          height = std::max(height, std::abs(normal.dot(mesh_.vertices[w] - mesh_.vertices[v])));
+        }
+        least = std::min(least, height);
+      }
+      most = std::max(most, least);
     }
-    return true;
+    return most;
   }
 
-  void pull(std::uint32_t v, std::uint32_t u) {
+  void pull(std::uint32_t v, std::uint32_t u, double off) {
     for (const std::uint32_t t : about_[v]) {
       if (has(t, u)) {
         alive_[t] = false;
@@ -136,6 +151,7 @@ class FlatVertices {
         }
       } else {
         std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), v, u);
+        off_[t] = off;
         about_[u].push_back(t);
       }
     }
@@ -146,6 +162,7 @@ class FlatVertices {
   double flat_;
   std::vector<std::vector<std::uint32_t>> about_;
   std::vector<bool> alive_;
+  std::vector<double> off_;  ///< of each triangle: bound of its distance from the given surface [m]
 };
 
 }  // namespace

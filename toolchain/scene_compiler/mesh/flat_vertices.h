@@ -5,8 +5,8 @@
 namespace godobject::scene_compiler {
 
 /// Removes vertices within flat faces and along straight edges of a mesh, as far as its triangles allow it: each is
-/// pulled to a neighbour. So few large triangles remain of a finely divided face. No vertex moves, and no removed one
-/// lies farther than `flat` [m] from the surface that remains about it. Vertices with an edge that is open or has more
+/// pulled to a neighbour. So few large triangles remain of a finely divided face. No vertex moves, and the surface that
+/// remains lies within `flat` [m] of the given one. Vertices with an edge that is open or has more
 /// than two triangles stay, and so do all vertices in `mesh.vertices`. Cost: some sweeps over the vertices.
 void remove_flat_vertices(TriangleMesh& mesh, double flat);
 

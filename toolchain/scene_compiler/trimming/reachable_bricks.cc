@@ -49,9 +49,13 @@ class Selection {
     number_bricks(left_out);
     const std::size_t exact = field_.exact.size();
     const std::size_t facets = field_.facets.size();
+    const std::size_t sets = field_.facet_sets.size();
+    const std::size_t numbers = field_.facet_numbers.size();
     leave_out_unnamed(field_);
     left_out.exact = exact - field_.exact.size();
     left_out.facets = facets - field_.facets.size();
+    left_out.sets = sets - field_.facet_sets.size();
+    left_out.numbers = numbers - field_.facet_numbers.size();
     std::vector<format::Refined> refined;
     for (std::uint32_t& entry : field_.index) entry = renumbered(entry, refined);
     field_.refined = std::move(refined);

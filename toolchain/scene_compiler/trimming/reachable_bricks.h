@@ -18,13 +18,15 @@ struct LeftOutBricks {
   std::uint64_t positions = 0;
   std::uint64_t exact = 0;                                         ///< exact bricks
   std::uint64_t facets = 0;                                        ///< facets that no exact brick has any more
+  std::uint64_t sets = 0;                                          ///< sets of facets that no cell has any more
+  std::uint64_t numbers = 0;                                       ///< numbers of facets in these sets
   std::uint64_t refined = 0;                                       ///< bricks that were halved
   std::array<std::uint64_t, format::kMaxRefinement + 1> bricks{};  ///< leaf bricks, by number of halvings
 
   std::uint64_t all_bricks = 0;  ///< stored bricks, halved ones and octants included
   std::uint64_t bytes() const {
     return all_bricks * sizeof(format::Brick) + refined * sizeof(format::Refined) + exact * sizeof(format::ExactBrick) +
-           facets * sizeof(format::Facet);
+           facets * sizeof(format::Facet) + sets * sizeof(format::FacetSet) + numbers * sizeof(std::uint32_t);
   }
 };
 

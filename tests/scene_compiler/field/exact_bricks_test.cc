@@ -1,0 +1,249 @@
+#include "toolchain/scene_compiler/field/exact_bricks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/scene/facets.h"
+#include "core/scene/voxelmap.h"
+#include "tests/scene_compiler/simple_meshes.h"
+#include "tests/scene_compiler/test_meshes.h"
+#include "tests/support/random.h"
+#include "toolchain/scene_compiler/field/brick_packing.h"
+#include "toolchain/scene_compiler/field/brick_tree.h"
+#include "toolchain/scene_compiler/field/facet_sets.h"
+#include "toolchain/scene_compiler/field/octant_nodes.h"
+#include "toolchain/scene_compiler/field/refinement.h"
+
+namespace godobject::scene_compiler::exact_bricks_test {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kVoxel = 0.002;
+
+DistanceGrid refined(const SolidSurface& surface, double slack = 0.0) {
+  DistanceGrid grid = make_distance_grid(surface, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {});
+  refine(grid, surface, SurfaceTolerance{0.05 * kVoxel, 0.05 * kVoxel}, {}, slack);
+  return grid;
+}
+
+Isometry3d any_motion(test::Random& random, double way) {
+  Isometry3d motion = Isometry3d::Identity();
+  motion.rotate(Eigen::AngleAxisd(3.0 * random.between(-1.0, 1.0), random.direction()));
+  motion.pretranslate(way * random.in_cube(1.0));
+  return motion;
+}
+
+/// The cells of exact bricks that are looked up.
+class ExactCells {
+ public:
+  using Visit = std::function<void(std::uint32_t set, const Vector3d& low, double edge)>;
+
+  ExactCells(const DistanceGrid& field, const Visit& visit) : field_(field), visit_(visit) {
+    const auto nx = static_cast<std::size_t>(field.grid.bricks[0]), ny = static_cast<std::size_t>(field.grid.bricks[1]);
+    const Vector3d origin(field.grid.origin[0], field.grid.origin[1], field.grid.origin[2]);
+    for (std::size_t i = 0; i < field.index.size(); ++i) {
+      const auto at = [](std::size_t n) { return static_cast<double>(4 * n); };
+      walk(field.index[i], origin + kVoxel * Vector3d(at(i % nx), at(i / nx % ny), at(i / nx / ny)), kVoxel);
+    }
+  }
+
+ private:
+  void walk(std::uint32_t entry, const Vector3d& low, double edge) {
+    if ((entry & format::index_entry::kFar) != 0) return;
+    const std::uint32_t number = entry & format::index_entry::kNumber;
+    if ((entry & format::index_entry::kRefined) == 0) return visit_brick(number, low, edge, 0xff);
+    const format::Refined& refined = field_.refined[number];
+    unsigned coarse = 0;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      if ((refined.child[octant] & format::index_entry::kCoarse) != 0) {
+        coarse |= 1u << octant;
+      } else {
+        walk(refined.child[octant], low + 2.0 * edge * Vector3d(octant & 1, octant >> 1 & 1, octant >> 2), 0.5 * edge);
+      }
+    }
+    if (coarse != 0) visit_brick(refined.brick, low, edge, coarse);
+  }
+
+  void visit_brick(std::uint32_t number, const Vector3d& low, double edge, unsigned octants) {
+    if (field_.bricks[number].exact == 0) return;
+    const format::ExactBrick& exact = field_.exact[field_.bricks[number].exact - 1];
+    for (int cell = 0; cell < format::kCellsPerBrick; ++cell) {
+      const int x = cell % 4, y = cell / 4 % 4, z = cell / 16;
+      const std::uint32_t word = exact.cell[cell];
+      if ((octants >> (x / 2 + 2 * (y / 2) + 4 * (z / 2)) & 1) == 0 || word == 0) continue;
+      visit_((word & format::cell_facets::kSet) - 1, low + edge * Vector3d(x, y, z), edge);
+    }
+  }
+
+  const DistanceGrid& field_;
+  const Visit& visit_;
+};
+
+/// In every cell of an exact brick the look-up of its set is the mesh's distance, on both sides of the surface. Returns
+/// the number of cells whose set has planes.
+int expect_distances_of_mesh(const DistanceGrid& field, const SolidSurface& surface) {
+  const FacetLists lists = field.facet_lists();
+  int with_planes = 0, wrong = 0;
+  const ExactCells::Visit judge = [&](std::uint32_t set, const Vector3d& low, double edge) {
+    with_planes += lists.sets[set].plane_count > 0 ? 1 : 0;
+    for (int k = 0; k < 27; ++k) {
+      const Vector3d p = low + edge * Vector3d(k % 3, k / 3 % 3, k / 9) / 2.0;
+      const double truth = surface.signed_distance(p);
+      if (std::abs(facet_distance(lists, set, p).value - truth) <= 0.012 * kVoxel) continue;
+      if (++wrong > 3) continue;
+      ADD_FAILURE() << facet_distance(lists, set, p).value << " instead of " << truth << " at " << p.transpose();
+    }
+  };
+  const ExactCells cells(field, judge);
+  EXPECT_EQ(wrong, 0);
+  return with_planes;
+}
+
+TEST(ExactBricks, HaveTheMeshsDistanceInTheirCells) {
+  test::Random random(1);
+  for (const TriangleMesh& mesh :
+       {test::box_mesh({0.03, 0.02, 0.015}), hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067}),
+        load("bracket", 0.5)}) {
+    const SolidSurface surface(test::moved(mesh, any_motion(random, kVoxel)), SurfaceKind::kSolid, 2.0 * kVoxel);
+    const DistanceGrid field = refined(surface);
+    EXPECT_GT(field.exact.size(), 20u);
+    expect_distances_of_mesh(field, surface);
+  }
+}
+
+/// A plate and a block near it, both turned anyhow: facets of the one just beyond what bounds the other's free space.
+TEST(ExactBricks, HaveTheMeshsDistanceBetweenTwoBodies) {
+  test::Random random(7);
+  int with_planes = 0;
+  for (int i = 0; i < 40; ++i) {
+    const TriangleMesh plate = test::box_mesh({0.03, 0.03, 0.01}, {-0.015, -0.015, -0.01});
+    Isometry3d of_block = any_motion(random, 0.0);
+    of_block.pretranslate(Vector3d(0.005 * random.between(-1.0, 1.0), 0.005 * random.between(-1.0, 1.0),
+                                   0.0095 + 0.0015 * random.between(-1.0, 1.0)));
+    const TriangleMesh both = test::joined(plate, test::moved(test::box_mesh({0.01, 0.012, 0.009}), of_block));
+    const SolidSurface surface(test::moved(both, any_motion(random, kVoxel)), SurfaceKind::kSolid, 2.0 * kVoxel);
+    with_planes += expect_distances_of_mesh(refined(surface), surface);
+  }
+  EXPECT_GT(with_planes, 100);
+}
+
+/// The distance is positive all along a chord that a kernel calls free, and all look-ups equal `sample`.
+TEST(ExactBricks, AreMetByNoFreeChord) {
+  test::Random random(5);
+  int free_chords = 0;
+  for (int turn = 0; turn < 4; ++turn) {
+    TriangleMesh mesh = hollow_block({0.03, 0.028, 0.026}, {0.0101, 0.0083, 0.0067});
+    const Isometry3d motion = any_motion(random, kVoxel);
+    mesh = test::moved(mesh, motion);
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 2.0 * kVoxel);
+    const DistanceGrid grid = refined(surface, turn < 2 ? 0.0 : 0.03 * kVoxel);
+    const std::vector<format::Brick> bricks = packed_bricks(grid);
+    const Voxelmap map(grid.grid, grid.index, bricks, grid.refined, grid.exact, grid.facet_lists());
+    for (int i = 0; i < 1500; ++i) {
+      SampleBatch batch{};
+      batch.count = static_cast<std::uint32_t>(random.integer(1, SampleBatch::kCapacity));
+      Pose H0;
+      H0.translation = 0.002 * random.in_cube(1.0);
+      Pose H1 = H0;
+      H1.translation += kVoxel * random.in_cube(1.0);
+      for (std::uint32_t k = 0; k < batch.count; ++k) {
+        const Eigen::Vector3f p = (motion.translation() + 0.0062 * random.in_cube(1.0)).cast<float>();
+        batch.x[k] = p.x(), batch.y[k] = p.y(), batch.z[k] = p.z();
+        batch.from_clearance[k] = map.sample(H0 * p.cast<double>()).clearance;
+      }
+      for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
+        map.samples_by(&kernel, H1, batch);
+        for (std::uint32_t k = 0; k < batch.count; ++k) {
+          const FieldSample one = map.sample(stored_position(batch, k));
+          const FieldSample of_batch = stored_sample(batch, k);
+          ASSERT_EQ(of_batch.known, one.known);
+          ASSERT_EQ(of_batch.distance, one.distance);
+          ASSERT_EQ(of_batch.clearance, one.clearance);
+          ASSERT_EQ(of_batch.gradient, one.gradient);
+        }
+        const std::uint64_t free = map.free_chords_by(&kernel, H0, H1, batch);
+        for (std::uint32_t k = 0; k < batch.count; ++k) {
+          if ((free >> k & 1) == 0) continue;
+          ++free_chords;
+          const Vector3d p(batch.x[k], batch.y[k], batch.z[k]);
+          for (int step = 0; step <= 20; ++step) {
+            const Vector3d q = H0 * p + step / 20.0 * (H1.translation - H0.translation);
+            ASSERT_GT(map.sample(q).distance, 0.0) << q.transpose();
+          }
+        }
+      }
+    }
+  }
+  if (!detail::sample_kernels().empty()) {
+    EXPECT_GT(free_chords, 10000);
+  }
+}
+
+/// A brick refuses whose weights come from a leaf that has them from a still coarser one.
+TEST(ExactBricks, SettleWhenABrickRefusesBesideCoarserOnes) {
+  const SolidSurface surface(test::moved(test::box_mesh({0.06, 0.05, 0.07}), test::odd_motion()), SurfaceKind::kSolid,
+                             2.0 * kVoxel);
+  const DistanceGrid field = make_distance_grid(surface, kVoxel, default_band(kVoxel, 1.5 * kVoxel), {});
+  const SurfaceFacets facets(surface, 0.0);
+  constexpr int kUnits = BrickTree::kUnits;
+  int settled = 0;
+  for (int position = 0; position < static_cast<int>(field.index.size()) && settled < 20; ++position) {
+    const int nx = field.grid.bricks[0], ny = field.grid.bricks[1];
+    if ((field.index[static_cast<std::size_t>(position)] & format::index_entry::kFar) != 0) continue;
+    const int low[3] = {4 * (position % nx), 4 * (position / nx % ny), 4 * (position / nx / ny)};
+    BrickTree tree(field, facets);
+    const auto leaf_at = [&](double x, double y, double z) {
+      const double voxels[3] = {x, y, z};
+      BrickTree::Units units;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        units[axis] = kUnits * low[axis] + static_cast<int>(std::floor(voxels[axis] * kUnits));
+      }
+      return tree.find(units);
+    };
+    if (leaf_at(-0.5, 0.5, 1.5).brick == BrickTree::kNone) continue;
+    for (int level = 0; level < 4; ++level) {
+      const BrickTree::Leaf leaf = leaf_at(0.3, 1.1, 1.1);
+      tree.halve(leaf.brick, leaf.where().bit(), measure_octants(surface, tree, leaf.brick).bricks);
+    }
+    const BrickTree::Leaf finest = leaf_at(0.3, 1.1, 1.1);
+    const BrickTree::Leaf beside = leaf_at(-0.5, 0.5, 1.5);
+    if (finest.level != 4 || beside.level != 0) continue;
+    const Vector3d in_cell = tree.low(beside.brick) + kVoxel * Vector3d(3.5, 1.5, 1.5);
+    tree.make_exact(beside.brick, std::uint64_t{1} << tree.cell_of(beside, in_cell));
+    tree.join();
+    if (!tree.exact_brick(finest.brick)) continue;
+    tree.refuse(finest.brick);
+    tree.join();
+    EXPECT_FALSE(tree.exact_brick(finest.brick));
+    ++settled;
+  }
+  EXPECT_EQ(settled, 20);
+}
+
+TEST(FacetSets, AreStoredOnce) {
+  FacetSets sets;
+  EXPECT_EQ(sets.number_of({{3, 5, 8}, 0}), 0u);
+  EXPECT_EQ(sets.number_of({{3, 5, 8}, 1}), 1u) << "another first part";
+  EXPECT_EQ(sets.number_of({{3, 5}, 0}), 2u);
+  EXPECT_EQ(sets.number_of({{3, 5, 8}, 0}), 0u);
+  EXPECT_EQ(sets.number_of({{3, 5, 8}, 1}), 1u);
+  ASSERT_EQ(sets.sets().size(), 3u);
+  EXPECT_EQ(sets.numbers(), (std::vector<std::uint32_t>{3, 5, 8, 3, 5, 8, 3, 5}));
+  EXPECT_EQ(sets.sets()[1].first, 3u);
+  EXPECT_EQ(sets.sets()[1].count, 3);
+  EXPECT_EQ(sets.sets()[1].plane_count, 1);
+  EXPECT_EQ(sets.sets()[2].first, 6u);
+}
+
+}  // namespace
+}  // namespace godobject::scene_compiler::exact_bricks_test
