@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 
 #include <Eigen/Core>
 
+#include "core/scene/facets.h"
 #include "toolchain/scene_compiler/field/cell_edges.h"
 
 namespace godobject::scene_compiler {
