@@ -60,9 +60,10 @@ class Voxelmap {
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
   /// As in DistanceField. Proves chords through at most four cells. In each cell the interpolated field along the chord
-  /// is a cubic, and the proof is that its Bernstein coefficients are positive. Of the distance to facets it is that
-  /// both ends are above the planes of convex free space; elsewhere there is none. Returns 0 if the
-  /// processor has no vectors: then free balls alone decide, and a cycle with long chords may have a different result.
+  /// is a cubic, and the proof is that its Bernstein coefficients are positive. In a cell with facets both ends of the
+  /// chord's piece must also be above all planes of the set (format::FacetSet); a set without planes proves nothing.
+  /// Returns 0 if the processor has no vectors: then free balls alone decide, and a cycle with long chords may have a
+  /// different result.
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;
   /// The same with one of sample_kernels(); null: 0. The batch was looked up by a kernel at least as wide.
   std::uint64_t free_chords_by(const detail::SampleKernel* kernel, const Pose& H0, const Pose& H1,

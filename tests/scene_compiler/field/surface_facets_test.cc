@@ -45,8 +45,8 @@ TEST(SurfaceFacets, NearACubeGiveTheDistanceInIt) {
   }
 }
 
-/// Where the free space is convex, the least height above planes is the distance. There are planes wherever it is, and
-/// as few as can be told from the cell alone.
+/// In a room every cell near the walls has planes, and its distance is the least height above them. A cell has no more
+/// planes than walls that it is near to. About the outside of a box no cell at an edge has two planes.
 TEST(SurfaceFacets, HavePlanesWhereTheFreeSpaceIsConvex) {
   test::Random random(4);
   const Vector3d half(0.015, 0.012, 0.009);

@@ -231,8 +231,8 @@ std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& ce
 /// the points of E on the outer side of the planes of all facets in E. If all these facets lie in C, then they are on
 /// its border. A face of C is convex, hence in one piece, and the surface has no border of its own; so it covers each
 /// face that it has a part of. The foot of a point of D on the lowest of the planes that have a facet in D lies on the
-/// border of C, hence on a facet. Facets count as in C that are lower by a rounding: one that enters E by so little
-/// does not reach D.
+/// border of C, hence on a facet. The comparison allows for rounding. A facet that it overlooks enters E by no more
+/// than that, and does not reach D.
 std::vector<std::uint32_t> SurfaceFacets::convex_planes(const Vector3d& center, double half_edge,
                                                         std::span<const std::uint32_t> near) const {
   constexpr std::size_t kMost = 256;  // facets in E, chosen: bounds the cost
