@@ -309,7 +309,7 @@ TEST_F(CompileScene, SaysWhichMeshIsOpen) {
   const auto verdict = [&](const std::string& still, double still_scale, const std::string& moving, double scale) {
     return verdict_text(compile_once(
         fmt::format(
-            "[still]\nmesh = \"{}\"\nscale = {:#g}\nvoxel_size = 0.002\n[moving]\nmesh = \"{}\"\nscale = {:#g}\n"
+            "[still]\nmesh = \"{}\"\nscale = {:#g}\nvoxel_size = 0.004\n[moving]\nmesh = \"{}\"\nscale = {:#g}\n"
             "points = 300\n",
             still, still_scale, moving, scale),
         folder_, "out.scene", {}));

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "toolchain/precision/body_surface.h"
+#include "toolchain/scene_compiler/field/distance_probe.h"
 #include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::precision {
@@ -26,6 +27,7 @@ class DeepestPoint {
   DeepestPoint(const MeshOverlap::Body& of, const MeshOverlap::Body& in, const Pose& X, double tolerance)
       : of_(of),
         in_(in),
+        probe_(in.surface),
         rotation_(X.rotation.toRotationMatrix()),
         translation_(X.translation),
         tolerance_(tolerance) {}
@@ -55,8 +57,8 @@ class DeepestPoint {
   bool may_matter(double bound) const { return bound > deepest_ + std::max(tolerance_, 0.01 * deepest_); }
   Vector3d moved(const Vector3d& p) const { return rotation_ * p + translation_; }
 
-  double depth_at(const Vector3d& p, double hint = -1.0) {
-    const double depth = -in_.surface.signed_distance(p, hint);
+  double depth_at(const Vector3d& p) {
+    const double depth = -probe_.signed_distance(p);
     deepest_ = std::max(deepest_, depth);
     return depth;
   }
@@ -68,7 +70,7 @@ class DeepestPoint {
       return add({moved(corners[0]), moved(corners[1]), moved(corners[2])});
     }
     // no point of the mesh need be at the centre, so its depth counts only as a bound
-    const double center = -in_.surface.signed_distance(moved(0.5 * (node.low + node.high)));
+    const double center = -probe_.signed_distance(moved(0.5 * (node.low + node.high)));
     const double bound = center + 0.5 * (node.high - node.low).norm();
     if (may_matter(bound)) queue_.push({bound, index, {}});
   }
@@ -80,11 +82,11 @@ class DeepestPoint {
 
   void add(const Corners& t) {
     const Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-    const auto closest = in_.surface.closest(center);
-    const double depth = depth_at(center, closest.distance * (1.0 + 1e-9));
+    const double depth = depth_at(center);
     double radius = 0.0;
     for (const Vector3d& corner : t) radius = std::max(radius, (corner - center).norm());
-    const double bound = std::min(depth + radius, farthest_from(closest.triangle, t));
+    if (!may_matter(depth + radius)) return;
+    const double bound = std::min(depth + radius, farthest_from(in_.surface.closest(center).triangle, t));
     if (!may_matter(bound)) return;
     if (depth < 0.0 && !in_.has_shells && !in_.triangles.any_intersects(t)) return;
     for (const Vector3d& corner : t) depth_at(corner);
@@ -120,6 +122,7 @@ class DeepestPoint {
 
   const MeshOverlap::Body& of_;
   const MeshOverlap::Body& in_;
+  scene_compiler::DistanceProbe probe_;
   Matrix3 rotation_;
   Vector3d translation_;
   double tolerance_;

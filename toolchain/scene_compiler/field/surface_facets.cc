@@ -112,23 +112,41 @@ bool same_plane(const format::Facet& facet, const format::Facet& other, double w
                      [&](const double(&vertex)[3]) { return std::abs(height(other, vector(vertex))) <= within; });
 }
 
+/// A convex polygon: the part of a triangle in a cube.
+class Polygon {
+ public:
+  Polygon() = default;
+  explicit Polygon(const Corners& triangle) : size_(triangle.size()) {
+    std::copy(triangle.begin(), triangle.end(), vertices_.begin());
+  }
+  bool empty() const { return size_ == 0; }
+  std::span<const Vector3d> vertices() const { return std::span(vertices_).first(size_); }
+  void add(const Vector3d& vertex) { vertices_[size_++] = vertex; }
+
+ private:
+  // of 3 vertices each side of a cube makes at most 1.5 times as many, even if rounding bends the polygon
+  std::array<Vector3d, 29> vertices_;
+  std::size_t size_ = 0;
+};
+
 /// Returns the part of a convex polygon in a cube; empty if there is none.
-std::vector<Vector3d> clipped(std::vector<Vector3d> polygon, const Vector3d& center, double half_edge) {
+Polygon clipped(Polygon polygon, const Vector3d& center, double half_edge) {
   for (int side = 0; side < 6 && !polygon.empty(); ++side) {
     const int axis = side / 2;
     const double sign = side % 2 == 0 ? 1.0 : -1.0;
-    std::vector<Vector3d> within;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vector3d& from = polygon[i];
-      const Vector3d& to = polygon[(i + 1) % polygon.size()];
-      const double from_room = half_edge - sign * (from[axis] - center[axis]);
-      const double to_room = half_edge - sign * (to[axis] - center[axis]);
-      if (from_room >= 0.0) within.push_back(from);
-      if ((from_room < 0.0) != (to_room < 0.0)) {
-        within.push_back(from + from_room / (from_room - to_room) * (to - from));
-      }
+    const auto room = [&](const Vector3d& vertex) { return half_edge - sign * (vertex[axis] - center[axis]); };
+    const auto vertices = polygon.vertices();
+    if (std::all_of(vertices.begin(), vertices.end(), [&](const Vector3d& v) { return room(v) >= 0.0; })) continue;
+    Polygon within;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vector3d& from = vertices[i];
+      const Vector3d& to = vertices[(i + 1) % vertices.size()];
+      const double from_room = room(from);
+      const double to_room = room(to);
+      if (from_room >= 0.0) within.add(from);
+      if ((from_room < 0.0) != (to_room < 0.0)) within.add(from + from_room / (from_room - to_room) * (to - from));
     }
-    polygon = std::move(within);
+    polygon = within;
   }
   return polygon;
 }
@@ -242,26 +260,29 @@ std::vector<std::uint32_t> SurfaceFacets::convex_planes(const Vector3d& center, 
   const double half_diagonal = 2.0 * kHalfDiagonal * half_edge;
   const double of_d = half_edge + half_diagonal + std::abs(facet_distance(facets_, near, center).value);
   const double of_e = of_d + half_edge;
-  std::vector<std::vector<Vector3d>> parts;  // of facets in E
-  std::vector<std::uint32_t> planes;         // facets, one in each plane
+  const auto above = [&](std::uint32_t plane, std::span<const Vector3d> vertices) {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [&](const Vector3d& vertex) { return height(facets_[plane], vertex) >= least; });
+  };
+  std::vector<Vector3d> vertices;     // of the parts of facets in E
+  std::vector<std::uint32_t> planes;  // facets, one in each plane
   std::vector<std::uint32_t> in_d;
+  std::size_t facets_in_e = 0;
   bool serves = true;
   tree_.within(center, 2.0 * kHalfDiagonal * of_e, [&](const TriangleTree::Triangle& triangle) {
     if (!serves) return;
-    std::vector<Vector3d> part = clipped({triangle.a, triangle.b, triangle.c}, center, of_e);
+    const Polygon part = clipped(Polygon({triangle.a, triangle.b, triangle.c}), center, of_e);
     if (part.empty()) return;
-    serves = valid_[triangle.id] != 0 && parts.size() < kMost;
+    serves = valid_[triangle.id] != 0 && ++facets_in_e <= kMost &&
+             std::all_of(planes.begin(), planes.end(), [&](auto plane) { return above(plane, part.vertices()); });
     if (!clipped(part, center, of_d).empty()) in_d.push_back(triangle.id);
     const auto same = [&](std::uint32_t other) { return same_plane(facets_[triangle.id], facets_[other], -least); };
-    if (std::none_of(planes.begin(), planes.end(), same)) planes.push_back(triangle.id);
-    parts.push_back(std::move(part));
-  });
-  for (const std::uint32_t plane : planes) {
-    for (const std::vector<Vector3d>& part : parts) {
-      serves = serves && std::all_of(part.begin(), part.end(),
-                                     [&](const Vector3d& vertex) { return height(facets_[plane], vertex) >= least; });
+    if (std::none_of(planes.begin(), planes.end(), same)) {
+      planes.push_back(triangle.id);
+      serves = serves && above(triangle.id, vertices);
     }
-  }
+    vertices.insert(vertices.end(), part.vertices().begin(), part.vertices().end());
+  });
   if (!serves) return {};
   std::sort(in_d.begin(), in_d.end());
   std::vector<std::uint32_t> of_near;

@@ -25,7 +25,7 @@ NearTriangles::NearTriangles(const TriangleTree& tree, const Vector3d& center, d
   if (!tree.nearest(center, kAnyDistance, nearest)) return;
   const double furthest = (std::sqrt(nearest.squared_distance) + 2.0 * radius) * kRoundedReach;
   tree.within(center, furthest, [&](const TriangleTree::Triangle& triangle) {
-    near_.push_back({std::sqrt(squared_distance_to(center, triangle)), triangle});
+    near_.push_back({std::sqrt(squared_distance_to(center, triangle)), &triangle});
   });
   finish(radius);
 }
@@ -33,7 +33,7 @@ NearTriangles::NearTriangles(const TriangleTree& tree, const Vector3d& center, d
 NearTriangles::NearTriangles(const NearTriangles& larger, const Vector3d& center, double radius) : center_(center) {
   near_.reserve(larger.near_.size());
   for (const Near& near : larger.near_) {
-    near_.push_back({std::sqrt(squared_distance_to(center, near.triangle)), near.triangle});
+    near_.push_back({std::sqrt(squared_distance_to(center, *near.triangle)), near.triangle});
   }
   finish(radius);
 }
@@ -48,7 +48,7 @@ void NearTriangles::finish(double radius) {
 
 std::vector<std::uint32_t> NearTriangles::ids() const {
   std::vector<std::uint32_t> ids;
-  for (const Near& near : near_) ids.push_back(near.triangle.id);
+  for (const Near& near : near_) ids.push_back(near.triangle->id);
   return ids;
 }
 
@@ -58,7 +58,7 @@ double NearTriangles::distance(const Vector3d& p) const {
   double furthest = kAnyDistance;  // from the centre, of a triangle that may be nearer
   for (const Near& near : near_) {
     if (near.distance > furthest) break;
-    const double squared = squared_distance_to(p, near.triangle);
+    const double squared = squared_distance_to(p, *near.triangle);
     if (squared >= best) continue;
     best = squared;
     furthest = (std::sqrt(best) + aside) * kRoundedReach;

@@ -17,7 +17,7 @@ namespace godobject::scene_compiler {
 /// it is at most d + 2 radius from the centre.
 class NearTriangles {
  public:
-  /// Of a tree, in the ball about `center` [m]. None if the tree is empty.
+  /// Of a tree, in the ball about `center` [m]. None if the tree is empty. Refers to the tree.
   NearTriangles(const TriangleTree& tree, const Eigen::Vector3d& center, double radius);
 
   /// Of a ball within the other one's.
@@ -35,7 +35,7 @@ class NearTriangles {
  private:
   struct Near {
     double distance;  ///< from the centre [m]
-    TriangleTree::Triangle triangle;
+    const TriangleTree::Triangle* triangle;
   };
 
   /// Sorts by distance and drops what is too far.
