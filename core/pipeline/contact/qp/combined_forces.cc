@@ -7,11 +7,12 @@
 namespace godobject::detail {
 // Among the points z with c . z >= 0 for all generators c, the one nearest to minus the sum is zero, and its
 // multipliers give the sum.
-void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept {
+double store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept {
   if (all.count <= step.forces.size()) {
     step.force_count = static_cast<std::uint32_t>(all.count);
     for (std::size_t j = 0; j < all.count; ++j) step.forces[j] = all.force[j];
-    return count_contacts(step);
+    count_contacts(step);
+    return 0.0;
   }
   using Basis = DualActiveSet<std::size_t>;
   constexpr int kMostAdditions = 8 * Basis::kCapacity;
@@ -46,6 +47,7 @@ void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexce
     force.multiplier = basis[j].multiplier;
   }
   count_contacts(step);
+  return basis.z().norm();
 }
 
 void add_forces(const ContactSet& set, ConstrainedStep& step) noexcept {

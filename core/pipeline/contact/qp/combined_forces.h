@@ -14,8 +14,9 @@ struct Forces {
 };
 static_assert(3 * ContactSet::kMaxContacts >= 2 * ActiveSet::kCapacity);
 
-/// Replaces the forces of the step by at most six of `all` with the same sum. Real-time safe.
-void store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept;
+/// Replaces the forces of the step by at most six of `all` with the same sum. Returns the length of what the sum of six
+/// lacks, in the coupling's metric [m]: rounding, but more if generators hardly differ. Real-time safe.
+double store_sum(const Forces& all, double gyration, ConstrainedStep& step) noexcept;
 
 /// Adds the forces of the set's half spaces to those of the step. More than six forces are replaced by at most six of
 /// the same sum: a vector in the cone of generators in six dimensions is a combination of six independent ones

@@ -7,9 +7,9 @@ ContactForce force_of(const ContactSet& set, int half_space) noexcept {
   ContactForce force;
   force.id = set.rows().id[tag.row];
   force.point = set.rows().point(tag.row);
-  force.normal = set.rows().normal(tag.row);
   force.slip = tag.slip;
   const bool has_friction = set.contact_count() > 0;
+  force.normal = has_friction ? set.contact_of(half_space).normal : set.rows().normal(tag.row);
   force.grip = has_friction ? set.contact_of(half_space).grip : force.point;
   force.ratio = has_friction ? set.contact_of(half_space).ratio : 0.0;
   force.multiplier = set.active()[half_space].multiplier;

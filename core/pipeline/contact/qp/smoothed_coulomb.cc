@@ -13,10 +13,13 @@ constexpr std::size_t kMostContacts = ContactSet::kMaxContacts;
 // c of the attempts, over the inverse of the contact's own compliance. Measured on pegs in their holes: each alone
 // leaves some unsolved that another solves.
 constexpr std::array<double, 3> kScales = {100.0, 1.0, 1000.0};
-constexpr double kShrink = 0.2;  // of the smoothing; measured on the same: 0.1 and 0.3 leave more unsolved
-constexpr int kMostRounds = 40;  // of rows that enter, contacts that begin to slip, and metrics; mostly 1 to 6
-constexpr double kEnd = 1e-3;    // of the smoothing, over the tolerance
-constexpr int kStepsOfAttempt = kMostSmoothedSteps / static_cast<int>(kScales.size());
+constexpr double kShrink = 0.2;    // of the smoothing; measured on the same: 0.1 and 0.3 leave more unsolved
+constexpr int kMostRounds = 40;    // of rows that enter, contacts that begin to slip, and metrics; mostly 1 to 6
+constexpr double kEnd = 1e-3;      // of the smoothing, over the tolerance
+constexpr double kOfForce = 0.01;  // accuracy of a force, over the tolerance
+// A step counts as the square of the number of contacts: few contacts get more steps.
+constexpr int kWorkOfAttempt =
+    kMostSmoothedSteps / static_cast<int>(kScales.size()) * ContactSet::kMaxContacts * ContactSet::kMaxContacts;
 
 /// max(0, value), smoothed: it differs by at most the smoothing.
 struct SmoothPart {
@@ -91,7 +94,7 @@ class SmoothedProblem {
   /// Solves from the forces so far. False: it does not converge, or there are too many contacts.
   bool solve(double scale) noexcept {
     scale_ = scale;
-    steps_left_ = kStepsOfAttempt;
+    work_left_ = kWorkOfAttempt;
     for (int round = 0; round < kMostRounds; ++round) {
       for (int k = 0; k < count(); ++k) set_gradient(k);
       if (!converge()) return false;
@@ -121,7 +124,8 @@ class SmoothedProblem {
       const Vector3 along = length > 0.0 ? Vector3(pull / length) : cone.first;
       const Vector3 across = set_.contact(k).normal.cross(along);
       const double share = std::min(1.0, length / load);
-      const bool sticks = share < 1.0 && !(cone.slip() > set_.metric().still);
+      const double tolerance = set_.metric().tolerance;
+      const bool sticks = length < load - kOfForce * tolerance && !(cone.slip() > tolerance);
       const double third = load / set_.contact(k).ratio / 3.0;
       found.add(force(k, along, sticks ? third * (1.0 + 2.0 * share) : 3.0 * third));
       if (!sticks) continue;
@@ -134,18 +138,16 @@ class SmoothedProblem {
   /// Tells whether the step can have these forces. Fewer with the same sum would share viscous friction otherwise, and
   /// without a force the motion is the wanted one.
   bool can_have(const Forces& found) const noexcept {
-    for (int k = 0; k < count(); ++k) {
-      if (!obeys_law(k)) return false;
-    }
+    if (!all_obey_law()) return false;
     if (found.count == 0) return (plain() - set_.wanted()).isZero(0.1 * set_.metric().tolerance);
-    return !is_viscous() || found.count <= ActiveSet::kCapacity;
+    return !is_viscous() || (found.count <= ActiveSet::kCapacity && is_balanced(found));
   }
 
   /// Stores the solution. False: the step cannot have it, and only its forces have changed.
   bool store(ConstrainedStep& step) const noexcept {
     const Forces found = forces();
     if (!can_have(found)) return false;
-    store_sum(found, set_.metric().gyration, step);
+    if (store_sum(found, set_.metric().gyration, step) > 0.1 * set_.metric().tolerance) return false;
     if (step.force_count == 0 && found.count > 0) return false;  // forces that balance each other
     step.follows = step.force_count == 0;
     step.unconverged = false;
@@ -164,17 +166,56 @@ class SmoothedProblem {
   ConeContact& at(int k) noexcept { return cones_[static_cast<std::size_t>(k)]; }
   const ConeContact& at(int k) const noexcept { return cones_[static_cast<std::size_t>(k)]; }
 
-  /// Tells whether the contact obeys the law to the tolerance. Small residuals alone do not tell that: c may be small.
+  bool all_obey_law() const noexcept {
+    for (int k = 0; k < count(); ++k) {
+      if (!obeys_law(k)) return false;
+    }
+    return true;
+  }
+
+  /// Tells whether the forces, with viscous friction shared by their loads, turn the wanted motion into the result.
+  bool is_balanced(const Forces& found) const noexcept {
+    double all = 0.0;
+    for (std::size_t i = 0; i < found.count; ++i) all += found.force[i].multiplier;
+    const Motion m = motion();
+    Vector6 lacks = plain() - set_.wanted();
+    for (std::size_t i = 0; i < found.count; ++i) {
+      const ContactForce& f = found.force[i];
+      const Vector3 v = m.translation + m.rotation.cross(f.grip);
+      const Vector3 slip = v - f.normal.dot(v) * f.normal;
+      const Vector3 push = f.multiplier * f.normal;
+      const Vector3 across = -f.multiplier * (f.ratio * f.slip + set_.friction()->viscous_step / all * slip);
+      lacks.head<3>() -= push + across;
+      lacks.tail<3>() -= (f.point.cross(push) + f.grip.cross(across)) / set_.metric().gyration;
+    }
+    return lacks.norm() <= set_.metric().tolerance;
+  }
+
+  /// Tells whether the forces that cancel each other are not much larger than the others. Where a body jams they may
+  /// grow without end, and then their rounding moves it.
+  bool has_moderate_forces() const noexcept {
+    constexpr double kMost = 10.0;  // of the wanted motion; chosen
+    for (int k = 0; k < count(); ++k) {
+      if (load_on(k) > kMost * target_.norm()) return false;
+    }
+    return true;
+  }
+
+  /// Tells whether the contact obeys the law to the tolerance, which a slip must exceed to have a direction. Small
+  /// residuals alone do not tell that: c may be small.
   bool obeys_law(int k) const noexcept {
     const double tolerance = set_.metric().tolerance;
     const ConeContact& cone = at(k);
     const double gap = cone.gap(set_.contact(k).ratio);
     const double load = load_on(k);
     if (!(gap >= -tolerance) || !(load >= -0.1 * tolerance)) return false;
-    if (!carries(k)) return load <= 0.1 * tolerance;
+    const double length = cone.x.tail<2>().norm();
+    if (!carries(k)) return load <= 0.1 * tolerance && length <= kOfForce * tolerance;
     const double friction = cone.x[0];
     const double speed = cone.slip();
-    if (!(speed > set_.metric().still)) return cone.x.tail<2>().norm() <= friction * (1.0 + 1e-6);
+    if (!(length <= friction + kOfForce * tolerance)) return false;
+    if (!(speed > tolerance)) return true;
+    if (!(length >= friction - kOfForce * tolerance)) return false;
     const double off = (cone.x.tail<2>() + friction / speed * cone.y.tail<2>()).norm();
     return off <= tolerance || speed * off <= tolerance * friction;
   }
@@ -306,7 +347,8 @@ class SmoothedProblem {
     return found;
   }
 
-  /// Follows the solution to the end of the smoothing.
+  /// Follows the solution to the end of the smoothing. Where a contact hardly slips that takes many steps; when they
+  /// are used up, a motion that obeys the law is good enough.
   bool converge() noexcept {
     const double tolerance = set_.metric().tolerance;
     double smoothing = std::max(0.1 * target_.norm(), tolerance);
@@ -317,7 +359,8 @@ class SmoothedProblem {
         norm = residual(smoothing);
         continue;
       }
-      if (steps_left_-- == 0) return false;
+      work_left_ -= count() * count();
+      if (work_left_ < 0) return all_obey_law() && has_moderate_forces();
       norm = newton_step(smoothing, norm);
       if (!std::isfinite(norm)) return false;
     }
@@ -329,7 +372,7 @@ class SmoothedProblem {
     return {.id = set_.rows().id[c.row],
             .point = set_.rows().point(c.row),
             .grip = c.grip,
-            .normal = set_.rows().normal(c.row),
+            .normal = c.normal,
             .slip = slip,
             .ratio = c.ratio,
             .multiplier = multiplier};
@@ -339,7 +382,7 @@ class SmoothedProblem {
   Vector6 target_;
   Vector6 z_;
   double scale_ = 1.0;
-  int steps_left_ = 0;
+  int work_left_ = 0;
   std::array<ConeContact, kMostContacts> cones_;
   System system_;
 };

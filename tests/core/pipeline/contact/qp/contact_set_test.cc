@@ -540,11 +540,40 @@ TEST(CombinedForces, AreThoseOfTheCountOnly) {
       sum += sum_of(one, kSetMetric.gyration);
     }
     ConstrainedStep step;
-    detail::store_sum(all, kSetMetric.gyration, step);
+    EXPECT_LT(detail::store_sum(all, kSetMetric.gyration, step), 1e-11) << count;
     ASSERT_LE(step.force_count, 6u);
     EXPECT_LT((sum_of(step, kSetMetric.gyration) - sum).norm(), 1e-11) << count;
     for (std::uint32_t j = 0; j < step.force_count; ++j) EXPECT_LT(step.forces[j].id, count);
   }
+}
+
+/// Forces in a plane, each turned out of it by a millionth: six of them hardly span the others.
+TEST(CombinedForces, TellWhatTheirSumLacks) {
+  Random random(16);
+  double most = 0.0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    detail::Forces all;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+      ContactForce force = random_force(random, i);
+      force.normal = (Vector3(0.0, 1.0, 0.5 * random.between(-1.0, 1.0)) + 1e-6 * random.in_cube(1.0)).normalized();
+      force.point.x() *= 1e-6;
+      force.grip = force.point;
+      force.slip = Vector3::Zero();
+      all.add(force);
+    }
+    ConstrainedStep step;
+    const double lacks = detail::store_sum(all, kSetMetric.gyration, step);
+    Vector6 sum = Vector6::Zero();
+    for (std::size_t i = 0; i < all.count; ++i) {
+      ConstrainedStep one;
+      one.force_count = 1;
+      one.forces[0] = all.force[i];
+      sum += sum_of(one, kSetMetric.gyration);
+    }
+    ASSERT_NEAR((sum_of(step, kSetMetric.gyration) - sum).norm(), lacks, 1e-11) << trial;
+    most = std::max(most, lacks);
+  }
+  EXPECT_GT(most, 1e-10) << "the test looks at nothing";
 }
 
 TEST(CombinedForces, CancelWhereTheyOpposeEachOther) {

@@ -79,12 +79,12 @@ void expect_law(const PegProblem& p, const ConstrainedStep& step, double balance
     EXPECT_LE(force.across.norm(), most * (1.0 + 1e-6));
     const Vector3 slip = v - normal.dot(v) * normal;
     const double speed = slip.norm();
-    if (speed > 2.0 * kPegMetric.still && force.load > kPegMetric.tolerance) {
+    if (speed > 1.001 * kPegMetric.tolerance && force.load > kPegMetric.tolerance) {
       EXPECT_EQ(force.ratio, p.friction.kinetic_ratio);
       const double off = (force.across + most * slip / speed).norm();
       EXPECT_LE(std::min(off, speed * off / most), kPegMetric.tolerance) << "row " << i;
     }
-    sum += push_of(force.load * normal + force.across - p.friction.viscous_step * force.load / all * slip,
+    sum += push_of(force.load * normal.normalized() + force.across - p.friction.viscous_step * force.load / all * slip,
                    p.rows->point(i));
   }
   EXPECT_LE((sum - in_metric(step.motion)).norm(), balance);
@@ -96,21 +96,25 @@ void expect_law(const PegProblem& p, const ConstrainedStep& step, double balance
 
 /// A peg in a hole: points on opposite sides with nearly opposite normals, some of them loaded.
 struct PegSeries {
-  double ratio;    ///< largest mu_k
-  double tilt;     ///< largest angle of a normal from the axis [rad]
-  double viscous;  ///< largest viscous step
-  int solved;      ///< problems of 300 that must be solved. Measured: 3 more; solve_coulomb solves 147 to 188
+  double ratio;              ///< largest mu_k
+  double tilt;               ///< largest angle of a normal from the axis [rad]
+  double viscous;            ///< largest viscous step
+  int solved;                ///< problems of 300 that must be solved. Measured: 3 more; solve_coulomb solves 132 to 188
+  double least_size = -8.0;  ///< logarithm of the smallest motion [m]
+  double largest_size = -4.0;
+  double share = 0.9;  ///< of the friction that a sticking contact needs
 };
 
 std::ostream& operator<<(std::ostream& out, const PegSeries& series) {
-  return out << "mu" << series.ratio << "_tilt" << series.tilt << "_viscous" << series.viscous;
+  return out << "mu" << series.ratio << "_tilt" << series.tilt << "_viscous" << series.viscous << "_size"
+             << series.largest_size << "_share" << series.share;
 }
 
 PegProblem peg_problem(const PegSeries& series, int trial, Random& random) {
   PegProblem p;
   const double mu = random.between(0.02, series.ratio);
   p.friction = {1.1 * mu, mu, series.viscous * random.between(0.0, 1.0)};
-  const double size = std::pow(10.0, random.between(-8.0, -4.0));  // of the motion [m]
+  const double size = std::pow(10.0, random.between(series.least_size, series.largest_size));  // of the motion [m]
   const Vector3 pivot(random.between(-0.004, 0.004), 0.004, random.between(-0.01, 0.01));
   const bool one_sticks = trial % 2 == 1;
   Motion m = random.motion(size, size / 0.01);
@@ -133,8 +137,8 @@ PegProblem peg_problem(const PegSeries& series, int trial, Random& random) {
     if (i >= loaded) continue;
     const double load = std::pow(10.0, random.between(-4.0, -2.0));
     const Vector3 slip = v - approach * normal;
-    const Vector3 across =
-        sticks ? Vector3(0.9 * mu * load * normal.cross(random.direction())) : Vector3(-mu * load * slip.normalized());
+    const Vector3 across = sticks ? Vector3(series.share * mu * load * normal.cross(random.direction()))
+                                  : Vector3(-mu * load * slip.normalized());
     force_sum += push_of(load * normal + across, point);
     drags.emplace_back(load, point);
     all += load;
@@ -181,9 +185,11 @@ TEST_P(SolveSmoothed, FindsASolutionWhereThereIsOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pegs, SolveSmoothed,
-                         ::testing::Values(PegSeries{0.3, 1e-3, 0.0, 277}, PegSeries{0.8, 1e-3, 0.0, 268},
-                                           PegSeries{0.3, 0.1, 0.0, 277}, PegSeries{0.8, 0.5, 0.0, 277},
-                                           PegSeries{0.3, 1e-3, 1.0, 257}, PegSeries{0.8, 0.5, 1.0, 229}));
+                         ::testing::Values(PegSeries{0.3, 1e-3, 0.0, 291}, PegSeries{0.8, 1e-3, 0.0, 286},
+                                           PegSeries{0.3, 0.1, 0.0, 292}, PegSeries{0.8, 0.5, 0.0, 290},
+                                           PegSeries{0.3, 1e-3, 1.0, 284}, PegSeries{0.8, 0.5, 1.0, 278},
+                                           PegSeries{0.3, 1e-3, 0.0, 284, -9.0, -6.0, 1.0},
+                                           PegSeries{0.3, 0.1, 0.0, 286, -9.0, -6.0, 1.0}));
 
 /// A point pressed on a plane with load 1 and pulled along it. At rest so far, static friction 0.5 holds a pull of
 /// 0.45; after a slip, kinetic friction 0.4 lets it slide by the 0.05 that are left.
