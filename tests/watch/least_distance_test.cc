@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random.h"
+
 namespace godobject::watch {
 namespace {
 
@@ -45,6 +47,35 @@ TEST(LeastDistance, IsNearerThanEveryFeasiblePoint) {
     for (const HalfPlane& row : rows) ASSERT_GE(row.normal.dot(found.x), row.bound - 1e-9);
     ASSERT_GE(inside.dot(found.x), found.x.squaredNorm() - 1e-9);
   }
+}
+
+/// The projection lies in the cone, what is left points away from all rays and is perpendicular to the projection; all
+/// of a vector within the cone is its projection.
+TEST(ConeProjection, IsNearest) {
+  test::Random random(5);
+  const auto vector = [&] {
+    Vector6 v;
+    for (int i = 0; i < 6; ++i) v[i] = random.between(-1.0, 1.0);
+    return v;
+  };
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Vector6> rays;
+    Vector6 within = Vector6::Zero();
+    for (int i = 0; i < 1 + trial % 40; ++i) {
+      rays.push_back(std::pow(10.0, random.between(-2.0, 2.0)) * vector());
+      within += random.between(0.0, 1.0) * rays.back();
+    }
+    const ConeProjection same = projection_on_cone(within, rays);
+    ASSERT_TRUE(same.converged);
+    EXPECT_LT((same.x - within).norm(), 1e-9 * within.norm());
+    const Vector6 w = 10.0 * vector();
+    const ConeProjection found = projection_on_cone(w, rays);
+    ASSERT_TRUE(found.converged);
+    EXPECT_LT(std::fabs((w - found.x).dot(found.x)), 1e-9 * w.squaredNorm());
+    for (const Vector6& ray : rays) EXPECT_LT((w - found.x).dot(ray), 1e-9 * w.norm() * ray.norm());
+  }
+  EXPECT_TRUE(projection_on_cone(Vector6::Ones(), {}).x.isZero(0.0));
+  EXPECT_TRUE(projection_on_cone(Vector6::Zero(), {Vector6::Ones()}).x.isZero(0.0));
 }
 
 }  // namespace

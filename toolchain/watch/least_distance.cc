@@ -106,4 +106,19 @@ LeastDistance least_distance(const std::vector<HalfPlane>& rows) {
   return result;
 }
 
+ConeProjection projection_on_cone(const Vector6& w, const std::vector<Vector6>& rays) {
+  ConeProjection result;
+  const double size = w.norm();
+  if (!(size > 0.0) || rays.empty()) return result;
+  Columns columns(7, static_cast<Eigen::Index>(rays.size()));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    columns.col(static_cast<Eigen::Index>(i)) << rays[i].normalized(), 0.0;
+  }
+  Vector7 target;
+  target << w / size, 0.0;
+  const Eigen::VectorXd u = non_negative_least_squares(columns, target, result.converged);
+  result.x = size * (columns * u).head<6>();
+  return result;
+}
+
 }  // namespace godobject::watch

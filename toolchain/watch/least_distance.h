@@ -25,4 +25,14 @@ struct LeastDistance {
 /// Least Squares Problems", 1974). Exact to rounding. Cost: some tens of factorisations of at most 7 columns.
 LeastDistance least_distance(const std::vector<HalfPlane>& rows);
 
+/// The point of a cone that is nearest to a vector.
+struct ConeProjection {
+  bool converged = true;        ///< false: the bound on rounds was met, and another point may be nearer
+  Vector6 x = Vector6::Zero();  ///< in the cone, also if not converged
+};
+
+/// Returns the projection of `w` on the cone of non-negative sums of the rays, none of which is zero, by Lawson and
+/// Hanson's NNLS. Cost: as least_distance.
+ConeProjection projection_on_cone(const Vector6& w, const std::vector<Vector6>& rays);
+
 }  // namespace godobject::watch

@@ -136,7 +136,7 @@ class Watch {
   void check_distance(const WatchedCycle& cycle);
   void check_reference(const WatchedCycle& cycle);
   void check_pushes(const WatchedCycle& cycle, bool between_planes);
-  Vector6 push_at(const WatchedCycle& cycle, Around places, bool& converged) const;
+  ConeProjection push_at(const WatchedCycle& cycle, Around places) const;
   const Contact* one_normal(const WatchedCycle& cycle, const std::vector<Contact>& contacts, int& count) const;
   void check_friction(const WatchedCycle& cycle, const std::vector<Contact>& contacts);
   void check_damping(const WatchedCycle& cycle, const Contact& contact, double turned);
