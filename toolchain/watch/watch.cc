@@ -105,7 +105,6 @@ void Watch::cycle(const WatchedCycle& cycle) {
                  : 0;
   H_WS_before_ = H_WS_;
   const bool was_inside = is_inside_;
-  deep_before_ = deep_;
   is_inside_ = is_contact && cycle.report.outcome == Outcome::kStartInside;
   if (is_contact) follow(cycle);
   H_WS_ = cycle.report.H_WS;
@@ -136,7 +135,6 @@ void Watch::find_overlaps() {
     began_deep_.assign(edge_bound_.size(), false);
   }
   edges_overlap_ = false;
-  deep_ = 0.0;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
     const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
@@ -145,7 +143,6 @@ void Watch::find_overlaps() {
       const bool overlaps = in_solids || pair.gap < 0.0;  // or within a sheet
       const std::size_t number = i * session_.still_edges.size() + j;
       if (overlaps && pair.gap >= kWayOut * q_.voxel_size) began_deep_[number] = true;
-      if (in_solids) deep_ = std::max(deep_, pair.gap);
       overlap_at_start_[number] = overlap_at_start_[number] || overlaps;
       edges_overlap_ = edges_overlap_ || overlaps;
     }
@@ -436,20 +433,17 @@ void Watch::check_report(const WatchedCycle& cycle, bool may_be_inside) {
   check((report.outcome == Outcome::kOverflow) <= (report.dropped > 0), "overflow without a dropped point");
   if (is_inside_) {
     check(may_be_inside, "start_inside after it was outside");
-    const double rounding = 1e-6 * q_.voxel_size + session_.rounding;
-    const bool is_deep = deep_before_ > kWayOut * q_.voxel_size - rounding;
-    check(smallest_ <= rounding || is_deep, "start_inside with every point outside, and no edge deep inside");
+    check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding, "start_inside with every point outside");
     return;
   }
-  const bool was_deep = deep_before_ > 1.001 * kWayOut * q_.voxel_size && deep_before_ < 0.999 * q_.voxel_size;
-  if (may_be_inside) check(!was_deep, "edges begin deep in each other, but no start_inside");
   const double shortest = kReach * q_.voxel_size;
   const double tolerance = 1e-5 * q_.voxel_size + session_.rounding;
   const bool counts_doubtful = std::any_of(doubtful_.begin(), doubtful_.end(), [&](double depth) {
     return depth > -smallest_ && std::fabs(report.penetration - depth) <= tolerance;
   });
   const double expected = counts_doubtful ? report.penetration : -std::min(smallest_, shortest);
-  if (report.dropped > 0) {  // points without a look-up may be nearer
+  const bool is_budgeted = q_.point_budget > 0 && report.outcome == Outcome::kFree;  // bounds prove the way free
+  if (report.dropped > 0 || is_budgeted) {  // points without a look-up may be nearer
     return judge(Property::kReport, report.penetration - expected, tolerance, [&] {
       return fmt::format("penetration {} m, the smallest distance of all points is {} m", report.penetration,
                          smallest_);

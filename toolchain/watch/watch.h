@@ -161,8 +161,6 @@ class Watch {
   std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, until the session has come out
   std::vector<bool> began_deep_;        ///< of all pairs: they overlapped by more than the way out of a cycle
   bool edges_overlap_ = false;          ///< some of these still overlapped after the last cycle
-  double deep_ = 0.0;                   ///< the largest depth among them then [m]
-  double deep_before_ = 0.0;            ///< that at the start of this cycle [m]
   std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;

@@ -78,7 +78,7 @@ class GodObject {
   /// penetrates, the outcome is kStartInside until the god object has come out. It moves out by a share of its depth in
   /// each cycle where the field has a gradient; that may push on the hand, and where points push against each other by
   /// no more than the stiffness times a quarter of the voxel edge. It follows the device, without force, where the
-  /// field has no gradient, and where sharp edges are deeper in each other than that, by less than a voxel edge.
+  /// field has no gradient.
   ///
   /// In a scene with a workspace box the god object follows the device only within the box, and the device feels the
   /// box's faces as stiff as the coupling. Until the device has been inside for the first time, nothing is rendered, as

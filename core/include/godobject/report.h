@@ -33,7 +33,8 @@ struct CycleReport {
   DeviceForce force;  ///< for the device
   /// `paper`, `corrected`: p = p_d - d of step #1, before the last sub-step's motion [m]. `contact`: minus the smallest
   /// stored distance of a near point at the start of the last sub-step [m]; distances above an eighth of a voxel count
-  /// as that. 0 after `follow` and after a refusal.
+  /// as that. If points were dropped, or with a point budget if the way was free, points that were not looked up may be
+  /// nearer. 0 after `follow` and after a refusal.
   double penetration = 0.0;
   std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force (one point may have two)
   std::uint32_t dropped = 0;   ///< `contact`: near points as in kOverflow (of those without a row, groups), last sub-step

@@ -84,7 +84,7 @@ class ContactSubsteps {
     // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
     result_.inside = may_be_inside && around_.smallest <= 0.0;
-    find_edges(may_be_inside);
+    find_edges();
     if (around_.dropped > 0) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
@@ -96,7 +96,7 @@ class ContactSubsteps {
     const ContactWorkspace& near = memory_.workspace;
     const bool none_near = near.samples.count + near.features.count + near.edges.count == 0;
     ++(none_near ? free_substeps_ : result_.substeps);
-    if (!none_near || around_.swallowed) return false;
+    if (!none_near) return false;
     if (!is_clear_to_device() && allowed_share(free_, around_, search_radius_, lengths_, false) != 1.0) return false;
     follow_device();
     return true;
@@ -461,9 +461,8 @@ class ContactSubsteps {
   }
 
   /// Finds the near edges and appends their rows. While a point is inside, edges may lie on the wrong sides of each
-  /// other, so that no gap of theirs counts. A start with edges too deep in each other for the way out is one inside,
-  /// until they come out: a row would hold them on their wrong sides.
-  void find_edges(bool may_be_inside) noexcept {
+  /// other, so that no gap of theirs counts.
+  void find_edges() noexcept {
     NearEdges& near = memory_.workspace.edges;
     near.count = 0;
     if (!scene_.has_edges() || result_.inside) return;
@@ -471,14 +470,6 @@ class ContactSubsteps {
       ContactSearch& search = memory_.search;
       // every pair that overlaps is found: one that is not would be held on its wrong side from now on
       const double deepest = memory_.edges_may_overlap ? lengths_.longest_way_out : 0.0;
-      if (may_be_inside && deepest > 0.0) {
-        const double depth = search.edges.depth_beyond(deepest, lengths_.deepest_overlap, H0_);
-        if (depth > 0.0) {
-          around_.smallest = std::min(around_.smallest, -depth);
-          result_.inside = around_.swallowed = true;
-          return;
-        }
-      }
       const EdgeSurroundings around =
           search.edges.find(H0_, search.odometer.travelled(), std::max(search_radius_, deepest),
                             kEdgeSlack * lengths_.longest_search_radius, deepest, near);

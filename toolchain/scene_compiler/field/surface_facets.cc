@@ -277,11 +277,11 @@ std::vector<std::uint32_t> SurfaceFacets::convex_planes(const Vector3d& center, 
              std::all_of(planes.begin(), planes.end(), [&](auto plane) { return above(plane, part.vertices()); });
     if (!clipped(part, center, of_d).empty()) in_d.push_back(triangle.id);
     const auto same = [&](std::uint32_t other) { return same_plane(facets_[triangle.id], facets_[other], -least); };
+    vertices.insert(vertices.end(), part.vertices().begin(), part.vertices().end());
     if (std::none_of(planes.begin(), planes.end(), same)) {
       planes.push_back(triangle.id);
       serves = serves && above(triangle.id, vertices);
     }
-    vertices.insert(vertices.end(), part.vertices().begin(), part.vertices().end());
   });
   if (!serves) return {};
   std::sort(in_d.begin(), in_d.end());

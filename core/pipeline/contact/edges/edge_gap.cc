@@ -91,13 +91,10 @@ EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest) no
     }
   }
   gap.distance = length - (moving.radius + still.radius);
-  const bool overlap =
-      deepest > 0.0 && length > kMeet && leads_inside(still, gap.normal) && leads_inside(moving, -gap.normal);
-  if (overlap && length < deepest) {
+  if (length > kMeet && length < deepest && leads_inside(still, gap.normal) && leads_inside(moving, -gap.normal)) {
     gap.normal = -gap.normal;
     gap.distance = -length;
   } else {
-    gap.is_deep = overlap;
     gap.is_nearest = !leads_over_a_face(still, gap.normal) && !leads_over_a_face(moving, -gap.normal);
   }
   return gap;

@@ -50,16 +50,14 @@ struct EdgeGap {
   double place = 0.0;                   ///< of `on_moving`, from end 0 to end 1 of the moving edge [1]
   /// True if neither edge lies over a face of the other one. Else that face is nearer than the edge.
   bool is_nearest = true;
-  bool is_deep = false;  ///< the edges overlap, but by `deepest` or more: the gap is that of edges that are apart
 };
 
 /// Returns the gap between the edges at their nearest points, in W.
 ///
 /// Between two bodies that are apart the gap is the distance of the edges, less the radii of sheets. At the start
 /// bodies may overlap: two edges of solids that are nearer than `deepest` [m] overlap if each lies inside the wedge of
-/// the other. Then the gap is negative. Others in each other's wedges are marked as deep, if `deepest` is positive.
-/// That far away a thin body may lie between them, and they do not overlap. Edges that meet within 1e-12 m have the
-/// normal of their common perpendicular, out of the still body. Cost: some 60 ns. Real-time safe.
+/// the other. Then the gap is negative. Edges that meet within 1e-12 m have the normal of their common perpendicular,
+/// out of the still body. Cost: some 60 ns. Real-time safe.
 EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest = 0.0) noexcept;
 
 }  // namespace godobject

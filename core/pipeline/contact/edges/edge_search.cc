@@ -35,82 +35,65 @@ class Stack {
   std::size_t size_ = 0;
 };
 
-/// Calls visit(pair, gap) for all pairs of edges that are nearer than `reach` [m], with the distance of their surfaces,
-/// and leave_out(apart) for branches that find no place, with the least distance of their edges.
-template <class Visit, class LeaveOut>
-void visit_pairs(const EdgeContacts& edges, const Pose& H_WS, double reach, const Visit& visit,
-                 const LeaveOut& leave_out) noexcept {
-  const Matrix3 R = H_WS.rotation.toRotationMatrix();
-  const auto apart = [&](const Branches& b) noexcept {
-    const BoundingSphere moving = godobject::sphere_of(edges.moving.nodes[b.moving]);
-    const BoundingSphere still = godobject::sphere_of(edges.still.nodes[b.still]);
-    return (R * moving.center + H_WS.translation - still.center).norm() - moving.radius - still.radius;
-  };
-  Stack stack;
-  stack.push({0, 0});
-  std::uint32_t visits = 0;
-  const auto open = [&](const Branches& b) noexcept {
-    const double distance = apart(b);
-    if (!(distance < reach)) return;
-    if (visits == EdgeSearch::kMostVisits || !stack.push(b)) return leave_out(distance);
-    ++visits;
-  };
-  while (!stack.empty()) {
-    const Branches b = stack.pop();
-    const format::Node& moving = edges.moving.nodes[b.moving];
-    const format::Node& still = edges.still.nodes[b.still];
-    if (moving.leaf != 0 && still.leaf != 0) {
-      for (std::uint32_t i = moving.first_point; i < moving.first_point + moving.point_count; ++i) {
-        const EdgeInW edge = EdgeInW::at(edges.moving.edges[i], R, H_WS.translation);
-        const BoundingSphere around = sphere_of(edge);
-        for (std::uint32_t j = still.first_point; j < still.first_point + still.point_count; ++j) {
-          const EdgeInW other = EdgeInW::of_still(edges.still.edges[j]);
-          const BoundingSphere around_other = sphere_of(other);
-          const double most = reach + around.radius + around_other.radius;
-          if ((around.center - around_other.center).squaredNorm() >= most * most) continue;
-          const double gap = std::max(0.0, edge_distance(edge, other));
-          if (gap < reach) visit(EdgePair{i, j}, gap);
-        }
-      }
-    } else if (still.leaf != 0 || (moving.leaf == 0 && moving.radius > still.radius)) {
-      for (std::uint32_t child = b.moving + 1; child < moving.skip; child = edges.moving.nodes[child].skip) {
-        open({child, b.still});
-      }
-    } else {
-      for (std::uint32_t child = b.still + 1; child < still.skip; child = edges.still.nodes[child].skip) {
-        open({b.moving, child});
-      }
-    }
-  }
-}
-
 }  // namespace
 
 std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double reach) noexcept {
   count_ = 0;
+  const Matrix3 R = H_WS.rotation.toRotationMatrix();
   double complete = reach;  // all pairs outside of the list are at least this far apart
   std::uint32_t left_out = 0;
   const auto leave_out = [&](double apart) noexcept {
     complete = std::min(complete, apart);
     ++left_out;
   };
-  const auto add = [&](const EdgePair& pair, double gap) noexcept {
-    if (count_ == kCapacity) return leave_out(gap);
-    candidates_[count_++] = {pair, travelled + gap};
+  const auto apart = [&](const Branches& b) noexcept {
+    const BoundingSphere moving = sphere_of(edges_.moving.nodes[b.moving]);
+    const BoundingSphere still = sphere_of(edges_.still.nodes[b.still]);
+    return (R * moving.center + H_WS.translation - still.center).norm() - moving.radius - still.radius;
   };
-  visit_pairs(edges_, H_WS, reach, add, leave_out);
+  Stack stack;
+  stack.push({0, 0});
+  std::uint32_t visits = 0;
+  const auto visit = [&](const Branches& b) noexcept {
+    const double distance = apart(b);
+    if (!(distance < reach)) return;
+    if (visits == kMostVisits || !stack.push(b)) return leave_out(distance);
+    ++visits;
+  };
+  while (!stack.empty()) {
+    const Branches b = stack.pop();
+    const format::Node& moving = edges_.moving.nodes[b.moving];
+    const format::Node& still = edges_.still.nodes[b.still];
+    if (moving.leaf != 0 && still.leaf != 0) {
+      for (std::uint32_t i = moving.first_point; i < moving.first_point + moving.point_count; ++i) {
+        const EdgeInW edge = EdgeInW::at(edges_.moving.edges[i], R, H_WS.translation);
+        const BoundingSphere around = sphere_of(edge);
+        for (std::uint32_t j = still.first_point; j < still.first_point + still.point_count; ++j) {
+          const EdgeInW other = EdgeInW::of_still(edges_.still.edges[j]);
+          const BoundingSphere around_other = sphere_of(other);
+          const double most = reach + around.radius + around_other.radius;
+          if ((around.center - around_other.center).squaredNorm() >= most * most) continue;
+          const double gap = std::max(0.0, edge_distance(edge, other));
+          if (!(gap < reach)) continue;
+          if (count_ == kCapacity) {
+            leave_out(gap);
+          } else {
+            candidates_[count_++] = {{i, j}, travelled + gap};
+          }
+        }
+      }
+    } else if (still.leaf != 0 || (moving.leaf == 0 && moving.radius > still.radius)) {
+      for (std::uint32_t child = b.moving + 1; child < moving.skip; child = edges_.moving.nodes[child].skip) {
+        visit({child, b.still});
+      }
+    } else {
+      for (std::uint32_t child = b.still + 1; child < still.skip; child = edges_.still.nodes[child].skip) {
+        visit({b.moving, child});
+      }
+    }
+  }
   complete_until_ = travelled + std::max(0.0, complete);
   return left_out;
-}
-
-double EdgeSearch::depth_beyond(double deepest, double limit, const Pose& H_WS) const noexcept {
-  double depth = 0.0;
-  if (edges_.empty()) return depth;
-  const auto look_up = [&](const EdgePair& pair, double gap) noexcept {
-    if (gap >= deepest && detail::gap_at(edges_, pair, H_WS, deepest).is_deep) depth = std::max(depth, gap);
-  };
-  visit_pairs(edges_, H_WS, limit, look_up, [](double) noexcept {});
-  return depth;
 }
 
 EdgeSurroundings EdgeSearch::find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,

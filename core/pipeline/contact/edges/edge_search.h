@@ -47,11 +47,6 @@ class EdgeSearch {
   EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
                         NearEdges& near) noexcept;
 
-  /// Returns the largest depth of the pairs that overlap by `deepest` [m] or more, of those nearer than `limit` [m]; 0
-  /// if there are none. It misses some if more than kMostVisits branches are near. Cost: a visit of the trees, and some
-  /// 60 ns for each pair in reach. Real-time safe.
-  double depth_beyond(double deepest, double limit, const Pose& H_WS) const noexcept;
-
  private:
   struct Candidate {
     EdgePair pair;

@@ -17,9 +17,8 @@ constexpr double kShrink = 0.2;    // of the smoothing; measured on the same: 0.
 constexpr int kMostRounds = 40;    // of rows that enter, contacts that begin to slip, and metrics; mostly 1 to 6
 constexpr double kEnd = 1e-3;      // of the smoothing, over the tolerance
 constexpr double kOfForce = 0.01;  // accuracy of a force, over the tolerance
-// A step counts as the square of the number of contacts: few contacts get more steps.
-constexpr int kWorkOfAttempt =
-    kMostSmoothedSteps / static_cast<int>(kScales.size()) * ContactSet::kMaxContacts * ContactSet::kMaxContacts;
+// A step counts as its contacts, in which its time is linear: few contacts get more steps.
+constexpr int kWorkOfAttempt = kMostSmoothedSteps / static_cast<int>(kScales.size()) * ContactSet::kMaxContacts;
 
 /// max(0, value), smoothed: it differs by at most the smoothing.
 struct SmoothPart {
@@ -147,7 +146,7 @@ class SmoothedProblem {
   bool store(ConstrainedStep& step) const noexcept {
     const Forces found = forces();
     if (!can_have(found)) return false;
-    if (store_sum(found, set_.metric().gyration, step) > 0.1 * set_.metric().tolerance) return false;
+    if (!(store_sum(found, set_.metric().gyration, step) <= 0.1 * set_.metric().tolerance)) return false;
     if (step.force_count == 0 && found.count > 0) return false;  // forces that balance each other
     step.follows = step.force_count == 0;
     step.unconverged = false;
@@ -359,7 +358,7 @@ class SmoothedProblem {
         norm = residual(smoothing);
         continue;
       }
-      work_left_ -= count() * count();
+      work_left_ -= count();
       if (work_left_ < 0) return all_obey_law() && has_moderate_forces();
       norm = newton_step(smoothing, norm);
       if (!std::isfinite(norm)) return false;

@@ -789,45 +789,6 @@ TEST(ContactSubsteps, RememberThatNoEdgesOverlapAnyMore) {
   }
 }
 
-/// A keel whose edge starts deep in a roof, where no point is inside, follows the device without force, until it has
-/// come out as far as the way out reaches. Then it is led out, and held. From the first moment on a row would have held
-/// it inside.
-TEST(ContactSubsteps, FollowTheDeviceWhileEdgesAreDeepInEachOther) {
-  EdgeSet moving({{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}});
-  EdgeSet still({{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}});
-  for (int face = 0; face < 2; ++face) {
-    const float side = face == 0 ? 0.8f : -0.8f;
-    moving.edges()[0].normal[face][0] = still.edges()[0].normal[face][1] = side;
-    moving.edges()[0].normal[face][2] = -0.6f;
-    still.edges()[0].normal[face][2] = 0.6f;
-  }
-  const AnalyticField field(FarBelow{}, kSubstepVoxel);
-  const SampledBody body = box_body(2);
-  const double way_out = 0.25 * kSubstepVoxel;
-  for (const double depth : {0.3 * kSubstepVoxel, 0.6 * kSubstepVoxel, 0.99 * kSubstepVoxel}) {
-    AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, -depth}));
-    run.state.started = false;
-    run.parameters.margin = kSubstepMargin;
-    run.cycle.edges = {moving.view(), still.view()};
-    double z = -depth;
-    for (; z < -1.01 * way_out; z += 0.03 * kSubstepVoxel) {
-      ASSERT_EQ(run.step(pose_at({0.0, 0.0, z})), Status::kOk);
-      ASSERT_TRUE(run.report.outcome == Outcome::kStartInside || z > -way_out - 0.03 * kSubstepVoxel)
-          << depth << ' ' << z;
-      if (run.report.outcome != Outcome::kStartInside) continue;
-      ASSERT_EQ(run.state.H_WS.translation.z(), z) << depth;
-      ASSERT_TRUE(run.report.force.total_W.force.isZero(0.0)) << depth;
-      ASSERT_GT(run.report.penetration, 0.0) << depth;
-    }
-    for (int cycle = 0; cycle < 60; ++cycle) ASSERT_EQ(run.step(pose_at({0.0, 0.0, -0.2 * way_out})), Status::kOk);
-    EXPECT_EQ(run.report.outcome, Outcome::kContact) << depth;
-    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << depth;
-    EXPECT_GT(run.report.force.spring_W.force.z(), 0.0) << depth;
-    for (; z < 0.01; z += 1e-3) ASSERT_EQ(run.step(pose_at({0.0, 0.0, z})), Status::kOk);
-    EXPECT_EQ(run.report.outcome, Outcome::kFree) << depth;
-  }
-}
-
 /// Near pairs that find no place in the list are counted in every cycle.
 TEST(ContactSubsteps, CountEdgePairsThatFindNoPlace) {
   constexpr std::uint32_t kEdges = 17;

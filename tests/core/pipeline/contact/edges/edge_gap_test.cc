@@ -38,18 +38,8 @@ TEST(EdgeGap, IsNegativeWhereEachEdgeLiesInTheOthersWedge) {
   const EdgeGap gap = edge_gap(keel({0.25, 0.5, -0.001}), roof(), 0.002);
   EXPECT_NEAR(gap.distance, -0.001, 1e-15);
   EXPECT_TRUE(gap.normal.isApprox(Vector3::UnitZ(), 1e-12)) << "the way out";
+  EXPECT_NEAR(edge_gap(keel({0.25, 0.5, -0.001}), roof(), 0.0005).distance, 0.001, 1e-15) << "too deep to count";
   EXPECT_NEAR(edge_gap(keel({0.25, 0.5, 0.001}), roof(), 0.002).distance, 0.001, 1e-15) << "apart";
-}
-
-/// A keel deeper in the roof than what counts as an overlap is marked, but only while edges may overlap at all.
-TEST(EdgeGap, IsMarkedWhereTheOverlapIsDeep) {
-  const EdgeGap deep = edge_gap(keel({0.25, 0.5, -0.001}), roof(), 0.0005);
-  EXPECT_NEAR(deep.distance, 0.001, 1e-15) << "as of edges that are apart";
-  EXPECT_TRUE(deep.is_deep);
-  EXPECT_FALSE(edge_gap(keel({0.25, 0.5, -0.001}), roof(), 0.002).is_deep) << "no deeper than the way out";
-  EXPECT_FALSE(edge_gap(keel({0.25, 0.5, -0.001}), roof()).is_deep) << "edges that may not overlap";
-  EXPECT_FALSE(edge_gap(keel({0.25, 0.5, 0.001}), roof(), 0.0005).is_deep) << "apart";
-  EXPECT_FALSE(edge_gap(roof(), roof(), 0.0005).is_deep);
 }
 
 /// Each face of either edge can tell that the other edge is not inside: then the face is nearer, however deep the body
