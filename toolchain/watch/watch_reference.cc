@@ -144,7 +144,7 @@ void Watch::check_pushes(const WatchedCycle& cycle, bool between_planes) {
   ConeProjection pushes = push_at(cycle, Around::kAxes);
   if ((w - pushes.x).norm() > bound) pushes = push_at(cycle, Around::kDiagonals);
   const double lacks = (w - pushes.x).norm();
-  if (!pushes.converged && lacks > bound) {  // others would prove the property as well
+  if (!pushes.converged && lacks > bound) {  // a nearer sum may exist; one within the bound would be proof enough
     ++findings_.not_converged;
     return;
   }

@@ -17,7 +17,7 @@ constexpr double kShrink = 0.2;    // of the smoothing; measured on the same: 0.
 constexpr int kMostRounds = 40;    // of rows that enter, contacts that begin to slip, and metrics; mostly 1 to 6
 constexpr double kEnd = 1e-3;      // of the smoothing, over the tolerance
 constexpr double kOfForce = 0.01;  // accuracy of a force, over the tolerance
-// A step counts as its contacts, in which its time is linear: few contacts get more steps.
+// A step counts once for each contact, since its time grows in proportion: few contacts get more steps.
 constexpr int kWorkOfAttempt = kMostSmoothedSteps / static_cast<int>(kScales.size()) * ContactSet::kMaxContacts;
 
 /// max(0, value), smoothed: it differs by at most the smoothing.
@@ -139,7 +139,7 @@ class SmoothedProblem {
   bool can_have(const Forces& found) const noexcept {
     if (!all_obey_law()) return false;
     if (found.count == 0) return (plain() - set_.wanted()).isZero(0.1 * set_.metric().tolerance);
-    return !is_viscous() || (found.count <= ActiveSet::kCapacity && is_balanced(found));
+    return !is_viscous() || found.count <= ActiveSet::kCapacity;
   }
 
   /// Stores the solution. False: the step cannot have it, and only its forces have changed.
@@ -170,24 +170,6 @@ class SmoothedProblem {
       if (!obeys_law(k)) return false;
     }
     return true;
-  }
-
-  /// Tells whether the forces, with viscous friction shared by their loads, turn the wanted motion into the result.
-  bool is_balanced(const Forces& found) const noexcept {
-    double all = 0.0;
-    for (std::size_t i = 0; i < found.count; ++i) all += found.force[i].multiplier;
-    const Motion m = motion();
-    Vector6 lacks = plain() - set_.wanted();
-    for (std::size_t i = 0; i < found.count; ++i) {
-      const ContactForce& f = found.force[i];
-      const Vector3 v = m.translation + m.rotation.cross(f.grip);
-      const Vector3 slip = v - f.normal.dot(v) * f.normal;
-      const Vector3 push = f.multiplier * f.normal;
-      const Vector3 across = -f.multiplier * (f.ratio * f.slip + set_.friction()->viscous_step / all * slip);
-      lacks.head<3>() -= push + across;
-      lacks.tail<3>() -= (f.point.cross(push) + f.grip.cross(across)) / set_.metric().gyration;
-    }
-    return lacks.norm() <= set_.metric().tolerance;
   }
 
   /// Tells whether the forces that cancel each other are not much larger than the others. Where a body jams they may

@@ -19,9 +19,10 @@ namespace godobject::detail {
 ///
 /// Results obey the law to the tolerance, whatever the residuals are: with little friction those tell little.
 ///
-/// Cost: at most kMostSmoothedSteps steps of seven contacts, each a system of 21 equations (6 us) and up to eight
-/// evaluations of the residuals, or more of fewer contacts in that time; and at most 120 scans of the rows.
-/// Mostly 10 to 40 steps of 9 to 15 equations. All steps run where the law has no solution. Real-time safe.
+/// Cost: at most kMostSmoothedSteps steps of seven contacts, or more steps of fewer contacts in the same time. A step
+/// of seven contacts solves 21 equations (6 us) and evaluates the residuals up to eight times. Besides, at most 120
+/// scans of the rows. Mostly 10 to 40 steps of 9 to 15 equations. All steps run where the law has no solution.
+/// Real-time safe.
 inline constexpr int kMostSmoothedSteps = 150;
 bool solve_smoothed(ContactSet& set, ConstrainedStep& step) noexcept;
 
