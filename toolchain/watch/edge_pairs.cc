@@ -16,8 +16,12 @@ Vector3 nearest_on(const WatchedEdge& edge, const Vector3& p) {
   return edge.end[0] + std::clamp((p - edge.end[0]).dot(along) / square, 0.0, 1.0) * along;
 }
 
-bool lies_behind_both_faces(const WatchedEdge& edge, const Vector3& direction) {
-  return std::max(edge.normal[0].dot(direction), edge.normal[1].dot(direction)) < 0.0;
+double above_a_face(const WatchedEdge& edge, const Vector3& direction) {
+  return std::max(edge.normal[0].dot(direction), edge.normal[1].dot(direction));
+}
+
+double askew(const WatchedEdge& edge, const Vector3& direction) {
+  return std::fabs((edge.end[1] - edge.end[0]).stableNormalized().dot(direction));
 }
 
 /// Tells whether a direction leads over a face of the edge: it makes an acute angle with the tangent of that face that
@@ -86,7 +90,8 @@ EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second) {
   best.normal = least > 1e-12 ? Vector3(apart / least) : along_first.cross(along_second).stableNormalized();
   best.gap = least - first.radius - second.radius;
   best.over_a_face = leads_over_a_face(second, best.normal) || leads_over_a_face(first, -best.normal);
-  best.in_both_wedges = lies_behind_both_faces(second, best.normal) && lies_behind_both_faces(first, -best.normal);
+  best.above_a_face = std::max(above_a_face(second, best.normal), above_a_face(first, -best.normal));
+  best.askew = std::max(askew(second, best.normal), askew(first, best.normal));
   return best;
 }
 

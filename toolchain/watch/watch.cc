@@ -11,7 +11,6 @@ namespace godobject::watch {
 namespace {
 
 constexpr double kReach = 0.125;  // distances above it count as it in a report [voxels] (CycleReport::penetration)
-constexpr double kWayOut = 0.25;  // the deepest overlap of edges at the start of a session that it must see [voxels]
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns unit vectors to both sides along the axes; with `diagonals` also those to the edges and corners of a cube.
@@ -98,6 +97,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
   }
   const bool is_first = !started_;
   if (is_first) start(H_WD);
+  if (is_first || is_inside_) find_overlaps();
   resting_ = (H_WD.translation - H_WD_last_.translation).norm() < 0.01 * q_.voxel_size &&
                      rotation_vector(H_WD.rotation.conjugate() * H_WD_last_.rotation).norm() * q_.mass.radius <
                          0.01 * q_.voxel_size
@@ -109,7 +109,6 @@ void Watch::cycle(const WatchedCycle& cycle) {
   if (is_contact) follow(cycle);
   H_WS_ = cycle.report.H_WS;
   H_WD_last_ = H_WD;
-  if (is_inside_ || edges_overlap_) find_overlaps();  // the last points come out before the last edges
   check_wrench(cycle);
   if (!is_contact) return;
   if (cycle.report.contacts > 0) ++findings_.touching;
@@ -123,31 +122,23 @@ void Watch::start(const Pose& H_WD) {
   started_ = true;
   H_WS_ = H_WD;
   H_WD_last_ = H_WD;
-  find_overlaps();
 }
 
-/// Finds the pairs of edges that overlap at the god object's pose. Edges that are farther apart than a voxel may lie in
-/// each other's wedges although their bodies are apart. As long as some pair overlaps, others may follow past the end
-/// of an edge, without crossing it.
+/// Looks for pairs of edges that overlap at the start of the cycle. Edges that are farther apart than a voxel may lie
+/// in each other's wedges although their bodies are apart.
 void Watch::find_overlaps() {
-  if (!edges_overlap_ || is_inside_) {
-    overlap_at_start_.assign(edge_bound_.size(), false);
-    began_deep_.assign(edge_bound_.size(), false);
-  }
-  edges_overlap_ = false;
-  for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
-    const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
-    for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
-      const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      const bool in_solids = pair.in_both_wedges && pair.gap < q_.voxel_size;
-      const bool overlaps = in_solids || pair.gap < 0.0;  // or within a sheet
-      const std::size_t number = i * session_.still_edges.size() + j;
-      if (overlaps && pair.gap >= kWayOut * q_.voxel_size) began_deep_[number] = true;
-      overlap_at_start_[number] = overlap_at_start_[number] || overlaps;
-      edges_overlap_ = edges_overlap_ || overlaps;
+  constexpr double kSlack = 1e-6;
+  const double rounding = kSlack * q_.voxel_size + session_.rounding;
+  edges_may_overlap_ = edges_overlap_ = false;
+  for (const WatchedEdge& moving : session_.moving_edges) {
+    const WatchedEdge edge = moving.at(H_WS_);
+    for (const WatchedEdge& other : session_.still_edges) {
+      const EdgeDistance pair = distance_of(edge, other);
+      edges_may_overlap_ |= pair.gap < rounding || (pair.in_both_wedges(kSlack) && pair.gap < q_.voxel_size + rounding);
+      const bool in_solids = pair.in_both_wedges(-kSlack) && pair.gap > rounding && pair.gap < q_.voxel_size - rounding;
+      edges_overlap_ |= pair.gap < -rounding || in_solids;  // or within a sheet
     }
   }
-  if (!edges_overlap_) overlap_at_start_.assign(edge_bound_.size(), false);  // from now on none may cross another
 }
 
 bool Watch::check_numbers(const WatchedCycle& cycle) {
@@ -203,7 +194,6 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
   const double resolution = 1e-2 * q_.voxel_size;
   const double near = 0.2 * q_.voxel_size;
   smallest_ = std::numeric_limits<double>::infinity();
-  doubtful_.clear();
   for (Points& points : points_) {
     const Oracle& field = *points.direction.field;
     const double lipschitz = field.lipschitz();
@@ -232,7 +222,7 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
   advance_edges(H0, H1);
 }
 
-/// No edge of the moving body may meet one of the still body. Edges that overlap at the start may come out.
+/// No edge of the moving body may meet one of the still body, after those that overlapped at the start came out.
 void Watch::advance_edges(const Pose& H0, const Pose& H1) {
   const double near = 0.2 * q_.voxel_size;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
@@ -248,21 +238,10 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
         continue;
       }
       const WatchedEdge& other = session_.still_edges[j];
-      const EdgeDistance begin = distance_of(from, other);
-      const double at_begin = begin.gap;
+      const double at_begin = distance_of(from, other).gap;
       bound = std::max(0.0, distance_of(to, other).gap);
       if (is_inside_) continue;
-      const bool may_overlap = overlap_at_start_[i * session_.still_edges.size() + j];
-      // past the end of an edge the overlap passes to the next one within a cycle
-      const bool follows = edges_overlap_ && at_begin < q_.voxel_size;
-      const bool overlaps = (may_overlap || follows) && begin.in_both_wedges;
-      // the session leads edges out that overlap by less than the way out; it takes others for edges that are apart,
-      // and those that began deeper for either
-      const bool is_near = at_begin < kWayOut * q_.voxel_size;
-      const bool began_deep = began_deep_[i * session_.still_edges.size() + j];
-      smallest_ = std::min(smallest_, overlaps && is_near && !began_deep ? -at_begin : at_begin);
-      if (overlaps && is_near && began_deep) doubtful_.push_back(at_begin);
-      if (may_overlap) continue;
+      smallest_ = std::min(smallest_, at_begin);
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
             [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });
@@ -347,7 +326,7 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       if (edge_bound_[i * session_.still_edges.size() + j] > reach + travelled_) continue;
       EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      if (pair.in_both_wedges && overlap_at_start_[i * session_.still_edges.size() + j]) {
+      if (is_inside_ && pair.gap < q_.voxel_size && pair.in_both_wedges(0.0)) {
         pair.gap = -pair.gap;
         pair.normal = -pair.normal;
       }
@@ -433,15 +412,14 @@ void Watch::check_report(const WatchedCycle& cycle, bool may_be_inside) {
   check((report.outcome == Outcome::kOverflow) <= (report.dropped > 0), "overflow without a dropped point");
   if (is_inside_) {
     check(may_be_inside, "start_inside after it was outside");
-    check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding, "start_inside with every point outside");
+    check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding || edges_may_overlap_,
+          "start_inside with every point outside, and no edges that overlap");
     return;
   }
+  if (may_be_inside) check(!edges_overlap_, "edges overlap at the start, but no start_inside");
   const double shortest = kReach * q_.voxel_size;
   const double tolerance = 1e-5 * q_.voxel_size + session_.rounding;
-  const bool counts_doubtful = std::any_of(doubtful_.begin(), doubtful_.end(), [&](double depth) {
-    return depth > -smallest_ && std::fabs(report.penetration - depth) <= tolerance;
-  });
-  const double expected = counts_doubtful ? report.penetration : -std::min(smallest_, shortest);
+  const double expected = -std::min(smallest_, shortest);
   const bool is_budgeted = q_.point_budget > 0 && report.outcome == Outcome::kFree;  // bounds prove the way free
   if (report.dropped > 0 || is_budgeted) {  // points without a look-up may be nearer
     return judge(Property::kReport, report.penetration - expected, tolerance, [&] {

@@ -158,26 +158,24 @@ class Watch {
   const Parameters& q_;
   double gyration_;
   std::vector<Points> points_;
-  std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, until the session has come out
-  std::vector<bool> began_deep_;        ///< of all pairs: they overlapped by more than the way out of a cycle
-  bool edges_overlap_ = false;          ///< some of these still overlapped after the last cycle
-  std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
+  bool edges_may_overlap_ = false;  ///< within rounding, at the start of this cycle, after a start inside
+  bool edges_overlap_ = false;      ///< beyond rounding
+  std::vector<double> edge_bound_;  ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;
 
   // state carried from cycle to cycle
   bool started_ = false;
-  bool is_inside_ = false;        // the session has not come out yet after a start inside
-  Pose H_WS_;                     // the god object after the last cycle
-  Pose H_WS_before_;              // and before it
-  Pose H_WS_last_start_;          // at the start of the last sub-step
-  Pose H_WD_last_;                // followed device pose
-  double smallest_ = 0.0;         // distance of all points at the start of the last sub-step [m]
-  std::vector<double> doubtful_;  // depths there of edges that began too deep for the session, and are not now [m]
-  double travelled_ = 0.0;        // largest displacement of a point in this cycle [m]
-  int resting_ = 0;               // cycles for which the device has hardly moved
-  int behind_ = 0;                // of these, cycles in a row that ended away from the optimum
-  int stuck_ = 0;                 // cycles in a row that were cut and hardly moved
+  bool is_inside_ = false;  // the session has not come out yet after a start inside
+  Pose H_WS_;               // the god object after the last cycle
+  Pose H_WS_before_;        // and before it
+  Pose H_WS_last_start_;    // at the start of the last sub-step
+  Pose H_WD_last_;          // followed device pose
+  double smallest_ = 0.0;   // distance of all points at the start of the last sub-step [m]
+  double travelled_ = 0.0;  // largest displacement of a point in this cycle [m]
+  int resting_ = 0;         // cycles for which the device has hardly moved
+  int behind_ = 0;          // of these, cycles in a row that ended away from the optimum
+  int stuck_ = 0;           // cycles in a row that were cut and hardly moved
   std::int64_t cycle_ = -1;
 };
 

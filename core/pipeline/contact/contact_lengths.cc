@@ -28,6 +28,7 @@ ContactLengths ContactLengths::make(const Parameters& q) noexcept {
   lengths.largest_gain = 0.25 * q.voxel_size;
   // chosen: longer than the overlap of assembled parts; it bounds the force on the hand, 1 N at the defaults
   lengths.longest_way_out = 0.25 * q.voxel_size;
+  lengths.deepest_overlap = q.voxel_size;  // chosen: the compiler tells of thinner walls
   lengths.radius = q.mass.radius;
   lengths.sphere = q.mass.sphere;
   lengths.point_budget = q.point_budget;

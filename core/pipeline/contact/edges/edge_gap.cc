@@ -50,6 +50,20 @@ bool leads_inside(const EdgeInW& edge, const Vector3& direction) noexcept {
   return edge.normal[0].dot(direction) < 0.0 && edge.normal[1].dot(direction) < 0.0;
 }
 
+/// Tells whether a unit vector is perpendicular to an edge, as at nearest points that are no ends.
+bool is_across(const EdgeInW& edge, const Vector3& direction) noexcept {
+  constexpr double kSlack = 1e-3;  // [rad] chosen: far above rounding
+  const Vector3 along = edge.end[1] - edge.end[0];
+  return std::fabs(along.dot(direction)) <= kSlack * along.norm();
+}
+
+/// Tells whether edges overlap whose nearest points are as near as parts of both bodies are thick. Beyond an end of an
+/// edge its wedge ends, and a vertex decides, which is a point.
+bool overlap(const EdgeInW& moving, const EdgeInW& still, const Vector3& normal) noexcept {
+  return leads_inside(still, normal) && leads_inside(moving, -normal) && is_across(still, normal) &&
+         is_across(moving, normal);
+}
+
 /// Tells whether a direction from an edge leads over one of its faces: it has a part away from the edge in the plane of
 /// the face.
 bool leads_over_a_face(const EdgeInW& edge, const Vector3& direction) noexcept {
@@ -91,7 +105,7 @@ EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest) no
     }
   }
   gap.distance = length - (moving.radius + still.radius);
-  if (length > kMeet && length < deepest && leads_inside(still, gap.normal) && leads_inside(moving, -gap.normal)) {
+  if (length > kMeet && length < deepest && overlap(moving, still, gap.normal)) {
     gap.normal = -gap.normal;
     gap.distance = -length;
   } else {

@@ -56,8 +56,8 @@ struct EdgeGap {
 ///
 /// Between two bodies that are apart the gap is the distance of the edges, less the radii of sheets. At the start
 /// bodies may overlap: two edges of solids that are nearer than `deepest` [m] overlap if each lies inside the wedge of
-/// the other. Then the gap is negative. Edges that meet within 1e-12 m have the normal of their common perpendicular,
-/// out of the still body. Cost: some 60 ns. Real-time safe.
+/// the other, and neither of the nearest points is an end. Then the gap is negative. Edges that meet within 1e-12 m
+/// have the normal of their common perpendicular, out of the still body. Cost: some 60 ns. Real-time safe.
 EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest = 0.0) noexcept;
 
 }  // namespace godobject

@@ -77,6 +77,17 @@ struct NearEdges {
     return false;
   }
 
+  /// Removes the pairs that are apart.
+  void keep_overlaps() noexcept {
+    std::uint32_t kept = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (!(gap[k].distance < 0.0)) continue;
+      pair[kept] = pair[k];
+      gap[kept++] = gap[k];
+    }
+    count = kept;
+  }
+
   /// Returns the number of a pair in the list; `count` if it is not near.
   std::uint32_t find(const EdgePair& wanted) const noexcept {
     std::uint32_t k = 0;

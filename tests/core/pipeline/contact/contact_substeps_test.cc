@@ -761,31 +761,105 @@ TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
   }
 }
 
-/// Edges of two solids may overlap until a pose is known with all of them apart, in contact, too. A keel above or in
-/// a roof is pressed down.
-TEST(ContactSubsteps, RememberThatNoEdgesOverlapAnyMore) {
-  EdgeSet moving({{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}});
-  EdgeSet still({{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}});
+/// A keel in a roof: convex edges that cross, far from all points.
+struct KeelInRoof {
+  EdgeSet moving{{{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}}};
+  EdgeSet still{{{Vector3(-0.02, 0.0, 0.0), Vector3(0.02, 0.0, 0.0)}}};
+  AnalyticField field{FarBelow{}, kSubstepVoxel};
+  SampledBody body = box_body(2);
+
+  KeelInRoof() {
+    for (int face = 0; face < 2; ++face) {
+      const float side = face == 0 ? 0.8f : -0.8f;
+      moving.edges()[0].normal[face][0] = still.edges()[0].normal[face][1] = side;
+      moving.edges()[0].normal[face][2] = -0.6f;
+      still.edges()[0].normal[face][2] = 0.6f;
+    }
+  }
+};
+
+/// Edges that overlap at the start come out by a share of their depth in each cycle, while the device stays. From then
+/// on they hold.
+TEST(ContactSubsteps, LeadEdgesOutThatOverlapAtTheStart) {
+  KeelInRoof scene;
+  for (const double depth : {0.05, 0.3, 0.6, 0.99}) {
+    const double start = -depth * kSubstepVoxel;
+    AnalyticRun<AnalyticField, EdgeCycle> run(scene.field, scene.body, pose_at({0.0, 0.0, start}));
+    run.state.started = false;
+    run.parameters.margin = kSubstepMargin;
+    run.cycle.edges = {scene.moving.view(), scene.still.view()};
+    for (int cycle = 0; cycle < 60; ++cycle) {
+      const double before = cycle == 0 ? start : run.state.H_WS.translation.z();
+      ASSERT_EQ(run.step(pose_at({0.0, 0.0, start})), Status::kOk);
+      EXPECT_EQ(run.report.outcome == Outcome::kStartInside, before < 0.0) << depth << ' ' << cycle;
+      EXPECT_GE(run.state.H_WS.translation.z(), before) << depth << ' ' << cycle;
+      EXPECT_LE(run.state.H_WS.translation.z(), before + 0.3 * kSubstepVoxel) << depth << ' ' << cycle;
+      EXPECT_EQ(run.report.contacts, 1u) << depth << ' ' << cycle;
+    }
+    EXPECT_EQ(run.report.outcome, Outcome::kContact) << depth;
+    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << depth;
+    // the device presses on: the roof holds, also beyond the depth that a start may have
+    for (double z = start; z > -3.0 * kSubstepVoxel; z -= 0.1 * kSubstepVoxel) {
+      ASSERT_EQ(run.step(pose_at({0.0, 0.0, z})), Status::kOk);
+    }
+    EXPECT_EQ(run.report.outcome, Outcome::kContact) << depth;
+    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << depth;
+  }
+}
+
+/// Edges that overlap on opposite sides at the start push against each other: the god object stays between them, but no
+/// farther from the device than a quarter of a voxel edge.
+TEST(ContactSubsteps, StayNearTheDeviceBetweenEdgesThatPushAgainstEachOther) {
+  constexpr double kHalf = 0.005;
+  constexpr double kDepth = 0.6 * kSubstepVoxel;
+  EdgeSet moving({{Vector3(0.0, -0.01, -kHalf), Vector3(0.0, 0.01, -kHalf)},
+                  {Vector3(0.0, -0.01, kHalf), Vector3(0.0, 0.01, kHalf)}});
+  EdgeSet still({{Vector3(-0.02, 0.0, kDepth - kHalf), Vector3(0.02, 0.0, kDepth - kHalf)},
+                 {Vector3(-0.02, 0.0, kHalf - kDepth), Vector3(0.02, 0.0, kHalf - kDepth)}});
   for (int face = 0; face < 2; ++face) {
-    const float side = face == 0 ? 0.8f : -0.8f;
-    moving.edges()[0].normal[face][0] = still.edges()[0].normal[face][1] = side;
-    moving.edges()[0].normal[face][2] = -0.6f;
-    still.edges()[0].normal[face][2] = 0.6f;
+    for (const std::size_t edge : {0u, 1u}) {
+      const float up = edge == 0 ? 0.6f : -0.6f;
+      moving.edges()[edge].normal[face][0] = still.edges()[edge].normal[face][1] = face == 0 ? 0.8f : -0.8f;
+      moving.edges()[edge].normal[face][2] = -up;
+      still.edges()[edge].normal[face][2] = up;
+    }
   }
   const AnalyticField field(FarBelow{}, kSubstepVoxel);
   const SampledBody body = box_body(2);
-  for (const double height : {kSubstepMargin, -1e-4}) {
-    AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at({0.0, 0.0, height}));
-    run.parameters.margin = kSubstepMargin;
-    run.cycle.edges = {moving.view(), still.view()};
-    for (int cycle = 0; cycle < 60; ++cycle) {
-      const bool overlapped = run.state.H_WS.translation.z() < 0.0;
-      ASSERT_EQ(run.step(pose_at({0.0, 0.0, -3e-4})), Status::kOk);
-      EXPECT_EQ(run.report.contacts, 1u) << height << ' ' << cycle;
-      if (overlapped && run.state.H_WS.translation.z() >= 0.0) continue;  // it comes out in this cycle
-      EXPECT_EQ(run.cycle.memory->edges_may_overlap, overlapped) << height << ' ' << cycle;
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, Pose{});
+  run.state.started = false;
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {moving.view(), still.view()};
+  for (int cycle = 0; cycle < 200; ++cycle) {
+    const double z = 0.35 * kSubstepVoxel * std::sin(0.1 * cycle);
+    ASSERT_EQ(run.step(pose_at({0.0, 0.0, z})), Status::kOk);
+    ASSERT_EQ(run.report.outcome, Outcome::kStartInside) << cycle;
+    const double stretch = std::fabs(run.state.H_WS.translation.z() - z);
+    ASSERT_LE(stretch, 0.2501 * kSubstepVoxel) << cycle;
+    if (std::fabs(z) > 0.3 * kSubstepVoxel) {
+      ASSERT_GE(stretch, 0.1 * kSubstepVoxel) << cycle;
     }
-    EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin) << height;
+  }
+}
+
+/// Points may lead edges out that began deeper in each other than edges are known to overlap. Until then these hold on
+/// neither side.
+TEST(ContactSubsteps, LetPointsLeadEdgesOutFirst) {
+  KeelInRoof scene;
+  constexpr double kStart = -1.8 * kSubstepVoxel;
+  for (const double points_out : {-0.5 * kSubstepVoxel, 0.5 * kSubstepVoxel}) {
+    constexpr double kBottom = -0.015;  // of the body
+    const AnalyticField field(HalfSpace{Vector3::UnitZ(), kBottom + points_out}, kSubstepVoxel);
+    AnalyticRun<AnalyticField, EdgeCycle> run(field, scene.body, pose_at({0.0, 0.0, kStart}));
+    run.state.started = false;
+    run.parameters.margin = kSubstepMargin;
+    run.cycle.edges = {scene.moving.view(), scene.still.view()};
+    for (int cycle = 0; cycle < 100; ++cycle) {
+      ASSERT_EQ(run.step(pose_at({0.0, 0.0, kStart})), Status::kOk);
+      EXPECT_GE(run.report.force.spring_W.force.z(), 0.0) << points_out << ' ' << cycle;
+    }
+    EXPECT_EQ(run.report.outcome, Outcome::kContact) << points_out;
+    EXPECT_NEAR(run.state.H_WS.translation.z(), std::max(0.0, points_out) + kSubstepMargin, 0.1 * kSubstepMargin);
   }
 }
 

@@ -42,6 +42,20 @@ TEST(EdgeGap, IsNegativeWhereEachEdgeLiesInTheOthersWedge) {
   EXPECT_NEAR(edge_gap(keel({0.25, 0.5, 0.001}), roof(), 0.002).distance, 0.001, 1e-15) << "apart";
 }
 
+/// Edges of bodies that are apart may lie in each other's wedges, but only at an end. So do those of two boxes, corner
+/// beside corner, and edges end to end on one line.
+TEST(EdgeGap, IsPositiveBeyondTheEndOfAnEdge) {
+  EdgeInW moving = keel({0.0, 0.0, -0.001});
+  EdgeInW still = roof();
+  const Vector3 before = still.end[0].x() < still.end[1].x() ? still.end[0] : still.end[1];
+  for (Vector3& end : moving.end) end.x() += before.x() - 0.0005;  // before the beginning of the still edge
+  EXPECT_NEAR(edge_gap(moving, still, 0.002).distance, std::hypot(0.001, 0.0005), 1e-12);
+  const EdgeInW along = {{roof().end[0] - 0.0003 * Vector3::UnitX() - (still.end[1] - still.end[0]), before},
+                         {roof().normal[0], roof().normal[1]},
+                         0.0};
+  EXPECT_GE(edge_gap(along, still, 0.002).distance, 0.0);
+}
+
 /// Each face of either edge can tell that the other edge is not inside: then the face is nearer, however deep the body
 /// of the face lies in that of the other edge. A nose has its tip towards y or -y.
 TEST(EdgeGap, IsNotNegativeWhereAFaceParts) {
