@@ -28,22 +28,23 @@ struct EndGaps {
   FieldSample sample;    ///< the field there
 };
 
-/// Returns by how much the coupling's energy rises because the points move along arcs in the motion (x, r) =
-/// step.motion [m^2]. A row takes the path of its point P for straight; in second order it misses
+/// Returns by how much the coupling's energy rises because the point of a force moves along an arc in a motion (x, r)
+/// [m^2]. A row takes the path of its point P for straight; in second order it misses
 ///     (r x (r x P)) / 2   for a sample point or a point of an edge,   -r x x - (r x (r x P)) / 2   for a feature
 ///     point.
 /// The force, multiplier lambda and normal n, has to make up for what is lost along n, which takes the energy
-///     -2 sum of lambda n . (...).
-/// Cost: six forces. Real-time safe.
+///     -2 lambda n . (...).
+inline double arc_energy(const ContactForce& force, const Motion& motion) noexcept {
+  const Vector3& r = motion.rotation;
+  const Vector3 half = 0.5 * r.cross(r.cross(force.point));
+  const Vector3 missed = (force.id & kFeature) == 0 ? half : Vector3(-r.cross(motion.translation) - half);
+  return -2.0 * force.multiplier * force.normal.dot(missed);
+}
+
+/// The same for all forces in step.motion. Cost: six forces. Real-time safe.
 inline double arc_energy(const ConstrainedStep& step) noexcept {
-  const Vector3& r = step.motion.rotation;
   double energy = 0.0;
-  for (std::uint32_t i = 0; i < step.force_count; ++i) {
-    const ContactForce& force = step.forces[i];
-    const Vector3 half = 0.5 * r.cross(r.cross(force.point));
-    const Vector3 missed = (force.id & kFeature) == 0 ? half : Vector3(-r.cross(step.motion.translation) - half);
-    energy -= 2.0 * force.multiplier * force.normal.dot(missed);
-  }
+  for (std::uint32_t i = 0; i < step.force_count; ++i) energy += arc_energy(step.forces[i], step.motion);
   return energy;
 }
 
@@ -103,29 +104,39 @@ inline double least_turn(const ConstrainedStep& step, std::uint32_t id, const Ve
   return least;
 }
 
-/// Looks up the holding points at the end of the motion v from H0 to H1.
+/// Looks up the holding points at the end of the motion v from H0 to H1, `share` of the step.
 ///
 /// At the start of v the energy of coupling and contact forces falls by 2 |v|^2 per unit of the motion. By the rows it
 /// is least at the end of v. Where the contact forces there (the multipliers lambda of the rows times the normals n_1)
 /// point backwards, it is higher by
 ///     rise = -sum of lambda (n_1 - n_0) . (p_1 - p_0),
-/// to which the arcs of the points add (`arc_energy`). In the valley between two faces the field at a point knows only
+/// to which the arcs of the points add (`arc_energy`). On a pair of edges the holding place slides along both, which
+/// neither of the two knows; there the rise is that of the measured gap g,
+///     -2 lambda (g_1 - g_0 - n_0 . v),   less the energy of the arc.
+/// In the valley between two faces the field at a point knows only
 /// one of them, and its normal may turn although the other face still holds the point; `end_gaps` is exact there.
-/// Cost: one look-up for each force, at most six. Real-time safe.
+/// Cost: one look-up for each force, two for one of edges, of at most six. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>
-Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1,
-               const ConstrainedStep& step) noexcept {
+Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1, const ConstrainedStep& step,
+               double share) noexcept {
   Arrival arrival;
   for (std::uint32_t i = 0; i < step.force_count; ++i) {
     const ContactForce& force = step.forces[i];
-    const EndOfForce end = end_of(scene, H0, H1, force, false);
+    const bool is_edge = scene.has_edges() && is_edge_pair(force.id);
+    const EndOfForce end = end_of(scene, H0, H1, force, is_edge);
     arrival.opened |= end.at_end.distance > scene.lengths.margin + scene.lengths.opening;
     const double steepness = end.gradient_W.norm();
     if (!(steepness > kFlat)) continue;
     const Vector3 normal_W = H0.rotation._transformVector(force.normal);
     const Vector3 turned_S = H0.rotation.conjugate() * Vector3(end.gradient_W / steepness);
     arrival.turn = std::max(arrival.turn, least_turn(step, force.id, turned_S));
-    arrival.rise -= force.multiplier * (end.gradient_W / steepness - normal_W).dot(end.displacement_W);
+    if (is_edge) {
+      const Vector3 displacement = step.motion.translation + step.motion.rotation.cross(force.point);
+      const double growth = end.at_end.distance - end.at_start.distance - share * force.normal.dot(displacement);
+      arrival.rise -= 2.0 * force.multiplier * growth + share * share * arc_energy(force, step.motion);
+    } else {
+      arrival.rise -= force.multiplier * (end.gradient_W / steepness - normal_W).dot(end.displacement_W);
+    }
   }
   return arrival;
 }

@@ -550,7 +550,7 @@ class ContactSubsteps {
   /// Along the motion, a share of v, the energy of coupling and contact forces is M(t) = M(0) - 2 |v|^2 t + b t^2. Its
   /// value at the end, t = share, gives b; the lowest one is at t = |v|^2 / b = share / (1 + overshoot).
   bool passes_lowest_energy() noexcept {
-    const Arrival arrival = arrive(scene_, H0_, H1_, step_);
+    const Arrival arrival = arrive(scene_, H0_, H1_, step_, share_.value());
     is_outdated_ = share_.is_whole() && (arrival.opened || arrival.turn > kMostTurn);
     const double share = share_.value();
     const double rise = arrival.rise + share * share * excess_arc_energy();

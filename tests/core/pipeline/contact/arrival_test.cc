@@ -176,16 +176,16 @@ TEST(Arrival, TellsByHowMuchTheNormalsHaveTurned) {
     step.forces[1].multiplier = 1.0;
     step.forces[1].normal = H0.rotation.conjugate() * Vector3::UnitY();
     const double turned = (H1.rotation * H0.rotation.conjugate() * Vector3::UnitY() - Vector3::UnitY()).norm();
-    EXPECT_NEAR(arrive(world.scene, H0, H1, step).turn, turned, 1e-9) << angle;
+    EXPECT_NEAR(arrive(world.scene, H0, H1, step, 1.0).turn, turned, 1e-9) << angle;
     step.force_count = 3;
     step.forces[2] = step.forces[1];
     step.forces[2].normal = H0.rotation.conjugate() * Vector3::UnitX();
-    EXPECT_NEAR(arrive(world.scene, H0, H1, step).turn, turned, 1e-9) << angle;
+    EXPECT_NEAR(arrive(world.scene, H0, H1, step, 1.0).turn, turned, 1e-9) << angle;
     std::swap(step.forces[1], step.forces[2]);
-    EXPECT_NEAR(arrive(world.scene, H0, H1, step).turn, turned, 1e-9) << angle;
+    EXPECT_NEAR(arrive(world.scene, H0, H1, step, 1.0).turn, turned, 1e-9) << angle;
     EXPECT_GE(turned, angle * (1.0 - angle));
   }
-  EXPECT_EQ(arrive(world.scene, H0, H0, ConstrainedStep{}).turn, 0.0) << "without a force";
+  EXPECT_EQ(arrive(world.scene, H0, H0, ConstrainedStep{}, 1.0).turn, 0.0) << "without a force";
 }
 
 /// A pair of edges that has left is no contact any more. One that comes too near lacks what is missing to the margin.
@@ -199,7 +199,7 @@ TEST(Arrival, TellsWhetherAnEdgePairHasLeftOrLacksAPartOfItsMargin) {
     step.force_count = 1;
     step.forces[0] = ArrivalWorld::force_on_edges();
     step.motion = get_motion(H0.inverse() * H1);
-    const Arrival arrival = arrive(world.scene, H0, H1, step);
+    const Arrival arrival = arrive(world.scene, H0, H1, step, 1.0);
     EXPECT_EQ(arrival.opened, stop > margin + world.scene.lengths.opening) << stop;
     EXPECT_NEAR(arrival.rise, 0.0, 1e-12) << "its normal does not turn";
     const EndGaps gaps = end_gaps(world.scene, H0, H1, step, 1.0);
@@ -207,6 +207,32 @@ TEST(Arrival, TellsWhetherAnEdgePairHasLeftOrLacksAPartOfItsMargin) {
     if (stop > margin) continue;
     EXPECT_EQ(gaps.id, id_of({0, 0}));
     EXPECT_NEAR(gaps.sample.distance, stop, 1e-9);
+  }
+}
+
+/// The upper edge turns by an angle t about a line along the lower one, c above it. The holding place slides along the
+/// upper edge, whose distance to the line stays L - c: the gap grows by c (cos t - 1). The row knows the displacement
+/// of the body's origin, which lies on the edge: (L - c) (cos t - 1).
+TEST(Arrival, TellsTheRiseOfAnEdgeThatRocksOverAnother) {
+  const ArrivalWorld world;
+  constexpr double kGap = 0.001;
+  const Pose H0 = ArrivalWorld::turned(Vector3::UnitX(), {0.0, 0.0, kGap});
+  for (const double height : {0.0, 0.5 * kGap, -0.01, 0.0006}) {
+    for (const double angle : {0.0, 0.01, -0.1}) {
+      const Vector3 line(0.0, 0.0, height);
+      Pose H1;
+      H1.rotation = exp_rotation({angle, 0.0, 0.0}) * H0.rotation;
+      H1.translation = line + exp_rotation({angle, 0.0, 0.0}) * Vector3(H0.translation - line);
+      ConstrainedStep step;
+      step.force_count = 1;
+      step.forces[0] = ArrivalWorld::force_on_edges();
+      step.motion = get_motion(H0.inverse() * H1);
+      const double lost = (2.0 * height - kGap) * (1.0 - std::cos(angle));
+      const Arrival arrival = arrive(world.scene, H0, H1, step, 1.0);
+      EXPECT_NEAR(arrival.rise + arc_energy(step), 2.0 * step.forces[0].multiplier * lost, 1e-12)
+          << height << ' ' << angle;
+      EXPECT_NEAR(arrival.turn, std::fabs(2.0 * std::sin(0.5 * angle)), 1e-9);
+    }
   }
 }
 

@@ -860,6 +860,14 @@ TEST(ContactSubsteps, LetPointsLeadEdgesOutFirst) {
     }
     EXPECT_EQ(run.report.outcome, Outcome::kContact) << points_out;
     EXPECT_NEAR(run.state.H_WS.translation.z(), std::max(0.0, points_out) + kSubstepMargin, 0.1 * kSubstepMargin);
+    // a device that leaves at once, so that the edges are near although they are deep
+    AnalyticRun<AnalyticField, EdgeCycle> leaving(field, scene.body, pose_at({0.0, 0.0, kStart}));
+    leaving.state.started = false;
+    leaving.parameters.margin = kSubstepMargin;
+    leaving.cycle.edges = {scene.moving.view(), scene.still.view()};
+    ASSERT_EQ(leaving.step(pose_at({0.0, 0.0, kStart})), Status::kOk);
+    for (int cycle = 0; cycle < 20; ++cycle) ASSERT_EQ(leaving.step(pose_at({0.0, 0.0, 0.01})), Status::kOk);
+    EXPECT_EQ(leaving.report.outcome, Outcome::kFree) << points_out;
   }
 }
 
