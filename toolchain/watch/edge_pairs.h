@@ -30,9 +30,8 @@ struct EdgeDistance {
   double above_a_face = 0.0;            ///< largest cosine between a face's normal and the direction to the other edge
   double askew = 0.0;                   ///< largest cosine between an edge and that direction; 0 if no point is an end
 
-  /// Tells whether each edge lies inside the wedge of the other, beside no end, as where two solids overlap. `slack`
-  /// widens the limits [1].
-  bool in_both_wedges(double slack) const { return above_a_face < slack && askew < 1e-3 + slack; }
+  /// Tells whether each edge lies inside the wedge of the other, beside no end, as where two solids overlap.
+  bool in_both_wedges() const { return above_a_face < 0.0 && askew <= 1e-3; }
 };
 
 /// Returns the gap of two edges: the least of the distance at the common perpendicular and those of the four ends.

@@ -158,9 +158,9 @@ class Watch {
   const Parameters& q_;
   double gyration_;
   std::vector<Points> points_;
-  bool edges_may_overlap_ = false;  ///< within rounding, at the start of this cycle, after a start inside
-  bool edges_overlap_ = false;      ///< beyond rounding
-  std::vector<double> edge_bound_;  ///< lower bounds of all pairs' gaps at the current pose [m]
+  std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, until the session has come out
+  bool edges_overlap_ = false;          ///< some of these still overlapped after the last cycle
+  std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;
 

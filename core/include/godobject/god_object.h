@@ -75,11 +75,11 @@ class GodObject {
   /// Runs one cycle, steps #1-#7 of the paper: from `input` to pose, force and outcome in `report`.
   ///
   /// The first cycle after `start`, `reset` or `follow` begins with the god object at the device pose. If that pose
-  /// penetrates, the outcome is kStartInside until the god object has come out. A pose penetrates if a point does, or
-  /// if sharp edges overlap by less than a voxel edge; deeper overlaps of edges are not seen. The god object moves out
-  /// by a share of its depth in each cycle where the field has a gradient; that may push on the hand, and where
-  /// contacts push against each other by no more than the stiffness times a quarter of the voxel edge. It follows the
-  /// device, without force, where the field has no gradient.
+  /// penetrates, the outcome is kStartInside until the god object has come out. It moves out by a share of its depth in
+  /// each cycle where the field has a gradient; that may push on the hand, and where points push against each other by
+  /// no more than the stiffness times a quarter of the voxel edge. It follows the device, without force, where the
+  /// field has no gradient. With no point inside, sharp edges that overlap by less than a voxel edge are contacts, which
+  /// lead out by at most a margin a cycle; deeper overlaps of edges are not seen, and hold on the wrong side.
   ///
   /// In a scene with a workspace box the god object follows the device only within the box, and the device feels the
   /// box's faces as stiff as the coupling. Until the device has been inside for the first time, nothing is rendered, as

@@ -110,11 +110,12 @@ inline double least_turn(const ConstrainedStep& step, std::uint32_t id, const Ve
 /// is least at the end of v. Where the contact forces there (the multipliers lambda of the rows times the normals n_1)
 /// point backwards, it is higher by
 ///     rise = -sum of lambda (n_1 - n_0) . (p_1 - p_0),
-/// to which the arcs of the points add (`arc_energy`). On a pair of edges the holding place slides along both, which
-/// neither of the two knows; there the rise is that of the measured gap g,
-///     -2 lambda (g_1 - g_0 - n_0 . v),   less the energy of the arc.
-/// In the valley between two faces the field at a point knows only
+/// to which the arcs of the points add (`arc_energy`). In the valley between two faces the field at a point knows only
 /// one of them, and its normal may turn although the other face still holds the point; `end_gaps` is exact there.
+///
+/// Where a pair of edges holds, the place of the contact slides along both edges. Neither the arc of the body's point
+/// nor the turn of the normal contains that, so the rise is that of the measured gap g, less the energy of the arc:
+///     rise = -2 lambda (g_1 - g_0 - n_0 . v) - arc.
 /// Cost: one look-up for each force, two for one of edges, of at most six. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>
 Arrival arrive(const ContactScene<Field, BodyField>& scene, const Pose& H0, const Pose& H1, const ConstrainedStep& step,

@@ -71,6 +71,7 @@ struct ContactMemory {
   ContactSearch search;
   ConstrainedStep last_step;      ///< the last cycle's motion and contact forces
   Pose H_WD_last;                 ///< the last cycle's device pose
+  bool edges_may_overlap = true;  ///< no pose since the start is known to have all edges apart
   SubstepPath path;               ///< of the last cycle, for tools and tests
   ContactWorkspace workspace;
 
@@ -78,6 +79,7 @@ struct ContactMemory {
   void reset() noexcept {
     last_step = ConstrainedStep{};
     H_WD_last = Pose{};
+    edges_may_overlap = true;
     path.clear();
   }
 };

@@ -81,10 +81,10 @@ class ContactSubsteps {
     rows_.count = 0;
     find_samples();
     find_features();
-    // a point inside has clearance 0, so it is near; both directions and the edges decide whether the pose penetrates
+    // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
     result_.inside = may_be_inside && around_.smallest <= 0.0;
-    find_edges(may_be_inside);
+    find_edges();
     if (around_.dropped > 0) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
@@ -273,7 +273,6 @@ class ContactSubsteps {
     Overlap overlap(lengths_);
     overlap.add<SampleDirection>(memory_.workspace.samples, H0_);
     if (scene_.has_features()) overlap.add<FeatureDirection>(memory_.workspace.features, H0_features_);
-    overlap.add(memory_.workspace.edges, H0_);
     Motion out = overlap.way_out(free_);
     Pose H_out = H0_ * set_matrix(out);
     const Motion back = unconstrained_motion(H_out, input_.H_WD);
@@ -430,6 +429,7 @@ class ContactSubsteps {
   void follow_device() noexcept {
     move_to(input_.H_WD);
     add_to_whole(free_);
+    memory_.edges_may_overlap = false;  // all edges are apart along the motion
     friction_.slid = Motion{};
     step_.release();
     result_.smallest = std::numeric_limits<double>::infinity();
@@ -460,21 +460,20 @@ class ContactSubsteps {
               travelled, radius, lengths_, near, rows_, around_);
   }
 
-  /// Finds the near edges and appends their rows. After a start inside only those count that overlap: of others it is
-  /// not known on which sides of each other they lie.
-  void find_edges(bool may_be_inside) noexcept {
+  /// Finds the near edges and appends their rows. While a point is inside, edges may lie on the wrong sides of each
+  /// other, so that no gap of theirs counts. The points lead the body out first.
+  void find_edges() noexcept {
     NearEdges& near = memory_.workspace.edges;
     near.count = 0;
-    if (!scene_.has_edges()) return;
+    if (!scene_.has_edges() || result_.inside) return;
     if constexpr (kSceneTraits.edges) {
       ContactSearch& search = memory_.search;
       // every pair that overlaps is found: one that is not would be held on its wrong side from now on
-      const double deepest = may_be_inside ? lengths_.deepest_overlap : 0.0;
+      const double deepest = memory_.edges_may_overlap ? lengths_.deepest_overlap : 0.0;
       const EdgeSurroundings around =
           search.edges.find(H0_, search.odometer.travelled(), std::max(search_radius_, deepest),
                             kEdgeSlack * lengths_.longest_search_radius, deepest, near);
-      result_.inside = result_.inside || (may_be_inside && near.overlap());
-      if (result_.inside) near.keep_overlaps();
+      memory_.edges_may_overlap = memory_.edges_may_overlap && near.overlap();
       around_.unlisted += around.unlisted;
       around_.free_displacement = std::min(around_.free_displacement, around.free_displacement);
       for (std::uint32_t k = 0; k < near.count; ++k) {

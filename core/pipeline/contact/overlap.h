@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/pipeline/contact/contact_lengths.h"
-#include "core/pipeline/contact/edges/near_edges.h"
 #include "core/pipeline/contact/qp/dual_active_set.h"
 #include "core/pipeline/contact/search/near_points.h"
 #include "core/pipeline/contact/surroundings.h"
@@ -27,19 +26,11 @@ class Overlap {
     for (std::uint32_t k = 0; k < near.count; ++k) {
       if (!(near.distance[k] < lengths_.margin)) continue;
       const NearRow row = near_rows.row(k);
-      if (row.exists) add(row.normal_S, row.point_S, row.required_gain);
-    }
-  }
-
-  /// Adds the near pairs of edges, as those of points; H is the pose of S in W. Real-time safe.
-  void add(const NearEdges& near, const Pose& H) noexcept {
-    const GapLaw law = lengths_.gap_law();
-    const Pose to_S = H.inverse();
-    for (std::uint32_t k = 0; k < near.count; ++k) {
-      const EdgeGap& gap = near.gap[k];
-      if (!(gap.distance < lengths_.margin)) continue;
-      add(to_S.rotation._transformVector(gap.normal), to_S * gap.on_moving,
-          law.required_gain(lengths_.margin - gap.distance));
+      if (!row.exists) continue;
+      Vector6 gradient;
+      gradient << row.normal_S, row.point_S.cross(row.normal_S) / lengths_.metric.gyration;
+      squares_.noalias() += gradient * gradient.transpose();
+      sums_ += row.required_gain * gradient;
     }
   }
 
@@ -48,13 +39,6 @@ class Overlap {
   Motion way_out(const Motion& wanted) const noexcept;
 
  private:
-  void add(const Vector3& normal_S, const Vector3& point_S, double required_gain) noexcept {
-    Vector6 gradient;
-    gradient << normal_S, point_S.cross(normal_S) / lengths_.metric.gyration;
-    squares_.noalias() += gradient * gradient.transpose();
-    sums_ += required_gain * gradient;
-  }
-
   const ContactLengths& lengths_;
   Matrix6 squares_ = Matrix6::Zero();
   Vector6 sums_ = Vector6::Zero();

@@ -100,7 +100,7 @@ class FreeSet {
         if (apart - half - 0.5 * (other.end[1] - other.end[0]).norm() > cutoff) continue;
         watch::EdgeDistance pair = watch::distance_of(edge, other);
         if (pair.gap > cutoff) continue;
-        if (pair.in_both_wedges(0.0)) {
+        if (pair.in_both_wedges()) {
           pair.gap = -pair.gap;
           pair.normal = -pair.normal;
         } else if (pair.over_a_face) {

@@ -117,8 +117,10 @@ EdgeSurroundings EdgeSearch::find(const Pose& H_WS, double travelled, double rad
       const double apart = std::max(0.0, gap.distance);  // sheets may overlap by less than their radii
       candidate.free_until = travelled + apart;
       if (apart < radius && !near.push(candidate.pair, gap)) {
+        // a pair that overlaps would be held on its wrong side once it is taken for one that is apart
+        const double left_out = gap.distance < 0.0 ? near.push_overlap(candidate.pair, gap) : gap.distance;
         ++around.unlisted;
-        around.free_displacement = std::min(around.free_displacement, apart);
+        around.free_displacement = std::min(around.free_displacement, std::max(0.0, left_out));
       }
     }
     certain_ = std::min(certain_, candidate.free_until);

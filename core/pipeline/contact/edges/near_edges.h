@@ -69,23 +69,25 @@ struct NearEdges {
     return true;
   }
 
+  /// Puts a pair that overlaps in the place of one that is apart, if there is one. Returns the gap of the pair that
+  /// found no place [m].
+  double push_overlap(const EdgePair& near, const EdgeGap& at_start) noexcept {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (gap[k].distance < 0.0) continue;
+      const double left_out = gap[k].distance;
+      pair[k] = near;
+      gap[k] = at_start;
+      return left_out;
+    }
+    return at_start.distance;
+  }
+
   /// Tells whether two near edges overlap.
   bool overlap() const noexcept {
     for (std::uint32_t k = 0; k < count; ++k) {
       if (gap[k].distance < 0.0) return true;
     }
     return false;
-  }
-
-  /// Removes the pairs that are apart.
-  void keep_overlaps() noexcept {
-    std::uint32_t kept = 0;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      if (!(gap[k].distance < 0.0)) continue;
-      pair[kept] = pair[k];
-      gap[kept++] = gap[k];
-    }
-    count = kept;
   }
 
   /// Returns the number of a pair in the list; `count` if it is not near.

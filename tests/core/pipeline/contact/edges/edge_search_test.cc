@@ -117,6 +117,39 @@ TEST(EdgeSearch, LimitsTheMotionByPairsWithoutAPlace) {
   }
 }
 
+/// With more near pairs than places a pair that overlaps has one, wherever it stands in the list.
+TEST(EdgeSearch, KeepsAnOverlapWhereThereIsNoPlaceForAll) {
+  constexpr std::uint32_t kEdges = 40;  // 1600 pairs that are 0.5 mm apart, and one that overlaps by 0.2 mm
+  for (const std::uint32_t number : {0u, kEdges / 2, kEdges}) {
+    Segments upper, lower;
+    for (std::uint32_t i = 0; i <= kEdges; ++i) {
+      const bool is_deep = i == number;
+      const double place = is_deep ? 0.2 : 1e-3 * i;
+      const double height = is_deep ? -0.2e-3 : 0.5e-3;
+      upper.emplace_back(Vector3(place, is_deep ? 0.1 : 0.0, height), Vector3(place, is_deep ? 0.3 : 0.05, height));
+      lower.emplace_back(Vector3(is_deep ? 0.1 : 0.0, place, 0.0), Vector3(is_deep ? 0.3 : 0.05, place, 0.0));
+    }
+    test::EdgeSet moving(upper), still(lower);
+    for (int face = 0; face < 2; ++face) {
+      moving.edges()[number].normal[face][0] = still.edges()[number].normal[face][1] = face == 0 ? 0.8f : -0.8f;
+      moving.edges()[number].normal[face][2] = -0.6f;
+      still.edges()[number].normal[face][2] = 0.6f;
+    }
+    const EdgeContacts edges{moving.view(), still.view()};
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start(edges);
+    NearEdges near;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1e-3, 1e-3, 1e-3, near);
+    EXPECT_EQ(near.count, NearEdges::kCapacity);
+    EXPECT_EQ(around.unlisted, kEdges * kEdges + 1 - NearEdges::kCapacity);
+    EXPECT_NEAR(around.free_displacement, 0.5e-3, 1e-9);
+    ASSERT_TRUE(near.overlap()) << number;
+    const std::uint32_t k = near.find({number, number});
+    ASSERT_LT(k, near.count) << number;
+    EXPECT_NEAR(near.gap[k].distance, -0.2e-3, 1e-9);
+  }
+}
+
 /// Returns 3000 short edges across the x axis, more than are remembered, at random heights. One of fifteen may be near,
 /// below 0.9 mm; the others are above 1.5 mm.
 Segments many_across(test::Random& random, bool some_are_near) {
