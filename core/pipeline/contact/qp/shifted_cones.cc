@@ -9,7 +9,7 @@ constexpr double kCrawl = 0.02;
 /// Tells whether no contact slips in the motion `m`.
 bool is_slip_free(const ContactSet& set, const Motion& m) noexcept {
   for (int k = 0; k < set.contact_count(); ++k) {
-    if (set.slip_of(set.contact(k), m).speed > set.metric().still) return false;
+    if (!(set.slip_of(set.contact(k), m).speed <= set.metric().still)) return false;  // nor is NaN
   }
   return true;
 }
@@ -84,11 +84,11 @@ bool sticks(ContactSet& set) noexcept {
   const Additions ended = meet_cones(Shift::kNone, set);
   if (ended == Additions::kContradictory) return false;
   const Motion m = set.motion();
-  return is_slip_free(set, m) && (ended == Additions::kMet || is_met(set, m));
+  return set.plain_motion().allFinite() && is_slip_free(set, m) && (ended == Additions::kMet || is_met(set, m));
 }
 
 bool rests(const ContactSet& set) noexcept {
-  if (set.contact_count() == 0 || set.plain_motion().norm() > set.metric().tolerance) return false;
+  if (set.contact_count() == 0 || !(set.plain_motion().norm() <= set.metric().tolerance)) return false;
   return is_slip_free(set, set.motion());
 }
 
