@@ -251,7 +251,7 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       const bool follows = edges_overlap_ && at_begin < q_.voxel_size;
       const bool overlaps = (may_overlap || follows) && at_begin < q_.voxel_size && begin.in_both_wedges();
       smallest_ = std::min(smallest_, overlaps ? -at_begin : at_begin);
-      if (may_overlap) continue;
+      if (may_overlap || overlaps) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
             [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });
