@@ -1,3 +1,5 @@
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -7,12 +9,14 @@
 #include "toolchain/files/atomic_file.h"
 #include "toolchain/files/output_target.h"
 #include "toolchain/path/keyframes.h"
+#include "toolchain/path/shake.h"
 #include "toolchain/path/trajectory.h"
 
 namespace {
 
-const char* const kFooter = R"(Example:
+const char* const kFooter = R"(Examples:
   godobject-path peg.keyframes.toml -o peg.csv
+  godobject-path peg.keyframes.toml --shake 7 -o shaken.csv
 
 KEYFRAMES.toml:
   pivot = [0, 0, 0]            # optional: point of the moving mesh (scaled, own frame) to which positions refer [m]
@@ -33,6 +37,9 @@ POSES.csv gets the columns t,px,py,pz,qw,qx,qy,qz, one row for each millisecond:
 rests at each keyframe. Between two keyframes the pivot moves straight and the rotation along the shorter arc, with the
 least jerk (10 u^3 - 15 u^4 + 6 u^5).
 
+--shake SEED adds the slow swing of an unsteady hand, of some millimetres and degrees: the same task by another hand. Each
+seed gives another swing.
+
 Exit codes: 0 done, 64 usage, 66 KEYFRAMES.toml is missing or cannot be read, 74 cannot write, 77 no permission to
 write, 78 not TOML, or a bad key.)";
 
@@ -49,12 +56,15 @@ int main(int argc, char** argv) {
   CLI::App app("Makes a device path, one pose for each millisecond, from keyframes.", "godobject-path");
   app.footer(kFooter);
   std::string keyframes_path, out_path;
+  std::optional<std::uint64_t> seed;
   app.add_option("KEYFRAMES.toml", keyframes_path, "places, times, oscillations")->required()->type_name("");
   app.add_option("-o,--output", out_path, "device path to write")->required()->type_name("POSES.csv");
+  app.add_option("--shake", seed, "adds the swing of an unsteady hand")->type_name("SEED");
 
   return godobject::command::run(app, argc, argv, [&] {
     godobject::files::output_target(out_path);  // refused before anything is read
-    const godobject::path::Keyframes motion = godobject::path::read_keyframes(keyframes_path);
+    godobject::path::Keyframes motion = godobject::path::read_keyframes(keyframes_path);
+    if (seed) godobject::path::shake(*seed, motion);
     godobject::files::AtomicFile out(out_path);
     out.write("t,px,py,pz,qw,qx,qy,qz\n");
     for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample));
