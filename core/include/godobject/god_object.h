@@ -78,8 +78,9 @@ class GodObject {
   /// penetrates, the outcome is kStartInside until the god object has come out. It moves out by a share of its depth in
   /// each cycle where the field has a gradient; that may push on the hand, and where points push against each other by
   /// no more than the stiffness times a quarter of the voxel edge. It follows the device, without force, where the
-  /// field has no gradient. With no point inside, sharp edges that overlap by less than a voxel edge are contacts, which
-  /// lead out by at most a margin a cycle; deeper overlaps of edges are not seen, and hold on the wrong side.
+  /// field has no gradient. With no point inside, sharp edges that overlap by less than a voxel edge are contacts. They
+  /// lead the god object out, by about a margin a cycle, and the outcome is kContact. Edges that overlap by more are
+  /// not seen: their contact holds the god object on the wrong side.
   ///
   /// In a scene with a workspace box the god object follows the device only within the box, and the device feels the
   /// box's faces as stiff as the coupling. Until the device has been inside for the first time, nothing is rendered, as

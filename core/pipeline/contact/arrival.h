@@ -113,8 +113,8 @@ inline double least_turn(const ConstrainedStep& step, std::uint32_t id, const Ve
 /// to which the arcs of the points add (`arc_energy`). In the valley between two faces the field at a point knows only
 /// one of them, and its normal may turn although the other face still holds the point; `end_gaps` is exact there.
 ///
-/// Where a pair of edges holds, the place of the contact slides along both edges. Neither the arc of the body's point
-/// nor the turn of the normal contains that, so the rise is that of the measured gap g, less the energy of the arc:
+/// The contact of an edge pair slides along both edges. Neither the arc of the body's point nor the turn of the normal
+/// contains that, so the rise is that of the measured gap g, less the energy of the arc:
 ///     rise = -2 lambda (g_1 - g_0 - n_0 . v) - arc.
 /// Cost: one look-up for each force, two for one of edges, of at most six. Real-time safe.
 template <DistanceField Field, DistanceField BodyField>

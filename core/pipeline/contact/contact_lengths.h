@@ -21,7 +21,7 @@ struct ContactLengths {
   double opening;                 ///< a gap that exceeds the margin by more than this is not a contact
   double largest_gain;            ///< most that a lost gap regains in a sub-step
   double longest_way_out;         ///< longest stretch of the coupling on the way out of an overlap
-  double deepest_overlap;         ///< of edges at the start: edges in each other's wedges may else be apart
+  double deepest_overlap;         ///< of two edges at the start; a thin body may lie between edges farther apart
   double radius;                  ///< R_max
   BoundingSphere sphere;          ///< around all sample points, in S
   std::uint32_t point_budget;     ///< as Parameters::point_budget

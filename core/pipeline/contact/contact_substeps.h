@@ -461,7 +461,7 @@ class ContactSubsteps {
   }
 
   /// Finds the near edges and appends their rows. While a point is inside, edges may lie on the wrong sides of each
-  /// other, so that no gap of theirs counts. The points lead the body out first.
+  /// other, so that no edge pair counts until the points have led the body out.
   void find_edges() noexcept {
     NearEdges& near = memory_.workspace.edges;
     near.count = 0;

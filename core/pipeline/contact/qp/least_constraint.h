@@ -115,7 +115,7 @@ inline constexpr int kMostFrictionAdditions = 1040;
 ///    row enters.
 /// 3. After a failure: rest as in step 1, also of points that slid, with kinetic friction. Then rounds of the convex
 ///    problem with other shifts, first none, then halfway towards the slip. After each of the first five, and then
-///    after each sixteenth, Newton's method starts from its solution. At the border between sticking and slipping,
+///    after each eighth, Newton's method starts from its solution. At the border between sticking and slipping,
 ///    where Newton's method changes back and forth, the shifts converge by themselves: where they match the slips, and
 ///    the forces oppose these, the motion obeys the law. With viscous friction there is no rest, and only the first
 ///    five rounds run.
@@ -128,12 +128,12 @@ inline constexpr int kMostFrictionAdditions = 1040;
 ///    all rows.
 ///
 /// Cost: at most 100 additions without and 1040 with friction (kMostAdditions, kMostFrictionAdditions), twice that if
-/// infeasible; an addition is one scan of the rows and at most seven exchanges. Newton's method takes at most 312
+/// infeasible; an addition is one scan of the rows and at most seven exchanges. Newton's method takes at most 744
 /// steps, each a scan and a system of at most twelve equations, the smoothing method at most 150, each a system of at
 /// most 21 equations. Real-time safe.
 ///
-/// Where the law has no solution, as between points that face each other and have lost their gaps, all rounds run: some
-/// ten times as long as a problem that is solved. A problem with `slid` may be solved twice.
+/// All rounds run if the law has no solution, as between points that face each other and have lost their gaps. Then a
+/// call takes longest. A problem with `slid` may be solved twice.
 ///
 /// Time in the demo's scenes, warm-started: 20 rows 0.3 to 0.4 us without (99 %: 0.7 us), 1.1 to 2 us with friction (99
 /// %: 4 us, against a handle's rim 27 us); 1100 rows 2.5 us and 7 us (99 %: 15 us and 40 us).

@@ -793,7 +793,7 @@ TEST(ContactSubsteps, LeadEdgesOutThatOverlapAtTheStart) {
       ASSERT_EQ(run.step(pose_at({0.0, 0.0, start})), Status::kOk);
       const double z = run.state.H_WS.translation.z();
       EXPECT_GE(z, before - 1e-12) << depth << ' ' << cycle;
-      EXPECT_LE(z, before + 0.3 * kSubstepVoxel) << depth << ' ' << cycle;
+      EXPECT_LE(z, before + 1.01 * kSubstepMargin) << depth << ' ' << cycle;
       EXPECT_EQ(run.report.contacts, 1u) << depth << ' ' << cycle;
       if (before < 0.0 && z < 0.0) {
         EXPECT_TRUE(run.cycle.memory->edges_may_overlap) << depth << ' ' << cycle;
@@ -904,8 +904,7 @@ TEST(ContactSubsteps, RestBetweenEdgesThatPushAgainstEachOther) {
   }
 }
 
-/// Points may lead edges out that began deeper in each other than edges are known to overlap. Until then these hold on
-/// neither side.
+/// Edges may begin too deep in each other to be seen. While points lead the body out, these edges hold on neither side.
 TEST(ContactSubsteps, LetPointsLeadEdgesOutFirst) {
   KeelInRoof scene;
   constexpr double kStart = -1.8 * kSubstepVoxel;

@@ -848,7 +848,7 @@ TEST(LeastConstraintFriction, ObeysCoulombOnRandomProblems) {
       }
       std::printf("mu %.2f%s ", ratio, viscous ? ", viscous" : "");
       outcomes.print("random");
-      outcomes.expect_within(2.0, viscous ? 0.03 + 0.08 * ratio : 0.005 + 0.06 * ratio);
+      outcomes.expect_within(2.0, viscous ? 0.03 + 0.08 * ratio : 0.002 + 0.03 * ratio * ratio);
     }
   }
 }
