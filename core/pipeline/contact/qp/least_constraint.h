@@ -83,7 +83,7 @@ struct CouplingMetric {
 /// Most inequalities that one attempt of `least_constraint` adds, without and with friction. The second is derived in
 /// friction_solver.cc; random problems take up to 27 and some 800 (least_constraint_test).
 inline constexpr int kMostAdditions = 100;
-inline constexpr int kMostFrictionAdditions = 1040;
+inline constexpr int kMostFrictionAdditions = 1064;
 
 /// Computes the motion (x, r) nearest to `wanted` in the metric of the virtual coupling, |x|^2 + rho^2 |r|^2, that
 /// meets all rows: Gauss' principle of least constraint. The multipliers are then the contact forces that the device
@@ -114,7 +114,8 @@ inline constexpr int kMostFrictionAdditions = 1040;
 ///    Between two sets of forces the first that vanishes is dropped, so that contacts leave one at a time; a violated
 ///    row enters.
 /// 3. After a failure: rest as in step 1, also of points that slid, with kinetic friction. Then rounds of the convex
-///    problem with other shifts, first none, then halfway towards the slip. After each of the first five, and then
+///    problem with other shifts, first none, then towards the slip, by half of the way and later by Aitken's
+///    relaxation. After each of the first five, and then
 ///    after each eighth, Newton's method starts from its solution. At the border between sticking and slipping,
 ///    where Newton's method changes back and forth, the shifts converge by themselves: where they match the slips, and
 ///    the forces oppose these, the motion obeys the law. With viscous friction there is no rest, and only the first
@@ -127,7 +128,7 @@ inline constexpr int kMostFrictionAdditions = 1040;
 ///    the cones without shifts can hold the body, and otherwise by the motion without friction, the nearest that meets
 ///    all rows.
 ///
-/// Cost: at most 100 additions without and 1040 with friction (kMostAdditions, kMostFrictionAdditions), twice that if
+/// Cost: at most 100 additions without and 1064 with friction (kMostAdditions, kMostFrictionAdditions), twice that if
 /// infeasible; an addition is one scan of the rows and at most seven exchanges. Newton's method takes at most 744
 /// steps, each a scan and a system of at most twelve equations, the smoothing method at most 150, each a system of at
 /// most 21 equations. Real-time safe.

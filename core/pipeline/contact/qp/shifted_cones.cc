@@ -3,7 +3,6 @@
 namespace godobject::detail {
 namespace {
 
-constexpr double kConeTolerance = 0.01;  // of the rows': cones are in double precision, and rest is exact
 constexpr double kCrawl = 0.02;
 
 /// Tells whether no contact slips in the motion `m`.
@@ -45,13 +44,12 @@ bool is_met(const ContactSet& set, const Motion& m) noexcept {
 
 }  // namespace
 
-Additions meet_cones(Shift entering, ContactSet& set) noexcept {
+Additions meet_cones(Shift entering, ContactSet& set, double tolerance) noexcept {
   for (int i = 0; i < kMostConeAdditions; ++i) {
     const Motion m = set.motion();
     const ContactRows::Violated row = set.most_violated(m);
     const bool rows_are_met = row.row == ContactRows::kNone;
-    ViolatedCone cone =
-        most_violated_cone(set, m, rows_are_met ? kConeTolerance * set.metric().tolerance : row.violation);
+    ViolatedCone cone = most_violated_cone(set, m, rows_are_met ? tolerance * set.metric().tolerance : row.violation);
     if (cone.contact < 0 && rows_are_met) return Additions::kMet;
     if (cone.contact < 0) {
       cone.contact = set.open(row.row);

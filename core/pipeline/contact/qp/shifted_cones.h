@@ -12,10 +12,12 @@ enum class Shift : std::uint8_t { kNone, kSlip };
 
 /// Adds half spaces, with friction and fixed shifts, until all rows and all cones
 ///     n . v - required gain + mu (shift - |slip|) >= 0
-/// are met. A violated row becomes a contact; a violated cone gets the half space of the current slip. Cost: at most
-/// kMostConeAdditions additions. Real-time safe.
+/// are met. A violated row becomes a contact; a violated cone gets the half space of the current slip. A cone counts as
+/// met within `tolerance` times that of the rows [1]; the half spaces of a small one have nearly the slip's direction.
+/// Cost: at most kMostConeAdditions additions. Real-time safe.
 inline constexpr int kMostConeAdditions = 24;
-Additions meet_cones(Shift entering, ContactSet& set) noexcept;
+inline constexpr double kConeTolerance = 0.01;  // cones are in double precision, and rest is exact
+Additions meet_cones(Shift entering, ContactSet& set, double tolerance = kConeTolerance) noexcept;
 
 /// Tells whether the loaded points of the last step hardly slipped, compared with the motion that friction prevented,
 /// so that they may come to rest now.

@@ -27,15 +27,16 @@ struct Problem {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted, last;
   ContactFriction friction{0.5, 0.25, 0.0};
+  CouplingMetric metric;
 
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
-  ContactSet set() { return {*rows, wanted, kMetric, &friction, last}; }
-  void solve(ConstrainedStep& step) { least_constraint(*rows, wanted, kMetric, &friction, last, step); }
+  ContactSet set() { return {*rows, wanted, metric, &friction, last}; }
+  void solve(ConstrainedStep& step) { least_constraint(*rows, wanted, metric, &friction, last, step); }
 };
 
-Vector6 six(const Motion& m) {
+Vector6 six(const Motion& m, const CouplingMetric& metric = kMetric) {
   Vector6 z;
-  z << m.translation, kMetric.gyration * m.rotation;
+  z << m.translation, metric.gyration * m.rotation;
   return z;
 }
 
@@ -283,7 +284,8 @@ TEST(SolveWithFriction, BringsAPegToRestThatSlid) {
 }
 
 /// Only forces lead away from the wanted motion, also if the law is not solved. Two points hardly touch their planes
-/// under much viscous friction. The motion must not keep what this viscous friction took while a point seemed to carry load.
+/// under much viscous friction. The motion must not keep what this viscous friction took while a point seemed to carry
+/// load.
 TEST(SolveWithFriction, LeavesTheWantedMotionOnlyWhereAForceActs) {
   Random random(53);
   int without_force = 0;
@@ -354,35 +356,75 @@ Problem problem_of(const Series& series, int trial, Random& random) {
 void expect_valid(const Problem& p, const ConstrainedStep& step, bool viscous) {
   for (std::uint32_t i = 0; i < p.rows->count; ++i) {
     const Vector3 v = step.motion.translation + step.motion.rotation.cross(p.rows->point(i));
-    EXPECT_GE(p.rows->normal(i).dot(v), static_cast<double>(p.rows->required_gain[i]) - 1.5 * kMetric.tolerance);
+    EXPECT_GE(p.rows->normal(i).dot(v), static_cast<double>(p.rows->required_gain[i]) - 1.5 * p.metric.tolerance);
   }
-  Vector6 sum = six(p.wanted) - six(step.motion);
+  Vector6 sum = six(p.wanted, p.metric) - six(step.motion, p.metric);
   double load = 0.0;
   for (std::uint32_t j = 0; j < step.force_count; ++j) {
     const ContactForce& f = step.forces[j];
     EXPECT_GE(f.multiplier, 0.0);
     const Vector3 force = f.multiplier * (f.normal - f.ratio * f.slip);
     Vector6 push;
-    push << force, f.point.cross(force) / kMetric.gyration;
+    push << force, f.point.cross(force) / p.metric.gyration;
     sum += push;
     load += f.multiplier;
   }
   if (!viscous) {
-    EXPECT_LE(sum.norm(), kMetric.tolerance + 2e-7 * load);
+    EXPECT_LE(sum.norm(), p.metric.tolerance + 2e-7 * load);
   }
-  EXPECT_LE((six(step.motion) - six(p.wanted)).norm(), 1.0006 * six(p.wanted).norm() + 4e-5);
+  EXPECT_LE((six(step.motion, p.metric) - six(p.wanted, p.metric)).norm(),
+            1.0006 * six(p.wanted, p.metric).norm() + 4e-5);
   EXPECT_EQ(step.follows, step.force_count == 0 && !step.unconverged);
 }
 
-/// A round peg in a hole with a clearance of 10 um, drawn along and shaken by a hand: it wedges, and stops where friction
-/// just holds it. From cycle to cycle the solver starts at the border between sticking and slipping. It finds friction
-/// in all but one of a thousand cycles.
-TEST(SolveWithFriction, FindsFrictionOfAShakenPeg) {
-  constexpr double kRadius = 0.004, kClearance = 1e-5;
+/// A peg in a hole with a clearance of 10 um.
+struct Peg {
+  const char* name;
+  bool is_round;
+  CouplingMetric metric;  ///< default: of the default coupling; the other one: of a scene with voxels of 0.1 mm
+  int hands;              ///< each for 150 cycles
+  int unconverged;        ///< most cycles
+  long additions;         ///< most in all
+};
+
+/// Appends the rows of a peg in pose H: points around it at four heights. Those at the edges of a rectangular one have
+/// a row for each face.
+void push_walls(const Peg& peg, const Pose& H, Problem& p) {
+  constexpr double kHalf[] = {0.004, 0.0035}, kClearance = 1e-5;
+  const auto push = [&](const Vector3& point, const Vector3& normal, double gap) {
+    p.push(H.rotation.conjugate() * normal, point, gap > 0.0 ? -gap : -0.3 * gap);
+  };
+  for (int i = 0; i < 64; ++i) {
+    const double height = 0.005 * (i / 16) - 0.0075;
+    if (peg.is_round) {
+      const double angle = 2.0 * std::numbers::pi * (i % 16) / 16.0;
+      const Vector3 point(kHalf[0] * std::cos(angle), kHalf[0] * std::sin(angle), height);
+      const Vector3 place = H * point;
+      const double off = place.head<2>().norm();
+      push(point, Vector3(-place.x() / off, -place.y() / off, 0.0), kHalf[0] + kClearance - off);
+      continue;
+    }
+    const int axis = i / 8 % 2;  // eight points on two faces
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    Vector3 point(0.0, 0.0, height);
+    point[axis] = side * kHalf[axis];
+    point[1 - axis] = (i / 2 % 4 - 1.5) / 1.5 * kHalf[1 - axis];
+    push(point, -side * Vector3::Unit(axis), kHalf[axis] + kClearance - side * (H * point)[axis]);
+  }
+}
+
+void PrintTo(const Peg& peg, std::ostream* out) { *out << peg.name; }
+
+class ShakenPeg : public ::testing::TestWithParam<Peg> {};
+
+/// A peg that is drawn along and shaken by a hand wedges, and stops where friction just holds it. From cycle to cycle
+/// the solver starts at the border between sticking and slipping.
+TEST_P(ShakenPeg, FindsFriction) {
+  const Peg& peg = GetParam();
   Random random(53);
   int cycles = 0, unconverged = 0;
   long additions = 0;
-  for (int scene = 0; scene < 60; ++scene) {
+  for (int hand = 0; hand < peg.hands; ++hand) {
     const double ratio = random.between(0.1, 0.6);
     Vector3 amplitude[2], phase[2];
     for (int k = 0; k < 2; ++k) {
@@ -396,16 +438,9 @@ TEST(SolveWithFriction, FindsFrictionOfAShakenPeg) {
     for (int cycle = 0; cycle < 150; ++cycle, ++cycles) {
       Problem p;
       p.friction = {ratio, ratio, 0.0};
+      p.metric = peg.metric;
       p.last = last;
-      for (int i = 0; i < 64; ++i) {
-        const double angle = 2.0 * std::numbers::pi * (i % 16) / 16.0;
-        const Vector3 point(kRadius * std::cos(angle), kRadius * std::sin(angle), 0.005 * (i / 16) - 0.0075);
-        const Vector3 place = H * point;
-        const double off = place.head<2>().norm();
-        const Vector3 normal = Vector3(-place.x() / off, -place.y() / off, 0.0);
-        const double gap = kRadius + kClearance - off;
-        p.push(H.rotation.conjugate() * normal, point, gap > 0.0 ? -gap : -0.3 * gap);
-      }
+      push_walls(peg, H, p);
       Pose device;
       for (int axis = 0; axis < 3; ++axis) {
         device.translation[axis] = amplitude[0][axis] * std::sin(0.02 * cycle + phase[0][axis]);
@@ -415,17 +450,23 @@ TEST(SolveWithFriction, FindsFrictionOfAShakenPeg) {
       p.wanted = get_motion(H.inverse() * device);
       p.solve(step);
       expect_valid(p, step, false);
-      if (HasFailure()) FAIL() << "scene " << scene << ", cycle " << cycle;
+      if (HasFailure()) FAIL() << "hand " << hand << ", cycle " << cycle;
       unconverged += step.unconverged ? 1 : 0;
       additions += step.iterations;
       last = step.motion;
       H = H * set_matrix(step.motion);
     }
   }
-  std::printf("[ measured ] friction not found in %d of %d cycles, %ld additions\n", unconverged, cycles, additions);
-  EXPECT_LE(unconverged, 1);
-  EXPECT_LE(additions, 45700) << "one percent above the measured number";
+  std::printf("[ measured ] %s peg: friction not found in %d of %d cycles, %ld additions\n", peg.name, unconverged,
+              cycles, additions);
+  EXPECT_LE(unconverged, peg.unconverged);
+  EXPECT_LE(additions, peg.additions) << "one percent above the measured number";
 }
+
+INSTANTIATE_TEST_SUITE_P(Pegs, ShakenPeg,
+                         ::testing::Values(Peg{"round", true, {}, 60, 1, 44750},
+                                           Peg{"rectangular", false, {0.014, 1e-9, 1e-10}, 500, 3, 125100}),
+                         [](const auto& peg) { return std::string(peg.param.name); });
 
 class FrictionSeries : public ::testing::TestWithParam<Series> {};
 
@@ -459,10 +500,10 @@ TEST_P(FrictionSeries, SeldomFailsAndTakesFewAdditions) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, FrictionSeries,
-    ::testing::Values(Series{"random, 0.2", 0, 0.2, 0.0, 1, 5450}, Series{"random, 0.6", 0, 0.6, 0.0, 1, 10700},
+    ::testing::Values(Series{"random, 0.2", 0, 0.2, 0.0, 1, 5450}, Series{"random, 0.6", 0, 0.6, 0.0, 1, 10600},
                       Series{"random, viscous", 0, 0.3, 1.0, 16, 7720}, Series{"box, 0.2", 1, 0.2, 0.0, 1, 4140},
-                      Series{"box, 0.6", 1, 0.6, 0.0, 1, 10100}, Series{"wedge, 0.5", 2, 0.5, 0.0, 1, 41600},
-                      Series{"wedge, 1.5", 2, 1.5, 0.0, 1, 25100}));
+                      Series{"box, 0.6", 1, 0.6, 0.0, 1, 9700}, Series{"wedge, 0.5", 2, 0.5, 0.0, 1, 38500},
+                      Series{"wedge, 1.5", 2, 1.5, 0.0, 1, 24700}));
 
 }  // namespace
 }  // namespace godobject::test::friction_solver_test
