@@ -138,6 +138,7 @@ std::vector<Limits> grid_limits() {
     LIMITS(0.75, 1e6, s.grid.lipschitz = 0.75; s.grid.lipschitz_seam = v),
     LIMITS(1.0, 1e6, s.grid.clearance_slope = v),
     LIMITS(0.0, kFarthest, s.grid.outside_loss = v),
+    LIMITS(-kFarthest, kFarthest, s.grid.facet_offset = v),
     LIMITS(1e-15, 0.03125 * 1e-2, s.grid.voxel_size = 0.03125; s.grid.band = 1.0; s.grid.quantum = v),
   };
   for (int axis = 0; axis < 3; ++axis) {
