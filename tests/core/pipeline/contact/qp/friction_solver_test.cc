@@ -370,7 +370,7 @@ void expect_valid(const Problem& p, const ConstrainedStep& step, bool viscous) {
     load += f.multiplier;
   }
   if (!viscous) {
-    EXPECT_LE(sum.norm(), p.metric.tolerance + 2e-7 * load);
+    EXPECT_LE(sum.norm(), p.metric.tolerance + (step.unconverged ? 2e-7 : 1e-9) * load);
   }
   EXPECT_LE((six(step.motion, p.metric) - six(p.wanted, p.metric)).norm(),
             1.0006 * six(p.wanted, p.metric).norm() + 4e-5);
@@ -464,8 +464,8 @@ TEST_P(ShakenPeg, FindsFriction) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pegs, ShakenPeg,
-                         ::testing::Values(Peg{"round", true, {}, 60, 1, 44750},
-                                           Peg{"rectangular", false, {0.014, 1e-9, 1e-10}, 500, 3, 125100}),
+                         ::testing::Values(Peg{"round", true, {}, 60, 0, 44750},
+                                           Peg{"rectangular", false, {0.014, 1e-9, 1e-10}, 500, 2, 125400}),
                          [](const auto& peg) { return std::string(peg.param.name); });
 
 class FrictionSeries : public ::testing::TestWithParam<Series> {};
