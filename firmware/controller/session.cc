@@ -81,12 +81,6 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
   if (run_loop(run_setup(duration, stopwatch), requests, records)) {
     fmt::print("{}", run_summary(report_, cycle_->counters(), link_->statistics(), page_faults_));
     fmt::print("{}", records.summary());
-    if (link_->real_time() && report_.beyond_plan > 0) {
-      warn(fmt::format(
-          "{} cycles computed for longer than loop.compute, which bus plan and gain check count on: {:.0f} "
-          "us in place of {:.0f} us at most",
-          report_.beyond_plan, 1e-3 * static_cast<double>(report_.computing.largest_ns()), 1e6 * config_.loop.compute));
-    }
   } else {
     warn("ended before the drives were started; no drive was enabled");
   }

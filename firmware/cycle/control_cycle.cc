@@ -146,7 +146,6 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   seen.contact_force = contact_force();
   seen.inside = report_.outcome == Outcome::kStartInside;
   seen.overrun_ns = events.overrun_ns;
-  seen.computed_late_ns = events.computed_late_ns;
   seen.sends_failed = sends_failed_;
   seen.end_requested = events.end_requested;
   seen.reset_requested = events.reset_requested;

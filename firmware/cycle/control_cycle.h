@@ -21,9 +21,8 @@ namespace godobject::firmware {
 
 /// Events that the loop reports to the cycle.
 struct LoopEvents {
-  std::int64_t overrun_ns = 0;        ///< time by which the previous cycle ended late
-  std::int64_t computed_late_ns = 0;  ///< time by which the previous cycle computed for longer than planned
-  std::uint32_t skipped = 0;          ///< periods without a cycle since the previous one
+  std::int64_t overrun_ns = 0;  ///< time by which the previous cycle ended late
+  std::uint32_t skipped = 0;    ///< periods without a cycle since the previous one
   bool end_requested = false;
   bool reset_requested = false;
 };

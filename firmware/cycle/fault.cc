@@ -14,9 +14,6 @@ const char* describe(Fault fault) noexcept {
       return "a joint's position did not change although the joint should have moved; check its encoder";
     case Fault::kComputation: return "the cycle could not be computed; read the last rows of the telemetry";
     case Fault::kOverruns: return "the loop was late too often; run godobject-controller doctor";
-    case Fault::kComputedLate:
-      return "computing took longer than loop.compute too often; raise it, or compile the scene with fewer points or "
-             "with point_budget";
     case Fault::kDriveLeft: return "a drive is not enabled; read its own error display";
     case Fault::kAlarm: return "a bus or a drive raised an alarm";
     case Fault::kSendFailed: return "torques could not be sent three times in a row; check the bus";

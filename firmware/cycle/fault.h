@@ -17,7 +17,6 @@ enum class Fault : std::uint8_t {
   kEncoderStuck,    ///< a position does not change although its joint should move
   kComputation,     ///< the cycle could not be computed
   kOverruns,        ///< the loop was late too often, or by too much
-  kComputedLate,    ///< cycles computed for longer than planned too often
   kDriveLeft,       ///< a drive is no longer enabled, or did not become so
   kAlarm,           ///< a bus or a drive raised an alarm: the reading's alarm
   kSendFailed,      ///< torques could not be handed over three times in a row

@@ -20,8 +20,7 @@ Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexce
 
 Decision Supervisor::step(const Observation& seen) noexcept {
   ++in_mode_;
-  // one rule for both: torques that are computed late reach the drives late, as those of a late cycle
-  too_late_ = lateness_.update(std::max(seen.overrun_ns, seen.computed_late_ns));
+  too_many_overruns_ = overruns_.update(seen.overrun_ns);
   too_many_jumps_ = jumps_.update(seen.jumps > 0);
   // a drive that returns may have been exchanged, or connected differently
   if (!seen.drives.all_answer || seen.drive_restarted) sign_tested_ = !parameters_.sign_test;
@@ -95,7 +94,7 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (jumps_too_often(seen)) return Fault::kPositionJump;
   if (seen.stuck) return Fault::kEncoderStuck;
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
-  if (too_late_) return seen.overrun_ns > 0 ? Fault::kOverruns : Fault::kComputedLate;
+  if (too_many_overruns_) return Fault::kOverruns;
   return seen.sends_failed >= kInRow ? Fault::kSendFailed : Fault::kNone;
 }
 

@@ -68,7 +68,7 @@ void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycl
   constexpr std::int64_t kPeriod_ns = 1'000'000;
   std::uint64_t cycles = 0;
   run_periodically(
-      clock, {kPeriod_ns, cycle.collect_ns(), setup.compute_ns}, report.loop, [&] { cycle.request(); },
+      clock, kPeriod_ns, cycle.collect_ns(), report.loop, [&] { cycle.request(); },
       [&](LoopEvents events) {
         const bool over = setup.cycles > 0 && cycles >= setup.cycles;
         events.end_requested = over || requests.end.load(std::memory_order_relaxed);

@@ -90,13 +90,12 @@ TEST(ControllerRun, ShowsOtherThreadsTheStateOfTheLastCycle) {
   EXPECT_EQ(standing.alarm_joint, 5);
 }
 
-/// Virtual time, in which each look at the clock may take its time; the stopwatch advances by a script.
+/// Virtual time; the stopwatch advances by a script.
 class StepClock final : public hal::Clock {
  public:
-  std::int64_t now_ns() noexcept override { return now += look_ns; }
+  std::int64_t now_ns() noexcept override { return now; }
   void sleep_until(std::int64_t ns) noexcept override { now = std::max(now, ns); }
   std::int64_t now = 0;
-  std::int64_t look_ns = 0;
 };
 
 class Stopwatch final : public hal::Clock {
@@ -172,23 +171,6 @@ TEST_F(ControllerRunTest, EndsAfterItsCycles) {
   EXPECT_EQ(report_.computing.largest_ns(), 121'000);
   EXPECT_EQ(report_.beyond_plan, 111u) << "those above 10 us";
   EXPECT_EQ(clock_.now, 120'000'000);
-}
-
-/// The loop looks at its clock before and after a cycle, so each cycle takes one look.
-TEST_F(ControllerRunTest, GoesOnWhileCyclesComputeForAsLongAsPlanned) {
-  clock_.look_ns = run_.compute_ns;
-  run_.cycles = 2000;
-  run();
-  EXPECT_EQ(cycle_->record().fault, Fault::kNone);
-  EXPECT_EQ(report_.loop.compute.largest_ns(), run_.compute_ns);
-}
-
-TEST_F(ControllerRunTest, StopsAnArmWithPowerWhenCyclesComputeForLongerThanPlanned) {
-  clock_.look_ns = run_.compute_ns + 1;
-  run_.cycles = 2000;
-  run();
-  EXPECT_EQ(cycle_->record().fault, Fault::kComputedLate);
-  EXPECT_EQ(std::count(modes_.begin(), modes_.end(), Mode::kRunning), 0);
 }
 
 TEST_F(ControllerRunTest, EndsOnRequestAndNotBefore) {
