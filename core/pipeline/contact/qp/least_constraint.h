@@ -114,12 +114,11 @@ inline constexpr int kMostFrictionAdditions = 1064;
 ///    Between two sets of forces the first that vanishes is dropped, so that contacts leave one at a time; a violated
 ///    row enters.
 /// 3. After a failure: rest as in step 1, also of points that slid, with kinetic friction. Then rounds of the convex
-///    problem with other shifts, first none, then towards the slip, by half of the way and later by Aitken's
-///    relaxation. After each of the first five, and then
-///    after each eighth, Newton's method starts from its solution. At the border between sticking and slipping,
-///    where Newton's method changes back and forth, the shifts converge by themselves: where they match the slips, and
-///    the forces oppose these, the motion obeys the law. With viscous friction there is no rest, and only the first
-///    five rounds run.
+///    problem with other shifts, first none, then nearer to the slip: by half of the way, and in later rounds by
+///    Aitken's relaxation. After each of the first five rounds, and then after each eighth, Newton's method starts from
+///    the round's solution. At the border between sticking and slipping, where Newton's method changes back and forth,
+///    the shifts converge by themselves: where they match the slips, and the forces oppose these, the motion obeys the
+///    law. With viscous friction there is no rest, and only the first five rounds run.
 /// 4. After these rounds: the smoothing Newton method of solve_smoothed, which is slower and fails less often.
 /// 5. A motion within the tolerances comes to rest if the cones without shifts can hold the body.
 /// 6. If all of that fails (`unconverged`), mostly because the law has no solution, the motion is projected on all

@@ -465,7 +465,7 @@ TEST_P(ShakenPeg, FindsFriction) {
 
 INSTANTIATE_TEST_SUITE_P(Pegs, ShakenPeg,
                          ::testing::Values(Peg{"round", true, {}, 60, 0, 44750},
-                                           Peg{"rectangular", false, {0.014, 1e-9, 1e-10}, 500, 2, 125400}),
+                                           Peg{"rectangular", false, {0.014, 1e-9, 1e-10}, 500, 2, 125100}),
                          [](const auto& peg) { return std::string(peg.param.name); });
 
 class FrictionSeries : public ::testing::TestWithParam<Series> {};
