@@ -13,6 +13,7 @@
 #include "tests/scene_compiler/simple_meshes.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "tests/support/random.h"
+#include "toolchain/scene_compiler/mesh/mesh_edges.h"
 
 namespace godobject::scene_compiler::surface_facets_test {
 namespace {
@@ -173,6 +174,38 @@ TEST(SurfaceFacets, LeaveOutFoldedSlivers) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = at + 5e-4 * random.in_cube(1.0);
     ASSERT_NEAR(facet_distance(facets.all(), *near, p).value, surface.signed_distance(p), 2e-6) << p.transpose();
+  }
+}
+
+/// Needles between two vertices that are nearly one are left out together with the slits between their long sides.
+TEST(SurfaceFacets, LeaveOutNeedles) {
+  constexpr double kFlat = 1e-6;
+  TriangleMesh mesh = test::box_mesh({0.03, 0.02, 0.015});
+  auto& t = mesh.triangles[0];
+  const auto to = [&](std::size_t from, std::size_t end) -> Vector3d {
+    return (mesh.vertices[t[end % 3]] - mesh.vertices[t[from]]).normalized();
+  };
+  std::size_t k = 0;
+  while (std::abs(to(k, k + 1).dot(to(k, k + 2))) > 1e-9) ++k;  // the right angle
+  const std::uint32_t a = t[k];
+  const std::uint32_t b = t[(k + 1) % 3];
+  const std::uint32_t c = t[(k + 2) % 3];
+  const auto twin = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(mesh.vertices[a] + 0.95 * kFlat * (to(k, k + 1) + to(k, k + 2)));
+  t[k] = twin;
+  mesh.triangles.push_back({a, b, twin});
+  mesh.triangles.push_back({a, twin, c});
+  ASSERT_TRUE(MeshEdges(mesh).closed());
+  const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.0);
+  const Vector3d at = mesh.vertices[a];
+  const SurfaceFacets facets(surface, kFlat);
+  EXPECT_LE(facets.flat(), 1.5 * kFlat);
+  const auto near = facets.near(at, 5e-4);
+  ASSERT_TRUE(near);
+  test::Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p = at + 5e-4 * random.in_cube(1.0);
+    ASSERT_NEAR(facet_distance(facets.all(), *near, p).value, surface.signed_distance(p), facets.flat());
   }
 }
 
