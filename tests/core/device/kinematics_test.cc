@@ -80,6 +80,11 @@ void expect_as_kdl(const ArmModel& model, unsigned seed) {
   }
 }
 
+TEST(Kinematics, HaveNoJointUntilTheyAreComputed) {
+  EXPECT_EQ(ArmKinematics{}.joint_count, 0);
+  EXPECT_TRUE(geometric_jacobian(ArmKinematics{}, Vector3::UnitX()).isZero(0.0));
+}
+
 TEST(Kinematics, LightWeightRobotIsAsOrocosHasIt) { expect_as_kdl(test::lwr().model, 1); }
 TEST(Kinematics, DesktopArmIsAsOrocosHasIt) { expect_as_kdl(test::desktop6().model, 2); }
 

@@ -210,6 +210,34 @@ TEST(Arrival, TellsWhetherAnEdgePairHasLeftOrLacksAPartOfItsMargin) {
   }
 }
 
+/// By hand: the body turns by an angle about the horizontal axis y while it moves upwards. Its sample point, at 0.01 m
+/// along x, is above its margin, so its row leads to the margin; its linear motion rises by the body's rise less 0.01 m
+/// times the angle, its true one by the body's rise less 0.01 m times the sine.
+TEST(EndGaps, HaveTheEnergyOfAPointThatTurnsWithTheBody) {
+  const ArrivalWorld world;
+  const double margin = world.scene.lengths.margin;
+  for (const double angle : {0.0, 0.1, -0.2}) {
+    for (const double rise : {0.0, 1e-4}) {
+      Pose H0;
+      H0.translation = {0.0, 0.0, 2.0 * margin + 0.01};
+      Pose H1 = H0;
+      H1.translation.z() += rise;
+      H1.rotation = exp_rotation({0.0, angle, 0.0});
+      ConstrainedStep step;
+      step.force_count = 1;
+      step.forces[0].id = 0;
+      step.forces[0].point = {0.01, 0.0, 0.0};
+      step.forces[0].normal = Vector3::UnitZ();
+      step.forces[0].multiplier = 2.0;
+      step.motion = {{0.0, 0.0, rise}, {0.0, angle, 0.0}};
+      const double end = H0.translation.z() + rise - 0.01 * std::sin(angle);
+      const double increase = rise - 0.01 * angle;
+      EXPECT_NEAR(end_gaps(world.scene, H0, H1, step, 1.0).energy, 2.0 * 2.0 * (margin - end - increase), 1e-9)
+          << angle << ' ' << rise;
+    }
+  }
+}
+
 /// The upper edge turns by an angle t about a line along the lower one, c above it. The holding place slides along the
 /// upper edge, whose distance to the line stays L - c: the gap grows by c (cos t - 1). The row knows the displacement
 /// of the body's origin, which lies on the edge: (L - c) (cos t - 1).

@@ -148,6 +148,19 @@ TEST(EdgeGap, EndsAtTheEndsOfTheEdges) {
   EXPECT_NEAR(edge_gap(bare({-1.0, 3.0, 0.0}, {2.0, 3.0, 0.0}), still).distance, 3.0, 1e-12) << "parallel";
 }
 
+/// Edges that cross at a hundred-thousandth of a right angle are no parallel ones: their crossing counts, not a place in
+/// their middle, where they are a thousand gaps apart.
+TEST(EdgeGap, OfEdgesThatAreNearlyParallelIsThatOfTheirCrossing) {
+  for (const double angle : {3e-6, 1e-5, -1e-4}) {
+    const auto at = [angle](double x) { return Vector3(x, angle * x, 1e-9); };
+    const EdgeInW still = bare({-0.9, 0.0, 0.0}, {0.1, 0.0, 0.0});
+    const EdgeInW moving = bare(at(-0.3), at(0.7));
+    const EdgeGap gap = edge_gap(moving, still);
+    EXPECT_NEAR(gap.distance, 1e-9, 1e-11) << angle;
+    EXPECT_NEAR(gap.place, 0.3, 1e-4) << angle;
+  }
+}
+
 TEST(EdgeGap, IsTheLeastDistanceOfAllPlaces) {
   test::Random random(3);
   for (int k = 0; k < 300; ++k) {
