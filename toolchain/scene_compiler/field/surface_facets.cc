@@ -18,7 +18,7 @@
 #include "toolchain/scene_compiler/mesh/mesh_edges.h"
 #include "toolchain/scene_compiler/mesh/mesh_normals.h"
 #include "toolchain/scene_compiler/mesh/near_triangles.h"
-#include "toolchain/scene_compiler/mesh/short_edges.h"
+#include "toolchain/scene_compiler/mesh/needles.h"
 #include "toolchain/scene_compiler/mesh/slits.h"
 #include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
@@ -27,11 +27,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kToEnd = std::numbers::sqrt2;  // from an edge's end, if neither along nor across it is more than 1
-constexpr double kFolded = 1e-4;                // length of the sum of two unit normals that point against each other
-constexpr std::size_t kMostPlanes = 24;         // of a cube's facets; chosen: a look-up compares them all
-constexpr double kSamePlane = 1e-6;             // length of the difference of two unit normals
-constexpr int kParts = 2;                       // halvings of a cube in which the nearest triangles are searched
+constexpr double kFolded = 1e-4;         // length of the sum of two unit normals that point against each other
+constexpr std::size_t kMostPlanes = 24;  // of a cube's facets; chosen: a look-up compares them all
+constexpr double kSamePlane = 1e-6;      // length of the difference of two unit normals
+constexpr int kParts = 2;                // halvings of a cube in which the nearest triangles are searched
 constexpr double kHalfDiagonal = 0.86602540378443865;  // of a cube, of its edge
 
 Eigen::Map<const Vector3d> vector(const double (&v)[3]) { return Eigen::Map<const Vector3d>(v); }
@@ -71,8 +70,7 @@ void add_near(const NearTriangles& near, const Vector3d& center, double half_edg
 /// Leaves out needles and the triangles that are no higher than `flat`, closes the slits that they leave, and joins the
 /// triangles of flat faces.
 void leave_out_flat(TriangleMesh& mesh, double flat) {
-  // a vertex within `flat` of an edge, but of no place between its ends, is no farther than this from one of them
-  collapse_short_edges(mesh, kToEnd * flat);
+  collapse_needles(mesh, flat);
   std::erase_if(mesh.triangles, [&](const auto& t) {
     const Vector3d& a = mesh.vertices[t[0]];
     const Vector3d& b = mesh.vertices[t[1]];
@@ -165,7 +163,7 @@ Vector3d edge_normal(const MeshEdges& edges, const std::vector<Vector3d>& face_n
 
 }  // namespace
 
-SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(kToEnd * flat) {
+SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(std::numbers::sqrt2 * flat) {
   if (surface.dilation() > 0.0) return;
   BodyMesh body(surface);
   TriangleMesh& mesh = body.mesh;

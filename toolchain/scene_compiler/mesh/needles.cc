@@ -1,0 +1,169 @@
+#include "toolchain/scene_compiler/mesh/needles.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace godobject::scene_compiler {
+namespace {
+
+using Eigen::Vector3d;
+using Triangle = std::array<std::uint32_t, 3>;
+using Corners = std::array<Vector3d, 3>;
+
+bool has(const Triangle& triangle, std::uint32_t vertex) {
+  return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+}
+
+/// Returns twice the area of a triangle along its normal.
+Vector3d area(const Corners& corners) { return (corners[1] - corners[0]).cross(corners[2] - corners[0]); }
+
+bool is_higher(const Corners& corners, double height) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
+  return area(corners).norm() > height * longest;
+}
+
+/// The triangles about each vertex, while needles go.
+class Needles {
+ public:
+  Needles(TriangleMesh& mesh, double flat)
+      : mesh_(mesh),
+        flat_(flat),
+        longest_(std::numbers::sqrt2 * flat),
+        about_(mesh.vertices.size()),
+        pulled_(mesh.vertices.size()) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) about_[v].push_back(t);
+    }
+  }
+
+  void collapse() {
+    for (bool any = true; any;) {  // a pull may make needles of the triangles about it
+      any = false;
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) any = collapse_triangle(t) || any;
+    }
+    std::erase_if(mesh_.triangles, is_gone);
+  }
+
+ private:
+  static bool is_gone(const Triangle& t) { return t[0] == t[1]; }
+
+  bool collapse_triangle(std::size_t number) {
+    const Triangle triangle = mesh_.triangles[number];
+    if (is_gone(triangle)) return false;
+    const Corners corners = corners_of(triangle);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if ((corners[next] - corners[k]).norm() > longest_ || is_higher(corners, flat_)) continue;
+      if (pull(triangle[k], triangle[next]) || pull(triangle[next], triangle[k])) return true;
+    }
+    return false;
+  }
+
+  bool pull(std::uint32_t from, std::uint32_t to) {
+    const auto is_far = [&](auto v) { return (mesh_.vertices[v] - mesh_.vertices[to]).norm() > longest_; };
+    if (is_far(from) || std::any_of(pulled_[from].begin(), pulled_[from].end(), is_far)) return false;
+    if (joins_the_surface(from, to) || turns_a_triangle(from, to)) return false;
+
+    pulled_[to].push_back(from);
+    pulled_[to].insert(pulled_[to].end(), pulled_[from].begin(), pulled_[from].end());
+    for (const std::uint32_t t : std::exchange(about_[from], {})) {
+      Triangle& triangle = mesh_.triangles[t];
+      if (has(triangle, to)) {
+        for (const std::uint32_t v : triangle) std::erase(about_[v], t);
+        triangle = {to, to, to};
+      } else {
+        *std::find(triangle.begin(), triangle.end(), from) = to;
+        about_[to].push_back(t);
+      }
+    }
+    return true;
+  }
+
+  /// True if an edge would get more triangles than the two that it had, or two triangles the same vertices.
+  bool joins_the_surface(std::uint32_t from, std::uint32_t to) const {
+    std::vector<std::uint32_t> opposite;
+    for (const std::uint32_t t : about_[from]) {
+      if (!has(mesh_.triangles[t], to)) continue;
+      for (const std::uint32_t v : mesh_.triangles[t]) {
+        if (v != from && v != to) opposite.push_back(v);
+      }
+    }
+    make_set(opposite);
+    const std::vector<std::uint32_t> of_from = neighbours(from);
+    const std::vector<std::uint32_t> of_to = neighbours(to);
+    std::vector<std::uint32_t> common;
+    std::set_intersection(of_from.begin(), of_from.end(), of_to.begin(), of_to.end(), std::back_inserter(common));
+    if (common != opposite) return true;
+    const auto beside = [&](std::uint32_t vertex) {  // triangles of which only this vertex is not common
+      std::vector<std::array<std::uint32_t, 2>> sides;
+      for (const std::uint32_t t : about_[vertex]) {
+        std::vector<std::uint32_t> others;
+        for (const std::uint32_t v : mesh_.triangles[t]) {
+          if (std::binary_search(common.begin(), common.end(), v)) others.push_back(v);
+        }
+        if (others.size() == 2) sides.push_back({std::min(others[0], others[1]), std::max(others[0], others[1])});
+      }
+      return sides;
+    };
+    const auto of_target = beside(to);
+    const auto sides = beside(from);
+    return std::any_of(sides.begin(), sides.end(), [&](const auto& s) {
+      return std::find(of_target.begin(), of_target.end(), s) != of_target.end();
+    });
+  }
+
+  /// True if a triangle that stays and is higher than `flat` would turn over.
+  bool turns_a_triangle(std::uint32_t from, std::uint32_t to) const {
+    return std::any_of(about_[from].begin(), about_[from].end(), [&](std::uint32_t t) {
+      const Triangle& triangle = mesh_.triangles[t];
+      if (has(triangle, to)) return false;
+      const Corners before = corners_of(triangle);
+      Corners after = before;
+      after[static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), from) - triangle.begin())] =
+          mesh_.vertices[to];
+      return area(before).dot(area(after)) <= 0.0 && is_higher(before, flat_);
+    });
+  }
+
+  Corners corners_of(const Triangle& t) const {
+    return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+  }
+
+  static void make_set(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+
+  /// Returns the vertices that share a triangle with this one, ascending.
+  std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t t : about_[vertex]) {
+      for (const std::uint32_t v : mesh_.triangles[t]) {
+        if (v != vertex) found.push_back(v);
+      }
+    }
+    make_set(found);
+    return found;
+  }
+
+  TriangleMesh& mesh_;
+  double flat_;
+  double longest_;  ///< side of a needle
+  std::vector<std::vector<std::uint32_t>> about_;
+  std::vector<std::vector<std::uint32_t>> pulled_;  ///< to each vertex: the vertices that it stands for
+};
+
+}  // namespace
+
+void collapse_needles(TriangleMesh& mesh, double flat) { Needles(mesh, flat).collapse(); }
+
+}  // namespace godobject::scene_compiler
