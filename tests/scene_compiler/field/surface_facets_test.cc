@@ -1,6 +1,7 @@
 #include "toolchain/scene_compiler/field/surface_facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -207,6 +208,75 @@ TEST(SurfaceFacets, LeaveOutNeedles) {
     const Vector3d p = at + 5e-4 * random.in_cube(1.0);
     ASSERT_NEAR(facet_distance(facets.all(), *near, p).value, surface.signed_distance(p), facets.flat());
   }
+}
+
+/// A box with a cluster of vertices in its upper face, as near to each other as the vertices of needles, which make it
+/// uneven by a length. No triangle is folded.
+TriangleMesh box_with_cluster(test::Random& random, std::uint32_t n, double step, double uneven) {
+  TriangleMesh mesh = test::box_mesh({0.02, 0.03, 0.01});
+  std::erase_if(mesh.triangles, [](const auto& t) { return std::min({t[0], t[1], t[2]}) >= 4; });  // the upper face
+  const auto at = [&](std::uint32_t x, std::uint32_t y) { return 8 + x + n * y; };
+  const double half = 0.5 * (n - 1);
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < n; ++x) {
+      mesh.vertices.emplace_back(step * (x - half + 0.4 * random.between(-1.0, 1.0)),
+                                 step * (y - half + 0.4 * random.between(-1.0, 1.0)),
+                                 0.005 + uneven * random.between(-1.0, 1.0));
+    }
+  }
+  for (std::uint32_t y = 0; y + 1 < n; ++y) {
+    for (std::uint32_t x = 0; x + 1 < n; ++x) {
+      const bool other = random.between(0.0, 1.0) < 0.5;  // diagonal
+      mesh.triangles.push_back({at(x, y), at(x + 1, y), other ? at(x, y + 1) : at(x + 1, y + 1)});
+      mesh.triangles.push_back({other ? at(x + 1, y) : at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  }
+  for (std::uint32_t i = 0; i + 1 < n; ++i) {
+    mesh.triangles.push_back({4, at(i + 1, 0), at(i, 0)});
+    mesh.triangles.push_back({5, at(n - 1, i + 1), at(n - 1, i)});
+    mesh.triangles.push_back({7, at(i, n - 1), at(i + 1, n - 1)});
+    mesh.triangles.push_back({6, at(0, i), at(0, i + 1)});
+  }
+  mesh.triangles.push_back({4, 5, at(n - 1, 0)});
+  mesh.triangles.push_back({5, 7, at(n - 1, n - 1)});
+  mesh.triangles.push_back({7, 6, at(0, n - 1)});
+  mesh.triangles.push_back({6, 4, at(0, 0)});
+  return mesh;
+}
+
+bool has_folded_triangle(const TriangleMesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    const Vector3d& a = mesh.vertices[t[0]];
+    const double z = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).z();
+    return std::max({t[0], t[1], t[2]}) >= 8 && z <= 0.0;
+  });
+}
+
+/// In a cluster of vertices facets may turn over as needles go. They tell no side, and the others tell it.
+TEST(SurfaceFacets, TellTheSideWhereNeedlesWere) {
+  constexpr double kFlat = 1e-6;
+  test::Random random(5);
+  int found = 0;
+  for (unsigned i = 0; i < 1500; ++i) {
+    const double uneven = kFlat * random.between(0.05, 1.0);
+    const TriangleMesh mesh = box_with_cluster(random, 3 + i % 2, random.between(1.0, 1.4) * kFlat, uneven);
+    ASSERT_TRUE(MeshEdges(mesh).closed());
+    if (has_folded_triangle(mesh)) continue;
+    const SolidSurface surface(mesh, SurfaceKind::kSolid, 0.0);
+    const SurfaceFacets facets(surface, kFlat);
+    for (const double half_edge : {5.0 * kFlat, 100.0 * kFlat}) {
+      const Vector3d center = Vector3d(0.0, 0.0, 0.005) + 3.0 * kFlat * random.in_cube(1.0);
+      const auto near = facets.near(center, half_edge);
+      if (!near) continue;
+      ++found;
+      for (int k = 0; k < 60; ++k) {
+        const Vector3d p = center + half_edge * random.in_cube(1.0);
+        ASSERT_NEAR(facet_distance(facets.all(), *near, p).value, surface.signed_distance(p), 3.0 * kFlat)
+            << i << ", " << (p - center).transpose();
+      }
+    }
+  }
+  EXPECT_GE(found, 100);
 }
 
 TEST(SurfaceFacets, TurnAtCreasesAndThinWallsOnly) {

@@ -152,20 +152,6 @@ TEST(Needles, OfTinyBodiesLeaveNoneFoldedOntoItself) {
   }
 }
 
-/// A fan with many triangles at one vertex, whose rim is far away, takes no longer than its triangles.
-TEST(Needles, AreSoughtAmongManyTrianglesAtOneVertex) {
-  constexpr std::uint32_t kCount = 200'000;
-  TriangleMesh mesh;
-  mesh.vertices.emplace_back(0.0, 0.0, 1.0);
-  for (std::uint32_t i = 0; i < kCount; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCount;
-    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0.0);
-    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % kCount});
-  }
-  collapse_needles(mesh, kFlat);
-  EXPECT_EQ(mesh.triangles.size(), kCount);
-}
-
 /// A vertex beside both ends, but in no triangle with both: its edges to them would become one, with more triangles.
 TEST(Needles, StayIfTheSurfaceWouldJoinItself) {
   TriangleMesh mesh;

@@ -68,9 +68,9 @@ void add_near(const NearTriangles& near, const Vector3d& center, double half_edg
 }
 
 /// Leaves out needles and the triangles that are no higher than `flat`, closes the slits that they leave, and joins the
-/// triangles of flat faces.
-void leave_out_flat(TriangleMesh& mesh, double flat) {
-  collapse_needles(mesh, flat);
+/// triangles of flat faces. Returns the vertices to which others were pulled.
+std::vector<bool> leave_out_flat(TriangleMesh& mesh, double flat) {
+  std::vector<bool> pulled_to = collapse_needles(mesh, flat);
   std::erase_if(mesh.triangles, [&](const auto& t) {
     const Vector3d& a = mesh.vertices[t[0]];
     const Vector3d& b = mesh.vertices[t[1]];
@@ -80,6 +80,7 @@ void leave_out_flat(TriangleMesh& mesh, double flat) {
   });
   close_slits(mesh, flat);
   remove_flat_vertices(mesh, flat);
+  return pulled_to;
 }
 
 /// Returns the height of a point above the plane of a facet [m].
@@ -168,8 +169,9 @@ SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(s
   BodyMesh body(surface);
   TriangleMesh& mesh = body.mesh;
   const bool solid = std::find(body.in_shell.begin(), body.in_shell.end(), true) == body.in_shell.end();
+  std::vector<bool> pulled_to;
   if (solid) {
-    leave_out_flat(mesh, flat);
+    pulled_to = leave_out_flat(mesh, flat);
     body.in_shell.assign(mesh.triangles.size(), false);
   }
   const std::vector<Vector3d> normals = scene_compiler::face_normals(mesh);
@@ -203,6 +205,21 @@ SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(s
   }
   tree_ = TriangleTree(std::move(triangles));
   bar_crossing(mesh);
+  if (solid) bar_turned(surface, mesh, pulled_to);
+}
+
+/// Where needles went, a facet may have turned over. One that tells the side has free space above it and the solid
+/// below.
+void SurfaceFacets::bar_turned(const SolidSurface& surface, const TriangleMesh& mesh,
+                               const std::vector<bool>& pulled_to) {
+  for (std::size_t t = 0; t < facets_.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    if (!valid_[t] || std::none_of(triangle.begin(), triangle.end(), [&](auto v) { return pulled_to[v]; })) continue;
+    const Vector3d center =
+        (mesh.vertices[triangle[0]] + mesh.vertices[triangle[1]] + mesh.vertices[triangle[2]]) / 3.0;
+    const Vector3d off = 2.0 * flat_ * face_normal(facets_[t]);
+    valid_[t] = surface.signed_distance(center + off) > 0.0 && surface.signed_distance(center - off) < 0.0;
+  }
 }
 
 /// The facets that meet a facet of another component do not tell the side: beyond the line in which they meet they lie

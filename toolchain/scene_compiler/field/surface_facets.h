@@ -15,12 +15,12 @@
 namespace godobject::scene_compiler {
 
 /// The facets of a surface's solids: its triangles, without those that are no higher than a length `flat` (exporters
-/// leave such slivers, often folded). Their neighbours close the slits. Each step of that moves the surface by 1.5 times
-/// that length at most.
+/// leave such slivers, often folded). Their neighbours close the slits. Each step of that moves the surface by 1.5
+/// times that length at most.
 ///
 /// A facet of a shell, one without area, one with an edge at which the surface is open, folded or branched, and one
-/// that meets another component, does not tell the side of a point. Near it there are no facets. A dilated surface is
-/// round and has none.
+/// that meets another component, does not tell the side of a point, nor does one that turned over where slivers were.
+/// Near it there are no facets. A dilated surface is round and has none.
 class SurfaceFacets {
  public:
   SurfaceFacets() = default;
@@ -47,6 +47,7 @@ class SurfaceFacets {
 
  private:
   void bar_crossing(const TriangleMesh& mesh);
+  void bar_turned(const SolidSurface& surface, const TriangleMesh& mesh, const std::vector<bool>& pulled_to);
 
   std::vector<format::Facet> facets_;
   std::vector<char> valid_;

@@ -45,12 +45,15 @@ class Needles {
     }
   }
 
-  void collapse() {
+  std::vector<bool> collapse() {
     for (bool any = true; any;) {  // a pull may make needles of the triangles about it
       any = false;
       for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) any = collapse_triangle(t) || any;
     }
     std::erase_if(mesh_.triangles, is_gone);
+    std::vector<bool> moved(pulled_.size());
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = !pulled_[v].empty();
+    return moved;
   }
 
  private:
@@ -71,10 +74,11 @@ class Needles {
   bool pull(std::uint32_t from, std::uint32_t to) {
     const auto is_far = [&](auto v) { return (mesh_.vertices[v] - mesh_.vertices[to]).norm() > longest_; };
     if (is_far(from) || std::any_of(pulled_[from].begin(), pulled_[from].end(), is_far)) return false;
-    if (joins_the_surface(from, to) || turns_a_triangle(from, to)) return false;
+    if (joins_the_surface(from, to)) return false;
 
     pulled_[to].push_back(from);
-    pulled_[to].insert(pulled_[to].end(), pulled_[from].begin(), pulled_[from].end());
+    const std::vector<std::uint32_t> with_it = std::exchange(pulled_[from], {});
+    pulled_[to].insert(pulled_[to].end(), with_it.begin(), with_it.end());
     for (const std::uint32_t t : std::exchange(about_[from], {})) {
       Triangle& triangle = mesh_.triangles[t];
       if (has(triangle, to)) {
@@ -121,19 +125,6 @@ class Needles {
     });
   }
 
-  /// True if a triangle that stays and is higher than `flat` would turn over.
-  bool turns_a_triangle(std::uint32_t from, std::uint32_t to) const {
-    return std::any_of(about_[from].begin(), about_[from].end(), [&](std::uint32_t t) {
-      const Triangle& triangle = mesh_.triangles[t];
-      if (has(triangle, to)) return false;
-      const Corners before = corners_of(triangle);
-      Corners after = before;
-      after[static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), from) - triangle.begin())] =
-          mesh_.vertices[to];
-      return area(before).dot(area(after)) <= 0.0 && is_higher(before, flat_);
-    });
-  }
-
   Corners corners_of(const Triangle& t) const {
     return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
   }
@@ -164,6 +155,6 @@ class Needles {
 
 }  // namespace
 
-void collapse_needles(TriangleMesh& mesh, double flat) { Needles(mesh, flat).collapse(); }
+std::vector<bool> collapse_needles(TriangleMesh& mesh, double flat) { return Needles(mesh, flat).collapse(); }
 
 }  // namespace godobject::scene_compiler
