@@ -109,6 +109,7 @@ TEST(Needles, GoInRows) {
           edge.high = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
         }
         const std::vector<Vector3d> vertices = mesh.vertices;
+        if (number % 2 != 0) std::reverse(mesh.triangles.begin(), mesh.triangles.end());
         collapse_needles(mesh, kFlat);
         expect_done(mesh, vertices);
         if (count * step <= 1.0) {
@@ -150,6 +151,20 @@ TEST(Needles, OfTinyBodiesLeaveNoneFoldedOntoItself) {
       expect_done(mesh, body.vertices);
     }
   }
+}
+
+/// By hand: the second triangle is a needle, whose collapse pulls the upper vertex of the first one down. Only then is
+/// the first triangle, which was looked at before, low enough to be a needle.
+TEST(Needles, AreFoundWhereAPullMakesThem) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0.0, 0.0, 0.0}, {1.3, 0.0, 0.0}, {0.65, 1.2, 0.0}, {0.95, 0.6, 0.0}, {30.0, 30.0, 0.0}};
+  for (Vector3d& v : mesh.vertices) v *= kFlat;
+  mesh.triangles = {{0, 1, 2}};
+  collapse_needles(mesh, kFlat);
+  EXPECT_EQ(mesh.triangles.size(), 1u) << "too high";
+  mesh.triangles = {{0, 1, 2}, {2, 3, 4}};
+  collapse_needles(mesh, kFlat);
+  EXPECT_TRUE(mesh.triangles.empty());
 }
 
 /// A vertex beside both ends, but in no triangle with both: its edges to them would become one, with more triangles.

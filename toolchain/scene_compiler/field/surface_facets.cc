@@ -72,11 +72,7 @@ void add_near(const NearTriangles& near, const Vector3d& center, double half_edg
 std::vector<bool> leave_out_flat(TriangleMesh& mesh, double flat) {
   std::vector<bool> pulled_to = collapse_needles(mesh, flat);
   std::erase_if(mesh.triangles, [&](const auto& t) {
-    const Vector3d& a = mesh.vertices[t[0]];
-    const Vector3d& b = mesh.vertices[t[1]];
-    const Vector3d& c = mesh.vertices[t[2]];
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    return (b - a).cross(c - a).norm() <= flat * longest;
+    return !is_higher(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], flat);
   });
   close_slits(mesh, flat);
   remove_flat_vertices(mesh, flat);
@@ -208,8 +204,8 @@ SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(s
   if (solid) bar_turned(surface, mesh, pulled_to);
 }
 
-/// Where needles went, a facet may have turned over. One that tells the side has free space above it and the solid
-/// below.
+/// Bars the facets that turned over as needles were collapsed. A facet that tells the side has free space above it and
+/// the solid below it.
 void SurfaceFacets::bar_turned(const SolidSurface& surface, const TriangleMesh& mesh,
                                const std::vector<bool>& pulled_to) {
   for (std::size_t t = 0; t < facets_.size(); ++t) {

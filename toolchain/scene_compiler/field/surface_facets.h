@@ -15,12 +15,12 @@
 namespace godobject::scene_compiler {
 
 /// The facets of a surface's solids: its triangles, without those that are no higher than a length `flat` (exporters
-/// leave such slivers, often folded). Their neighbours close the slits. Each step of that moves the surface by 1.5
-/// times that length at most.
+/// leave such slivers, often folded). Needles are collapsed, slivers left out, and slits closed by their neighbours:
+/// three steps, each of which moves the surface by 1.5 times that length at most.
 ///
-/// A facet of a shell, one without area, one with an edge at which the surface is open, folded or branched, and one
-/// that meets another component, does not tell the side of a point, nor does one that turned over where slivers were.
-/// Near it there are no facets. A dilated surface is round and has none.
+/// Some facets do not tell the side of a point: one of a shell, one without area, one with an edge at which the surface
+/// is open, folded or branched, one that meets another component, and one that turned over as a needle was collapsed.
+/// Near such a facet there are no facets. A dilated surface is round and has none.
 class SurfaceFacets {
  public:
   SurfaceFacets() = default;
@@ -28,7 +28,7 @@ class SurfaceFacets {
 
   const std::vector<format::Facet>& all() const { return facets_; }
   bool empty() const { return facets_.empty(); }
-  double flat() const { return flat_; }  ///< by which a step moves the surface at most [m]
+  double flat() const { return flat_; }  ///< largest way of the surface in one of these steps [m]
 
   /// Returns the facets that may be the nearest ones of a point in the cube about `center`, ascending; none if one
   /// of them does not tell the side, if there are more than format::kMostFacets, or if they lie in more than 24 planes.

@@ -13,6 +13,7 @@
 #include "toolchain/scene_compiler/mesh/mesh_import.h"
 #include "toolchain/scene_compiler/mesh/orientation.h"
 #include "toolchain/scene_compiler/mesh/slits.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -95,11 +96,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vector3d>& vertices, double to
 
 bool has_no_area(const std::vector<Vector3d>& vertices, const Triangle& t, double tolerance) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
-  const Vector3d e0 = vertices[t[1]] - vertices[t[0]];
-  const Vector3d e1 = vertices[t[2]] - vertices[t[1]];
-  const Vector3d e2 = vertices[t[0]] - vertices[t[2]];
-  const double longest = std::sqrt(std::max({e0.squaredNorm(), e1.squaredNorm(), e2.squaredNorm()}));
-  return e0.cross(e2).norm() <= longest * kThinnest * tolerance;
+  return !is_higher(vertices[t[0]], vertices[t[1]], vertices[t[2]], kThinnest * tolerance);
 }
 
 /// Drops all but one of the triangles on the same three corners. The majority's winding stays. If both senses balance,

@@ -11,24 +11,16 @@
 
 #include <Eigen/Geometry>
 
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
+
 namespace godobject::scene_compiler {
 namespace {
 
 using Eigen::Vector3d;
 using Triangle = std::array<std::uint32_t, 3>;
-using Corners = std::array<Vector3d, 3>;
 
 bool has(const Triangle& triangle, std::uint32_t vertex) {
   return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
-}
-
-/// Returns twice the area of a triangle along its normal.
-Vector3d area(const Corners& corners) { return (corners[1] - corners[0]).cross(corners[2] - corners[0]); }
-
-bool is_higher(const Corners& corners, double height) {
-  double longest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (corners[(k + 1) % 3] - corners[k]).norm());
-  return area(corners).norm() > height * longest;
 }
 
 /// The triangles about each vertex, while needles go.
@@ -51,9 +43,9 @@ class Needles {
       for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) any = collapse_triangle(t) || any;
     }
     std::erase_if(mesh_.triangles, is_gone);
-    std::vector<bool> moved(pulled_.size());
-    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = !pulled_[v].empty();
-    return moved;
+    std::vector<bool> pulled_to(pulled_.size());
+    for (std::size_t v = 0; v < pulled_to.size(); ++v) pulled_to[v] = !pulled_[v].empty();
+    return pulled_to;
   }
 
  private:
@@ -62,10 +54,13 @@ class Needles {
   bool collapse_triangle(std::size_t number) {
     const Triangle triangle = mesh_.triangles[number];
     if (is_gone(triangle)) return false;
-    const Corners corners = corners_of(triangle);
+    const Vector3d& a = mesh_.vertices[triangle[0]];
+    const Vector3d& b = mesh_.vertices[triangle[1]];
+    const Vector3d& c = mesh_.vertices[triangle[2]];
+    const double side[3] = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      if ((corners[next] - corners[k]).norm() > longest_ || is_higher(corners, flat_)) continue;
+      if (side[k] > longest_ || is_higher(a, b, c, flat_)) continue;
       if (pull(triangle[k], triangle[next]) || pull(triangle[next], triangle[k])) return true;
     }
     return false;
@@ -123,10 +118,6 @@ class Needles {
     return std::any_of(sides.begin(), sides.end(), [&](const auto& s) {
       return std::find(of_target.begin(), of_target.end(), s) != of_target.end();
     });
-  }
-
-  Corners corners_of(const Triangle& t) const {
-    return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
   }
 
   static void make_set(std::vector<std::uint32_t>& numbers) {

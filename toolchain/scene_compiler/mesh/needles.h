@@ -6,10 +6,10 @@
 
 namespace godobject::scene_compiler {
 
-/// A needle is a triangle that is no higher than `flat` [m] and has a side of sqrt(2) times that length at most: two
-/// vertices that are no more than `flat` apart along an edge, nor across it, are no farther apart than that. Pulls one
-/// end of such a side to the other one and drops the triangles that had both, until no needle is left that may go. So
-/// needles go without a slit between their long sides, which close_slits cannot close.
+/// Collapses needles. A needle is a triangle that is no higher than `flat` [m] and has a side of sqrt(2) times that
+/// length at most: two vertices are no farther apart than that if they are at most `flat` apart along an edge and
+/// across it. One end of the side is pulled to the other one, and the triangles that had both are dropped, until no
+/// needle is left that may go. Without this, a needle that is left out leaves a slit that close_slits cannot close.
 ///
 /// No vertex is pulled farther than sqrt(2) flat. A needle stays if the surface would join itself. In a cluster of
 /// vertices triangles about the needles may turn over. Vertices of no triangle stay in `mesh.vertices`. Returns, for

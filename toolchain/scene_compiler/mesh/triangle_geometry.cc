@@ -1,5 +1,6 @@
 #include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -34,6 +35,11 @@ Vector3d nearest_point_on_triangle(const Vector3d& p, const Vector3d& a, const V
   if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return b + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
   const double scale = 1.0 / (va + vb + vc);
   return a + (vb * scale) * ab + (vc * scale) * ac;
+}
+
+bool is_higher(const Vector3d& a, const Vector3d& b, const Vector3d& c, double height) noexcept {
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return (b - a).cross(c - a).norm() > height * longest;
 }
 
 void SolidAngle::add(const Vector3d& a, const Vector3d& b, const Vector3d& c) noexcept {

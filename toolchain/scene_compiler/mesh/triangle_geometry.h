@@ -8,6 +8,9 @@ namespace godobject::scene_compiler {
 Eigen::Vector3d nearest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c) noexcept;
 
+/// Tells whether the triangle a, b, c is higher than `height` above its longest side [m].
+bool is_higher(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double height) noexcept;
+
 /// The solid angle of many triangles seen from a point p [sr], positive for a triangle whose back p sees (p inside of a
 /// closed surface: 4 pi in all). Half of a triangle's angle is the argument of a complex number (van Oosterom and
 /// Strackee 1983). Arguments add up in a product, so that all triangles need one arc tangent.
