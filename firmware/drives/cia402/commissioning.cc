@@ -87,15 +87,15 @@ class IdleCycles {
   hal::JointReading reading_;
 };
 
-[[noreturn]] void refuse(const hal::CanDrives& drives, const std::vector<std::string>& names) {
-  throw Failure(ExitCode::kUnavailable, explain(drives.alarm_detail(), names));
+Failure alarm_of(const hal::CanDrives& drives, const std::vector<std::string>& names) {
+  return Failure(ExitCode::kUnavailable, explain(drives.alarm_detail(), names));
 }
 
 /// Waits until all drives answer; then none may have an alarm.
 void settle(IdleCycles& cycles, const hal::CanDrives& drives, const std::vector<std::string>& names) {
   const hal::JointReading* reading = nullptr;
   for (int k = 0; k < kSettle; ++k) reading = &cycles.run(hal::PowerRequest::kOff);
-  if (reading->alarm != hal::Alarm::kNone) refuse(drives, names);
+  if (reading->alarm != hal::Alarm::kNone) throw alarm_of(drives, names);
   for (int i = 0; i < drives.joint_count(); ++i) {
     if (reading->state[static_cast<std::size_t>(i)] == hal::DriveState::kOff) continue;
     throw Failure(ExitCode::kUnavailable,
@@ -110,7 +110,7 @@ void recover(IdleCycles& cycles, const hal::CanDrives& drives, int joint, const 
     const bool off = reading.state[static_cast<std::size_t>(joint)] == hal::DriveState::kOff;
     if (k > 2 && off && reading.alarm == hal::Alarm::kNone) return;
   }
-  refuse(drives, names);
+  throw alarm_of(drives, names);
 }
 
 void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, int deadline_ms,
@@ -122,7 +122,7 @@ void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, int dea
     const hal::JointReading& reading = cycles.run(hal::PowerRequest::kOff);
     const hal::cia402::AlarmDetail& alarm = drives.alarm_detail();
     if (alarm.alarm != hal::Alarm::kNone) {
-      if (alarm.alarm != hal::Alarm::kDriveError || alarm.joint != joint) refuse(drives, names);
+      if (alarm.alarm != hal::Alarm::kDriveError || alarm.joint != joint) throw alarm_of(drives, names);
       trial.emergency = static_cast<std::uint16_t>(alarm.found);
     }
     trial.fault = reading.state[static_cast<std::size_t>(joint)] == hal::DriveState::kFault;
