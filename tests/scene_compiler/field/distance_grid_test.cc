@@ -2,13 +2,16 @@
 #include "toolchain/scene_compiler/field/brick_packing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "core/scene/voxelmap.h"
 #include "tests/scene_compiler/test_meshes.h"
 #include "toolchain/command_line/failure.h"
+#include "toolchain/scene_compiler/field/brick_lattice.h"
 #include "toolchain/scene_compiler/field/distance_transform.h"
 #include "toolchain/scene_compiler/field/refinement.h"
 
@@ -154,6 +157,41 @@ TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
   expect_lower_bound_holds(open, 40000);
   expect_lower_bound_holds(field_of(load("teapot", 0.037), 0.003), 40000);
   expect_lower_bound_holds(field_of(load("sheet_open_2tri", 0.3), 0.004), 20000);
+}
+
+/// A box with a cavity. The cavity and the wall above it are wide enough for positions far from all triangles.
+TEST(DistanceGrid, BoundsDistancesFarFromTheSurfaceWithTheirSign) {
+  const double h = 0.001;
+  const Eigen::AlignedBox3d outer(Vector3d::Constant(-0.070), Vector3d(0.070, 0.070, 0.190));
+  const Eigen::AlignedBox3d cavity(Vector3d::Constant(-0.060), Vector3d::Constant(0.060));
+  TriangleMesh mesh = box(outer.min(), outer.max());
+  const TriangleMesh hole = box(cavity.min(), cavity.max());
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), hole.vertices.begin(), hole.vertices.end());
+  for (const auto& t : hole.triangles) mesh.triangles.push_back({t[0] + first, t[2] + first, t[1] + first});
+  const SolidSurface surface(std::move(mesh), SurfaceKind::kSolid, 2.0 * h);
+  ASSERT_TRUE(surface.is_that_of_sealed_solids());
+  const DistanceGrid grid = make_distance_grid(surface, h, default_band(h, 1.5 * h), {});
+  BrickLattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis) lattice.size[axis] = grid.grid.bricks[axis];
+  const Eigen::Map<const Vector3d> origin(grid.grid.origin);
+  const double edge = format::kBrickCells * h;
+  int far_inside = 0;
+  int far_outside = 0;
+  for (std::size_t i = 0; i < grid.index.size(); ++i) {
+    if ((grid.index[i] & format::index_entry::kFar) == 0) continue;
+    const BrickPosition p = lattice.position(i);
+    const Vector3d at = origin + edge * Vector3d(p[0] + 0.5, p[1] + 0.5, p[2] + 0.5);
+    const bool inside = outer.contains(at) && !cavity.contains(at);
+    ASSERT_EQ((grid.index[i] & format::index_entry::kInside) != 0, inside) << at.transpose();
+    const double distance = std::abs(surface.signed_distance(at));
+    if (distance > 13.0 * edge) ++(inside ? far_inside : far_outside);
+    if (inside) continue;
+    ASSERT_LE(grid.far_clearance[i], distance) << at.transpose();
+    ASSERT_GE(grid.far_clearance[i], (6.0 / 7.0) * distance - h) << at.transpose();
+  }
+  EXPECT_GT(far_inside, 20);
+  EXPECT_GT(far_outside, 20);
 }
 
 TEST(DistanceGrid, RefusesAGridBeyondItsLimitAndNamesTheVoxel) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -12,7 +13,9 @@
 #include "toolchain/scene_compiler/field/brick_lattice.h"
 #include "toolchain/scene_compiler/field/clearance_bounds.h"
 #include "toolchain/scene_compiler/field/distance_probe.h"
+#include "toolchain/scene_compiler/field/distance_transform.h"
 #include "toolchain/scene_compiler/field/seam_map.h"
+#include "toolchain/scene_compiler/mesh/triangle_geometry.h"
 
 namespace godobject::scene_compiler {
 namespace {
@@ -23,9 +26,73 @@ using format::kBrickNodes;
 
 constexpr double kHalfBrickEdge = 0.5 * kBrickCells;                           // [voxels]
 constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // [voxels]
+/// Positions at least this many brick edges from those with a surface need no distance from the mesh: the bound that
+/// they get is at most two half diagonals of a brick smaller, a seventh (chosen).
+constexpr float kFarSteps = 12.0f;
 
 /// The nodes that a brick position owns: all but those on its upper faces.
 using Block = std::array<float, kBrickCells * kBrickCells * kBrickCells>;
+
+/// The brick positions that hold a surface.
+class SurfacePositions {
+ public:
+  using Triangle = std::array<Vector3d, 3>;
+
+  /// `origin`: the lower corner of position 0. `edge`: of a brick [m].
+  SurfacePositions(const BrickLattice& bricks, const Vector3d& origin, double edge)
+      : bricks_(bricks), origin_(origin), edge_(edge), holds_(bricks.count()) {}
+
+  /// Adds the positions whose bricks the triangle may meet: it comes nearer to the centre than a corner does.
+  void add(const Triangle& triangle) {
+    constexpr double kRounding = 1e-6;  // of a brick's edge: a triangle in the face between two bricks is in both
+    const auto& [a, b, c] = triangle;
+    const Vector3d low = (a.cwiseMin(b).cwiseMin(c) - origin_) / edge_;
+    const Vector3d high = (a.cwiseMax(b).cwiseMax(c) - origin_) / edge_;
+    Range range;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      range.begin[i] = std::max(0, static_cast<int>(std::floor(low[axis] - kRounding)));
+      range.end[i] = std::min(bricks_.size[i], static_cast<int>(std::floor(high[axis] + kRounding)) + 1);
+    }
+    add(triangle, range);
+  }
+
+  const std::vector<bool>& positions() const { return holds_; }
+
+ private:
+  struct Range {
+    BrickPosition begin, end;
+  };
+
+  void add(const Triangle& triangle, const Range& range) {
+    std::size_t longest = 0;
+    Vector3d low, high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int length = range.end[axis] - range.begin[axis];
+      if (length > range.end[longest] - range.begin[longest]) longest = axis;
+      low[static_cast<int>(axis)] = range.begin[axis];
+      high[static_cast<int>(axis)] = range.end[axis];
+    }
+    const Vector3d middle = origin_ + 0.5 * edge_ * (low + high);
+    const double reach = 0.5 * edge_ * (high - low).norm() * (1.0 + 1e-6);
+    const auto& [a, b, c] = triangle;
+    if ((nearest_point_on_triangle(middle, a, b, c) - middle).norm() > reach) return;
+    if (range.end[longest] - range.begin[longest] <= 1) {
+      holds_[bricks_.number(range.begin)] = true;
+      return;
+    }
+    Range below = range;
+    Range above = range;
+    below.end[longest] = above.begin[longest] = std::midpoint(range.begin[longest], range.end[longest]);
+    add(triangle, below);
+    add(triangle, above);
+  }
+
+  const BrickLattice& bricks_;
+  Vector3d origin_;
+  double edge_;
+  std::vector<bool> holds_;
+};
 
 class GridBuilder {
  public:
@@ -47,6 +114,7 @@ class GridBuilder {
     constexpr double kMiddle = 0.5 * kBrickCells;
     return node(brick, kMiddle, kMiddle, kMiddle);
   }
+  std::vector<bool> bound_far_positions();
   bool is_boundary(const BrickPosition& p) const;
   void require_free_boundary(bool inside, const BrickPosition& p) const;
   std::vector<std::size_t> first_bricks() const;
@@ -64,7 +132,7 @@ class GridBuilder {
   Vector3d high_ = -low_;
   Vector3d origin_ = Vector3d::Zero();
   BrickLattice bricks_;
-  std::vector<float> center_;          // signed distance at each brick's centre
+  std::vector<float> center_;          // signed distance at each brick's centre; of far ones a bound of it
   std::vector<std::int16_t> winding_;  // winding number there, or kUncounted
   std::vector<bool> evaluated_;        // all nodes are known
   BrickLattice block_lattice_;         // one more than bricks_ on each axis, for the outer nodes
@@ -108,9 +176,53 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
   block_lattice_.size = moved(bricks_.size, {1, 1, 1});
 }
 
+/// Gives the positions far from all triangles a lower bound of the distance, with its sign, in place of the distance:
+/// that from the nearest position with a surface. Where all solids are sealed the sign is one for each region of far
+/// positions, since the way from one to the next meets no triangle. Returns these positions; none if the solids are
+/// not sealed.
+///
+/// In the middle of a ball all triangles are equally near, and a search for the nearest one visits them all.
+std::vector<bool> GridBuilder::bound_far_positions() {
+  std::vector<bool> is_far(bricks_.count());
+  if (!surface_.is_that_of_sealed_solids()) return is_far;
+  SurfacePositions surface(bricks_, origin_, kBrickCells * voxel_size_);
+  const TriangleMesh& mesh = surface_.mesh();
+  for (const auto& t : mesh.triangles) surface.add({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  const std::vector<float> squared = squared_distance_transform(bricks_, surface.positions());
+  for (std::size_t i = 0; i < squared.size(); ++i) {
+    if (squared[i] < kFarSteps * kFarSteps) continue;
+    const double steps = std::sqrt(static_cast<double>(squared[i])) * (1.0 - 1e-6);
+    center_[i] = static_cast<float>((kBrickCells * steps - kHalfBrickDiagonal) * voxel_size_);
+    winding_[i] = kUncounted;
+    is_far[i] = true;
+  }
+  std::vector<bool> has_sign(is_far.size());
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < is_far.size(); ++i) {
+    if (!is_far[i] || has_sign[i]) continue;
+    const bool inside = surface_.winding_number(middle(bricks_.position(i))) > 0.5;
+    has_sign[i] = true;
+    for (open.push_back(i); !open.empty();) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      if (inside) center_[at] = -center_[at];
+      for (const BrickPosition& step : kFaceSteps) {
+        const BrickPosition q = moved(bricks_.position(at), step);
+        if (!bricks_.contains(q)) continue;
+        const std::size_t neighbour = bricks_.number(q);
+        if (!is_far[neighbour] || has_sign[neighbour]) continue;
+        has_sign[neighbour] = true;
+        open.push_back(neighbour);
+      }
+    }
+  }
+  return is_far;
+}
+
 void GridBuilder::classify(const parallel::Progress& progress) {
   center_.resize(bricks_.count());
   winding_.resize(bricks_.count());
+  const std::vector<bool> is_far = bound_far_positions();
   const auto rows = static_cast<std::size_t>(bricks_.size[1]) * static_cast<std::size_t>(bricks_.size[2]);
   const auto row_length = static_cast<std::size_t>(bricks_.size[0]);
   parallel::for_each_index(
@@ -118,6 +230,7 @@ void GridBuilder::classify(const parallel::Progress& progress) {
       [&](std::size_t row) {
         DistanceProbe probe(surface_);
         for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
+          if (is_far[i]) continue;
           center_[i] = static_cast<float>(probe.signed_distance(middle(bricks_.position(i))));
           winding_[i] = probe.winding().value_or(kUncounted);
         }
