@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "toolchain/report/extremes/setup.h"
+
+namespace godobject::test {
+
+/// The cycles of a session as a few numbers. The sums weigh each cycle differently, and each direction
+/// of space, so that a change of any cycle, direction or frame changes them.
+struct RecordedMotion {
+  enum Sum : std::uint8_t {
+    kPosition,  ///< of the god object from the world's place, over the scale
+    kRotation,  ///< of the god object from the device, as a rotation vector
+    kSpring,    ///< force and torque, over stiffness and scale
+    kDamping,   ///< the same of the part that damps
+    kDepth,     ///< CycleReport::penetration over the scale
+    kSums
+  };
+  enum Count : std::uint8_t { kRefused, kContacts, kSubsteps, kDropped, kUnconverged, kFree, kCounts = kFree + 7 };
+  static constexpr std::array<const char*, kSums> kSumNames = {"position", "rotation", "spring", "damping", "depth"};
+  static constexpr std::array<const char*, kFree> kCountNames = {"refused", "contacts", "substeps", "dropped",
+                                                                 "unconverged"};
+
+  std::array<double, kSums> sum{};
+  std::array<double, kSums> size{};           ///< sum of the terms' sizes: what rounding is relative to
+  std::array<std::int64_t, kCounts> count{};  ///< over the cycles; from kFree on the cycles of each Outcome
+};
+
+/// A session that is recorded.
+struct RecordedSession {
+  std::string name;
+  report::Setup setup;
+};
+
+/// The sessions that are recorded: random worlds, bodies and parameters, and motions that do not depend on the answers.
+std::vector<RecordedSession> recorded_sessions();
+
+/// Runs a session; `work` is a folder for a world that the scene compiler makes.
+RecordedMotion run_recorded(const report::Setup& setup, const std::filesystem::path& work);
+
+/// The lines of recorded_motions.csv, without their ends.
+std::string record_header();
+std::string record_line(const std::string& session, const RecordedMotion& motion);
+
+}  // namespace godobject::test
