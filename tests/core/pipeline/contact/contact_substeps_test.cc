@@ -812,6 +812,22 @@ TEST(ContactSubsteps, LeadEdgesOutThatOverlapAtTheStart) {
   }
 }
 
+/// A session that has seen all edges apart and begins again leads edges out that overlap at its new start.
+TEST(ContactSubsteps, LeadEdgesOutThatOverlapAtANewStart) {
+  KeelInRoof scene;
+  AnalyticRun<AnalyticField, EdgeCycle> run(scene.field, scene.body, pose_at({0.0, 0.0, 0.02}));
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {scene.moving.view(), scene.still.view()};
+  for (int cycle = 0; cycle < 5; ++cycle) ASSERT_EQ(run.step(pose_at({0.0, 0.0, 2.0 * kSubstepMargin})), Status::kOk);
+  ASSERT_FALSE(run.cycle.memory->edges_may_overlap);
+  run.cycle.memory->reset();
+  run.state = ProxyState{};
+  const Pose start = pose_at({0.0, 0.0, -0.5 * kSubstepVoxel});
+  run.state.H_WS = start;
+  for (int cycle = 0; cycle < 200; ++cycle) ASSERT_EQ(run.step(start), Status::kOk);
+  EXPECT_NEAR(run.state.H_WS.translation.z(), kSubstepMargin, 0.1 * kSubstepMargin);
+}
+
 /// Two pairs that overlap come out together, in whatever directions: the first that is out stays a contact. The force
 /// under a still device comes to rest.
 TEST(ContactSubsteps, LeadTwoOverlapsOutTogether) {
