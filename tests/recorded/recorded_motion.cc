@@ -1,13 +1,17 @@
 #include "tests/recorded/recorded_motion.h"
 
+#include <algorithm>
 #include <cmath>
-#include <memory>
+#include <cstdlib>
 #include <random>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "godobject/pose.h"
 #include "godobject/report.h"
+#include "toolchain/report/extremes/compiled_world.h"
 #include "toolchain/report/extremes/rig.h"
 #include "toolchain/report/extremes/run.h"
 
@@ -15,9 +19,6 @@ namespace godobject::test {
 namespace {
 
 using report::Setup;
-
-constexpr int kAnalytic = 160;
-constexpr int kCompiled = 4;
 
 /// Parts of no direction alike, so that two axes that change places change the sum.
 const Vector3 kParts(0.9, -0.7, 0.5);
@@ -38,55 +39,106 @@ class Sums {
   double weight_ = 1.0;
 };
 
-}  // namespace
-
-std::vector<RecordedSession> recorded_sessions() {
+/// Random worlds and parameters, and a motion that leads into contact.
+void add_any(std::vector<RecordedSession>& sessions) {
   constexpr const char* kMotions[] = {"press", "spin", "press", "jump"};
-  constexpr const char* kMeshWorlds[] = {"mesh-box", "mesh-turned", "mesh-cavity", "mesh-ball"};
-  constexpr const char* kMeshBodies[] = {"ell", "box", "box", "center"};
-  std::vector<RecordedSession> sessions;
   std::mt19937 random(20);
-  while (sessions.size() < kAnalytic) {
+  for (int i = 0; i < 160;) {
     Setup setup = report::any_setup(random);
     if (setup.world == "compiled") continue;
-    setup.motion = kMotions[sessions.size() % 4];
+    setup.motion = kMotions[i % 4];
     setup.cycles = 150;
-    sessions.push_back({fmt::format("{}-{:03}", setup.world, sessions.size()), setup});
+    sessions.push_back({fmt::format("any-{:03}-{}", i++, setup.world), setup});
   }
-  for (std::size_t i = 0; i < kCompiled; ++i) {
+}
+
+/// The extreme families of the report; faces of many points with friction, which presses and turns.
+void add_extremes(std::vector<RecordedSession>& sessions) {
+  std::mt19937 random(21);
+  for (std::size_t row = 0; row < report::kRowCount; ++row) {
+    for (int i = 0; i < 8; ++i) {
+      Setup setup = report::setup_of(report::kRows[row], random);
+      if (setup.motion == "seek") setup.motion = i % 2 == 0 ? "press" : "spin";
+      setup.cycles = std::min(setup.cycles, 100);
+      setup.friction = i % 4 != 0;
+      sessions.push_back({fmt::format("row-{}-{}-{}", row, i, setup.world), setup});
+    }
+  }
+}
+
+/// Sessions in worlds from the scene compiler, with edges, facets and a second direction.
+void add_compiled(std::vector<RecordedSession>& sessions) {
+  constexpr std::pair<const char*, const char*> kWorlds[] = {
+      {"mesh-box", "ell"},   {"mesh-box", "box"},    {"mesh-turned", "box"},  {"mesh-cavity", "box"},
+      {"mesh-plate", "ell"}, {"mesh-shell", "ball"}, {"mesh-ball", "center"}, {"mesh-box", "center"}};
+  constexpr const char* kMotions[] = {"spin", "press", "jump", "dash"};
+  std::mt19937 random(22);
+  for (const auto& [world, body] : kWorlds) {
     Setup setup = report::any_setup(random);
     setup.solver = format::Solver::kContact;
     report::choose_mesh(setup);
-    setup.world = kMeshWorlds[i];
-    setup.body = kMeshBodies[i];
-    setup.motion = "spin";
-    setup.start = 1.5;
-    setup.cycles = 500;
-    sessions.push_back({setup.world, setup});
+    setup.world = world;
+    setup.body = body;
+    for (int i = 0; i < 8; ++i) {
+      Setup session = report::any_session_in(setup, random);
+      session.motion = kMotions[i % 4];
+      session.cycles = 200;
+      session.start = i == 3 ? -0.5 : 1.5;
+      sessions.push_back({fmt::format("{}-{}-{}", world, body, i), session});
+    }
   }
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  std::istringstream in(line);
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+std::vector<RecordedSession> recorded_sessions() {
+  std::vector<RecordedSession> sessions;
+  add_any(sessions);
+  add_extremes(sessions);
+  add_compiled(sessions);
   return sessions;
 }
 
-RecordedMotion run_recorded(const Setup& setup, const std::filesystem::path& work) {
-  const std::unique_ptr<report::Rig> rig = report::make_rig(setup, work);
+RecordedWorlds::RecordedWorlds(std::filesystem::path work) : work_(std::move(work)) {}
+RecordedWorlds::~RecordedWorlds() = default;
+
+std::unique_ptr<report::Rig> RecordedWorlds::rig(const Setup& setup) {
+  if (!report::is_compiled(setup)) return report::make_rig(setup, work_);
+  if (!world_ || setup.world != world_of_.world || setup.body != world_of_.body) {
+    world_ = std::make_shared<report::CompiledWorld>(setup, work_);
+    world_of_ = setup;
+  }
+  return report::make_rig_in(world_, setup);
+}
+
+RecordedMotion RecordedWorlds::run(const Setup& setup, double disturbance) {
+  const std::unique_ptr<report::Rig> made = rig(setup);
   RecordedMotion motion;
   Sums sums(motion);
   const Pose world = report::placement(setup);
   const double force = setup.stiffness * setup.scale;
-  Pose before;
-  bool has_before = false;
-  for (const Pose& H_WD : report::device_path(setup)) {
+  std::optional<Pose> before;
+  int k = 0;
+  for (Pose H_WD : report::device_path(setup)) {
+    H_WD.translation[k % 3] += (k % 2 == 0 ? disturbance : -disturbance) * setup.scale;
+    ++k;
     Motion velocity_W;
-    if (has_before) {
-      velocity_W = {
-          (H_WD.translation - before.translation) / setup.period,
-          H_WD.rotation._transformVector(log_rotation(before.rotation.conjugate() * H_WD.rotation)) / setup.period};
+    if (before) {
+      const Quaternion turn = before->rotation.conjugate() * H_WD.rotation;
+      velocity_W = {(H_WD.translation - before->translation) / setup.period,
+                    H_WD.rotation._transformVector(log_rotation(turn)) / setup.period};
     }
     before = H_WD;
-    has_before = true;
     CycleReport r;
     sums.next_cycle();
-    if (rig->update(H_WD, velocity_W, r) != Status::kOk) {
+    if (made->update(H_WD, velocity_W, r) != Status::kOk) {
       ++motion.count[RecordedMotion::kRefused];
       continue;
     }
@@ -125,6 +177,23 @@ std::string record_line(const std::string& session, const RecordedMotion& motion
   }
   for (const std::int64_t count : motion.count) text += fmt::format(",{}", count);
   return text;
+}
+
+std::string difference(const std::string& was, const std::string& is) {
+  constexpr double kRounding = 1e-6;  // of the terms' sizes
+  constexpr double kNothing = 1e-9;   // of all sums
+  const std::vector<std::string> header = words_of(record_header());
+  const std::vector<std::string> before = words_of(was);
+  const std::vector<std::string> now = words_of(is);
+  if (before.size() != header.size() || now.size() != header.size()) return "number of columns";
+  for (std::size_t k = 1; k < header.size(); ++k) {
+    const bool is_sum = k < 1 + 2 * RecordedMotion::kSums;
+    if (is_sum && k % 2 == 0) continue;  // a size
+    const double allowed = is_sum ? kRounding * std::strtod(now[k + 1].c_str(), nullptr) + kNothing : 0.0;
+    const double change = std::strtod(now[k].c_str(), nullptr) - std::strtod(before[k].c_str(), nullptr);
+    if (!(std::abs(change) <= allowed)) return fmt::format("{} was {}, is {}", header[k], before[k], now[k]);
+  }
+  return {};
 }
 
 }  // namespace godobject::test

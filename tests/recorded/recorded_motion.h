@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "toolchain/report/extremes/rig.h"
 #include "toolchain/report/extremes/setup.h"
 
 namespace godobject::test {
@@ -38,14 +41,34 @@ struct RecordedSession {
   report::Setup setup;
 };
 
-/// The sessions that are recorded: random worlds, bodies and parameters, and motions that do not depend on the answers.
+/// Random worlds, bodies and parameters, and motions that do not depend on the answers. Those that are recorded are
+/// among them: sessions whose line stays the same if a disturbance far below any encoder's step moves the device.
 std::vector<RecordedSession> recorded_sessions();
 
-/// Runs a session; `work` is a folder for a world that the scene compiler makes.
-RecordedMotion run_recorded(const report::Setup& setup, const std::filesystem::path& work);
+/// Runs sessions; keeps the last world that the scene compiler made for the next session in it.
+class RecordedWorlds {
+ public:
+  /// `work`: a folder for scene images.
+  explicit RecordedWorlds(std::filesystem::path work);
+  ~RecordedWorlds();
+
+  /// `disturbance`: moves the device to and fro by this share of the scale.
+  RecordedMotion run(const report::Setup& setup, double disturbance = 0.0);
+
+ private:
+  std::unique_ptr<report::Rig> rig(const report::Setup& setup);
+
+  std::filesystem::path work_;
+  std::shared_ptr<const report::CompiledWorld> world_;
+  report::Setup world_of_;
+};
 
 /// The lines of recorded_motions.csv, without their ends.
 std::string record_header();
 std::string record_line(const std::string& session, const RecordedMotion& motion);
+
+/// Returns the first column in which two lines differ by more than rounding may explain, with both values. Nothing if
+/// there is none.
+std::string difference(const std::string& was, const std::string& is);
 
 }  // namespace godobject::test
