@@ -123,10 +123,22 @@ struct SolidSurface::Impl {
   TriangleTree shells;
   OpenBoundary boundary;
 
+  TriangleTree tree(bool with_shells, bool with_solids) const {
+    return tree_of(mesh, components, component_of, with_shells, with_solids);
+  }
+  bool is_solid_as_given() const;
   void classify(SurfaceKind kind);
   double winding_number(const Vector3d& p) const;
 };
 
+/// True if no component is a shell or inside out: the solids then have all triangles, wound as they are.
+bool SolidSurface::Impl::is_solid_as_given() const {
+  return std::none_of(components.begin(), components.end(),
+                      [](const Component& component) { return component.shell || component.inside_out; });
+}
+
+/// Decides what each component is, and sets the tree of the solids.
+///
 /// The mean of the whole mesh's winding number just outside and just inside of a component is its principal value ON
 /// the surface, without the jump of one. It is +1/2 all over a closed solid, 0 on an open sheet (the +-1/2 of its own
 /// two sides cancel) and -1/2 on a solid that is inside out. The values of either side alone do not tell these apart,
@@ -144,20 +156,24 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
     components[c].triangles = static_cast<std::uint32_t>(ids[c].size());
   }
   const double step = kStepOffSurface * Box::around(mesh.vertices).diagonal();
-  const TriangleTree whole = tree_of(mesh, components, component_of, true, true);
+  TriangleTree whole = tree(true, true);
   for (std::uint32_t c = 0; c < connected.count; ++c) {
     components[c].winding = principal_value(whole, samples[c], step);
     decide(components[c], kind);
   }
+  if (is_solid_as_given()) {
+    solids = std::move(whole);
+    return;
+  }
+  solids = tree(false, true);
   if (kind != SurfaceKind::kAuto) return;
 
   // Sheets above each other look like each other's solids and get turned; the rest then encloses nothing. So a
   // component must also be a solid among the solids alone, turned as they are. Otherwise its own winding number
   // decides.
-  const TriangleTree chosen = tree_of(mesh, components, component_of, false, true);
   std::vector<Component> settled = components;
   for (std::uint32_t c = 0; c < connected.count; ++c) {
-    if (components[c].shell || principal_value(chosen, samples[c], step) >= kShellLimit) continue;
+    if (components[c].shell || principal_value(solids, samples[c], step) >= kShellLimit) continue;
     std::vector<TriangleTree::Triangle> own;
     for (const std::uint32_t id : ids[c]) {
       const auto& t = mesh.triangles[id];
@@ -167,6 +183,7 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
     decide(settled[c], kind);
   }
   components = settled;
+  solids = tree(false, true);
 }
 
 double SolidSurface::Impl::winding_number(const Vector3d& p) const {
@@ -182,9 +199,8 @@ SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness
   impl_->thickness = thickness;
   impl_->dilation = dilation;
   impl_->classify(kind);
-  impl_->solids = tree_of(impl_->mesh, impl_->components, impl_->component_of, false, true);
   impl_->boundary = open_boundary(impl_->mesh, impl_->components, impl_->component_of);
-  impl_->shells = tree_of(impl_->mesh, impl_->components, impl_->component_of, true, false);
+  impl_->shells = impl_->tree(true, false);
 }
 
 SolidSurface::SolidSurface(SolidSurface&& other) noexcept = default;
