@@ -52,7 +52,7 @@ class RecordedWorlds {
   explicit RecordedWorlds(std::filesystem::path work);
   ~RecordedWorlds();
 
-  /// `disturbance`: moves the device to and fro by this share of the scale.
+  /// `disturbance`: moves the device back and forth by this share of the scale.
   RecordedMotion run(const report::Setup& setup, double disturbance = 0.0);
 
  private:
