@@ -159,8 +159,12 @@ TEST(DistanceGrid, LowerBoundHoldsBesideSeamsAndShells) {
   expect_lower_bound_holds(field_of(load("sheet_open_2tri", 0.3), 0.004), 20000);
 }
 
-/// A box with a cavity. The cavity and the wall above it are wide enough for positions far from all triangles.
-TEST(DistanceGrid, BoundsDistancesFarFromTheSurfaceWithTheirSign) {
+/// A box with a cavity, aligned and turned. The cavity and the wall above it are wide enough for positions far from all
+/// triangles.
+class FarDistances : public testing::TestWithParam<double> {};
+
+TEST_P(FarDistances, AreBoundsWithTheirSign) {
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(GetParam(), Vector3d(0.4, -0.5, 0.768).normalized()));
   const double h = 0.001;
   const Eigen::AlignedBox3d outer(Vector3d::Constant(-0.070), Vector3d(0.070, 0.070, 0.190));
   const Eigen::AlignedBox3d cavity(Vector3d::Constant(-0.060), Vector3d::Constant(0.060));
@@ -169,8 +173,9 @@ TEST(DistanceGrid, BoundsDistancesFarFromTheSurfaceWithTheirSign) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), hole.vertices.begin(), hole.vertices.end());
   for (const auto& t : hole.triangles) mesh.triangles.push_back({t[0] + first, t[2] + first, t[1] + first});
+  for (Vector3d& vertex : mesh.vertices) vertex = turn * vertex;
   const SolidSurface surface(std::move(mesh), SurfaceKind::kSolid, 2.0 * h);
-  ASSERT_TRUE(surface.is_that_of_sealed_solids());
+  ASSERT_TRUE(surface.is_only_sealed_solids());
   const DistanceGrid grid = make_distance_grid(surface, h, default_band(h, 1.5 * h), {});
   BrickLattice lattice;
   for (std::size_t axis = 0; axis < 3; ++axis) lattice.size[axis] = grid.grid.bricks[axis];
@@ -182,7 +187,8 @@ TEST(DistanceGrid, BoundsDistancesFarFromTheSurfaceWithTheirSign) {
     if ((grid.index[i] & format::index_entry::kFar) == 0) continue;
     const BrickPosition p = lattice.position(i);
     const Vector3d at = origin + edge * Vector3d(p[0] + 0.5, p[1] + 0.5, p[2] + 0.5);
-    const bool inside = outer.contains(at) && !cavity.contains(at);
+    const Vector3d in_box = turn.transpose() * at;
+    const bool inside = outer.contains(in_box) && !cavity.contains(in_box);
     ASSERT_EQ((grid.index[i] & format::index_entry::kInside) != 0, inside) << at.transpose();
     const double distance = std::abs(surface.signed_distance(at));
     if (distance > 13.0 * edge) ++(inside ? far_inside : far_outside);
@@ -193,6 +199,8 @@ TEST(DistanceGrid, BoundsDistancesFarFromTheSurfaceWithTheirSign) {
   EXPECT_GT(far_inside, 20);
   EXPECT_GT(far_outside, 20);
 }
+
+INSTANTIATE_TEST_SUITE_P(Turned, FarDistances, testing::Values(0.0, 0.7));
 
 TEST(DistanceGrid, RefusesAGridBeyondItsLimitAndNamesTheVoxel) {
   try {

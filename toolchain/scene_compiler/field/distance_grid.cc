@@ -26,14 +26,14 @@ using format::kBrickNodes;
 
 constexpr double kHalfBrickEdge = 0.5 * kBrickCells;                           // [voxels]
 constexpr double kHalfBrickDiagonal = 0.5 * kBrickCells * 1.7320508075688774;  // [voxels]
-/// Positions at least this many brick edges from those with a surface need no distance from the mesh: the bound that
-/// they get is at most two half diagonals of a brick smaller, a seventh (chosen).
-constexpr float kFarSteps = 12.0f;
+/// Positions at least this many brick edges from those that may hold a surface need no distance from the mesh: the
+/// bound that they get is at most two half diagonals of a brick smaller, a seventh (chosen).
+constexpr double kFarSteps = 12.0;
 
 /// The nodes that a brick position owns: all but those on its upper faces.
 using Block = std::array<float, kBrickCells * kBrickCells * kBrickCells>;
 
-/// The brick positions that hold a surface.
+/// The brick positions that may hold a surface.
 class SurfacePositions {
  public:
   using Triangle = std::array<Vector3d, 3>;
@@ -114,7 +114,10 @@ class GridBuilder {
     constexpr double kMiddle = 0.5 * kBrickCells;
     return node(brick, kMiddle, kMiddle, kMiddle);
   }
+  double search_radius() const { return (kHalfBrickDiagonal * voxel_size_ + band_) * (1.0 + 1e-6); }
   std::vector<bool> bound_far_positions();
+  template <class Visit>
+  void take_region(std::size_t first, std::vector<bool>& left, const Visit& visit) const;
   bool is_boundary(const BrickPosition& p) const;
   void require_free_boundary(bool inside, const BrickPosition& p) const;
   std::vector<std::size_t> first_bricks() const;
@@ -177,46 +180,65 @@ GridBuilder::GridBuilder(const SolidSurface& surface, double voxel_size, double 
 }
 
 /// Gives the positions far from all triangles a lower bound of the distance, with its sign, in place of the distance:
-/// that from the nearest position with a surface. Where all solids are sealed the sign is one for each region of far
-/// positions, since the way from one to the next meets no triangle. Returns these positions; none if the solids are
-/// not sealed.
+/// that from the nearest position that may hold a surface. Where all solids are sealed the sign is one for each region
+/// of far positions, since the way from one to the next meets no triangle. Returns these positions; none if the solids
+/// are not sealed.
 ///
 /// In the middle of a ball all triangles are equally near, and a search for the nearest one visits them all.
 std::vector<bool> GridBuilder::bound_far_positions() {
   std::vector<bool> is_far(bricks_.count());
-  if (!surface_.is_that_of_sealed_solids()) return is_far;
+  if (!surface_.is_only_sealed_solids()) return is_far;
   SurfacePositions surface(bricks_, origin_, kBrickCells * voxel_size_);
   const TriangleMesh& mesh = surface_.mesh();
   for (const auto& t : mesh.triangles) surface.add({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-  const std::vector<float> squared = squared_distance_transform(bricks_, surface.positions());
-  for (std::size_t i = 0; i < squared.size(); ++i) {
-    if (squared[i] < kFarSteps * kFarSteps) continue;
-    const double steps = std::sqrt(static_cast<double>(squared[i])) * (1.0 - 1e-6);
+  center_ = squared_distance_transform(bricks_, surface.positions());
+  const double far_steps = std::max(kFarSteps, search_radius() / (kBrickCells * voxel_size_) + 2.0);
+  for (std::size_t i = 0; i < center_.size(); ++i) {
+    const double steps = std::sqrt(static_cast<double>(center_[i])) * (1.0 - 1e-6);
+    is_far[i] = steps >= far_steps;
     center_[i] = static_cast<float>((kBrickCells * steps - kHalfBrickDiagonal) * voxel_size_);
-    winding_[i] = kUncounted;
-    is_far[i] = true;
   }
-  std::vector<bool> has_sign(is_far.size());
-  std::vector<std::size_t> open;
+  std::vector<bool> without_sign = is_far;
   for (std::size_t i = 0; i < is_far.size(); ++i) {
-    if (!is_far[i] || has_sign[i]) continue;
+    if (!without_sign[i]) continue;
     const bool inside = surface_.winding_number(middle(bricks_.position(i))) > 0.5;
-    has_sign[i] = true;
-    for (open.push_back(i); !open.empty();) {
-      const std::size_t at = open.back();
-      open.pop_back();
-      if (inside) center_[at] = -center_[at];
-      for (const BrickPosition& step : kFaceSteps) {
-        const BrickPosition q = moved(bricks_.position(at), step);
-        if (!bricks_.contains(q)) continue;
-        const std::size_t neighbour = bricks_.number(q);
-        if (!is_far[neighbour] || has_sign[neighbour]) continue;
-        has_sign[neighbour] = true;
-        open.push_back(neighbour);
+    take_region(i, without_sign, [&](std::size_t position) {
+      if (inside) center_[position] = -center_[position];
+      winding_[position] = kUncounted;
+    });
+  }
+  return is_far;
+}
+
+/// Calls visit(position) for the positions of `left` that are connected with position `first`, and takes them out of
+/// `left`. Row by row, so that few rows wait at a time.
+template <class Visit>
+void GridBuilder::take_region(std::size_t first, std::vector<bool>& left, const Visit& visit) const {
+  const auto length = static_cast<std::size_t>(bricks_.size[0]);
+  std::vector<std::size_t> waiting = {first};  // one position of each row's piece
+  while (!waiting.empty()) {
+    const std::size_t seed = waiting.back();
+    waiting.pop_back();
+    if (!left[seed]) continue;
+    const std::size_t row = seed - seed % length;
+    std::size_t begin = seed;
+    std::size_t end = seed + 1;
+    while (begin > row && left[begin - 1]) --begin;
+    while (end < row + length && left[end]) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      left[i] = false;
+      visit(i);
+    }
+    const BrickPosition at = bricks_.position(begin);
+    for (const BrickPosition& step : kFaceSteps) {
+      const BrickPosition q = moved(at, step);
+      if (step[0] != 0 || !bricks_.contains(q)) continue;
+      const std::size_t beside = bricks_.number(q);
+      for (std::size_t k = 0; k < end - begin; ++k) {
+        if (left[beside + k] && (k == 0 || !left[beside + k - 1])) waiting.push_back(beside + k);
       }
     }
   }
-  return is_far;
 }
 
 void GridBuilder::classify(const parallel::Progress& progress) {
@@ -257,11 +279,10 @@ void GridBuilder::require_free_boundary(bool inside, const BrickPosition& p) con
 /// Returns the bricks that may contain a node within the band, and far ones beside a far one of the other sign, between
 /// which the sign jumps.
 std::vector<std::size_t> GridBuilder::first_bricks() const {
-  const double search_radius = (kHalfBrickDiagonal * voxel_size_ + band_) * (1.0 + 1e-6);
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < center_.size(); ++i) {
     const BrickPosition p = bricks_.position(i);
-    bool wanted = std::abs(static_cast<double>(center_[i])) <= search_radius;
+    bool wanted = std::abs(static_cast<double>(center_[i])) <= search_radius();
     if (!wanted) require_free_boundary(center_[i] < 0.0f, p);
     for (const BrickPosition& step : kFaceSteps) {
       const BrickPosition q = moved(p, step);

@@ -20,7 +20,7 @@ void DistanceProbe::start(const Eigen::Vector3d& p, float distance, std::int16_t
 }
 
 std::optional<std::int16_t> DistanceProbe::winding() const {
-  const bool counted = to_solids_ >= 0.0 && surface_.is_that_of_sealed_solids();
+  const bool counted = to_solids_ >= 0.0 && surface_.is_only_sealed_solids();
   using Limits = std::numeric_limits<std::int16_t>;
   const long rounded = std::lround(winding_number_);
   if (!counted || rounded <= Limits::min() || rounded > Limits::max()) return {};

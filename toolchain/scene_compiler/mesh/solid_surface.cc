@@ -214,7 +214,7 @@ double SolidSurface::dilation() const { return impl_->dilation; }
 const TriangleTree& SolidSurface::solid_triangles() const { return impl_->solids; }
 const TriangleTree& SolidSurface::shell_triangles() const { return impl_->shells; }
 bool SolidSurface::sealed() const { return impl_->boundary.edges.empty(); }
-bool SolidSurface::is_that_of_sealed_solids() const {
+bool SolidSurface::is_only_sealed_solids() const {
   return sealed() && impl_->shells.empty() && !impl_->solids.empty() && impl_->dilation == 0.0;
 }
 double SolidSurface::winding_number(const Vector3d& p) const { return impl_->winding_number(p); }

@@ -55,8 +55,9 @@ class SolidSurface {
   /// True if the solid components together have no open boundary.
   bool sealed() const;
 
-  /// True if the surface is only that of sealed solids, not dilated: the sign of the distance changes nowhere else.
-  bool is_that_of_sealed_solids() const;
+  /// True if the surface is that of sealed solids alone, not dilated: the sign of the distance then changes at
+  /// triangles only.
+  bool is_only_sealed_solids() const;
 
   /// Returns the length of the paths from p along which the winding number stays on its side of 1/2, if they cross no
   /// triangle of a solid [m]. Along such a path the winding number changes by at most L / (4 pi r^2) per metre (Biot
