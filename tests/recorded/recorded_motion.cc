@@ -22,6 +22,7 @@ using report::Setup;
 
 /// Parts of no direction alike, so that two axes that change places change the sum.
 const Vector3 kParts(0.9, -0.7, 0.5);
+const Vector3 kPartsOfTorque(-0.4, 0.6, 0.8);
 
 class Sums {
  public:
@@ -145,11 +146,13 @@ RecordedMotion RecordedWorlds::run(const Setup& setup, double disturbance) {
     sums.add(RecordedMotion::kPosition, kParts.dot(r.H_WS.translation - world.translation) / setup.scale);
     const Quaternion turn = H_WD.rotation.conjugate() * r.H_WS.rotation;
     sums.add(RecordedMotion::kRotation, kParts.dot(log_rotation(turn)));
+    const auto parts = [&](const Vector3& f, const Vector3& t) {
+      return (kParts.dot(f) + kPartsOfTorque.dot(t) / setup.scale) / force;
+    };
     const Wrench& spring = r.force.spring_W;
     const Wrench& total = r.force.total_W;
-    sums.add(RecordedMotion::kSpring, kParts.dot(spring.force + spring.torque / setup.scale) / force);
-    sums.add(RecordedMotion::kDamping,
-             kParts.dot(total.force - spring.force + (total.torque - spring.torque) / setup.scale) / force);
+    sums.add(RecordedMotion::kSpring, parts(spring.force, spring.torque));
+    sums.add(RecordedMotion::kDamping, parts(total.force - spring.force, total.torque - spring.torque));
     sums.add(RecordedMotion::kDepth, r.penetration / setup.scale);
     motion.count[RecordedMotion::kContacts] += r.contacts;
     motion.count[RecordedMotion::kSubsteps] += r.substeps;

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "godobject/report.h"
 #include "toolchain/report/extremes/rig.h"
 #include "toolchain/report/extremes/setup.h"
 
 namespace godobject::test {
 
 /// The cycles of a session as a few numbers. The sums weigh each cycle differently, and each direction
-/// of space, so that a change of any cycle, direction or frame changes them.
+/// of space, so that a change of any cycle, direction or frame by more than rounding changes them.
 struct RecordedMotion {
   enum Sum : std::uint8_t {
     kPosition,  ///< of the god object from the world's place, over the scale
@@ -26,6 +27,7 @@ struct RecordedMotion {
     kSums
   };
   enum Count : std::uint8_t { kRefused, kContacts, kSubsteps, kDropped, kUnconverged, kFree, kCounts = kFree + 7 };
+  static_assert(static_cast<int>(Outcome::kInfeasible) + 1 == kCounts - kFree);
   static constexpr std::array<const char*, kSums> kSumNames = {"position", "rotation", "spring", "damping", "depth"};
   static constexpr std::array<const char*, kFree> kCountNames = {"refused", "contacts", "substeps", "dropped",
                                                                  "unconverged"};

@@ -25,8 +25,19 @@ constexpr std::size_t kTogether = 8;
 
 class RecordedMotions : public FolderTest, public testing::WithParamInterface<std::size_t> {};
 
+/// The records are those of processors whose look-ups have eight lanes or more. Others prove fewer chords free, cut
+/// more motions, and rest elsewhere.
+bool has_lanes_of_records() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
 /// Nobody changes what a hand feels, or what a cycle costs, without noticing.
 TEST_P(RecordedMotions, AreAsTheyWere) {
+  if (!has_lanes_of_records()) GTEST_SKIP() << "recorded on x86-64 with AVX2";
   const auto known = records();
   const std::vector<RecordedSession> sessions = recorded_sessions();
   RecordedWorlds worlds(folder_);
@@ -34,7 +45,7 @@ TEST_P(RecordedMotions, AreAsTheyWere) {
     const auto found = known.find(sessions[i].name);
     if (found == known.end()) continue;
     const std::string now = record_line(found->first, worlds.run(sessions[i].setup));
-    ASSERT_EQ(difference(found->second, now), "")
+    EXPECT_EQ(difference(found->second, now), "")
         << sessions[i].name << "; is it meant? Then renew the records as tests/recorded/README.md says";
   }
 }

@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   for (const RecordedSession& session : recorded_sessions()) {
     const std::string line = record_line(session.name, worlds.run(session.setup));
     std::string changed;
-    for (const double disturbance : {1e-12, 1e-10}) {
+    for (const double disturbance : {1e-12, 1e-11, 1e-10, 1e-9}) {
       if (changed.empty())
         changed = difference(line, record_line(session.name, worlds.run(session.setup, disturbance)));
     }

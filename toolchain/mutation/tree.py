@@ -115,8 +115,8 @@ class Tree:
     def configure(self, build, *options):
         subprocess.run(['cmake', '-S', str(self.copy), '-B', str(build), '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release',
                         '-DCMAKE_CXX_FLAGS=-w -fdiagnostics-color=never -fno-diagnostics-show-caret -ftemplate-backtrace-limit=0',
-                        # the assertions of Eigen and of the standard library find most accesses out of range
-                        '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -D_GLIBCXX_ASSERTIONS -fsanitize=bounds '
+                        # the assertions of Eigen and of the standard library and bounds of arrays find most accesses out of range
+                        '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -D_GLIBCXX_ASSERTIONS -fsanitize=bounds-strict '
                         '-fsanitize-undefined-trap-on-error', f'-DCMAKE_EXE_LINKER_FLAGS={self.object}', *options],
                        check=True, stdout=subprocess.DEVNULL)
 
