@@ -181,6 +181,26 @@ TEST_F(CommissioningTest, TakesNoModeFromATpdo2OfAnotherLength) {
   }
 }
 
+/// A drive that shows the mode in TPDO2 but does not confirm the write has neither told nor refused a mode.
+TEST_F(CommissioningTest, WantsTheWriteOfAModeConfirmed) {
+  start();
+  const std::int64_t begin = now_ms();
+  const hal::DriveConfig& drive = layout_.drives[1];
+  const sim::BusFault unconfirmed[] = {{.kind = sim::BusFaultKind::kFrameDropped,
+                                        .bus = drive.bus,
+                                        .first_cycle = begin,
+                                        .cycles = 100'000,
+                                        .id = static_cast<std::uint16_t>(0x580 + drive.node)}};
+  start({}, unconfirmed);
+  ASSERT_EQ(now_ms(), begin);
+  const std::vector<JointTrial> trials = run();
+  EXPECT_EQ(trials[1].mode_after_ms, -1);
+  EXPECT_FALSE(trials[1].mode_refused);
+  EXPECT_FALSE(trials[1].device_type.has_value());
+  EXPECT_GE(trials[0].mode_after_ms, 0);
+  EXPECT_GE(trials[2].mode_after_ms, 0);
+}
+
 /// A deadline that is longer than what was written shows in the watch of the parameters, too: either way it is no
 /// proof.
 TEST_F(CommissioningTest, ADeadlineThatIsNotTheLayoutsIsRefused) {
