@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <utility>
@@ -20,7 +21,7 @@ namespace {
 
 using report::Setup;
 
-/// Parts of no direction alike, so that two axes that change places change the sum.
+/// Weights of the axes, all different, so that a swap of two axes changes the sum.
 const Vector3 kParts(0.9, -0.7, 0.5);
 const Vector3 kPartsOfTorque(-0.4, 0.6, 0.8);
 
@@ -107,9 +108,6 @@ std::vector<RecordedSession> recorded_sessions() {
   return sessions;
 }
 
-RecordedWorlds::RecordedWorlds(std::filesystem::path work) : work_(std::move(work)) {}
-RecordedWorlds::~RecordedWorlds() = default;
-
 std::unique_ptr<report::Rig> RecordedWorlds::rig(const Setup& setup) {
   if (!report::is_compiled(setup)) return report::make_rig(setup, work_);
   if (!world_ || setup.world != world_of_.world || setup.body != world_of_.body) {
@@ -130,12 +128,7 @@ RecordedMotion RecordedWorlds::run(const Setup& setup, double disturbance) {
   for (Pose H_WD : report::device_path(setup)) {
     H_WD.translation[k % 3] += (k % 2 == 0 ? disturbance : -disturbance) * setup.scale;
     ++k;
-    Motion velocity_W;
-    if (before) {
-      const Quaternion turn = before->rotation.conjugate() * H_WD.rotation;
-      velocity_W = {(H_WD.translation - before->translation) / setup.period,
-                    H_WD.rotation._transformVector(log_rotation(turn)) / setup.period};
-    }
+    const Motion velocity_W = before ? report::velocity_between(*before, H_WD, setup.period) : Motion{};
     before = H_WD;
     CycleReport r;
     sums.next_cycle();

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "godobject/report.h"
@@ -51,8 +51,7 @@ std::vector<RecordedSession> recorded_sessions();
 class RecordedWorlds {
  public:
   /// `work`: a folder for scene images.
-  explicit RecordedWorlds(std::filesystem::path work);
-  ~RecordedWorlds();
+  explicit RecordedWorlds(std::filesystem::path work) : work_(std::move(work)) {}
 
   /// `disturbance`: moves the device back and forth by this share of the scale.
   RecordedMotion run(const report::Setup& setup, double disturbance = 0.0);

@@ -28,12 +28,12 @@ void make_bad(Pose& H_WD, Motion& velocity_W, int which) {
   }
 }
 
+}  // namespace
+
 Motion velocity_between(const Pose& before, const Pose& now, double period) {
   return {(now.translation - before.translation) / period,
           now.rotation._transformVector(log_rotation(before.rotation.conjugate() * now.rotation)) / period};
 }
-
-}  // namespace
 
 std::vector<Pose> device_path(const Setup& setup) {
   Draw draw(setup.seed + setup.session);

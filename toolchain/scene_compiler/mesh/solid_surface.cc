@@ -78,20 +78,6 @@ SurfaceSamples sample_component(const TriangleMesh& mesh, const std::vector<std:
   return samples;
 }
 
-TriangleTree tree_of(const TriangleMesh& mesh, const std::vector<SolidSurface::Component>& components,
-                     const std::vector<std::uint32_t>& component_of, bool shells, bool solids) {
-  std::vector<TriangleTree::Triangle> triangles;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const SolidSurface::Component& component = components[component_of[i]];
-    if (component.shell ? !shells : !solids) continue;
-    const auto& t = mesh.triangles[i];
-    const std::uint32_t second = component.inside_out ? t[2] : t[1];
-    const std::uint32_t third = component.inside_out ? t[1] : t[2];
-    triangles.push_back({mesh.vertices[t[0]], mesh.vertices[second], mesh.vertices[third], i});
-  }
-  return TriangleTree(std::move(triangles));
-}
-
 /// Returns the median over the samples of the mean winding number just outside and just inside.
 double principal_value(const TriangleTree& tree, const SurfaceSamples& samples, double step) {
   std::vector<double> values;
@@ -123,13 +109,25 @@ struct SolidSurface::Impl {
   TriangleTree shells;
   OpenBoundary boundary;
 
-  TriangleTree tree(bool with_shells, bool with_solids) const {
-    return tree_of(mesh, components, component_of, with_shells, with_solids);
-  }
+  enum class Kinds : std::uint8_t { kAll, kSolids, kShells };
+  TriangleTree tree_of(Kinds kinds) const;
   bool is_solid_as_given() const;
   void classify(SurfaceKind kind);
   double winding_number(const Vector3d& p) const;
 };
+
+TriangleTree SolidSurface::Impl::tree_of(Kinds kinds) const {
+  std::vector<TriangleTree::Triangle> triangles;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Component& component = components[component_of[i]];
+    if (kinds == (component.shell ? Kinds::kSolids : Kinds::kShells)) continue;
+    const auto& t = mesh.triangles[i];
+    const std::uint32_t second = component.inside_out ? t[2] : t[1];
+    const std::uint32_t third = component.inside_out ? t[1] : t[2];
+    triangles.push_back({mesh.vertices[t[0]], mesh.vertices[second], mesh.vertices[third], i});
+  }
+  return TriangleTree(std::move(triangles));
+}
 
 /// True if no component is a shell or inside out: the solids then have all triangles, wound as they are.
 bool SolidSurface::Impl::is_solid_as_given() const {
@@ -156,7 +154,7 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
     components[c].triangles = static_cast<std::uint32_t>(ids[c].size());
   }
   const double step = kStepOffSurface * Box::around(mesh.vertices).diagonal();
-  TriangleTree whole = tree(true, true);
+  TriangleTree whole = tree_of(Kinds::kAll);
   for (std::uint32_t c = 0; c < connected.count; ++c) {
     components[c].winding = principal_value(whole, samples[c], step);
     decide(components[c], kind);
@@ -165,13 +163,14 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
     solids = std::move(whole);
     return;
   }
-  solids = tree(false, true);
+  solids = tree_of(Kinds::kSolids);
   if (kind != SurfaceKind::kAuto) return;
 
   // Sheets above each other look like each other's solids and get turned; the rest then encloses nothing. So a
   // component must also be a solid among the solids alone, turned as they are. Otherwise its own winding number
   // decides.
   std::vector<Component> settled = components;
+  bool is_settled = true;
   for (std::uint32_t c = 0; c < connected.count; ++c) {
     if (components[c].shell || principal_value(solids, samples[c], step) >= kShellLimit) continue;
     std::vector<TriangleTree::Triangle> own;
@@ -181,9 +180,11 @@ void SolidSurface::Impl::classify(SurfaceKind kind) {
     }
     settled[c].winding = principal_value(TriangleTree(std::move(own)), samples[c], step);
     decide(settled[c], kind);
+    is_settled = false;
   }
+  if (is_settled) return;
   components = settled;
-  solids = tree(false, true);
+  solids = tree_of(Kinds::kSolids);
 }
 
 double SolidSurface::Impl::winding_number(const Vector3d& p) const {
@@ -200,7 +201,7 @@ SolidSurface::SolidSurface(TriangleMesh mesh, SurfaceKind kind, double thickness
   impl_->dilation = dilation;
   impl_->classify(kind);
   impl_->boundary = open_boundary(impl_->mesh, impl_->components, impl_->component_of);
-  impl_->shells = impl_->tree(true, false);
+  impl_->shells = impl_->tree_of(Impl::Kinds::kShells);
 }
 
 SolidSurface::SolidSurface(SolidSurface&& other) noexcept = default;
