@@ -39,6 +39,8 @@ class CompiledSession {
   const Parameters& parameters() const noexcept { return core_.parameters(); }
   const ProxyState& state() const noexcept { return core_.state(); }
   const SubstepPath& path() const noexcept { return core_.path(); }
+  const WorkMeter& work() const noexcept { return core_.work(); }
+  void set_work_budget(std::uint64_t units) noexcept { core_.set_work_budget(units); }
 
  private:
   Status refuse(Status status, CycleReport& report) const noexcept;

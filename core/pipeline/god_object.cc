@@ -55,6 +55,10 @@ Status GodObject::update(const Input& input, CycleReport& report, StepTimes* tim
   return session_->update(input, report, times);
 }
 
+void GodObject::set_work_budget(std::uint64_t units) noexcept {
+  if (session_ != nullptr) session_->set_work_budget(units);
+}
+
 Pose GodObject::mesh_pose() const noexcept { return session_ == nullptr ? Pose{} : session_->mesh_pose(); }
 
 }  // namespace godobject

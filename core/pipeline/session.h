@@ -14,6 +14,7 @@
 #include "core/pipeline/cycle/parameters.h"
 #include "core/pipeline/cycle/scene_traits.h"
 #include "core/pipeline/cycle/state.h"
+#include "core/pipeline/cycle/work.h"
 #include "core/pipeline/paper/paper_cycle.h"
 #include "core/pipeline/penalty/penalty_contacts.h"
 #include "godobject/report.h"
@@ -92,6 +93,10 @@ class Session {
   const ProxyState& state() const noexcept { return state_; }
   /// Returns the sub-steps of the last cycle of `contact`; other solvers leave it as it is.
   const SubstepPath& path() const noexcept { return contact_.path; }
+  /// Returns the work of the last cycle of `contact`; other solvers leave it as it is.
+  const WorkMeter& work() const noexcept { return contact_.work; }
+  /// Sets Parameters::work_budget from the next cycle on. Real-time safe.
+  void set_work_budget(std::uint64_t units) noexcept { parameters_.work_budget = units; }
   const ContactScene<Field, BodyField>& contact_scene() const noexcept { return contact_scene_; }
 
  private:
@@ -99,6 +104,7 @@ class Session {
   /// The part of ContactMemory that a build for a ball alone keeps.
   struct BallMemory {
     SubstepPath path;
+    WorkMeter work;
     void reset() noexcept { path.clear(); }
   };
   using Cycle = Status (*)(Session&, const CycleInput&, ProxyState&, CycleReport&, StepTimes*) noexcept;
@@ -120,7 +126,8 @@ class Session {
   }
   static Status run_ball(Session& s, const CycleInput& input, ProxyState& state, CycleReport& report,
                          StepTimes* times) noexcept {
-    return ball_cycle(*s.field_, s.parameters_, s.contact_scene_.lengths, input, s.contact_.path, state, report, times);
+    return ball_cycle(*s.field_, s.parameters_, s.contact_scene_.lengths, input, s.contact_.path, s.contact_.work,
+                      state, report, times);
   }
 
   template <bool kFriction>

@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -110,9 +111,18 @@ std::vector<RecordedSession> recorded_sessions() {
 
 std::unique_ptr<report::Rig> RecordedWorlds::rig(const Setup& setup) {
   if (!report::is_compiled(setup)) return report::make_rig(setup, work_);
-  if (!world_ || setup.world != world_of_.world || setup.body != world_of_.body) {
-    world_ = std::make_shared<report::CompiledWorld>(setup, work_);
+  const auto decides = [](const Setup& s) {
+    return std::tie(s.world, s.body, s.seed, s.scale, s.far, s.width, s.voxel, s.points, s.body_scale);
+  };
+  if (!world_ || decides(setup) != decides(world_of_)) {
     world_of_ = setup;
+    // the same world whichever session is its first
+    const Setup any;
+    world_of_.stiffness = any.stiffness;
+    world_of_.coupling_rotation = any.coupling_rotation;
+    world_of_.friction_static = any.friction_static;
+    world_of_.friction_kinetic = any.friction_kinetic;
+    world_ = std::make_shared<report::CompiledWorld>(world_of_, work_);
   }
   return report::make_rig_in(world_, setup);
 }
@@ -147,10 +157,12 @@ RecordedMotion RecordedWorlds::run(const Setup& setup, double disturbance) {
     sums.add(RecordedMotion::kSpring, parts(spring.force, spring.torque));
     sums.add(RecordedMotion::kDamping, parts(total.force - spring.force, total.torque - spring.torque));
     sums.add(RecordedMotion::kDepth, r.penetration / setup.scale);
+    sums.add(RecordedMotion::kWork, static_cast<double>(r.work));
     motion.count[RecordedMotion::kContacts] += r.contacts;
     motion.count[RecordedMotion::kSubsteps] += r.substeps;
     motion.count[RecordedMotion::kDropped] += r.dropped;
     motion.count[RecordedMotion::kUnconverged] += r.unconverged ? 1 : 0;
+    motion.count[RecordedMotion::kOutOfWork] += r.out_of_work ? 1 : 0;
     ++motion.count[RecordedMotion::kFree + static_cast<std::size_t>(r.outcome)];
   }
   return motion;
@@ -177,6 +189,7 @@ std::string record_line(const std::string& session, const RecordedMotion& motion
 
 std::string difference(const std::string& was, const std::string& is) {
   constexpr double kRounding = 1e-6;  // of the terms' sizes
+  constexpr double kOfWork = 1e-4;    // the same of work: a tick of the search may fall to either side
   constexpr double kNothing = 1e-9;   // of all sums
   const std::vector<std::string> header = words_of(record_header());
   const std::vector<std::string> before = words_of(was);
@@ -185,7 +198,8 @@ std::string difference(const std::string& was, const std::string& is) {
   for (std::size_t k = 1; k < header.size(); ++k) {
     const bool is_sum = k < 1 + 2 * RecordedMotion::kSums;
     if (is_sum && k % 2 == 0) continue;  // a size
-    const double allowed = is_sum ? kRounding * std::strtod(now[k + 1].c_str(), nullptr) + kNothing : 0.0;
+    const double share = k == 1 + 2 * RecordedMotion::kWork ? kOfWork : kRounding;
+    const double allowed = is_sum ? share * std::strtod(now[k + 1].c_str(), nullptr) + kNothing : 0.0;
     const double change = std::strtod(now[k].c_str(), nullptr) - std::strtod(before[k].c_str(), nullptr);
     if (!(std::abs(change) <= allowed)) return fmt::format("{} was {}, is {}", header[k], before[k], now[k]);
   }

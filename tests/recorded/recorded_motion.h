@@ -24,13 +24,24 @@ struct RecordedMotion {
     kSpring,    ///< force and torque, over stiffness and scale
     kDamping,   ///< the same of the part that damps
     kDepth,     ///< CycleReport::penetration over the scale
+    kWork,      ///< CycleReport::work [units]
     kSums
   };
-  enum Count : std::uint8_t { kRefused, kContacts, kSubsteps, kDropped, kUnconverged, kFree, kCounts = kFree + 7 };
+  enum Count : std::uint8_t {
+    kRefused,
+    kContacts,
+    kSubsteps,
+    kDropped,
+    kUnconverged,
+    kOutOfWork,
+    kFree,
+    kCounts = kFree + 7
+  };
   static_assert(static_cast<int>(Outcome::kInfeasible) + 1 == kCounts - kFree);
-  static constexpr std::array<const char*, kSums> kSumNames = {"position", "rotation", "spring", "damping", "depth"};
-  static constexpr std::array<const char*, kFree> kCountNames = {"refused", "contacts", "substeps", "dropped",
-                                                                 "unconverged"};
+  static constexpr std::array<const char*, kSums> kSumNames = {"position", "rotation", "spring",
+                                                               "damping",  "depth",    "work"};
+  static constexpr std::array<const char*, kFree> kCountNames = {"refused", "contacts",    "substeps",
+                                                                 "dropped", "unconverged", "out_of_work"};
 
   std::array<double, kSums> sum{};
   std::array<double, kSums> size{};           ///< sum of the terms' sizes: what rounding is relative to

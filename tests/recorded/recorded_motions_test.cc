@@ -61,7 +61,7 @@ TEST(RecordedMotion, NearlyEachSessionHasARecord) {
   const std::vector<RecordedSession> sessions = recorded_sessions();
   for (const RecordedSession& session : sessions) with_record += known.count(session.name);
   EXPECT_EQ(with_record, known.size()) << "a record without a session";
-  EXPECT_GT(with_record, sessions.size() * 4 / 5);
+  EXPECT_GT(with_record, sessions.size() * 7 / 10);
 }
 
 TEST(RecordedMotion, DiffersByAnyCountAndByMoreThanRounding) {
@@ -73,9 +73,10 @@ TEST(RecordedMotion, DiffersByAnyCountAndByMoreThanRounding) {
   EXPECT_EQ(difference(line, line), "");
   for (std::size_t i = 0; i < motion.sum.size(); ++i) {
     RecordedMotion other = motion;
-    other.sum[i] += 5e-5;
+    const double allowed = i == RecordedMotion::kWork ? 1e-2 : 1e-4;
+    other.sum[i] += 0.5 * allowed;
     EXPECT_EQ(difference(line, record_line("a", other)), "");
-    other.sum[i] += 1e-4;
+    other.sum[i] += allowed;
     EXPECT_NE(difference(line, record_line("a", other)), "");
   }
   for (std::size_t i = 0; i < motion.count.size(); ++i) {

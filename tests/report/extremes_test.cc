@@ -96,6 +96,7 @@ TEST(AnySetup, HasEveryOptionAndStaysInContact) {
       {"boxes", [](const report::Setup& s) { return s.workspace > 0.0; }},
       {"periods other than 1 ms", [](const report::Setup& s) { return s.period != 1e-3; }},
       {"budgets of points", [](const report::Setup& s) { return s.point_budget > 0; }},
+      {"budgets of work", [](const report::Setup& s) { return s.work_budget > 0.0; }},
       {"no memory", [](const report::Setup& s) { return !s.remembers; }},
       {"concave bodies", [](const report::Setup& s) { return s.body == "ell"; }},
       {"invalid inputs", [](const report::Setup& s) { return s.bad_every > 0; }},

@@ -64,7 +64,8 @@ TEST(EdgePairs, StayApartInEveryMotionThatTheCoreAccepts) {
     near.push({0, 0}, detail::gap_at(edges, {0, 0}, Pose{}));
     if (near.gap[0].distance < 1e-5) continue;
     detail::EdgeObstacle obstacle;
-    detail::Budget budget;
+    WorkMeter work;
+    detail::Budget budget{work};
     const bool is_free = detail::edges_are_free(edges, Pose{}, H1, 5e-6, lengths, near, budget, obstacle);
     const WatchedEdge from = watched_edges(moving.view())[0];
     const WatchedEdge other = watched_edges(still.view())[0];

@@ -113,7 +113,8 @@ TEST(WayOut, BoundsHowFarAMotionEndsFromTheDevice) {
     }
     const Motion wanted = random.motion(2e-4, 2e-3);
     ConstrainedStep step;
-    least_constraint(rows, wanted, metric, nullptr, {}, step);
+    WorkMeter work;
+    least_constraint(rows, wanted, metric, nullptr, {}, work, step);
     const Vector6 out = way_out(touches, q);
     if (step.infeasible || out.isZero(0.0)) continue;
     ++lost;

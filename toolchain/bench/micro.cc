@@ -183,7 +183,8 @@ void add_solvers(Sliding& sliding) {
           for (auto _ : state) {
             RecordedRows& one = *(*recorded)[i];
             ConstrainedStep step;
-            least_constraint(one.rows, one.wanted, metric, with_friction ? &friction : nullptr, Motion{}, step);
+            WorkMeter work;
+            least_constraint(one.rows, one.wanted, metric, with_friction ? &friction : nullptr, Motion{}, work, step);
             benchmark::DoNotOptimize(step);
             i = i + 1 == recorded->size() ? 0 : i + 1;
           }

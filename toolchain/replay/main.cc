@@ -36,6 +36,7 @@ const char* const kFooter = R"(Examples:
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o contact.csv
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o paper.csv --solver paper --friction off
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o soft.csv --stiffness 500
+  godobject-replay bunny_teapot.scene bunny_teapot.csv -o bounded.csv --work-budget 400000
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o exact.csv --meshes bunny_teapot.toml
   godobject-replay bunny_teapot.scene bunny_teapot.csv -o seen.csv --watch bunny_teapot.toml
 
@@ -72,7 +73,9 @@ points, the god object is as near to the device as another method comes, and oth
 how often each was judged and violated. That takes seconds for a thousand cycles, more where whole faces touch.
 Forces are neither limited nor smoothed here; the controller that drives the device does that.
 The last line printed counts the cycles with these four, and with contact the cycles whose friction did not converge to
-Coulomb's law within the tolerance; their gaps hold all the same.
+Coulomb's law within the tolerance; their gaps hold all the same. It also says the largest work of a cycle, and how many
+cycles their --work-budget ended: there the god object may lag, but it crosses nothing. Work is counted, not timed: it
+is the same in each replay.
 
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is complete then), 66 an input is
 missing or cannot be read, 70 --watch found a violation (before 65; OUT.csv is complete then), 74 cannot write, 77 no
@@ -85,6 +88,7 @@ struct Options {
   std::string meshes;            ///< scene file; empty: the overlap is not measured
   std::string watch;             ///< scene file; empty: the cycles are not judged
   std::optional<double> stiffness;
+  std::uint64_t work_budget = godobject::WorkMeter::kUnlimited;
 };
 
 /// Returns the text on the deepest sample point. The field stores no distance beyond its band.
@@ -130,6 +134,8 @@ std::string outcomes_text(const godobject::replay::Summary& summary, bool contac
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name(outcome), summary.count(outcome));
   if (summary.most_dropped > 0) text += fmt::format(", at most {} near points left out", summary.most_dropped);
   if (contact_friction) text += fmt::format(", friction not found in {} cycles", summary.unconverged);
+  if (summary.most_work > 0) text += fmt::format(", work of a cycle at most {} units", summary.most_work);
+  if (summary.out_of_work > 0) text += fmt::format(", ended by the budget in {} cycles", summary.out_of_work);
   return text;
 }
 
@@ -216,7 +222,7 @@ void replay_file(const Options& options) {
                                        .overlap = {},
                                        .watch = watch ? &*watch : nullptr};
     if (meshes) outputs.overlap = [&](const godobject::Pose& H_WM) { return meshes->depth(H_WM); };
-    summary = godobject::replay::replay(scene, pipeline.solver, pipeline.friction, path, outputs);
+    summary = godobject::replay::replay(scene, pipeline.solver, pipeline.friction, path, outputs, options.work_budget);
   }
   out.commit();
   if (watch) fmt::print("{}", godobject::replay::findings_text(watch->findings()));
@@ -248,6 +254,10 @@ int main(int argc, char** argv) {
   app.add_option("--friction", options.friction, "on or off; default: on if the scene has a friction table")
       ->check(CLI::IsMember({"on", "off"}))
       ->option_text("on|off");
+  app.add_option("--work-budget", options.work_budget,
+                 "work of a cycle [units], 1 or more; a microsecond is some 4000; default: no limit")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber.description(""));
   app.add_option("--stiffness", options.stiffness, "k_D [N/m], 1e-6 to 1e8; default: the scene's coupling.stiffness")
       ->type_name("NUMBER");
   app.add_option("--meshes", options.meshes, "scene file of X.scene: also measure how deep its meshes overlap")

@@ -48,7 +48,7 @@ const char* const kColumns =
 const char* const kOverlapColumn = "mesh_overlap";
 
 Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
-               const Outputs& outputs) {
+               const Outputs& outputs, std::uint64_t work_budget) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   constexpr std::size_t kProgressEvery = 256;
   OwnedGodObject god_object;
@@ -57,6 +57,7 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
                   "the scene image was compiled without this solver or without friction; compile it without "
                   "--only-solver, or with a [friction] table");
   }
+  god_object->set_work_budget(work_budget);
   if (outputs.watch != nullptr) outputs.watch->start({solver, friction, god_object.parameters()});
   Summary summary;
   std::string row = kColumns;
@@ -88,6 +89,8 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
     summary.deepest = std::max(summary.deepest, depth);
     summary.most_dropped = std::max(summary.most_dropped, report.dropped);
     summary.unconverged += report.unconverged ? 1 : 0;
+    summary.most_work = std::max(summary.most_work, report.work);
+    summary.out_of_work += report.out_of_work ? 1 : 0;
     summary.peak_force = std::max(summary.peak_force, report.force.spring_W.force.norm());
 
     Pose device = path.poses[i];

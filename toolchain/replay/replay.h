@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
 
+#include "core/pipeline/cycle/work.h"
 #include "core/scene/scene_view.h"
 #include "godobject/god_object.h"
 #include "toolchain/files/pose_path.h"
@@ -28,6 +30,8 @@ struct Summary {
   double peak_force = 0.0;         ///< [N]
   std::size_t unconverged = 0;     ///< cycles whose friction did not converge to the tolerance
   std::uint32_t most_dropped = 0;  ///< largest number of near points left out in a cycle
+  std::uint64_t most_work = 0;     ///< largest work of a cycle [units]
+  std::size_t out_of_work = 0;     ///< cycles that the budget of work ended
   int float_exceptions = 0;        ///< FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW that any cycle raised
 
   /// Returns the number of cycles with this outcome.
@@ -48,8 +52,9 @@ struct Outputs {
 };
 
 /// Runs the god object along the path, one cycle for each pose. Everything except the two timing columns depends on the
-/// input alone, to the last bit. Throws Failure (kBadData) if the image lacks the solver or friction.
+/// input alone, to the last bit. `work_budget`: of each cycle [units]. Throws Failure (kBadData) if the image lacks the
+/// solver or friction.
 Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
-               const Outputs& outputs);
+               const Outputs& outputs, std::uint64_t work_budget = WorkMeter::kUnlimited);
 
 }  // namespace godobject::replay

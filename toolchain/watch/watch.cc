@@ -102,6 +102,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
                          0.01 * q_.voxel_size
                  ? resting_ + 1
                  : 0;
+  if (cycle.report.out_of_work) resting_ = 0;
   H_WS_before_ = H_WS_;
   const bool was_inside = is_inside_;
   is_inside_ = is_contact && cycle.report.outcome == Outcome::kStartInside;
@@ -422,14 +423,17 @@ void Watch::check_report(const WatchedCycle& cycle, bool may_be_inside) {
   check((report.outcome == Outcome::kOverflow) <= (report.dropped > 0), "overflow without a dropped point");
   if (is_inside_) {
     check(may_be_inside, "start_inside after it was outside");
-    check(smallest_ <= 1e-6 * q_.voxel_size + session_.rounding, "start_inside with every point outside");
+    check(report.out_of_work || smallest_ <= 1e-6 * q_.voxel_size + session_.rounding,
+          "start_inside with every point outside");
     return;
   }
   const double shortest = kReach * q_.voxel_size;
   const double tolerance = 1e-5 * q_.voxel_size + session_.rounding;
   const double expected = -std::min(smallest_, shortest);
   const bool is_budgeted = q_.point_budget > 0 && report.outcome == Outcome::kFree;  // bounds prove the way free
-  if (report.dropped > 0 || is_budgeted) {  // points without a look-up may be nearer
+  // then a sub-step may look at some of the points, or end before it has seen all
+  const bool has_work_budget = q_.work_budget != WorkMeter::kUnlimited;
+  if (report.dropped > 0 || is_budgeted || has_work_budget) {  // points without a look-up may be nearer
     return judge(Property::kReport, report.penetration - expected, tolerance, [&] {
       return fmt::format("penetration {} m, the smallest distance of all points is {} m", report.penetration,
                          smallest_);

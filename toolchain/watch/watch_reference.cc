@@ -61,7 +61,8 @@ void Watch::check_reference(const WatchedCycle& cycle) {
   // a wider turn takes more sub-steps than a cycle has, however small the body [rad]
   constexpr double kMostTurn = 1.0;
   const bool turns_far = to_device.tail<3>().norm() > kMostTurn * gyration_;
-  const bool exceeds_budget = q_.point_budget > 0 && cycle.report.outcome == Outcome::kOverflow;
+  const bool exceeds_budget =
+      cycle.report.out_of_work || (q_.point_budget > 0 && cycle.report.outcome == Outcome::kOverflow);
   if (contacts.empty() && away < q_.voxel_size && !turns_far && !session_.renders_ball && !exceeds_budget) {
     const double clearance = 0.25 * q_.voxel_size;
     judge(Property::kArrives, is_clear(H_WS_before_, H_WD, clearance) ? 1.0 : 0.0, 0.0,
@@ -210,8 +211,9 @@ void Watch::check_optimum(const WatchedCycle& cycle) {
 /// A cut motion must go on in the next cycle, wherever the device is: a god object that stays where it is cut is stuck.
 void Watch::check_progress(const WatchedCycle& cycle) {
   constexpr double kMostCycles = 50.0;
-  constexpr double kStill = 1e-4;  // [voxels]
-  const bool is_stuck = cycle.report.outcome == Outcome::kCut && travelled_ < kStill * q_.voxel_size;
+  const bool has_work_budget = q_.work_budget != WorkMeter::kUnlimited;
+  const double still = has_work_budget ? 0.0 : 1e-4;  // [voxels]; with a budget it may lag, but goes on
+  const bool is_stuck = cycle.report.outcome == Outcome::kCut && travelled_ <= still * q_.voxel_size;
   stuck_ = is_stuck ? stuck_ + 1 : 0;
   judge(Property::kLag, stuck_, kMostCycles, [&] { return fmt::format("cut where it is for {} cycles", stuck_); });
 }

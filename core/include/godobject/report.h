@@ -37,10 +37,17 @@ struct CycleReport {
   /// nearer. 0 after `follow` and after a refusal.
   double penetration = 0.0;
   std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force (one point may have two)
-  std::uint32_t dropped = 0;   ///< `contact`: near points as in kOverflow (of those without a row, groups), last sub-step
+  std::uint32_t dropped =
+      0;  ///< `contact`: near points as in kOverflow (of those without a row, groups), last sub-step
   std::uint32_t substeps = 0;  ///< of this cycle; `contact`: those with a near point, 1 if there was none
   bool unconverged = false;    ///< `contact`: friction is not Coulomb's to the tolerance; the gaps hold all the same
-  bool outside = false;        ///< the device is outside of the workspace; its faces push back once it has been inside
+  /// `contact`: the work of the cycle [units], as in GodObject::set_work_budget. It depends on scene, state and input
+  /// alone, so that a replay repeats it. 0 with other solvers and after `follow`.
+  std::uint64_t work = 0;
+  /// `contact`: the budget of work ended the cycle. The god object may lag; `penetration` and `dropped` are those of
+  /// the points that were looked up.
+  bool out_of_work = false;
+  bool outside = false;  ///< the device is outside of the workspace; its faces push back once it has been inside
   Outcome outcome = Outcome::kFree;  ///< outcome of the cycle
 };
 

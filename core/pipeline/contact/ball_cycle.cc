@@ -107,14 +107,19 @@ Vector3 damped(const Held& held, const Vector3& velocity_W, double damping_over_
 /// The centre of the ball in one cycle.
 class Center {
  public:
-  Center(const Voxelmap& field, const WorkspaceBox& box, const ContactLengths& lengths, const Vector3& at) noexcept
-      : field_(field), box_(box), lengths_(lengths), at_(at) {
+  Center(const Voxelmap& field, const WorkspaceBox& box, const ContactLengths& lengths, const Vector3& at,
+         WorkMeter& work) noexcept
+      : field_(field), box_(box), lengths_(lengths), at_(at), work_(work) {
     search_radius_ = std::min(lengths_.longest_search_radius, field.assured_clearance());
   }
 
   const Vector3& at() const noexcept { return at_; }
   /// Looks up the field at the centre, for the other functions.
-  const FieldSample& look() noexcept { return here_ = field_.sample(at_); }
+  const FieldSample& look() noexcept {
+    work_.add(Work::kBall);
+    return here_ = field_.sample(at_);
+  }
+  bool is_out_of_work() const noexcept { return work_.is_spent(); }
 
   /// Tells whether the clearance covers the motion to `goal`.
   bool is_free(const Vector3& goal) const noexcept { return (goal - at_).norm() + lengths_.margin <= here_.clearance; }
@@ -154,7 +159,8 @@ class Center {
   Vector3 motion_ = Vector3::Zero();
   HalfSpaces spaces_;
   Obstacle obstacle_;
-  detail::Budget budget_;
+  WorkMeter& work_;
+  detail::Budget budget_{work_};
 };
 
 /// Adds the half space of the contact at the start of the sub-step.
@@ -203,6 +209,7 @@ void Center::constrain(const Vector3& free) noexcept {
 /// Tells whether the chord to `end` meets no surface and the gap does not shrink below `least_gap`.
 bool Center::certify(const Vector3& end, double least_gap) noexcept {
   obstacle_.exhausted = false;
+  work_.add(Work::kAttempt);
   there_ = field_.sample(end);
   if (here_.distance <= 0.0 || (end - at_).norm() + least_gap <= here_.clearance) return true;
   if (!detail::chord_is_free(field_, at_, here_.clearance, end, there_.clearance, budget_, obstacle_)) return false;
@@ -262,7 +269,7 @@ bool Center::step(const Vector3& goal) noexcept {
   if (spaces_.count > 0) constrain(free);
   outdated = false;
   MotionShare share(1.0);
-  while (share.next()) {
+  while (share.next() && !work_.is_spent()) {
     const Vector3 motion = share.value() * motion_;
     const bool follows = share.is_whole() && held.count == 0;
     const Vector3 end = follows ? goal : box_.nearest(at_ + motion);
@@ -317,20 +324,24 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
       path.push({rotation, goal});
       break;
     }
-    if (!center.step(goal)) break;
+    const bool has_moved = center.step(goal);
     path.push({rotation, center.at()});
+    if (!has_moved) break;
   } while ((center.cut || center.outdated || center.is_provisional) && !result.inside &&
-           result.substeps < kMaxSubsteps);
+           result.substeps < kMaxSubsteps && !center.is_out_of_work());
   return result;
 }
 
 }  // namespace
 
 Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengths& lengths, const CycleInput& input,
-                  SubstepPath& path, ProxyState& state, CycleReport& report, StepTimes* times) noexcept {
+                  SubstepPath& path, WorkMeter& work, ProxyState& state, CycleReport& report,
+                  StepTimes* times) noexcept {
   detail::begin(times);
   const Vector3& goal = input.H_WD.translation;
-  Center center(field, q.workspace, lengths, state.H_WS.translation);
+  work.start(q.work_budget);
+  work.add(Work::kCycle);
+  Center center(field, q.workspace, lengths, state.H_WS.translation, work);
   path.clear();
   const BallResult result = advance(center, goal, input.H_WD.rotation, state.inside, path);
   detail::end(times, &StepTimes::step1_ns);
@@ -349,6 +360,8 @@ Status ball_cycle(const Voxelmap& field, const Parameters& q, const ContactLengt
   report.dropped = 0;
   report.substeps = std::max(1u, result.substeps);
   report.unconverged = false;
+  report.work = work.spent();
+  report.out_of_work = work.is_spent() && !(center.at() == goal);
   report.outcome = detail::outcome_of({.held = center.held.count > 0,
                                        .cut = center.cut,
                                        .dropped = false,

@@ -4,6 +4,7 @@
 #include "core/pipeline/contact/substep_path.h"
 #include "core/pipeline/cycle/parameters.h"
 #include "core/pipeline/cycle/state.h"
+#include "core/pipeline/cycle/work.h"
 #include "core/scene/voxelmap.h"
 #include "godobject/report.h"
 #include "godobject/status.h"
@@ -19,7 +20,7 @@ namespace godobject {
 /// Statuses as those of `commit`. Cost: at most kMaxSubsteps sub-steps of kMostAttempts attempts, each with one look-up
 /// and those of the certificate; in steady contact one sub-step of two look-ups. Real-time safe.
 Status ball_cycle(const Voxelmap& field, const Parameters& parameters, const ContactLengths& lengths,
-                  const CycleInput& input, SubstepPath& path, ProxyState& state, CycleReport& report,
+                  const CycleInput& input, SubstepPath& path, WorkMeter& work, ProxyState& state, CycleReport& report,
                   StepTimes* times) noexcept;
 
 }  // namespace godobject

@@ -7,6 +7,7 @@
 #include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/contact_limits.h"
 #include "core/pipeline/contact/search/near_points.h"
+#include "core/pipeline/cycle/work.h"
 #include "core/scene/field.h"
 #include "core/scene/sample_bits.h"
 
@@ -28,9 +29,18 @@ struct Obstacle {
   FieldSample sample;          ///< the field at `share`
 };
 
-/// The remaining look-ups for free balls in a cycle.
+/// The remaining look-ups for free balls in a cycle, and its meter of work.
 struct Budget {
+  WorkMeter& work;
   int balls = kMostBallsOfCycle;
+
+  /// Counts a ball. False: there is none left.
+  bool take_ball() noexcept {
+    if (balls <= 0 || work.is_spent()) return false;
+    --balls;
+    work.add(Work::kBall);
+    return true;
+  }
 };
 
 /// Tells whether free balls cover the chord from p0 to p1, in the field's frame [m]; c0 and c1 are the clearances at
@@ -45,8 +55,7 @@ bool chord_is_free(const Field& field, const Vector3& p0, double c0, const Vecto
   for (int ball = 0; ball < kMostBallsOfChord; ++ball) {
     if (covered + c1 >= length) return true;
     obstacle.share = covered / length;
-    if (budget.balls <= 0) break;
-    --budget.balls;
+    if (!budget.take_ball()) break;
     obstacle.sample = field.sample(p0 + obstacle.share * chord);
     if (!(obstacle.sample.clearance > 0.0)) return false;
     covered += obstacle.sample.clearance;
@@ -84,6 +93,7 @@ class Certificate {
       if (any_fails()) return false;
     }
     for (std::uint32_t first = 0; first < near_.count; first += 64) {
+      budget_.work.add(Work::kScan, 64);
       std::uint64_t open = leaving(first, turn, shift);
       if (has_suspect && suspect / 64 == first / 64) open &= ~(std::uint64_t{1} << suspect % 64);
       for (; open != 0; open &= open - 1) {
@@ -112,6 +122,12 @@ class Certificate {
 
   /// Looks up the ends of the chords in the batch and empties it. True: a chord was not proved free.
   bool any_fails() noexcept {
+    if (budget_.work.is_spent()) {
+      obstacle_.exhausted = true;
+      obstacle_.share = 0.0;
+      return true;
+    }
+    budget_.work.add(Work::kChord, ends_.count);
     for (std::uint32_t i = ends_.count; i % SampleBatch::kAtOnce != 0; ++i) ends_.from_distance[i] = 0.0;
     field_.samples(H1_, ends_);
     const std::uint64_t keeps_gap = keeps_distance(ends_, least_gap_, rounding_);

@@ -42,11 +42,13 @@ Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInp
     substeps.begin();                     // #3 (32), (33)
     if (substeps.is_known_free()) break;  //    without a look-up: at the device
     substeps.find_surroundings();         // #1, in place of (1), (2)
-    if (substeps.is_free()) break;        //    no near point: at the device
-    substeps.constrain();                 // #4, in place of (5)-(31), (36)-(42)
-    if (substeps.is_lost()) break;        //    deep inside: follow the device
-    substeps.certify();                   //    the motion that meets no surface
-    substeps.advance();                   //    to the end of that motion
+    if (substeps.is_out_of_work()) break;
+    if (substeps.is_free()) break;  //    no near point: at the device
+    substeps.constrain();           // #4, in place of (5)-(31), (36)-(42)
+    if (substeps.is_out_of_work()) break;
+    if (substeps.is_lost()) break;  //    deep inside: follow the device
+    substeps.certify();             //    the motion that meets no surface
+    substeps.advance();             //    to the end of that motion
   } while (substeps.remain());
   const Status status = substeps.finish(state, report);  // #6, #7 (44)-(46)
   detail::end(times, &StepTimes::solve_ns);

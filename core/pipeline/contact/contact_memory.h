@@ -13,6 +13,8 @@
 #include "core/pipeline/contact/search/near_points.h"
 #include "core/pipeline/contact/search/near_search.h"
 #include "core/pipeline/contact/substep_path.h"
+#include "core/pipeline/contact/work_share.h"
+#include "core/pipeline/cycle/work.h"
 
 namespace godobject {
 
@@ -21,6 +23,7 @@ namespace godobject {
 struct ContactWorkspace {
   ContactRows rows;
   ConstrainedStep step;
+  ConstrainedStep last_step;  ///< of the sub-step before
   NearPoints samples;
   NearPoints features;
   NearEdges edges;
@@ -69,10 +72,13 @@ struct ContactSearch {
 /// The memory of `contact` beside ProxyState: the state that it carries from cycle to cycle, and its workspace.
 struct ContactMemory {
   ContactSearch search;
-  ConstrainedStep last_step;      ///< the last cycle's motion and contact forces
-  Pose H_WD_last;                 ///< the last cycle's device pose
-  bool edges_may_overlap = true;  ///< no pose since the start is known to have all edges apart
-  SubstepPath path;               ///< of the last cycle, for tools and tests
+  ConstrainedStep last_step;       ///< the last cycle's motion and contact forces
+  Pose H_WD_last;                  ///< the last cycle's device pose
+  bool edges_may_overlap = true;   ///< no pose since the start is known to have all edges apart
+  SubstepPath path;                ///< of the last cycle, for tools and tests
+  WorkMeter work;                  ///< of the last cycle
+  WorkShare share;                 ///< of the surroundings that the budget of work allows
+  std::uint64_t attempt_work = 0;  ///< of the last first attempt at a motion [units]
   ContactWorkspace workspace;
 
   /// Forgets the last cycle; the search's memory stays valid.
@@ -81,6 +87,8 @@ struct ContactMemory {
     H_WD_last = Pose{};
     edges_may_overlap = true;
     path.clear();
+    share = WorkShare{};
+    attempt_work = 0;
   }
 };
 

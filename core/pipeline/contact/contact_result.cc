@@ -62,6 +62,8 @@ Status finish_contact(const CycleInput& input, const ContactResult& result, cons
   report.dropped = result.dropped;
   report.substeps = std::max(1u, result.substeps);
   report.unconverged = step.unconverged;
+  report.work = memory.work.spent();
+  report.out_of_work = result.out_of_work;
   report.outcome = outcome_of({.held = step.force_count > 0,
                                .cut = result.cut,
                                .dropped = result.dropped > 0,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/contact_memory.h"
@@ -14,12 +15,14 @@ namespace godobject::detail {
 
 /// The result of the sub-steps of one cycle.
 struct ContactResult {
-  Pose H_WS;                   ///< the god object
-  double smallest = 0.0;       ///< smallest stored distance of the near points at the last sub-step's start [m]
+  Pose H_WS;  ///< the god object
+  /// Smallest stored distance of the near points at the last sub-step's start [m].
+  double smallest = std::numeric_limits<double>::infinity();
   std::uint32_t substeps = 0;  ///< sub-steps with a near point
   std::uint32_t dropped = 0;   ///< near points without a row or without a look-up, in the last sub-step
   bool cut = false;            ///< the last motion was shortened so as not to jump over the surface
   bool inside = false;         ///< the god object has not come out yet after a start inside
+  bool out_of_work = false;    ///< the budget of work ended the cycle
 };
 
 /// The flags of a cycle, as in ContactResult.

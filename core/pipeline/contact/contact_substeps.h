@@ -44,7 +44,12 @@ class ContactSubsteps {
         times_(times),
         wanted_(unconstrained_motion(state.H_WS, input.H_WD)),
         last_motion_(memory.last_step.motion),
-        friction_(scene.friction) {
+        friction_(scene.friction),
+        work_(memory.work),
+        longest_search_radius_(std::max(memory.share.radius() * scene.longest_search_radius,
+                                        lengths_.search_radius_for(0.0, scene.longest_search_radius))) {
+    work_.start(scene.parameters->work_budget);
+    work_.add(Work::kCycle);
     friction_.face_thickness = lengths_.margin;
     step_ = memory.last_step;
     memory.path.clear();
@@ -55,6 +60,8 @@ class ContactSubsteps {
   /// Begins a sub-step: computes the unconstrained motion from the god object to the device, #3.
   void begin() noexcept {
     H0_ = result_.H_WS;
+    work_before_ = work_.spent();
+    is_constrained_ = false;
     refills_left_ = kMostRefills;
     regain_ = 1.0;
     is_first_ = result_.substeps + free_substeps_ == 0;
@@ -74,21 +81,34 @@ class ContactSubsteps {
 
   /// Finds the near points of both directions, the near edges, and their rows, #1.
   void find_surroundings() noexcept {
+    work_.add(Work::kSubstep);
     if (is_first_) {
-      search_radius_ = first_search_radius(memory_, state_, input_.H_WD, lengths_, scene_.longest_search_radius);
+      search_radius_ = first_search_radius(memory_, state_, input_.H_WD, lengths_, longest_search_radius_);
     }
     around_ = Surroundings{.free_displacement = search_radius_};
     rows_.count = 0;
-    find_samples();
-    find_features();
+    memory_.workspace.features.count = memory_.workspace.edges.count = 0;
+    has_all_points_ = find_samples() && find_features();
     // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
-    result_.inside = may_be_inside && around_.smallest <= 0.0;
-    find_edges();
-    if (around_.dropped > 0) select_again();
+    result_.inside = may_be_inside && (around_.smallest <= 0.0 || !has_all_points_);
+    if (has_all_points_) find_edges();
+    if (around_.dropped > 0 && !work_.is_spent()) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
     result_.dropped = around_.unlisted + around_.unseen;
+  }
+
+  /// Tells whether the budget of work is spent: then the cycle ends where the last sub-step ended. The god object may
+  /// lag, with the forces of the last motion. Nothing is known of the surroundings.
+  bool is_out_of_work() noexcept {
+    if (!work_.is_spent()) return false;
+    if (is_constrained_) return_to_last_step();
+    step_.motion = whole_;
+    step_.follows = false;
+    move_to(H0_);
+    result_.cut = result_.out_of_work = true;
+    return true;
   }
 
   /// Tells whether no point is near during the motion to the device; then moves the god object there.
@@ -105,20 +125,28 @@ class ContactSubsteps {
   /// Computes the motion nearest to the unconstrained one that all rows and the workspace allow, #4. Then rows that
   /// edge pairs imply are dropped, and rows that found no room are added, if the motion would violate them.
   void constrain() noexcept {
+    if (!is_first_) memory_.workspace.last_step = step_;
+    is_constrained_ = true;
+    work_.set_aside(memory_.share.is_least() ? work_.budget() / 3 : std::min(memory_.attempt_work, work_.budget() / 4));
     if constexpr (kFriction) {
-      friction_.patches = patches_of(step_, memory_.workspace.samples, lengths_);
+      friction_.patches = patches_of(step_, memory_.workspace.samples, lengths_, work_);
     }
     solve_in_best_metric();
     for (int round = 0; round < kMostImpliedRounds && !step_.infeasible && drop_implied_rows(); ++round) {
       solve_in_best_metric();
     }
     add_violated_rows();
+    work_.set_aside(0);
   }
 
   /// Tells whether after a start inside no motion meets all rows. Then the god object takes the way out that misses
   /// them least, but stays near the device. Where the field has no gradient it goes to the device, without force.
   bool is_lost() noexcept {
     if (!result_.inside || !(around_.swallowed || step_.infeasible)) return false;
+    if (!around_.swallowed) {
+      work_.add(Work::kScan, 25 * (memory_.workspace.samples.count + memory_.workspace.features.count));
+      if (is_out_of_work()) return true;
+    }
     step_ = ConstrainedStep{};
     move_to(around_.swallowed ? input_.H_WD : way_out());
     result_.cut = false;
@@ -128,6 +156,8 @@ class ContactSubsteps {
   /// Tries the motion, or a share of it, until the certificate holds. Sets `motion_` and `H1_`.
   void certify() noexcept {
     share_ = MotionShare(allowed_share(step_.motion, around_, search_radius_, lengths_, rows_.count > 0));
+    share_.limit_to(memory_.share.motion());
+    if (memory_.share.is_least()) share_.forgo_looks();
     // by the triangle inequality the distance grows by at most a margin
     most_gain_ = std::max(0.0, distance_gain()) + 2.0 * lengths_.margin * std::sqrt(squared(aim_));
     limit_arcs();
@@ -135,13 +165,20 @@ class ContactSubsteps {
     at_edge_ = EdgeObstacle{};
     is_outdated_ = false;
     may_look_at_end_ = true;
+    const std::uint64_t begin = work_.spent();
+    bool is_first_attempt = true;
     while (share_.next()) {
+      result_.out_of_work = work_.is_spent();
+      if (result_.out_of_work) break;
       if (!set_trial_pose()) {
         share_.halve();
         continue;
       }
       end(times_, &StepTimes::solve_ns);
+      work_.add(Work::kAttempt);
       const Freedom freedom{are_samples_free(), are_features_free(), are_edges_free()};
+      if (is_first_attempt) attempt_work_ = work_.spent() - begin;
+      is_first_attempt = false;
       const bool is_free = freedom.samples && freedom.features && freedom.edges;
       const bool overshoots = is_free && !share_.is_stopped() && share_.has_next() &&
                               travel(lengths_.sphere, motion_) > metric_.tolerance && passes_lowest_energy();
@@ -153,10 +190,14 @@ class ContactSubsteps {
     share_.give_up();
     H1_ = H0_;
     motion_ = Motion{};
+    if (!result_.out_of_work) return;
+    return_to_last_step();
+    step_.follows = false;
   }
 
   /// Moves the god object to the certified pose and chooses the next sub-step's search radius.
   void advance() noexcept {
+    if (is_first_ && !(share_.value() == 0.0 && result_.out_of_work)) first_work_ = work_.spent();
     const double remainder = (1.0 - share_.value()) * travel(lengths_.sphere, step_.motion);
     is_nearer_ = distance_gain() < 0.0;
     if constexpr (kFriction) slide_on();
@@ -165,19 +206,23 @@ class ContactSubsteps {
     add_to_whole(motion_);
     move_to(H1_);
     result_.cut = share_.is_cut();
-    most_search_radius_ = std::min(std::max(most_search_radius_, 2.0 * search_radius_), scene_.longest_search_radius);
+    most_search_radius_ = std::min(std::max(most_search_radius_, 2.0 * search_radius_), longest_search_radius_);
     longest_displacement_ = std::max(longest_displacement_, travel(lengths_.sphere, motion_));
     // The remainder of a cut motion may change its direction, but is seldom twice as long; the motion past an edge is
     // seldom followed by a longer one. Measured (godobject-replay, the demo's paths): without the factor 2 the path
     // through the plate takes 1.5 % more sub-steps; 4 in place of either factor 2 changes few cycles.
     const double expected = result_.cut ? 2.0 * remainder : longest_displacement_;
-    search_radius_ = std::min(most_search_radius_, lengths_.search_radius_for(expected, scene_.longest_search_radius));
+    search_radius_ = std::min(most_search_radius_, lengths_.search_radius_for(expected, longest_search_radius_));
   }
 
   /// Tells whether another sub-step follows.
-  bool remain() const noexcept {
-    return share_.value() != 0.0 && (result_.cut || is_outdated_ || is_provisional()) && !result_.inside &&
-           budget_.balls > 0 && result_.substeps < kMaxSubsteps && free_substeps_ < kMostFreeSubsteps;
+  bool remain() noexcept {
+    const bool do_remain = share_.value() != 0.0 && (result_.cut || is_outdated_ || is_provisional()) &&
+                           !result_.inside && budget_.balls > 0 && result_.substeps < kMaxSubsteps &&
+                           free_substeps_ < kMostFreeSubsteps;
+    if (!do_remain) return false;
+    result_.out_of_work = !work_.has(work_.spent() - work_before_);  // another one may take as much as the last one
+    return !result_.out_of_work;
   }
 
   /// Ends the cycle: #6, #7 and the report. Statuses as those of `commit`.
@@ -188,7 +233,12 @@ class ContactSubsteps {
       // friction needs the slip of the whole cycle; in the sum the slip of a point that stuck stays zero
       step_.motion = whole_;
     }
-    return finish_contact(input_, result_, step_, *scene_.parameters, lengths_, memory_, state, report);
+    const Status status = finish_contact(input_, result_, step_, *scene_.parameters, lengths_, memory_, state, report);
+    if (status != Status::kOk) return status;
+    if (attempt_work_ > 0) memory_.attempt_work = attempt_work_;
+    if (first_work_ == 0 && !result_.out_of_work) first_work_ = work_.spent();
+    memory_.share.learn(work_, first_work_);
+    return status;
   }
 
  private:
@@ -198,7 +248,8 @@ class ContactSubsteps {
     if constexpr (kSceneTraits.edges) {
       const NearEdges& near = memory_.workspace.edges;
       if (near.count == 0) return false;
-      for (std::uint32_t f = 0; f < step_.force_count; ++f) {
+      for (std::uint32_t f = 0; f < step_.force_count && !work_.is_spent(); ++f) {
+        work_.add(Work::kScan, 8 * near.count + memory_.workspace.samples.count / 4 + rows_.count / 4);
         const std::uint32_t id = step_.forces[f].id;
         const std::uint32_t row = rows_.find(id, 0);
         if (row == rows_.count) continue;  // several forces of one row
@@ -219,8 +270,9 @@ class ContactSubsteps {
   /// If there are more near points than rows, adds those that the motion would violate, and computes the motion again.
   void add_violated_rows() noexcept {
     if (around_.dropped == 0) return;
-    while (true) {
+    while (!work_.is_spent()) {
       const std::uint32_t begin = rows_.count;
+      work_.add(Work::kScan, 2 * (memory_.workspace.samples.count + memory_.workspace.features.count));
       result_.dropped = around_.unlisted + around_.unseen + push_left_out();
       const std::uint32_t end = rows_.count;
       if (end == begin) return;
@@ -254,6 +306,9 @@ class ContactSubsteps {
     slid.translation = back * Vector3(slid.translation + motion_.translation);
     slid.rotation = back * Vector3(slid.rotation + motion_.rotation);
   }
+
+  /// Takes the forces of the last sub-step, or of the last cycle, for those of this one.
+  void return_to_last_step() noexcept { step_ = is_first_ ? memory_.last_step : memory_.workspace.last_step; }
 
   bool is_clear_to_device() const noexcept { return memory_.search.is_free(free_displacement_, scene_.free_clearance); }
 
@@ -346,6 +401,7 @@ class ContactSubsteps {
   /// each other up to rounding count as rows without a common solution.
   void solve() noexcept {
     solve_rows();
+    if (work_.is_spent()) return;
     if (!leads_far_away()) return regain_slowly();
     for (std::uint32_t i = 0; i < rows_.count; ++i) rows_.required_gain[i] = std::min(rows_.required_gain[i], 0.0f);
     step_.force_count = 0;
@@ -384,10 +440,15 @@ class ContactSubsteps {
 
   void solve_rows() noexcept {
     const WorkspaceBox& box = scene_.parameters->workspace;
-    const ContactFriction* const friction = kFriction ? &friction_ : nullptr;
-    if (!box.limited) return least_constraint(rows_, aim_, metric_, friction, last_motion_, step_);
+    const bool has_friction = kFriction && !memory_.share.is_least();
+    const ContactFriction* const friction = has_friction ? &friction_ : nullptr;
+    if (!box.limited) {
+      least_constraint(rows_, aim_, metric_, friction, last_motion_, work_, step_);
+      step_.unconverged |= kFriction && !has_friction;
+      return;
+    }
     if (!kFriction) {
-      least_constraint(rows_, aim_, metric_, nullptr, last_motion_, step_);
+      least_constraint(rows_, aim_, metric_, nullptr, last_motion_, work_, step_);
       if (box.contains(H0_ * step_.motion.translation)) return;
       const bool contradictory = step_.infeasible;
       constrain_within(box);
@@ -398,7 +459,7 @@ class ContactSubsteps {
     const bool met = push_within(box, metric_.tolerance, [&](const Vector3& push_W) noexcept {
       Motion pushed = aim_;
       pushed.translation -= H0_.rotation.conjugate()._transformVector(push_W);
-      least_constraint(rows_, pushed, metric_, friction, last_motion_, step_);
+      least_constraint(rows_, pushed, metric_, friction, last_motion_, work_, step_);
       infeasible |= step_.infeasible;
       step_.follows &= push_W.isZero(0.0);
       return H0_ * step_.motion.translation;
@@ -408,6 +469,7 @@ class ContactSubsteps {
       constrain_within(box);
       step_.unconverged = true;
     }
+    step_.unconverged |= !has_friction;
     step_.infeasible |= infeasible;
   }
 
@@ -421,7 +483,7 @@ class ContactSubsteps {
     push_faces(box, H0_, [&](const Vector3& normal_S, double gain) noexcept {
       rows_.push(kFaceOfWorkspace, normal_S, Vector3::Zero(), gain);
     });
-    least_constraint(rows_, aim_, metric_, nullptr, last_motion_, step_);
+    least_constraint(rows_, aim_, metric_, nullptr, last_motion_, work_, step_);
     rows_.count = contacts;
     drop_forces(kFaceOfWorkspace, step_);
   }
@@ -437,28 +499,33 @@ class ContactSubsteps {
     result_.cut = false;
   }
 
-  void find_samples() noexcept {
+  /// Finds the near sample points. False: as find_near.
+  bool find_samples() noexcept {
     ContactSearch& search = memory_.search;
     NearPoints& near = memory_.workspace.samples;
     near.count = 0;
     const double travelled = search.odometer.travelled();
-    if (search.samples.is_free(travelled, search_radius_)) return;
-    find_near(search.samples, SampleDirection{}, *scene_.field, *scene_.shell, H0_, travelled, search_radius_, lengths_,
-              near, rows_, around_);
+    if (search.samples.is_free(travelled, search_radius_)) return true;
+    return find_near(search.samples, SampleDirection{}, *scene_.field, *scene_.shell, H0_, travelled, search_radius_,
+                     lengths_, point_budget(), work_, near, rows_, around_);
   }
 
-  void find_features() noexcept {
+  /// Finds the near feature points. False: as find_near.
+  bool find_features() noexcept {
     NearPoints& near = memory_.workspace.features;
     near.count = 0;
-    if (!scene_.has_features()) return;
+    if (!scene_.has_features()) return true;
     ContactSearch& search = memory_.search;
     const double travelled = search.odometer.travelled();
     const double radius = search_radius_ * scene_.feature_direction.most_stretch();
-    if (search.features.is_free(travelled, radius)) return;
+    if (search.features.is_free(travelled, radius)) return true;
     H0_features_ = FeatureDirection::pose(H0_, scene_.features.origin_W);
-    find_near(search.features, scene_.feature_direction, *scene_.features.map, scene_.features.points, H0_features_,
-              travelled, radius, lengths_, near, rows_, around_);
+    return find_near(search.features, scene_.feature_direction, *scene_.features.map, scene_.features.points,
+                     H0_features_, travelled, radius, lengths_, point_budget(), work_, near, rows_, around_);
   }
+
+  /// Returns how many points a sub-step looks up.
+  PointBudget point_budget() const noexcept { return {lengths_.point_budget, lengths_.margin}; }
 
   /// Finds the near edges and appends their rows. While a point is inside, edges may lie on the wrong sides of each
   /// other, so that no edge pair counts until the points have led the body out.
@@ -472,7 +539,8 @@ class ContactSubsteps {
       const double deepest = memory_.edges_may_overlap ? lengths_.deepest_overlap : 0.0;
       const EdgeSurroundings around =
           search.edges.find(H0_, search.odometer.travelled(), std::max(search_radius_, deepest),
-                            kEdgeSlack * lengths_.longest_search_radius, deepest, near);
+                            kEdgeSlack * lengths_.longest_search_radius, deepest, work_, near);
+      if (work_.is_spent()) return;
       memory_.edges_may_overlap = memory_.edges_may_overlap && near.overlap();
       around_.unlisted += around.unlisted;
       around_.free_displacement = std::min(around_.free_displacement, around.free_displacement);
@@ -486,6 +554,7 @@ class ContactSubsteps {
   /// Selects the rows again when there are more near points than rows: those of all edges, the deepest points, and some
   /// spread over the others.
   void select_again() noexcept {
+    work_.add(Work::kScan, 4 * (memory_.workspace.samples.count + memory_.workspace.features.count));
     const Selection selection = select_rows(memory_.workspace);
     rows_.count = 0;
     push_edges(H0_, lengths_, memory_.workspace.edges, rows_);
@@ -607,7 +676,7 @@ class ContactSubsteps {
     const double most_with_arc =
         std::min(most_gain_, most_arc_gain(distance_gain(), squared(tried.motion), share_.value()));
     for (const bool is_arc : {true, false}) {
-      if (!push_obstacles(freedom, tried.motion, is_arc)) return false;
+      if (work_.is_spent() || !push_obstacles(freedom, tried.motion, is_arc)) return false;
       solve_in_best_metric();
       add_violated_rows();
       if (distance_gain() <= (is_arc ? most_with_arc : most_gain_) && differs(step_.motion, tried.motion)) {
@@ -661,7 +730,9 @@ class ContactSubsteps {
   Motion last_motion_;
   ContactFriction friction_;  // with the faces that carried load before
   Motion whole_;
-  Budget budget_;
+  WorkMeter& work_;
+  Budget budget_{work_};
+  double longest_search_radius_;
   std::uint32_t free_substeps_ = 0;
   double most_search_radius_ = 0.0;
   double longest_displacement_ = 0.0;  // of a point in a sub-step [m]
@@ -671,6 +742,11 @@ class ContactSubsteps {
 
   // state of the sub-step
   bool is_first_ = true;
+  bool has_all_points_ = true;      // the search has visited all near points
+  bool is_constrained_ = false;     // `step_` is that of the sub-step
+  std::uint64_t work_before_ = 0;   // at its start [units]
+  std::uint64_t attempt_work_ = 0;  // of its first attempt [units]
+  std::uint64_t first_work_ = 0;    // of the first sub-step; 0: the budget was spent before its end [units]
   Pose H0_;
   Pose H0_features_;
   Motion free_;

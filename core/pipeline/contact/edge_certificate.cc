@@ -41,8 +41,7 @@ bool balls_cover(const EdgeInW& start, const EdgeInW& end, const EdgeInW& still,
   for (int ball = 0; ball < kMostBallsOfChord; ++ball) {
     if (covered + g1 > length + near) return true;
     obstacle.share = covered / length;
-    if (budget.balls <= 0) break;
-    --budget.balls;
+    if (!budget.take_ball()) break;
     obstacle.gap = edge_gap(between(start, end, obstacle.share), still);
     if (!(obstacle.gap.distance > near)) return false;
     covered += kShare * obstacle.gap.distance;
@@ -57,6 +56,7 @@ bool edges_are_free(const EdgeContacts& edges, const Pose& H0, const Pose& H1, d
                     const ContactLengths& lengths, const NearEdges& near, Budget& budget,
                     EdgeObstacle& obstacle) noexcept {
   obstacle.exhausted = false;
+  budget.work.add(Work::kScan, 16 * near.count);
   for (std::uint32_t k = 0; k < near.count; ++k) {
     const EdgeGap& gap = near.gap[k];
     if (!(gap.distance > 0.0)) continue;
@@ -65,6 +65,12 @@ bool edges_are_free(const EdgeContacts& edges, const Pose& H0, const Pose& H1, d
     const EdgeInW end = EdgeInW::at(edge, H1);
     const double length = std::max((end.end[0] - start.end[0]).norm(), (end.end[1] - start.end[1]).norm());
     if (gap.distance - length >= least_gap) continue;
+    if (budget.work.is_spent()) {
+      obstacle.exhausted = true;
+      obstacle.share = 0.0;
+      return false;
+    }
+    budget.work.add(Work::kPair);
     const EdgeInW still = EdgeInW::of_still(edges.still.edges[near.pair[k].still]);
     const EdgeGap at_end = edge_gap(end, still);
     const bool keeps_gap =

@@ -261,14 +261,18 @@ double even_distance(const FaceLoad& face, const NearPoints& samples, const Cont
 
 }  // namespace
 
-ContactPatches patches_of(const ConstrainedStep& last, const NearPoints& samples,
-                          const ContactLengths& lengths) noexcept {
+ContactPatches patches_of(const ConstrainedStep& last, const NearPoints& samples, const ContactLengths& lengths,
+                          WorkMeter& work) noexcept {
   ContactPatches found;
   std::uint32_t left = (1u << last.force_count) - 1;
   for (std::uint32_t i = 0; i < last.force_count && found.count < ContactPatches::kMost; ++i) {
     if ((left >> i & 1) == 0) continue;
     const FaceLoad face = take_face(last, i, lengths.margin, left);
     if (!(face.mean_distance > lengths.margin)) continue;
+    const std::uint32_t scanned = 5 * samples.count;
+    if (!work.has(cost_of(Work::kScan) * scanned)) break;
+    work.add(Work::kScan, scanned);
+    work.add(Work::kFace);
     const double even = even_distance(face, samples, lengths);
     if (!(even > 0.0)) continue;
     found.patch[found.count++] = {face.normal, face.centre, std::min(1.0, even / face.mean_distance)};

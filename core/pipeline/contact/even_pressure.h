@@ -20,8 +20,9 @@ namespace godobject::detail {
 /// P_i: the wrench is one that the points could have.
 ///
 /// `samples`: near points of the moving body, at the start of the motion. Cost: twice some 5 ns for each of them, and 2
-/// us, for each face; nothing without a second force on a face. Real-time safe.
-ContactPatches patches_of(const ConstrainedStep& last, const NearPoints& samples,
-                          const ContactLengths& lengths) noexcept;
+/// us, for each face; nothing without a second force on a face, or for which the budget of `work` has no room.
+/// Real-time safe.
+ContactPatches patches_of(const ConstrainedStep& last, const NearPoints& samples, const ContactLengths& lengths,
+                          WorkMeter& work) noexcept;
 
 }  // namespace godobject::detail

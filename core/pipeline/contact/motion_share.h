@@ -29,9 +29,14 @@ class MotionShare {
   bool next() noexcept { return attempt_++ < kMostAttempts; }
   /// Tells whether another attempt may follow.
   bool has_next() const noexcept { return attempt_ < kMostAttempts; }
+  /// Allows no second look.
+  void forgo_looks() noexcept { looks_ = 0; }
 
   /// Sets the share to 0: the god object stays.
-  void give_up() noexcept { value_ = 0.0; }
+  void give_up() noexcept {
+    value_ = 0.0;
+    stopped_ = overshoots_ = false;
+  }
   /// Sets the share at which the motion ends at the lowest energy along its way, as at the bottom of a valley.
   void stop_at(double share) noexcept {
     overshoots_ = is_whole();

@@ -51,19 +51,23 @@ std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, st
 
 /// Finds all points of one direction with a clearance below `search_radius` [m], and appends rows for those with a
 /// gradient while there is room. `H`: pose of the shell in the field's frame; `travelled`: the odometer's reading there
-/// [m]; `near` must be empty. Adds to `rows` and `around`. Cost: NearSearch::find. Real-time safe.
+/// [m]; `near` must be empty. Adds to `rows`, `around` and `work`. False: as NearSearch::find.
+/// Cost: NearSearch::find. Real-time safe.
 template <class Direction, DistanceField Field>
-void find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
-               const Pose& H, double travelled, double search_radius, const ContactLengths& lengths, NearPoints& near,
-               ContactRows& rows, Surroundings& around) noexcept {
+bool find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
+               const Pose& H, double travelled, double search_radius, const ContactLengths& lengths,
+               const PointBudget& budget, WorkMeter& work, NearPoints& near, ContactRows& rows,
+               Surroundings& around) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
   const auto limit_displacement = [&](double clearance) noexcept {
     around.free_displacement = std::min(around.free_displacement, clearance / direction.most_stretch());
   };
-  search.find(
-      direction, field, shell, H, travelled, search_radius, PointBudget{lengths.point_budget, lengths.margin},
+  const bool has_all = search.find(
+      direction, field, shell, H, travelled, search_radius, budget, work,
       [&](const SampleBatch& batch, const auto& index, std::uint64_t found) noexcept {
+        const std::uint32_t before = near.count;
         const std::uint64_t stored = near.push(index.data(), batch, found);
+        work.add(Work::kNear, near.count - before);
         for_each_bit(found & ~stored, [&](std::uint32_t k) noexcept {
           limit_displacement(batch.clearance[k]);
           around.smallest = std::min(around.smallest, batch.distance[k]);
@@ -80,6 +84,7 @@ void find_near(NearSearch& search, const Direction& direction, const Field& fiel
       });
   around.smallest = std::min(around.smallest, near.least_distance());
   near.pad();
+  return has_all;
 }
 
 /// The choice among more near points than rows.

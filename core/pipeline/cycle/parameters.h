@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/pipeline/cycle/work.h"
 #include "core/scene/scene_view.h"
 #include "core/spatial/bounding_sphere.h"
 #include "godobject/pose.h"
@@ -53,6 +54,8 @@ struct Parameters {
   double coupling_rotation = 0.025;   ///< k_VC,r of eq (46) [m^2]
   /// Most points of each direction that a sub-step of `contact` looks up exactly, beside those within the margin.
   std::uint32_t point_budget = std::numeric_limits<std::uint32_t>::max();
+  /// Work of a cycle of `contact` after which it ends with the motion certified so far [units of WorkMeter].
+  std::uint64_t work_budget = WorkMeter::kUnlimited;
   FrictionCoefficients friction;
   PaperFriction paper_friction;
   MassModel mass;

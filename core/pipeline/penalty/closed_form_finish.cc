@@ -32,6 +32,8 @@ Status finish_closed_form(const CycleInput& input, const ClosedFormResult& resul
   report.dropped = 0;
   report.substeps = result.substeps;
   report.unconverged = false;
+  report.work = 0;
+  report.out_of_work = false;
   report.outcome = result.contacts.depth > 0.0 ? Outcome::kContact : Outcome::kFree;
   if (result.cut) report.outcome = Outcome::kCut;
   if (inside) report.outcome = Outcome::kStartInside;

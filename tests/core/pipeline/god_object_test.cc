@@ -398,6 +398,47 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudget) {
   EXPECT_LT((few_report.H_WS.translation - all_report.H_WS.translation).norm(), 2e-5) << "differs by a margin";
 }
 
+/// A budget of work only makes the god object lag. With 1 unit it never moves; without one it catches up.
+TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudgetOfWork) {
+  for (const std::uint64_t budget : {1u, 3000u, 10000u, 20000u, 40000u}) {
+    OwnedGodObject god_object, all;
+    ASSERT_EQ(god_object.start(scene_, Solver::kContact, true), Status::kOk);
+    ASSERT_EQ(all.start(scene_, Solver::kContact, true), Status::kOk);
+    CycleReport report, all_report;
+    const double height = kWorldRadius + kBodyRadius;
+    const Pose start = mesh_pose({0.0, 0.0, height + 0.002});
+    ASSERT_EQ(god_object->update({start, Motion{}}, report), Status::kOk);
+    god_object->set_work_budget(budget);
+    int ended_by_budget = 0;
+    double before = 0.0;
+    for (int k = 0; k < 2000; ++k) {
+      const double way = 1e-5 * std::min(k, 1500);
+      const GodObject::Input input{mesh_pose({way, 0.5 * way, height + 0.002 - 0.7 * way}), Motion{}};
+      ASSERT_EQ(god_object->update(input, report), Status::kOk);
+      ASSERT_EQ(all->update(input, all_report), Status::kOk);
+      ASSERT_LT(report.penetration, 0.0) << budget << ", cycle " << k;
+      ASSERT_LE(report.work, budget + 20000) << budget << ", cycle " << k;
+      ASSERT_FALSE(all_report.out_of_work);
+      ended_by_budget += report.out_of_work ? 1 : 0;
+      const double force = report.force.total_W.force.norm();
+      ASSERT_LT(std::fabs(force - before), 0.5) << budget << ", cycle " << k;
+      before = force;
+      if (budget == 1) {
+        ASSERT_TRUE(report.out_of_work);
+        ASSERT_EQ(report.outcome, Outcome::kCut);
+        ASSERT_EQ(god_object->mesh_pose().translation, start.translation);
+      }
+    }
+    EXPECT_GT(ended_by_budget, budget <= 10000 ? 100 : 0) << budget;
+    god_object->set_work_budget(WorkMeter::kUnlimited);
+    const GodObject::Input away{mesh_pose({0.05, 0.02, height + 0.03}), Motion{}};
+    for (int k = 0; k < 20; ++k) ASSERT_EQ(god_object->update(away, report), Status::kOk);
+    EXPECT_EQ(report.outcome, Outcome::kFree);
+    EXPECT_FALSE(report.out_of_work);
+    EXPECT_LT((god_object->mesh_pose().translation - away.H_WM.translation).norm(), 1e-12);
+  }
+}
+
 TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   SceneDescription lean = balls();
   lean.normals.clear();

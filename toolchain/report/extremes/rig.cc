@@ -128,6 +128,7 @@ Parameters parameters_of(const Setup& setup, const MassModel& mass) {
   q.coupling_rotation = setup.coupling_rotation * setup.scale * setup.scale;
   q.period = setup.period;
   if (setup.point_budget > 0) q.point_budget = static_cast<std::uint32_t>(setup.point_budget);
+  if (setup.work_budget > 0.0) q.work_budget = static_cast<std::uint64_t>(setup.work_budget);
   q.workspace = workspace_of(setup);
   q.friction = {setup.friction_static, setup.friction_kinetic, setup.friction_viscous};
   q.paper_friction = {setup.friction_static, setup.friction_kinetic, setup.friction_static, setup.friction_kinetic,
@@ -235,6 +236,7 @@ class CompiledRig final : public Rig {
     settings.point_budget = static_cast<std::uint32_t>(setup.point_budget);
     scene.workspace = workspace_of(setup);
     started_ = god_object_.start(scene, setup.solver, setup.friction, setup.remembers);
+    if (setup.work_budget > 0.0) god_object_->set_work_budget(static_cast<std::uint64_t>(setup.work_budget));
   }
 
   Status update(const Pose& H_WD, const Motion& velocity_W, CycleReport& report) override {

@@ -68,6 +68,8 @@ Setup any_setup(std::mt19937& random) {
   setup.period = choice.one_in(3) ? choice.spread(1.25e-4, 1e-2) : 1e-3;
   setup.point_budget = choice.one_in(6) ? static_cast<int>(choice.spread(4.0, 200.0)) : 0;
   setup.remembers = !choice.one_in(8);
+  // without memory a search that the budget ends begins again from the root
+  setup.work_budget = setup.remembers && choice.one_in(5) ? std::floor(choice.spread(2e5, 2e6)) : 0.0;
   return setup;
 }
 
@@ -184,6 +186,7 @@ std::string case_file(const Setup& s, const std::string& found) {
                                 {"period", s.period},
                                 {"point_budget", s.point_budget},
                                 {"remembers", s.remembers},
+                                {"work_budget", s.work_budget},
                                 {"returns", s.returns},
                                 {"session", s.session}}
              .dump(1) +
@@ -229,8 +232,9 @@ Setup read_case(const std::string& text) {
   s.period = all.value("period", 1e-3);
   s.point_budget = all.value("point_budget", 0);
   s.remembers = all.value("remembers", true);
-  s.returns = all.value("returns", false);  // files of generator 2 lack it
-  s.session = all.value("session", 0u);     // files of generator 3 lack it
+  s.returns = all.value("returns", false);        // files of generator 2 lack it
+  s.session = all.value("session", 0u);           // files of generator 3 lack it
+  s.work_budget = all.value("work_budget", 0.0);  // files of generator 4 lack it
   return s;
 }
 

@@ -10,7 +10,7 @@
 namespace godobject::report {
 
 /// Number of the generator below; with another number a seed gives other setups.
-inline constexpr int kGenerator = 4;
+inline constexpr int kGenerator = 5;
 
 /// One run of a solver with all numbers, as in a case file. Lengths are multiples of `scale`.
 struct Setup {
@@ -43,6 +43,7 @@ struct Setup {
   double workspace = 0.0;         ///< half edge of the box around the start of contact; 0: none
   double period = 1e-3;           ///< [s]
   int point_budget = 0;           ///< 0: none
+  double work_budget = 0.0;       ///< of a cycle, as Parameters::work_budget [units]; 0: none
   bool remembers = true;          ///< with the memory of the search
   std::uint32_t session = 0;      ///< number of the motion; a compiled world holds many sessions
   bool returns = true;            ///< seek: leads back a device that has lost the still body, or is stuck inside

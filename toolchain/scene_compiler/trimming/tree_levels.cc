@@ -109,13 +109,14 @@ class NearWork {
     if (search_.is_free(odometer_.travelled(), reach)) return;
     search_.find(
         direction_, field_, shell_, Direction::pose(H_WB, scene_.features_origin), odometer_.travelled(), reach,
-        PointBudget{}, [](auto&&...) noexcept {}, [](double) noexcept {});
+        PointBudget{}, work_, [](auto&&...) noexcept {}, [](double) noexcept {});
   }
 
  private:
   const SceneView& scene_;
   Direction direction_;
   const Pointshell& shell_;
+  WorkMeter work_;
   const CountingField& field_;
   ContactLengths lengths_;
   double longest_;

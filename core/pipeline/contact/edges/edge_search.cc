@@ -1,6 +1,9 @@
 #include "core/pipeline/contact/edges/edge_search.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
 
 #include "core/scene/pointshell.h"
 
@@ -13,58 +16,45 @@ BoundingSphere sphere_of(const EdgeInW& edge) noexcept {
   return {0.5 * (edge.end[0] + edge.end[1]), kRounding * (0.5 * (edge.end[1] - edge.end[0]).norm() + edge.radius)};
 }
 
-/// Two branches of the trees whose edges may be near.
-struct Branches {
-  std::uint32_t moving;
-  std::uint32_t still;
-};
-
-/// Branches that are still to be looked at.
-class Stack {
- public:
-  bool push(const Branches& branches) noexcept {
-    if (size_ == items_.size()) return false;
-    items_[size_++] = branches;
-    return true;
-  }
-  bool empty() const noexcept { return size_ == 0; }
-  Branches pop() noexcept { return items_[--size_]; }
-
- private:
-  std::array<Branches, 256> items_;
-  std::size_t size_ = 0;
-};
-
 }  // namespace
 
-std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double reach) noexcept {
+void EdgeSearch::leave_out(double apart) noexcept {
+  visit_.complete = std::min(visit_.complete, apart);
+  ++visit_.left_out;
+}
+
+void EdgeSearch::look_at(const Branches& branches, double distance) noexcept {
+  if (!(distance < visit_.reach)) return;
+  if (visit_.visits == kMostVisits || visit_.size == visit_.stack.size()) return leave_out(distance);
+  visit_.stack[visit_.size++] = branches;
+  ++visit_.visits;
+}
+
+void EdgeSearch::begin_visit(double travelled, double reach) noexcept {
   count_ = 0;
+  visit_.travelled = travelled;
+  visit_.reach = visit_.complete = reach;
+  visit_.visits = visit_.left_out = 0;
+  visit_.stack[0] = {0, 0};
+  visit_.size = 1;
+}
+
+bool EdgeSearch::visit_trees(const Pose& H_WS, WorkMeter& work) noexcept {
   const Matrix3 R = H_WS.rotation.toRotationMatrix();
-  double complete = reach;  // all pairs outside of the list are at least this far apart
-  std::uint32_t left_out = 0;
-  const auto leave_out = [&](double apart) noexcept {
-    complete = std::min(complete, apart);
-    ++left_out;
-  };
-  const auto apart = [&](const Branches& b) noexcept {
+  const double reach = visit_.reach;
+  const auto visit = [&](const Branches& b) noexcept {
     const BoundingSphere moving = sphere_of(edges_.moving.nodes[b.moving]);
     const BoundingSphere still = sphere_of(edges_.still.nodes[b.still]);
-    return (R * moving.center + H_WS.translation - still.center).norm() - moving.radius - still.radius;
+    look_at(b, (R * moving.center + H_WS.translation - still.center).norm() - moving.radius - still.radius);
+    work.add(Work::kBranches);
   };
-  Stack stack;
-  stack.push({0, 0});
-  std::uint32_t visits = 0;
-  const auto visit = [&](const Branches& b) noexcept {
-    const double distance = apart(b);
-    if (!(distance < reach)) return;
-    if (visits == kMostVisits || !stack.push(b)) return leave_out(distance);
-    ++visits;
-  };
-  while (!stack.empty()) {
-    const Branches b = stack.pop();
+  while (visit_.size > 0) {
+    if (work.is_spent()) return false;
+    const Branches b = visit_.stack[--visit_.size];
     const format::Node& moving = edges_.moving.nodes[b.moving];
     const format::Node& still = edges_.still.nodes[b.still];
     if (moving.leaf != 0 && still.leaf != 0) {
+      work.add(Work::kBranches, moving.point_count * still.point_count);
       for (std::uint32_t i = moving.first_point; i < moving.first_point + moving.point_count; ++i) {
         const EdgeInW edge = EdgeInW::at(edges_.moving.edges[i], R, H_WS.translation);
         const BoundingSphere around = sphere_of(edge);
@@ -73,12 +63,13 @@ std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double re
           const BoundingSphere around_other = sphere_of(other);
           const double most = reach + around.radius + around_other.radius;
           if ((around.center - around_other.center).squaredNorm() >= most * most) continue;
+          work.add(Work::kPair);
           const double gap = std::max(0.0, edge_distance(edge, other));
           if (!(gap < reach)) continue;
           if (count_ == kCapacity) {
             leave_out(gap);
           } else {
-            candidates_[count_++] = {{i, j}, travelled + gap};
+            candidates_[count_++] = {{i, j}, visit_.travelled + gap};
           }
         }
       }
@@ -92,27 +83,51 @@ std::uint32_t EdgeSearch::remember(const Pose& H_WS, double travelled, double re
       }
     }
   }
-  complete_until_ = travelled + std::max(0.0, complete);
-  return left_out;
+  complete_until_ = visit_.travelled + std::max(0.0, visit_.complete);
+  return true;
+}
+
+bool EdgeSearch::remember(const Pose& H_WS, double travelled, double radius, double slack, WorkMeter& work) noexcept {
+  constexpr std::array kShares = {1.0, 0.3, 0.0};  // fewer pairs if there is no place for all
+  bool goes_on = visit_.goes_on && visit_.travelled == travelled && radius <= visit_.reach;
+  // most visits end in the round of the last one
+  std::size_t round = visit_.round;
+  if (!goes_on && round > 0 && count_ < kCapacity / 4) --round;
+  for (; round < kShares.size(); ++round) {
+    if (!goes_on) begin_visit(travelled, radius + kShares[round] * slack);
+    visit_.round = round;
+    visit_.goes_on = !visit_trees(H_WS, work);
+    if (visit_.goes_on) return false;
+    goes_on = false;
+    if (visit_.left_out == 0 || travelled + radius < complete_until_) break;
+  }
+  return true;
 }
 
 EdgeSurroundings EdgeSearch::find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
-                                  NearEdges& near) noexcept {
+                                  WorkMeter& work, NearEdges& near) noexcept {
   EdgeSurroundings around;
   if (edges_.empty() || is_free(travelled, radius)) return around;
   if (!(travelled + radius < complete_until_)) {
-    std::uint32_t left_out = 0;
-    for (const double share : {1.0, 0.3, 0.0}) {  // fewer pairs if there is no place for all
-      left_out = remember(H_WS, travelled, radius + share * slack);
-      if (left_out == 0 || travelled + radius < complete_until_) break;
+    certain_ = complete_until_ = -std::numeric_limits<double>::infinity();
+    if (!remember(H_WS, travelled, radius, slack, work)) {
+      around.free_displacement = 0.0;
+      return around;
     }
-    if (!(travelled + radius < complete_until_)) around.unlisted += left_out;
+    if (!(travelled + radius < complete_until_)) around.unlisted += visit_.left_out;
   }
   around.free_displacement = std::max(0.0, complete_until_ - travelled);
   certain_ = complete_until_;
+  work.add(Work::kScan, count_);
   for (std::uint32_t i = 0; i < count_; ++i) {
     Candidate& candidate = candidates_[i];
     if (!(travelled + radius < candidate.free_until)) {
+      if (work.is_spent()) {
+        certain_ = -std::numeric_limits<double>::infinity();
+        around.free_displacement = 0.0;
+        return around;
+      }
+      work.add(Work::kPair);
       const EdgeGap gap = detail::gap_at(edges_, candidate.pair, H_WS, deepest);
       const double apart = std::max(0.0, gap.distance);  // sheets may overlap by less than their radii
       candidate.free_until = travelled + apart;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "core/pipeline/contact/edges/near_edges.h"
+#include "core/pipeline/cycle/work.h"
 #include "core/spatial/bounding_sphere.h"
 #include "godobject/pose.h"
 
@@ -32,6 +34,7 @@ class EdgeSearch {
   void start(const EdgeContacts& edges) noexcept {
     edges_ = edges;
     count_ = 0;
+    visit_ = Visit{};
     complete_until_ = -std::numeric_limits<double>::infinity();
     certain_ = edges.empty() ? std::numeric_limits<double>::infinity() : complete_until_;
   }
@@ -42,10 +45,11 @@ class EdgeSearch {
 
   /// Finds all pairs whose gap is below `radius` [m]. H_WS: pose of the moving body, where the odometer reads
   /// `travelled` [m]. `slack`: pairs up to this much farther away are remembered [m]. `deepest`: as in edge_gap, not
-  /// above `radius` [m]. `near` must be empty. Cost: some 60 ns for each remembered pair that may be near, and seldom a
-  /// visit of the trees. Real-time safe.
+  /// above `radius` [m]. `near` must be empty. If the budget of `work` is spent before the end, pairs are missing, and
+  /// a call at the same pose goes on with the visit of the trees. Cost: some 60 ns for each remembered pair that may be
+  /// near, and seldom a visit of the trees. Real-time safe.
   EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
-                        NearEdges& near) noexcept;
+                        WorkMeter& work, NearEdges& near) noexcept;
 
  private:
   struct Candidate {
@@ -53,12 +57,35 @@ class EdgeSearch {
     double free_until = 0.0;  ///< reading of the odometer up to which the edges stay apart [m]
   };
 
-  /// Remembers all pairs whose gap is below `reach` [m]. Returns how many pairs of branches found no place.
-  std::uint32_t remember(const Pose& H_WS, double travelled, double reach) noexcept;
+  /// Two branches of the trees whose edges may be near.
+  struct Branches {
+    std::uint32_t moving;
+    std::uint32_t still;
+  };
+  /// A visit of the trees, which may take several cycles while the body stays.
+  struct Visit {
+    double travelled = 0.0;  ///< reading of the odometer [m]
+    double reach = 0.0;      ///< pairs up to this gap are remembered [m]
+    double complete = 0.0;   ///< all pairs outside of the list are at least this far apart [m]
+    std::uint32_t visits = 0;
+    std::uint32_t left_out = 0;  ///< pairs, and pairs of branches, that found no place
+    std::size_t round = 0;
+    bool goes_on = false;
+    std::size_t size = 0;
+    std::array<Branches, 256> stack;  ///< branches that are still to be looked at
+  };
+
+  /// Remembers all pairs within a distance. False: the budget of work was spent.
+  bool remember(const Pose& H_WS, double travelled, double radius, double slack, WorkMeter& work) noexcept;
+  void begin_visit(double travelled, double reach) noexcept;
+  bool visit_trees(const Pose& H_WS, WorkMeter& work) noexcept;
+  void look_at(const Branches& branches, double distance) noexcept;
+  void leave_out(double apart) noexcept;
 
   EdgeContacts edges_;
   std::uint32_t count_ = 0;
   std::array<Candidate, kCapacity> candidates_;
+  Visit visit_;
   double complete_until_ = 0.0;  ///< reading up to which all other pairs stay apart [m]
   double certain_ = 0.0;         ///< reading up to which all pairs stay apart [m]
 };

@@ -3,8 +3,8 @@
 namespace godobject::detail {
 
 ContactSet::ContactSet(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
-                       const ContactFriction* friction, const Motion& last) noexcept
-    : rows_(rows), metric_(metric), friction_(friction), last_(last), space_(metric.gyration) {
+                       const ContactFriction* friction, const Motion& last, WorkMeter& work) noexcept
+    : rows_(rows), metric_(metric), friction_(friction), last_(last), work_(work), space_(metric.gyration) {
   wanted_ << wanted.translation, metric.gyration * wanted.rotation;
   active_.start(target());
 }

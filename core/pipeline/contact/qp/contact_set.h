@@ -52,14 +52,15 @@ class ContactSet {
   static constexpr int kMaxContacts = ActiveSet::kCapacity + 1;
 
   /// `friction` null: there are no contacts, and half spaces are those of the rows. The arguments must outlive the set.
-  /// `last`: the last motion, which decides between static and kinetic friction.
+  /// `last`: the last motion, which decides between static and kinetic friction. `work` counts what the set does.
   ContactSet(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric, const ContactFriction* friction,
-             const Motion& last) noexcept;
+             const Motion& last, WorkMeter& work) noexcept;
 
   const ContactRows& rows() const noexcept { return rows_; }
   const CouplingMetric& metric() const noexcept { return metric_; }
   const ContactFriction* friction() const noexcept { return friction_; }
   const Motion& last() const noexcept { return last_; }
+  WorkMeter& work() const noexcept { return work_; }
   const CouplingSpace& space() const noexcept { return space_; }
   void set_space(const CouplingSpace& space) noexcept { space_ = space; }
   /// Returns the wanted motion as (x, rho r) [m].
@@ -85,6 +86,7 @@ class ContactSet {
 
   /// Returns the row that `m` violates most; rows of contacts are excluded.
   ContactRows::Violated most_violated(const Motion& m) const noexcept {
+    work_.add(Work::kScan, rows_.count);
     return rows_.most_violated(m, metric_.tolerance);
   }
   /// Returns the displacement in the motion `m`: along the normal that of the contact point, across it that of its
@@ -118,6 +120,7 @@ class ContactSet {
   /// Adds a half space that the motion violates. False: it contradicts the others.
   bool add(const ActiveSet::Inequality& half_space) noexcept {
     ++additions_;
+    work_.add(Work::kExchange);
     return active_.add(half_space);
   }
   /// Makes the row a contact that slips as in the motion `m`, for Newton's method. False: the active set is full.
@@ -141,6 +144,7 @@ class ContactSet {
   const CouplingMetric& metric_;
   const ContactFriction* friction_;
   const Motion& last_;
+  WorkMeter& work_;
   Vector6 wanted_;  // (x, rho r)
   CouplingSpace space_;
   ActiveSet active_;

@@ -158,7 +158,8 @@ bool confirm(const Motion& m, ContactSet& set) noexcept {
 bool iterate(ContactSet& set) noexcept {
   Motion m = set.motion();
   bool trusted = false;
-  for (int step = 0; step < kMostNewtonSteps; ++step) {
+  for (int step = 0; step < kMostNewtonSteps && !set.work().is_spent(); ++step) {
+    set.work().add(Work::kNewton);
     begin_to_slip(m, set);
     const Newton result = newton_step(trusted || step >= kPatience, m, set);
     if (result == Newton::kFailed) return false;

@@ -175,10 +175,30 @@ bool solve_friction(ContactSet& set, const ConstrainedStep& last) noexcept {
     if ((round <= kNewtonRounds || round % kRoundsPerNewton == 0) && solve_coulomb(set)) return true;
     if (matches && (opposes_slip(set) || turns_to_slip(set))) return true;
     relaxation.follow(round, set);
-    if (set.additions() > kMostRoundAdditions) return false;
+    set.work().add(Work::kExchange, static_cast<std::uint32_t>(set.active().size()));
+    if (set.additions() > kMostRoundAdditions || set.work().is_spent()) return false;
   }
   return false;
 }
+
+/// Sets work aside for the rows after a failure.
+class SetAside {
+ public:
+  explicit SetAside(const ContactSet& set) noexcept : work_(set.work()), before_(work_.aside()) {
+    constexpr std::uint64_t kAdditions = 16;  // mostly 3 to 8
+    const std::uint64_t addition = cost_of(Work::kScan) * set.rows().count + cost_of(Work::kExchange);
+    work_.set_aside(before_ + kAdditions * addition);
+  }
+  SetAside(const SetAside&) = delete;
+  SetAside& operator=(const SetAside&) = delete;
+  ~SetAside() { release(); }
+
+  void release() const noexcept { work_.set_aside(before_); }
+
+ private:
+  WorkMeter& work_;
+  std::uint64_t before_;
+};
 
 /// Ends with the set's motion, which satisfies Coulomb's law.
 void conclude(ContactSet& set, ConstrainedStep& step) noexcept {
@@ -245,12 +265,14 @@ void guess_cone(std::uint32_t row, const ContactForce& force, ContactSet& set) n
 }
 
 bool solve_with_friction(ContactSet& set, ConstrainedStep& step) noexcept {
+  const SetAside for_rows(set);
   if (solve_friction(set, step)) {
     come_to_rest(set);
     conclude(set, step);
     return true;
   }
   if (conclude_smoothed(set, step)) return true;
+  for_rows.release();
   const ContactSet::Saved found = set.save();
   const bool feasible = conclude_with_rows(set, step);
   // without a force there is nothing that the motion could differ for

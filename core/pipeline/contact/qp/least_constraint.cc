@@ -61,8 +61,10 @@ bool solve_frictionless(ContactSet& set, ConstrainedStep& step) noexcept {
 
 /// Solves the problem with or without friction. False: infeasible.
 bool solve(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric, const ContactFriction* friction,
-           const Motion& last, ConstrainedStep& step) noexcept {
-  ContactSet set(rows, wanted, metric, friction, last);
+           const Motion& last, WorkMeter& work, ConstrainedStep& step) noexcept {
+  work.add(Work::kSolve);
+  work.add(Work::kScan, step.force_count * rows.count / 4);
+  ContactSet set(rows, wanted, metric, friction, last, work);
   warm_start(step, set);
   const auto solved = [&]() noexcept {
     if constexpr (kSceneTraits.friction) {
@@ -92,10 +94,12 @@ void shift_gains(const Motion& motion, double sign, ContactRows& rows) noexcept 
 /// Solves the problem with friction against the slip of the whole cycle. False: it was not solved, or leads farther
 /// from the wanted motion than rest is, by more than lost gaps require; then the step is as before.
 bool solve_for_whole_slip(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
-                          const ContactFriction& friction, const Motion& last, ConstrainedStep& step) noexcept {
+                          const ContactFriction& friction, const Motion& last, WorkMeter& work,
+                          ConstrainedStep& step) noexcept {
   const ConstrainedStep before = step;
+  work.add(Work::kScan, 4 * rows.count);
   shift_gains(friction.slid, 1.0, rows);
-  const bool feasible = solve(rows, sum(wanted, friction.slid, 1.0), metric, &friction, last, step);
+  const bool feasible = solve(rows, sum(wanted, friction.slid, 1.0), metric, &friction, last, work, step);
   shift_gains(friction.slid, -1.0, rows);
   step.motion = sum(step.motion, friction.slid, -1.0);
   const double left = metric.squared(sum(wanted, step.motion, -1.0));
@@ -108,7 +112,8 @@ bool solve_for_whole_slip(ContactRows& rows, const Motion& wanted, const Couplin
 }  // namespace
 
 void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMetric& metric,
-                      const ContactFriction* friction, const Motion& last, ConstrainedStep& step) noexcept {
+                      const ContactFriction* friction, const Motion& last, WorkMeter& work,
+                      ConstrainedStep& step) noexcept {
   step.infeasible = false;
   step.unconverged = false;
   if (rows.count == 0) {
@@ -119,15 +124,15 @@ void least_constraint(ContactRows& rows, const Motion& wanted, const CouplingMet
   }
   if constexpr (kSceneTraits.friction) {
     if (friction != nullptr && !is_zero(friction->slid) &&
-        solve_for_whole_slip(rows, wanted, metric, *friction, last, step)) {
+        solve_for_whole_slip(rows, wanted, metric, *friction, last, work, step)) {
       return;
     }
   }
-  if (solve(rows, wanted, metric, friction, last, step)) return;
+  if (solve(rows, wanted, metric, friction, last, work, step)) return;
   // infeasible rows drop their required gap increase; then the zero motion meets all rows
   for (std::uint32_t i = 0; i < rows.count; ++i) rows.required_gain[i] = std::min(rows.required_gain[i], 0.0f);
   step.force_count = 0;
-  solve(rows, wanted, metric, friction, last, step);
+  solve(rows, wanted, metric, friction, last, work, step);
   step.infeasible = true;
 }
 

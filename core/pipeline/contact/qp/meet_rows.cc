@@ -13,7 +13,7 @@ bool is_active(const ActiveSet& active, std::uint32_t row) noexcept {
 }  // namespace
 
 Additions meet_rows(ContactSet& set) noexcept {
-  for (int i = 0; i < kMostRowAdditions; ++i) {
+  for (int i = 0; i < kMostRowAdditions && !set.work().is_spent(); ++i) {
     const ContactRows::Violated worst = set.most_violated(set.motion());
     // an active row is violated only by rounding
     if (worst.row == ContactRows::kNone || is_active(set.active(), worst.row)) return Additions::kMet;

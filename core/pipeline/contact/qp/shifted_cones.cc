@@ -45,7 +45,7 @@ bool is_met(const ContactSet& set, const Motion& m) noexcept {
 }  // namespace
 
 Additions meet_cones(Shift entering, ContactSet& set, double tolerance) noexcept {
-  for (int i = 0; i < kMostConeAdditions; ++i) {
+  for (int i = 0; i < kMostConeAdditions && !set.work().is_spent(); ++i) {
     const Motion m = set.motion();
     const ContactRows::Violated row = set.most_violated(m);
     const bool rows_are_met = row.row == ContactRows::kNone;

@@ -340,7 +340,9 @@ class SmoothedProblem {
         norm = residual(smoothing);
         continue;
       }
+      if (set_.work().is_spent()) return false;
       work_left_ -= count();
+      set_.work().add(Work::kSmoothed, static_cast<std::uint32_t>(count()));
       if (work_left_ < 0) return all_obey_law() && has_moderate_forces();
       norm = newton_step(smoothing, norm);
       if (!std::isfinite(norm)) return false;
@@ -371,7 +373,7 @@ class SmoothedProblem {
 }  // namespace
 
 bool solve_smoothed(ContactSet& set, ConstrainedStep& step) noexcept {
-  if (!(set.friction()->kinetic_ratio > 0.0)) return false;
+  if (!(set.friction()->kinetic_ratio > 0.0) || set.work().is_spent()) return false;
   const ContactSet::Saved found = set.save();
   const CouplingSpace space = set.space();
   SmoothedProblem problem(set);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "core/scene/pointshell.h"
 
@@ -87,7 +88,7 @@ class DueCalendar {
 
   /// Files an item that is not filed: it is due at the tick `due`.
   void file(std::uint32_t item, std::uint64_t due) noexcept {
-    const std::uint64_t tick = std::min(due, hand_ + kMostAhead);
+    const std::uint64_t tick = std::clamp(due, hand_ - std::min(hand_, kMostAhead), hand_ + kMostAhead);
     words_of(item)[kTick] = static_cast<std::uint32_t>(tick);
     link(item, tick > hand_ ? std::min(tick, hand_ + kSlots - 1) % kSlots : kCurrent);
   }
@@ -95,23 +96,37 @@ class DueCalendar {
   /// Takes a filed item out.
   void take(std::uint32_t item) noexcept { unlink(item); }
 
+  /// Tells `take_due` to take all.
+  struct NeverStops {
+    bool operator()() const noexcept { return false; }
+  };
+
   /// Takes out all items due at the tick `now` or before, and calls visit(item) for each. `now` may be before the `now`
-  /// of the last call. Items that `visit` files stay.
-  template <class Visit>
-  void take_due(std::uint64_t now, Visit&& visit) noexcept {
+  /// of the last call. Items that `visit` files stay. Before each item it asks stops(): if true, the items that are
+  /// left stay due, and it returns false.
+  template <class Visit, class Stops = NeverStops>
+  bool take_due(std::uint64_t now, Visit&& visit, const Stops& stops = {}) noexcept {
     const std::uint64_t last = hand_;
     hand_ = now;
     // after more ticks 32 bits do not tell which items are due: all are taken
     const std::int32_t most = now > last + kMostAhead ? std::numeric_limits<std::int32_t>::max() : 0;
-    visit_chain(detach(kCurrent), now, most, visit);
-    if (now <= last) return;  // items due later moved from the current list to their own
+    if (!visit_list(kCurrent, now, most, visit, stops)) {
+      hand_ = std::min(now, last);
+      return false;
+    }
+    if (now <= last) return true;  // items due later moved from the current list to their own
     const std::uint64_t slots = std::min<std::uint64_t>(now - last, kSlots);
     for (std::uint64_t k = 1; k <= slots; ++k) {
       const std::uint64_t from = (last + k) % kSlots;
       const std::uint64_t rest = filled_[from / 64] >> from % 64;
       k += rest != 0 ? static_cast<std::uint64_t>(std::countr_zero(rest)) : 63 - from % 64;
-      if (rest != 0 && k <= slots) visit_chain(detach((last + k) % kSlots), now, most, visit);
+      if (rest == 0 || k > slots) continue;
+      if (!visit_list((last + k) % kSlots, now, most, visit, stops)) {
+        hand_ = last + k - 1;  // the lists from this one on are due later
+        return false;
+      }
     }
+    return true;
   }
 
   /// Returns a tick before which no item is due.
@@ -159,17 +174,24 @@ class DueCalendar {
   /// Returns the number of marked points.
   std::uint32_t marked() const noexcept { return marked_; }
 
-  /// Calls visit(point) for all marked points, ascending. `visit` may unmark its point.
+  /// Calls visit(point) for all marked points, ascending. `visit` may unmark its point, and mark points that it was
+  /// called for. It may return false to end the calls; then so does this function.
   template <class Visit>
-  void for_each_marked(Visit&& visit) const noexcept {
+  bool for_each_marked(Visit&& visit) const noexcept {
     for (std::uint32_t w = 0; w < marked_words_.size(); ++w) {
       for (std::uint32_t words = marked_words_[w]; words != 0; words &= words - 1) {
         const std::uint32_t word = 32 * w + static_cast<std::uint32_t>(std::countr_zero(words));
         for (std::uint32_t bits = marks_[word]; bits != 0; bits &= bits - 1) {
-          visit(32 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
+          const std::uint32_t point = 32 * word + static_cast<std::uint32_t>(std::countr_zero(bits));
+          if constexpr (std::is_same_v<decltype(visit(point)), bool>) {
+            if (!visit(point)) return false;
+          } else {
+            visit(point);
+          }
         }
       }
     }
+    return true;
   }
 
  private:
@@ -229,10 +251,29 @@ class DueCalendar {
     return first;
   }
 
-  /// Visits a chain's items; files items more than `most` ticks ahead of `now` again.
-  template <class Visit>
-  void visit_chain(std::uint32_t chain, std::uint64_t now, std::int32_t most, Visit& visit) noexcept {
+  /// Puts the rest of a detached list back, behind what was filed there since.
+  void attach(std::uint64_t slot, std::uint32_t chain) noexcept {
+    std::uint32_t before = kHead | static_cast<std::uint32_t>(slot);
+    if (head_[slot] == kNone) {
+      head_[slot] = chain;
+      filled_[slot / 64] |= std::uint64_t{1} << slot % 64;
+    } else {
+      before = head_[slot];
+      while (next(before) != kNone) before = next(before);
+      next(before) = chain;
+    }
+    prev(chain) = before;
+  }
+
+  /// Visits a list's items; files items more than `most` ticks ahead of `now` again. False: it was stopped.
+  template <class Visit, class Stops>
+  bool visit_list(std::uint64_t slot, std::uint64_t now, std::int32_t most, Visit& visit, const Stops& stops) noexcept {
+    std::uint32_t chain = detach(slot);
     while (chain != kNone) {
+      if (stops()) {
+        attach(slot, chain);
+        return false;
+      }
       const std::uint32_t item = pop(chain);
       const auto ahead = static_cast<std::int32_t>(words_of(item)[kTick] - static_cast<std::uint32_t>(now));
       if (ahead <= most) {
@@ -241,6 +282,7 @@ class DueCalendar {
         file(item, now + static_cast<std::uint64_t>(ahead));
       }
     }
+    return true;
   }
 
   std::span<std::uint32_t> words_;

@@ -12,6 +12,7 @@
 #include "core/pipeline/contact/search/due_calendar.h"
 #include "core/pipeline/contact/search/odometer.h"
 #include "core/pipeline/contact/search/point_budget.h"
+#include "core/pipeline/cycle/work.h"
 #include "core/scene/field.h"
 #include "core/scene/pointshell.h"
 #include "core/scene/sample_bits.h"
@@ -78,19 +79,27 @@ class NearSearch {
   /// `Direction::lever(q)`: that distance for a point q in the field's frame. Both are used only with
   /// `Direction::kStretches`; otherwise the stretch is 1.
   ///
+  /// False: the budget of `work` was spent before the end, and nothing is known about points that were not visited.
+  /// With memory the next call goes on where this one stopped.
+  ///
   /// Cost: a share of a batch for each due node and point, a look-up for each point that may be near; at most all nodes
   /// and points. Real-time safe.
   template <class Direction, DistanceField Field, class Visit, class LeaveOut>
-  void find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
-            double radius, const PointBudget& budget, Visit&& visit, LeaveOut&& leave_out) noexcept {
+  bool find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
+            double radius, const PointBudget& budget, WorkMeter& work, Visit&& visit, LeaveOut&& leave_out) noexcept {
     const Look<Direction, Field> look{
-        direction, field, shell, H, H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius, radius};
+        direction, field, shell, H, H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius,
+        radius,    work};
+    certain_ = 0.0;
     if (words_.empty()) {
-      certain_ = search_from_root(look, visit);
+      const double least = search_from_root(look, visit);
+      if (work.is_spent()) return false;
+      certain_ = least;
     } else {
-      DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out);
+      if (!DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out)) return false;
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
+    return true;
   }
 
  private:
@@ -115,6 +124,7 @@ class NearSearch {
     double travelled;
     double horizon;  ///< travelled + L radius: items that are free until less than this may be near [m]
     double radius;
+    WorkMeter& work;
 
     /// Returns the rounding of stored distances [m].
     double rounding() const noexcept { return kFieldRounding * field.voxel_size(); }
@@ -140,7 +150,8 @@ class NearSearch {
     }
   };
 
-  /// Searches without memory. Returns the odometer's reading until which all points stay free.
+  /// Searches without memory, until the budget of work is spent. Returns the odometer's reading until which all points
+  /// stay free.
   template <class Direction, DistanceField Field, class Visit>
   static double search_from_root(const Look<Direction, Field>& look, Visit& visit) noexcept {
     const Pointshell& shell = look.shell;
@@ -148,6 +159,7 @@ class NearSearch {
     SampleBatch samples;
     Indices index;
     const auto look_up = [&]() noexcept {
+      look.work.add(Work::kPoint, samples.count);
       look.field.samples(look.H, samples);
       const std::uint64_t near = look.visit_near(samples, index, visit);
       if (near != 0) least = std::min(least, look.travelled);
@@ -157,9 +169,10 @@ class NearSearch {
       samples.count = 0;
     };
     const auto node_count = static_cast<std::uint32_t>(shell.nodes.size());
-    for (std::uint32_t n = 0; n < node_count;) {
+    for (std::uint32_t n = 0; n < node_count && !look.work.is_spent();) {
       const format::Node& node = shell.nodes[n];
       const Vector3 center = center_of(node);
+      look.work.add(Work::kBall);
       const double clearance = look.field.sample(look.R * center + look.H.translation).clearance;
       const double until = look.free_until(clearance, center, radius_of(node));
       if (until >= look.horizon) {
@@ -194,12 +207,13 @@ class NearSearch {
           per_tick_(1.0 / search.tick_),
           node_count_(static_cast<std::uint32_t>(look.shell.nodes.size())) {}
 
+    /// False: the budget of work was spent.
     template <class Visit, class LeaveOut>
-    void run(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
-      look_at_due();
-      if (calendar_.marked() > budget.points) bound_marked();
-      look_up_marked(budget, visit, leave_out);
+    bool run(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
+      const bool has_all = look_at_due() && (calendar_.marked() <= budget.points || bound_marked()) &&
+                           look_up_marked(budget, visit, leave_out);
       replace_children();
+      return has_all;
     }
 
    private:
@@ -239,6 +253,7 @@ class NearSearch {
 
     /// Looks up the batch's bounds: files the far items, opens the other nodes, marks the other points.
     void flush() noexcept {
+      look_.work.add(kind_, batch_.count);
       look_.field.clearances(look_.H, batch_);
       for (std::uint32_t k = 0; k < batch_.count; ++k) {
         const std::uint32_t i = item_[k];
@@ -255,36 +270,54 @@ class NearSearch {
       batch_.count = 0;
     }
 
-    void look_at_due() noexcept {
+    bool look_at_due() noexcept {
       const auto adder = [this](std::uint32_t i) noexcept { add(i); };
       // without marked points, items that are due soon are looked up early: then most cycles of free motion need no
       // look-up
       const double ahead = calendar_.marked() == 0 ? kAhead * search_.tick_ : 0.0;
-      calendar_.take_due(tick_of(look_.horizon + ahead), adder);
+      calendar_.take_due(tick_of(look_.horizon + ahead), adder, is_spent());
       while (batch_.count > 0 || opened_ != DueCalendar::kNone) {
+        if (look_.work.is_spent()) {
+          put_back();
+          return false;
+        }
         if (opened_ == DueCalendar::kNone) {
           flush();
         } else {
           DueCalendar::for_each_child(look_.shell, calendar_.pop(opened_), adder);
         }
       }
+      return !look_.work.is_spent();
     }
 
-    /// Looks up bounds at this pose for all marked points: the budget compares them.
-    void bound_marked() noexcept {
-      std::uint32_t again = DueCalendar::kNone;
-      calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+    auto is_spent() const noexcept {
+      return [this]() noexcept { return batch_.count == 0 && look_.work.is_spent(); };
+    }
+
+    /// Files all items without a look-up: they are due at once.
+    void put_back() noexcept {
+      for (std::uint32_t k = 0; k < batch_.count; ++k) calendar_.file(item_[k], 0);
+      batch_.count = 0;
+      while (opened_ != DueCalendar::kNone) calendar_.file(calendar_.pop(opened_), 0);
+    }
+
+    /// Looks up bounds at this pose for all marked points: the budget compares them. False: as `run`.
+    bool bound_marked() noexcept {
+      kind_ = Work::kPoint;  // every call does it again
+      const bool all = calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+        if (look_.work.is_spent()) return false;
         calendar_.unmark(i);
-        calendar_.push(again, node_count_ + i);
+        add(node_count_ + i);
+        return true;
       });
-      while (again != DueCalendar::kNone) add(calendar_.pop(again));
       flush();
+      return all;
     }
 
     float bound(std::uint32_t point) const noexcept { return std::bit_cast<float>(search_.bounds_[point]); }
 
     template <class Visit, class LeaveOut>
-    void look_up_marked(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
+    bool look_up_marked(const PointBudget& budget, Visit& visit, LeaveOut& leave_out) noexcept {
       const auto look_up = [&](std::uint32_t i) noexcept {
         const std::uint32_t k = samples_.count;
         item_[k] = i;
@@ -293,34 +326,41 @@ class NearSearch {
         samples_.y[k] = point.y;
         samples_.z[k] = point.z;
         samples_.count = k + 1;
-        if (samples_.count == SampleBatch::kCapacity) sample(visit);
+        if (samples_.count < SampleBatch::kCapacity) return true;
+        sample(visit);
+        return !look_.work.is_spent();
       };
+      bool all = true;
       if (calendar_.marked() <= budget.points) {
-        calendar_.for_each_marked(look_up);
+        all = calendar_.for_each_marked(look_up);
       } else {
+        look_.work.add(Work::kScan, 3 * calendar_.marked());
         detail::NearestFirst nearest(budget, static_cast<float>(look_.radius));
         const auto for_each_candidate = [&](const auto& visit_candidate) noexcept {
-          calendar_.for_each_marked([&](std::uint32_t i) noexcept {
-            if (static_cast<double>(bound(i)) < look_.radius) visit_candidate(i);
+          return calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+            return !(static_cast<double>(bound(i)) < look_.radius) || visit_candidate(i);
           });
         };
-        for_each_candidate([&](std::uint32_t i) noexcept { nearest.count(bound(i)); });
-        nearest.spread();
         for_each_candidate([&](std::uint32_t i) noexcept {
-          if (nearest.takes(bound(i))) {
-            look_up(i);
-          } else {
-            leave_out(static_cast<double>(bound(i)));
-          }
+          nearest.count(bound(i));
+          return true;
+        });
+        nearest.spread();
+        all = for_each_candidate([&](std::uint32_t i) noexcept {
+          if (nearest.takes(bound(i))) return look_up(i);
+          leave_out(static_cast<double>(bound(i)));
+          return true;
         });
       }
       if (samples_.count > 0) sample(visit);
+      return all;
     }
 
     /// Looks up the batch of points that may be near. Far points are filed again; points that are not near, but would
     /// be due again at once, stay marked.
     template <class Visit>
     void sample(Visit& visit) noexcept {
+      look_.work.add(Work::kPoint, samples_.count);
       look_.field.samples(look_.H, samples_);
       // for a stretch of 1
       const double due_below = look_.horizon - look_.travelled + look_.rounding();
@@ -343,7 +383,8 @@ class NearSearch {
         bool all = !calendar_.is_filed(n);
         DueCalendar::for_each_child(look_.shell, n,
                                     [&](std::uint32_t child) noexcept { all &= calendar_.is_filed(child); });
-        if (!all) continue;
+        if (!all || look_.work.is_spent()) continue;
+        look_.work.add(Work::kItem, 8);  // a batch of one
         add(n);
         look_.field.clearances(look_.H, batch_);
         batch_.count = 0;
@@ -365,6 +406,7 @@ class NearSearch {
     std::uint32_t opened_ = DueCalendar::kNone;     ///< nodes whose children need a look-up
     std::uint32_t replacing_ = DueCalendar::kNone;  ///< nodes that may replace their children again
     SampleBatch samples_;
+    Work kind_ = Work::kItem;  ///< of the bounds that are looked up
   };
 
   std::span<std::uint32_t> words_;

@@ -14,6 +14,7 @@ class Odometer {
   /// Adds the displacement from the last pose to H_WS. All points of the body lie in `sphere` (in S), which must be the
   /// same in every call. Only the given poses count, not the path between them.
   void move_to(const Pose& H_WS, const BoundingSphere& sphere) noexcept {
+    if (started_ && H_WS == H_) return;  // not even rounding is added while the body stays
     const Vector3 center = H_WS * sphere.center;
     if (started_) travelled_ += farthest_way(sphere, H_, center_, H_WS, center);
     H_ = H_WS;

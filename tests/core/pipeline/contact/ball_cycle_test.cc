@@ -104,7 +104,8 @@ class BallRun {
     input.H_WD.translation = goal;
     input.H_WD.rotation = rotation;
     input.velocity_W.translation = velocity;
-    return ball_cycle(scene_.voxelmap, q, lengths(), input, path, state, report, nullptr);
+    WorkMeter work;
+    return ball_cycle(scene_.voxelmap, q, lengths(), input, path, work, state, report, nullptr);
   }
   ContactLengths lengths() const { return ContactLengths::make(q); }
   const Vector3& center() const { return state.H_WS.translation; }

@@ -95,7 +95,8 @@ void expect_chords_as_sampled(const Shape& shape, unsigned seed) {
     if (shape.distance(p0) <= 0.0) continue;
     const double length = (p1 - p0).norm();
     const int balls = trial % 4 == 0 ? random.integer(0, 5) : 1000;
-    Budget budget{balls};
+    WorkMeter work;
+    Budget budget{work, balls};
     Obstacle obstacle;
     field.looks = 0;
     const bool is_free =
@@ -140,7 +141,8 @@ TEST(ChordIsFree, TakesAsManyBallsAsTheGapAsksFor) {
   for (const double h : {0.001, 0.002, 0.005}) {
     for (int balls = 0; balls < 8; ++balls) {
       const double length = (balls + 1.999) * h;
-      Budget budget{10};
+      WorkMeter work;
+      Budget budget{work, 10};
       Obstacle obstacle;
       EXPECT_TRUE(chord_is_free(field, {0.0, 0.0, h}, h, {length, 0.0, h}, h, budget, obstacle));
       EXPECT_EQ(budget.balls, 10 - balls);
@@ -162,7 +164,8 @@ TEST(ChordIsFree, TakesAtMostTheBallsOfAChord) {
   constexpr double kHeight = 0.001;
   for (const int more : {0, 1}) {
     const double length = (kMostBallsOfChord - 1 + 1.999 + more) * kHeight;
-    Budget budget{1000};
+    WorkMeter work;
+    Budget budget{work, 1000};
     Obstacle obstacle;
     EXPECT_EQ(chord_is_free(field, {0.0, 0.0, kHeight}, kHeight, {length, 0.0, kHeight}, kHeight, budget, obstacle),
               more == 0);
@@ -213,7 +216,8 @@ void expect_motions_as_sampled(const Shape& shape, unsigned seed) {
     H1.rotation = (exp_rotation(50.0 * step * random.in_cube(1.0)) * H0.rotation).normalized();
     const double least_gap = random.integer(0, 2) == 0 ? 0.0 : std::pow(10.0, random.between(-5.0, -2.0));
     const auto near = near_points(field.field, points, H0);
-    Budget budget;
+    WorkMeter work;
+    Budget budget{work};
     Obstacle obstacle;
     const bool holds = Certificate(field, H0, H1, least_gap, kRounding, *near, budget, obstacle).holds();
     bool all_have_room = true;
@@ -277,7 +281,8 @@ TEST(Certificate, HoldsWhateverPointIsTheSuspect) {
     // some points may pass the plate, or only one
     H1.translation.z() = H0.translation.z() - random.between(0.0005, 0.0012);
     const auto near = near_points(field.field, points, H0);
-    Budget budget;
+    WorkMeter work;
+    Budget budget{work};
     Obstacle plain;
     const bool holds = Certificate(field, H0, H1, 0.0, kRounding, *near, budget, plain).holds();
     (holds ? held : failed) += 1;
@@ -306,7 +311,8 @@ void expect_the_one_that_crosses(std::uint32_t count, const std::vector<std::uin
   const auto near = near_points(field, std::vector<Vector3>(count, Vector3(0.0, 0.0, 0.01)), Pose{});
   Pose H1;
   H1.translation.z() = -0.002;
-  Budget budget;
+  WorkMeter work;
+  Budget budget{work};
   Obstacle none;
   EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, none).holds());
   for (const std::uint32_t low : places) {
@@ -329,6 +335,38 @@ TEST(Certificate, FindsTheOneThatCrossesWhateverPointIsTheSuspect) {
   expect_the_one_that_crosses(4200, {0, 63, 4031, 4032, 4095, 4096, 4097, 4159, 4160, 4199});
 }
 
+/// A budget of work never makes a motion free: where it ends the proof, nothing is known from the start on.
+TEST(Certificate, ProvesNothingOnceTheBudgetIsSpent) {
+  Random random(18);
+  const AnalyticField field(HalfSpace{}, kCertificateVoxel);
+  int free = 0, ended = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    std::vector<Vector3> points(200);
+    for (Vector3& p : points) p = random.in_cube(0.001) + Vector3(0.0, 0.0, 0.0015);
+    const auto near = near_points(field, points, Pose{});
+    Pose H1;
+    H1.translation = random.in_cube(0.001);
+    WorkMeter unlimited;
+    Budget all{unlimited};
+    Obstacle obstacle;
+    const bool is_free = Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, all, obstacle).holds();
+    WorkMeter work;
+    work.start(static_cast<std::uint64_t>(random.between(1.0, 1.2 * static_cast<double>(unlimited.spent()))));
+    Budget budget{work};
+    Obstacle here;
+    const bool is_proved = Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, here).holds();
+    EXPECT_TRUE(is_free || !is_proved);
+    if (is_free && !is_proved) {
+      EXPECT_TRUE(work.is_spent());
+      EXPECT_TRUE(here.exhausted);
+      ++ended;
+    }
+    free += is_proved ? 1 : 0;
+  }
+  EXPECT_GT(free, 20);
+  EXPECT_GT(ended, 20);
+}
+
 TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   Random random(16);
   const Counted field{AnalyticField(HalfSpace{}, kCertificateVoxel)};
@@ -337,7 +375,8 @@ TEST(Certificate, LooksUpOnlyPointsThatLeaveTheirBall) {
   const auto near = near_points(field.field, points, Pose{});
   Pose H1;
   H1.translation.x() = 0.0019;
-  Budget budget;
+  WorkMeter work;
+  Budget budget{work};
   Obstacle obstacle;
   EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds());
   EXPECT_EQ(field.batches, 0);
@@ -358,7 +397,8 @@ TEST(Certificate, ProvesEachChordOnceWhateverPointIsTheSuspect) {
   Pose H1;
   H1.translation.x() = 4.999 * kHeight;
   for (const std::uint32_t suspect : {0u, 1u, 63u, 64u, 65u, 127u, 128u, kPoints - 1, kPoints, Obstacle::kNone}) {
-    Budget budget{1000};
+    WorkMeter work;
+    Budget budget{work, 1000};
     Obstacle obstacle;
     obstacle.near = suspect;
     EXPECT_TRUE(Certificate(field, Pose{}, H1, 1e-5, kRounding, *near, budget, obstacle).holds()) << suspect;
@@ -377,7 +417,8 @@ TEST(Certificate, ComparesNumbersAlsoBehindTheLastChord) {
   alignas(OfPlane) std::byte memory[sizeof(OfPlane)];
   for (std::uint32_t count = 1; count <= 2 * SampleBatch::kAtOnce + 1; ++count) {
     const auto near = near_points(field, std::vector<Vector3>(count, Vector3(0.0, 0.0, 0.001)), H0);
-    Budget budget;
+    WorkMeter work;
+    Budget budget{work};
     Obstacle obstacle;
     for (std::size_t i = 0; i < sizeof memory; ++i) *static_cast<volatile std::byte*>(memory + i) = std::byte{0xFF};
     auto* const certificate = new (memory) OfPlane(field, H0, H1, 1e-5, kRounding, *near, budget, obstacle);
@@ -396,7 +437,8 @@ TEST(Certificate, TakesTheKernelsWordForChordsAndLooksAtTheGapItself) {
   Pose along, down;
   along.translation.x() = 0.004;  // some forty balls
   down.translation = Vector3(0.004, 0.0, -5e-5);
-  Budget budget;
+  WorkMeter work;
+  Budget budget{work};
   Obstacle obstacle;
   EXPECT_TRUE(Certificate(field, Pose{}, along, 1e-5, kRounding, *near, budget, obstacle).holds());
   EXPECT_GT(field.looks, 30);
@@ -418,7 +460,8 @@ TEST(MotionIsFree, IsTrueWithoutNearPointsAndForgetsThatLookUpsWereUsedUp) {
   const auto near = std::make_unique<NearPoints>();
   Pose H1;
   H1.translation.z() = -1.0;
-  Budget budget;
+  WorkMeter work;
+  Budget budget{work};
   Obstacle obstacle;
   obstacle.exhausted = true;
   EXPECT_TRUE(detail::motion_is_free(field, Pose{}, H1, 1e-5, lengths, *near, budget, obstacle));

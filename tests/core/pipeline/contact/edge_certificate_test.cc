@@ -36,7 +36,8 @@ struct Cross {
     near.push({0, 0}, gap_at(edges, {0, 0}, Pose{}));
   }
   bool free(const Pose& H1, EdgeObstacle& obstacle, double least = 5e-6) {
-    Budget budget;
+    WorkMeter work;
+    Budget budget{work};
     return edges_are_free(edges, Pose{}, H1, least, lengths(), near, budget, obstacle);
   }
 };
@@ -93,9 +94,10 @@ TEST(EdgeCertificate, LetsABoxSlideOverTheEdgeOfAFace) {
   near.push({0, 0}, gap_at(edges, {0, 0}, Pose{}));
   EXPECT_FALSE(near.gap[0].is_nearest);
   EdgeObstacle obstacle;
-  Budget budget;
+  WorkMeter work;
+  Budget budget{work};
   EXPECT_TRUE(edges_are_free(edges, Pose{}, moved(5e-3, 0, 0), 1.6e-5, lengths(), near, budget, obstacle));
-  EXPECT_EQ(budget.balls, Budget{}.balls) << "by the plane of the face";
+  EXPECT_EQ(budget.balls, kMostBallsOfCycle) << "by the plane of the face";
   EXPECT_FALSE(edges_are_free(edges, Pose{}, moved(5e-3, 0, -1e-4), 1.6e-5, lengths(), near, budget, obstacle));
   const auto rows = std::make_unique<ContactRows>();
   EXPECT_EQ(push_edges(Pose{}, lengths(), near, *rows), 0u);
@@ -122,9 +124,10 @@ TEST(EdgeCertificate, TakesThePlaneOfAnyFace) {
     for (const bool is_still : {true, false}) {
       Ahead pair;
       (is_still ? pair.still : pair.moving).edges()[0].normal[face][2] = is_still ? 1.0f : -1.0f;
-      Budget budget;
+      WorkMeter work;
+      Budget budget{work};
       EXPECT_TRUE(pair.free(Pose{}, moved(5e-3, 0, 0), budget)) << is_still << ' ' << face;
-      EXPECT_EQ(budget.balls, Budget{}.balls) << "by the plane " << is_still << ' ' << face;
+      EXPECT_EQ(budget.balls, kMostBallsOfCycle) << "by the plane " << is_still << ' ' << face;
     }
   }
 }
@@ -138,7 +141,8 @@ TEST(EdgeCertificate, LeavesAnEdgeOverAFaceToTheFace) {
       pair.moving.edges()[0].normal[0][2] = -1.0f;
       pair.moving.edges()[0].normal[1][0] = 1.0f;
     }
-    Budget budget;
+    WorkMeter work;
+    Budget budget{work};
     EXPECT_EQ(pair.free(moved(9e-4, 0, -1e-5), moved(9.9e-4, 0, -1e-5), budget), has_faces);
     if (has_faces) continue;
     EXPECT_EQ(pair.obstacle.share, 1.0);
@@ -151,7 +155,8 @@ TEST(EdgeCertificate, LeavesAnEdgeOverAFaceToTheFace) {
 TEST(EdgeCertificate, SpendsNoMoreThanTheBudget) {
   for (const int balls : {0, 1, 2}) {
     Ahead pair;
-    Budget budget{balls};
+    WorkMeter work;
+    Budget budget{work, balls};
     EXPECT_EQ(pair.free(moved(-0.019, 0, 1e-3 - 2e-5), moved(0.021, 0, 1e-3 - 2e-5), budget), balls > 0) << balls;
     EXPECT_EQ(pair.obstacle.exhausted, balls == 0);
     EXPECT_EQ(budget.balls, std::max(0, balls - 1));
@@ -194,8 +199,8 @@ TEST(EdgeRows, AskForTheLostGap) {
   EXPECT_EQ(push_edges(H, lengths(), cross.near, *rows), 1u) << "only one of two pairs needs a row";
 }
 
-/// A face that is nearer than its edge holds the body by its points. If they do not, the edges come nearer than a margin,
-/// and the pair must lead away.
+/// A face that is nearer than its edge holds the body by its points. If they do not, the edges come nearer than a
+/// margin, and the pair must lead away.
 TEST(EdgeRows, HoldEdgesOverAFaceThatItsPointsDoNotHold) {
   const double limit = lengths().margin;
   for (const double share : {1.1, 0.9, 1e-3}) {

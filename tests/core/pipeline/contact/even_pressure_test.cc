@@ -122,7 +122,8 @@ class OnFace {
     Parameters q;
     q.margin = kMargin;
     q.voxel_size = kVoxel;
-    return detail::patches_of(step, *near_, ContactLengths::make(q));
+    WorkMeter work;
+    return detail::patches_of(step, *near_, ContactLengths::make(q), work);
   }
   NearPoints& near() { return *near_; }
 

@@ -52,6 +52,8 @@ ContactLengths lengths_with(std::uint32_t budget) {
   return ContactLengths::make(q);
 }
 
+PointBudget budget_of(const ContactLengths& lengths) { return {lengths.point_budget, lengths.margin}; }
+
 /// The point of the body at contact, and the gradient of its distance for a motion of the body, both in S.
 template <class Direction>
 struct Expected;
@@ -92,7 +94,9 @@ void expect_surroundings(const Direction& direction, std::uint32_t first_id, int
     const auto rows = std::make_unique<ContactRows>();
     Surroundings around{.free_displacement = 0.003};
     constexpr double kRadius = 0.002;
-    detail::find_near(search, direction, field, shell, H, 0.0, kRadius, lengths, *near, *rows, around);
+    WorkMeter work;
+    detail::find_near(search, direction, field, shell, H, 0.0, kRadius, lengths, budget_of(lengths), work, *near, *rows,
+                      around);
     std::uint32_t k = 0, row = 0;
     double smallest = std::numeric_limits<double>::infinity();
     bool is_swallowed = false;
@@ -164,7 +168,9 @@ TEST(FindNear, CountsThePointsThatFindNoPlace) {
     Surroundings around{.free_displacement = 0.003};
     Pose H;
     H.translation.z() = -depth;
-    detail::find_near(search, SampleDirection{}, field, shell, H, 0.0, 0.002, lengths_with(~0u), *near, *rows, around);
+    WorkMeter work;
+    detail::find_near(search, SampleDirection{}, field, shell, H, 0.0, 0.002, lengths_with(~0u), {}, work, *near, *rows,
+                      around);
     EXPECT_EQ(near->count, NearPoints::kCapacity);
     EXPECT_EQ(rows->count, ContactRows::kCapacity);
     EXPECT_EQ(around.dropped, NearPoints::kCapacity - ContactRows::kCapacity);
@@ -196,7 +202,9 @@ TEST(FindNear, CountsThePointsBeyondTheBudget) {
     const auto near = std::make_unique<NearPoints>();
     const auto rows = std::make_unique<ContactRows>();
     Surroundings around{.free_displacement = 0.003};
-    detail::find_near(search, direction, field, shell, Pose{}, 0.0, 0.002, lengths_with(10), *near, *rows, around);
+    WorkMeter work;
+    detail::find_near(search, direction, field, shell, Pose{}, 0.0, 0.002, lengths_with(10),
+                      budget_of(lengths_with(10)), work, *near, *rows, around);
     EXPECT_EQ(near->count, 10u);
     EXPECT_EQ(rows->count, 10u);
     EXPECT_EQ(around.unseen, 20u);

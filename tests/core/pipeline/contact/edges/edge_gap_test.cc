@@ -148,8 +148,8 @@ TEST(EdgeGap, EndsAtTheEndsOfTheEdges) {
   EXPECT_NEAR(edge_gap(bare({-1.0, 3.0, 0.0}, {2.0, 3.0, 0.0}), still).distance, 3.0, 1e-12) << "parallel";
 }
 
-/// Edges that cross at a hundred-thousandth of a right angle are no parallel ones: their crossing counts, not a place in
-/// their middle, where they are a thousand gaps apart.
+/// Edges that cross at a hundred-thousandth of a right angle are no parallel ones: their crossing counts, not a place
+/// in their middle, where they are a thousand gaps apart.
 TEST(EdgeGap, OfEdgesThatAreNearlyParallelIsThatOfTheirCrossing) {
   for (const double angle : {3e-6, 1e-5, -1e-4}) {
     const auto at = [angle](double x) { return Vector3(x, angle * x, 1e-9); };

@@ -56,6 +56,46 @@ TEST(EdgePairId, IsThatOfItsPairAndOfNoPoint) {
   EXPECT_FALSE(detail::is_edge_pair((1u << 31) | 5u)) << "a feature point";
 }
 
+/// A search that the budget of work ends goes on while the body stays, and then knows the same pairs.
+TEST(EdgeSearch, GoesOnWhereTheBudgetEndedIt) {
+  test::Random random(15);
+  int stops = 0;
+  for (int run = 0; run < 20; ++run) {
+    const test::EdgeSet moving(scattered(random, 60, 0.02, 0.01));
+    const test::EdgeSet still(scattered(random, 90, 0.03, 0.015));
+    const EdgeContacts edges{moving.view(), still.view()};
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start(edges);
+    Pose H;
+    Odometer odometer;
+    for (int k = 0; k < 10; ++k) {
+      H = H * set_matrix(random.motion(2e-3, 2e-2));
+      odometer.move_to(H, {Vector3::Zero(), 0.06});
+      const double radius = random.between(1e-4, 2e-3);
+      for (int call = 0;; ++call) {
+        ASSERT_LT(call, 1000);
+        odometer.move_to(H, {Vector3::Zero(), 0.06});
+        WorkMeter work;
+        work.start(static_cast<std::uint64_t>(random.between(2e4, 1e5)));
+        NearEdges near;
+        const EdgeSurroundings around = search->find(H, odometer.travelled(), radius, 1e-3, 0.0, work, near);
+        if (around.free_displacement == 0.0) {
+          EXPECT_TRUE(work.is_spent());
+          EXPECT_FALSE(search->is_free(odometer.travelled(), 0.0)) << "nothing is known yet";
+          ++stops;
+          if (random.integer(0, 3) == 0) H = H * set_matrix(random.motion(2e-3, 2e-2));  // it does not stay
+          continue;
+        }
+        std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+        for (std::uint32_t i = 0; i < near.count; ++i) found.emplace(near.pair[i].moving, near.pair[i].still);
+        EXPECT_EQ(found, all_below(edges, H, radius));
+        break;
+      }
+    }
+  }
+  EXPECT_GT(stops, 100);
+}
+
 /// A body that walks among edges: near pairs, the bound of the free displacement, and what is known to be free.
 TEST(EdgeSearch, FindsAllNearPairsWhereverTheBodyWalks) {
   test::Random random(5);
@@ -80,7 +120,8 @@ TEST(EdgeSearch, FindsAllNearPairsWhereverTheBodyWalks) {
         EXPECT_TRUE(all_below(edges, H, radius).empty());
       }
       NearEdges near;
-      const EdgeSurroundings around = search->find(H, odometer.travelled(), radius, 1e-3, 0.0, near);
+      WorkMeter work;
+      const EdgeSurroundings around = search->find(H, odometer.travelled(), radius, 1e-3, 0.0, work, near);
       std::set<std::pair<std::uint32_t, std::uint32_t>> found;
       for (std::uint32_t i = 0; i < near.count; ++i) {
         found.emplace(near.pair[i].moving, near.pair[i].still);
@@ -106,7 +147,8 @@ TEST(EdgeSearch, LimitsTheMotionByPairsWithoutAPlace) {
   const auto search = std::make_unique<EdgeSearch>();
   search->start(edges);
   NearEdges near;
-  const EdgeSurroundings around = search->find(Pose{}, 0.0, 0.01, 0.001, 0.0, near);
+  WorkMeter work;
+  const EdgeSurroundings around = search->find(Pose{}, 0.0, 0.01, 0.001, 0.0, work, near);
   EXPECT_EQ(near.count, NearEdges::kCapacity);
   EXPECT_GT(around.unlisted, 0u);
   std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
@@ -139,7 +181,8 @@ TEST(EdgeSearch, KeepsAnOverlapWhereThereIsNoPlaceForAll) {
     const auto search = std::make_unique<EdgeSearch>();
     search->start(edges);
     NearEdges near;
-    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1e-3, 1e-3, 1e-3, near);
+    WorkMeter work;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1e-3, 1e-3, 1e-3, work, near);
     EXPECT_EQ(near.count, NearEdges::kCapacity);
     EXPECT_EQ(around.unlisted, kEdges * kEdges + 1 - NearEdges::kCapacity);
     EXPECT_NEAR(around.free_displacement, 0.5e-3, 1e-9);
@@ -172,7 +215,8 @@ TEST(EdgeSearch, RemembersThePairsThatMatterWhereNotAllHaveAPlace) {
     const auto search = std::make_unique<EdgeSearch>();
     search->start({moving.view(), still.view()});
     NearEdges near;
-    const EdgeSurroundings around = search->find(Pose{}, 0.0, kRadius, kSlack, 0.0, near);
+    WorkMeter work;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, kRadius, kSlack, 0.0, work, near);
     EXPECT_EQ(around.unlisted, 0u) << some_are_near;
     EXPECT_EQ(near.count, some_are_near ? 200u : 0u);
     for (std::uint32_t i = 0; i < near.count; ++i) EXPECT_LT(near.gap[i].distance, kRadius);
@@ -195,7 +239,8 @@ TEST(EdgeSearch, LooksAtAsManyBranchesAsItHasVisits) {
     const auto search = std::make_unique<EdgeSearch>();
     search->start({moving.view(), {still.view().edges, nodes}});
     NearEdges near;
-    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1e-3, 2e-3, 0.0, near);
+    WorkMeter work;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1e-3, 2e-3, 0.0, work, near);
     EXPECT_EQ(near.count, 0u);
     EXPECT_EQ(around.unlisted == 0, fits);
     EXPECT_NEAR(around.free_displacement, fits ? 3e-3 : 0.0, 1e-15) << "branches without a visit may be anywhere";
@@ -211,7 +256,8 @@ TEST(EdgeSearch, NeedsEdgesOfBothBodies) {
     search->start(edges);
     EXPECT_TRUE(search->is_free(1e9, 1e9));
     NearEdges near;
-    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1.0, 1.0, 0.0, near);
+    WorkMeter work;
+    const EdgeSurroundings around = search->find(Pose{}, 0.0, 1.0, 1.0, 0.0, work, near);
     EXPECT_EQ(near.count, 0u);
     EXPECT_EQ(around.unlisted, 0u);
     EXPECT_GT(around.free_displacement, 1e9);
@@ -226,14 +272,15 @@ TEST(EdgeSearch, KnowsThatNothingIsNear) {
   search.start(edges);
   EXPECT_FALSE(search.is_free(0.0, 1e-3)) << "nothing is known before the first search";
   NearEdges near;
-  const EdgeSurroundings around = search.find(Pose{}, 0.0, 1e-3, 2e-3, 0.0, near);
+  WorkMeter work;
+  const EdgeSurroundings around = search.find(Pose{}, 0.0, 1e-3, 2e-3, 0.0, work, near);
   EXPECT_EQ(near.count, 0u);
   EXPECT_GE(around.free_displacement, 1e-3);
   EXPECT_TRUE(search.is_free(1e-3, 1e-3));
   EXPECT_FALSE(search.is_free(least_gap(edges, Pose{}), 1e-3));
   search.start({});
   EXPECT_TRUE(search.is_free(1e9, 1e9)) << "no edges";
-  EXPECT_EQ(search.find(Pose{}, 0.0, 1.0, 1.0, 0.0, near).unlisted, 0u);
+  EXPECT_EQ(search.find(Pose{}, 0.0, 1.0, 1.0, 0.0, work, near).unlisted, 0u);
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ struct SetBench {
   CouplingMetric metric = kSetMetric;
   ContactFriction friction{0.5, 0.25, 0.0};
   Motion last;
+  WorkMeter work;
 
-  ContactSet set() { return {*rows, wanted, metric, &friction, last}; }
+  ContactSet set() { return {*rows, wanted, metric, &friction, last, work}; }
   /// Adds rows with random normals and points and the required gains -1 mm, -2 mm, ...
   void push_random(Random& random, int count) {
     for (int i = 0; i < count; ++i)

@@ -27,8 +27,9 @@ struct NewtonProblem {
   Motion wanted;
   ContactFriction friction{0.3, 0.3, 0.0};
   Motion last;
+  WorkMeter work;
 
-  ContactSet set() { return {*rows, wanted, kNewtonMetric, &friction, last}; }
+  ContactSet set() { return {*rows, wanted, kNewtonMetric, &friction, last, work}; }
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
 };
 

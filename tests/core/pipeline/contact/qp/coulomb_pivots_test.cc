@@ -38,7 +38,7 @@ class CoulombPivots : public ::testing::Test {
       rows_->push(static_cast<std::uint32_t>(i), random_.direction(), random_.in_cube(0.03), 0.0);
   }
 
-  ContactSet set() { return {*rows_, wanted_, kPivotMetric, &friction_, last_}; }
+  ContactSet set() { return {*rows_, wanted_, kPivotMetric, &friction_, last_, work_}; }
   /// Returns a unit vector across the normal, at this angle.
   Vector3 across(const Contact& c, double angle) const {
     const Vector3 x = c.normal.unitOrthogonal();
@@ -82,6 +82,7 @@ class CoulombPivots : public ::testing::Test {
   Random random_{1};
   std::unique_ptr<ContactRows> rows_ = std::make_unique<ContactRows>();
   Motion wanted_, last_;
+  WorkMeter work_;
   ContactFriction friction_{kStatic, kKinetic, 0.0};
 };
 

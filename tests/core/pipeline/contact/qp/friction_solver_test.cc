@@ -28,10 +28,12 @@ struct Problem {
   Motion wanted, last;
   ContactFriction friction{0.5, 0.25, 0.0};
   CouplingMetric metric;
+  WorkMeter work;
 
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
-  ContactSet set() { return {*rows, wanted, metric, &friction, last}; }
-  void solve(ConstrainedStep& step) { least_constraint(*rows, wanted, metric, &friction, last, step); }
+
+  ContactSet set() { return {*rows, wanted, metric, &friction, last, work}; }
+  void solve(ConstrainedStep& step) { least_constraint(*rows, wanted, metric, &friction, last, work, step); }
 };
 
 Vector6 six(const Motion& m, const CouplingMetric& metric = kMetric) {
@@ -131,7 +133,7 @@ TEST(SolveWithFriction, SetsAllFlagsOfTheStep) {
           step.forces[j] = {9 + j, Vector3::Zero(), Vector3::Zero(), Vector3::UnitZ(), Vector3::Zero(), 0.5, 1.0};
         step.iterations = 77;
         step.follows = step.infeasible = step.unconverged = true;
-        least_constraint(*p.rows, p.wanted, kMetric, with_friction ? &p.friction : nullptr, p.last, step);
+        least_constraint(*p.rows, p.wanted, kMetric, with_friction ? &p.friction : nullptr, p.last, p.work, step);
         const bool touches = with_rows && z < 0.0;
         EXPECT_EQ(step.force_count, touches ? 1u : 0u);
         EXPECT_EQ(step.contact_count, touches ? 1u : 0u);
@@ -241,7 +243,7 @@ TEST(SolveWithFriction, LiftsAFaceThatSlid) {
     }
     if (!step.unconverged) continue;
     ConstrainedStep slippery;
-    least_constraint(*p.rows, p.wanted, kMetric, nullptr, p.last, slippery);
+    least_constraint(*p.rows, p.wanted, kMetric, nullptr, p.last, p.work, slippery);
     const auto reach = [&p](const Motion& m) { return (six(m) - six(p.wanted)).norm(); };
     ASSERT_LE(reach(step.motion), std::max(1.0006 * reach({}), reach(slippery.motion) + kMetric.tolerance)) << trial;
   }

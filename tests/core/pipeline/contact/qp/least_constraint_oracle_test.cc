@@ -175,7 +175,8 @@ TEST(LeastConstraint, FindsWhatAnIndependentSolverFindsOnDegenerateRows) {
     const Motion wanted = random.motion(0.01, 0.2);
     const LeastDistance slow = least_distance(half_planes(*rows, wanted, kMetric));
     ConstrainedStep step;
-    least_constraint(*rows, wanted, kMetric, nullptr, Motion{}, step);
+    WorkMeter work;
+    least_constraint(*rows, wanted, kMetric, nullptr, Motion{}, work, step);
     ASSERT_EQ(step.infeasible, !slow.feasible) << problem;
     infeasible += step.infeasible ? 1 : 0;
     const LeastDistance expected = step.infeasible ? least_distance(half_planes(*rows, wanted, kMetric)) : slow;

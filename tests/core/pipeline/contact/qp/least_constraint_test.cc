@@ -36,17 +36,18 @@ struct Problem {
   std::unique_ptr<ContactRows> rows = std::make_unique<ContactRows>();
   Motion wanted;
   CouplingMetric metric = kMetric;
+  WorkMeter work;
 
   void push(const Vector3& normal, const Vector3& point, double need) { rows->push(rows->count, normal, point, need); }
 
   ConstrainedStep solve(const ConstrainedStep& warm = {}) {
     ConstrainedStep step = warm;
-    least_constraint(*rows, wanted, metric, nullptr, Motion{}, step);
+    least_constraint(*rows, wanted, metric, nullptr, Motion{}, work, step);
     return step;
   }
   ConstrainedStep solve(const ContactFriction& friction, const Motion& last = {}, const ConstrainedStep& warm = {}) {
     ConstrainedStep step = warm;
-    least_constraint(*rows, wanted, metric, &friction, last, step);
+    least_constraint(*rows, wanted, metric, &friction, last, work, step);
     return step;
   }
 
@@ -715,9 +716,9 @@ TEST(LeastConstraintFriction, IsTheProblemFromWhereTheSlipBegan) {
     ContactFriction friction{ratio, ratio, problem % 3 == 0 ? 0.1 : 0.0};
     const ContactFriction without = friction;
     Problem p = random_problem(random, 1 + problem % 20, true);
-    Problem begun = {std::make_unique<ContactRows>(*p.rows), p.wanted, p.metric};
+    Problem begun = {std::make_unique<ContactRows>(*p.rows), p.wanted, p.metric, {}};
     const std::vector<float> needs(p.rows->required_gain, p.rows->required_gain + p.rows->count);
-    Problem unslid = {std::make_unique<ContactRows>(*p.rows), p.wanted, p.metric};
+    Problem unslid = {std::make_unique<ContactRows>(*p.rows), p.wanted, p.metric, {}};
     friction.slid = random.motion(1e-3, 1e-2);
     begun.wanted.translation += friction.slid.translation;
     begun.wanted.rotation += friction.slid.rotation;

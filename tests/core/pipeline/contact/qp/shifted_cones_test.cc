@@ -30,8 +30,9 @@ struct ConeBench {
   Motion wanted;
   ContactFriction friction{0.5, 0.25, 0.0};
   Motion last;
+  WorkMeter work;
 
-  ContactSet set() { return {*rows, wanted, kConeMetric, &friction, last}; }
+  ContactSet set() { return {*rows, wanted, kConeMetric, &friction, last, work}; }
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
 };
 
@@ -220,7 +221,7 @@ TEST(Sticks, TellsByTheMotionAfterTheLastAddition) {
     ConeBench bench;
     for (int i = 0; i < 800; ++i) bench.push(random.direction(), random.in_cube(0.15), random.between(-1e-5, 0.0));
     bench.wanted = {0.1 * random.direction(), random.direction()};
-    ContactSet set(*bench.rows, bench.wanted, all_is_still, &bench.friction, bench.last);
+    ContactSet set(*bench.rows, bench.wanted, all_is_still, &bench.friction, bench.last, bench.work);
     const bool holds = detail::sticks(set);
     const Motion m = set.motion();
     set.close_all();
@@ -249,7 +250,7 @@ TEST(Sticks, HoldsOnlyWhereAllContactsAreMet) {
     ConeBench bench;
     for (int i = 0; i < 300; ++i) bench.push(random.direction(), random.in_cube(0.15), random.between(-1e-5, 0.0));
     bench.wanted = {0.1 * random.direction(), random.direction()};
-    ContactSet set(*bench.rows, bench.wanted, metric, &bench.friction, bench.last);
+    ContactSet set(*bench.rows, bench.wanted, metric, &bench.friction, bench.last, bench.work);
     const bool holds = detail::sticks(set);
     const Motion m = set.motion();
     set.close_all();

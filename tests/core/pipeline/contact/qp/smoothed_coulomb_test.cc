@@ -26,8 +26,9 @@ struct PegProblem {
   Motion wanted;
   ContactFriction friction{0.2, 0.2, 0.0};
   Motion last;
+  WorkMeter work;
 
-  ContactSet set() { return {*rows, wanted, kPegMetric, &friction, last}; }
+  ContactSet set() { return {*rows, wanted, kPegMetric, &friction, last, work}; }
   void push(const Vector3& normal, const Vector3& point, double gain) { rows->push(rows->count, normal, point, gain); }
   std::vector<float> gains() const { return {rows->required_gain, rows->required_gain + rows->count}; }
 };

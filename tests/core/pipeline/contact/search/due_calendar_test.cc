@@ -93,6 +93,61 @@ TEST(DueCalendar, FilesTheFarthestWhereItIsSeenInTime) {
   EXPECT_LE(taken, 8) << "32 bits make items due early, but only rarely";
 }
 
+/// A stop loses nothing: further calls take the same items as one call without a stop, however the hand moves between.
+TEST(DueCalendar, GoesOnWhereItWasStopped) {
+  const SampledBody body = ball_body();
+  const Pointshell& shell = body.pointshell();
+  const auto items = static_cast<std::uint32_t>(shell.nodes.size() + shell.size);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int stops = 0;
+  for (int run = 0; run < 300; ++run) {
+    std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+    DueCalendar calendar;
+    calendar.start(memory, shell);
+    calendar.take(0);
+    std::map<std::uint32_t, std::uint64_t> due;
+    std::uint64_t now = 1000;
+    calendar.take_due(now, [](std::uint32_t) {});
+    const auto file_some = [&]() {
+      for (int k = 0; k < 30; ++k) {
+        const auto item = static_cast<std::uint32_t>(random() % items);
+        if (calendar.is_filed(item)) continue;
+        const auto ahead = static_cast<std::uint64_t>(std::pow(10.0, 4.0 * unit(random)));
+        const std::uint64_t tick = unit(random) < 0.2 ? now - std::min(now, ahead) : now + ahead;
+        calendar.file(item, tick);
+        due[item] = tick;
+      }
+    };
+    for (int call = 0; call < 40; ++call) {
+      file_some();
+      if (unit(random) < 0.5) now += static_cast<std::uint64_t>(std::pow(10.0, 4.0 * unit(random)));
+      const auto most = static_cast<std::size_t>(random() % 20);
+      std::vector<std::uint32_t> taken;
+      const bool ended = calendar.take_due(
+          now, [&](std::uint32_t item) { taken.push_back(item); }, [&] { return taken.size() >= most; });
+      for (const std::uint32_t item : taken) {
+        ASSERT_EQ(due.count(item), 1u);
+        ASSERT_LE(due[item], now);
+        due.erase(item);
+      }
+      ASSERT_LE(taken.size(), most);
+      std::uint64_t least = ~0ull;
+      for (const auto& [item, tick] : due) {
+        ASSERT_TRUE(calendar.is_filed(item)) << "an item is lost";
+        ASSERT_TRUE(!ended || tick > now) << "an item is overdue";
+        least = std::min(least, tick);
+      }
+      ASSERT_LE(calendar.certain(), std::max(least, now + 1)) << "a tick before which no item is due";
+      stops += ended ? 0 : 1;
+    }
+    std::size_t left = 0;
+    calendar.take_due(~0ull >> 4, [&](std::uint32_t) { ++left; });
+    EXPECT_EQ(left, due.size());
+  }
+  EXPECT_GT(stops, 1000);
+}
+
 /// The calendar may jump by any number of ticks. A search then looks at one item too many at worst.
 TEST(DueCalendar, LosesNothingInAnyJump) {
   const SampledBody body = ball_body();

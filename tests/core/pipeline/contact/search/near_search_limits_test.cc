@@ -70,16 +70,17 @@ struct Searcher {
   NearSearch search;
   std::vector<std::uint32_t> near;
   std::vector<double> left_out;
+  WorkMeter work;
 
   Searcher(const Field& f, const Pointshell& s, const Direction& d, bool remembers) : field(f), shell(s), direction(d) {
     if (remembers) memory.resize(NearSearch::memory(s));
     search.start(memory, s, f.lipschitz(), kLongestMotion);
   }
-  void find(const Pose& H, double travelled, double radius, const PointBudget& budget = {}) {
+  bool find(const Pose& H, double travelled, double radius, const PointBudget& budget = {}) {
     near.clear();
     left_out.clear();
-    search.find(
-        direction, field, shell, H, travelled, radius, budget,
+    return search.find(
+        direction, field, shell, H, travelled, radius, budget, work,
         [this](const SampleBatch&, const auto& index, std::uint64_t found) {
           for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
         },
@@ -247,6 +248,48 @@ TEST(NearSearch, ClaimsNothingFreeThatIsNot) {
       expect_true_claims(Ball{{0.0, 0.0, -0.01}, 0.01}, remembers, seed);
     }
   }
+}
+
+/// A search that the budget of work ends goes on while the body stays, and then visits all near points.
+void expect_it_goes_on(double travelled_before) {
+  const Pointshell& shell = ball_shell();
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, true);
+  Random random(31);
+  Odometer odometer;
+  Pose H = height(0.03);
+  int stops = 0;
+  for (int step = 0; step < 200; ++step) {
+    H.translation.z() = random.between(0.015, 0.035);
+    H.rotation = (H.rotation * exp_rotation(random.in_cube(0.3))).normalized();
+    odometer.move_to(H, kBallSphere);
+    double radius = random.between(0.2, 1.0) * kLongestMotion;
+    // enough for one look-up of each near point, which every call makes again
+    const std::uint64_t least = 2 * shell.size * (cost_of(godobject::Work::kPoint) + cost_of(godobject::Work::kScan));
+    for (int call = 0;; ++call) {
+      ASSERT_LT(call, 1000);
+      odometer.move_to(H, kBallSphere);
+      at.work.start(call == 0 ? static_cast<std::uint64_t>(random.between(1.0, 3e4)) : least);
+      if (at.find(H, travelled_before + odometer.travelled(), radius)) break;
+      EXPECT_TRUE(at.work.is_spent());
+      EXPECT_FALSE(at.search.is_free(travelled_before + odometer.travelled(), 0.0)) << "nothing is known yet";
+      ++stops;
+      if (random.integer(0, 3) == 0) H.translation.z() = random.between(0.015, 0.035);  // it does not stay
+      radius = random.between(0.2, 1.0) * kLongestMotion;
+    }
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < shell.size; ++i) {
+      if (field.sample(H * shell.point(i)).clearance < radius) expected.push_back(i);
+    }
+    ASSERT_EQ(at.near, expected) << step << ", " << travelled_before << " m travelled before";
+  }
+  EXPECT_GT(stops, 50);
+}
+
+TEST(NearSearch, GoesOnWhereTheBudgetEndedIt) {
+  expect_it_goes_on(0.0);
+  // the calendar stores 32 bits of a tick
+  for (const double wraps : {0.45, 0.51, 0.75, 0.99, 1.01}) expect_it_goes_on(wraps * std::pow(2.0, 32) * kTick);
 }
 
 // -- how many look-ups

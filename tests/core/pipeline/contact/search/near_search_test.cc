@@ -50,8 +50,9 @@ template <class Direction, class Field>
 std::vector<std::uint32_t> found(NearSearch& search, const Direction& direction, const Field& field,
                                  const Pointshell& shell, const Pose& H, double way, double cut) {
   std::vector<std::uint32_t> near;
+  WorkMeter work;
   search.find(
-      direction, field, shell, H, way, cut, {},
+      direction, field, shell, H, way, cut, {}, work,
       [&near](const SampleBatch&, const auto& index, std::uint64_t found) {
         for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
       },
@@ -180,6 +181,7 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
   Walk walk(11, mass.radius);
   std::size_t near = 0;
   int short_of_it = 0;
+  WorkMeter work;
   for (int step = 0; step < 6000; ++step) {
     const Pose& H = walk.next();
     odometer.move_to(H, mass.sphere);
@@ -187,7 +189,8 @@ TEST(NearSearch, FindsThePointsOfBruteForceAfterABudgetToo) {
     if (walk.share() < 0.5) {
       search.find(
           detail::SampleDirection{}, scene.voxelmap, scene.pointshell, H, odometer.travelled(), cut,
-          PointBudget{3, 1e-4}, [](const SampleBatch&, const auto&, std::uint64_t) {}, [&](double) { ++short_of_it; });
+          PointBudget{3, 1e-4}, work, [](const SampleBatch&, const auto&, std::uint64_t) {},
+          [&](double) { ++short_of_it; });
       continue;
     }
     const auto expected = near_by_brute_force(scene.voxelmap, scene.pointshell, H, cut);
@@ -216,6 +219,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform;
   int short_of_it = 0;
+  WorkMeter work;
   Pose H;
   H.translation.z() = 0.01 + 0.02 + 0.002;
   for (int step = 0; step < 3000; ++step) {
@@ -231,7 +235,7 @@ TEST(NearSearch, KeepsItsBudgetNearestFirst) {
     std::vector<std::uint32_t> near;
     double least_left_out = std::numeric_limits<double>::infinity();
     search.find(
-        detail::SampleDirection{}, field, shell, H, odometer.travelled(), cut, budget,
+        detail::SampleDirection{}, field, shell, H, odometer.travelled(), cut, budget, work,
         [&](const SampleBatch&, const auto& index, std::uint64_t found) {
           for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
         },

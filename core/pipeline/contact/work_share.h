@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/pipeline/cycle/work.h"
+
+namespace godobject {
+
+/// The share of the search radius and of the motion with which the first sub-step of a cycle fits into the budget of
+/// work. After a cycle whose first sub-step did not end, the search radius halves. Once it is as short as it
+/// may be, the share of the motion halves. A search of the trees goes on in the next cycle, so that it needs no smaller
+/// share. Both grow again while the first sub-step takes less than half of the budget. The factors are chosen: from a
+/// sixty-fourth of the radius back to the whole takes 36 cycles.
+class WorkShare {
+ public:
+  /// Returns the share of the longest search radius that a sub-step may use [1].
+  double radius() const noexcept { return radius_; }
+  /// Returns the share of a sub-step's motion that is tried [1].
+  double motion() const noexcept { return motion_; }
+  /// Tells whether friction and second looks are too expensive: since the radius was as short as it may be, until it is
+  /// twice as long.
+  bool is_least() const noexcept { return is_least_; }
+
+  /// Learns from a cycle. `first`: work of its first sub-step; 0: the budget was spent before its end [units].
+  void learn(const WorkMeter& work, std::uint64_t first) noexcept {
+    if (work.budget() == WorkMeter::kUnlimited) {
+      *this = WorkShare{};
+    } else if (first == 0) {
+      const std::uint64_t goes_on = work.spent_on(Work::kItem) + work.spent_on(Work::kBranches);
+      if (2 * goes_on >= work.spent()) return;
+      if (radius_ <= kLeastRadius) motion_ = std::max(kLeastMotion, 0.5 * motion_);
+      radius_ = std::max(kLeastRadius, 0.5 * radius_);
+      is_least_ = is_least_ || radius_ <= kLeastRadius;
+    } else if (first < work.budget() / 2) {
+      radius_ = std::min(1.0, kGrowth * radius_);
+      motion_ = std::min(1.0, kGrowthOfMotion * motion_);
+      is_least_ = is_least_ && radius_ < 2.0 * kLeastRadius;
+    }
+  }
+
+ private:
+  static constexpr double kLeastRadius = 1.0 / 64.0;
+  static constexpr double kLeastMotion = 1e-9;
+  static constexpr double kGrowth = 1.125;
+  static constexpr double kGrowthOfMotion = 1.5;
+
+  double radius_ = 1.0;
+  double motion_ = 1.0;
+  bool is_least_ = false;
+};
+
+}  // namespace godobject

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace godobject {
+
+/// The kinds of work of a cycle of `contact`.
+enum class Work : std::uint8_t {
+  kCycle,     ///< the part that every cycle has
+  kSubstep,   ///< the part that every sub-step with a near point has
+  kAttempt,   ///< the part that every attempt at a motion has
+  kItem,      ///< a node or point of the search for which a bound of the clearance is looked up
+  kPoint,     ///< a point that is looked up exactly
+  kNear,      ///< a near point that is listed and becomes a row
+  kScan,      ///< a listed point, pair or row that a pass over its list looks at
+  kChord,     ///< a point whose end in a motion is looked up
+  kBall,      ///< a look-up of one point alone
+  kPair,      ///< the gap of a pair of edges
+  kBranches,  ///< a pair of branches of the trees of edges
+  kFace,      ///< a face whose even pressure is computed
+  kSolve,     ///< the start of a solver
+  kExchange,  ///< a half space that enters the active set
+  kNewton,    ///< a step of Newton's method for friction
+  kSmoothed,  ///< a step of the smoothing method, for each contact
+  kKinds
+};
+inline constexpr std::size_t kWorkKinds = static_cast<std::size_t>(Work::kKinds);
+
+/// The cost of one piece of each kind [units]. A unit is about a quarter of a nanosecond on an x86-64 processor of 3
+/// GHz with AVX2. Measured: least squares of the relative error over 28,600 cycles of the demo's paths, a nut on its
+/// bolt and two pegs, each at its shortest time of three. The time of 80 % of these cycles is 0.8 to 1.7 times that of
+/// their work.
+inline constexpr std::array<std::uint32_t, kWorkKinds> kWorkCosts = {900,  1500, 1400, 110,  75,   50,   2,    190,
+                                                                     1350, 200,  90,   2400, 4700, 1650, 2100, 2000};
+
+/// Returns the cost of one piece [units].
+constexpr std::uint64_t cost_of(Work kind) noexcept { return kWorkCosts[static_cast<std::size_t>(kind)]; }
+
+/// Counts the work of one cycle and tells when its budget is spent. The counts depend on scene, state and input alone,
+/// not on the machine's clock, so that a replay repeats to the bit. Real-time safe.
+class WorkMeter {
+ public:
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  /// Starts a cycle that may take `budget` units.
+  void start(std::uint64_t budget) noexcept {
+    spent_ = aside_ = 0;
+    budget_ = budget;
+    count_.fill(0);
+  }
+
+  /// Counts `pieces` pieces of work.
+  void add(Work kind, std::uint32_t pieces = 1) noexcept {
+    count_[static_cast<std::size_t>(kind)] += pieces;
+    spent_ += cost_of(kind) * pieces;
+  }
+
+  /// Tells whether the budget is spent, but for what is set aside.
+  bool is_spent() const noexcept { return spent_ >= budget_ || budget_ - spent_ <= aside_; }
+  /// Tells whether the budget has room for `units` more, besides what is set aside.
+  bool has(std::uint64_t units) const noexcept { return !is_spent() && units <= budget_ - spent_ - aside_; }
+  /// Sets `units` aside for later work of the cycle, in place of what was set aside before.
+  void set_aside(std::uint64_t units) noexcept { aside_ = units; }
+  std::uint64_t aside() const noexcept { return aside_; }  ///< [units]
+
+  std::uint64_t spent() const noexcept { return spent_; }    ///< [units]
+  std::uint64_t budget() const noexcept { return budget_; }  ///< [units]
+  /// Returns the work of one kind [units].
+  std::uint64_t spent_on(Work kind) const noexcept { return cost_of(kind) * count(kind); }
+  /// Returns the pieces of one kind.
+  std::uint32_t count(Work kind) const noexcept { return count_[static_cast<std::size_t>(kind)]; }
+
+ private:
+  std::uint64_t spent_ = 0;
+  std::uint64_t budget_ = kUnlimited;
+  std::uint64_t aside_ = 0;
+  std::array<std::uint32_t, kWorkKinds> count_{};
+};
+
+}  // namespace godobject
