@@ -92,6 +92,9 @@ void add_compiled(std::vector<RecordedSession>& sessions) {
   }
 }
 
+constexpr std::size_t kWorkColumn = 1 + 2 * RecordedMotion::kWork;
+const std::string kNotRecorded = "-";
+
 std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words;
   std::istringstream in(line);
@@ -187,6 +190,15 @@ std::string record_line(const std::string& session, const RecordedMotion& motion
   return text;
 }
 
+std::string without_work(const std::string& line) {
+  const std::vector<std::string> words = words_of(line);
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    text += (k == 0 ? "" : ",") + (k == kWorkColumn || k == kWorkColumn + 1 ? kNotRecorded : words[k]);
+  }
+  return text;
+}
+
 std::string difference(const std::string& was, const std::string& is) {
   constexpr double kRounding = 1e-6;  // of the terms' sizes
   constexpr double kOfWork = 1e-4;    // the same of work: a tick of the search may fall to either side
@@ -198,7 +210,8 @@ std::string difference(const std::string& was, const std::string& is) {
   for (std::size_t k = 1; k < header.size(); ++k) {
     const bool is_sum = k < 1 + 2 * RecordedMotion::kSums;
     if (is_sum && k % 2 == 0) continue;  // a size
-    const double share = k == 1 + 2 * RecordedMotion::kWork ? kOfWork : kRounding;
+    if (before[k] == kNotRecorded) continue;
+    const double share = k == kWorkColumn ? kOfWork : kRounding;
     const double allowed = is_sum ? share * std::strtod(now[k + 1].c_str(), nullptr) + kNothing : 0.0;
     const double change = std::strtod(now[k].c_str(), nullptr) - std::strtod(before[k].c_str(), nullptr);
     if (!(std::abs(change) <= allowed)) return fmt::format("{} was {}, is {}", header[k], before[k], now[k]);

@@ -79,6 +79,9 @@ class RecordedWorlds {
 std::string record_header();
 std::string record_line(const std::string& session, const RecordedMotion& motion);
 
+/// Returns a line without its work, which `difference` then does not compare.
+std::string without_work(const std::string& line);
+
 /// Returns the first column in which two lines differ by more than rounding may explain, with both values. Nothing if
 /// there is none.
 std::string difference(const std::string& was, const std::string& is);

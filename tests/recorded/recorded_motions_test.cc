@@ -61,7 +61,7 @@ TEST(RecordedMotion, NearlyEachSessionHasARecord) {
   const std::vector<RecordedSession> sessions = recorded_sessions();
   for (const RecordedSession& session : sessions) with_record += known.count(session.name);
   EXPECT_EQ(with_record, known.size()) << "a record without a session";
-  EXPECT_GT(with_record, sessions.size() * 7 / 10);
+  EXPECT_GT(with_record, sessions.size() * 4 / 5);
 }
 
 TEST(RecordedMotion, DiffersByAnyCountAndByMoreThanRounding) {
@@ -85,6 +85,11 @@ TEST(RecordedMotion, DiffersByAnyCountAndByMoreThanRounding) {
     EXPECT_NE(difference(line, record_line("a", other)), "");
   }
   EXPECT_NE(difference(line, line + ",1"), "");
+  RecordedMotion other = motion;
+  other.sum[RecordedMotion::kWork] = 0.0;
+  EXPECT_EQ(difference(without_work(line), record_line("a", other)), "");
+  ++other.count[0];
+  EXPECT_NE(difference(without_work(line), record_line("a", other)), "") << "all other columns count";
 }
 
 }  // namespace

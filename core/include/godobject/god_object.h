@@ -106,7 +106,7 @@ class GodObject {
   /// If the first motion of a cycle does not fit into the budget, shorter ones follow in the next cycles, at last
   /// without friction (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles
   /// take without one may hold the god object for good, also when the device moves away; so it may without the memory
-  /// of memory_size(). `units`: 1 or more. No effect before `start`. Real-time safe.
+  /// of memory_size(). `units`: 1 or more; the largest number is no budget. No effect before `start`. Real-time safe.
   void set_work_budget(std::uint64_t units) noexcept;
 
   /// Returns the god object's pose H_WM; the identity before `start` has succeeded. Real-time safe.

@@ -19,7 +19,7 @@ enum class Outcome : std::uint8_t {
   kContact,      ///< contacts constrain the god object
   kStartInside,  ///< the first pose penetrated, and the god object has not come out yet
   kCut,         ///< the motion was shortened so as not to jump over the surface; the remainder waits for the next cycle
-  kOverflow,    ///< `contact`: near points or edges that matter found no room, or exceeded the budget
+  kOverflow,    ///< `contact`: near points or edges that matter found no room, or exceeded the point budget
   kBadInput,    ///< the input was refused; the god object stayed and the force is zero
   kInfeasible,  ///< `contact`: the constraints had no common solution; no gap was allowed to shrink
 };
@@ -37,12 +37,12 @@ struct CycleReport {
   /// nearer. 0 after `follow` and after a refusal.
   double penetration = 0.0;
   std::uint32_t contacts = 0;  ///< points with V > 0; `contact`: rows that carry a force (one point may have two)
-  std::uint32_t dropped =
-      0;  ///< `contact`: near points as in kOverflow (of those without a row, groups), last sub-step
+  /// `contact`: near points as in kOverflow (of those without a row, groups), last sub-step
+  std::uint32_t dropped = 0;
   std::uint32_t substeps = 0;  ///< of this cycle; `contact`: those with a near point, 1 if there was none
   bool unconverged = false;    ///< `contact`: friction is not Coulomb's to the tolerance; the gaps hold all the same
-  /// `contact`: the work of the cycle [units], as in GodObject::set_work_budget. It depends on scene, state and input
-  /// alone, so that a replay repeats it. 0 with other solvers and after `follow`.
+  /// `contact`: the work of the cycle [units], as in GodObject::set_work_budget. It does not depend on the clock, so
+  /// that a replay repeats it. 0 with other solvers and after `follow`.
   std::uint64_t work = 0;
   /// `contact`: the budget of work ended the cycle. The god object may lag; `penetration` and `dropped` are those of
   /// the points that were looked up.

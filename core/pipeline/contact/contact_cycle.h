@@ -22,6 +22,9 @@ namespace godobject {
 /// Points that the point budget leaves without a look-up limit the motion to the bound of their clearance: the god
 /// object may lag, which is counted, but crosses nothing.
 ///
+/// When the budget of work is spent, the cycle ends with the motion that is certified so far. The search goes on in the
+/// next cycle, and WorkShare shortens what does not fit. That limits the cost further than the counts below.
+///
 /// A first pose that penetrates is left along the gradients, and where these contradict each other along the motion
 /// that misses them least (overlap.h), near the device. Where the field has none (deeper than the band) the god object
 /// follows the device, without force, until it is free.
@@ -39,12 +42,12 @@ Status contact_cycle(const ContactScene<Field, BodyField>& scene, const CycleInp
   detail::begin(times);
   detail::ContactSubsteps<kFriction, Field, BodyField> substeps(scene, input, state, memory, times);
   do {
-    substeps.begin();                     // #3 (32), (33)
-    if (substeps.is_known_free()) break;  //    without a look-up: at the device
-    substeps.find_surroundings();         // #1, in place of (1), (2)
-    if (substeps.is_out_of_work()) break;
-    if (substeps.is_free()) break;  //    no near point: at the device
-    substeps.constrain();           // #4, in place of (5)-(31), (36)-(42)
+    substeps.begin();                      // #3 (32), (33)
+    if (substeps.is_known_free()) break;   //    without a look-up: at the device
+    substeps.find_surroundings();          // #1, in place of (1), (2)
+    if (substeps.is_out_of_work()) break;  // the budget is spent: stay
+    if (substeps.is_free()) break;         //    no near point: at the device
+    substeps.constrain();                  // #4, in place of (5)-(31), (36)-(42)
     if (substeps.is_out_of_work()) break;
     if (substeps.is_lost()) break;  //    deep inside: follow the device
     substeps.certify();             //    the motion that meets no surface

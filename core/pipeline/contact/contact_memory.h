@@ -77,7 +77,7 @@ struct ContactMemory {
   bool edges_may_overlap = true;   ///< no pose since the start is known to have all edges apart
   SubstepPath path;                ///< of the last cycle, for tools and tests
   WorkMeter work;                  ///< of the last cycle
-  WorkShare share;                 ///< of the surroundings that the budget of work allows
+  WorkShare share;                 ///< of radius and motion that the budget of work allows
   std::uint64_t attempt_work = 0;  ///< of the last first attempt at a motion [units]
   ContactWorkspace workspace;
 

@@ -139,8 +139,9 @@ class ContactSubsteps {
     work_.set_aside(0);
   }
 
-  /// Tells whether after a start inside no motion meets all rows. Then the god object takes the way out that misses
-  /// them least, but stays near the device. Where the field has no gradient it goes to the device, without force.
+  /// Tells whether after a start inside no motion meets all rows, or no work is left for the way out. Then the god
+  /// object takes the way out that misses them least, but stays near the device. Where the field has no gradient it
+  /// goes to the device, without force.
   bool is_lost() noexcept {
     if (!result_.inside || !(around_.swallowed || step_.infeasible)) return false;
     if (!around_.swallowed) {

@@ -27,8 +27,7 @@ class WorkShare {
     if (work.budget() == WorkMeter::kUnlimited) {
       *this = WorkShare{};
     } else if (first == 0) {
-      const std::uint64_t goes_on = work.spent_on(Work::kItem) + work.spent_on(Work::kBranches);
-      if (2 * goes_on >= work.spent()) return;
+      if (2 * work.on_trees() >= work.spent()) return;
       if (radius_ <= kLeastRadius) motion_ = std::max(kLeastMotion, 0.5 * motion_);
       radius_ = std::max(kLeastRadius, 0.5 * radius_);
       is_least_ = is_least_ || radius_ <= kLeastRadius;

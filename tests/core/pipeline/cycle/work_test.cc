@@ -16,13 +16,15 @@ TEST(WorkMeter, SumsTheCostsOfItsPieces) {
   work.add(Work::kPoint, 7);
   work.add(Work::kBall);
   work.add(Work::kPoint, 2);
-  EXPECT_EQ(work.count(Work::kPoint), 9u);
-  EXPECT_EQ(work.count(Work::kBall), 1u);
-  EXPECT_EQ(work.spent_on(Work::kPoint), 9 * cost_of(Work::kPoint));
   EXPECT_EQ(work.spent(), 9 * cost_of(Work::kPoint) + cost_of(Work::kBall));
+  EXPECT_EQ(work.on_trees(), 0u);
+  work.add(Work::kItem, 5);
+  work.add(Work::kBranches, 3);
+  EXPECT_EQ(work.on_trees(), 5 * cost_of(Work::kItem) + 3 * cost_of(Work::kBranches));
+  EXPECT_EQ(work.spent(), 9 * cost_of(Work::kPoint) + cost_of(Work::kBall) + work.on_trees());
   work.start(1000000);
   EXPECT_EQ(work.spent(), 0u) << "a cycle starts from nothing";
-  EXPECT_EQ(work.count(Work::kPoint), 0u);
+  EXPECT_EQ(work.on_trees(), 0u);
 }
 
 TEST(WorkMeter, IsSpentFromItsBudgetOn) {
