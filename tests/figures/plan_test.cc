@@ -72,6 +72,27 @@ TEST_F(Plan, HasRunsOnAnArmIfWanted) {
   expect_refused(kScene + "[[picture]]\n", ExitCode::kBadConfig, "picture");
 }
 
+TEST_F(Plan, LinksToStudiesIfWanted) {
+  EXPECT_TRUE(read_plan(holding(kScene)).studies.empty());
+  const std::string study = "[[study]]\nname = 'fits'\ntitle = 'C < D'\ntext = 'words'\n";
+  const auto plan = read_plan(holding(kScene + study));
+  ASSERT_EQ(plan.studies.size(), 1u);
+  EXPECT_EQ(plan.studies[0].title, "C < D");
+  const std::string html = page({.plan = plan,
+                                 .figures = {Figure{}},
+                                 .entries = {},
+                                 .verdicts = {},
+                                 .arm_figures = {},
+                                 .runs = {},
+                                 .run_verdicts = {}},
+                                folder_);
+  EXPECT_LT(html.find("<h2 id=\"peg\">"), html.find("<h2 id=\"fits\">C &lt; D</h2>"));
+  EXPECT_NE(html.find("href=\"fits/report.html\""), std::string::npos);
+  expect_refused(kScene + "[[study]]\nname = 'fits'\ntext = 'words'\n", ExitCode::kBadConfig,
+                 "study.title: is missing");
+  expect_refused(kScene + study + "image = 'hole'\n", ExitCode::kBadConfig, "study.image: unknown key");
+}
+
 TEST_F(Plan, IsRefusedNamingTheKey) {
   expect_refused("[[scene]\n", ExitCode::kBadConfig, "plan.toml:1");
   expect_refused("[[scene]]\nname = 'peg'\n", ExitCode::kBadConfig, "scene.image: is missing; write image = ");

@@ -36,9 +36,11 @@ const char* const kFooter = R"(Example:
 Inputs:
   FIGURES.toml   tables [[scene]] with the keys name, image, title and text; optional are markers = { A = 0.4 } [s] and
                  barrier = [x, y, z, nx, ny, nz], a plane of W [m] on whose side the god object must stay. Optional
-                 tables [[run]] have the same keys and device, the device file of an arm.
+                 tables [[run]] have the same keys and device, the device file of an arm. Optional tables [[study]]
+                 have the keys name, title and text.
   for a scene    OUT/NAME/SOLVER.csv of godobject-replay, IMAGES/IMAGE.scene of godobject-scenec
   for a run      OUT/NAME/telemetry.csv and OUT/NAME/hand.csv of godobject-controller, and the image
+  for a study    OUT/NAME/report.html of godobject-report, to which the page links
   optional       pictures OUT/NAME/SOLVER_MOMENT.png and OUT/NAME/telemetry_MOMENT.png of godobject-view
 Outputs:
   OUT/NAME/figure.png (with gnuplot), OUT/statistics.csv, OUT/index.html; on stdout the table (the CSV file has more
@@ -69,6 +71,8 @@ void check_files(const Options& options, const Plan& plan) {
       files::require_input(output / scene.name / (solver + ".csv"), "make it with godobject-replay");
     files::output_target(output / scene.name / "figure.png");
   }
+  for (const StudyPlan& study : plan.studies)
+    files::require_input(output / study.name / "report.html", "make it with godobject-report");
   for (const ArmPlan& run : plan.runs) {
     for (const char* file : {"telemetry.csv", "hand.csv"})
       files::require_input(output / run.scene.name / file, "make it with godobject-controller --log");

@@ -159,6 +159,11 @@ it. In the figures the torque at the hand is about the mesh's origin, depths bel
 cycles without rendering are blank.</p>
 )";
 
+std::string study_html(const StudyPlan& study) {
+  return fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<p>See the <a href=\"{0}/report.html\">report</a>.</p>\n",
+                     files::html_text(study.name), files::html_text(study.title), files::html_text(study.text));
+}
+
 std::string arm_html(const PageContent& content, const std::filesystem::path& folder) {
   std::string text = kArmHead + cells_html(arm_columns(), content.runs) + kArmColumns;
   text += list(content.run_verdicts);
@@ -186,6 +191,7 @@ std::string page(const PageContent& content, const std::filesystem::path& folder
     text += scene_html(plan, content.figures[i].facts, content.figures[i].series, folder);
     text += replays_html(plan.name, content.entries);
   }
+  for (const StudyPlan& study : content.plan.studies) text += study_html(study);
   if (!content.runs.empty()) text += arm_html(content, folder);
   return text + "</body></html>\n";
 }

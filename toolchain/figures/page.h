@@ -25,7 +25,7 @@ struct PageContent {
 
 /// Returns the static HTML page for `folder`: a description of the solvers, the table, the verdicts, and for each scene
 /// its figure, the pictures in its folder (PNG, by moment) with depth and force at their moment, and its replays; then
-/// the same for the runs on an arm.
+/// links to the studies, and the same for the runs on an arm.
 std::string page(const PageContent& content, const std::filesystem::path& folder);
 
 }  // namespace godobject::figures

@@ -29,7 +29,7 @@ using command::Failure;
 struct Source {
   const std::filesystem::path& file;
   const toml::table& table;
-  const char* kind;  // scene or run
+  const char* kind;  // scene, run or study
 
   /// Throws Failure (kBadConfig) with the key and its place, that of `node`.
   [[noreturn]] void refuse(std::string_view key, std::string_view what, const toml::node& node) const {
@@ -42,6 +42,14 @@ struct Source {
     if (!table.contains(key)) refuse(key, fmt::format("is missing; write {} = \"...\"", key));
     if (!value || value->empty()) refuse(key, "must be a text in quotes");
     return *value;
+  }
+
+  /// Refuses keys that are not among `known`.
+  void check_keys(std::span<const std::string_view> known) const {
+    for (const auto& [key, node] : table) {
+      if (std::find(known.begin(), known.end(), key.str()) == known.end())
+        refuse(key.str(), fmt::format("unknown key; known are {}", fmt::join(known, ", ")), node);
+    }
   }
 };
 
@@ -75,16 +83,19 @@ std::optional<Barrier> barrier_of(const Source& source) {
 }
 
 ScenePlan scene_plan(const Source& source, std::span<const std::string_view> keys) {
-  for (const auto& [key, node] : source.table) {
-    if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-      source.refuse(key.str(), fmt::format("unknown key; known are {}", fmt::join(keys, ", ")), node);
-  }
+  source.check_keys(keys);
   return {.name = source.text("name"),
           .image = source.text("image"),
           .title = source.text("title"),
           .text = source.text("text"),
           .markers = markers_of(source),
           .barrier = barrier_of(source)};
+}
+
+StudyPlan study_plan(const Source& source) {
+  static constexpr std::array<std::string_view, 3> kKeys = {"name", "title", "text"};
+  source.check_keys(kKeys);
+  return {.name = source.text("name"), .title = source.text("title"), .text = source.text("text")};
 }
 
 /// Returns the tables [[KIND]] of a plan.
@@ -104,15 +115,19 @@ Plan read_plan(const std::filesystem::path& file) {
                                                             "markers", "barrier", "device"};
   const toml::table root = files::parse_toml(files::read_text(file), file.string());
   for (const auto& [key, node] : root) {
-    if (key != "scene" && key != "run")
-      refuse(file, node, fmt::format("{}: unknown; known are [[scene]] and [[run]]", key.str()));
+    if (key != "scene" && key != "run" && key != "study")
+      refuse(file, node, fmt::format("{}: unknown; known are [[scene]], [[run]] and [[study]]", key.str()));
   }
   Plan plan;
   for (const Source& source : tables(file, root, "scene"))
     plan.scenes.push_back(scene_plan(source, std::span(kKeys).first(6)));
-  if (!root.contains("run")) return plan;
-  for (const Source& source : tables(file, root, "run"))
-    plan.runs.push_back({scene_plan(source, kKeys), file.parent_path() / source.text("device")});
+  if (root.contains("run")) {
+    for (const Source& source : tables(file, root, "run"))
+      plan.runs.push_back({scene_plan(source, kKeys), file.parent_path() / source.text("device")});
+  }
+  if (root.contains("study")) {
+    for (const Source& source : tables(file, root, "study")) plan.studies.push_back(study_plan(source));
+  }
   return plan;
 }
 

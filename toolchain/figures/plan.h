@@ -26,14 +26,23 @@ struct ArmPlan {
   std::filesystem::path device;  ///< the arm's device file
 };
 
+/// A page of godobject-report to which the page links.
+struct StudyPlan {
+  std::string name;  ///< folder of its report.html
+  std::string title;
+  std::string text;
+};
+
 struct Plan {
   std::vector<ScenePlan> scenes;
   std::vector<ArmPlan> runs;
+  std::vector<StudyPlan> studies;
 };
 
 /// Reads tables [[scene]] with name, image, title, text and, optionally, markers = { A = 0.4, ... } and barrier =
-/// [point, normal]. Optional tables [[run]] have the same keys and device, a path relative to the file. Throws Failure:
-/// kNoInput, kBadData if it is not TOML, kBadConfig naming the key.
+/// [point, normal]. Optional tables [[run]] have the same keys and device, a path relative to the file. Optional tables
+/// [[study]] have name, title and text. Throws Failure: kNoInput, kBadData if it is not TOML, kBadConfig naming the
+/// key.
 Plan read_plan(const std::filesystem::path& file);
 
 }  // namespace godobject::figures

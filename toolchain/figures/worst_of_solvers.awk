@@ -1,30 +1,36 @@
-# From the demo's statistics.csv: for each solver the worst of all paths, `contact` first. The times are the largest
-# medians; cycles over 1 ms are summed.
+# From the demo's statistics.csv: for each solver the worst of all paths with loose parts, and of those with tight parts;
+# `contact` first. The times are the largest medians; cycles over 1 ms are summed.
 # usage: awk -f worst_of_solvers.awk statistics.csv
-BEGIN { FS = "," }
+BEGIN {
+  FS = ","
+  tight["round-peg"] = tight["rectangular-peg"] = tight["nut-m16"] = 1
+}
 NR == 1 {
   for (i = 1; i <= NF; i++) at[$i] = i
-  print "solver,deepest point [mm],behind the plate [mm],force step [N],look-ups [us],solver [us],cycles over 1 ms"
+  print "solver,parts,deepest point [mm],behind the plate [mm],force step [N],look-ups [us],solver [us],cycles over 1 ms"
   next
 }
 {
-  solver = $at["solver"]
-  if (!(solver in over)) order[++solvers] = solver
+  group = $at["solver"] "," ($at["scene"] in tight ? "tight" : "loose")
+  if (!(group in over)) order[++groups] = group
   keep(deepest, "penetration_max_mm")
   keep(behind, "furthest_behind_barrier_mm")
   keep(step, "largest_force_step_n")
   keep(step1, "step1_p50_us")
   keep(solve, "solve_p50_us")
-  over[solver] += $at["cycles_over_1ms"]
+  over[group] += $at["cycles_over_1ms"]
 }
 END {
-  for (i = solvers; i > 0; i--) {
-    s = order[i]
-    print s "," deepest[s] "," behind[s] "," step[s] "," step1[s] "," solve[s] "," over[s]
+  for (fit = 0; fit < 2; fit++) {
+    for (i = groups; i > 0; i--) {
+      g = order[i]
+      if ((g ~ /tight$/) != fit) continue
+      print g "," deepest[g] "," (g in behind ? behind[g] : "-") "," step[g] "," step1[g] "," solve[g] "," over[g]
+    }
   }
 }
 # The largest value of a column; "-" stands for no value.
 function keep(worst, column,    value) {
   value = $at[column]
-  if (value != "-" && (!(solver in worst) || value + 0 > worst[solver] + 0)) worst[solver] = value
+  if (value != "-" && (!(group in worst) || value + 0 > worst[group] + 0)) worst[group] = value
 }
