@@ -40,50 +40,122 @@ template <class Vectors>
   return (z00.at_from > least) & (second > least) & (third > least) & (end > least);
 }
 
-/// Pieces of chords in cells with facets whose free space is convex.
+/// The heights of both ends of a piece above the planes of one facet [m].
+struct FacetHeights {
+  double from[4], to[4];  ///< the face's plane, then those of its edges, see format::Facet::plane
+
+  FacetHeights(const double (&plane)[4][4], const double (&from_m)[3], const double (&to_m)[3]) noexcept {
+    for (int i = 0; i < 4; ++i) {
+      from[i] = plane[0][i] * from_m[0] + plane[1][i] * from_m[1] + plane[2][i] * from_m[2] + plane[3][i];
+      to[i] = plane[0][i] * to_m[0] + plane[1][i] * to_m[1] + plane[2][i] * to_m[2] + plane[3][i];
+    }
+  }
+
+  static double smaller(double a, double b) noexcept { return a < b ? a : b; }
+  static double larger(double a, double b) noexcept { return a > b ? a : b; }
+
+  /// Returns a lower bound of the facet's distance from the whole piece, if a plane lies between them [m]; otherwise a
+  /// number that is not positive.
+  double least_distance() const noexcept {
+    double least = larger(smaller(from[0], to[0]), -larger(from[0], to[0]));
+    for (int i = 1; i < 4; ++i) least = larger(least, smaller(from[i], to[i]));
+    return least;
+  }
+
+  /// Tells whether the begin is above the triangle; then its height above the face is its distance.
+  bool above_triangle() const noexcept { return from[0] > 0.0 && from[1] <= 0.0 && from[2] <= 0.0 && from[3] <= 0.0; }
+
+  /// Returns a lower bound of the facet's distance from one end, whose heights these are [m].
+  static double least_of(const double (&heights)[4]) noexcept {
+    double least = larger(heights[0], -heights[0]);
+    for (int i = 1; i < 4; ++i) least = larger(least, heights[i]);
+    return least;
+  }
+};
+
+/// Lower bounds of the distance to facets along pieces of chords, each piece in a cell that has them [voxels].
+///
+/// Where the free space about the cell is convex, the distance is the least of heights above planes, which change
+/// linearly along the piece. Elsewhere a facet is passed if one of its planes lies between it and the whole piece. A
+/// piece that passes all facets of the set meets no surface, and stays on the side on which it begins. It begins
+/// outside if its begin is above the triangle of the nearest facet. In a whole cell, where the field is the distance to
+/// the facets alone, it also begins outside if the field is positive there.
 template <class Vectors>
-struct PiecesAbovePlanes {
+struct PiecesPastFacets {
   using Floats = typename Vectors::Floats;
   using Ints = typename Vectors::Ints;
   using Doubles = typename Vectors::Doubles;
 
-  Floats
-      least;   ///< of the heights of both ends above the planes [voxels]; negative where a piece is not above them all
-  Floats end;  ///< least height of the piece's end [voxels]
+  Floats least;  ///< along the piece; negative where nothing is proved
+  Floats end;    ///< at the piece's end
 
   /// `from`, `to`: ends of the pieces, each component as its low and its high half [voxels from the grid's origin].
-  PiecesAbovePlanes(const FieldOfNodes& f, Ints facets, const Doubles (&from)[3][2], const Doubles (&to)[3][2]) noexcept
+  /// `outside`: -1 where the field is positive at the begin of the piece.
+  PiecesPastFacets(const FieldOfNodes& f, Ints facets, Ints outside, const Doubles (&from)[3][2],
+                   const Doubles (&to)[3][2]) noexcept
       : least(Floats{} - 1.0f), end(least) {
     for (std::uint32_t left = Vectors::bits(facets != 0); left != 0; left &= left - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(left));
       const auto word = static_cast<std::uint32_t>(facets[lane]);
       const format::FacetSet& set = f.facet_sets[(word & format::cell_facets::kSet) - 1];
-      if (set.plane_count == 0) continue;
       double from_m[3], to_m[3];
       for (int axis = 0; axis < 3; ++axis) {
         from_m[axis] = f.origin[axis] + of_lane(from[axis], lane) / f.per_voxel;
         to_m[axis] = f.origin[axis] + of_lane(to[axis], lane) / f.per_voxel;
       }
-      double least_from = f.band;
-      double least_to = f.band;
-      for (std::uint32_t i = set.first; i < set.first + set.plane_count; ++i) {
-        const double(&plane)[4][4] = f.facets[f.facet_numbers[i]].plane;
-        const auto height = [&plane](const double(&p)[3]) noexcept {
-          return plane[0][0] * p[0] + plane[1][0] * p[1] + plane[2][0] * p[2] + plane[3][0];
-        };
-        const double from_height = height(from_m);
-        const double to_height = height(to_m);
-        least_from = from_height < least_from ? from_height : least_from;
-        least_to = to_height < least_to ? to_height : least_to;
-      }
-      const double least_of_both = least_from < least_to ? least_from : least_to;
-      if (least_of_both < 0.0) continue;
-      least[lane] = static_cast<float>((least_of_both + f.facet_offset) * f.per_voxel);
-      end[lane] = static_cast<float>((least_to + f.facet_offset) * f.per_voxel);
+      Bounds found = above_planes(f, set, from_m, to_m);
+      const bool is_whole = (word & format::cell_facets::kWhole) != 0;
+      if (found.least < 0.0) found = past_each(f, set, is_whole && outside[lane] != 0, from_m, to_m);
+      if (found.least < 0.0) continue;
+      least[lane] = static_cast<float>((found.least + f.facet_offset) * f.per_voxel);
+      end[lane] = static_cast<float>((found.end + f.facet_offset) * f.per_voxel);
     }
   }
 
  private:
+  /// Lower bounds of the distance to the facets of a set [m]; `least` is negative where nothing is proved.
+  struct Bounds {
+    double least, end;
+  };
+
+  static Bounds above_planes(const FieldOfNodes& f, const format::FacetSet& set, const double (&from_m)[3],
+                             const double (&to_m)[3]) noexcept {
+    if (set.plane_count == 0) return {-1.0, -1.0};
+    double least_from = f.band;
+    double least_to = f.band;
+    for (std::uint32_t i = set.first; i < set.first + set.plane_count; ++i) {
+      const double(&plane)[4][4] = f.facets[f.facet_numbers[i]].plane;
+      const auto height = [&plane](const double(&p)[3]) noexcept {
+        return plane[0][0] * p[0] + plane[1][0] * p[1] + plane[2][0] * p[2] + plane[3][0];
+      };
+      least_from = FacetHeights::smaller(least_from, height(from_m));
+      least_to = FacetHeights::smaller(least_to, height(to_m));
+    }
+    return {FacetHeights::smaller(least_from, least_to), least_to};
+  }
+
+  /// `outside`: the distance to the facets is known to be positive at the begin.
+  static Bounds past_each(const FieldOfNodes& f, const format::FacetSet& set, bool outside, const double (&from_m)[3],
+                          const double (&to_m)[3]) noexcept {
+    // the field is positive where the distance is above -facet_offset; so is the distance if it is this far from 0
+    const double apart = FacetHeights::larger(f.facet_offset, 0.0);
+    Bounds bounds{f.band, f.band};
+    // If the begin is above the triangle with the least of these bounds, that one is the nearest.
+    double nearest = __builtin_inf();
+    bool above_nearest = false;
+    for (std::uint32_t i = set.first; i < set.first + set.count; ++i) {
+      const FacetHeights heights(f.facets[f.facet_numbers[i]].plane, from_m, to_m);
+      bounds.least = FacetHeights::smaller(bounds.least, heights.least_distance());
+      if (bounds.least <= apart) return {-1.0, -1.0};
+      bounds.end = FacetHeights::smaller(bounds.end, FacetHeights::least_of(heights.to));
+      const double at_begin = FacetHeights::least_of(heights.from);
+      if (at_begin >= nearest) continue;
+      nearest = at_begin;
+      above_nearest = heights.above_triangle();
+    }
+    return outside || above_nearest ? bounds : Bounds{-1.0, -1.0};
+  }
+
   static double of_lane(const Doubles (&halves)[2], std::uint32_t lane) noexcept {
     constexpr std::uint32_t kHalf = Vectors::kLanes / 2;
     return halves[lane / kHalf][lane % kHalf];
@@ -149,8 +221,7 @@ struct ChordLanes {
 };
 
 /// FindFreeChords for one vector of points. A piece in a cell with facets is proved if the interpolated distance, where
-/// it counts, and the distance to the facets are positive along it. In convex free space the latter is the least of
-/// heights that change linearly.
+/// it counts, and the distance to the facets are positive along it.
 template <class Vectors>
 std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const SampleBatch& batch,
                           std::uint32_t first) noexcept {
@@ -174,6 +245,10 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
   Floats covered = clearance(batch.from_clearance);
   Ints free = covered > length_to_cover;
   Ints searched = ~free;
+  const Doubles none = {};
+  // a free ball about the start; each later piece begins at the end of one that was proved
+  const Ints outside = Vectors::mask(*reinterpret_cast<const Doubles*>(batch.from_clearance + first) > none,
+                                     *reinterpret_cast<const Doubles*>(batch.from_clearance + first + kHalf) > none);
   const auto quantum = static_cast<float>(f.quantum_per_voxel);
   const auto near_band = static_cast<float>(f.near_band * f.per_voxel);
   for (int cells = 0; cells < kCells && Vectors::bits(searched) != 0; ++cells) {
@@ -202,10 +277,10 @@ std::uint32_t chord_lanes(const FieldOfNodes& f, const ChordEnds& ends, const Sa
     } else {
       Doubles until[3][2];
       chord.place(from, step * chord.per_length, until);
-      const PiecesAbovePlanes<Vectors> planes(f, facets, from, until);
+      const PiecesPastFacets<Vectors> past(f, facets, outside, from, until);
       const Ints whole = facets < 0;  // the sign is format::cell_facets::kWhole
-      searched &= (above | whole) & ((facets == 0) | (planes.least > least));
-      distance = facets != 0 ? (whole ? planes.end : Vectors::smaller(distance, planes.end)) : distance;
+      searched &= (above | whole) & ((facets == 0) | (past.least > least));
+      distance = facets != 0 ? (whole ? past.end : Vectors::smaller(distance, past.end)) : distance;
     }
     // and the free ball at the end of the step
     const Floats ball = (distance < near_band ? distance : zero + near_band) / lipschitz - rounding;

@@ -60,8 +60,9 @@ class Voxelmap {
   void samples_by(const detail::SampleKernel* kernel, const Pose& H, SampleBatch& batch) const noexcept;
 
   /// As in DistanceField. Proves chords through at most four cells. In each cell the interpolated field along the chord
-  /// is a cubic, and the proof is that its Bernstein coefficients are positive. In a cell with facets both ends of the
-  /// chord's piece must also be above all planes of the set (format::FacetSet); a set without planes proves nothing.
+  /// is a cubic, and the proof is that its Bernstein coefficients are positive. In a cell with facets the chord's piece
+  /// must also pass these: both ends are above all planes of the set (format::FacetSet), or a plane of each facet, of
+  /// its face or of an edge, lies between the facet and the piece, which begins outside.
   /// Returns 0 if the processor has no vectors: then free balls alone decide, and a cycle with long chords may have a
   /// different result.
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept;

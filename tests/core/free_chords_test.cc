@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -28,6 +29,7 @@ struct Verdict {
   bool free = false;
   double doubt = HUGE_VAL;
   int cells = 0;
+  int past_facets = 0;  ///< pieces that were proved by a plane for each facet
 
   bool is_above(double value, double bound) {
     doubt = std::min(doubt, std::fabs(value - bound));
@@ -37,8 +39,9 @@ struct Verdict {
 
 /// Walks along a chord as DistanceField::free_chords allows it: a ball around each end, and between them at most four
 /// cells. In each cell the field along the chord is a cubic whose Bernstein coefficients must be positive; the cubic
-/// follows from four values. In a cell with facets both ends must be above the planes of the set's first part, and the
-/// cubic counts only if the cell is not whole. Positions and distances have an allowance for single precision.
+/// follows from four values. In a cell with facets both ends must be above the planes of the set's first part, or a
+/// plane must lie between the piece and each facet; and the cubic counts only if the cell is not whole. Positions and
+/// distances have an allowance for single precision.
 class SlowWalk {
  public:
   SlowWalk(const FieldParts& parts, const SlowField& field) : parts_(parts), field_(field) {}
@@ -73,8 +76,9 @@ class SlowWalk {
         end = least_of_cubic(place, step * direction, allowance * steepest, verdict);
       }
       if (field_.facets_of(place) != nullptr) {
-        const double height = height_of_end(place, p, p + s * step / length * way, allowance * steepest, verdict);
-        end = std::min(end, height);
+        const double past = end_past_facets(place, p, p + s * step / length * way, chord.free_from > 0.0,
+                                            allowance * steepest, verdict);
+        end = std::min(end, past);
       }
       if (end < 0.0) return verdict;
       const double ball = std::min(end, field_.near_band() / s) / steepest - allowance;
@@ -108,19 +112,72 @@ class SlowWalk {
     }
   }
 
-  /// Returns the least height of a piece's end above the planes of its cell, or a negative number if one of its ends is
-  /// not more than `least` above them [voxels].
-  double height_of_end(const SlowField::Place& place, const Vector3& from, const Vector3& to, double least,
-                       Verdict& verdict) const {
+  /// Returns a bound of the distance at a piece's end in a cell with facets, or a negative number if the piece is not
+  /// proved to pass them by more than `least` [voxels]. `outside`: the field is known to be positive at its begin.
+  double end_past_facets(const SlowField::Place& place, const Vector3& from, const Vector3& to, bool outside,
+                         double least, Verdict& verdict) const {
     const format::FacetSet& set = *field_.facets_of(place);
-    if (set.plane_count == 0) return -1.0;
     const double s = parts_.grid.voxel_size;
-    for (const Vector3& p : {from, to}) {
-      const double height = field_.least_height(set, p);
-      if (!verdict.is_above(height / s, 0.0)) return -1.0;
-      if (!verdict.is_above((height + parts_.grid.facet_offset) / s, least)) return -1.0;
+    const double offset = parts_.grid.facet_offset / s;
+    const double heights[] = {field_.least_height(set, from) / s, field_.least_height(set, to) / s};
+    if (set.plane_count > 0 && verdict.is_above(heights[0], 0.0) && verdict.is_above(heights[1], 0.0)) {
+      return verdict.is_above(std::min(heights[0], heights[1]) + offset, least) ? heights[1] + offset : -1.0;
     }
-    return (field_.least_height(set, to) + parts_.grid.facet_offset) / s;
+    double along = HUGE_VAL, end = HUGE_VAL;
+    std::vector<BoundOfFacet> at_begin;
+    for (std::uint32_t i = set.first; i < set.first + set.count; ++i) {
+      const format::Facet& facet = parts_.facets[parts_.facet_numbers[i]];
+      along = std::min(along, distance_past(facet, from, to) / s);
+      end = std::min(end, distance_past(facet, to, to) / s);
+      at_begin.push_back(bound_of(facet, from));
+    }
+    if (!verdict.is_above(along, std::fabs(offset))) return -1.0;
+    outside = outside && field_.is_whole(place);
+    if (!outside && !is_above_nearest(at_begin, verdict)) return -1.0;
+    if (!verdict.is_above(along + offset, least)) return -1.0;
+    ++verdict.past_facets;
+    return end + offset;
+  }
+
+  /// Returns the heights of p above the plane of a facet's face and above those through its edges [m].
+  static std::array<double, 4> heights_above(const format::Facet& facet, const Vector3& p) {
+    Vector3 corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = Vector3(facet.vertex[k][0], facet.vertex[k][1], facet.vertex[k][2]);
+    const Vector3 normal(facet.plane[0][0], facet.plane[1][0], facet.plane[2][0]);
+    std::array<double, 4> heights = {normal.dot(p - corner[0])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3 out = (corner[(k + 1) % 3] - corner[k]).cross(normal).normalized();
+      heights[k + 1] = out.dot(p - corner[k]);
+    }
+    return heights;
+  }
+
+  /// Returns how far a facet is at least from a piece by the planes that lie between them, or a number that is not
+  /// positive [m].
+  static double distance_past(const format::Facet& facet, const Vector3& from, const Vector3& to) {
+    const std::array<double, 4> a = heights_above(facet, from), b = heights_above(facet, to);
+    double most = std::max(std::min(a[0], b[0]), std::min(-a[0], -b[0]));
+    for (std::size_t k = 1; k < 4; ++k) most = std::max(most, std::min(a[k], b[k]));
+    return most;
+  }
+
+  struct BoundOfFacet {
+    double least;        ///< of the distance [m]
+    double above;        ///< height above the face [m]
+    double most_beyond;  ///< largest height above the planes of the edges [m]
+  };
+  static BoundOfFacet bound_of(const format::Facet& facet, const Vector3& p) {
+    const std::array<double, 4> heights = heights_above(facet, p);
+    const double beyond = *std::max_element(heights.begin() + 1, heights.end());
+    return {std::max(std::fabs(heights[0]), beyond), heights[0], beyond};
+  }
+
+  /// Tells whether a point is above the triangle that has the least bound; then no other one is nearer.
+  bool is_above_nearest(std::vector<BoundOfFacet> bounds, Verdict& verdict) const {
+    const double s = parts_.grid.voxel_size;
+    std::sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.least < b.least; });
+    if (bounds.size() > 1) verdict.doubt = std::min(verdict.doubt, (bounds[1].least - bounds[0].least) / s);
+    return verdict.is_above(bounds[0].above / s, 0.0) && verdict.is_above(-bounds[0].most_beyond / s, 0.0);
   }
 
   /// Returns the distance at the end of a step in a cell, or a negative number if a coefficient is not above `least`
@@ -201,7 +258,7 @@ TEST_F(FreeChords, AreThoseOfASlowWalk) {
   fields.push_back(test::random_field({.bricks = {3, 2, 4}, .noise = 0.15, .refined = false}, random_));
   fields.push_back(test::random_field({.bricks = {2, 4, 3}, .voxel_size = 0.25, .noise = 0.3}, random_));
   fields.push_back(test::random_field({.bricks = {4, 3, 2}, .noise = 0.15, .exact = true}, random_));
-  int free_after[5] = {}, blocked = 0, judged = 0;
+  int free_after[5] = {}, blocked = 0, judged = 0, past_facets = 0;
   for (const FieldParts& parts : fields) {
     const SlowField field(parts);
     const Voxelmap map = parts.map();
@@ -217,6 +274,7 @@ TEST_F(FreeChords, AreThoseOfASlowWalk) {
       if (verdict.doubt < kRounding) continue;
       ++judged;
       ++(verdict.free ? free_after[verdict.cells] : blocked);
+      past_facets += verdict.free ? verdict.past_facets : 0;
       const std::uint32_t lane = static_cast<std::uint32_t>(i) % 16;
       for (const detail::SampleKernel& kernel : detail::sample_kernels()) {
         ASSERT_EQ(KernelWalk(map, kernel).is_free(p_, H0_, H1_, chord_, lane), verdict.free)
@@ -227,6 +285,7 @@ TEST_F(FreeChords, AreThoseOfASlowWalk) {
   }
   EXPECT_GT(judged, 30000);
   EXPECT_GT(blocked, 3000);
+  EXPECT_GT(past_facets, 100);
   for (const int count : free_after) EXPECT_GT(count, 50);
 }
 

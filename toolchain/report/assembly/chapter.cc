@@ -101,7 +101,7 @@ Chapter assembly_chapter(const AssemblyRequest& request) {
     return jamming_case(bound::kRectangularPeg, pair, OtherLoads::kJudged, effort);
   });
   const NutPlace coarse{
-      .start_z = 6e-3, .low = 5e-3, .high = 16e-3, .turns = 0.5, .cycles_of_turn = 720, .overlap_every = 20};
+      .start_z = 6e-3, .low = 5e-3, .high = 16e-3, .turns = 0.5, .cycles_of_turn = 1440, .overlap_every = 20};
   add_generated(chapter, request, "coarse-nut", 60.0, write_nut,
                 [=](const Pair& pair) { return nut_case(bound::kNut, pair, coarse, effort); });
   const GearPlace turnstile{.start_z = 0.0, .section_z = 1.5e-3, .radius = 7.5e-3};

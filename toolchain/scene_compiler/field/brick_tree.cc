@@ -591,7 +591,7 @@ bool BrickTree::has_new_cells(std::uint32_t brick) const {
 
 /// Finds the facets of an exact brick and compares their distances with those of the nodes. None if they do not serve.
 std::optional<BrickTree::BrickFacets> BrickTree::find_facets(std::uint32_t brick) const {
-  // distances of nodes are floats, and solids within solids, if any, are off by much more
+  // distances of nodes are floats
   constexpr double kRounding = 1e-4;  // of the cell's edge
   if (refuses_[brick]) return {};
   const std::uint64_t cells = weighed_cells(brick, *exact_[brick]);

@@ -200,7 +200,11 @@ SurfaceFacets::SurfaceFacets(const SolidSurface& surface, double flat) : flat_(s
     }
   }
   tree_ = TriangleTree(std::move(triangles));
-  bar_crossing(mesh);
+  if (const auto component = connected_components(mesh).of_triangle;
+      std::any_of(component.begin(), component.end(), [](std::uint32_t c) { return c != 0; })) {
+    bar_crossing(mesh, component);
+    bar_buried(surface);
+  }
   if (solid) bar_turned(surface, mesh, pulled_to);
 }
 
@@ -220,9 +224,7 @@ void SurfaceFacets::bar_turned(const SolidSurface& surface, const TriangleMesh& 
 
 /// The facets that meet a facet of another component do not tell the side: beyond the line in which they meet they lie
 /// within the body.
-void SurfaceFacets::bar_crossing(const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> component = connected_components(mesh).of_triangle;
-  if (std::all_of(component.begin(), component.end(), [](std::uint32_t c) { return c == 0; })) return;
+void SurfaceFacets::bar_crossing(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component) {
   const auto corners = [&](std::size_t t) {
     const auto& triangle = mesh.triangles[t];
     return Corners{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]};
@@ -239,6 +241,21 @@ void SurfaceFacets::bar_crossing(const TriangleMesh& mesh) {
     });
   });
   for (std::size_t t = 0; t < facets_.size(); ++t) valid_[t] = valid_[t] && crosses[t] == 0;
+}
+
+/// Bars the facets that lie within the body, as those of a solid within another. Above them is no free space, so their
+/// normals do not tell the side.
+void SurfaceFacets::bar_buried(const SolidSurface& surface) {
+  constexpr double kAbove = 1e-6;  // of the longest edge; chosen: far above rounding, below all gaps that are stored
+  parallel::for_each_index(facets_.size(), [&](std::size_t t) {
+    if (valid_[t] == 0) return;
+    const format::Facet& facet = facets_[t];
+    const Corners at = {vector(facet.vertex[0]), vector(facet.vertex[1]), vector(facet.vertex[2])};
+    const double longest = std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
+    const double above = std::max(2.0 * flat_, kAbove * longest);
+    const Vector3d p = (at[0] + at[1] + at[2]) / 3.0 + above * face_normal(facet);
+    valid_[t] = surface.winding_number(p) < 0.5 ? 1 : 0;
+  });
 }
 
 std::optional<std::vector<std::uint32_t>> SurfaceFacets::near(const Vector3d& center, double half_edge) const {

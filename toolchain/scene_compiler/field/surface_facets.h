@@ -19,8 +19,8 @@ namespace godobject::scene_compiler {
 /// three steps, each of which moves the surface by 1.5 times that length at most.
 ///
 /// Some facets do not tell the side of a point: one of a shell, one without area, one with an edge at which the surface
-/// is open, folded or branched, one that meets another component, and one that turned over as a needle was collapsed.
-/// Near such a facet there are no facets. A dilated surface is round and has none.
+/// is open, folded or branched, one that meets another component or lies within one, and one that turned over as a
+/// needle was collapsed. Near such a facet there are no facets. A dilated surface is round and has none.
 class SurfaceFacets {
  public:
   SurfaceFacets() = default;
@@ -46,7 +46,8 @@ class SurfaceFacets {
   bool turns(std::span<const std::uint32_t> facets) const;
 
  private:
-  void bar_crossing(const TriangleMesh& mesh);
+  void bar_crossing(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component);
+  void bar_buried(const SolidSurface& surface);
   void bar_turned(const SolidSurface& surface, const TriangleMesh& mesh, const std::vector<bool>& pulled_to);
 
   std::vector<format::Facet> facets_;
