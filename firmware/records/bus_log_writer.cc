@@ -93,7 +93,7 @@ void BusLogWriter::drain() {
     ++bus.count;
     if (++lines_ == kFramesAtOnce) write_all();
   }
-  if (lines_ > 0) write_all();
+  write_all();
 }
 
 std::uint64_t BusLogWriter::lost() const noexcept {

@@ -60,11 +60,12 @@ void TelemetryWriter::drain() {
   std::uint64_t rows = 0;
   while (ring_.pop(record)) {
     append(text_, record, joint_count_);
-    if (++rows < kRowsAtOnce) continue;
-    write_rows(rows);
-    rows = 0;
+    if (++rows == kRowsAtOnce) {
+      write_rows(rows);
+      rows = 0;
+    }
   }
-  if (rows > 0) write_rows(rows);
+  write_rows(rows);
 }
 
 void TelemetryWriter::write_rows(std::uint64_t rows) {

@@ -565,13 +565,13 @@ class ContactSubsteps {
     }
   }
 
-  /// Sets `motion_` and `H1_` for the current share. False: the workspace's face changes the motion, and points that
-  /// are not near are not proved free for it.
+  /// Sets `motion_` and `H1_` for the current share. False: points that are not near are not proved free for the
+  /// motion, which a face of the workspace may have changed.
   bool set_trial_pose() noexcept {
     motion_ = {share_.value() * step_.motion.translation, share_.value() * step_.motion.rotation};
     H1_ = step_.follows && share_.is_whole() ? input_.H_WD : H0_ * set_matrix(motion_);
-    const bool was_cut_off = cut_off(scene_.parameters->workspace, H0_, H1_, motion_);
-    return !was_cut_off || travel(lengths_.sphere, motion_) <= around_.free_displacement;
+    cut_off(scene_.parameters->workspace, H0_, H1_, motion_);
+    return travel(lengths_.sphere, motion_) <= around_.free_displacement;
   }
 
   bool are_samples_free() noexcept {

@@ -307,6 +307,37 @@ TEST(ContactSubsteps, CountTheTimeOfEachLookUpAsStep1) {
   EXPECT_GT(several, 0);
 }
 
+std::int64_t readings = 0;
+std::int64_t reading_clock() noexcept { return ++readings; }
+
+/// Whatever a cycle does, its time since the first reading of the clock belongs to one of the steps.
+TEST(ContactSubsteps, CountTheTimeOfTheLastStepToo) {
+  const AnalyticField field(Block{}, kSubstepVoxel);
+  const SampledBody body = box_body(4);
+  const Pointshell shell = body.pointshell();
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kSubstepVoxel;
+  q.margin = kSubstepMargin;
+  const ContactScene<AnalyticField, NoBodyField> scene(field, shell, {}, q);
+  const auto memory = std::make_unique<ContactMemory>();
+  memory->search.start(scene, {});
+  ProxyState state;
+  state.H_WS = memory->H_WD_last = pose_at({0.0, 0.0, 0.05});
+  state.started = true;
+  CycleReport report;
+  StepTimes times;
+  times.now_ns = reading_clock;
+  for (const double height : {0.05, 0.0501, 0.05, 0.022, 0.02}) {
+    const std::int64_t before = readings;
+    CycleInput input;
+    input.H_WD = pose_at({0.0, 0.0, height});
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report, &times), Status::kOk);
+    EXPECT_EQ(times.step1_ns + times.solve_ns, readings - before - 1) << height;
+    EXPECT_GT(times.solve_ns, 0) << height;
+  }
+}
+
 /// A point slides on the top of a block and past its edge. The device is 0.3 mm below the top. Beyond the edge nothing
 /// holds the point: in the same cycle it goes to the device.
 TEST(ContactSubsteps, GoDownToTheDevicePastAnEdgeInTheSameCycle) {

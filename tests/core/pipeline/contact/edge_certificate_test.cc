@@ -66,7 +66,29 @@ TEST(EdgeCertificate, RefusesToCrossAndSaysWhere) {
   EXPECT_NEAR(obstacle.gap.place, 0.5, 1e-9);
   EXPECT_FALSE(Cross(2e-5).free(moved(0, 0, -1.6e-5), obstacle)) << "a gap of 4 um is below the least";
   EXPECT_EQ(obstacle.share, 1.0);
+  EXPECT_FALSE(obstacle.exhausted);
   EXPECT_NEAR(obstacle.gap.distance, 4e-6, 1e-12);
+}
+
+TEST(EdgeCertificate, SaysWhetherItsBudgetWasSpentWhateverItSaidBefore) {
+  EdgeObstacle obstacle;
+  Cross cross(1e-3);
+  for (const bool before : {false, true}) {
+    obstacle.exhausted = before;
+    EXPECT_FALSE(cross.free(moved(0, 0, -4e-3), obstacle));
+    EXPECT_FALSE(obstacle.exhausted) << "an edge is in the way";
+    obstacle.exhausted = before;
+    EXPECT_TRUE(cross.free(moved(0, 0, 1e-3), obstacle));
+    EXPECT_FALSE(obstacle.exhausted);
+    WorkMeter work;
+    work.start(1);
+    work.add(Work::kPair, 1000);
+    Budget budget{work};
+    obstacle.exhausted = before;
+    EXPECT_FALSE(
+        edges_are_free(cross.edges, Pose{}, moved(0, 0, -4e-3), 5e-6, lengths(), cross.near, budget, obstacle));
+    EXPECT_TRUE(obstacle.exhausted);
+  }
 }
 
 /// Behind the count of near pairs may stand those of an earlier sub-step. They do not hold the body.

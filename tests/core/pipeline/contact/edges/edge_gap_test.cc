@@ -34,6 +34,25 @@ TEST(EdgeGap, IsTheDistanceOfCrossingEdgesAlongTheirCommonPerpendicular) {
   EXPECT_NEAR(gap.place, 0.25, 1e-12);
 }
 
+/// Edges that meet have no direction between their nearest points. The normal is at right angles to both.
+TEST(EdgeGap, HasANormalAcrossBothEdgesWhereTheyMeet) {
+  test::Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 meet = random.in_cube(0.1);
+    const Vector3 along = random.direction();
+    const Vector3 other = random.direction();
+    if (along.cross(other).norm() < 0.1) continue;
+    const auto edge = [&](const Vector3& direction, const Vector3& out) {
+      const double before = random.between(0.2, 1.0);
+      return EdgeInW{{meet - before * direction, meet + 0.5 * direction}, {out, out}, 0.0};
+    };
+    const Vector3 across = along.cross(other).normalized();
+    const EdgeGap gap = edge_gap(edge(along, -across), edge(other, across));
+    EXPECT_NEAR(gap.distance, 0.0, 1e-12);
+    EXPECT_TRUE(gap.normal.isApprox(across, 1e-9)) << gap.normal.transpose() << ", not " << across.transpose();
+  }
+}
+
 TEST(EdgeGap, IsNegativeWhereEachEdgeLiesInTheOthersWedge) {
   const EdgeGap gap = edge_gap(keel({0.25, 0.5, -0.001}), roof(), 0.002);
   EXPECT_NEAR(gap.distance, -0.001, 1e-15);

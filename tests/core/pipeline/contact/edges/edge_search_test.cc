@@ -222,6 +222,14 @@ TEST(EdgeSearch, RemembersThePairsThatMatterWhereNotAllHaveAPlace) {
     for (std::uint32_t i = 0; i < near.count; ++i) EXPECT_LT(near.gap[i].distance, kRadius);
     EXPECT_GE(around.free_displacement, some_are_near ? kRadius : 1.5e-3);
     EXPECT_LT(around.free_displacement, kRadius + kSlack) << "not all that is within reach";
+
+    // where few pairs are, all within reach have a place again
+    Pose far;
+    far.translation.x() = 1.0;
+    NearEdges none;
+    const EdgeSurroundings alone = search->find(far, 1.0, kRadius, kSlack, 0.0, work, none);
+    EXPECT_NEAR(alone.free_displacement, kRadius + kSlack, 1e-12);
+    EXPECT_EQ(none.count, 0u);
   }
 }
 
