@@ -398,7 +398,8 @@ class Walk:
         elif symbol in ARITHMETIC:
             if any(word in spelled for word in LOGGED):
                 return
-            are_vectors = cursor.type.get_canonical().kind == cindex.TypeKind.VECTOR  # of numbers, element by element
+            # vectors of numbers, element by element; what depends on a template's argument is taken for such a vector
+            are_vectors = cursor.type.get_canonical().kind in (cindex.TypeKind.VECTOR, cindex.TypeKind.DEPENDENT)
             if symbol in ('<<', '>>', '&', '|', '^', '%') and not numbers and not are_vectors:
                 return
             place = self.expression(cursor)

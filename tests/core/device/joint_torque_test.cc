@@ -503,6 +503,33 @@ TEST(JointTorque, OverflowIsNotFinite) {
   EXPECT_TRUE(result.torque == result.gravity);
 }
 
+/// Numbers that are finite, with products that are not: of the damper in the null space, and of the limits' springs.
+TEST(JointTorque, IsFiniteOrRefusedAtHugeVelocities) {
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  int refused = 0;
+  for (const Arm& arm : {test::lwr(), test::desktop6()}) {
+    for (int i = 0; i < arm.model.joint_count; ++i) {
+      for (const double sign : {1.0, -1.0}) {
+        TorqueRequest request = request_at(arm.model, JointVector::Constant(0.4));
+        request.F_P_R = {Vector3(1.0, 2.0, 3.0), Vector3(0.1, 0.2, 0.3)};
+        request.qd.setConstant(0.5 * kHuge);
+        request.qd[i] = sign * kHuge;
+        Arm stiff = arm;
+        stiff.parameters.null_damping.setConstant(kHuge);
+        JointTorque result;
+        const Status status = joint_torque(stiff.model, stiff.parameters, request, result);
+        ASSERT_TRUE(result.torque.allFinite());
+        ASSERT_TRUE(((torque_limits(arm.model) - result.torque.cwiseAbs()).array() >= 0.0).all());
+        ASSERT_EQ(result.left_out == 0.0 || status == Status::kOk, true);
+        if (status != Status::kNotFinite) continue;
+        ++refused;
+        ASSERT_TRUE(result.torque == result.gravity);
+      }
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
 /// The point is finite, but the square of its lever is not. All axes of the planar arm are parallel: there is no sum of
 /// infinite numbers with different signs.
 TEST(JointTorque, AtAPointWhoseLeverHasNoSquareIsNotFinite) {

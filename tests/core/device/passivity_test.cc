@@ -214,6 +214,18 @@ TEST(PassivityController, ForgetsASurplusOnceNothingIsRenderedButNotADebt) {
   EXPECT_EQ(controller.apply(0.0, kPush, kIn).force, kPush.force);
 }
 
+/// A surplus is what a wrench may still give back, as long as one is rendered.
+TEST(PassivityController, ForgetsNoSurplusWhileAWrenchIsRendered) {
+  PassivityController controller({.most_damping = 50.0, .period = kPeriod});
+  for (int k = 0; k < 3 * PassivityController::kForget; ++k) controller.apply(0.1, kPush, kIn);
+  EXPECT_EQ(controller.apply(0.05, kPush, kIn).force, kPush.force);
+  // with a rendered wrench the count begins at 0 again
+  for (int k = 1; k < PassivityController::kForget; ++k) controller.apply(0.1, {}, kIn);
+  controller.apply(0.1, kPush, kIn);
+  for (int k = 1; k < PassivityController::kForget; ++k) controller.apply(0.1, {}, kIn);
+  EXPECT_EQ(controller.apply(0.05, kPush, kIn).force, kPush.force);
+}
+
 TEST(PassivityController, IsAsANewOneAfterAReset) {
   const PassivityController::Parameters parameters{.most_damping = 50.0, .period = kPeriod};
   PassivityController used(parameters), fresh(parameters);

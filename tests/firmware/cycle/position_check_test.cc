@@ -130,6 +130,21 @@ TEST_F(PositionCheckTest, TellsAJointThatRunsAwayFromAnEncoderThatJumps) {
   }
 }
 
+/// The first position is no jump from zero, nor from a position before the restart.
+TEST_F(PositionCheckTest, TakesTheFirstJumpAfterAStartForNoneThatGoesOn) {
+  for (const double start : {1.0, -1.0, 2.5}) {
+    check_.restart();
+    reading_.position[0] = start;
+    step();
+    for (const double to : {-start, 0.5 * start, 2.0 * start}) {
+      reading_.position[0] = to;
+      EXPECT_FALSE(step().runs_away) << start << " to " << to;
+      reading_.position[0] = start;
+      step();
+    }
+  }
+}
+
 TEST_F(PositionCheckTest, AllowsForPeriodsThatWereSkipped) {
   step();
   reading_.position[0] = 0.0085;  // 2.1 mrad a period

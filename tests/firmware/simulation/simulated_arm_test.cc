@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/device/kinematics.h"
+#include "firmware/simulation/paced_clock.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/random.h"
 #include "toolchain/command_line/failure.h"
@@ -20,6 +21,25 @@ namespace godobject::firmware::simulated_arm_test {
 namespace {
 
 using command::ExitCode;
+
+/// A world that only keeps the time.
+class EmptyWorld final : public sim::World {
+ public:
+  std::int64_t now_ns() const noexcept override { return now; }
+  void advance_to(std::int64_t ns) noexcept override { now = std::max(now, ns); }
+  std::int64_t now = 5'000'000'000;
+};
+
+TEST(PacedClock, BeginsAtTheWorldsTimeAndWaitsForIt) {
+  EmptyWorld world;
+  PacedClock clock(world);
+  const std::int64_t begin = clock.now_ns();
+  EXPECT_GE(begin, 5'000'000'000);
+  EXPECT_LT(begin, 3'600'000'000'000) << "an hour";
+  clock.sleep_until(begin + 2'000'000);
+  EXPECT_EQ(world.now, begin + 2'000'000);
+  EXPECT_GE(clock.now_ns(), begin + 2'000'000);
+}
 
 /// The light-weight robot with a mesh that is turned, scaled and held beside the tool.
 class SimulatedArmTest : public test::FolderTest {
