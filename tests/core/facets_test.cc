@@ -144,6 +144,24 @@ TEST(Facets, HaveANormalOnTheSurfaceItself) {
   EXPECT_LE((at({0.5 + tiny, 0.5 + tiny, 0.5 + tiny}).gradient - Vector3::Ones().normalized()).norm(), 1e-6);
 }
 
+/// Above the middle of a face, however high, the gradient is the face's normal without rounding.
+TEST(Facets, HaveTheFacesNormalAboveIt) {
+  test::Random random(8);
+  const std::vector<Vector3> corners = {Vector3(0.0, 0.0, 0.0), Vector3(0.3, 0.1, 0.0), Vector3(0.1, 0.3, 0.1),
+                                        Vector3(0.1, 0.1, -0.4)};
+  const std::vector<format::Facet> facets = facets_of(corners, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}});
+  std::vector<std::uint32_t> numbers = {0, 1, 2, 3};
+  for (int i = 0; i < 300; ++i) {
+    const format::Facet& facet = facets[static_cast<std::size_t>(i % 4)];
+    Vector3 middle = Vector3::Zero();
+    for (const auto& vertex : facet.vertex) middle += Vector3(vertex[0], vertex[1], vertex[2]) / 3.0;
+    const double height = 0.01 * std::pow(10.0, -random.between(0.0, 8.0));
+    const ValueAndGradient found = facet_distance(facets, numbers, middle + height * face_normal(facet));
+    EXPECT_EQ(found.gradient, face_normal(facet)) << height;
+    EXPECT_NEAR(found.value, height, 1e-15);
+  }
+}
+
 TEST(Facets, OfASetAreThoseOfItsNumbers) {
   const auto facets = facets_of(box_vertices(Vector3::Constant(0.5)), kBoxTriangles);
   const std::vector<std::uint32_t> numbers = {10, 2, 3};

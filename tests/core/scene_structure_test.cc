@@ -187,6 +187,9 @@ TEST(SceneStructure, HasSharpEdgesInTheirSpheres) {
     using Edge = format::SharpEdge;
     using Node = format::Node;
     EXPECT_EQ(status_with([](Edge&, Node&) {}), Status::kOk);
+    ImageParts many = whole;
+    many.set(edges, std::vector<Edge>(format::kMaxSharpEdges + 1, many.item<Edge>(edges)));
+    EXPECT_EQ(status_of(many), Status::kImageLayout) << "more than any body may have";
     for (int end = 0; end < 2; ++end) {
       for (int axis = 0; axis < 3; ++axis) {
         for (const double x : {kNaN, 2e7, -2e7, 0.5}) {  // the last one lies outside of the node's sphere

@@ -191,6 +191,17 @@ TEST_F(ControllerRunTest, EndsWhenItRefusesToStart) {
   EXPECT_EQ(reads_, 51u);
 }
 
+/// Drives that have power are stopped and released before the run ends. The joints do not follow the test of their
+/// signs.
+TEST_F(ControllerRunTest, StopsTheDrivesBeforeItEndsARefusedStart) {
+  setup_.supervisor.sign_test = true;
+  run_.cycles = 20'000;
+  run();
+  EXPECT_EQ(cycle_->record().mode, Mode::kStopped);
+  EXPECT_TRUE(refuses_to_start(cycle_->record().fault)) << describe(cycle_->record().fault);
+  EXPECT_GT(std::count(modes_.begin(), modes_.end(), Mode::kStopping), 0);
+}
+
 /// A fault that the operator can reset does not end the run; each request resets once.
 TEST_F(ControllerRunTest, GoesOnAfterAFaultThatCanBeReset) {
   drives_.reading.enable_switch = false;
