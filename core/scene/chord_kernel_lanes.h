@@ -75,11 +75,11 @@ struct FacetHeights {
 
 /// Lower bounds of the distance to facets along pieces of chords, each piece in a cell that has them [voxels].
 ///
-/// Where the free space about the cell is convex, the distance is the least of heights above planes, which change
-/// linearly along the piece. Elsewhere a facet is passed if one of its planes lies between it and the whole piece. A
-/// piece that passes all facets of the set meets no surface, and stays on the side on which it begins. It begins
-/// outside if its begin is above the triangle of the nearest facet. In a whole cell, where the field is the distance to
-/// the facets alone, it also begins outside if the field is positive there.
+/// Where the free space about the cell is convex, the distance is the least height above some planes. Each height
+/// changes linearly along the piece. Elsewhere a facet is passed if one of its planes lies between it and the whole
+/// piece. A piece that passes all facets of the set meets no surface, and stays on the side on which it begins. It
+/// begins outside if its begin is above the triangle of the nearest facet. In a whole cell, where the field is the
+/// distance to the facets alone, it also begins outside if the field is positive there.
 template <class Vectors>
 struct PiecesPastFacets {
   using Floats = typename Vectors::Floats;

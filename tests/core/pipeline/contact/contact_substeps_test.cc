@@ -272,36 +272,53 @@ struct TickingBlock : Block {
   }
 };
 
+/// Cycles of a box about a field, with the times of their steps.
+struct TimedRun {
+  TimedRun(const AnalyticField& field, std::int64_t (*clock)() noexcept, double height)
+      : scene(field, shell, {}, parameters()) {
+    memory->search.start(scene, {});
+    state.H_WS = memory->H_WD_last = pose_at({0.0, 0.0, height});
+    state.started = true;
+    times.now_ns = clock;
+  }
+
+  const Parameters& parameters() {
+    q.mass = body.mass;
+    q.voxel_size = kSubstepVoxel;
+    q.margin = kSubstepMargin;
+    return q;
+  }
+  Status step(const Pose& device) {
+    CycleInput input;
+    input.H_WD = device;
+    return contact_cycle<false>(scene, input, *memory, state, report, &times);
+  }
+
+  SampledBody body = box_body(4);
+  Pointshell shell = body.pointshell();
+  Parameters q;
+  ContactScene<AnalyticField, NoBodyField> scene;
+  std::unique_ptr<ContactMemory> memory = std::make_unique<ContactMemory>();
+  ProxyState state;
+  CycleReport report;
+  StepTimes times;
+};
+
 /// Step #1 contains every look-up, also those of the certificate, and nothing else does.
 TEST(ContactSubsteps, CountTheTimeOfEachLookUpAsStep1) {
   const AnalyticField field(TickingBlock{}, kSubstepVoxel);
-  const SampledBody body = box_body(4);
-  const Pointshell shell = body.pointshell();
-  Parameters q;
-  q.mass = body.mass;
-  q.voxel_size = kSubstepVoxel;
-  q.margin = kSubstepMargin;
-  const ContactScene<AnalyticField, NoBodyField> scene(field, shell, {}, q);
-  const auto memory = std::make_unique<ContactMemory>();
-  memory->search.start(scene, {});
-  ProxyState state;
-  state.H_WS = memory->H_WD_last = pose_at({0.0, 0.0, 0.03});
-  state.started = true;
-  CycleReport report;
-  StepTimes times;
-  times.now_ns = block_clock;
+  TimedRun run(field, block_clock, 0.03);
   int held = 0, several = 0;
   for (int i = 0; i < 200; ++i) {
     const double t = 0.02 * i;
-    CycleInput input;
-    input.H_WD = pose_at({0.02 * std::sin(t), 0.015 * std::sin(1.3 * t), 0.022},
-                         {0.2 * std::sin(0.7 * t), 0.2 * std::sin(0.9 * t), 0.3 * t});
     const std::int64_t before = ticks_of_block;
-    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report, &times), Status::kOk);
-    EXPECT_EQ(times.step1_ns, ticks_of_block - before) << i;
-    EXPECT_EQ(times.solve_ns, 0) << i;
-    held += report.contacts > 0 ? 1 : 0;
-    several += memory->path.poses().size() > 1 ? 1 : 0;
+    ASSERT_EQ(run.step(pose_at({0.02 * std::sin(t), 0.015 * std::sin(1.3 * t), 0.022},
+                               {0.2 * std::sin(0.7 * t), 0.2 * std::sin(0.9 * t), 0.3 * t})),
+              Status::kOk);
+    EXPECT_EQ(run.times.step1_ns, ticks_of_block - before) << i;
+    EXPECT_EQ(run.times.solve_ns, 0) << i;
+    held += run.report.contacts > 0 ? 1 : 0;
+    several += run.memory->path.poses().size() > 1 ? 1 : 0;
   }
   EXPECT_GT(held, 50);
   EXPECT_GT(several, 0);
@@ -313,28 +330,12 @@ std::int64_t reading_clock() noexcept { return ++readings; }
 /// Whatever a cycle does, its time since the first reading of the clock belongs to one of the steps.
 TEST(ContactSubsteps, CountTheTimeOfTheLastStepToo) {
   const AnalyticField field(Block{}, kSubstepVoxel);
-  const SampledBody body = box_body(4);
-  const Pointshell shell = body.pointshell();
-  Parameters q;
-  q.mass = body.mass;
-  q.voxel_size = kSubstepVoxel;
-  q.margin = kSubstepMargin;
-  const ContactScene<AnalyticField, NoBodyField> scene(field, shell, {}, q);
-  const auto memory = std::make_unique<ContactMemory>();
-  memory->search.start(scene, {});
-  ProxyState state;
-  state.H_WS = memory->H_WD_last = pose_at({0.0, 0.0, 0.05});
-  state.started = true;
-  CycleReport report;
-  StepTimes times;
-  times.now_ns = reading_clock;
+  TimedRun run(field, reading_clock, 0.05);
   for (const double height : {0.05, 0.0501, 0.05, 0.022, 0.02}) {
     const std::int64_t before = readings;
-    CycleInput input;
-    input.H_WD = pose_at({0.0, 0.0, height});
-    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report, &times), Status::kOk);
-    EXPECT_EQ(times.step1_ns + times.solve_ns, readings - before - 1) << height;
-    EXPECT_GT(times.solve_ns, 0) << height;
+    ASSERT_EQ(run.step(pose_at({0.0, 0.0, height})), Status::kOk);
+    EXPECT_EQ(run.times.step1_ns + run.times.solve_ns, readings - before - 1) << height;
+    EXPECT_GT(run.times.solve_ns, 0) << height;
   }
 }
 
