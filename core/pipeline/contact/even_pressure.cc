@@ -105,7 +105,7 @@ class HullSide {
     while (i + 1 < count_ && chain_[i].y < y) ++i;
     const Corner& a = chain_[i - 1];
     const Corner& b = chain_[i];
-    return b.y > a.y ? a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y) : a.x;
+    return a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);  // b is above a: y lies between the lowest and the highest point
   }
 
  private:

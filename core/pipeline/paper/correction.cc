@@ -14,10 +14,7 @@ Vector3 rotation_point(const Vector3& lever_point, const Vector3& u_f, const Vec
   const double c = lever_point.cwiseProduct(inverse).dot(lever_point) - 1.0;
   const double discriminant = b * b - 4.0 * a * c;
   if (discriminant >= 0.0) {
-    const double root = std::sqrt(discriminant);
-    const Vector3 first = lever_point + (-b - root) / (2.0 * a) * u_f;
-    const Vector3 second = lever_point + (-b + root) / (2.0 * a) * u_f;
-    return first.cwiseProduct(inverse).dot(u_f) <= 0.0 ? first : second;  // (15)
+    return lever_point + (-b - std::sqrt(discriminant)) / (2.0 * a) * u_f;  // (15): where the line enters
   }
   const double length = std::sqrt(lever_point.cwiseProduct(ellipsoid).dot(lever_point));
   const Vector3 nearest = ellipsoid.cwiseProduct(lever_point) / length;  // (16)

@@ -159,6 +159,7 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"base = [0.0, 0.0, 0.0, 1.0", "base = [0.0, 0.0, 0.0, 1.1", "arm.base has a quaternion that is not"},
            {"\n[payload]", "\n[cargo]", "cargo is not a known table"},
            {"mass = 0.02\n", "mass = -0.02\n", "payload.mass = -0.02 is out of range"},
+           {"1.100e-05, 6.400e-07", "1.100e-05, 6.400e-05", "payload.inertia is not possible"},
            {"name = \"desktop6\"", "name = 6", "arm.name must be a text in quotes"},
            {"\n[tool]", "\n[tool", "not TOML"},
            {"\nnode = 2\n", "\nnode = 1\n", "joint[2].node = 1 is also joint 1's on the same bus"},

@@ -518,6 +518,29 @@ TEST_F(ControlCycleTest, StopsBeyondASpeed) {
   EXPECT_EQ(cycle_->record().fault, Fault::kTooFast);
 }
 
+/// The hand is too fast, but no joint is. After a stop only what the hand does now counts: the arm runs again.
+TEST_F(ControlCycleTest, RunsAgainAfterAHandThatWasTooFast) {
+  setup_.hand.speed = 0.05;
+  setup_.hand.speed_stop = 0.1;
+  make();
+  run_to(Mode::kRunning);
+  for (int i = 0; i < 100 && cycle_->record().fault == Fault::kNone; ++i) {
+    drives_.reading.position[0] += 3e-4;
+    step();
+  }
+  EXPECT_EQ(cycle_->record().fault, Fault::kTooFast);
+  run_to(Mode::kStopped);
+  drives_.reading.enable_switch = false;
+  for (int i = 0; i < 200; ++i) step();
+  LoopEvents reset;
+  reset.reset_requested = true;
+  step(reset);
+  EXPECT_EQ(cycle_->record().mode, Mode::kIdle);
+  for (int i = 0; i < 200; ++i) step();
+  drives_.reading.enable_switch = true;
+  run_to(Mode::kRunning);
+}
+
 /// GODOBJECT_CYCLES=1000000 for a longer look: none in N cycles bounds the rate at 3 / N only.
 int cycles_to_look_at() {
   const char* wanted = std::getenv("GODOBJECT_CYCLES");

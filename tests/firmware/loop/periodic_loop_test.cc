@@ -229,6 +229,21 @@ class LateClock final : public hal::Clock {
   std::size_t slept_ = 0;
 };
 
+/// The samples come at their time, however soon after the request.
+TEST(PeriodicLoop, WaitsForSamplesThatComeANanosecondLater) {
+  LateClock clock({0, 0, 0, 0});
+  LoopStatistics statistics;
+  std::vector<std::int64_t> ran;
+  run_periodically(
+      clock, kPeriod_ns, 1, statistics, [] {},
+      [&](const LoopEvents&) {
+        ran.push_back(clock.now % kPeriod_ns);
+        return ran.size() < 2;
+      },
+      [](const CycleTimes&) {});
+  EXPECT_EQ(ran, (std::vector<std::int64_t>{1, 1}));
+}
+
 /// Three cycles by hand: samples 300 us after waking; the second one wakes 20 us late, and for the samples 7 us.
 TEST(PeriodicLoop, MeasuresLatenessAndComputingTimeOfEachCycle) {
   LateClock clock({0, 0, 20'000, 7'000, 0, 0});

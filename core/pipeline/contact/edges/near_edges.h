@@ -20,8 +20,8 @@ struct EdgeContacts {
 
 /// A sharp edge of the moving body and one of the still body, by their numbers.
 struct EdgePair {
-  std::uint32_t moving = 0;
-  std::uint32_t still = 0;
+  std::uint32_t moving;
+  std::uint32_t still;
 
   bool operator==(const EdgePair&) const = default;
 };

@@ -13,7 +13,7 @@ namespace godobject {
 struct ContactPatch {
   Vector3 normal = Vector3::Zero();  ///< unit
   Vector3 centre = Vector3::Zero();  ///< of the load [m]
-  double share = 1.0;                ///< of a point's distance from the centre, at which its friction acts [1]
+  double share;                      ///< of a point's distance from the centre, at which its friction acts [1]
 };
 
 /// The faces that carried load in the last cycle.

@@ -372,6 +372,36 @@ TEST(BallCycle, TakesNoSubstepBeyondTheOneThatReachesTheDevice) {
   EXPECT_GT(several, 0);
 }
 
+/// The surface is near, but holds nothing.
+TEST(BallCycle, TakesOneSubstepBesideASurface) {
+  BallRun run(plane(), {0.0, 0.0, 0.0003});
+  for (int i = 1; i < 20; ++i) {
+    const Vector3 goal(1e-4 * i, 0.0, 0.0003);
+    ASSERT_LT(run.gap(), run.lengths().shortest_search_radius);
+    ASSERT_EQ(run.step(goal), Status::kOk);
+    EXPECT_EQ(run.center(), goal);
+    EXPECT_EQ(run.report.contacts, 0u);
+    EXPECT_EQ(run.report.substeps, 1u);
+    EXPECT_EQ(run.path.poses().size(), 1u);
+  }
+}
+
+/// The path keeps the first poses, as many as there is room for.
+TEST(SubstepPath, KeepsNoMorePosesThanItHasRoomFor) {
+  struct {
+    SubstepPath path;
+    std::uint64_t behind = 0x0123456789abcdef;
+  } both;
+  for (std::uint32_t i = 0; i < SubstepPath::kCapacity + 3; ++i) {
+    Pose H;
+    H.translation.x() = i;
+    both.path.push(H);
+  }
+  ASSERT_EQ(both.path.poses().size(), SubstepPath::kCapacity);
+  for (std::uint32_t i = 0; i < SubstepPath::kCapacity; ++i) EXPECT_EQ(both.path.poses()[i].translation.x(), i);
+  EXPECT_EQ(both.behind, 0x0123456789abcdef);
+}
+
 TEST(BallCycle, StaysWhereANumberIsNotFinite) {
   BallRun run(plane(), {0.0, 0.0, 0.002});
   for (int i = 0; i < 10; ++i) ASSERT_EQ(run.step({0.0, 0.0, -0.004}), Status::kOk);

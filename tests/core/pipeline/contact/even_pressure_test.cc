@@ -201,6 +201,19 @@ TEST(EvenPressure, NeedsAFaceAndSeveralForces) {
   EXPECT_EQ(on.patches().count, 0u) << "points on a line";
 }
 
+/// Points on a diagonal of the plane's axes cover nothing.
+TEST(EvenPressure, NeedsMoreThanALineAcross) {
+  SurfaceSamples line;
+  for (int i = -16; i <= 16; ++i) {
+    line.points.push_back({i / 1024.0, i / 1024.0, kBottom});
+    line.normals.push_back(Vector3::UnitZ());
+  }
+  OnFace on(line);
+  on.push({1.0 / 64.0, 1.0 / 64.0, kBottom}, 1.0);
+  on.push({-1.0 / 64.0, -1.0 / 64.0, kBottom}, 1.0);
+  EXPECT_EQ(on.patches().count, 0u);
+}
+
 /// A face whose forces carry no load has no patch.
 TEST(EvenPressure, HasNoPatchOnAFaceWithoutLoad) {
   SurfaceSamples face = lower_face(0.04, 0.03);
