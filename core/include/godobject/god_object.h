@@ -103,8 +103,9 @@ class GodObject {
   /// but crosses nothing. A cycle takes somewhat more than its budget: some ten thousand units, or two passes over the
   /// lists of near points. The first cycle after `start`, `reset` and `follow` also looks up all points once.
   ///
-  /// If the first motion of a cycle does not fit into the budget, shorter ones follow in the next cycles, at last
-  /// without friction (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles
+  /// If the search for near points does not fit into the budget, the next cycles go on with it while the god object
+  /// stays. If the first motion after it does not fit, shorter ones follow in the next cycles, at last without friction
+  /// (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles
   /// take without one may hold the god object for good, also when the device moves away; so it may without the memory
   /// of memory_size(). `units`: 1 or more; the largest number is no budget. No effect before `start`. Real-time safe.
   void set_work_budget(std::uint64_t units) noexcept;

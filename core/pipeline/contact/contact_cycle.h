@@ -22,8 +22,9 @@ namespace godobject {
 /// Points that the point budget leaves without a look-up limit the motion to the bound of their clearance: the god
 /// object may lag, which is counted, but crosses nothing.
 ///
-/// When the budget of work is spent, the cycle ends with the motion that is certified so far. The search goes on in the
-/// next cycle, and WorkShare shortens what does not fit. That limits the cost further than the counts below.
+/// When the budget of work is spent, the cycle ends with the motion that is certified so far. If the god object has not
+/// moved, the next cycle goes on with the search, or with its lists (KeptSearch), and WorkShare shortens the motion that
+/// does not fit. That limits the cost further than the counts below.
 ///
 /// A first pose that penetrates is left along the gradients, and where these contradict each other along the motion
 /// that misses them least (overlap.h), near the device. Where the field has none (deeper than the band) the god object

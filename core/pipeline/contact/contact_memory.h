@@ -10,6 +10,7 @@
 #include "core/pipeline/contact/edges/near_edges.h"
 #include "core/pipeline/contact/qp/contact_rows.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
+#include "core/pipeline/contact/search/kept_search.h"
 #include "core/pipeline/contact/search/near_points.h"
 #include "core/pipeline/contact/search/near_search.h"
 #include "core/pipeline/contact/substep_path.h"
@@ -18,8 +19,8 @@
 
 namespace godobject {
 
-/// The workspace of one cycle of `contact`; its contents end with the cycle. A cycle touches only as much as it has
-/// contacts.
+/// The workspace of one cycle of `contact`; its contents end with the cycle, except for the near points and rows of a
+/// search that goes on. A cycle touches only as much as it has contacts.
 struct ContactWorkspace {
   ContactRows rows;
   ConstrainedStep step;
@@ -60,6 +61,12 @@ struct ContactSearch {
     edges.start(scene.has_edges() ? scene.edges : EdgeContacts{});
   }
 
+  /// Begins a search at another pose: no point has been visited.
+  void start_over() noexcept {
+    samples.start_over();
+    features.start_over();
+  }
+
   /// Tells whether the last search proves that no clearance falls below `clearance` [m] in a motion from here that
   /// displaces points by at most `displacement` [m]. `clearance` is at most the longest search radius.
   bool is_free(double displacement, double clearance) const noexcept {
@@ -78,6 +85,7 @@ struct ContactMemory {
   SubstepPath path;                ///< of the last cycle, for tools and tests
   WorkMeter work;                  ///< of the last cycle
   WorkShare share;                 ///< of radius and motion that the budget of work allows
+  KeptSearch kept;                 ///< the last search
   std::uint64_t attempt_work = 0;  ///< of the last first attempt at a motion [units]
   ContactWorkspace workspace;
 
@@ -88,6 +96,7 @@ struct ContactMemory {
     edges_may_overlap = true;
     path.clear();
     share = WorkShare{};
+    kept.goes_on = false;
     attempt_work = 0;
   }
 };

@@ -82,18 +82,32 @@ class ContactSubsteps {
   /// Finds the near points of both directions, the near edges, and their rows, #1.
   void find_surroundings() noexcept {
     work_.add(Work::kSubstep);
-    if (is_first_) {
-      search_radius_ = first_search_radius(memory_, state_, input_.H_WD, lengths_, longest_search_radius_);
+    KeptSearch& kept = memory_.kept;
+    goes_on_ = is_first_ && kept.goes_on && is_same(kept.H_WS, H0_);
+    has_all_at_once_ = goes_on_ && kept.has_all;
+    if (goes_on_) {
+      search_radius_ = kept.radius;
+      around_ = kept.around;
+    } else {
+      if (is_first_) {
+        search_radius_ = first_search_radius(memory_, state_, input_.H_WD, lengths_, longest_search_radius_);
+      }
+      around_ = Surroundings{.free_displacement = search_radius_};
+      rows_.count = 0;
+      memory_.workspace.samples.count = memory_.workspace.features.count = 0;
+      memory_.search.start_over();
+      kept.has_samples = kept.has_all = false;
     }
-    around_ = Surroundings{.free_displacement = search_radius_};
-    rows_.count = 0;
-    memory_.workspace.features.count = memory_.workspace.edges.count = 0;
-    has_all_points_ = find_samples() && find_features();
+    if (scene_.has_features()) H0_features_ = FeatureDirection::pose(H0_, scene_.features.origin_W);
+    memory_.workspace.edges.count = 0;
+    has_all_points_ = has_all_at_once_ || (find_samples() && find_features());
+    kept = {false, kept.has_samples, has_all_points_, H0_, search_radius_, around_};
     // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
     result_.inside = may_be_inside && (around_.smallest <= 0.0 || !has_all_points_);
     if (has_all_points_) find_edges();
-    if (around_.dropped > 0 && !work_.is_spent()) select_again();
+    has_surroundings_ = has_all_points_ && !work_.is_spent();
+    if ((around_.dropped > 0 || has_all_at_once_) && !work_.is_spent()) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
     result_.dropped = around_.unlisted + around_.unseen;
@@ -238,11 +252,28 @@ class ContactSubsteps {
     if (status != Status::kOk) return status;
     if (attempt_work_ > 0) memory_.attempt_work = attempt_work_;
     if (first_work_ == 0 && !result_.out_of_work) first_work_ = work_.spent();
-    memory_.share.learn(work_, first_work_);
+    learn();
     return status;
   }
 
  private:
+  static bool is_same(const Pose& a, const Pose& b) noexcept {
+    return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
+  }
+
+  /// Learns how much of a motion the budget of work allows, unless the next cycle goes on with the search of this one
+  /// or has its points from the beginning.
+  void learn() noexcept {
+    KeptSearch& kept = memory_.kept;
+    const ContactSearch& search = memory_.search;
+    const bool stays = result_.out_of_work && !result_.inside && is_same(kept.H_WS, result_.H_WS);
+    const bool may_go_on = kept.has_all ? has_surroundings_ || !has_all_at_once_
+                                        : (kept.has_samples ? search.features : search.samples).may_go_on();
+    kept.goes_on = stays && may_go_on;
+    if (!kept.goes_on) return memory_.share.learn(work_, first_work_);
+    if (has_all_at_once_) memory_.share.shorten_motion();
+  }
+
   /// Drops the rows with a force that edge pairs imply. Returns whether there was one.
   bool drop_implied_rows() noexcept {
     bool dropped = false;
@@ -503,26 +534,26 @@ class ContactSubsteps {
   /// Finds the near sample points. False: as find_near.
   bool find_samples() noexcept {
     ContactSearch& search = memory_.search;
-    NearPoints& near = memory_.workspace.samples;
-    near.count = 0;
+    bool& has_samples = memory_.kept.has_samples;
+    if (has_samples) return true;
     const double travelled = search.odometer.travelled();
-    if (search.samples.is_free(travelled, search_radius_)) return true;
-    return find_near(search.samples, SampleDirection{}, *scene_.field, *scene_.shell, H0_, travelled, search_radius_,
-                     lengths_, point_budget(), work_, near, rows_, around_);
+    has_samples =
+        search.samples.is_free(travelled, search_radius_) ||
+        find_near(search.samples, SampleDirection{}, *scene_.field, *scene_.shell, H0_, travelled, search_radius_,
+                  lengths_, point_budget(), work_, memory_.workspace.samples, rows_, around_, goes_on_);
+    return has_samples;
   }
 
   /// Finds the near feature points. False: as find_near.
   bool find_features() noexcept {
-    NearPoints& near = memory_.workspace.features;
-    near.count = 0;
     if (!scene_.has_features()) return true;
     ContactSearch& search = memory_.search;
     const double travelled = search.odometer.travelled();
     const double radius = search_radius_ * scene_.feature_direction.most_stretch();
     if (search.features.is_free(travelled, radius)) return true;
-    H0_features_ = FeatureDirection::pose(H0_, scene_.features.origin_W);
     return find_near(search.features, scene_.feature_direction, *scene_.features.map, scene_.features.points,
-                     H0_features_, travelled, radius, lengths_, point_budget(), work_, near, rows_, around_);
+                     H0_features_, travelled, radius, lengths_, point_budget(), work_, memory_.workspace.features,
+                     rows_, around_, goes_on_);
   }
 
   /// Returns how many points a sub-step looks up.
@@ -744,6 +775,9 @@ class ContactSubsteps {
   // state of the sub-step
   bool is_first_ = true;
   bool has_all_points_ = true;      // the search has visited all near points
+  bool goes_on_ = false;            // the search is that of the last cycle
+  bool has_all_at_once_ = false;    // and has visited all near points before
+  bool has_surroundings_ = false;   // all near points and edges are listed
   bool is_constrained_ = false;     // `step_` is that of the sub-step
   std::uint64_t work_before_ = 0;   // at its start [units]
   std::uint64_t attempt_work_ = 0;  // of its first attempt [units]

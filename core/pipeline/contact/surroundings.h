@@ -10,20 +10,11 @@
 #include "core/pipeline/contact/contact_lengths.h"
 #include "core/pipeline/contact/contact_limits.h"
 #include "core/pipeline/contact/contact_memory.h"
+#include "core/pipeline/contact/search/kept_search.h"
 #include "core/scene/sample_bits.h"
 
 /// Step #1 of `contact`: the near points of one direction, and their rows.
 namespace godobject::detail {
-
-/// The surface around the start of one sub-step.
-struct Surroundings {
-  double free_displacement;  ///< up to this displacement all points outside of the lists of near points are free [m]
-  double smallest = std::numeric_limits<double>::infinity();  ///< smallest stored distance of the near points [m]
-  bool swallowed = false;                                     ///< a point lies inside, where the field has no gradient
-  std::uint32_t dropped = 0;                                  ///< listed near points that found no row
-  std::uint32_t unlisted = 0;                                 ///< near points that found no place in the lists
-  std::uint32_t unseen = 0;                                   ///< points that the point budget left without a look-up
-};
 
 /// Appends rows for the chosen points of a batch that have a gradient, while there is room. Returns how many found
 /// none. `index`: the points' numbers in the shell; `chosen`: a bit mask; `R`: rotation from the shell's to the field's
@@ -51,13 +42,14 @@ std::uint32_t push_rows(const SampleBatch& batch, const std::uint32_t* index, st
 
 /// Finds all points of one direction with a clearance below `search_radius` [m], and appends rows for those with a
 /// gradient while there is room. `H`: pose of the shell in the field's frame; `travelled`: the odometer's reading there
-/// [m]; `near` must be empty. Adds to `rows`, `around` and `work`. False: as NearSearch::find.
+/// [m]; `near` must be empty, unless the search `goes_on`: see NearSearch::find. Adds to `rows`, `around` and `work`.
+/// False: as NearSearch::find.
 /// Cost: NearSearch::find. Real-time safe.
 template <class Direction, DistanceField Field>
 bool find_near(NearSearch& search, const Direction& direction, const Field& field, const Pointshell& shell,
                const Pose& H, double travelled, double search_radius, const ContactLengths& lengths,
-               const PointBudget& budget, WorkMeter& work, NearPoints& near, ContactRows& rows,
-               Surroundings& around) noexcept {
+               const PointBudget& budget, WorkMeter& work, NearPoints& near, ContactRows& rows, Surroundings& around,
+               bool goes_on = false) noexcept {
   const Matrix3 R = H.rotation.toRotationMatrix();
   const auto limit_displacement = [&](double clearance) noexcept {
     around.free_displacement = std::min(around.free_displacement, clearance / direction.most_stretch());
@@ -81,7 +73,8 @@ bool find_near(NearSearch& search, const Direction& direction, const Field& fiel
       [&](double clearance) noexcept {
         limit_displacement(clearance);
         ++around.unseen;
-      });
+      },
+      goes_on);
   around.smallest = std::min(around.smallest, near.least_distance());
   near.pad();
   return has_all;

@@ -8,21 +8,28 @@
 namespace godobject {
 
 /// The share of the search radius and of the motion with which the first sub-step of a cycle fits into the budget of
-/// work. After a cycle whose first sub-step did not end, the search radius halves. Once it is as short as it
-/// may be, the share of the motion halves. A search of the trees goes on in the next cycle, so that it needs no smaller
-/// share. Both grow again while the first sub-step takes less than half of the budget. The factors are chosen: from a
-/// sixty-fourth of the radius back to the whole takes 36 cycles.
+/// work. A search goes on in the next cycle, so that it needs no smaller share. After a cycle that had all points from
+/// the beginning and did not certify a motion, the share of the motion halves. Where a search cannot go on, the search
+/// radius halves, and once it is as short as it may be, the share of the motion. Both grow again while the first
+/// sub-step takes less than half of the budget. The factors are chosen: from a sixty-fourth of the radius back to the
+/// whole takes 36 cycles.
 class WorkShare {
  public:
   /// Returns the share of the longest search radius that a sub-step may use [1].
   double radius() const noexcept { return radius_; }
   /// Returns the share of a sub-step's motion that is tried [1].
   double motion() const noexcept { return motion_; }
-  /// Tells whether friction and second looks are too expensive: since the radius was as short as it may be, until it is
-  /// twice as long.
+  /// Tells whether friction and second looks are too expensive: since radius or motion was as short as it may be, until
+  /// the radius is twice as long.
   bool is_least() const noexcept { return is_least_; }
 
-  /// Learns from a cycle. `first`: work of its first sub-step; 0: the budget was spent before its end [units].
+  /// Learns from a cycle that began with all near points listed, and certified no motion.
+  void shorten_motion() noexcept {
+    motion_ = std::max(kLeastMotion, 0.5 * motion_);
+    is_least_ = is_least_ || motion_ <= kLeastRadius;
+  }
+
+  /// Learns from another cycle. `first`: work of its first sub-step; 0: the budget was spent before its end [units].
   void learn(const WorkMeter& work, std::uint64_t first) noexcept {
     if (work.budget() == WorkMeter::kUnlimited) {
       *this = WorkShare{};
@@ -31,10 +38,10 @@ class WorkShare {
       if (radius_ <= kLeastRadius) motion_ = std::max(kLeastMotion, 0.5 * motion_);
       radius_ = std::max(kLeastRadius, 0.5 * radius_);
       is_least_ = is_least_ || radius_ <= kLeastRadius;
-    } else if (first < work.budget() / 2) {
-      radius_ = std::min(1.0, kGrowth * radius_);
+    } else {
+      if (first < work.budget() / 2) radius_ = std::min(1.0, kGrowth * radius_);
       motion_ = std::min(1.0, kGrowthOfMotion * motion_);
-      is_least_ = is_least_ && radius_ < 2.0 * kLeastRadius;
+      is_least_ = is_least_ && std::min(radius_, motion_) < 2.0 * kLeastRadius;
     }
   }
 

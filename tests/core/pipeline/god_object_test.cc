@@ -439,6 +439,33 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudgetOfWork) {
   }
 }
 
+/// With any budget that has room for some points the god object comes to the same place, however many cycles its search
+/// goes on. Without friction: with it the place depends on the way.
+TEST_F(GodObjectTest, ArrivesWithASmallBudgetOfWork) {
+  const double height = kWorldRadius + kBodyRadius;
+  const GodObject::Input pressed{mesh_pose({0.001, -0.0005, height - 0.004}), Motion{}};
+  OwnedGodObject all;
+  ASSERT_EQ(all.start(scene_, Solver::kContact, false), Status::kOk);
+  CycleReport report;
+  ASSERT_EQ(all->update({mesh_pose({0.001, 0.0, height + 0.0005}), Motion{}}, report), Status::kOk);
+  for (int k = 0; k < 400; ++k) ASSERT_EQ(all->update(pressed, report), Status::kOk);
+  const Pose expected = all->mesh_pose();
+  for (const std::uint64_t budget : {12000u, 16000u, 20000u, 30000u}) {
+    OwnedGodObject god_object;
+    ASSERT_EQ(god_object.start(scene_, Solver::kContact, false), Status::kOk);
+    ASSERT_EQ(god_object->update({mesh_pose({0.001, 0.0, height + 0.0005}), Motion{}}, report), Status::kOk);
+    god_object->set_work_budget(budget);
+    int ended_by_budget = 0;
+    for (int k = 0; k < 400; ++k) {
+      ASSERT_EQ(god_object->update(pressed, report), Status::kOk);
+      ASSERT_LT(report.penetration, 0.0);
+      ended_by_budget += report.out_of_work ? 1 : 0;
+    }
+    EXPECT_LT((god_object->mesh_pose().translation - expected.translation).norm(), 2e-5) << budget;
+    std::printf("budget %d: ended %d\n", int(budget), ended_by_budget);
+  }
+}
+
 TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   SceneDescription lean = balls();
   lean.normals.clear();

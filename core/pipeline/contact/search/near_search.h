@@ -80,29 +80,39 @@ class NearSearch {
   /// `Direction::kStretches`; otherwise the stretch is 1.
   ///
   /// False: the budget of `work` was spent before the end, and nothing is known about points that were not visited.
-  /// With memory the next call goes on where this one stopped.
+  /// With memory the search of the tree goes on in the next call. If `may_go_on` the points do, too: a call with
+  /// `goes_on` and the other arguments of this one visits only those that are left.
   ///
   /// Cost: a share of a batch for each due node and point, a look-up for each point that may be near; at most all nodes
   /// and points. Real-time safe.
   template <class Direction, DistanceField Field, class Visit, class LeaveOut>
   bool find(const Direction& direction, const Field& field, const Pointshell& shell, const Pose& H, double travelled,
-            double radius, const PointBudget& budget, WorkMeter& work, Visit&& visit, LeaveOut&& leave_out) noexcept {
+            double radius, const PointBudget& budget, WorkMeter& work, Visit&& visit, LeaveOut&& leave_out,
+            bool goes_on = false) noexcept {
     const Look<Direction, Field> look{
         direction, field, shell, H, H.rotation.toRotationMatrix(), travelled, travelled + slope_ * radius,
         radius,    work};
     certain_ = 0.0;
+    if (!goes_on) next_ = 0;
     if (words_.empty()) {
       const double least = search_from_root(look, visit);
       if (work.is_spent()) return false;
       certain_ = least;
     } else {
-      if (!DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out)) return false;
+      was_complete_ = DuePass<Direction, Field>(*this, look).run(budget, visit, leave_out);
+      if (!was_complete_) return false;
       certain_ = tick_ * static_cast<double>(calendar_.certain());
     }
     return true;
   }
 
+  /// Forgets where `find` stopped: no point has been visited.
+  void start_over() noexcept { next_ = 0; }
+  /// Tells whether the last `find`, which returned false, visited points from the first one on without a choice.
+  bool may_go_on() const noexcept { return !words_.empty() && next_ != kNotInOrder; }
+
  private:
+  static constexpr std::uint32_t kNotInOrder = ~0u;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   static constexpr double kTicks = 64.0;          ///< of the calendar in the longest search radius
   static constexpr double kFieldRounding = 1e-5;  ///< of stored distances [voxels]
@@ -272,9 +282,9 @@ class NearSearch {
 
     bool look_at_due() noexcept {
       const auto adder = [this](std::uint32_t i) noexcept { add(i); };
-      // without marked points, items that are due soon are looked up early: then most cycles of free motion need no
-      // look-up
-      const double ahead = calendar_.marked() == 0 ? kAhead * search_.tick_ : 0.0;
+      // Without marked points, items that are due soon are looked up early: then most cycles of free motion need no
+      // look-up. Not after a search that the budget ended: it would look at the same ones again.
+      const double ahead = calendar_.marked() == 0 && search_.was_complete_ ? kAhead * search_.tick_ : 0.0;
       calendar_.take_due(tick_of(look_.horizon + ahead), adder, is_spent());
       while (batch_.count > 0 || opened_ != DueCalendar::kNone) {
         if (look_.work.is_spent()) {
@@ -294,11 +304,15 @@ class NearSearch {
       return [this]() noexcept { return batch_.count == 0 && look_.work.is_spent(); };
     }
 
-    /// Files all items without a look-up: they are due at once.
+    /// Files all items without a look-up: they are due at once. Of an opened node these are its children, so that each
+    /// call with room for a look-up goes on.
     void put_back() noexcept {
-      for (std::uint32_t k = 0; k < batch_.count; ++k) calendar_.file(item_[k], 0);
+      const auto file_due = [this](std::uint32_t i) noexcept { calendar_.file(i, 0); };
+      for (std::uint32_t k = 0; k < batch_.count; ++k) file_due(item_[k]);
       batch_.count = 0;
-      while (opened_ != DueCalendar::kNone) calendar_.file(calendar_.pop(opened_), 0);
+      while (opened_ != DueCalendar::kNone) {
+        DueCalendar::for_each_child(look_.shell, calendar_.pop(opened_), file_due);
+      }
     }
 
     /// Looks up bounds at this pose for all marked points: the budget compares them. False: as `run`.
@@ -332,8 +346,14 @@ class NearSearch {
       };
       bool all = true;
       if (calendar_.marked() <= budget.points) {
-        all = calendar_.for_each_marked(look_up);
+        all = calendar_.for_each_marked([&](std::uint32_t i) noexcept {
+          if (i < search_.next_) return true;
+          const bool goes_on = look_up(i);
+          search_.next_ = i + 1;
+          return goes_on;
+        });
       } else {
+        search_.next_ = kNotInOrder;
         look_.work.add(Work::kScan, 3 * calendar_.marked());
         detail::NearestFirst nearest(budget, static_cast<float>(look_.radius));
         const auto for_each_candidate = [&](const auto& visit_candidate) noexcept {
@@ -414,6 +434,8 @@ class NearSearch {
   std::span<std::uint32_t> bounds_;  ///< lower bounds of the marked points' clearances, a float a point [m]
   double slope_ = 1.0;               ///< the field's lipschitz()
   double tick_ = 1.0;                ///< the calendar's tick [m]
+  std::uint32_t next_ = 0;           ///< points before this one have been visited, if the search goes on
+  bool was_complete_ = true;         ///< the last search was not ended by the budget
   double certain_ = kNever;          ///< reading of the odometer until which the last search proves points free [m]
 };
 

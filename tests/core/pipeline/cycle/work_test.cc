@@ -104,18 +104,38 @@ TEST(WorkShare, KeepsAllIfTheSearchGoesOn) {
   }
 }
 
-TEST(WorkShare, GrowsWhileTheFirstSubstepTakesLessThanHalf) {
+/// Where the search is kept, only a shorter motion helps. Without friction from a sixty-fourth on.
+TEST(WorkShare, ShortensTheMotionAloneIfThePointsAreKnown) {
+  WorkShare share;
+  for (int halving = 1; halving <= 40; ++halving) {
+    share.shorten_motion();
+    EXPECT_EQ(share.radius(), 1.0);
+    EXPECT_EQ(share.motion(), std::max(1e-9, std::pow(0.5, halving)));
+    EXPECT_EQ(share.is_least(), halving >= 6) << halving;
+  }
+  int cycles = 0;
+  while (share.motion() < 1.0) {
+    EXPECT_EQ(share.is_least(), share.motion() < 1.0 / 32.0);
+    share.learn(spent_on(Work::kPoint, 12000), 900000);
+    ASSERT_LT(++cycles, 80);
+  }
+  EXPECT_FALSE(share.is_least());
+}
+
+/// Any motion that was certified may be longer the next time; the radius grows while it takes less than half.
+TEST(WorkShare, GrowsWhileTheFirstSubstepEnds) {
   const WorkMeter of_points = spent_on(Work::kPoint, 8000);
   WorkShare share;
   for (int k = 0; k < 40; ++k) share.learn(of_points, 0);
   share.learn(of_points, 500000);
   EXPECT_EQ(share.radius(), 1.0 / 64.0) << "it takes half";
+  EXPECT_DOUBLE_EQ(share.motion(), 1.5e-9);
   share.learn(of_points, 499999);
   EXPECT_EQ(share.radius(), 1.125 / 64.0);
-  EXPECT_DOUBLE_EQ(share.motion(), 1.5e-9);
+  EXPECT_DOUBLE_EQ(share.motion(), 1.5 * 1.5e-9);
   int cycles = 0;
   while (share.radius() < 1.0 || share.motion() < 1.0) {
-    EXPECT_EQ(share.is_least(), share.radius() < 1.0 / 32.0);
+    EXPECT_EQ(share.is_least(), std::min(share.radius(), share.motion()) < 1.0 / 32.0);
     share.learn(of_points, 1);
     ASSERT_LT(++cycles, 80);
   }

@@ -76,15 +76,15 @@ struct Searcher {
     if (remembers) memory.resize(NearSearch::memory(s));
     search.start(memory, s, f.lipschitz(), kLongestMotion);
   }
-  bool find(const Pose& H, double travelled, double radius, const PointBudget& budget = {}) {
-    near.clear();
+  bool find(const Pose& H, double travelled, double radius, const PointBudget& budget = {}, bool goes_on = false) {
+    if (!goes_on) near.clear();
     left_out.clear();
     return search.find(
         direction, field, shell, H, travelled, radius, budget, work,
         [this](const SampleBatch&, const auto& index, std::uint64_t found) {
           for_each_bit(found, [&](std::uint32_t k) { near.push_back(index[k]); });
         },
-        [this](double bound) { left_out.push_back(bound); });
+        [this](double bound) { left_out.push_back(bound); }, goes_on);
   }
 };
 
@@ -290,6 +290,66 @@ TEST(NearSearch, GoesOnWhereTheBudgetEndedIt) {
   expect_it_goes_on(0.0);
   // the calendar stores 32 bits of a tick
   for (const double wraps : {0.45, 0.51, 0.75, 0.99, 1.01}) expect_it_goes_on(wraps * std::pow(2.0, 32) * kTick);
+}
+
+/// A search that goes on at the same pose visits each near point once, in all calls together.
+TEST(NearSearch, VisitsTheRestOfThePointsWhenItGoesOn) {
+  const Pointshell& shell = ball_shell();
+  const CountedField field{AnalyticField(Ball{Vector3::Zero(), 0.0185}, kVoxel)};  // within the points
+  Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, true);
+  Random random(33);
+  Odometer odometer;
+  Pose H;
+  int within_points = 0;
+  for (int step = 0; step < 300; ++step) {
+    H.translation = random.in_cube(5e-4);
+    H.rotation = (H.rotation * exp_rotation(random.in_cube(0.3))).normalized();
+    odometer.move_to(H, kBallSphere);
+    const double radius = random.between(0.2, 1.0) * kLongestMotion;
+    bool has_all = false;
+    for (int call = 0; !has_all; ++call) {
+      ASSERT_LT(call, 1000);
+      at.work.start(static_cast<std::uint64_t>(random.between(1000.0, 2e4)));
+      const std::size_t before = at.near.size();
+      has_all = at.find(H, odometer.travelled(), radius, {}, call > 0);
+      EXPECT_TRUE(has_all || at.search.may_go_on());
+      within_points += !has_all && call > 0 && at.near.size() > before ? 1 : 0;
+      if (call == 0 && !has_all && random.integer(0, 9) == 0) {  // another pose: the next call begins again
+        at.search.start_over();
+        H.translation.z() += 1e-4;
+        odometer.move_to(H, kBallSphere);
+        call = -1;
+      }
+    }
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < shell.size; ++i) {
+      if (field.sample(H * shell.point(i)).clearance < radius) expected.push_back(i);
+    }
+    ASSERT_EQ(at.near, expected) << step;
+  }
+  EXPECT_GT(within_points, 100);
+}
+
+/// With a choice among the points, or without memory, a search begins again.
+TEST(NearSearch, GoesOnOnlyInOrderAndWithMemory) {
+  const Pointshell& shell = ball_shell();
+  const CountedField field{AnalyticField(HalfSpace{}, kVoxel)};
+  for (const bool remembers : {false, true}) {
+    Searcher<CountedField, detail::SampleDirection> at(field, shell, {}, remembers);
+    at.work.start(100);
+    EXPECT_FALSE(at.find(height(0.0201), 0.0, 0.5 * kLongestMotion));
+    EXPECT_EQ(at.search.may_go_on(), remembers);
+  }
+  const CountedField within{AnalyticField(Ball{Vector3::Zero(), 0.0185}, kVoxel)};
+  Searcher<CountedField, detail::SampleDirection> few(within, shell, {}, true);
+  ASSERT_TRUE(few.find(Pose{}, 0.0, kLongestMotion));
+  int stops = 0;
+  for (std::uint64_t budget = 1;; budget += 100) {
+    few.work.start(budget);
+    if (few.find(Pose{}, 0.0, kLongestMotion, {100, 0.0})) break;
+    stops += few.search.may_go_on() ? 0 : 1;
+  }
+  EXPECT_GT(stops, 0) << "in the middle of the choice";
 }
 
 // -- how many look-ups
