@@ -114,7 +114,7 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   read_workspace(table("workspace"), config);
 
   const TomlTable loop = table("loop");
-  loop.allow({"real_time", "cpu", "priority", "velocity_window", "compute"});
+  loop.allow({"real_time", "cpu", "priority", "velocity_window", "compute", "cycle_budget"});
   config.loop.real_time = loop.flag("real_time", config.loop.real_time);
   config.loop.cpu = static_cast<int>(loop.whole_number("cpu", {-1, 1023}, config.loop.cpu));
   config.loop.priority = static_cast<int>(loop.whole_number("priority", {1, 98}, config.loop.priority));
@@ -123,6 +123,7 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
 
   config.loop.compute = loop.number("compute", {1e-6, 0.9e-3}, config.loop.compute);
   config.device.bus.compute = config.loop.compute;
+  if (loop.has("cycle_budget")) config.loop.cycle_budget = loop.number("cycle_budget", {1e-6, 0.9e-3}, 0.0);
 
   read_limits(table("limits"), config.limits);
 

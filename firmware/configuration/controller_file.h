@@ -31,11 +31,12 @@ struct ControllerConfig {
   } workspace;
 
   struct Loop {
-    bool real_time = false;   ///< of a simulated arm: keep to the machine's clock
-    int cpu = -1;             ///< processor of the loop; -1: any
-    int priority = 80;        ///< of SCHED_FIFO
-    int velocity_window = 4;  ///< N of VelocityEstimator [samples]
-    double compute = 120e-6;  ///< computing time in the bus plan [s]
+    bool real_time = false;              ///< of a simulated arm: keep to the machine's clock
+    int cpu = -1;                        ///< processor of the loop; -1: any
+    int priority = 80;                   ///< of SCHED_FIFO
+    int velocity_window = 4;             ///< N of VelocityEstimator [samples]
+    double compute = 120e-6;             ///< computing time in the bus plan [s]
+    std::optional<double> cycle_budget;  ///< time of `contact` in a cycle [s]; none: as long as it takes
   } loop;
 
   /// Limits at the hand and of the joints. A speed above a `stop` limit is a fault.

@@ -31,7 +31,7 @@ CONTROLLER.toml, in SI units; firmware/README.md explains each key:
   [scene]      image, solver, friction
   [device]     file
   [workspace]  posture, start, turn, scale
-  [loop]       real_time, cpu, priority, velocity_window, compute
+  [loop]       real_time, cpu, priority, velocity_window, compute, cycle_budget
   [gains]      stiffness, damping, rotational, margin
   [passivity]  damping
   [limits]     force, torque, speed, speed_stop, turn, turn_stop, joint_speed, joint_speed_stop, torque_rate,

@@ -1,6 +1,11 @@
 #include "firmware/controller/session.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +16,7 @@
 #include "firmware/controller/run_summary.h"
 #include "firmware/controller/start_checks.h"
 #include "firmware/controller/warning.h"
+#include "firmware/controller/work_calibration.h"
 #include "firmware/machine/rt_setup.h"
 #include "firmware/machine/worker_thread.h"
 #include "firmware/records/hand_log.h"
@@ -24,6 +30,14 @@ namespace {
 
 using command::ExitCode;
 using command::Failure;
+
+/// Time of a cycle outside of the god object, chosen: kinematics, torques, checks and frames take some 5 us [s].
+constexpr double kRestOfCycle = 10e-6;
+/// Most work of a cycle over its budget. Measured (godobject-replay, budgets of 120000 and 400000 units on two pegs and
+/// an M16 nut): 1.27.
+constexpr double kOverBudget = 1.3;
+constexpr double kMostShort = 1e-4;  // of its place, when the god object comes no nearer; chosen [m]
+constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
 
 SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
   set_gains(gains, scene);
@@ -53,7 +67,8 @@ Session::Session(const ControllerConfig& config, const std::string& transport)
 
 void Session::start_cycle() {
   memory_.emplace(GodObject::memory_size(Scene::of(scene_)));
-  const CycleSetup setup = cycle_setup(config_, scene_, placement_, memory_->span());
+  CycleSetup setup = cycle_setup(config_, scene_, placement_, memory_->span());
+  setup.work_budget = work_budget(setup);
   cycle_.emplace(setup, link_->drives());
   const Status status = cycle_->start();
   if (status == Status::kNotInBuild) {
@@ -71,6 +86,44 @@ void Session::start_cycle() {
   }
 }
 
+/// Returns the budget of work of a cycle for loop.cycle_budget [units]. In real time a unit's cost is measured on this
+/// machine; in virtual time it is the nominal one, so that each run is the same.
+std::uint64_t Session::work_budget(const CycleSetup& setup) const {
+  if (setup.solver != Solver::kContact || !config_.loop.cycle_budget) return kNoBudget;
+  const double seconds = *config_.loop.cycle_budget;
+  if (seconds > config_.loop.compute - kRestOfCycle) {
+    throw Failure(
+        ExitCode::kBadConfig,
+        fmt::format("loop.cycle_budget = {:g} and {:g} s for the rest of a cycle are longer than loop.compute "
+                    "= {:g}: lower the budget, or raise loop.compute",
+                    seconds, kRestOfCycle, config_.loop.compute));
+  }
+  if (link_->real_time()) return measured_budget(setup, seconds);
+  return static_cast<std::uint64_t>(std::max(1.0, seconds / kNominalUnit));
+}
+
+/// Measures what a unit of work costs here, and tries the budget. Warns if the god object then lags for good.
+std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) const {
+  hal::MonotonicClock clock;
+  const std::vector<Pose> path = calibration_path(scene_, config_.workspace.start);
+  const WorkCost cost = measure_work(scene_, setup.friction, path, setup.memory, clock);
+  if (!(cost.unit > 0.0)) return kNoBudget;  // the cycle's own start tells why
+  const double units = std::max(1.0, seconds / (kOverBudget * cost.unit));
+  const BudgetTrial trial = try_budget(scene_, setup.friction, path, setup.memory, static_cast<std::uint64_t>(units));
+  if (trial.short_by > kMostShort) {
+    warn(fmt::format(
+        "{:.0f} us a cycle may be too little for this scene: at the end of a test motion the god object "
+        "stays {:.3g} mm short of its place; raise loop.cycle_budget and loop.compute, or compile the scene "
+        "with fewer points or with point_budget",
+        1e6 * seconds, 1e3 * trial.short_by));
+  }
+  fmt::print(
+      "budget: {:.0f} us a cycle for the god object, {:.0f} units of at most {:.3f} ns; it ends {} of {} cycles of "
+      "a test motion, {} of them with contact, whose longest takes {:.0f} us without it\n",
+      1e6 * seconds, units, 1e9 * cost.unit, trial.ended, trial.cycles, cost.contacts, 1e6 * cost.longest);
+  return static_cast<std::uint64_t>(units);
+}
+
 std::string Session::run(const std::optional<double>& duration, RunRequests& requests) {
   hal::MonotonicClock stopwatch;
   RunRecords records({.folder = config_.telemetry.folder,
@@ -81,6 +134,12 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
   if (run_loop(run_setup(duration, stopwatch), requests, records)) {
     fmt::print("{}", run_summary(report_, cycle_->counters(), link_->statistics(), page_faults_));
     fmt::print("{}", records.summary());
+    if (link_->real_time() && report_.beyond_plan > 0) {
+      warn(fmt::format(
+          "{} cycles computed for longer than loop.compute, which bus plan and gain check count on: {:.0f} "
+          "us in place of {:.0f} us at most",
+          report_.beyond_plan, 1e-3 * static_cast<double>(report_.computing.largest_ns()), 1e6 * config_.loop.compute));
+    }
   } else {
     warn("ended before the drives were started; no drive was enabled");
   }
@@ -97,7 +156,7 @@ RunSetup Session::run_setup(const std::optional<double>& duration, hal::Clock& s
   setup.cycles = seconds ? static_cast<std::uint64_t>(1e3 * *seconds) : 0;
   setup.every = static_cast<std::uint32_t>(config_.telemetry.every);
   setup.stopwatch = &stopwatch;
-  setup.compute_ns = static_cast<std::int64_t>(1e9 * config_.loop.compute);
+  setup.compute_ns = std::llround(1e9 * config_.loop.compute);
   return setup;
 }
 

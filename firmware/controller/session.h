@@ -35,6 +35,8 @@ class Session {
 
  private:
   void start_cycle();
+  std::uint64_t work_budget(const CycleSetup& setup) const;
+  std::uint64_t measured_budget(const CycleSetup& setup, double seconds) const;
   RunSetup run_setup(const std::optional<double>& duration, hal::Clock& stopwatch) const;
   bool run_loop(const RunSetup& setup, RunRequests& requests, RunRecords& records);
   void run_in_virtual_time(const RunSetup& setup, hal::Clock& clock, RunRequests& requests, RunRecords& records,

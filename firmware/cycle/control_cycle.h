@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -33,13 +34,15 @@ struct CycleCounters {
   std::uint64_t lost = 0;   ///< cycles in which a joint had no fresh position
   std::uint64_t jumps = 0;  ///< cycles with an impossible position
   std::uint64_t overruns = 0;
-  std::uint64_t skipped = 0;       ///< periods without a cycle
-  std::uint64_t sends_failed = 0;  ///< cycles in which torques could not be handed over
-  std::uint64_t clipped = 0;       ///< cycles with a force or torque at the hand beyond its limit
-  std::uint64_t slowed = 0;        ///< cycles with a hand above its speed limit
-  std::uint64_t scaled = 0;        ///< cycles in which the joints could not give the whole wrench
-  std::uint64_t rate_limited = 0;  ///< cycles in which a torque changed at the rate limit
-  std::uint64_t unconverged = 0;   ///< cycles in which the friction solver did not converge
+  std::uint64_t skipped = 0;           ///< periods without a cycle
+  std::uint64_t sends_failed = 0;      ///< cycles in which torques could not be handed over
+  std::uint64_t clipped = 0;           ///< cycles with a force or torque at the hand beyond its limit
+  std::uint64_t slowed = 0;            ///< cycles with a hand above its speed limit
+  std::uint64_t scaled = 0;            ///< cycles in which the joints could not give the whole wrench
+  std::uint64_t rate_limited = 0;      ///< cycles in which a torque changed at the rate limit
+  std::uint64_t unconverged = 0;       ///< cycles in which the friction solver did not converge
+  std::uint64_t out_of_work = 0;       ///< cycles that the budget of work ended
+  std::uint64_t most_out_of_work = 0;  ///< the most of them in a row
 };
 
 /// The results of a cycle for telemetry and report.
@@ -73,6 +76,7 @@ struct CycleSetup {
   Solver solver = Solver::kContact;
   bool friction = false;
   std::span<std::byte> memory;  ///< GodObject::memory_size(*scene) bytes, or at least GodObject::least_memory_size()
+  std::uint64_t work_budget = std::numeric_limits<std::uint64_t>::max();  ///< as GodObject::set_work_budget [units]
   const ArmModel* arm = nullptr;
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;
@@ -98,7 +102,9 @@ class ControlCycle {
   /// Starts the god object, before the first `run_once`. kNotInImage: the scene was compiled without this solver, or
   /// without friction; kNotInBuild: this build is.
   Status start() noexcept {
-    return god_object_.start(Scene::of(*setup_.scene), setup_.solver, setup_.friction, setup_.memory);
+    const Status status = god_object_.start(Scene::of(*setup_.scene), setup_.solver, setup_.friction, setup_.memory);
+    god_object_.set_work_budget(setup_.work_budget);
+    return status;
   }
 
   /// Begins a cycle: requests the joints' positions, which `run_once` takes `collect_ns` later.
@@ -148,6 +154,7 @@ class ControlCycle {
   JointTorque joint_torque_;
   ComputedTorque computed_;
   std::uint32_t sends_failed_ = 0;
+  std::uint64_t out_of_work_ = 0;  // cycles in a row up to this one that the budget of work ended
   CycleRecord record_;
   CycleCounters counters_;
 };

@@ -29,6 +29,14 @@ class ControllerCommandTest : public ControllerFolderTest {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
+  /// As write_controller, with the solver `contact`.
+  void write_contact_controller(const std::string& more) const {
+    write_controller(more);
+    const std::string lines = text("c.toml");
+    const std::string scene = "[scene]\n";
+    std::ofstream(folder_ / "c.toml") << scene << "solver = \"contact\"\n" << lines.substr(scene.size());
+  }
+
   bool says(const std::string& what) const { return words_.find(what) != std::string::npos; }
 
   /// A number in the words: the group of the expression.
@@ -251,6 +259,49 @@ TEST_F(ControllerCommandTest, CountsCyclesThatComputeForLongerThanThePlanSays) {
   EXPECT_EQ(run("c.toml --duration 0.5"), 0) << words_;
   EXPECT_TRUE(says("longer than loop.compute in ")) << words_;
   EXPECT_FALSE(says("longer than loop.compute in 0\n")) << words_;
+}
+
+/// In virtual time a budget gives the same run each time; a cycle of 2 us lags, one of 100 us does not.
+TEST_F(ControllerCommandTest, KeepsToABudgetOfWork) {
+  write_path();
+  const std::string simulation = "[simulation]\npath = \"path.csv\"\nbegin = 6.0\n";
+  std::string before;
+  for (const char* budget : {"2e-6", "2e-6", "100e-6"}) {
+    write_contact_controller(fmt::format("[loop]\ncycle_budget = {}\n{}", budget, simulation));
+    ASSERT_EQ(run(fmt::format("c.toml --log logs{}", budget)), 0) << words_;
+    const double spent = number("\nbudget of work: spent in ([0-9]+) cycles");
+    const double in_row = number("\nbudget of work: spent in .* at most ([0-9]+) in a row");
+    if (std::string(budget) == "100e-6") {
+      EXPECT_EQ(spent, 0.0);
+      EXPECT_EQ(in_row, 0.0);
+      continue;
+    }
+    EXPECT_GT(spent, 10.0) << words_;
+    EXPECT_LE(in_row, spent);
+    EXPECT_GT(in_row, 0.0);
+    const std::string line = words_.substr(words_.find("budget of work"), 60);
+    if (!before.empty()) {
+      EXPECT_EQ(line, before);
+    }
+    before = line;
+  }
+  write_contact_controller("[loop]\ncycle_budget = 111e-6\n");
+  EXPECT_EQ(run("c.toml --duration 0.1"), 78);
+  EXPECT_TRUE(says("loop.cycle_budget = 0.000111 and 1e-05 s for the rest of a cycle are longer than loop.compute"))
+      << words_;
+}
+
+/// In real time the cost of work is measured at the start, and cycles that take longer than planned give a warning.
+TEST_F(ControllerCommandTest, MeasuresTheCostOfWorkInRealTime) {
+  write_contact_controller("[loop]\nreal_time = true\npriority = 1\ncycle_budget = 100e-6\n");
+  const int code = run("c.toml --duration 0.1");
+  EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words_;  // a busy machine may be too late
+  EXPECT_TRUE(says("budget: 100 us a cycle for the god object, ")) << words_;
+  EXPECT_GT(number("units of at most ([0-9.]+) ns"), 0.01);
+  EXPECT_GT(number("of a test motion, ([0-9]+) of them with contact"), 100.0);
+  write_contact_controller("[loop]\nreal_time = true\npriority = 1\ncompute = 1e-6\n");
+  run("c.toml --duration 0.1");
+  EXPECT_TRUE(says("cycles computed for longer than loop.compute, which bus plan and gain check count on")) << words_;
 }
 
 TEST_F(ControllerCommandTest, ExaminesTheMachine) {

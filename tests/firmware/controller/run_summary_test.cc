@@ -39,6 +39,8 @@ CycleCounters counters() {
   counters.scaled = 19;
   counters.rate_limited = 20;
   counters.unconverged = 21;
+  counters.out_of_work = 22;
+  counters.most_out_of_work = 23;
   return counters;
 }
 
@@ -50,7 +52,8 @@ const char* const kAlways =
     "limits: force in 17 cycles, speed 18, joint torque 19, torque rate 20; friction not found in 21\n";
 
 const char* const kComputing =
-    "computing: p50 2.0 us, p99.9 3.0 us, largest 3.0 us of 3 cycles; longer than loop.compute in 43\n";
+    "computing: p50 2.0 us, p99.9 3.0 us, largest 3.0 us of 3 cycles; longer than loop.compute in 43\n"
+    "budget of work: spent in 22 cycles, at most 23 in a row\n";
 
 TEST(RunSummary, HasEachNumberInItsPlace) {
   RunReport report;

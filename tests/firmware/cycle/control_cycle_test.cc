@@ -535,7 +535,7 @@ TEST_F(ControlCycleTest, RunsAgainAfterAHandThatWasTooFast) {
   LoopEvents reset;
   reset.reset_requested = true;
   step(reset);
-  EXPECT_EQ(cycle_->record().mode, Mode::kIdle);
+  run_to(Mode::kIdle);
   for (int i = 0; i < 200; ++i) step();
   drives_.reading.enable_switch = true;
   run_to(Mode::kRunning);

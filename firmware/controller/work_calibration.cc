@@ -1,0 +1,123 @@
+#include "firmware/controller/work_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace godobject::firmware {
+namespace {
+
+constexpr int kApproach = 250;  // cycles
+constexpr int kPressed = 150;
+constexpr int kPasses = 3;
+constexpr int kRest = 1000;
+constexpr int kWithoutBudget = 100;
+constexpr double kSwing = 0.05;  // of the way to the middle
+constexpr double kTurn = 0.05;   // [rad]
+
+Pose moved(const Pose& start, const Vector3& p_MB, const Vector3& way_W, const Vector3& turn_W) {
+  const Vector3 G = start.translation + start.rotation * p_MB + way_W;
+  Pose H;
+  H.rotation = (exp_rotation(turn_W) * start.rotation).normalized();
+  H.translation = G - H.rotation * p_MB;
+  return H;
+}
+
+/// Other memory, as large as a processor's second cache: in the loop the god object finds little of its own there after
+/// a millisecond of other programs.
+class OtherMemory {
+ public:
+  void use() noexcept {
+    for (std::size_t i = 0; i < bytes_.size(); i += 64) bytes_[i] = static_cast<unsigned char>(bytes_[i] + 1);
+  }
+
+ private:
+  std::vector<unsigned char> bytes_ = std::vector<unsigned char>(std::size_t{4} << 20);
+};
+
+/// Runs the path; calls before() and after(cycle, report) for each cycle.
+template <class Before, class After>
+void run(GodObject& god_object, std::span<const Pose> path, const Before& before, const After& after) {
+  CycleReport report;
+  god_object.reset();
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    before();
+    static_cast<void>(god_object.update({path[k], Motion{}}, report));  // the poses are finite
+    after(k, report);
+  }
+}
+
+}  // namespace
+
+std::vector<Pose> calibration_path(const SceneView& scene, const Pose& start_WM) {
+  const Vector3& p_MB = scene.H_MB.translation;
+  const format::Grid& grid = scene.grid;
+  Vector3 middle;
+  for (int axis = 0; axis < 3; ++axis) middle[axis] = 0.5 * (grid.surface_min[axis] + grid.surface_max[axis]);
+  const Vector3 way = middle - (start_WM.translation + start_WM.rotation * p_MB);
+  const double length = way.norm();
+  const Vector3 along = length > 0.0 ? Vector3(way / length) : Vector3(Vector3::UnitZ());
+  const Vector3 across = along.unitOrthogonal();
+  std::vector<Pose> path;
+  for (int k = 0; k <= kApproach; ++k) {
+    path.push_back(moved(start_WM, p_MB, static_cast<double>(k) / kApproach * way, Vector3::Zero()));
+  }
+  for (int k = 1; k <= kPressed; ++k) {
+    const double phase = 4.0 * std::acos(-1.0) * k / kPressed;
+    path.push_back(moved(start_WM, p_MB, way + kSwing * length * std::sin(phase) * across,
+                         kTurn * (std::sin(phase) * along + std::sin(0.5 * phase) * across)));
+  }
+  return path;
+}
+
+WorkCost measure_work(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                      hal::Clock& clock) {
+  GodObject god_object;
+  WorkCost cost;
+  if (god_object.start(Scene::of(scene), Solver::kContact, friction, memory) != Status::kOk) return cost;
+  OtherMemory other;
+  std::vector<double> least(path.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> work(path.size());
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::int64_t begin_ns = 0;
+    cost.contacts = 0;
+    const auto before = [&]() {
+      other.use();
+      begin_ns = clock.now_ns();
+    };
+    run(god_object, path, before, [&](std::size_t k, const CycleReport& report) {
+      least[k] = std::min(least[k], 1e-9 * static_cast<double>(clock.now_ns() - begin_ns));
+      work[k] = static_cast<double>(report.work);
+      cost.contacts += report.contacts > 0 ? 1 : 0;
+    });
+  }
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    cost.longest = std::max(cost.longest, least[k]);
+    if (work[k] > 0.0) cost.unit = std::max(cost.unit, least[k] / work[k]);
+  }
+  return cost;
+}
+
+BudgetTrial try_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                       std::uint64_t units) {
+  BudgetTrial trial;
+  GodObject god_object;
+  if (god_object.start(Scene::of(scene), Solver::kContact, friction, memory) != Status::kOk) return trial;
+  god_object.set_work_budget(units);
+  trial.cycles = static_cast<std::uint32_t>(path.size());
+  run(
+      god_object, path, [] {},
+      [&](std::size_t, const CycleReport& report) { trial.ended += report.out_of_work ? 1 : 0; });
+  CycleReport report;
+  const auto rest = [&](int cycles) -> Vector3 {
+    for (int k = 0; k < cycles; ++k) static_cast<void>(god_object.update({path.back(), Motion{}}, report));
+    return god_object.mesh_pose() * scene.H_MB.translation;
+  };
+  const Vector3 held = rest(kRest);
+  god_object.set_work_budget(std::numeric_limits<std::uint64_t>::max());
+  trial.short_by = (rest(kWithoutBudget) - held).norm();
+  return trial;
+}
+
+}  // namespace godobject::firmware
