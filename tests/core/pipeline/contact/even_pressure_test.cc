@@ -296,6 +296,7 @@ TEST(EvenPressure, IsThatOfTheMirroredFace) {
       for (std::uint32_t j = 0; j < on.step.force_count; ++j) on.step.forces[j].point[axis] *= -1.0;
       const ContactPatches mirrored = on.patches();
       ASSERT_EQ(mirrored.count, patches.count) << face;
+      if (patches.count == 0) continue;
       EXPECT_NEAR(mirrored.patch[0].share, patches.patch[0].share, 1e-9) << face;
     }
   }
