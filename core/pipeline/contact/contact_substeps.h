@@ -84,7 +84,7 @@ class ContactSubsteps {
     work_.add(Work::kSubstep);
     KeptSearch& kept = memory_.kept;
     goes_on_ = is_first_ && kept.goes_on && is_same(kept.H_WS, H0_);
-    has_all_at_once_ = goes_on_ && kept.has_all;
+    had_all_points_ = goes_on_ && kept.has_all;
     if (goes_on_) {
       search_radius_ = kept.radius;
       around_ = kept.around;
@@ -100,14 +100,14 @@ class ContactSubsteps {
     }
     if (scene_.has_features()) H0_features_ = FeatureDirection::pose(H0_, scene_.features.origin_W);
     memory_.workspace.edges.count = 0;
-    has_all_points_ = has_all_at_once_ || (find_samples() && find_features());
+    has_all_points_ = had_all_points_ || (find_samples() && find_features());
     kept = {false, kept.has_samples, has_all_points_, H0_, search_radius_, around_};
     // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
     result_.inside = may_be_inside && (around_.smallest <= 0.0 || !has_all_points_);
     if (has_all_points_) find_edges();
     has_surroundings_ = has_all_points_ && !work_.is_spent();
-    if ((around_.dropped > 0 || has_all_at_once_) && !work_.is_spent()) select_again();
+    if ((around_.dropped > 0 || had_all_points_) && !work_.is_spent()) select_again();
     end(times_, &StepTimes::step1_ns);
     result_.smallest = around_.smallest;
     result_.dropped = around_.unlisted + around_.unseen;
@@ -266,12 +266,15 @@ class ContactSubsteps {
   void learn() noexcept {
     KeptSearch& kept = memory_.kept;
     const ContactSearch& search = memory_.search;
-    const bool stays = result_.out_of_work && !result_.inside && is_same(kept.H_WS, result_.H_WS);
-    const bool may_go_on = kept.has_all ? has_surroundings_ || !has_all_at_once_
+    // while points are missing it is not known whether the god object is inside
+    const bool is_inside = result_.inside && kept.has_all;
+    const bool stays = result_.out_of_work && !is_inside && is_same(kept.H_WS, result_.H_WS);
+    const bool may_go_on = kept.has_all ? has_surroundings_ || !had_all_points_
                                         : (kept.has_samples ? search.features : search.samples).may_go_on();
     kept.goes_on = stays && may_go_on;
     if (!kept.goes_on) return memory_.share.learn(work_, first_work_);
-    if (has_all_at_once_) memory_.share.shorten_motion();
+    if (first_work_ > 0) return memory_.share.lengthen_motion();  // an earlier sub-step of this cycle
+    if (had_all_points_) memory_.share.shorten_motion();
   }
 
   /// Drops the rows with a force that edge pairs imply. Returns whether there was one.
@@ -776,7 +779,7 @@ class ContactSubsteps {
   bool is_first_ = true;
   bool has_all_points_ = true;      // the search has visited all near points
   bool goes_on_ = false;            // the search is that of the last cycle
-  bool has_all_at_once_ = false;    // and has visited all near points before
+  bool had_all_points_ = false;     // and has visited all near points before
   bool has_surroundings_ = false;   // all near points and edges are listed
   bool is_constrained_ = false;     // `step_` is that of the sub-step
   std::uint64_t work_before_ = 0;   // at its start [units]

@@ -29,6 +29,12 @@ class WorkShare {
     is_least_ = is_least_ || motion_ <= kLeastRadius;
   }
 
+  /// Learns from a cycle that certified a motion, and whose search goes on in the next one.
+  void lengthen_motion() noexcept {
+    motion_ = std::min(1.0, kGrowthOfMotion * motion_);
+    is_least_ = is_least_ && std::min(radius_, motion_) < 2.0 * kLeastRadius;
+  }
+
   /// Learns from another cycle. `first`: work of its first sub-step; 0: the budget was spent before its end [units].
   void learn(const WorkMeter& work, std::uint64_t first) noexcept {
     if (work.budget() == WorkMeter::kUnlimited) {
@@ -40,8 +46,7 @@ class WorkShare {
       is_least_ = is_least_ || radius_ <= kLeastRadius;
     } else {
       if (first < work.budget() / 2) radius_ = std::min(1.0, kGrowth * radius_);
-      motion_ = std::min(1.0, kGrowthOfMotion * motion_);
-      is_least_ = is_least_ && std::min(radius_, motion_) < 2.0 * kLeastRadius;
+      lengthen_motion();
     }
   }
 

@@ -268,7 +268,7 @@ class NearSearch {
       for (std::uint32_t k = 0; k < batch_.count; ++k) {
         const std::uint32_t i = item_[k];
         const double until = until_of(k);
-        if (until >= look_.horizon + kOpen * static_cast<double>(radius_[k])) {
+        if (until >= look_.horizon + kOpen * static_cast<double>(radius_[k]) && !is_due_again(until)) {
           file(i, until);
         } else if (i < node_count_) {
           calendar_.push(opened_, i);
@@ -278,6 +278,12 @@ class NearSearch {
         }
       }
       batch_.count = 0;
+    }
+
+    /// Tells whether an item that is free until this reading would be due again in the next call at this pose, after
+    /// one that the budget ended. A call would look at the same items again and again.
+    bool is_due_again(double until) const noexcept {
+      return !search_.was_complete_ && tick_of(until) <= tick_of(look_.horizon);
     }
 
     bool look_at_due() noexcept {

@@ -116,7 +116,7 @@ TEST(WorkShare, ShortensTheMotionAloneIfThePointsAreKnown) {
   int cycles = 0;
   while (share.motion() < 1.0) {
     EXPECT_EQ(share.is_least(), share.motion() < 1.0 / 32.0);
-    share.learn(spent_on(Work::kPoint, 12000), 900000);
+    cycles % 2 == 0 ? share.learn(spent_on(Work::kPoint, 12000), 900000) : share.lengthen_motion();
     ASSERT_LT(++cycles, 80);
   }
   EXPECT_FALSE(share.is_least());
