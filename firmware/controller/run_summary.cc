@@ -45,8 +45,10 @@ std::string run_summary(const RunReport& report, const CycleCounters& counters, 
                  counters.clipped, counters.slowed, counters.scaled, counters.rate_limited, counters.unconverged);
   fmt::format_to(out, "computing: {}; longer than loop.compute in {}\n", quantiles(report.computing),
                  report.beyond_plan);
-  fmt::format_to(out, "budget of work: spent in {} cycles, at most {} in a row\n", counters.out_of_work,
-                 counters.most_out_of_work);
+  if (counters.out_of_work > 0) {
+    fmt::format_to(out, "budget of work: spent in {} cycles, at most {} in a row\n", counters.out_of_work,
+                   counters.most_out_of_work);
+  }
   if (page_faults) {
     fmt::format_to(out, "round trip: {}\n", quantiles(report.round_trip));
     fmt::format_to(out, "waking late: {}\n", quantiles(report.loop.lateness));

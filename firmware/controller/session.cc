@@ -33,10 +33,7 @@ using command::Failure;
 
 /// Time of a cycle outside of the god object, chosen: kinematics, torques, checks and frames take some 5 us [s].
 constexpr double kRestOfCycle = 10e-6;
-/// Most work of a cycle over its budget. Measured (godobject-replay, budgets of 120000 and 400000 units on two pegs and
-/// an M16 nut): 1.27.
-constexpr double kOverBudget = 1.3;
-constexpr double kMostShort = 1e-4;  // of its place, when the god object comes no nearer; chosen [m]
+constexpr double kMostLeft = 1e-4;  // to the god object's position, when it comes no nearer; chosen [m]
 constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
 
 SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
@@ -86,42 +83,54 @@ void Session::start_cycle() {
   }
 }
 
-/// Returns the budget of work of a cycle for loop.cycle_budget [units]. In real time a unit's cost is measured on this
-/// machine; in virtual time it is the nominal one, so that each run is the same.
+/// Returns the budget of work of a cycle for loop.cycle_budget [units]. In real time it is found on this machine; in
+/// virtual time a unit has its nominal cost, so that each run is the same.
 std::uint64_t Session::work_budget(const CycleSetup& setup) const {
-  if (setup.solver != Solver::kContact || !config_.loop.cycle_budget) return kNoBudget;
+  if (!config_.loop.cycle_budget) return kNoBudget;
+  if (setup.solver != Solver::kContact) {
+    warn("loop.cycle_budget has no effect: only the solver contact has a budget of work");
+    return kNoBudget;
+  }
   const double seconds = *config_.loop.cycle_budget;
-  if (seconds > config_.loop.compute - kRestOfCycle) {
+  const double most = config_.loop.compute - kRestOfCycle;
+  if (seconds > most + 1e-9) {
     throw Failure(
         ExitCode::kBadConfig,
-        fmt::format("loop.cycle_budget = {:g} and {:g} s for the rest of a cycle are longer than loop.compute "
-                    "= {:g}: lower the budget, or raise loop.compute",
-                    seconds, kRestOfCycle, config_.loop.compute));
+        fmt::format("loop.cycle_budget = {:g} exceeds loop.compute = {:g} less {:g} s for the rest of a cycle: "
+                    "set it to at most {:g}, or raise loop.compute",
+                    seconds, config_.loop.compute, kRestOfCycle, std::max(0.0, most)));
   }
   if (link_->real_time()) return measured_budget(setup, seconds);
   return static_cast<std::uint64_t>(std::max(1.0, seconds / kNominalUnit));
 }
 
-/// Measures what a unit of work costs here, and tries the budget. Warns if the god object then lags for good.
+/// Finds the budget on a motion through the scene. Warns if it cannot bound the time, or if the god object then lags
+/// for good.
 std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) const {
   hal::MonotonicClock clock;
   const std::vector<Pose> path = calibration_path(scene_, config_.workspace.start);
-  const WorkCost cost = measure_work(scene_, setup.friction, path, setup.memory, clock);
-  if (!(cost.unit > 0.0)) return kNoBudget;  // the cycle's own start tells why
-  const double units = std::max(1.0, seconds / (kOverBudget * cost.unit));
-  const BudgetTrial trial = try_budget(scene_, setup.friction, path, setup.memory, static_cast<std::uint64_t>(units));
-  if (trial.short_by > kMostShort) {
-    warn(fmt::format(
-        "{:.0f} us a cycle may be too little for this scene: at the end of a test motion the god object "
-        "stays {:.3g} mm short of its place; raise loop.cycle_budget and loop.compute, or compile the scene "
-        "with fewer points or with point_budget",
-        1e6 * seconds, 1e3 * trial.short_by));
+  const WorkBudget found = find_budget(scene_, setup.friction, path, setup.memory, seconds, clock);
+  if (found.with.cycles == 0) return kNoBudget;  // the cycle's own start tells why
+  constexpr const char* kCure =
+      "raise loop.cycle_budget and loop.compute, or compile the scene with fewer points or "
+      "with point_budget";
+  if (found.with.longest > seconds) {
+    warn(
+        fmt::format("no budget of work keeps cycles within {:.0f} us: the longest of a test motion takes {:.0f} us; {}",
+                    1e6 * seconds, 1e6 * found.with.longest, kCure));
+  }
+  const double left = distance_left(scene_, setup.friction, path, setup.memory, found.units);
+  if (left > kMostLeft) {
+    warn(
+        fmt::format("with {:.0f} us a cycle the god object stops on the way: after a test motion it is still {:.3g} mm "
+                    "from the position that it reaches without a budget; {}",
+                    1e6 * seconds, 1e3 * left, kCure));
   }
   fmt::print(
-      "budget: {:.0f} us a cycle for the god object, {:.0f} units of at most {:.3f} ns; it ends {} of {} cycles of "
-      "a test motion, {} of them with contact, whose longest takes {:.0f} us without it\n",
-      1e6 * seconds, units, 1e9 * cost.unit, trial.ended, trial.cycles, cost.contacts, 1e6 * cost.longest);
-  return static_cast<std::uint64_t>(units);
+      "budget: {:.0f} us a cycle for the god object, {} units. With them the longest cycle of a test motion takes "
+      "{:.0f} us; they end {} of {} cycles, {} of which have contact\n",
+      1e6 * seconds, found.units, 1e6 * found.with.longest, found.with.ended, found.with.cycles, found.with.contacts);
+  return found.units;
 }
 
 std::string Session::run(const std::optional<double>& duration, RunRequests& requests) {
@@ -136,8 +145,8 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
     fmt::print("{}", records.summary());
     if (link_->real_time() && report_.beyond_plan > 0) {
       warn(fmt::format(
-          "{} cycles computed for longer than loop.compute, which bus plan and gain check count on: {:.0f} "
-          "us in place of {:.0f} us at most",
+          "{} cycles computed for longer than loop.compute, which bus plan and gain check count on: {:.0f} us in place "
+          "of {:.0f} us at most; raise it, or set or lower loop.cycle_budget",
           report_.beyond_plan, 1e-3 * static_cast<double>(report_.computing.largest_ns()), 1e6 * config_.loop.compute));
     }
   } else {

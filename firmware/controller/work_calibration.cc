@@ -11,6 +11,8 @@ namespace {
 constexpr int kApproach = 250;  // cycles
 constexpr int kPressed = 150;
 constexpr int kPasses = 3;
+constexpr int kTrials = 8;
+constexpr double kReserve = 0.9;  // of the budget that the last trial suggests
 constexpr int kRest = 1000;
 constexpr int kWithoutBudget = 100;
 constexpr double kSwing = 0.05;  // of the way to the middle
@@ -33,14 +35,13 @@ class OtherMemory {
   }
 
  private:
-  std::vector<unsigned char> bytes_ = std::vector<unsigned char>(std::size_t{4} << 20);
+  std::vector<unsigned char> bytes_ = std::vector<unsigned char>(std::size_t{2} << 20);
 };
 
 /// Runs the path; calls before() and after(cycle, report) for each cycle.
 template <class Before, class After>
 void run(GodObject& god_object, std::span<const Pose> path, const Before& before, const After& after) {
   CycleReport report;
-  god_object.reset();
   for (std::size_t k = 0; k < path.size(); ++k) {
     before();
     static_cast<void>(god_object.update({path[k], Motion{}}, report));  // the poses are finite
@@ -71,44 +72,51 @@ std::vector<Pose> calibration_path(const SceneView& scene, const Pose& start_WM)
   return path;
 }
 
-WorkCost measure_work(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
-                      hal::Clock& clock) {
-  GodObject god_object;
-  WorkCost cost;
-  if (god_object.start(Scene::of(scene), Solver::kContact, friction, memory) != Status::kOk) return cost;
+TimedPath time_path(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                    std::uint64_t units, hal::Clock& clock) {
+  TimedPath timed;
   OtherMemory other;
   std::vector<double> least(path.size(), std::numeric_limits<double>::infinity());
-  std::vector<double> work(path.size());
   for (int pass = 0; pass < kPasses; ++pass) {
+    GodObject god_object;  // again from the start, so that each pass does the same work
+    if (god_object.start(Scene::of(scene), Solver::kContact, friction, memory) != Status::kOk) return {};
+    god_object.set_work_budget(units);
+    timed = {.cycles = static_cast<std::uint32_t>(path.size())};
     std::int64_t begin_ns = 0;
-    cost.contacts = 0;
     const auto before = [&]() {
       other.use();
       begin_ns = clock.now_ns();
     };
     run(god_object, path, before, [&](std::size_t k, const CycleReport& report) {
       least[k] = std::min(least[k], 1e-9 * static_cast<double>(clock.now_ns() - begin_ns));
-      work[k] = static_cast<double>(report.work);
-      cost.contacts += report.contacts > 0 ? 1 : 0;
+      timed.contacts += report.contacts > 0 ? 1 : 0;
+      timed.ended += report.out_of_work ? 1 : 0;
     });
   }
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    cost.longest = std::max(cost.longest, least[k]);
-    if (work[k] > 0.0) cost.unit = std::max(cost.unit, least[k] / work[k]);
-  }
-  return cost;
+  for (std::size_t k = 1; k < path.size(); ++k) timed.longest = std::max(timed.longest, least[k]);
+  return timed;
 }
 
-BudgetTrial try_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
-                       std::uint64_t units) {
-  BudgetTrial trial;
+WorkBudget find_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                       double seconds, hal::Clock& clock) {
+  double units = seconds / kNominalUnit;
+  WorkBudget found;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    found.units = static_cast<std::uint64_t>(std::max(1.0, units));
+    found.with = time_path(scene, friction, path, memory, found.units, clock);
+    if (!(found.with.longest > seconds)) break;
+    units *= kReserve * seconds / found.with.longest;
+  }
+  return found;
+}
+
+double distance_left(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                     std::uint64_t units) {
   GodObject god_object;
-  if (god_object.start(Scene::of(scene), Solver::kContact, friction, memory) != Status::kOk) return trial;
+  if (god_object.start(Scene::of(scene), Solver::kContact, friction, memory) != Status::kOk) return 0.0;
   god_object.set_work_budget(units);
-  trial.cycles = static_cast<std::uint32_t>(path.size());
   run(
-      god_object, path, [] {},
-      [&](std::size_t, const CycleReport& report) { trial.ended += report.out_of_work ? 1 : 0; });
+      god_object, path, [] {}, [](std::size_t, const CycleReport&) {});
   CycleReport report;
   const auto rest = [&](int cycles) -> Vector3 {
     for (int k = 0; k < cycles; ++k) static_cast<void>(god_object.update({path.back(), Motion{}}, report));
@@ -116,8 +124,7 @@ BudgetTrial try_budget(const SceneView& scene, bool friction, std::span<const Po
   };
   const Vector3 held = rest(kRest);
   god_object.set_work_budget(std::numeric_limits<std::uint64_t>::max());
-  trial.short_by = (rest(kWithoutBudget) - held).norm();
-  return trial;
+  return (rest(kWithoutBudget) - held).norm();
 }
 
 }  // namespace godobject::firmware

@@ -21,29 +21,35 @@ inline constexpr double kNominalUnit = 0.25e-9;
 /// Poses H_WM, a cycle each; at most some 0.5 mm a cycle on a body of 100 mm.
 std::vector<Pose> calibration_path(const SceneView& scene, const Pose& start_WM);
 
-/// The cost of `contact` on this machine.
-struct WorkCost {
-  double unit = 0.0;           ///< cost of a unit of work in the worst cycle [s]
-  double longest = 0.0;        ///< longest cycle [s]
+/// The timed motion of a mesh.
+struct TimedPath {
+  double longest = 0.0;        ///< longest cycle but the first, which looks up all points once [s]
+  std::uint32_t cycles = 0;    ///< 0: the god object did not start
   std::uint32_t contacts = 0;  ///< cycles with contact
+  std::uint32_t ended = 0;     ///< cycles that the budget ended
 };
 
-/// Times `contact` along a path without a budget, each cycle after other memory was used. A cycle counts with the least
-/// of three times, so that other programs do not make it longer. `memory`: of GodObject, at least memory_size(). Cost:
-/// three times that of the path, some seconds at most.
-WorkCost measure_work(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
-                      hal::Clock& clock);
+/// Times `contact` along a path with a budget of work [units], each cycle after other memory was used. A cycle counts
+/// with the least of three times, so that other programs do not make it longer. `memory`: of GodObject, at least
+/// memory_size(). Cost: three times that of the path, and half a second.
+TimedPath time_path(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                    std::uint64_t units, hal::Clock& clock);
 
-/// The effect of a budget on the motion of a path.
-struct BudgetTrial {
-  std::uint32_t cycles = 0;
-  std::uint32_t ended = 0;  ///< cycles that the budget ended
-  double short_by = 0.0;    ///< way that the god object still has to go when it does not come nearer any more [m]
+/// A budget of work for a time.
+struct WorkBudget {
+  std::uint64_t units = 0;
+  TimedPath with;  ///< the motion with this budget
 };
 
-/// Tries a budget of work [units] along a path. At its end the device rests for a second, then the budget is taken
-/// away, and the god object goes on if the budget held it.
-BudgetTrial try_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
-                       std::uint64_t units);
+/// Finds a budget with which no cycle of a path but the first takes longer than `seconds`, from the nominal one down.
+/// If there is none after some trials, the last one is returned: see `with.longest`. Cost: at most eight times that of
+/// time_path.
+WorkBudget find_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                       double seconds, hal::Clock& clock);
+
+/// Returns how far the god object still is from the position that it reaches without a budget, after a motion with a
+/// budget and a second of rest [m].
+double distance_left(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,
+                     std::uint64_t units);
 
 }  // namespace godobject::firmware

@@ -191,8 +191,8 @@ void ControlCycle::count(const LoopEvents& events) noexcept {
   counters_.scaled += add(rendering && joint_torque_.scale < 1.0);
   counters_.rate_limited += add(limiter_.rate_limited());
   counters_.unconverged += add(rendering && report_.unconverged);
-  out_of_work_ = report_.out_of_work ? out_of_work_ + 1 : 0;
-  counters_.out_of_work += add(report_.out_of_work);
+  out_of_work_ = rendering && report_.out_of_work ? out_of_work_ + 1 : 0;
+  counters_.out_of_work += add(out_of_work_ > 0);
   counters_.most_out_of_work = std::max(counters_.most_out_of_work, out_of_work_);
 }
 

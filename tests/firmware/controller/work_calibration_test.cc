@@ -56,46 +56,75 @@ TEST_F(WorkCalibration, MovesFromTheStartToTheMiddleOfTheStillBody) {
   for (const Pose& H : calibration_path(scene_, start_)) EXPECT_TRUE(H.translation.allFinite());
 }
 
-/// The worst cycle by hand: all take the same time, so it is the one with the least work.
-TEST_F(WorkCalibration, TakesTheWorstCycle) {
+/// Every reading of the clock takes a microsecond, so that each cycle takes one.
+TEST_F(WorkCalibration, TimesEachCycleOfAPath) {
   const std::vector<Pose> path = calibration_path(scene_, start_);
   GodObject god_object;
   ASSERT_EQ(god_object.start(Scene::of(scene_), Solver::kContact, true, memory_.span()), Status::kOk);
-  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-  std::uint32_t contacts = 0;
+  constexpr std::uint64_t kUnits = 16000;
+  god_object.set_work_budget(kUnits);
+  std::uint32_t contacts = 0, ended = 0;
   CycleReport report;
   for (const Pose& H : path) {
     ASSERT_EQ(god_object.update({H, Motion{}}, report), Status::kOk);
-    least = std::min(least, report.work);
     contacts += report.contacts > 0 ? 1 : 0;
+    ended += report.out_of_work ? 1 : 0;
   }
   Ticking clock;
-  const WorkCost cost = measure_work(scene_, true, path, memory_.span(), clock);
-  EXPECT_DOUBLE_EQ(cost.longest, 1e-6);
-  EXPECT_DOUBLE_EQ(cost.unit, 1e-6 / static_cast<double>(least));
-  EXPECT_EQ(cost.contacts, contacts);
-  EXPECT_GT(contacts, 100u);
+  const TimedPath timed = time_path(scene_, true, path, memory_.span(), kUnits, clock);
+  EXPECT_DOUBLE_EQ(timed.longest, 1e-6);
+  EXPECT_EQ(timed.cycles, path.size());
+  EXPECT_EQ(timed.contacts, contacts);
+  EXPECT_EQ(timed.ended, ended);
+  EXPECT_GT(contacts, 50u);
+  EXPECT_GT(ended, 0u);
+}
+
+/// A clock on which one cycle of a path takes long: the first of all, which does not count, or another one.
+class Slow final : public hal::Clock {
+ public:
+  explicit Slow(std::int64_t reading) : reading_(reading) {}
+  std::int64_t now_ns() noexcept override {
+    ++readings_;
+    return now_ += readings_ % (2 * 401) == reading_ ? 50'000 : 1000;
+  }
+  void sleep_until(std::int64_t) noexcept override {}
+
+ private:
+  std::int64_t reading_;
+  std::int64_t readings_ = 0;
+  std::int64_t now_ = 0;
+};
+
+TEST_F(WorkCalibration, FindsABudgetForATime) {
+  const std::vector<Pose> path = calibration_path(scene_, start_);
+  ASSERT_EQ(path.size(), 401u);
+  Ticking quick;
+  const WorkBudget nominal = find_budget(scene_, true, path, memory_.span(), 100e-6, quick);
+  EXPECT_EQ(nominal.units, 400000u) << "each cycle is short enough";
+  Slow first(2);
+  EXPECT_EQ(find_budget(scene_, true, path, memory_.span(), 10e-6, first).units, 40000u) << "the first does not count";
+  Slow second(4);
+  const WorkBudget shorter = find_budget(scene_, true, path, memory_.span(), 10e-6, second);
+  EXPECT_DOUBLE_EQ(shorter.with.longest, 50e-6) << "no budget helps: the caller sees it";
+  EXPECT_LT(shorter.units, 40u) << "eight trials, each a fifth of the last one or less";
 }
 
 TEST_F(WorkCalibration, TellsABudgetThatHoldsTheGodObject) {
   const std::vector<Pose> path = calibration_path(scene_, start_);
-  const BudgetTrial none = try_budget(scene_, true, path, memory_.span(), std::numeric_limits<std::uint64_t>::max());
-  EXPECT_EQ(none.cycles, path.size());
-  EXPECT_EQ(none.ended, 0u);
-  EXPECT_LT(none.short_by, 1e-5);
-  const BudgetTrial one = try_budget(scene_, true, path, memory_.span(), 1);
-  EXPECT_EQ(one.ended, one.cycles);
-  EXPECT_GT(one.short_by, 0.02) << "it stays at the start";
-  const BudgetTrial enough = try_budget(scene_, true, path, memory_.span(), 400000);
-  EXPECT_LT(enough.short_by, 1e-4);
+  constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_LT(distance_left(scene_, true, path, memory_.span(), kNone), 1e-5);
+  EXPECT_GT(distance_left(scene_, true, path, memory_.span(), 1), 0.02) << "it stays at the start";
+  EXPECT_LT(distance_left(scene_, true, path, memory_.span(), 400000), 1e-4);
 }
 
-/// A scene without friction, or memory that is too small, gives no cost: the cycle's own start tells why.
-TEST_F(WorkCalibration, HasNoCostWhereTheGodObjectDoesNotStart) {
+/// With memory that is too small the cycle's own start tells why.
+TEST_F(WorkCalibration, FindsNothingWhereTheGodObjectDoesNotStart) {
   const std::vector<Pose> path = calibration_path(scene_, start_);
   Ticking clock;
-  EXPECT_EQ(measure_work(scene_, true, path, {}, clock).unit, 0.0);
-  EXPECT_EQ(try_budget(scene_, true, path, {}, 1).cycles, 0u);
+  EXPECT_EQ(time_path(scene_, true, path, {}, 1000, clock).cycles, 0u);
+  EXPECT_EQ(find_budget(scene_, true, path, {}, 1e-4, clock).with.cycles, 0u);
+  EXPECT_EQ(distance_left(scene_, true, path, {}, 1), 0.0);
 }
 
 }  // namespace
