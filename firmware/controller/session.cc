@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <thread>
 #include <vector>
 
@@ -33,8 +32,8 @@ using command::Failure;
 
 /// Time of a cycle outside of the god object, chosen: kinematics, torques, checks and frames take some 5 us [s].
 constexpr double kRestOfCycle = 10e-6;
-constexpr double kMostLeft = 1e-4;  // to the god object's position, when it comes no nearer; chosen [m]
-constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
+/// Distance from its position at which a god object that comes no nearer counts as held, chosen [m].
+constexpr double kMostLeft = 1e-4;
 
 SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
   set_gains(gains, scene);
@@ -86,10 +85,10 @@ void Session::start_cycle() {
 /// Returns the budget of work of a cycle for loop.cycle_budget [units]. In real time it is found on this machine; in
 /// virtual time a unit has its nominal cost, so that each run is the same.
 std::uint64_t Session::work_budget(const CycleSetup& setup) const {
-  if (!config_.loop.cycle_budget) return kNoBudget;
+  if (!config_.loop.cycle_budget) return GodObject::kNoBudget;
   if (setup.solver != Solver::kContact) {
     warn("loop.cycle_budget has no effect: only the solver contact has a budget of work");
-    return kNoBudget;
+    return GodObject::kNoBudget;
   }
   const double seconds = *config_.loop.cycle_budget;
   const double most = config_.loop.compute - kRestOfCycle;
@@ -110,7 +109,7 @@ std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) 
   hal::MonotonicClock clock;
   const std::vector<Pose> path = calibration_path(scene_, config_.workspace.start);
   const WorkBudget found = find_budget(scene_, setup.friction, path, setup.memory, seconds, clock);
-  if (found.with.cycles == 0) return kNoBudget;  // the cycle's own start tells why
+  if (found.with.cycles == 0) return GodObject::kNoBudget;  // the cycle's own start tells why
   constexpr const char* kCure =
       "raise loop.cycle_budget and loop.compute, or compile the scene with fewer points or "
       "with point_budget";

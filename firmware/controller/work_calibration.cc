@@ -123,7 +123,7 @@ double distance_left(const SceneView& scene, bool friction, std::span<const Pose
     return god_object.mesh_pose() * scene.H_MB.translation;
   };
   const Vector3 held = rest(kRest);
-  god_object.set_work_budget(std::numeric_limits<std::uint64_t>::max());
+  god_object.set_work_budget(GodObject::kNoBudget);
   return (rest(kWithoutBudget) - held).norm();
 }
 

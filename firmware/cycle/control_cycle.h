@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -76,7 +75,7 @@ struct CycleSetup {
   Solver solver = Solver::kContact;
   bool friction = false;
   std::span<std::byte> memory;  ///< GodObject::memory_size(*scene) bytes, or at least GodObject::least_memory_size()
-  std::uint64_t work_budget = std::numeric_limits<std::uint64_t>::max();  ///< as GodObject::set_work_budget [units]
+  std::uint64_t work_budget = GodObject::kNoBudget;  ///< as GodObject::set_work_budget [units]
   const ArmModel* arm = nullptr;
   const JointTorqueParameters* joint_torque = nullptr;
   WorkspaceMappingParameters mapping;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "godobject/pose.h"
@@ -37,6 +38,9 @@ class GodObject {
     Pose H_WM;          ///< the moving mesh as the device holds it; a rotation within 1e-3 of unit length is normalised
     Motion velocity_W;  ///< of the body's centre of mass [m/s], and angular [rad/s]; only the damping uses it
   };
+
+  /// The budget of work without a limit.
+  static constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
 
   /// Returns the memory that `start` needs to run at full speed in `scene` [bytes]. With it `contact` remembers from
   /// cycle to cycle which parts of the bodies are too far apart to touch.
@@ -105,9 +109,9 @@ class GodObject {
   ///
   /// If the search for near points does not fit into the budget, the next cycles go on with it while the god object
   /// stays. If the first motion after it does not fit, shorter ones follow in the next cycles, at last without friction
-  /// (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles
-  /// take without one may hold the god object for good, also when the device moves away; so it may without the memory
-  /// of memory_size(). `units`: 1 or more; the largest number is no budget. No effect before `start`. Real-time safe.
+  /// (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles take without one
+  /// may hold the god object for good, also when the device moves away; so it may without the memory of memory_size().
+  /// `units`: 1 or more; kNoBudget: no budget. No effect before `start`. Real-time safe.
   void set_work_budget(std::uint64_t units) noexcept;
 
   /// Returns the god object's pose H_WM; the identity before `start` has succeeded. Real-time safe.

@@ -23,14 +23,15 @@ namespace godobject {
 /// object may lag, which is counted, but crosses nothing.
 ///
 /// When the budget of work is spent, the cycle ends with the motion that is certified so far. If the god object has not
-/// moved, the next cycle goes on with the search, or with its lists (KeptSearch), and WorkShare shortens the motion that
-/// does not fit. That limits the cost further than the counts below.
+/// moved, the next cycle goes on with the search, or with its lists (KeptSearch), and WorkShare shortens the motion
+/// that does not fit. That limits the cost further than the counts below.
 ///
 /// A first pose that penetrates is left along the gradients, and where these contradict each other along the motion
 /// that misses them least (overlap.h), near the device. Where the field has none (deeper than the band) the god object
 /// follows the device, without force, until it is free.
 ///
-/// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged.
+/// Statuses as those of `commit`; if not kOk, `state` and what `memory` carries to the next cycle are unchanged, except
+/// that a search that would have gone on begins again.
 /// `times`: step #1 contains every look-up, also those of the certificate. Cost: at most kMaxSubsteps sub-steps with a
 /// near point, each with at most kMostAttempts attempts. An attempt looks up each near point, and each force three
 /// times. A sub-step solves at most 6 (1 + 2 (kMostSecondLooks + 2) + kMostRefills + kMostImpliedRounds) times: once,

@@ -83,6 +83,7 @@ class ContactSubsteps {
   void find_surroundings() noexcept {
     work_.add(Work::kSubstep);
     KeptSearch& kept = memory_.kept;
+    // `learn` has compared the poses already; lists of another pose would let the body cross
     goes_on_ = is_first_ && kept.goes_on && is_same(kept.H_WS, H0_);
     had_all_points_ = goes_on_ && kept.has_all;
     if (goes_on_) {

@@ -10,17 +10,17 @@ namespace godobject {
 /// The share of the search radius and of the motion with which the first sub-step of a cycle fits into the budget of
 /// work. A search goes on in the next cycle, so that it needs no smaller share. After a cycle that had all points from
 /// the beginning and did not certify a motion, the share of the motion halves. Where a search cannot go on, the search
-/// radius halves, and once it is as short as it may be, the share of the motion. Both grow again while the first
-/// sub-step takes less than half of the budget. The factors are chosen: from a sixty-fourth of the radius back to the
-/// whole takes 36 cycles.
+/// radius halves, and once it is as short as it may be, the share of the motion. The share of the motion grows again
+/// with each motion that is certified, the radius while the first sub-step takes less than half of the budget. The
+/// factors are chosen: from a sixty-fourth of the radius back to the whole takes 36 cycles.
 class WorkShare {
  public:
   /// Returns the share of the longest search radius that a sub-step may use [1].
   double radius() const noexcept { return radius_; }
   /// Returns the share of a sub-step's motion that is tried [1].
   double motion() const noexcept { return motion_; }
-  /// Tells whether friction and second looks are too expensive: since radius or motion was as short as it may be, until
-  /// the radius is twice as long.
+  /// Tells whether friction and second looks are too expensive: since radius or motion fell to a sixty-fourth, until
+  /// both exceed a thirty-second.
   bool is_least() const noexcept { return is_least_; }
 
   /// Learns from a cycle that began with all near points listed, and certified no motion.

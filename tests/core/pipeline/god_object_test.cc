@@ -462,7 +462,9 @@ TEST_F(GodObjectTest, ArrivesWithASmallBudgetOfWork) {
       ended_by_budget += report.out_of_work ? 1 : 0;
     }
     EXPECT_LT((god_object->mesh_pose().translation - expected.translation).norm(), 2e-5) << budget;
-    EXPECT_GT(ended_by_budget, budget <= 12000 ? 0 : -1) << budget;
+    if (budget <= 12000) {
+      EXPECT_GT(ended_by_budget, 0) << budget;
+    }
   }
 }
 

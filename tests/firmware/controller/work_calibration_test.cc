@@ -31,7 +31,7 @@ class WorkCalibration : public testing::Test {
   Pose start_{Quaternion::Identity(), Vector3(0.0, 0.0, 0.06)};
 };
 
-/// From the start to the middle of the plate, in steps no longer than a thousandth of the way and the swing.
+/// The path leads from the start to the middle of the plate. A step is at most 0.6 % of that way, and 0.01 rad.
 TEST_F(WorkCalibration, MovesFromTheStartToTheMiddleOfTheStillBody) {
   start_.rotation = exp_rotation({0.3, -0.2, 0.5});
   const std::vector<Pose> path = calibration_path(scene_, start_);
@@ -112,8 +112,7 @@ TEST_F(WorkCalibration, FindsABudgetForATime) {
 
 TEST_F(WorkCalibration, TellsABudgetThatHoldsTheGodObject) {
   const std::vector<Pose> path = calibration_path(scene_, start_);
-  constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
-  EXPECT_LT(distance_left(scene_, true, path, memory_.span(), kNone), 1e-5);
+  EXPECT_LT(distance_left(scene_, true, path, memory_.span(), GodObject::kNoBudget), 1e-5);
   EXPECT_GT(distance_left(scene_, true, path, memory_.span(), 1), 0.02) << "it stays at the start";
   EXPECT_LT(distance_left(scene_, true, path, memory_.span(), 400000), 1e-4);
 }

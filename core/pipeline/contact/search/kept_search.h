@@ -20,10 +20,10 @@ struct Surroundings {
 
 }  // namespace detail
 
-/// The last search of a cycle. If the budget of work ended it, or the motion after it, the god object has not moved
-/// since: the next cycle goes on with the lists of near points of the workspace.
+/// The last search of a cycle. If the budget of work ended it, or the motion after it, and the god object has not
+/// moved, the next cycle goes on with the lists of near points of the workspace.
 struct KeptSearch {
-  bool goes_on = false;      ///< the budget of work ended the cycle
+  bool goes_on = false;      ///< the next cycle may go on with it
   bool has_samples = false;  ///< all near sample points are listed
   bool has_all = false;      ///< all near points of both directions are listed
   Pose H_WS;                 ///< the god object's pose

@@ -108,7 +108,8 @@ class NearSearch {
 
   /// Forgets where `find` stopped: no point has been visited.
   void start_over() noexcept { next_ = 0; }
-  /// Tells whether the last `find`, which returned false, visited points from the first one on without a choice.
+  /// Tells whether a call with `goes_on` may follow the last `find`, which returned false: not without memory, and not
+  /// after a choice among the points (PointBudget).
   bool may_go_on() const noexcept { return !words_.empty() && next_ != kNotInOrder; }
 
  private:

@@ -104,7 +104,8 @@ TEST(WorkShare, KeepsAllIfTheSearchGoesOn) {
   }
 }
 
-/// Where the search is kept, only a shorter motion helps. Without friction from a sixty-fourth on.
+/// Where the search is kept, only a shorter motion helps. From a sixty-fourth of the motion on the solver leaves
+/// friction out.
 TEST(WorkShare, ShortensTheMotionAloneIfThePointsAreKnown) {
   WorkShare share;
   for (int halving = 1; halving <= 40; ++halving) {
