@@ -294,9 +294,12 @@ class ContactSubsteps {
         const std::uint32_t k = points.find(id & ~kFeature);
         if (k == points.count) continue;
         const HeldPoint point{H0_ * rows_.point(row), points.distance[k], is_feature};
-        if (!is_implied(point, scene_.edges, near, H0_, lengths_.margin, 0.1 * lengths_.margin)) continue;
+        const double gap = implied_gap(point, scene_.edges, near, H0_, lengths_.margin, 0.1 * lengths_.margin);
+        if (!(gap < std::numeric_limits<double>::infinity())) continue;
         rows_.remove(row);
         points.forget_gradient(k);
+        // the certificate asks no more of the point than the pairs keep: after a start inside they may be nearer
+        if (gap > 0.0) points.distance[k] = std::min(points.distance[k], gap);
         dropped = true;
       }
     }

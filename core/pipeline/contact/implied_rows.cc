@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace godobject::detail {
@@ -15,6 +16,7 @@ struct SeenPair {
   std::uint32_t number;   ///< of the other edge
   Vector3 on_own;         ///< nearest point of the own edge [m]
   double place_on_other;  ///< of the nearest points, on the other edge [1]
+  double gap;             ///< [m]
 };
 
 /// Returns the share of an edge, from end 0 to end 1, at which it is nearest to a point.
@@ -57,14 +59,15 @@ SeenPair seen_from(const HeldPoint& point, const EdgeContacts& edges, const Near
   const EdgeGap& gap = near.gap[k];
   const EdgeInW moving = EdgeInW::at(edges.moving.edges[pair.moving], H_WS);
   const EdgeInW still = EdgeInW::of_still(edges.still.edges[pair.still]);
-  if (point.is_feature) return {still, moving, pair.moving, gap.on_still, place_of(moving, gap.on_moving)};
-  return {moving, still, pair.still, gap.on_moving, place_of(still, gap.on_still)};
+  if (point.is_feature)
+    return {still, moving, pair.moving, gap.on_still, place_of(moving, gap.on_moving), gap.distance};
+  return {moving, still, pair.still, gap.on_moving, place_of(still, gap.on_still), gap.distance};
 }
 
 }  // namespace
 
-bool is_implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H_WS,
-                double margin, double tolerance) noexcept {
+double implied_gap(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H_WS,
+                   double margin, double tolerance) noexcept {
   constexpr std::size_t kMostSeen = 16;  // chosen: few pairs share the edge that is nearest to a point
   constexpr double kNearPlace = 4.0;     // margins, chosen
   const Vector3& p = point.position_W;
@@ -76,7 +79,7 @@ bool is_implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdg
     if (std::fabs(distance_to(pair.other, p) - pair.other.radius - point.distance) > tolerance) continue;
     const bool do_cross = cross(pair.own, pair.other);
     const bool is_on_own = std::fabs(distance_to(pair.own, p) - pair.own.radius) <= tolerance;
-    if (is_on_own && (do_cross || (p - pair.on_own).norm() <= kNearPlace * margin)) return true;
+    if (is_on_own && (do_cross || (p - pair.on_own).norm() <= kNearPlace * margin)) return pair.gap;
     if (do_cross) seen[count++] = pair;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -84,10 +87,12 @@ bool is_implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdg
     for (std::size_t j = i + 1; j < count; ++j) {
       if (seen[j].number != seen[i].number) continue;
       const auto [first, last] = std::minmax(seen[i].place_on_other, seen[j].place_on_other);
-      if (first <= place && place <= last && share_a_face(seen[i].own, seen[j].own, p, tolerance)) return true;
+      if (first <= place && place <= last && share_a_face(seen[i].own, seen[j].own, p, tolerance)) {
+        return std::min(seen[i].gap, seen[j].gap);
+      }
     }
   }
-  return false;
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace godobject::detail

@@ -17,7 +17,8 @@ struct HeldPoint {
   bool is_feature;     ///< it belongs to the still body
 };
 
-/// Tells whether rows of edge pairs imply that of a point. The point does not come nearer than the pairs, because the
+/// Returns the gap that rows of edge pairs keep for a point [m], if they imply its row: the gap of the pairs, which may
+/// be smaller than the point's own. Infinity if they do not. The point does not come nearer than the pairs, because the
 /// edge of the other body that is nearest to the point is the edge of
 ///
 /// - a pair whose other edge the point lies on, or
@@ -28,7 +29,7 @@ struct HeldPoint {
 /// 0.05 rad, or if the point is near that place. H_WS: pose of the moving body; all nearest pairs have a row. `margin`:
 /// pairs that are farther apart than the point by more than this do not count [m]; `tolerance`: of places and distances
 /// [m]. Cost: some 60 ns a pair, and 20 ns for each two of at most 16. Real-time safe.
-bool is_implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H_WS,
-                double margin, double tolerance) noexcept;
+double implied_gap(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H_WS,
+                   double margin, double tolerance) noexcept;
 
 }  // namespace godobject::detail

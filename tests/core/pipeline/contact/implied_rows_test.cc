@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/pipeline/contact/implied_rows.h"
 #include "tests/support/edge_set.h"
@@ -12,6 +13,11 @@ namespace {
 
 constexpr double kMargin = 2e-5;
 constexpr double kHeight = 2e-5;
+
+/// Tells whether the rows of edge pairs imply that of the point.
+bool implied(const HeldPoint& point, const EdgeContacts& edges, const NearEdges& near, const Pose& H) {
+  return std::isfinite(implied_gap(point, edges, near, H, kMargin, 0.1 * kMargin));
+}
 
 void set_faces(format::SharpEdge& edge, const Vector3& first, const Vector3& second) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -47,9 +53,7 @@ struct FaceOverAnEdge {
     const Vector3 p = H * Vector3(x, y, z);
     return implies_at(p, std::hypot(p.x(), p.z()));
   }
-  bool implies_at(const Vector3& p, double distance) const {
-    return is_implied({p, distance, false}, edges, near, H, kMargin, 0.1 * kMargin);
-  }
+  bool implies_at(const Vector3& p, double distance) const { return implied({p, distance, false}, edges, near, H); }
 };
 
 TEST(ImpliedRows, AreThoseOfPointsOnAnEdgeOfAPair) {
@@ -159,6 +163,28 @@ TEST(ImpliedRows, NeedTwoPairsOfOneEdge) {
   EXPECT_FALSE(scene.implies_at(p, distance));
 }
 
+/// Pairs keep their own gap, which may be smaller than that of the point: the face is tilted over the still edge, its
+/// lower edge pair is the nearest.
+TEST(ImpliedRows, KeepTheGapOfThePairs) {
+  FaceOverAnEdge scene;
+  scene.H.rotation = exp_rotation(Vector3(1e-4, 0.0, 0.0));
+  scene.near.count = 0;
+  for (const std::uint32_t k : {0u, 1u}) {
+    scene.near.push({k, 0}, gap_at(scene.edges, {k, 0}, scene.H));
+  }
+  const double lower = scene.near.gap[0].distance;
+  ASSERT_LT(lower, scene.near.gap[1].distance - 0.4e-6);
+  const auto gap = [&](double x, double y) {
+    const Vector3 p = scene.H * Vector3(x, y, 0.0);
+    const HeldPoint point{p, std::hypot(p.x(), p.z()), false};
+    return implied_gap(point, scene.edges, scene.near, scene.H, kMargin, 0.1 * kMargin);
+  };
+  EXPECT_EQ(gap(-0.0021, -0.005), lower) << "on the edge of the nearer pair, whose own gap is larger";
+  EXPECT_EQ(gap(-0.0021, 0.005), scene.near.gap[1].distance);
+  EXPECT_EQ(gap(-0.0021, 0.0), lower) << "between the two";
+  EXPECT_EQ(gap(-0.0021, 0.02), std::numeric_limits<double>::infinity()) << "beyond the face";
+}
+
 /// The one row of parallel edges holds their middle, so a point at the end needs its own.
 TEST(ImpliedRows, AreNotThoseOfPointsFarAlongAParallelEdge) {
   const test::EdgeSet moving({{Vector3(0, -0.005, kHeight), Vector3(0, 0.005, kHeight)}});
@@ -166,9 +192,7 @@ TEST(ImpliedRows, AreNotThoseOfPointsFarAlongAParallelEdge) {
   const EdgeContacts edges{moving.view(), still.view()};
   NearEdges near;
   near.push({0, 0}, gap_at(edges, {0, 0}, Pose{}));
-  const auto implies = [&](double y) {
-    return is_implied({Vector3(0, y, kHeight), kHeight, false}, edges, near, Pose{}, kMargin, 0.1 * kMargin);
-  };
+  const auto implies = [&](double y) { return implied({Vector3(0, y, kHeight), kHeight, false}, edges, near, Pose{}); };
   EXPECT_TRUE(implies(near.gap[0].on_moving.y() + kMargin));
   EXPECT_TRUE(implies(near.gap[0].on_moving.y() - 3.5 * kMargin)) << "within four margins";
   EXPECT_FALSE(implies(near.gap[0].on_moving.y() - 4.5 * kMargin));
@@ -186,7 +210,7 @@ TEST(ImpliedRows, AreThoseOfPointsFarAlongAnEdgeThatCrosses) {
     NearEdges near;
     near.push({0, 0}, gap_at(edges, {0, 0}, Pose{}));
     const Vector3 p = above + 0.002 * along;
-    return is_implied({p, std::hypot(p.x(), p.z()), false}, edges, near, Pose{}, kMargin, 0.1 * kMargin);
+    return implied({p, std::hypot(p.x(), p.z()), false}, edges, near, Pose{});
   };
   for (const double side : {1.0, -1.0}) {
     EXPECT_FALSE(implies(0.03 * side));
@@ -210,7 +234,7 @@ TEST(ImpliedRows, CountTheRadiiOfSheets) {
   NearEdges near;
   near.push({0, 0}, gap_at(edges, {0, 0}, H));
   const auto implies = [&](double z, double distance) {
-    return is_implied({Vector3(0, 0, z), distance, false}, edges, near, H, kMargin, 0.1 * kMargin);
+    return implied({Vector3(0, 0, z), distance, false}, edges, near, H);
   };
   EXPECT_TRUE(implies(2.0 * kRadius + kHeight, kHeight)) << "the lowest point of the round";
   EXPECT_FALSE(implies(3.0 * kRadius + kHeight, kRadius + kHeight)) << "a point of the middle line";
@@ -228,7 +252,7 @@ TEST(ImpliedRows, AreThoseOfFeaturePointsToo) {
   }
   const auto implies = [&](const Vector3& p_W, bool is_feature) {
     const double distance = std::hypot(p_W.x(), p_W.z() + kHeight);
-    return is_implied({p_W, distance, is_feature}, edges, near, H, kMargin, 0.1 * kMargin);
+    return implied({p_W, distance, is_feature}, edges, near, H);
   };
   EXPECT_TRUE(implies(Vector3(1e-5, 0.005, 0.0), true)) << "on an edge of the still face";
   EXPECT_TRUE(implies(Vector3(1e-5, 0.002, 0.0), true)) << "on the still face";
