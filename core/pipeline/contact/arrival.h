@@ -22,10 +22,10 @@ struct Arrival {
 
 /// The contact forces in a motion, and the gaps of their points at its end.
 struct EndGaps {
-  double energy = 0.0;   ///< of the forces at the end, less that at the start, see `end_gaps` [m^2]
-  double most = 0.0;     ///< largest distance that a point lacks there [m]; 0: none
-  std::uint32_t id = 0;  ///< of its point
-  FieldSample sample;    ///< the field there
+  double energy = 0.0;  ///< of the forces at the end, less that at the start, see `end_gaps` [m^2]
+  double most = 0.0;    ///< largest distance that a point lacks there [m]; 0: none
+  std::uint32_t id{};   ///< of its point
+  FieldSample sample;   ///< the field there
 };
 
 /// Returns by how much the coupling's energy rises because the point of a force moves along an arc in a motion (x, r)

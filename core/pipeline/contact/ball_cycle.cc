@@ -28,7 +28,7 @@ struct HalfSpaces {
   static constexpr int kCapacity = kContacts + 6;         ///< and the faces of the workspace
   std::array<Vector3, kCapacity> normal;                  ///< unit
   std::array<double, kCapacity> gain;                     ///< required gap increase [m]
-  int count = 0;
+  int count{};
 
   void push(const Vector3& n, double b) noexcept {
     normal[static_cast<std::size_t>(count)] = n;
@@ -41,7 +41,7 @@ struct Held {
   std::array<Vector3, 3> normal;     ///< unit, in W
   std::array<double, 3> multiplier;  ///< >= 0 [m]
   std::array<int, 3> space;          ///< number of the half space
-  int count = 0;
+  int count{};
 };
 
 /// Projects `target` on the half spaces, to `tolerance` [m]. False: they have no common point, and `nearest` meets only
@@ -136,10 +136,10 @@ class Center {
   bool step(const Vector3& goal) noexcept;
 
   Held held;
-  bool cut = false;             ///< the motion was shortened so as not to jump over the surface
-  bool outdated = false;        ///< the half spaces do not hold at the end: it is past an edge, or the surface turned
-  bool is_provisional = false;  ///< another motion may follow at once, as in ContactSubsteps
-  bool infeasible = false;      ///< the half spaces had no common point
+  bool cut{};               ///< the motion was shortened so as not to jump over the surface
+  bool outdated{};          ///< the half spaces do not hold at the end: it is past an edge, or the surface turned
+  bool is_provisional{};    ///< another motion may follow at once, as in ContactSubsteps
+  bool infeasible = false;  ///< the half spaces had no common point
 
  private:
   void push_contact() noexcept;

@@ -19,7 +19,7 @@ struct ContactResult {
   /// Smallest stored distance of the near points at the last sub-step's start [m].
   double smallest = std::numeric_limits<double>::infinity();
   std::uint32_t substeps = 0;  ///< sub-steps with a near point
-  std::uint32_t dropped = 0;   ///< near points without a row or without a look-up, in the last sub-step
+  std::uint32_t dropped{};     ///< near points without a row or without a look-up, in the last sub-step
   bool cut = false;            ///< the last motion was shortened so as not to jump over the surface
   bool inside = false;         ///< the god object has not come out yet after a start inside
   bool out_of_work = false;    ///< the budget of work ended the cycle

@@ -23,8 +23,8 @@ struct ContactScene {
   ContactLengths lengths;
   ContactFriction friction;
   detail::FeatureDirection feature_direction;
-  double longest_search_radius = 0.0;  ///< up to this displacement both fields tell near points from others [m]
-  double free_clearance = 0.0;         ///< a motion along which every clearance stays above this is free [m]
+  double longest_search_radius{};  ///< up to this displacement both fields tell near points from others [m]
+  double free_clearance{};         ///< a motion along which every clearance stays above this is free [m]
 
   ContactScene() noexcept = default;
 

@@ -775,31 +775,31 @@ class ContactSubsteps {
   std::uint32_t free_substeps_ = 0;
   double most_search_radius_ = 0.0;
   double longest_displacement_ = 0.0;  // of a point in a sub-step [m]
-  bool is_outdated_ = false;           // holding points have left the surface, or it has turned
-  bool may_look_at_end_ = false;       // no second look at the end of a motion has failed in this sub-step
-  bool is_nearer_ = false;             // the last step leads nearer to the device
+  bool is_outdated_{};                 // holding points have left the surface, or it has turned
+  bool may_look_at_end_{};             // no second look at the end of a motion has failed in this sub-step
+  bool is_nearer_{};                   // the last step leads nearer to the device
 
   // state of the sub-step
-  bool is_first_ = true;
-  bool has_all_points_ = true;      // the search has visited all near points
-  bool goes_on_ = false;            // the search is that of the last cycle
+  bool is_first_{};
+  bool has_all_points_{};           // the search has visited all near points
+  bool goes_on_{};                  // the search is that of the last cycle
   bool had_all_points_ = false;     // and has visited all near points before
   bool has_surroundings_ = false;   // all near points and edges are listed
-  bool is_constrained_ = false;     // `step_` is that of the sub-step
-  std::uint64_t work_before_ = 0;   // at its start [units]
+  bool is_constrained_{};           // `step_` is that of the sub-step
+  std::uint64_t work_before_{};     // at its start [units]
   std::uint64_t attempt_work_ = 0;  // of its first attempt [units]
   std::uint64_t first_work_ = 0;    // of the first sub-step; 0: the budget was spent before its end [units]
   Pose H0_;
   Pose H0_features_;
   Motion free_;
-  Motion aim_;                      // of the solver: `free_` in `metric_`
-  CouplingMetric metric_;           // in which the step is solved
-  double most_gain_ = 0.0;          // bound of `distance_gain` after second looks [m^2]
-  double free_displacement_ = 0.0;  // upper bound of a point's displacement in `free_` [m]
-  double search_radius_ = 0.0;
+  Motion aim_;                  // of the solver: `free_` in `metric_`
+  CouplingMetric metric_;       // in which the step is solved
+  double most_gain_{};          // bound of `distance_gain` after second looks [m^2]
+  double free_displacement_{};  // upper bound of a point's displacement in `free_` [m]
+  double search_radius_{};
   Surroundings around_{};
-  int refills_left_ = 0;
-  double regain_ = 1.0;  // share of the lost gaps that the rows regain of what the gap law demands [1]
+  int refills_left_{};
+  double regain_{};  // share of the lost gaps that the rows regain of what the gap law demands [1]
   MotionShare share_{1.0};
   Motion motion_;
   Pose H1_;

@@ -110,7 +110,7 @@ class HullSide {
 
  private:
   struct Corner {
-    double x = 0.0, y = 0.0;
+    double x{}, y{};
     bool is_set = false;
   };
   bool is_convex(const Corner& a, const Corner& b, const Corner& c) const noexcept {
@@ -197,9 +197,9 @@ class CoveredPart {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double low_x_ = kInfinity, high_x_ = -kInfinity;
   double low_y_ = kInfinity, high_y_ = -kInfinity;
-  double x_of_lowest_ = 0.0, x_of_highest_ = 0.0;
+  double x_of_lowest_{}, x_of_highest_{};
   std::uint32_t count_ = 0;
-  int cells_ = 0;
+  int cells_{};
   std::uint64_t occupied_ = 0;
   HullSide left_{-1.0};
   HullSide right_{1.0};

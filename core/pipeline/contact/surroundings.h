@@ -91,10 +91,10 @@ Selection select_rows(ContactWorkspace& workspace) noexcept;
 
 /// The row of a near point: the normal component of the point's displacement has to reach the required gain.
 struct NearRow {
-  bool exists = false;         ///< false: the field has no gradient at the point; then the rest is not set
-  Vector3 point_S;             ///< [m]
-  Vector3 normal_S;            ///< unit vector along which the distance grows
-  double required_gain = 0.0;  ///< [m]
+  bool exists = false;     ///< false: the field has no gradient at the point; then the rest is not set
+  Vector3 point_S;         ///< [m]
+  Vector3 normal_S;        ///< unit vector along which the distance grows
+  double required_gain{};  ///< [m]
 };
 
 /// Computes rows of near points of one direction, from the gradients in their list. H: pose of the shell in the field's

@@ -9,9 +9,9 @@ namespace godobject {
 
 /// A straight edge in the still body's frame W.
 struct EdgeInW {
-  Vector3 end[2];       ///< [m]
-  Vector3 normal[2];    ///< outward unit normals of its faces; 0 on a sheet
-  double radius = 0.0;  ///< of a sheet: half its thickness [m]
+  Vector3 end[2];     ///< [m]
+  Vector3 normal[2];  ///< outward unit normals of its faces; 0 on a sheet
+  double radius;      ///< of a sheet: half its thickness [m]
 
   /// Returns the edge of a body at pose H_WB.
   static EdgeInW at(const format::SharpEdge& edge, const Pose& H_WB) noexcept {

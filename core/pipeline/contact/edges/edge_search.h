@@ -54,7 +54,7 @@ class EdgeSearch {
  private:
   struct Candidate {
     EdgePair pair;
-    double free_until = 0.0;  ///< reading of the odometer up to which the edges stay apart [m]
+    double free_until;  ///< reading of the odometer up to which the edges stay apart [m]
   };
 
   /// Two branches of the trees whose edges may be near.
@@ -64,14 +64,14 @@ class EdgeSearch {
   };
   /// A visit of the trees, which may take several cycles while the body stays.
   struct Visit {
-    double travelled = 0.0;  ///< reading of the odometer [m]
-    double reach = 0.0;      ///< pairs up to this gap are remembered [m]
-    double complete = 0.0;   ///< all pairs outside of the list are at least this far apart [m]
-    std::uint32_t visits = 0;
-    std::uint32_t left_out = 0;  ///< pairs, and pairs of branches, that found no place
+    double travelled{};  ///< reading of the odometer [m]
+    double reach{};      ///< pairs up to this gap are remembered [m]
+    double complete{};   ///< all pairs outside of the list are at least this far apart [m]
+    std::uint32_t visits{};
+    std::uint32_t left_out{};  ///< pairs, and pairs of branches, that found no place
     std::size_t round = 0;
     bool goes_on = false;
-    std::size_t size = 0;
+    std::size_t size{};
     std::array<Branches, 256> stack;  ///< branches that are still to be looked at
   };
 
@@ -83,11 +83,11 @@ class EdgeSearch {
   void leave_out(double apart) noexcept;
 
   EdgeContacts edges_;
-  std::uint32_t count_ = 0;
+  std::uint32_t count_{};
   std::array<Candidate, kCapacity> candidates_;
   Visit visit_;
-  double complete_until_ = 0.0;  ///< reading up to which all other pairs stay apart [m]
-  double certain_ = 0.0;         ///< reading up to which all pairs stay apart [m]
+  double complete_until_{};  ///< reading up to which all other pairs stay apart [m]
+  double certain_{};         ///< reading up to which all pairs stay apart [m]
 };
 
 }  // namespace godobject

@@ -104,7 +104,7 @@ struct ContactRows {
   /// The result of `most_violated`.
   struct Violated {
     std::uint32_t row = kNone;  ///< kNone: no row is violated by more than the tolerance
-    double violation = 0.0;     ///< required gain - n . (x + r x P), the largest of all rows [m]
+    double violation{};         ///< required gain - n . (x + r x P), the largest of all rows [m]
   };
 
   /// Returns the row that the motion violates most, if by more than `tolerance` [m]. Cost: about 0.25 ns a row with

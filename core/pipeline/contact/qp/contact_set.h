@@ -14,7 +14,7 @@ namespace godobject::detail {
 /// The origin of a half space in the active set.
 struct ContactTag {
   std::uint32_t row = ContactRows::kNone;
-  int contact = 0;                 ///< with friction: number of the contact
+  int contact{};                   ///< with friction: number of the contact
   Vector3 slip = Vector3::Zero();  ///< d: unit direction of slip that the force opposes; zero: the normal alone
 };
 using ActiveSet = DualActiveSet<ContactTag>;
@@ -25,22 +25,22 @@ using ActiveSet = DualActiveSet<ContactTag>;
 /// represent it in the active set: one if it slips, up to three if it sticks.
 struct Contact {
   std::uint32_t row = ContactRows::kNone;
-  Vector3 normal;              ///< n, unit, in S
-  Vector3 point;               ///< in S [m]
-  Vector3 grip;                ///< the point at which friction acts, in S (ContactPatches) [m]
-  double required_gain = 0.0;  ///< [m]
-  double ratio = 0.0;          ///< mu
-  double shift = 0.0;          ///< |slip| by which the cone is shifted [m]
-  double speed = 0.0;          ///< Newton: |slip| in the last step [m]
-  int reversals = 0;           ///< Newton: consecutive steps in which the slip had the force's direction
-  bool slips = false;          ///< Newton: it has one half space, against the slip
-  bool is_held = false;        ///< Newton: three half spaces hold it, even if it had slipped
+  Vector3 normal;          ///< n, unit, in S
+  Vector3 point;           ///< in S [m]
+  Vector3 grip;            ///< the point at which friction acts, in S (ContactPatches) [m]
+  double required_gain{};  ///< [m]
+  double ratio{};          ///< mu
+  double shift = 0.0;      ///< |slip| by which the cone is shifted [m]
+  double speed = 0.0;      ///< Newton: |slip| in the last step [m]
+  int reversals = 0;       ///< Newton: consecutive steps in which the slip had the force's direction
+  bool slips = false;      ///< Newton: it has one half space, against the slip
+  bool is_held = false;    ///< Newton: three half spaces hold it, even if it had slipped
 };
 
 /// The displacement of a contact point, split by its normal.
 struct Slip {
-  double approach = 0.0;                ///< n . v [m]
-  double speed = 0.0;                   ///< |slip| [m]
+  double approach{};                    ///< n . v [m]
+  double speed{};                       ///< |slip| [m]
   Vector3 direction = Vector3::Zero();  ///< unit; zero at rest
 };
 

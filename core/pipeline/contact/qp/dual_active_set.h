@@ -199,7 +199,7 @@ class DualActiveSet {
 
   Vector6 target_ = Vector6::Zero();
   Vector6 z_ = Vector6::Zero();
-  int size_ = 0;
+  int size_{};
   Inequality active_[kCapacity];
   Matrix6 q_;
   Matrix6 r_;

@@ -116,7 +116,7 @@ class ShiftRelaxation {
 
   std::array<Way, ContactSet::kMaxContacts> last_{};
   int count_ = 0;
-  double share_ = kPlain;  // of the last round
+  double share_{};  // of the last round
 };
 
 /// Gives contacts that slip in the set's motion kinetic friction. Tells whether none had static friction, and all

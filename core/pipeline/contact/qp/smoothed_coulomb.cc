@@ -60,8 +60,8 @@ struct ConeContact {
   Eigen::Matrix<double, 6, 3> gradient = Eigen::Matrix<double, 6, 3>::Zero();
   Vector3 first = Vector3::Zero();  ///< unit, across the normal
   Vector3 second = Vector3::Zero();
-  double gain = 0.0;            ///< required gain / mu [m]
-  double scale = 0.0;           ///< c
+  double gain{};                ///< required gain / mu [m]
+  double scale{};               ///< c
   Vector3 x = Vector3::Zero();  ///< force over the coupling's stiffness [m]
   Vector3 y = Vector3::Zero();  ///< [m]
 
@@ -364,8 +364,8 @@ class SmoothedProblem {
   ContactSet& set_;
   Vector6 target_;
   Vector6 z_;
-  double scale_ = 1.0;
-  int work_left_ = 0;
+  double scale_{};
+  int work_left_{};
   std::array<ConeContact, kMostContacts> cones_;
   System system_;
 };

@@ -288,10 +288,10 @@ class DueCalendar {
   std::span<std::uint32_t> words_;
   std::span<std::uint32_t> marks_;         ///< a bit a point
   std::span<std::uint32_t> marked_words_;  ///< a bit a word of `marks_`
-  std::uint32_t marked_ = 0;
+  std::uint32_t marked_{};
   std::array<std::uint32_t, kSlots + 1> head_{};
   std::array<std::uint64_t, kSlots / 64 + 1> filled_{};  ///< lists that are not empty
-  std::uint64_t hand_ = 0;                               ///< the tick of the last `take_due`
+  std::uint64_t hand_{};                                 ///< the tick of the last `take_due`
 };
 
 }  // namespace godobject

@@ -27,7 +27,7 @@ struct KeptSearch {
   bool has_samples = false;  ///< all near sample points are listed
   bool has_all = false;      ///< all near points of both directions are listed
   Pose H_WS;                 ///< the god object's pose
-  double radius = 0.0;       ///< search radius [m]
+  double radius{};           ///< search radius [m]
   detail::Surroundings around{};
 };
 

@@ -440,7 +440,7 @@ class NearSearch {
   DueCalendar calendar_;
   std::span<std::uint32_t> bounds_;  ///< lower bounds of the marked points' clearances, a float a point [m]
   double slope_ = 1.0;               ///< the field's lipschitz()
-  double tick_ = 1.0;                ///< the calendar's tick [m]
+  double tick_{};                    ///< the calendar's tick [m]
   std::uint32_t next_ = 0;           ///< points before this one have been visited, if the search goes on
   bool was_complete_ = true;         ///< the last search was not ended by the budget
   double certain_ = kNever;          ///< reading of the odometer until which the last search proves points free [m]

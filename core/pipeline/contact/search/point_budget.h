@@ -57,7 +57,7 @@ class NearestFirst {
   float always_;
   float per_bound_;
   std::uint32_t last_ = 0;  ///< the class of which only some are taken
-  std::uint32_t stride_ = 1;
+  std::uint32_t stride_{};
   std::uint32_t seen_ = 0;
 };
 
