@@ -5,7 +5,7 @@ namespace {
 
 /// One rigid body or several that move as one: mass, centre of mass and the inertia about it, on the axes of R.
 struct Composite {
-  double mass = 0.0;
+  double mass{};
   Vector3 com_R = Vector3::Zero();
   Matrix3 inertia_R = Matrix3::Zero();
 };

@@ -33,10 +33,10 @@ struct TorqueRequest {
 struct JointTorque {
   JointVector torque = JointVector::Zero();   ///< torques for the drives [Nm]
   JointVector gravity = JointVector::Zero();  ///< the part of them that holds the arm [Nm]
-  Wrench rendered_P_R;           ///< the part of F_P_R that `torque` renders, about P, on the axes of R [N, Nm]
-  double scale = 0.0;            ///< factor by which the wrench was reduced to stay within the torque limits [0, 1]
-  double left_out = 0.0;         ///< share of F_P_R, by its weighted length, in singular directions [0, 1]
-  bool gravity_clipped = false;  ///< a joint cannot hold the arm
+  Wrench rendered_P_R;     ///< the part of F_P_R that `torque` renders, about P, on the axes of R [N, Nm]
+  double scale = 0.0;      ///< factor by which the wrench was reduced to stay within the torque limits [0, 1]
+  double left_out = 0.0;   ///< share of F_P_R, by its weighted length, in singular directions [0, 1]
+  bool gravity_clipped{};  ///< a joint cannot hold the arm
 };
 
 /// tau = gravity + limit springs + null-space damping + scale J^T F', each joint within its torque limit.

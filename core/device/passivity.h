@@ -43,11 +43,11 @@ class PassivityObserver {
 
   int whole_;     // D
   double share_;  // s
-  bool started_ = false;
-  double absorbed_ = 0.0;
+  bool started_{};
+  double absorbed_{};
   JointVector q_ = JointVector::Zero();
   std::array<JointVector, kRing> sent_;
-  int newest_ = 0;
+  int newest_{};
 };
 
 /// Damps the rendered wrench until the energy that it has given is absorbed again (passivity controller: the same

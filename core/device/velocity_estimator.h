@@ -38,8 +38,8 @@ class VelocityEstimator {
  private:
   int window_;
   double period_;
-  int count_ = 0;   // positions in the ring
-  int newest_ = 0;  // index of the newest
+  int count_ = 0;  // positions in the ring
+  int newest_{};   // index of the newest
   std::array<JointVector, kMaxWindow> positions_;
 };
 

@@ -10,7 +10,7 @@ namespace godobject {
 
 /// The value and the gradient of a function at a point.
 struct ValueAndGradient {
-  double value = 0.0;
+  double value;
   Vector3 gradient = Vector3::Zero();
 };
 

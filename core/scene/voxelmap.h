@@ -127,19 +127,19 @@ class Voxelmap {
   double voxel_size_ = 1.0;
   double per_voxel_ = 1.0;
   double band_ = 0.0;
-  double quantum_ = 0.0;  ///< unit of the stored distances without refinement [m]
-  double quantum_per_voxel_ = 0.0;
-  double near_band_ = 0.0;  ///< largest part of a distance that a clearance may use: the band less its rounding, at
-                            ///< most a brick's edge [m]
-  double lipschitz_ = 1.0;  ///< bound of the gradient in the whole field [1]
+  double quantum_{};  ///< unit of the stored distances without refinement [m]
+  double quantum_per_voxel_{};
+  double near_band_{};  ///< largest part of a distance that a clearance may use: the band less its rounding, at
+                        ///< most a brick's edge [m]
+  double lipschitz_{};  ///< bound of the gradient in the whole field [1]
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;
   double outside_off_ = 0.0;         ///< distance to the surface's box minus clearance, outside the grid [m]
-  double facet_offset_ = 0.0;        ///< added to the distance to facets [m]
+  double facet_offset_{};            ///< added to the distance to facets [m]
   bool in_batches_ = false;          ///< index and nodes can be addressed with 32 bits
   Vector3 cells_ = Vector3::Zero();  ///< number of cells of the grid along x, y, z
-  std::ptrdiff_t stride_y_ = 0;      ///< index difference of neighbouring positions in y; stride_z_ in z
-  std::ptrdiff_t stride_z_ = 0;
+  std::ptrdiff_t stride_y_{};        ///< index difference of neighbouring positions in y; stride_z_ in z
+  std::ptrdiff_t stride_z_{};
 };
 
 static_assert(DistanceField<Voxelmap>);
