@@ -48,7 +48,7 @@ class BringUp {
  private:
   struct Station {
     bool booted = false;
-    bool mode_told = false;  // since NMT start
+    bool mode_told{};  // since NMT start
     NmtState state = kNmtBoot;
   };
 
@@ -80,8 +80,8 @@ class BringUp {
   bool boot_is_over_ = false;
   int asked_ = -1;  // station whose response is awaited; -1: none
   const ParameterStep* step_ = nullptr;
-  bool absent_ = false;  // the station lacks the object of the last step
-  bool answered_ = false;
+  bool absent_{};  // the station lacks the object of the last step
+  bool answered_{};
   SdoResponse response_;
   BringUpResult result_;
 };

@@ -89,13 +89,13 @@ class CanDrives final : public JointDrives {
  private:
   struct Bus {
     CanBus* wire = nullptr;
-    bool asked = false;          // SYNC was sent in this cycle
-    bool holds = false;          // no SYNC and no torque is handed over in this cycle
-    int held = 0;                // such cycles in a row
+    bool asked{};                // SYNC was sent in this cycle
+    bool holds{};                // no SYNC and no torque is handed over in this cycle
+    int held{};                  // such cycles in a row
     int since_sdo = 0;           // cycles
     std::uint32_t unechoed = 0;  // SYNCs without an echo so far
-    std::int64_t echo_ns = 0;    // time stamps of this cycle's SYNC and of its last sample
-    std::int64_t sample_ns = 0;
+    std::int64_t echo_ns{};      // time stamps of this cycle's SYNC and of its last sample
+    std::int64_t sample_ns{};
     cia402::ParameterWatch watch;
   };
   struct Joint {
@@ -145,12 +145,12 @@ class CanDrives final : public JointDrives {
   JointReading reading_;
   cia402::AlarmLatch alarm_;
   CanStatistics statistics_;
-  PowerRequest power_ = PowerRequest::kOff;
-  bool sync_failed_ = false;
+  PowerRequest power_{};
+  bool sync_failed_{};
   bool anothers_ = false;  // the nodes obey, or may obey, a second master
-  int withheld_ = -1;
-  int probe_ = 0;         // remaining cycles of the probe
-  int to_heartbeat_ = 0;  // cycles until the next heartbeat
+  int withheld_{};
+  int probe_{};         // remaining cycles of the probe
+  int to_heartbeat_{};  // cycles until the next heartbeat
 };
 
 }  // namespace godobject::hal

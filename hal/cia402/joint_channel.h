@@ -45,7 +45,7 @@ class JointChannel {
   int node_ = 0;
   bool fd_ = false;
   PowerState state_ = PowerState::kNotReady;
-  bool follows_ = false;       // bit 12 of the statusword
+  bool follows_{};             // bit 12 of the statusword
   bool was_enabled_ = false;   // since power was requested
   bool has_followed_ = false;  // since power was requested
   PowerRequest power_ = PowerRequest::kOff;

@@ -28,8 +28,8 @@ class JointScaling {
   double rad_per_count_ = 0.0;
   double nm_per_permille_ = 0.0;
   bool started_ = false;
-  std::int32_t last_ = 0;
-  std::int64_t counts_ = 0;  ///< without wraps
+  std::int32_t last_{};
+  std::int64_t counts_{};  ///< without wraps
 };
 
 }  // namespace godobject::hal::cia402

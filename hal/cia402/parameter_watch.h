@@ -37,7 +37,7 @@ class ParameterWatch {
   void find(Alarm alarm, const canopen::SdoResponse& response) noexcept;
 
   std::array<ParameterStep, kWatchedCount> steps_{};
-  int bus_ = 0;
+  int bus_{};
   int joint_count_ = 0;  // on this bus
   std::array<int, kMaxJoints> joints_{};
   std::array<int, kMaxJoints> nodes_{};
