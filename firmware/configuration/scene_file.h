@@ -31,8 +31,8 @@ class SceneFile {
   void read(int descriptor, const std::filesystem::path& file);
 
   std::byte* bytes_ = nullptr;
-  std::size_t size_ = 0;
-  bool locked_ = false;
+  std::size_t size_{};
+  bool locked_{};
   SceneView scene_;
 };
 

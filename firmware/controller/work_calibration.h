@@ -37,7 +37,7 @@ TimedPath time_path(const SceneView& scene, bool friction, std::span<const Pose>
 
 /// A budget of work for a time.
 struct WorkBudget {
-  std::uint64_t units = 0;
+  std::uint64_t units{};
   TimedPath with;  ///< the motion with this budget
 };
 

@@ -16,7 +16,7 @@ struct CheckedPositions {
   std::uint32_t predicted = 0;          ///< cycles in a row without a usable position, lost or jumped
   bool runs_away = false;               ///< a joint jumped twice in the same direction
   bool finite = true;                   ///< all fresh positions and measured torques are finite
-  bool stuck = false;                   ///< a position does not change although its joint should move
+  bool stuck{};                         ///< a position does not change although its joint should move
 };
 
 /// Checks the drives' readings against the motion that an arm is capable of.
@@ -96,7 +96,7 @@ class PositionCheck {
   std::array<Motion, kMaxJoints> motion_;
   std::uint32_t in_window_ = 0;
   JointVector window_start_ = JointVector::Zero();
-  bool moved_ = false;                    // a joint moved at kOtherMotion
+  bool moved_{};                          // a joint moved at kOtherMotion
   std::array<bool, kMaxJoints> rests_{};  // pushed, and no bit changed in this window
 };
 

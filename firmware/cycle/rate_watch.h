@@ -24,7 +24,7 @@ class RateWatch {
 
  private:
   std::uint32_t in_window_ = 0;
-  std::size_t at_ = 0;
+  std::size_t at_{};
   std::bitset<kWindow> window_;
 };
 

@@ -62,11 +62,11 @@ class SignTest {
   int joint_ = 0;
   int attempt_ = 0;
   double direction_ = 1.0;
-  int first_response_ = 0;
+  int first_response_{};
   std::uint32_t waits_ = 0;  // times that the joint was given to come to rest
   std::uint32_t cycle_ = 0;  // of the push, with the still cycles before it
-  double begin_ = 0.0;       // of the straight line
-  double slope_ = 0.0;       // a cycle
+  double begin_{};           // of the straight line
+  double slope_{};           // a cycle
 };
 
 }  // namespace godobject::firmware

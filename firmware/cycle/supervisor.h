@@ -140,19 +140,19 @@ class Supervisor {
   hal::PowerRequest last_power_ = hal::PowerRequest::kOff;
   std::uint32_t in_mode_ = 0;  // cycles in this mode, with this one
   bool ending_ = false;
-  bool switch_was_released_ = false;  // since kIdle began, with the emergency stop released
+  bool switch_was_released_{};  // since kIdle began, with the emergency stop released
   bool sign_tested_;
   double share_ = 0.0;
-  double end_step_ = 0.0;                        // of the share, a cycle
+  double end_step_{};                            // of the share, a cycle
   JointVector reference_ = JointVector::Zero();  // joint positions at the beginning of a mode in which none may move
   JointVector test_torque_ = JointVector::Zero();
-  std::uint32_t stop_cycles_ = 0;  // longest duration of this kStopping
+  std::uint32_t stop_cycles_{};  // longest duration of this kStopping
   int fault_joint_ = -1;
   SignTest sign_test_;
   OverrunWatch overruns_;
   RateWatch jumps_;
-  bool too_many_overruns_ = false;
-  bool too_many_jumps_ = false;
+  bool too_many_overruns_{};
+  bool too_many_jumps_{};
 };
 
 }  // namespace godobject::firmware
