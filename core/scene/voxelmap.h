@@ -131,7 +131,7 @@ class Voxelmap {
   double quantum_per_voxel_{};
   double near_band_{};  ///< largest part of a distance that a clearance may use: the band less its rounding, at
                         ///< most a brick's edge [m]
-  double lipschitz_{};  ///< bound of the gradient in the whole field [1]
+  double lipschitz_ = 1.0;  ///< bound of the gradient in the whole field [1]
   double clearance_slope_ = 1.0;
   double assured_clearance_ = 0.0;
   double outside_off_ = 0.0;         ///< distance to the surface's box minus clearance, outside the grid [m]

@@ -29,7 +29,7 @@ class LogFile {
 
  private:
   std::filesystem::path path_;
-  int descriptor_{};
+  int descriptor_ = -1;
   std::size_t size_ = 0;  // of whole blocks
   bool torn_ = false;     // a partial block could not be removed; nothing more is written
   std::uint64_t written_ = 0;

@@ -148,7 +148,7 @@ class CanDrives final : public JointDrives {
   PowerRequest power_{};
   bool sync_failed_{};
   bool anothers_ = false;  // the nodes obey, or may obey, a second master
-  int withheld_{};
+  int withheld_ = -1;
   int probe_{};         // remaining cycles of the probe
   int to_heartbeat_{};  // cycles until the next heartbeat
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/pipeline/contact/certificate.h"
 #include "core/pipeline/contact/contact_limits.h"
@@ -185,7 +186,9 @@ void Center::constrain(const Vector3& free) noexcept {
   const auto solve = [&]() noexcept {
     if (project(spaces_, free, lengths_.metric.tolerance, motion_, held) && !leads_far_away(free)) return;
     infeasible = true;
-    for (double& gain : spaces_.gain) gain = std::min(gain, 0.0);
+    for (double& gain : std::span(spaces_.gain).first(static_cast<std::size_t>(spaces_.count))) {
+      gain = std::min(gain, 0.0);
+    }
     project(spaces_, free, lengths_.metric.tolerance, motion_, held);
   };
   solve();
