@@ -793,6 +793,26 @@ TEST(ContactSubsteps, HoldAnEdgeWhereNoPointIsNear) {
   }
 }
 
+/// After a start inside a god object may have lost its margin. Its vertical edge passes an edge of the block at 0.08
+/// margins, and a point of it, a little higher, is 0.31 margins from that edge. Sliding down, the point comes as near
+/// as the edges are: it must not hold the body.
+TEST(ContactSubsteps, LetAPointPassAnEdgeThatIsNearerToItsEdge) {
+  const EdgeSet moving({{Vector3(0.0, 0.0, -0.005), Vector3(0.0, 0.0, 0.005)}});
+  EdgeSet still({{Vector3(-0.02, -0.02, 0.01), Vector3(-0.02, 0.02, 0.01)}});
+  still.edges()[0].normal[0][0] = -1.0f;
+  still.edges()[0].normal[1][2] = 1.0f;
+  const AnalyticField field(Block{}, kSubstepVoxel);
+  const SampledBody body{{{Vector3(0.0, 0.0, 0.3 * kSubstepMargin)}, {Vector3::UnitX()}}, Vector3::Constant(1e-4)};
+  const Vector3 start(-0.02 - 0.08 * kSubstepMargin, 0.0, 0.01);
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, pose_at(start));
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {moving.view(), still.view()};
+  const Vector3 device = start + Vector3(0.5e-3, 0.0, -1e-3);
+  for (int k = 0; k < 3; ++k) ASSERT_EQ(run.step(pose_at(device)), Status::kOk);
+  EXPECT_NEAR(run.state.H_WS.translation.z(), device.z(), 0.1 * kSubstepMargin);
+  EXPECT_LT(run.state.H_WS.translation.x(), start.x());
+}
+
 /// A keel in a roof: convex edges that cross, far from all points.
 struct KeelInRoof {
   EdgeSet moving{{{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}}};
