@@ -468,6 +468,31 @@ TEST_F(GodObjectTest, ArrivesWithASmallBudgetOfWork) {
   }
 }
 
+/// The budget ends a search for a device at rest, so with a small radius. Before the search goes on the device jumps to
+/// the far side of the world: then points that the search did not look for are in the way.
+TEST_F(GodObjectTest, StopsBeforeAWorldBeyondTheRadiusOfASearchThatGoesOn) {
+  const double height = kWorldRadius + kBodyRadius;
+  int went_on = 0;
+  for (const double gap : {0.0003, 0.001, 0.003, 0.01}) {
+    for (std::uint64_t budget = 1000; budget < 40000; budget += 1000) {
+      OwnedGodObject god_object;
+      ASSERT_EQ(god_object.start(scene_, Solver::kContact, false), Status::kOk);
+      CycleReport report;
+      const GodObject::Input rest{mesh_pose({0.0, 0.0, height + gap}), Motion{}};
+      ASSERT_EQ(god_object->follow(rest.H_WM, report), Status::kOk);
+      god_object->set_work_budget(budget);
+      ASSERT_EQ(god_object->update(rest, report), Status::kOk);
+      went_on += report.out_of_work ? 1 : 0;
+      god_object->set_work_budget(GodObject::kNoBudget);
+      ASSERT_EQ(god_object->update({mesh_pose({0.0, 0.0, -height - 0.01}), Motion{}}, report), Status::kOk);
+      const Vector3 center = (god_object->mesh_pose() * scene_.H_MB).translation;
+      ASSERT_GT(center.z(), 0.0) << gap << ", " << budget << ": it slides along the near side";
+      ASSERT_GT(center.norm(), height - 1e-4) << gap << ", " << budget;
+    }
+  }
+  EXPECT_GT(went_on, 20);
+}
+
 /// A start forgets all of a search, wherever the budget ended it: the work is that of a new god object.
 TEST_F(GodObjectTest, ForgetsAtAStartASearchThatTheBudgetEnded) {
   const Pose start = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius + 0.0003});
