@@ -232,10 +232,10 @@ bool Center::push_obstacle(const Vector3& end) noexcept {
   return true;
 }
 
-/// Returns the overshoot of the whole motion as ContactSubsteps does, and sets `outdated`.
+/// Returns the overshoot of the whole motion of a held ball as ContactSubsteps does, and sets `outdated`.
 double Center::overshoot(const Vector3& motion) noexcept {
   const double steepness = there_.gradient.norm();
-  outdated = held.count > 0 && there_.distance > lengths_.margin + lengths_.opening;
+  outdated = there_.distance > lengths_.margin + lengths_.opening;
   if (!(steepness > kFlat)) return 0.0;
   double turn = std::numeric_limits<double>::infinity();  // from the nearest normal, as `least_turn`
   double rise = 0.0;
@@ -248,7 +248,7 @@ double Center::overshoot(const Vector3& motion) noexcept {
     const double expected = detail::expected_distance(lengths_, here_.distance, increase);
     lost += 2.0 * held.multiplier[k] * (expected - there_.distance) / steepness;
   }
-  outdated |= held.count > 0 && turn > kMostTurn;
+  outdated |= turn > kMostTurn;
   const double square = motion.squaredNorm();
   return rise > kMostOvershoot * square ? lost / square : 0.0;
 }
