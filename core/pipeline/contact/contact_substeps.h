@@ -181,6 +181,7 @@ class ContactSubsteps {
     at_edge_ = EdgeObstacle{};
     is_outdated_ = false;
     may_look_at_end_ = true;
+    first_look_row_ = rows_.count;
     const std::uint64_t begin = work_.spent();
     bool is_first_attempt = true;
     while (share_.next()) {
@@ -704,8 +705,8 @@ class ContactSubsteps {
   }
 
   /// Solves again with the rows of the obstacles: first with what the arcs of the points lose, unless that gains too
-  /// little (`most_arc_gain`), then without. False: they cannot become rows, change nothing, or would drive the god
-  /// object away from the device; then the step is as before.
+  /// little (`most_arc_gain`), then without. False: they cannot become rows, change nothing, would drive the god object
+  /// away from the device, or let it rest on a face that ends before the point; then the step is as before.
   bool look_again(const Freedom& freedom) noexcept {
     const ConstrainedStep tried = step_;
     const CouplingMetric metric = metric_;
@@ -718,7 +719,8 @@ class ContactSubsteps {
       if (work_.is_spent() || !push_obstacles(freedom, tried.motion, is_arc)) return false;
       solve_in_best_metric();
       add_violated_rows();
-      if (distance_gain() <= (is_arc ? most_with_arc : most_gain_) && differs(step_.motion, tried.motion)) {
+      if (distance_gain() <= (is_arc ? most_with_arc : most_gain_) && differs(step_.motion, tried.motion) &&
+          !rests_beside_a_face()) {
         step_.infeasible |= tried.infeasible;
         share_.look_again(allowed_share(step_.motion, around_, search_radius_, lengths_, true));
         limit_arcs();
@@ -731,6 +733,33 @@ class ContactSubsteps {
       step_.infeasible |= infeasible;
       metric_ = metric;
       aim_ = aim;
+    }
+    return false;
+  }
+
+  /// Tells whether the motion is none because a row of a second look holds a point beyond the end of its face. Then a
+  /// shorter motion leads on.
+  bool rests_beside_a_face() noexcept {
+    if (!(travel(lengths_.sphere, step_.motion) <= metric_.tolerance)) return false;
+    for (std::uint32_t f = 0; f < step_.force_count; ++f) {
+      const ContactForce& force = step_.forces[f];
+      if (is_edge_pair(force.id) || !is_of_second_look(force)) continue;
+      work_.add(Work::kBall);
+      const bool is_feature = (force.id & kFeature) != 0;
+      if (is_feature ? face_ends_before(*scene_.features.map, force.point, -force.normal, lengths_)
+                     : face_ends_before(*scene_.field, H0_ * force.point, H0_.rotation._transformVector(force.normal),
+                                        lengths_)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Tells whether the row of a force is that of a second look.
+  bool is_of_second_look(const ContactForce& force) const noexcept {
+    for (std::uint32_t row = rows_.find(force.id, first_look_row_); row < rows_.count;
+         row = rows_.find(force.id, row + 1)) {
+      if ((rows_.normal(row) - force.normal).isZero(1e-6)) return true;
     }
     return false;
   }
@@ -798,6 +827,7 @@ class ContactSubsteps {
   double free_displacement_{};  // upper bound of a point's displacement in `free_` [m]
   double search_radius_{};
   Surroundings around_{};
+  std::uint32_t first_look_row_{};  // rows of second looks begin here
   int refills_left_{};
   double regain_{};  // share of the lost gaps that the rows regain of what the gap law demands [1]
   MotionShare share_{1.0};

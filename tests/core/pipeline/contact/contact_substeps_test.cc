@@ -813,6 +813,21 @@ TEST(ContactSubsteps, LetAPointPassAnEdgeThatIsNearerToItsEdge) {
   EXPECT_LT(run.state.H_WS.translation.x(), start.x());
 }
 
+/// The top of the block lies under a point beside it only as a plane. The answer does not depend on the steepness.
+TEST(ContactSubsteps, KnowAFaceThatEndsBeforeAPoint) {
+  const AnalyticField field(Block{}, kSubstepVoxel);
+  ContactLengths lengths{};
+  lengths.margin = kSubstepMargin;
+  lengths.opening = 0.01 * kSubstepVoxel;
+  const Vector3 up = Vector3::UnitZ();
+  const double height = 0.01 + kSubstepMargin;
+  EXPECT_FALSE(detail::face_ends_before(field, {0.0, 0.0, height}, up, lengths));
+  EXPECT_FALSE(detail::face_ends_before(field, {0.02 - 1e-4, 0.0, height}, up, lengths));
+  EXPECT_TRUE(detail::face_ends_before(field, {0.02 + 1e-4, 0.0, height}, up, lengths)) << "the side is nearer";
+  EXPECT_FALSE(detail::face_ends_before(field, {0.02 + kSubstepMargin, 0.0, 0.0}, Vector3::UnitX(), lengths));
+  EXPECT_TRUE(detail::face_ends_before(field, {0.0, 0.0, height}, Vector3(0.6, 0.0, 0.8), lengths)) << "no such face";
+}
+
 /// A keel in a roof: convex edges that cross, far from all points.
 struct KeelInRoof {
   EdgeSet moving{{{Vector3(0.0, -0.01, 0.0), Vector3(0.0, 0.01, 0.0)}}};
