@@ -737,7 +737,7 @@ class ContactSubsteps {
     return false;
   }
 
-  /// Tells whether the motion is none because a row of a second look holds a point beyond the end of its face. Then a
+  /// Tells whether nothing moves because a row of a second look holds a point beyond the end of its face. Then a
   /// shorter motion leads on.
   bool rests_beside_a_face() noexcept {
     if (!(travel(lengths_.sphere, step_.motion) <= metric_.tolerance)) return false;
