@@ -32,8 +32,6 @@ using command::Failure;
 
 /// Time of a cycle outside of the god object, chosen: kinematics, torques, checks and frames take some 5 us [s].
 constexpr double kRestOfCycle = 10e-6;
-/// Distance from its position at which a god object that comes no nearer counts as held, chosen [m].
-constexpr double kMostLeft = 1e-4;
 
 SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
   set_gains(gains, scene);
@@ -110,25 +108,9 @@ std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) 
   const std::vector<Pose> path = calibration_path(scene_, config_.workspace.start);
   const WorkBudget found = find_budget(scene_, setup.friction, path, setup.memory, seconds, clock);
   if (found.with.cycles == 0) return GodObject::kNoBudget;  // the cycle's own start tells why
-  constexpr const char* kCure =
-      "raise loop.cycle_budget and loop.compute, or compile the scene with fewer points or "
-      "with point_budget";
-  if (found.with.longest > seconds) {
-    warn(
-        fmt::format("no budget of work keeps cycles within {:.0f} us: the longest of a test motion takes {:.0f} us; {}",
-                    1e6 * seconds, 1e6 * found.with.longest, kCure));
-  }
   const double left = distance_left(scene_, setup.friction, path, setup.memory, found.units);
-  if (left > kMostLeft) {
-    warn(
-        fmt::format("with {:.0f} us a cycle the god object stops on the way: after a test motion it is still {:.3g} mm "
-                    "from the position that it reaches without a budget; {}",
-                    1e6 * seconds, 1e3 * left, kCure));
-  }
-  fmt::print(
-      "budget: {:.0f} us a cycle for the god object, {} units. With them the longest cycle of a test motion takes "
-      "{:.0f} us; they end {} of {} cycles, {} of which have contact\n",
-      1e6 * seconds, found.units, 1e6 * found.with.longest, found.with.ended, found.with.cycles, found.with.contacts);
+  for (const std::string& concern : concerns(found, seconds, left)) warn(concern);
+  fmt::print("{}\n", describe(found, seconds));
   return found.units;
 }
 

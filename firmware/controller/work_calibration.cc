@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace godobject::firmware {
 namespace {
 
@@ -95,6 +97,33 @@ TimedPath time_path(const SceneView& scene, bool friction, std::span<const Pose>
   }
   for (std::size_t k = 1; k < path.size(); ++k) timed.longest = std::max(timed.longest, least[k]);
   return timed;
+}
+
+std::string describe(const WorkBudget& budget, double seconds) {
+  const TimedPath& with = budget.with;
+  return fmt::format(
+      "budget: {:.0f} us a cycle for the god object, {} units. With them the longest cycle of a test motion takes "
+      "{:.0f} us; they end {} of {} cycles, {} of which have contact",
+      1e6 * seconds, budget.units, 1e6 * with.longest, with.ended, with.cycles, with.contacts);
+}
+
+std::vector<std::string> concerns(const WorkBudget& budget, double seconds, double left) {
+  constexpr double kMostLeft = 1e-4;  // [m], chosen: a god object that comes no nearer counts as held
+  constexpr const char* kCure =
+      "raise loop.cycle_budget and loop.compute, or compile the scene with fewer points or with point_budget";
+  std::vector<std::string> all;
+  if (budget.with.longest > seconds) {
+    all.push_back(
+        fmt::format("no budget of work keeps cycles within {:.0f} us: the longest of a test motion takes {:.0f} us; {}",
+                    1e6 * seconds, 1e6 * budget.with.longest, kCure));
+  }
+  if (left > kMostLeft) {
+    all.push_back(
+        fmt::format("with {:.0f} us a cycle the god object stops on the way: after a test motion it is still {:.3g} mm "
+                    "from the position that it reaches without a budget; {}",
+                    1e6 * seconds, 1e3 * left, kCure));
+  }
+  return all;
 }
 
 WorkBudget find_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,

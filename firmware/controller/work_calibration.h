@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/scene/scene_view.h"
@@ -40,6 +41,13 @@ struct WorkBudget {
   std::uint64_t units{};
   TimedPath with;  ///< the motion with this budget
 };
+
+/// Returns the line that tells the operator of a budget for `seconds`.
+std::string describe(const WorkBudget& budget, double seconds);
+
+/// Returns what the operator must know of a budget that does not bound the time, or leaves the god object behind, with
+/// the cure. `left`: as `distance_left` [m].
+std::vector<std::string> concerns(const WorkBudget& budget, double seconds, double left);
 
 /// Finds a budget with which no cycle of a path but the first takes longer than `seconds`, from the nominal one down.
 /// If there is none after some trials, the last one is returned: see `with.longest`. Cost: at most eight times that of

@@ -118,8 +118,10 @@ int main(int argc, char** argv) {
       ->required()
       ->option_text("NAMES");
   app.add_option("--scene", options.scene, "scene image, instead of scene.image")->option_text("FILE");
-  app.add_option("--enable-after", options.enable_after,
-                 "time of the arm in seconds from which the operator holds the enable switch; default: 3")
+  app.add_option(
+         "--enable-after", options.enable_after,
+         fmt::format("time of the arm in seconds from which the operator holds the enable switch; default: {:g}",
+                     options.enable_after))
       ->check(CLI::Range(0.0, 1e6))
       ->option_text("SECONDS");
   app.add_option("--duration", options.duration, "seconds until the run ends; default: no limit")

@@ -140,7 +140,10 @@ TEST(ArmDynamics, PendulumIsAsByHand) {
   model.H_RA.rotation = exp_rotation(Vector3(0.5 * M_PI, 0.0, 0.0));
   model.joints[0].link = {2.0, Vector3(0.5, 0.0, 0.0), Matrix3::Zero()};
   model.joints[0].rotor = 0.1;
+  model.joints[0].lower = -1.0;
+  model.joints[0].upper = model.joints[0].velocity = model.joints[0].torque = 1.0;
   model.H_FM.translation = Vector3(0.7, 0.0, 0.0);
+  ASSERT_EQ(validate(model), Status::kOk);
   const ArmDynamics arm(model);
   ArmPosture posture;
   JointVector q = JointVector::Zero();

@@ -299,7 +299,7 @@ class ContactSubsteps {
         if (!(gap < std::numeric_limits<double>::infinity())) continue;
         rows_.remove(row);
         points.forget_gradient(k);
-        // the certificate asks no more of the point than the pairs keep: after a start inside they may be nearer
+        // the certificate asks no more of the point than the pairs keep, which may be nearer, as after a start inside
         if (gap > 0.0) points.distance[k] = std::min(points.distance[k], gap);
         dropped = true;
       }

@@ -55,12 +55,13 @@ inline double expected_distance(const ContactLengths& lengths, double at_start, 
 }
 
 /// Tells whether the face of a second look ends before a point that rests on it. Its row holds a plane, which leads on
-/// beyond the face. Where the plane is the surface, the field a little behind it has the plane's normal. `point` [m]
-/// and unit `normal` are in the field's frame. Cost: a look-up. Real-time safe.
+/// beyond the face. Where the plane is the surface, the field behind it, by the gap of an open contact, has the plane's
+/// normal. Within that gap of a ridge the face counts as ended. `point` [m] and unit `normal` are in the field's frame.
+/// Cost: a look-up. Real-time safe.
 template <DistanceField Field>
 bool face_ends_before(const Field& field, const Vector3& point, const Vector3& normal,
                       const ContactLengths& lengths) noexcept {
-  constexpr double kSameFace = 0.9;  // cosine, chosen: a face of a ball of ten margins turns by less
+  constexpr double kSameFace = 0.9;  // cosine, chosen: within a margin a ball of ten margins turns by less
   const FieldSample behind = field.sample(point - (lengths.margin + lengths.opening) * normal);
   return behind.known && !(behind.gradient.dot(normal) > kSameFace * behind.gradient.norm());
 }

@@ -117,9 +117,9 @@ TEST(PassivityObserver, SeesWhatHoldAndDelayGive) {
   }
 }
 
-const Wrench kPush{{0.0, 0.0, 10.0}, {}};
-const Motion kIn{{0.0, 0.0, -0.1}, {}};
-const Motion kOut{{0.0, 0.0, 0.1}, {}};
+const Wrench kPush{.force = {0.0, 0.0, 10.0}};
+const Motion kIn{.translation = {0.0, 0.0, -0.1}};
+const Motion kOut{.translation = {0.0, 0.0, 0.1}};
 
 TEST(PassivityController, LeavesTheWrenchAloneWithoutADebt) {
   PassivityController controller({.most_damping = 50.0});
@@ -137,7 +137,7 @@ TEST(PassivityController, DampsNothingWithoutADebtHoweverSmallWrenchAndMotionAre
   for (const double force : {1e-150, 1e-3, 10.0}) {
     for (const double speed : {1e-200, 1e-50, 0.1}) {
       const Wrench F{{0.0, 0.0, force}, {0.0, 0.1 * force, 0.0}};
-      const Wrench out = controller.apply(0.0, F, {{0.0, 0.0, -speed}, {}});
+      const Wrench out = controller.apply(0.0, F, {.translation = {0.0, 0.0, -speed}});
       EXPECT_EQ(out.force, F.force) << force << ", " << speed;
       EXPECT_EQ(out.torque, F.torque) << force << ", " << speed;
       EXPECT_EQ(controller.damping(), 0.0) << force << ", " << speed;
@@ -151,7 +151,7 @@ TEST(PassivityController, CountsWithTheStatedPeriodAndLengthUnlessToldOtherwise)
   PassivityController controller({.most_damping = 50.0});
   EXPECT_NEAR(controller.apply(-1e-4, kPush, kIn).force.z(), 11.0, 1e-12);
   EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
-  const Wrench out = controller.apply(-1e-4, {{}, {0.0, 0.0, 1.0}}, {{}, {0.0, 0.0, -1.0}});
+  const Wrench out = controller.apply(-1e-4, {.torque = {0.0, 0.0, 1.0}}, {.rotation = {0.0, 0.0, -1.0}});
   EXPECT_NEAR(out.torque.z(), 1.1, 1e-13);
   EXPECT_NEAR(controller.damping(), 10.0, 1e-12);
 }
@@ -251,7 +251,7 @@ TEST(PassivityController, StaysFiniteAtTheEdgesOfNumbers) {
   PassivityController controller({.most_damping = 50.0, .period = kPeriod});
   for (const double force : {1e-200, 1e-160, 1e-30, 1e30}) {
     for (const double speed : {1e-200, 1e-160, 1e-30, 1e3}) {
-      const Wrench out = controller.apply(-1.0, {{0.0, force, 0.0}, {}}, {{0.0, speed, 0.0}, {}});
+      const Wrench out = controller.apply(-1.0, {.force = {0.0, force, 0.0}}, {.translation = {0.0, speed, 0.0}});
       EXPECT_TRUE(out.force.allFinite());
       EXPECT_LE(out.force.norm(), force);
     }

@@ -472,7 +472,7 @@ TEST_F(GodObjectTest, ArrivesWithASmallBudgetOfWork) {
 /// the far side of the world: then points that the search did not look for are in the way.
 TEST_F(GodObjectTest, StopsBeforeAWorldBeyondTheRadiusOfASearchThatGoesOn) {
   const double height = kWorldRadius + kBodyRadius;
-  int went_on = 0;
+  int ended_by_budget = 0;
   for (const double gap : {0.0003, 0.001, 0.003, 0.01}) {
     for (std::uint64_t budget = 1000; budget < 40000; budget += 1000) {
       OwnedGodObject god_object;
@@ -482,7 +482,7 @@ TEST_F(GodObjectTest, StopsBeforeAWorldBeyondTheRadiusOfASearchThatGoesOn) {
       ASSERT_EQ(god_object->follow(rest.H_WM, report), Status::kOk);
       god_object->set_work_budget(budget);
       ASSERT_EQ(god_object->update(rest, report), Status::kOk);
-      went_on += report.out_of_work ? 1 : 0;
+      ended_by_budget += report.out_of_work ? 1 : 0;
       god_object->set_work_budget(GodObject::kNoBudget);
       ASSERT_EQ(god_object->update({mesh_pose({0.0, 0.0, -height - 0.01}), Motion{}}, report), Status::kOk);
       const Vector3 center = (god_object->mesh_pose() * scene_.H_MB).translation;
@@ -490,7 +490,7 @@ TEST_F(GodObjectTest, StopsBeforeAWorldBeyondTheRadiusOfASearchThatGoesOn) {
       ASSERT_GT(center.norm(), height - 1e-4) << gap << ", " << budget;
     }
   }
-  EXPECT_GT(went_on, 20);
+  EXPECT_GT(ended_by_budget, 20);
 }
 
 /// A start forgets all of a search, wherever the budget ended it: the work is that of a new god object.
@@ -513,23 +513,6 @@ TEST_F(GodObjectTest, ForgetsAtAStartASearchThatTheBudgetEnded) {
       ASSERT_EQ(report.work, expected.work) << budget << ", cycle " << k;
       ASSERT_EQ(report.H_WS.translation, expected.H_WS.translation) << budget << ", cycle " << k;
     }
-  }
-}
-
-/// While points are missing nobody knows whether the first pose is inside. That must not hold a body that is free.
-TEST_F(GodObjectTest, DoesNotTakeAFreeStartForOneInside) {
-  const Pose start = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius + 0.0003});
-  const GodObject::Input away{mesh_pose({0.001, 0.0, kWorldRadius + kBodyRadius + 0.002}), Motion{}};
-  for (const std::uint64_t budget : {10000u, 12000u, 16000u, 30000u}) {
-    OwnedGodObject god_object;
-    ASSERT_EQ(god_object.start(scene_, Solver::kContact, true), Status::kOk);
-    god_object->set_work_budget(budget);
-    CycleReport report;
-    ASSERT_EQ(god_object->follow(start, report), Status::kOk);
-    for (int k = 0; k < 100; ++k) ASSERT_EQ(god_object->update({start, Motion{}}, report), Status::kOk);
-    EXPECT_NE(report.outcome, Outcome::kStartInside) << budget;
-    for (int k = 0; k < 100; ++k) ASSERT_EQ(god_object->update(away, report), Status::kOk);
-    EXPECT_LT((god_object->mesh_pose().translation - away.H_WM.translation).norm(), 1e-5) << budget;
   }
 }
 

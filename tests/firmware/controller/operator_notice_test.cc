@@ -42,6 +42,9 @@ TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
   }
 }
 
+/// Also if it has waited for long when it is first looked at.
+TEST_F(OperatorNoticeTest, SaysAtTheFirstLookThatItWaits) { EXPECT_EQ(told(Mode::kIdle, 9000), kIdle); }
+
 TEST_F(OperatorNoticeTest, SaysOnceWhyItHasStoppedAndHowToGoOn) {
   const auto line = [](const std::string& why) {
     return "godobject-controller: stopped: " + why +

@@ -126,5 +126,27 @@ TEST_F(WorkCalibration, FindsNothingWhereTheGodObjectDoesNotStart) {
   EXPECT_EQ(distance_left(scene_, true, path, {}, 1), 0.0);
 }
 
+TEST_F(WorkCalibration, SaysWhatTheBudgetIsAndWhatItDoes) {
+  const WorkBudget budget{.units = 400000, .with = {.longest = 80e-6, .cycles = 900, .contacts = 500, .ended = 30}};
+  EXPECT_EQ(describe(budget, 100e-6),
+            "budget: 100 us a cycle for the god object, 400000 units. With them the longest cycle of a test motion "
+            "takes 80 us; they end 30 of 900 cycles, 500 of which have contact");
+  EXPECT_TRUE(concerns(budget, 80e-6, 1e-4).empty());
+}
+
+TEST_F(WorkCalibration, SaysThatABudgetDoesNotHoldOrHoldsTheGodObject) {
+  const WorkBudget budget{.units = 400000, .with = {.longest = 120e-6}};
+  const std::vector<std::string> both = concerns(budget, 100e-6, 2.5e-3);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].find("no budget of work keeps cycles within 100 us: the longest of a test motion takes 120 us; "
+                         "raise loop.cycle_budget"),
+            0u);
+  EXPECT_EQ(both[1].find("with 100 us a cycle the god object stops on the way: after a test motion it is still 2.5 mm "
+                         "from"),
+            0u);
+  EXPECT_EQ(concerns(budget, 120e-6, 2.5e-3).size(), 1u);
+  EXPECT_EQ(concerns(budget, 100e-6, 0.0).size(), 1u);
+}
+
 }  // namespace
 }  // namespace godobject::firmware::work_calibration_test

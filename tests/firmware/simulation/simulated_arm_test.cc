@@ -154,7 +154,7 @@ TEST_F(SimulatedArmTest, MovesTheHandAlongTheSlowerPathAsAlongOneWrittenDown) {
     SimulatedArm arm(config_, place(config_.workspace, config_.device, Vector3(0, 0, 0)));
     std::vector<Pose> seen;
     for (int ms = 0; ms < 30; ++ms) {
-      arm.plant().step(1'000'000, {});
+      for (int part = 0; part < 10; ++part) arm.plant().step(sim::Plant::kStep_ns, {});
       seen.push_back(arm.plant().hand().pose);
     }
     return seen;

@@ -23,7 +23,7 @@ struct NearPoints {
   alignas(64) float x[kLength];  ///< in the shell's frame [m]
   alignas(64) float y[kLength];
   alignas(64) float z[kLength];
-  alignas(64) double distance[kLength];   ///< stored [m]; `implied_gap` may lower it
+  alignas(64) double distance[kLength];   ///< stored [m]; less if edge pairs imply the row
   alignas(64) double clearance[kLength];  ///< FieldSample::clearance [m]
   alignas(64) float gradient_x[kLength];  ///< of the distance, in the field's frame; 0: not known, or no row [1]
   alignas(64) float gradient_y[kLength];

@@ -362,6 +362,8 @@ TEST(Certificate, ProvesNothingOnceTheBudgetIsSpent) {
     if (is_free && !is_proved) {
       EXPECT_TRUE(work.is_spent());
       EXPECT_TRUE(here.exhausted);
+      EXPECT_GE(here.share, 0.0);
+      EXPECT_LT(here.share, 1.0) << "nothing is known of the end";
       ++ended;
     }
     free += is_proved ? 1 : 0;

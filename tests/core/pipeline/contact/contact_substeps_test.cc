@@ -688,6 +688,38 @@ TEST(ContactSubsteps, KnowAStartThatOnlyAFeaturePointPenetrates) {
   EXPECT_NEAR(gap(), kSubstepMargin, 0.1 * kSubstepMargin);
 }
 
+/// Two feature points start inside the block, under its top and over its bottom, so that no motion meets their rows. A
+/// third one lies inside its side: the way out leads past that one, by the margin, and leaves the other two where they
+/// cancel.
+TEST(ContactSubsteps, LeaveAnOverlapOfFeaturePointsWhereTheyDoNotCancel) {
+  constexpr double kDepth = 1e-4;
+  const AnalyticField nothing(HalfSpace{Vector3::UnitZ(), -1.0}, kSubstepVoxel);
+  const AnalyticField block(Block{{0.03, 0.02, 0.015}}, kSubstepVoxel);
+  const SampledBody body = box_body(3);
+  const Vector3 up = Vector3::UnitZ();
+  const SampledBody still({{up * (0.015 - kDepth), -up * (0.015 - kDepth), Vector3::UnitX() * (0.03 - kDepth)},
+                           {-up, up, -Vector3::UnitX()}},
+                          Vector3::Ones());
+  Parameters q;
+  q.mass = body.mass;
+  q.voxel_size = kSubstepVoxel;
+  q.margin = kSubstepMargin;
+  const Pointshell shell = body.pointshell();
+  const ContactScene<AnalyticField, AnalyticField> scene(nothing, shell,
+                                                         {&block, still.pointshell(), Vector3::Zero(), 0.05}, q);
+  const auto memory = std::make_unique<ContactMemory>();
+  memory->search.start(scene, {});
+  ProxyState state;
+  CycleReport report;
+  CycleInput input;
+  for (int cycle = 0; cycle < 60; ++cycle) {
+    ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+    EXPECT_EQ(report.outcome, Outcome::kStartInside) << cycle;
+  }
+  EXPECT_NEAR(state.H_WS.translation.x(), -kDepth - kSubstepMargin, 0.1 * kSubstepMargin);
+  EXPECT_NEAR(state.H_WS.translation.z(), 0.0, 0.1 * kSubstepMargin);
+}
+
 /// The memory of a cycle does not outlive a reset.
 TEST(ContactMemory, ForgetsTheLastCycleWhenReset) {
   const auto memory = std::make_unique<ContactMemory>();
@@ -728,6 +760,44 @@ struct EdgeCycle {
                         : contact_cycle<false>(scene, input, *memory, state, report);
   }
 };
+
+/// The first search of a face of 400 near points takes several cycles with a small budget of work. While points are
+/// missing nobody knows whether the body starts inside: that must not hold it, and it does not, once all are seen.
+TEST(ContactSubsteps, LetAFreeBodyGoWhoseFirstSearchTookSeveralCycles) {
+  const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);
+  const SampledBody body = box_body(21);
+  const Pointshell shell = body.pointshell();
+  for (const double gap : {1.5, 10.0}) {
+    for (const std::uint64_t budget : {12000u, 20000u, 40000u}) {
+      Parameters q;
+      q.mass = body.mass;
+      q.voxel_size = kSubstepVoxel;
+      q.margin = kSubstepMargin;
+      q.work_budget = budget;
+      const ContactScene<AnalyticField, NoBodyField> scene(field, shell, {}, q);
+      const auto memory = std::make_unique<ContactMemory>();
+      std::vector<std::uint32_t> words(ContactSearch::memory(shell, {}));
+      memory->search.start(scene, words);
+      ProxyState state;
+      CycleReport report;
+      CycleInput input;
+      state.H_WS = input.H_WD = memory->H_WD_last = pose_at({0.0, 0.0, 0.015 + gap * kSubstepMargin});
+      int inside = 0;
+      for (int cycle = 0; cycle < 20; ++cycle) {
+        ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+        inside += report.outcome == Outcome::kStartInside ? 1 : 0;
+      }
+      EXPECT_GT(inside, 0) << gap << ' ' << budget << ": or the search took one cycle";
+      EXPECT_LT(inside, 10) << gap << ' ' << budget;
+      EXPECT_FALSE(state.inside) << gap << ' ' << budget;
+      input.H_WD.translation.z() += 0.003;
+      for (int cycle = 0; cycle < 200; ++cycle) {
+        ASSERT_EQ(contact_cycle<false>(scene, input, *memory, state, report), Status::kOk);
+      }
+      EXPECT_TRUE(state.H_WS == input.H_WD) << gap << ' ' << budget;
+    }
+  }
+}
 
 /// Far from any surface a cycle is one step to the device, whether its own search or an earlier one proves the way
 /// free.
@@ -813,7 +883,7 @@ TEST(ContactSubsteps, LetAPointPassAnEdgeThatIsNearerToItsEdge) {
   EXPECT_LT(run.state.H_WS.translation.x(), start.x());
 }
 
-/// The top of the block lies under a point beside it only as a plane. The answer does not depend on the steepness.
+/// The top of the block lies under a point beside it only as a plane.
 TEST(ContactSubsteps, KnowAFaceThatEndsBeforeAPoint) {
   const AnalyticField field(Block{}, kSubstepVoxel);
   ContactLengths lengths{};
