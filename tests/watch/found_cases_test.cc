@@ -31,7 +31,6 @@ TEST_P(FoundCases, AreHeld) {
   const watch::Findings found = report::run_setup(setup, *report::make_rig(setup, folder_));
   EXPECT_EQ(found.violations(), 0) << found.first();
   EXPECT_EQ(found.cycles, setup.cycles);
-  EXPECT_GT(found.touching, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzzer, FoundCases, testing::ValuesIn(found_cases()),

@@ -114,7 +114,7 @@ class Tree:
 
     def configure(self, build, *options):
         subprocess.run(['cmake', '-S', str(self.copy), '-B', str(build), '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release',
-                        '-DCMAKE_CXX_FLAGS=-w -fdiagnostics-color=never -fno-diagnostics-show-caret -ftemplate-backtrace-limit=0',
+                        '-DCMAKE_CXX_FLAGS=-w -DEIGEN_INITIALIZE_MATRICES_BY_NAN -fdiagnostics-color=never -fno-diagnostics-show-caret -ftemplate-backtrace-limit=0',
                         # the assertions of Eigen and of the standard library and bounds of arrays find most accesses out of range
                         '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -D_GLIBCXX_ASSERTIONS -fsanitize=bounds-strict '
                         '-fsanitize-undefined-trap-on-error', f'-DCMAKE_EXE_LINKER_FLAGS={self.object}', *options],

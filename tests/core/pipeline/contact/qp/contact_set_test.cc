@@ -119,7 +119,7 @@ TEST(ContactSet, TakesASlipThatIsNotAboveStillForRest) {
   const ContactSet set = bench.set();
   Contact contact;
   contact.normal = Vector3::UnitZ();
-  contact.point = Vector3::Zero();
+  contact.point = contact.grip = Vector3::Zero();
   const auto slip_at = [&](double speed) { return set.slip_of(contact, {{0.0, speed, 0.3}, Vector3::Zero()}); };
   EXPECT_EQ(slip_at(kSetMetric.still).direction, Vector3::Zero());
   EXPECT_EQ(slip_at(kSetMetric.still).speed, kSetMetric.still);
