@@ -6,11 +6,13 @@
 #include <type_traits>
 
 #include "core/pipeline/compiled_session.h"
+#include "core/pipeline/cycle/work.h"
 
 namespace godobject {
 namespace {
 
 constexpr std::size_t kAlignment = 64;
+static_assert(GodObject::kNoBudget == WorkMeter::kUnlimited);
 static_assert(alignof(CompiledSession) <= kAlignment);
 static_assert(std::is_trivially_destructible_v<CompiledSession>);
 static_assert(sizeof(CompiledSession) < 1792 * 1024);

@@ -493,29 +493,6 @@ TEST_F(GodObjectTest, StopsBeforeAWorldBeyondTheRadiusOfASearchThatGoesOn) {
   EXPECT_GT(ended_by_budget, 20);
 }
 
-/// A start forgets all of a search, wherever the budget ended it: the work is that of a new god object.
-TEST_F(GodObjectTest, ForgetsAtAStartASearchThatTheBudgetEnded) {
-  const Pose start = mesh_pose({0.0, 0.0, kWorldRadius + kBodyRadius + 0.0003});
-  OwnedGodObject used, fresh;
-  CycleReport report, expected;
-  for (const std::uint64_t budget : {500u, 3000u, 6000u, 10000u, 16000u}) {
-    ASSERT_EQ(used.start(scene_, Solver::kContact, true), Status::kOk);
-    used->set_work_budget(budget);
-    ASSERT_EQ(used->update({start, Motion{}}, report), Status::kOk);
-    ASSERT_TRUE(report.out_of_work) << budget;
-    ASSERT_EQ(used.start(scene_, Solver::kContact, true), Status::kOk);
-    used->set_work_budget(GodObject::kNoBudget);
-    ASSERT_EQ(fresh.start(scene_, Solver::kContact, true), Status::kOk);
-    for (int k = 0; k < 500; ++k) {
-      const GodObject::Input input{along_path(0.002 * k), Motion{}};
-      ASSERT_EQ(used->update(input, report), Status::kOk);
-      ASSERT_EQ(fresh->update(input, expected), Status::kOk);
-      ASSERT_EQ(report.work, expected.work) << budget << ", cycle " << k;
-      ASSERT_EQ(report.H_WS.translation, expected.H_WS.translation) << budget << ", cycle " << k;
-    }
-  }
-}
-
 TEST_F(GodObjectTest, RefusesWhatTheImageDoesNotHold) {
   SceneDescription lean = balls();
   lean.normals.clear();

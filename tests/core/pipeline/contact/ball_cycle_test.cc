@@ -4,7 +4,6 @@
 #include "core/pipeline/contact/ball_cycle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -88,11 +87,6 @@ const SceneImage& maze() {
       },
       0.003);
   return image;
-}
-
-/// A ball about the origin whose stored distances grow by `steepness` a metre.
-SceneImage ball_of(double steepness) {
-  return image_of([=](const Vector3& p) { return steepness * (p.norm() - 0.012); }, 0.003);
 }
 
 /// The centre of a ball over a still body, whose distances are those of the centre.
@@ -579,12 +573,10 @@ class PointRun {
 /// Both cycles start from the same pose in each cycle: they give the same motion, force, and report.
 TEST(BallCycle, DoesAsTheCycleForAnyBodyDoes) {
   int compared = 0, differ = 0, cut = 0, substeps = 0;
-  const SceneImage low = ball_of(0.6), high = ball_of(1.3);
-  const std::array<const SceneImage*, 6> worlds = {&groove(), &maze(), &groove(), &maze(), &low, &high};
-  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u}) {
     Random random(seed);
-    BallRun run(*worlds[seed - 1], {-0.02, 0.0, 0.025});
-    if (seed == 3 || seed == 4) run.q.workspace = {true, {-0.021, -0.01, -0.03}, {0.004, 0.01, 0.03}};
+    BallRun run(seed % 2 == 0 ? maze() : groove(), {-0.02, 0.0, 0.025});
+    if (seed > 2) run.q.workspace = {true, {-0.021, -0.01, -0.03}, {0.004, 0.01, 0.03}};
     PointRun other(run);
     Vector3 goal = run.center(), velocity = Vector3::Zero();
     for (int cycle = 0; cycle < 600; ++cycle) {

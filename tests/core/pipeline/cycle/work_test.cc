@@ -104,8 +104,8 @@ TEST(WorkShare, KeepsAllIfTheSearchGoesOn) {
   }
 }
 
-/// Where the search is kept, only a shorter motion helps. From a sixty-fourth of the motion on the solver leaves
-/// friction out.
+/// Where the search goes on, only a shorter motion helps. Once the share of the motion is a sixty-fourth or less, the
+/// solver leaves friction out.
 TEST(WorkShare, ShortensTheMotionAloneIfThePointsAreKnown) {
   WorkShare share;
   for (int halving = 1; halving <= 40; ++halving) {
