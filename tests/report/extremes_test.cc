@@ -57,6 +57,10 @@ TEST(SetupOf, EachRowIsOfThatRow) {
       if (r == 5) {
         EXPECT_GE(setup.points, 1000);
       }
+      if (r == 6) {
+        EXPECT_GT(setup.aside, 0.0);
+        EXPECT_LE(std::abs(setup.start), 0.5);
+      }
       if (setup.motion == "seek") continue;
       for (const Pose& H_WD : device_path(setup)) ASSERT_TRUE(H_WD.is_finite());
     }

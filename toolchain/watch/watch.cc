@@ -109,14 +109,17 @@ void Watch::cycle(const WatchedCycle& cycle) {
   if (is_contact) follow(cycle);
   H_WS_ = cycle.report.H_WS;
   H_WD_last_ = H_WD;
-  if (is_inside_ || edges_overlap_) find_overlaps();  // the last points come out before the last edges
   check_wrench(cycle);
-  if (!is_contact) return;
-  if (cycle.report.contacts > 0) ++findings_.touching;
-  check_report(cycle, is_first || was_inside);
-  if (is_inside_ || was_inside) return;
-  check_distance(cycle);
-  check_reference(cycle);
+  if (is_contact) {
+    if (cycle.report.contacts > 0) ++findings_.touching;
+    check_report(cycle, is_first || was_inside);
+    if (!is_inside_ && !was_inside) {
+      check_distance(cycle);
+      check_reference(cycle);
+    }
+  }
+  // after the checks, which look at the pose before the cycle, too; the last points come out before the last edges
+  if (is_inside_ || edges_overlap_) find_overlaps();
 }
 
 void Watch::start(const Pose& H_WD) {

@@ -26,6 +26,10 @@ Seeker::Seeker(const Setup& setup) : setup_(setup), draw_(setup.seed + setup.ses
   const bool is_narrow = setup.world == "slot" || setup.world == "bore" || setup.world == "mesh-cavity";
   if (setup.world == "mesh-cavity") H_OD.translation = Vector3(0.0, 0.0, -half_size_of_body(setup).z());
   if (!is_narrow) H_OD.rotation = exp_rotation(draw_.between(0.0, 3.0) * draw_.direction());
+  if (is_narrow && setup.aside > 0.0) {
+    H_OD.translation += setup.aside * s * draw_.direction();
+    H_OD.rotation = exp_rotation(setup.aside * draw_.direction());
+  }
   H_WD_ = H_WO * H_OD;
   H_WD_held_ = H_WD_;
   normal_W_ = H_WO.rotation._transformVector(Vector3::UnitZ());

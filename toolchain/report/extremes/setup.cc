@@ -12,6 +12,8 @@
 namespace godobject::report {
 namespace {
 
+constexpr std::size_t kTightStarts = 6;  ///< of kRows
+
 class Choice {
  public:
   explicit Choice(std::mt19937& random) : random_(random) {}
@@ -30,8 +32,9 @@ class Choice {
 
 }  // namespace
 
-const char* const kRows[] = {"scale and place",     "slender and singular bodies", "start inside, deep, at the rim",
-                             "jumps and bad input", "opposing contacts",           "hundreds of constraints"};
+const char* const kRows[] = {
+    "scale and place",   "slender and singular bodies", "start inside, deep, at the rim", "jumps and bad input",
+    "opposing contacts", "hundreds of constraints",     "starts inside tight parts"};
 const std::size_t kRowCount = std::size(kRows);
 
 Setup any_setup(std::mt19937& random) {
@@ -99,6 +102,13 @@ Setup setup_of(const std::string& row, std::mt19937& random) {
     setup.body = choice.of({"ball", "box"});
     setup.far = 0.0;
     setup.start = 0.0;
+  } else if (row == kRows[kTightStarts]) {
+    setup.world = choice.of({"slot", "groove", "bore", "heap"});
+    setup.body = choice.of({"box", "ell", "ball"});
+    setup.motion = "seek";
+    setup.width = choice.spread(1.0001, 1.2);
+    setup.start = choice.between(-0.5, 0.5);
+    setup.aside = choice.spread(1e-3, 1.0);
   } else {
     setup.body = choice.of({"box", "flat"});
     setup.points = static_cast<int>(choice.spread(1000.0, 4000.0));
@@ -112,10 +122,12 @@ Setup setup_of(const std::string& row, std::mt19937& random) {
 
 namespace {
 
-/// Keeps what a session chooses within what compiled worlds take; `seed` decides whether it may begin inside.
+/// Keeps what a session chooses within what compiled worlds take; `seed` decides whether it may begin inside, if its
+/// row does not.
 void fit_session(Setup& setup, std::uint32_t seed) {
   if (setup.body == "center" && setup.solver == format::Solver::kPaper) setup.solver = format::Solver::kContact;
-  if (seed / 64 % 8 != 0) setup.start = std::max(setup.start, 2.0);
+  const bool begins_inside = setup.row == kRows[kTightStarts] || seed / 64 % 8 == 0;
+  if (!begins_inside) setup.start = std::max(setup.start, 2.0);
   setup.period = 1e-3;
   setup.bad_every = 17;
 }
@@ -188,7 +200,8 @@ std::string case_file(const Setup& s, const std::string& found) {
                                 {"remembers", s.remembers},
                                 {"work_budget", s.work_budget},
                                 {"returns", s.returns},
-                                {"session", s.session}}
+                                {"session", s.session},
+                                {"aside", s.aside}}
              .dump(1) +
          "\n";
 }
@@ -235,6 +248,7 @@ Setup read_case(const std::string& text) {
   s.returns = all.value("returns", false);        // files of generator 2 lack it
   s.session = all.value("session", 0u);           // files of generator 3 lack it
   s.work_budget = all.value("work_budget", 0.0);  // files of generator 4 lack it
+  s.aside = all.value("aside", 0.0);              // files of generator 5 lack it
   return s;
 }
 

@@ -10,7 +10,7 @@
 namespace godobject::report {
 
 /// Number of the generator below; with another number a seed gives other setups.
-inline constexpr int kGenerator = 5;
+inline constexpr int kGenerator = 6;
 
 /// One run of a solver with all numbers, as in a case file. Lengths are multiples of `scale`.
 struct Setup {
@@ -29,6 +29,7 @@ struct Setup {
   double far = 0.0;     ///< distance of the scene from the origin
   double width = 1.1;   ///< half width of slot, groove and bore
   double start = 2.0;   ///< start height of the device over z = 0
+  double aside = 0.0;   ///< seek: distance of the first pose from the middle of a narrow world, and its turn [rad]
   double depth = 0.5;   ///< depth of the press
   double speed = 5.0;   ///< [1/s]
   double spin = 3.0;    ///< [rad/s]
