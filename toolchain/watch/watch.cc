@@ -118,7 +118,7 @@ void Watch::cycle(const WatchedCycle& cycle) {
       check_reference(cycle);
     }
   }
-  // after the checks, which look at the pose before the cycle, too; the last points come out before the last edges
+  // The checks above need the overlaps at the start of the cycle. Edges may overlap after all points are outside.
   if (is_inside_ || edges_overlap_) find_overlaps();
 }
 

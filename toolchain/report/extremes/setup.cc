@@ -103,12 +103,13 @@ Setup setup_of(const std::string& row, std::mt19937& random) {
     setup.far = 0.0;
     setup.start = 0.0;
   } else if (row == kRows[kTightStarts]) {
-    setup.world = choice.of({"slot", "groove", "bore", "heap"});
+    setup.world = choice.of({"slot", "groove", "bore"});
     setup.body = choice.of({"box", "ell", "ball"});
+    setup.body_scale = setup.body == "box" ? 1.25 : setup.body == "ell" ? 1.1 : 1.0;  // each is 2 `scale` wide
     setup.motion = "seek";
-    setup.width = choice.spread(1.0001, 1.2);
-    setup.start = choice.between(-0.5, 0.5);
-    setup.aside = choice.spread(1e-3, 1.0);
+    setup.width = 1.0 + choice.spread(1e-4, 0.05);
+    setup.start = choice.between(-0.5, 0.0);
+    setup.aside = choice.spread(0.01, 1.0);
   } else {
     setup.body = choice.of({"box", "flat"});
     setup.points = static_cast<int>(choice.spread(1000.0, 4000.0));
