@@ -1,12 +1,17 @@
 // The watch's view of pairs of edges: against the core's, which shares no code with it, and with edges that cross.
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/pipeline/contact/edge_certificate.h"
 #include "core/pipeline/contact/edges/edge_gap.h"
+#include "core/pipeline/contact/edges/edge_search.h"
 #include "core/pipeline/contact/edges/near_edges.h"
 #include "tests/support/edge_set.h"
+#include "tests/support/prism.h"
 #include "tests/support/random.h"
 #include "toolchain/watch/edge_pairs.h"
 #include "toolchain/watch/watch.h"
@@ -81,6 +86,40 @@ TEST(EdgePairs, StayApartInEveryMotionThatTheCoreAccepts) {
   EXPECT_GT(accepted, 5000);
   EXPECT_GT(refused, 300);
   EXPECT_EQ(wrongly_refused, 0) << "motions with a gap of 0.1 mm are accepted";
+}
+
+/// The sides of all near edges of two convex bodies that meet are those of the core.
+TEST(EdgePairs, HaveTheSidesOfTheCore) {
+  constexpr double kDeepest = 1e-3;
+  const test::Prism wheel = test::wheel_with(96);
+  const test::Prism box = test::Prism::over({{-4e-3, -3e-3}, {4e-3, -3e-3}, {4e-3, 3e-3}, {-4e-3, 3e-3}}, 0.005);
+  const auto search = std::make_unique<EdgeSearch>();
+  test::Random random(4);
+  int of_sides[3] = {};
+  for (int k = 0; k < 400; ++k) {
+    const test::Prism& moving = k % 2 == 0 ? wheel : box;
+    const test::Prism& still = k % 2 == 0 ? box : wheel;
+    const Pose H = random_meeting(random, moving, still);
+    search->start({moving.edges.view(), still.edges.view()});
+    NearEdges near;
+    WorkMeter work;
+    search->find(H, 0.0, kDeepest, 1e-3, kDeepest, work, near);
+    const std::vector<WatchedEdge> first = watched_edges(moving.edges.view());
+    const std::vector<WatchedEdge> second = watched_edges(still.edges.view());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      for (std::size_t j = 0; j < second.size(); ++j) {
+        const EdgeDistance pair = distance_of(first[i].at(H), second[j]);
+        if (!(pair.gap < kDeepest) || pair.gap < 1e-9) continue;
+        const Sides sides = sides_of(first, H, second, i, j, pair);
+        const std::uint32_t n = near.find({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+        const double distance = n < near.count ? near.gap[n].distance : 0.0;
+        const Sides of_core = n == near.count ? Sides::kAtAFace : distance < 0.0 ? Sides::kOverlap : Sides::kApart;
+        EXPECT_EQ(static_cast<int>(sides), static_cast<int>(of_core)) << k << ' ' << i << ' ' << j << ' ' << pair.gap;
+        ++of_sides[static_cast<int>(sides)];
+      }
+    }
+  }
+  for (const int count : of_sides) EXPECT_GT(count, 100);
 }
 
 TEST(EdgePairs, FallBelowABoundOnTheWay) {

@@ -16,12 +16,21 @@ Vector3 nearest_on(const WatchedEdge& edge, const Vector3& p) {
   return edge.end[0] + std::clamp((p - edge.end[0]).dot(along) / square, 0.0, 1.0) * along;
 }
 
-double above_a_face(const WatchedEdge& edge, const Vector3& direction) {
-  return std::max(edge.normal[0].dot(direction), edge.normal[1].dot(direction));
+bool is_below_both_faces(const WatchedEdge& edge, const Vector3& direction) {
+  return std::max(edge.normal[0].dot(direction), edge.normal[1].dot(direction)) < 0.0;
 }
 
-double askew(const WatchedEdge& edge, const Vector3& direction) {
-  return std::fabs((edge.end[1] - edge.end[0]).stableNormalized().dot(direction));
+/// Tells whether the direction from an edge to its nearest point leads off at an end of the edge.
+bool leads_off_an_end(const WatchedEdge& edge, const Vector3& direction) {
+  return std::fabs((edge.end[1] - edge.end[0]).stableNormalized().dot(direction)) > 1e-3;
+}
+
+/// Tells whether an edge other than `but` is nearer than `distance` to a point.
+bool has_nearer(const std::vector<WatchedEdge>& edges, std::size_t but, const Vector3& p, double distance) {
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    if (k != but && (nearest_on(edges[k], p) - p).norm() < distance) return true;
+  }
+  return false;
 }
 
 /// Tells whether a direction leads over a face of the edge: it makes an acute angle with the tangent of that face that
@@ -90,9 +99,25 @@ EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second) {
   best.normal = least > 1e-12 ? Vector3(apart / least) : along_first.cross(along_second).stableNormalized();
   best.gap = least - first.radius - second.radius;
   best.over_a_face = leads_over_a_face(second, best.normal) || leads_over_a_face(first, -best.normal);
-  best.above_a_face = std::max(above_a_face(second, best.normal), above_a_face(first, -best.normal));
-  best.askew = std::max(askew(second, best.normal), askew(first, best.normal));
+  best.end_of_first = leads_off_an_end(first, best.normal);
+  best.end_of_second = leads_off_an_end(second, best.normal);
+  best.first_inside = !best.end_of_second && is_below_both_faces(second, best.normal);
+  best.second_inside = !best.end_of_first && is_below_both_faces(first, -best.normal);
   return best;
+}
+
+Sides sides_of(const std::vector<WatchedEdge>& moving, const Pose& H_WS, const std::vector<WatchedEdge>& still,
+               std::size_t i, std::size_t j, const EdgeDistance& distance) {
+  if (distance.in_both_wedges()) return Sides::kOverlap;
+  const double length = (distance.on_first - distance.on_second).norm();
+  if (distance.first_inside && distance.end_of_first) {
+    return has_nearer(still, j, distance.on_first, length) ? Sides::kApart : Sides::kOverlap;
+  }
+  if (distance.second_inside && distance.end_of_second) {
+    const Vector3 end_S = H_WS.inverse() * distance.on_second;
+    return has_nearer(moving, i, end_S, length) ? Sides::kApart : Sides::kOverlap;
+  }
+  return distance.in_a_wedge() ? Sides::kAtAFace : Sides::kApart;
 }
 
 bool falls_below(const WatchedEdge& from, const WatchedEdge& to, const WatchedEdge& other, double limit,

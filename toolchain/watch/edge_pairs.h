@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/scene/sharp_edges.h"
@@ -27,15 +28,32 @@ struct EdgeDistance {
   Vector3 on_first = Vector3::Zero();   ///< [m]
   Vector3 on_second = Vector3::Zero();  ///< [m]
   bool over_a_face = false;             ///< a face beside one of the edges is nearer to the other edge
-  double above_a_face = 0.0;            ///< largest cosine between a face's normal and the direction to the other edge
-  double askew = 0.0;                   ///< largest cosine between an edge and that direction; 0 if no point is an end
+  bool first_inside = false;   ///< `on_first` lies inside the wedge of the second edge, beside no end of that edge
+  bool second_inside = false;  ///< `on_second` lies inside the wedge of the first edge, beside no end of that edge
+  bool end_of_first = false;   ///< `on_first` is an end
+  bool end_of_second = false;  ///< `on_second` is an end
 
   /// Tells whether each edge lies inside the wedge of the other, beside no end, as where two solids overlap.
-  bool in_both_wedges() const { return above_a_face < 0.0 && askew <= 1e-3; }
+  bool in_both_wedges() const { return first_inside && second_inside; }
+  /// Tells whether one of them does.
+  bool in_a_wedge() const { return first_inside || second_inside; }
 };
 
 /// Returns the gap of two edges: the least of the distance at the common perpendicular and those of the four ends.
 EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second);
+
+/// Sides of two near edges, by their wedges.
+enum class Sides {
+  kApart,
+  kOverlap,  ///< each lies inside the wedge of the other, or an end of one does and is nearest to this edge of the
+             ///< other
+  kAtAFace,  ///< another point of one lies inside the wedge of the other: a face is nearer to it than the edge
+};
+
+/// Returns it for the edge `moving[i]` with the body at H_WS and the edge `still[j]` at this distance. `moving`, in S,
+/// and `still` are all edges.
+Sides sides_of(const std::vector<WatchedEdge>& moving, const Pose& H_WS, const std::vector<WatchedEdge>& still,
+               std::size_t i, std::size_t j, const EdgeDistance& distance);
 
 /// Tells whether the gap of an edge that moves from `from` to `to`, each point straight, to the edge `other` falls
 /// below `limit` [m] at some time. Times are halved until the gaps at both ends prove the answer or the ends move by

@@ -106,7 +106,11 @@ void Watch::cycle(const WatchedCycle& cycle) {
   H_WS_before_ = H_WS_;
   const bool was_inside = is_inside_;
   is_inside_ = is_contact && cycle.report.outcome == Outcome::kStartInside;
-  if (is_contact) follow(cycle);
+  overlaps_before_ = overlaps_;
+  if (is_contact) {
+    follow(cycle);
+    find_overlaps(cycle.report.H_WS);
+  }
   H_WS_ = cycle.report.H_WS;
   H_WD_last_ = H_WD;
   check_wrench(cycle);
@@ -118,35 +122,38 @@ void Watch::cycle(const WatchedCycle& cycle) {
       check_reference(cycle);
     }
   }
-  // The checks above need the overlaps at the start of the cycle. Edges may overlap after all points are outside.
-  if (is_inside_ || edges_overlap_) find_overlaps();
 }
 
 void Watch::start(const Pose& H_WD) {
   started_ = true;
   H_WS_ = H_WD;
   H_WD_last_ = H_WD;
-  find_overlaps();
+  overlaps_ = {std::vector<bool>(edge_bound_.size()), true};
+  find_overlaps(H_WS_);
 }
 
-/// Finds the pairs of edges that overlap at the god object's pose. Edges that are farther apart than a voxel may lie in
-/// each other's wedges although their bodies are apart. As long as some pair overlaps, others may follow past the end
-/// of an edge, without crossing it.
-void Watch::find_overlaps() {
-  if (!edges_overlap_ || is_inside_) overlap_at_start_.assign(edge_bound_.size(), false);
-  edges_overlap_ = false;
+/// Finds the pairs of edges that overlap at a pose of the god object. Edges that are farther apart than a voxel may lie
+/// in each other's wedges although their bodies are apart. As long as some pair overlaps, others may follow past the
+/// end of an edge, without crossing it. While a point of one edge lies in the wedge of another a pair may still
+/// overlap: past an end no pair tells it. Edges may overlap after all points are outside, but none once all are apart.
+void Watch::find_overlaps(const Pose& H_WS) {
+  if (is_inside_) overlaps_ = {std::vector<bool>(edge_bound_.size()), true};
+  if (!overlaps_.any) return;
+  overlaps_.any = false;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
-    const WatchedEdge edge = session_.moving_edges[i].at(H_WS_);
+    const WatchedEdge edge = session_.moving_edges[i].at(H_WS);
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      const bool in_solids = pair.in_both_wedges() && pair.gap < q_.voxel_size;
-      const bool overlaps = in_solids || pair.gap < 0.0;  // or within a sheet
-      const std::size_t number = i * session_.still_edges.size() + j;
-      overlap_at_start_[number] = overlap_at_start_[number] || overlaps;
-      edges_overlap_ = edges_overlap_ || overlaps;
+      const bool overlaps = sides_of(H_WS, i, j, pair) == Sides::kOverlap || pair.gap < 0.0;  // or within a sheet
+      if (overlaps) overlaps_.pairs[i * session_.still_edges.size() + j] = true;
+      overlaps_.any = overlaps_.any || overlaps || (pair.in_a_wedge() && pair.gap < q_.voxel_size);
     }
   }
-  if (!edges_overlap_) overlap_at_start_.assign(edge_bound_.size(), false);  // from now on none may cross another
+}
+
+Sides Watch::sides_of(const Pose& H_WS, std::size_t i, std::size_t j, const EdgeDistance& pair) const {
+  if (pair.gap >= q_.voxel_size) return Sides::kApart;
+  return watch::sides_of(session_.moving_edges, H_WS, session_.still_edges, i, j, pair);
 }
 
 bool Watch::check_numbers(const WatchedCycle& cycle) {
@@ -184,6 +191,7 @@ void Watch::follow(const WatchedCycle& cycle) {
   H_WS_last_start_ = here;
   for (const Pose& next : cycle.path) {
     H_WS_last_start_ = here;
+    find_overlaps(here);
     advance(here, next);
     here = next;
   }
@@ -232,7 +240,7 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
 
 /// No edge of the moving body may meet one of the still body. Edges that overlap at the start may come out.
 void Watch::advance_edges(const Pose& H0, const Pose& H1) {
-  const double near = (edges_overlap_ ? 1.0 : 0.2) * q_.voxel_size;
+  const double near = (overlaps_.any ? 1.0 : 0.2) * q_.voxel_size;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
     const WatchedEdge from = session_.moving_edges[i].at(H0);
     const WatchedEdge to = session_.moving_edges[i].at(H1);
@@ -250,12 +258,11 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       const double at_begin = begin.gap;
       bound = std::max(0.0, distance_of(to, other).gap);
       if (is_inside_) continue;
-      const bool may_overlap = overlap_at_start_[i * session_.still_edges.size() + j];
+      const bool may_overlap = overlaps_.has(i * session_.still_edges.size() + j);
       // past the end of an edge the overlap passes to the next one within a cycle
-      const bool follows = edges_overlap_ && at_begin < q_.voxel_size;
-      const bool overlaps = (may_overlap || follows) && at_begin < q_.voxel_size && begin.in_both_wedges();
-      smallest_ = std::min(smallest_, overlaps ? -at_begin : at_begin);
-      if (may_overlap || overlaps) continue;
+      const Sides sides = overlaps_.any ? sides_of(H0, i, j, begin) : Sides::kApart;
+      if (sides != Sides::kAtAFace) smallest_ = std::min(smallest_, sides == Sides::kOverlap ? -at_begin : at_begin);
+      if (may_overlap || sides != Sides::kApart) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
             [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });
@@ -340,7 +347,9 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       if (edge_bound_[i * session_.still_edges.size() + j] > reach + travelled_) continue;
       EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      if (pair.in_both_wedges() && overlap_at_start_[i * session_.still_edges.size() + j]) {
+      const Sides sides = overlaps_before_.any ? sides_of(H_WS, i, j, pair) : Sides::kApart;
+      if (sides == Sides::kAtAFace) continue;
+      if (sides == Sides::kOverlap) {
         pair.gap = -pair.gap;
         pair.normal = -pair.normal;
       }

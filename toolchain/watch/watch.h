@@ -106,7 +106,8 @@ class Watch {
   }
 
   void start(const Pose& H_WD);
-  void find_overlaps();
+  void find_overlaps(const Pose& H_WS);
+  Sides sides_of(const Pose& H_WS, std::size_t i, std::size_t j, const EdgeDistance& pair) const;
   void follow(const WatchedCycle& cycle);
   void advance(const Pose& H0, const Pose& H1);
   void advance_edges(const Pose& H0, const Pose& H1);
@@ -154,13 +155,21 @@ class Watch {
   Vector6 stretch(const Pose& H_WS, const Pose& H_WD) const;
   Pose clamped(const Pose& H_WD) const;
 
+  /// The pairs of edges that have overlapped since the start, until the session has come out.
+  struct Overlaps {
+    std::vector<bool> pairs;  ///< of all pairs
+    bool any = false;         ///< some may still overlap
+
+    bool has(std::size_t pair) const { return any && pairs[pair]; }
+  };
+
   WatchedSession session_;
   const Parameters& q_;
   double gyration_;
   std::vector<Points> points_;
-  std::vector<bool> overlap_at_start_;  ///< of all pairs of edges: they may overlap, until the session has come out
-  bool edges_overlap_ = false;          ///< some of these still overlapped after the last cycle
-  std::vector<double> edge_bound_;      ///< lower bounds of all pairs' gaps at the current pose [m]
+  Overlaps overlaps_;               ///< at the current pose
+  Overlaps overlaps_before_;        ///< at the start of the cycle
+  std::vector<double> edge_bound_;  ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;
 

@@ -581,7 +581,7 @@ class ContactSubsteps {
           search.edges.find(H0_, search.odometer.travelled(), std::max(search_radius_, deepest),
                             kEdgeSlack * lengths_.longest_search_radius, deepest, work_, near);
       if (work_.is_spent()) return;
-      memory_.edges_may_overlap = memory_.edges_may_overlap && near.overlap();
+      memory_.edges_may_overlap = memory_.edges_may_overlap && around.may_overlap;
       around_.unlisted += around.unlisted;
       around_.free_displacement = std::min(around_.free_displacement, around.free_displacement);
       for (std::uint32_t k = 0; k < near.count; ++k) {

@@ -57,11 +57,21 @@ bool is_across(const EdgeInW& edge, const Vector3& direction) noexcept {
   return std::fabs(along.dot(direction)) <= kSlack * along.norm();
 }
 
-/// Tells whether edges overlap whose nearest points are as near as parts of both bodies are thick. Beyond an end of an
-/// edge its wedge ends, and a vertex decides, which is a point.
-bool overlap(const EdgeInW& moving, const EdgeInW& still, const Vector3& normal) noexcept {
-  return leads_inside(still, normal) && leads_inside(moving, -normal) && is_across(still, normal) &&
-         is_across(moving, normal);
+/// Which nearest point of two edges lies inside the other's wedge, and whether both do, beside no end. Beyond an end of
+/// an edge its wedge ends.
+struct Inside {
+  EdgeInside which;
+  bool both;
+};
+
+Inside inside(const EdgeInW& moving, const EdgeInW& still, const Vector3& normal) noexcept {
+  const bool moving_has_end = !is_across(moving, normal);
+  const bool still_has_end = !is_across(still, normal);
+  const bool moving_point = !still_has_end && leads_inside(still, normal);
+  const bool still_point = !moving_has_end && leads_inside(moving, -normal);
+  if (moving_point && moving_has_end) return {EdgeInside::kEndOfMoving, false};
+  if (still_point && still_has_end) return {EdgeInside::kEndOfStill, false};
+  return {moving_point || still_point ? EdgeInside::kPoint : EdgeInside::kNone, moving_point && still_point};
 }
 
 /// Tells whether a direction from an edge leads over one of its faces: it has a part away from the edge in the plane of
@@ -105,12 +115,15 @@ EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest) no
     }
   }
   gap.distance = length - (moving.radius + still.radius);
-  if (length > kMeet && length < deepest && overlap(moving, still, gap.normal)) {
-    gap.normal = -gap.normal;
-    gap.distance = -length;
-  } else {
-    gap.is_nearest = !leads_over_a_face(still, gap.normal) && !leads_over_a_face(moving, -gap.normal);
+  if (length > kMeet && length < deepest) {
+    const Inside points = inside(moving, still, gap.normal);
+    gap.inside = points.which;
+    if (points.both) {
+      gap.turn_round();
+      return gap;
+    }
   }
+  gap.is_nearest = !leads_over_a_face(still, gap.normal) && !leads_over_a_face(moving, -gap.normal);
   return gap;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "core/scene/sharp_edges.h"
 #include "godobject/pose.h"
@@ -41,6 +42,14 @@ inline double nearest_place(const Vector3& from, const Vector3& along, double sq
 /// are apart. Cost: some 30 ns. Real-time safe.
 double edge_distance(const EdgeInW& moving, const EdgeInW& still) noexcept;
 
+/// Which nearest point of two edges lies inside the wedge of the other edge, beside no end of that one.
+enum class EdgeInside : std::uint8_t {
+  kNone,
+  kPoint,        ///< one that is no end of its edge, or both
+  kEndOfMoving,  ///< that of the moving edge, and it is an end
+  kEndOfStill,   ///< that of the still edge, and it is an end
+};
+
 /// The gap between an edge of the moving body and one of the still body.
 struct EdgeGap {
   double distance = 0.0;                ///< between the surfaces at the nearest points; negative: they overlap [m]
@@ -50,14 +59,23 @@ struct EdgeGap {
   double place = 0.0;                   ///< of `on_moving`, from end 0 to end 1 of the moving edge [1]
   /// True if neither edge lies over a face of the other one. Else that face is nearer than the edge.
   bool is_nearest = true;
+  EdgeInside inside = EdgeInside::kNone;
+
+  /// Turns the gap into that of edges which overlap by as much.
+  void turn_round() noexcept {
+    normal = -normal;
+    distance = -(on_moving - on_still).norm();
+    is_nearest = true;
+  }
 };
 
 /// Returns the gap between the edges at their nearest points, in W.
 ///
 /// Between two bodies that are apart the gap is the distance of the edges, less the radii of sheets. At the start
 /// bodies may overlap: two edges of solids that are nearer than `deepest` [m] overlap if each lies inside the wedge of
-/// the other, and neither of the nearest points is an end. Then the gap is negative. Edges that meet within 1e-12 m
-/// have the normal of their common perpendicular, out of the still body. Cost: some 60 ns. Real-time safe.
+/// the other, and neither of the nearest points is an end. Then the gap is negative. `inside` is set for edges nearer
+/// than `deepest` only. Edges that meet within 1e-12 m have the normal of their common perpendicular, out of the still
+/// body. Cost: some 60 ns. Real-time safe.
 EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest = 0.0) noexcept;
 
 }  // namespace godobject

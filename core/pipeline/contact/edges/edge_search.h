@@ -17,6 +17,8 @@ struct EdgeSurroundings {
   std::uint32_t unlisted = 0;  ///< near pairs, and pairs of branches, that found no place in a list
   /// Up to this displacement all pairs outside of the list of near pairs stay apart [m].
   double free_displacement = std::numeric_limits<double>::infinity();
+  /// Two near edges may overlap: a nearest point of theirs lies inside the other's wedge, or pairs are unlisted.
+  bool may_overlap = false;
 };
 
 /// Finds the near pairs of edges, by the sphere trees of both bodies. It remembers the pairs within a larger distance,
@@ -48,6 +50,10 @@ class EdgeSearch {
   /// above `radius` [m]. `near` must be empty. If the budget of `work` is spent before the end, pairs are missing, and
   /// a call at the same pose goes on with the visit of the trees. Cost: some 60 ns for each remembered pair that may be
   /// near, and seldom a visit of the trees. Real-time safe.
+  ///
+  /// With `deepest` the end of an edge overlaps, too: if it lies inside the wedge of the other edge, and no other near
+  /// edge of that body is nearer to it. Other pairs of which a nearest point lies inside the wedge of the other edge
+  /// are left out: the bodies overlap there by the distance to a face. A row would hold them together.
   EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
                         WorkMeter& work, NearEdges& near) noexcept;
 
@@ -81,6 +87,8 @@ class EdgeSearch {
   bool visit_trees(const Pose& H_WS, WorkMeter& work) noexcept;
   void look_at(const Branches& branches, double distance) noexcept;
   void leave_out(double apart) noexcept;
+  /// Turns the gaps of ends that overlap round, and leaves out what overlaps at a face.
+  void settle_overlaps(const Pose& H_WS, WorkMeter& work, NearEdges& near) const noexcept;
 
   EdgeContacts edges_;
   std::uint32_t count_{};

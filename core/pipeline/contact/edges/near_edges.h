@@ -82,12 +82,16 @@ struct NearEdges {
     return at_start.distance;
   }
 
-  /// Tells whether two near edges overlap.
-  bool overlap() const noexcept {
+  /// Leaves pairs out for which `leaves_out(gap)` holds; the others keep their order.
+  template <typename Predicate>
+  void leave_out(Predicate leaves_out) noexcept {
+    std::uint32_t kept = 0;
     for (std::uint32_t k = 0; k < count; ++k) {
-      if (gap[k].distance < 0.0) return true;
+      if (leaves_out(gap[k])) continue;
+      pair[kept] = pair[k];
+      gap[kept++] = gap[k];
     }
-    return false;
+    count = kept;
   }
 
   /// Returns the number of a pair in the list; `count` if it is not near.

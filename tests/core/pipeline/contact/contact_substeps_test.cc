@@ -1008,7 +1008,13 @@ TEST(ContactSubsteps, LeadTwoOverlapsOutTogether) {
       }
       force = now;
     }
-    EXPECT_FALSE(run.cycle.memory->edges_may_overlap) << round;
+    // an edge of one pair may end in the wedge of the other pair's, which does not know it
+    bool are_near = false;
+    for (std::uint32_t pair = 0; pair < 2; ++pair) {
+      const EdgeGap across = detail::gap_at(run.cycle.edges, {pair, 1 - pair}, run.state.H_WS, kSubstepVoxel);
+      are_near = are_near || across.inside != EdgeInside::kNone;
+    }
+    EXPECT_EQ(run.cycle.memory->edges_may_overlap, are_near) << round;
     for (std::uint32_t pair = 0; pair < 2; ++pair) {
       const EdgeGap gap = detail::gap_at(run.cycle.edges, {pair, pair}, run.state.H_WS);
       EXPECT_GT(gap.normal.dot(out[pair]), 0.5) << "out on the right side, " << round;
