@@ -157,6 +157,10 @@ TEST(EdgeSearch, LimitsTheMotionByPairsWithoutAPlace) {
     if (listed.count(pair) != 0) continue;
     EXPECT_GE(detail::gap_at(edges, {pair.first, pair.second}, Pose{}).distance, around.free_displacement);
   }
+  // a pair without a place may overlap, if any may
+  NearEdges again;
+  EXPECT_FALSE(around.may_overlap);
+  EXPECT_TRUE(search->find(Pose{}, 0.0, 0.01, 0.001, 1e-3, work, again).may_overlap);
 }
 
 /// With more near pairs than places a pair that overlaps has one, wherever it stands in the list.
