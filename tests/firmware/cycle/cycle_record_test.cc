@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -327,6 +328,49 @@ TEST_F(CycleRecordTest, OpensTheClutchOnlyWhereTheHandLeansOnNothing) {
   drives_.reading.clutch_open = false;
   step();
   EXPECT_FALSE(record().clutch_is_open);
+}
+
+/// A mesh that starts in the still body has no force yet, but the clutch may not carry it on from there.
+TEST_F(CycleRecordTest, KeepsTheClutchClosedWhileTheMeshIsInside) {
+  setup_.mapping.H_WR.translation.z() -= 0.06;
+  make();
+  run_to(Mode::kArmed);
+  for (int i = 0; i < 5; ++i) step();
+  drives_.reading.clutch_open = true;
+  for (int i = 0; i < 20; ++i) {
+    step();
+    ASSERT_EQ(record().mode, Mode::kArmed);
+    ASSERT_EQ(record().outcome, Outcome::kStartInside);
+    ASSERT_EQ(record().F_G_R.force.norm(), 0.0);
+    ASSERT_FALSE(record().clutch_is_open) << i;
+  }
+}
+
+/// A small budget ends cycles that render. Each counts once, no other counts, and the longest row of them is kept.
+TEST_F(CycleRecordTest, CountsTheCyclesThatTheBudgetEnds) {
+  setup_.work_budget = 8000;
+  make();
+  std::uint64_t row = 0;
+  std::uint64_t longest = 0;
+  std::uint64_t rendering = 0;
+  const auto step_and_count = [&] {
+    const std::uint64_t before = counters().out_of_work;
+    step();
+    const std::uint64_t more = counters().out_of_work - before;
+    ASSERT_LE(more, record().share > 0.0 ? 1u : 0u);
+    rendering += record().share > 0.0 ? 1u : 0u;
+    row = more > 0 ? row + 1 : 0;
+    longest = std::max(longest, row);
+    ASSERT_EQ(counters().most_out_of_work, longest);
+  };
+  while (record().mode != Mode::kRunning && counters().cycles < 1000) step_and_count();
+  ASSERT_EQ(record().mode, Mode::kRunning);
+  for (int i = 1; i <= 200; ++i) {
+    drives_.reading.position = moved(Vector3(0.0, 0.0, -0.033 * i / 200.0));
+    step_and_count();
+  }
+  EXPECT_GT(counters().out_of_work, 0u);
+  EXPECT_LE(counters().out_of_work, rendering);
 }
 
 /// Drives that count what they are asked for.

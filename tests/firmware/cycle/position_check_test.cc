@@ -424,6 +424,30 @@ TEST_F(PositionCheckTest, FindsAnAbruptRestBeyondEachThreshold) {
   }
 }
 
+/// A motion begins with the first change that is read, also where the reading at the start is an old one.
+TEST_F(PositionCheckTest, CountsNoMotionBeforeTheFirstReading) {
+  const int kMoving = static_cast<int>(PositionCheck::kMoving);
+  for (const std::uint32_t age : {0u, 1u}) {
+    for (const int moving : {kMoving - 1, kMoving}) {
+      PositionCheck check(arm(), 0.005, kT);
+      hal::JointReading reading;
+      reading.age[0] = age;
+      check.update(reading, qd_, pushed_, 0, checked_);
+      reading.age[0] = 0;
+      for (int i = 0; i < moving; ++i) {
+        reading.position[0] += 1e-3;
+        check.update(reading, qd_, pushed_, 0, checked_);
+      }
+      bool stuck = false;
+      for (std::uint32_t i = 0; i < PositionCheck::kStill; ++i) {
+        check.update(reading, qd_, pushed_, 0, checked_);
+        stuck = stuck || checked_.stuck;
+      }
+      EXPECT_EQ(stuck, moving == kMoving) << age;
+    }
+  }
+}
+
 /// A start is no motion from zero: a joint that reads a little more in the first cycles, and then rests, is not stuck.
 TEST_F(PositionCheckTest, TakesTheFirstReadingForNoMotion) {
   for (const int moving : {1, 2, 3}) {
