@@ -7,6 +7,7 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 
 #include "tests/firmware/controller/controller_folder.h"
 #include "tests/support/fault_record.h"
+#include "tests/support/image_parts.h"
 
 namespace godobject::firmware::command_test {
 namespace {
@@ -35,6 +37,20 @@ class ControllerCommandTest : public ControllerFolderTest {
     const std::string lines = text("c.toml");
     const std::string scene = "[scene]\n";
     std::ofstream(folder_ / "c.toml") << scene << "solver = \"contact\"\n" << lines.substr(scene.size());
+  }
+
+  /// Lets c.toml use the light-weight robot with the `number`-th line that begins with `key` replaced.
+  void change_device(const std::string& key, int number, const std::string& line) const {
+    const std::string lwr = GODOBJECT_FIRMWARE_DIR "/devices/lwr.toml";
+    std::string device = text(lwr);
+    std::size_t at = 0;
+    for (int k = 0; k < number; ++k) at = device.find("\n" + key, at + 1);
+    ASSERT_NE(at, std::string::npos) << key;
+    device.replace(at + 1, device.find('\n', at + 1) - at - 1, line);
+    std::ofstream(folder_ / "changed.toml") << device;
+    std::string file = text("c.toml");
+    file.replace(file.find(lwr), lwr.size(), "changed.toml");
+    std::ofstream(folder_ / "c.toml") << file;
   }
 
   bool says(const std::string& what) const { return words_.find(what) != std::string::npos; }
@@ -309,6 +325,131 @@ TEST_F(ControllerCommandTest, FindsTheBudgetInRealTime) {
   write_contact_controller("[loop]\nreal_time = true\npriority = 1\ncompute = 1e-6\n");
   run("c.toml --duration 0.1");
   EXPECT_TRUE(says("cycles computed for longer than loop.compute, which bus plan and gain check count on")) << words_;
+}
+
+/// A command without help of its own would show that of the program.
+TEST_F(ControllerCommandTest, HelpsEachCommandWithItsOwnExamplesAndExitCodes) {
+  for (const std::string command : {"", "doctor ", "commission "}) {
+    EXPECT_EQ(run(command + "--help"), 0) << words_;
+    EXPECT_TRUE(says("\nUsage: godobject-controller " + command + "[OPTIONS] ")) << words_;
+    const std::size_t examples = words_.find("\nExample");
+    ASSERT_NE(examples, std::string::npos) << words_;
+    const std::string first = words_.substr(words_.find('\n', examples + 1) + 1);
+    EXPECT_TRUE(first.starts_with("  godobject-controller " + command + "firmware/controllers/lwr.toml")) << first;
+    const std::size_t codes = words_.find("\nExit codes: 0 ");
+    EXPECT_LT(examples, codes) << words_;
+    EXPECT_TRUE(words_.ends_with(", 78 bad configuration.\n")) << words_;
+    std::istringstream lines(words_.substr(0, examples));
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("  -")) continue;
+      EXPECT_TRUE(std::regex_match(line, std::regex("  -[-,a-zA-Z]+( [A-Zx.]+[a-z]*)? +[A-Za-z].{15,}"))) << line;
+    }
+  }
+}
+
+TEST_F(ControllerCommandTest, NeedsASceneFromItsFileOrItsCommand) {
+  std::string file = text("c.toml");
+  file.erase(0, file.find("[device]"));
+  std::ofstream(folder_ / "c.toml") << file;
+  EXPECT_EQ(run("c.toml --duration 0.01"), 78);
+  EXPECT_EQ(words_, "godobject-controller: c.toml: scene.image is missing; add it or give --scene\n");
+  EXPECT_EQ(run("c.toml --duration 0.01 --scene plate.scene"), 0) << words_;
+}
+
+TEST_F(ControllerCommandTest, RefusesASceneWithoutTheFrictionOfItsFile) {
+  test::ImageParts parts(test::ball_over_plate());
+  parts.item<format::Settings>(format::SectionId::kSettings).friction = 0;
+  const test::SceneImage image = parts.assemble();
+  std::ofstream(folder_ / "smooth.scene", std::ios::binary)
+      .write(reinterpret_cast<const char*>(image.bytes().data()), static_cast<std::streamsize>(image.bytes().size()));
+  EXPECT_EQ(run("c.toml --duration 0.01 --scene smooth.scene"), 0) << words_;
+  const std::string lines = text("c.toml");
+  std::ofstream(folder_ / "c.toml") << "[scene]\nfriction = true\n" << lines.substr(lines.find('\n') + 1);
+  EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;
+  EXPECT_EQ(run("c.toml --duration 0.01 --scene smooth.scene"), 65) << words_;
+  EXPECT_TRUE(says("godobject-controller: smooth.scene: ")) << words_;
+  EXPECT_TRUE(
+      says("; compile it again without --only-solver and with a [friction] table, or change scene.solver or "
+           "scene.friction\n"))
+      << words_;
+}
+
+/// A cycle of 1 ms holds no frames at 10 kbit/s. The plan shows by how much; nothing is started.
+TEST_F(ControllerCommandTest, RefusesBusesThatAreTooSlowForACycleAndShowsTheirPlan) {
+  change_device("bit_rate", 1, "bit_rate = 1e4");
+  for (const char* command : {"", "commission ", "doctor "}) {
+    EXPECT_EQ(run(std::string(command) + "c.toml"), 78) << words_;
+    const std::size_t plan = words_.find("bus plan: CAN 0.01 Mbit/s");
+    ASSERT_NE(plan, std::string::npos) << words_;
+    EXPECT_EQ(words_.find("bus plan: ", plan + 1), std::string::npos) << "once: " << words_;
+    EXPECT_NE(words_.find("does not fit\n", plan), std::string::npos) << words_;
+    const std::size_t objection = words_.find("godobject-controller: bus 0: a cycle needs ", plan);
+    ASSERT_NE(objection, std::string::npos) << words_;
+    EXPECT_EQ(words_.find('\n', objection), words_.size() - 1) << "last: " << words_;
+    EXPECT_FALSE(says("rendered in") || says("joint bus node")) << words_;
+  }
+}
+
+/// A motor of 10 t m^2 does not move when the start pushes it. Its joint is named, and the run has failed.
+TEST_F(ControllerCommandTest, NamesTheJointThatDoesNotMoveWhenItIsPushed) {
+  for (const int joint : {1, 4}) {
+    write_controller("");
+    change_device("rotor", joint, "rotor = 1e4");
+    EXPECT_EQ(run("c.toml --duration 20"), 69) << words_;
+    EXPECT_TRUE(says("rendered in 0 of ")) << words_;
+    EXPECT_TRUE(
+        words_.ends_with(fmt::format("godobject-controller: stopped: joint {}: a joint did not move when "
+                                     "pushed; keep the hand still, check its brake and encoder\n",
+                                     joint)))
+        << words_;
+  }
+}
+
+/// The hand moves the tool at 0.1 m/s, some 2 s after the first cycle. A fault of no single joint that lasts until the
+/// end is a failure.
+TEST_F(ControllerCommandTest, FailsWithTheFaultThatLastsUntilItsEnd) {
+  write_path();
+  write_controller(
+      "[start]\nsign_test = false\n[limits]\nforce = 0.5\nspeed = 0.02\nspeed_stop = 0.03\n"
+      "[simulation]\npath = \"path.csv\"\nbegin = 3.0\n");
+  EXPECT_EQ(run("c.toml --duration 4"), 69) << words_;
+  EXPECT_TRUE(
+      words_.ends_with("\ngodobject-controller: stopped: hand or joint was faster than its stop speed; reset\n"))
+      << words_;
+  EXPECT_EQ(run("c.toml --duration 1.5"), 0) << "before the motion: " << words_;
+  EXPECT_FALSE(says("stopped: ")) << words_;
+}
+
+/// 101 cycles: each seventh has a row.
+TEST_F(ControllerCommandTest, LogsOneRowInSoManyCycles) {
+  for (const int every : {1, 7, 101, 102}) {
+    write_controller(fmt::format("[start]\nsign_test = false\n[telemetry]\nevery = {}\n", every));
+    EXPECT_EQ(run("c.toml --duration 0.1 --log logs"), 0) << words_;
+    const std::string log = text("logs/telemetry.csv");
+    EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1 + 101 / every) << every;
+    EXPECT_TRUE(says(fmt::format("telemetry.csv: {} rows, 0 lost\n", 101 / every))) << words_;
+  }
+}
+
+/// They do not forbid the run.
+TEST_F(ControllerCommandTest, WarnsOfGainsThatAreStableButNotPassive) {
+  EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;
+  EXPECT_TRUE(says("godobject-controller: stable by a factor of ") && says(", but not passive by the linear rule: "))
+      << words_;
+  EXPECT_TRUE(says("godobject-controller: gains.rotational counts a radian as ")) << words_;
+}
+
+/// 1 us is worth one unit of work, so the god object stays where it is, however fast the machine is.
+TEST_F(ControllerCommandTest, WarnsOfABudgetThatHoldsTheGodObject) {
+  const std::string settings = "[loop]\nreal_time = true\npriority = 1\ncycle_budget = ";
+  const std::string warning = "godobject-controller: with 1 us a cycle the god object stops on the way: ";
+  write_contact_controller(settings + "1e-6\n");
+  run("c.toml --duration 0.01");
+  EXPECT_TRUE(says("budget: 1 us a cycle for the god object, 1 units. ")) << words_;
+  EXPECT_TRUE(says(warning)) << words_;
+  write_contact_controller("[loop]\ncycle_budget = 1e-6\n");
+  EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;
+  EXPECT_FALSE(says("budget: 1 us a cycle") || says(warning)) << "in virtual time nothing is measured: " << words_;
 }
 
 TEST_F(ControllerCommandTest, ExaminesTheMachine) {
