@@ -79,6 +79,30 @@ TEST_F(GainCheckTest, RefusesJointsWhoseOwnFeedbackIsBeyondTheBoundary) {
   EXPECT_NE(refused(control).find("joint 7 has limit_stiffness"), std::string::npos) << refused(control);
 }
 
+/// A joint without any feedback of its own cannot lose its stability by it.
+TEST_F(GainCheckTest, AcceptsAJointWithoutFeedbackOfItsOwn) {
+  for (const int joint : {0, 6}) {
+    test::Arm arm = arm_;
+    arm.model.joints[static_cast<std::size_t>(joint)].damping = 0.0;
+    arm.parameters.null_damping[joint] = 0.0;
+    arm.parameters.limit_damping[joint] = 0.0;
+    arm.parameters.limit_stiffness[joint] = 0.0;
+    EXPECT_NO_THROW(require_stable_joints(arm.model, arm.parameters, posture_, timing_)) << joint;
+    arm.parameters.limit_stiffness[joint] = 1.0;
+    EXPECT_THROW(require_stable_joints(arm.model, arm.parameters, posture_, timing_), command::Failure)
+        << "a spring without damping, sampled: " << joint;
+  }
+}
+
+/// Without a passivity controller there is nothing to refuse, whatever margin the gains leave.
+TEST_F(GainCheckTest, JudgesNoInjectionThatIsOff) {
+  const auto check_with = [&](double most) {
+    require_stable_injection(scene_, arm_.model, posture_, 1.0, timing_, {most, 0.16}, 1e6);
+  };
+  EXPECT_NO_THROW(check_with(0.0));
+  EXPECT_THROW(check_with(1e-3), command::Failure);
+}
+
 /// The start refuses a passivity controller whose damping, injected all the time, would violate the margin. The message
 /// names the largest damping that keeps the margin.
 TEST_F(GainCheckTest, RefusesAnInjectionBeyondTheBoundary) {

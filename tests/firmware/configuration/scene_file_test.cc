@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -115,6 +116,10 @@ TEST_F(SceneFileTest, TellsWhetherTheKernelHasLockedItsMemory) {
     const std::size_t others = locked_bytes();
     const SceneFile scene(file_);
     EXPECT_EQ(scene.locked(), locked_bytes() >= others + scene.size()) << limit.rlim_cur;
+    std::string other(scene.size(), 'x');  // as much memory of this process
+    const bool may_lock = ::mlock(other.data(), other.size()) == 0;
+    ::munlock(other.data(), other.size());
+    EXPECT_EQ(scene.locked(), may_lock) << limit.rlim_cur;
   }
   ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &before), 0);
 }

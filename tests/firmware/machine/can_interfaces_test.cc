@@ -288,6 +288,17 @@ TEST(CanInterface, FdFindingsHaveTheirCures) {
   EXPECT_EQ(told(examine_can_interface(ready(), layout)),
             (Lines{"LACK needed can0: has no FD frames -> " + kSetUpFd,
                    "LACK needed can0: 0 kbit/s for the data of FD frames; the device file has 5000 -> " + kSetUpFd}));
+  CanInterface slow = ready();
+  slow.mtu = 72;
+  slow.data_rate = 2'000'000;
+  EXPECT_EQ(told(examine_can_interface(slow, layout)),
+            Lines{"LACK needed can0: 2000 kbit/s for the data of FD frames; the device file has 5000 -> " + kSetUpFd});
+  slow.data_rate = 0;
+  slow.bit_rate = 250'000;
+  layout.fd = false;
+  EXPECT_EQ(told(examine_can_interface(slow, layout)),
+            Lines{"LACK needed can0: 250 kbit/s; the device file has 1000 -> " + kSetUp});
+  layout.fd = true;
   CanInterface simulated;
   simulated.name = "vcan0";
   simulated.kind = "vcan";

@@ -1,8 +1,11 @@
 // Tests the examination of a machine for real-time work, and the real-time setup of the loop.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -35,6 +38,28 @@
 #include "tests/support/ordinary_user.h"
 #include "tests/support/small_scenes.h"
 #include "toolchain/files/aligned_bytes.h"
+
+namespace {
+
+bool load_is_unknown = false;
+bool limits_are_off = false;
+
+}  // namespace
+
+// The linker takes these before those of the C library.
+
+extern "C" int getloadavg(double* loads, int count) noexcept {
+  static auto* const real = reinterpret_cast<int (*)(double*, int)>(::dlsym(RTLD_NEXT, "getloadavg"));
+  if (!load_is_unknown) return real(loads, count);
+  std::fill_n(loads, count, 7.5);  // of no meaning
+  return -1;
+}
+
+extern "C" int getrlimit(__rlimit_resource_t resource, rlimit* limits) noexcept {
+  const auto result = static_cast<int>(::syscall(SYS_prlimit64, 0, resource, nullptr, limits));
+  if (limits_are_off) limits->rlim_cur = RLIM_INFINITY;
+  return result;
+}
 
 namespace godobject::firmware::machine_test {
 namespace {
@@ -268,6 +293,23 @@ TEST_F(DoctorTest, TellsEachStateOfTheRights) {
   });
 }
 
+/// A limit that is off is no number; it grants the right without a capability.
+TEST_F(DoctorTest, CallsALimitThatIsOffUnlimited) {
+  put("proc/self/status", "CapEff:\t0000000000000000");
+  limits_are_off = true;
+  const std::string rtprio = line_of(find("rtprio"));
+  const std::string memlock = line_of(find("memlock"));
+  limits_are_off = false;
+  EXPECT_EQ(rtprio, "ok needed rtprio: unlimited -> ");
+  EXPECT_EQ(memlock, "ok needed memlock: unlimited -> ");
+}
+
+/// A check that sets nothing has found nothing good, and nothing that a run needs.
+TEST(Finding, IsNeitherGoodNorNeededByItself) {
+  EXPECT_FALSE(Finding().good);
+  EXPECT_FALSE(Finding().needed);
+}
+
 TEST(Signals, SetTheRequestsThatTheyStandFor) {
   RunRequests& requests = signal_requests();
   EXPECT_FALSE(requests.end || requests.reset);
@@ -317,6 +359,13 @@ TEST(DescribeMachine, NamesKernelProcessorsAndLoadAsTheSystemTellsThem) {
   EXPECT_TRUE(line.ends_with(fmt::format(", {} processors, load {}", ::sysconf(_SC_NPROCESSORS_ONLN), load))) << line;
 }
 
+TEST(DescribeMachine, TakesALoadThatTheSystemDoesNotTellForNone) {
+  load_is_unknown = true;
+  const std::string line = describe_machine();
+  load_is_unknown = false;
+  EXPECT_TRUE(line.ends_with(", load 0.00")) << line;
+}
+
 /// The defaults that firmware/README.md names.
 TEST(RealTimeSettings, AreAnyProcessorAndAHighPriority) {
   EXPECT_EQ(RealTimeSettings{}.cpu, -1);
@@ -346,6 +395,37 @@ TEST(RealTimeSetup, BindsTheThreadToItsProcessor) {
     }).join();
     EXPECT_TRUE(CPU_EQUAL(&bound, &expected)) << cpu;
     for (const std::string& line : missing) EXPECT_EQ(line.find("not bound"), std::string::npos) << line;
+  }
+}
+
+/// Each line tells of a call that fails for this thread, too, and the other way round.
+TEST(RealTimeSetup, SaysWhatThisThreadMayNotDoAndNothingElse) {
+  const auto has = [](const std::vector<std::string>& lines, const char* begin) {
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.starts_with(begin); });
+  };
+  const int none = CPU_SETSIZE - 1;  // a processor that no machine has
+  ASSERT_LT(::sysconf(_SC_NPROCESSORS_CONF), none);
+  for (const bool limited : {false, true}) {
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_MEMLOCK, &before), 0);
+    rlimit little = before;
+    little.rlim_cur = 0;
+    std::thread([&] {
+      if (limited) {
+        ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &little), 0);
+      }
+      const std::vector<std::string> missing = set_up_real_time({.cpu = none, .priority = 1});
+      ::munlockall();
+      const bool may_lock = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+      ::munlockall();
+      const sched_param priority{1};
+      const bool may_have_priority = ::sched_setscheduler(0, SCHED_FIFO, &priority) == 0;
+      EXPECT_EQ(has(missing, "memory is not locked ("), !may_lock);
+      EXPECT_EQ(has(missing, "no real-time priority 1 ("), !may_have_priority);
+      EXPECT_TRUE(has(missing, "not bound to processor 1023 (Invalid argument); choose another loop.cpu"));
+      EXPECT_EQ(missing.size(), 1u + (may_lock ? 0u : 1u) + (may_have_priority ? 0u : 1u));
+    }).join();
+    ASSERT_EQ(::setrlimit(RLIMIT_MEMLOCK, &before), 0);
   }
 }
 

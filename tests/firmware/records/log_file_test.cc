@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -21,6 +23,32 @@
 #include "firmware/records/run_records.h"
 #include "tests/support/folder_test.h"
 #include "toolchain/command_line/failure.h"
+
+namespace {
+
+/// A disk under this program's files: it takes few bytes at a time and is interrupted before each part.
+struct HesitantDisk {
+  std::size_t most = 0;  ///< bytes at a time
+  bool interrupted = false;
+  int parts = 0;
+};
+HesitantDisk* hesitant_disk = nullptr;
+
+}  // namespace
+
+/// The linker takes this one before that of the C library.
+extern "C" ssize_t write(int descriptor, const void* data, std::size_t size) {
+  if (hesitant_disk != nullptr) {
+    hesitant_disk->interrupted = !hesitant_disk->interrupted;
+    if (hesitant_disk->interrupted) {
+      errno = EINTR;
+      return -1;
+    }
+    size = std::min(size, hesitant_disk->most);
+    ++hesitant_disk->parts;
+  }
+  return ::syscall(SYS_write, descriptor, data, size);
+}
 
 namespace godobject::firmware::log_file_test {
 namespace {
@@ -144,6 +172,22 @@ TEST_F(LogFileTest, WritesNothingMoreBehindAPartThatItCannotRemove) {
   std::signal(SIGPIPE, before);
 }
 
+/// A signal that interrupts a write, and a disk that takes a part of a block, lose and repeat nothing.
+TEST_F(LogFileTest, IsWrittenInPartsByADiskThatIsInterrupted) {
+  for (const std::size_t most : {1u, 3u, 7u, 8u, 9u}) {
+    LogFile file(folder_ / "a.log");
+    HesitantDisk disk{.most = most};
+    hesitant_disk = &disk;
+    file.write("one\ntwo\n", 2);
+    file.write("four\n", 1);
+    hesitant_disk = nullptr;
+    EXPECT_EQ(content("a.log"), "one\ntwo\nfour\n") << most;
+    EXPECT_EQ(file.written(), 3u) << most;
+    EXPECT_EQ(file.lost(), 0u) << most;
+    EXPECT_EQ(disk.parts, static_cast<int>((8 + most - 1) / most + (5 + most - 1) / most)) << most;
+  }
+}
+
 /// Without a byte written there is no part: the next block finds the file as it was.
 TEST_F(LogFileTest, GoesOnAfterABlockOfWhichNothingWasWritten) {
   const auto before = std::signal(SIGPIPE, SIG_IGN);
@@ -232,6 +276,15 @@ TEST_F(RunRecordsTest, WritesTheTelemetryAloneUnlessTheBusesAreAskedFor) {
   const std::string text = content("telemetry.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), 1 + TelemetryRing::kCapacity);
   EXPECT_NE(text.find(",q2_rad,qd1_rad_s,"), std::string::npos);
+}
+
+/// Without a number of joints it has none, and without a request no log of the buses.
+TEST_F(RunRecordsTest, HasNoJointsAndNoBusesUnlessItIsTold) {
+  const RunRecords records({.folder = folder_, .bus_names = {"can0"}}, *ring_, *bus_ring_);
+  ring_->push({});
+  records.drain();
+  EXPECT_EQ(records.buses(), nullptr);
+  EXPECT_EQ(content("telemetry.csv").find("q1_rad"), std::string::npos);
 }
 
 /// Lines that the rings lost and lines that the disk did not take count together.

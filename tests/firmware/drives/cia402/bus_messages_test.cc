@@ -33,8 +33,7 @@ TEST(BusMessages, TheDeadlineOfTorquesPointsToTheLoop) {
 TEST(BusMessages, OtherAlarmsKeepTheirFindings) {
   const std::string text =
       explain({.alarm = hal::Alarm::kHeartbeatLost, .bus = 0, .joint = 0, .found = 0x8250}, kNames);
-  EXPECT_EQ(text.rfind("can0, joint 1: ", 0), 0u) << text;
-  EXPECT_EQ(text.find("8250"), std::string::npos) << text;
+  EXPECT_EQ(text, std::string("can0, joint 1: ") + describe(hal::Alarm::kHeartbeatLost));
 }
 
 /// The words of a status or an alarm, which other tests check.

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "firmware/configuration/controller_file.h"
 #include "firmware/drives/cia402/cia402_family.h"
 #include "tests/sim/small_master.h"
 #include "tests/support/arms.h"
+#include "toolchain/command_line/failure.h"
 
 namespace godobject::firmware::cia402_link_test {
 namespace {
@@ -34,15 +38,28 @@ class NetworkCommands final : public hal::FrameTap {
 class Cia402LinkTest : public testing::Test {
  protected:
   Cia402LinkTest() {
-    ControllerConfig config;
-    config.device.model = test::lwr().model;
-    config.device.bus = test::layout_of(config.device.model);
-    config.workspace.posture.setConstant(0.3);
-    const Placement placement = place(config.workspace, config.device, Vector3::Zero());
-    link_ =
-        Cia402Family(config.device.bus)
-            .connect({.transport = kSimulatedTransport, .config = &config, .placement = &placement, .tap = &commands_});
+    config_.device.model = test::lwr().model;
+    config_.device.bus = test::layout_of(config_.device.model);
+    config_.workspace.posture.setConstant(0.3);
+    connect();
+  }
+
+  void connect() {
+    const Placement placement = place(config_.workspace, config_.device, Vector3::Zero());
+    link_ = Cia402Family(config_.device.bus)
+                .connect(
+                    {.transport = kSimulatedTransport, .config = &config_, .placement = &placement, .tap = &commands_});
     clock_ = link_->make_clock();
+    commands_.seen.clear();
+  }
+
+  /// The commands to all nodes of a bus.
+  std::vector<int> to_all(int bus) const {
+    std::vector<int> found;
+    for (const NetworkCommands::Command& command : commands_.seen) {
+      if (command.bus == bus && command.node == 0) found.push_back(command.what);
+    }
+    return found;
   }
 
   void run(int cycles) {
@@ -58,6 +75,7 @@ class Cia402LinkTest : public testing::Test {
     }
   }
 
+  ControllerConfig config_;
   NetworkCommands commands_;
   std::unique_ptr<DriveLink> link_;
   std::unique_ptr<hal::Clock> clock_;
@@ -84,6 +102,36 @@ TEST_F(Cia402LinkTest, StopsTheNodesItHasStarted) {
     };
     EXPECT_EQ(std::count_if(commands_.seen.begin(), commands_.seen.end(), of_bus), 1) << bus;
   }
+}
+
+/// Nodes of which one has not booted in time are stopped, and the message names the first of them.
+TEST_F(Cia402LinkTest, NamesTheDriveThatDoesNotStartAndStopsTheOthers) {
+  config_.device.bus.boot_timeout = 1e-6;
+  connect();
+  try {
+    link_->start(*clock_, end_);
+    FAIL();
+  } catch (const command::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), command::ExitCode::kUnavailable);
+    EXPECT_EQ(std::string(failure.what()),
+              fmt::format("sim0, node {}, joint 1: did not boot in time; check its supply, node number and bit rate",
+                          config_.device.bus.drives[0].node));
+  }
+  run(5);  // reads what was sent
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_GE(reading_.age.at(i), 4u) << "joint " << i << " answers";
+  constexpr int kReset = 0x82;  // communication
+  constexpr int kStop = 0x02;
+  for (int bus = 0; bus < config_.device.bus.bus_count; ++bus) {
+    EXPECT_EQ(to_all(bus), (std::vector<int>{kReset, kStop})) << bus;
+  }
+}
+
+/// Whoever asks for the end before the drives have started gets no drives, and that is no failure.
+TEST_F(Cia402LinkTest, EndsWithoutDrivesWhenItIsAskedTo) {
+  end_ = true;
+  EXPECT_FALSE(link_->start(*clock_, end_));
+  run(5);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_GE(reading_.age.at(i), 4u) << "joint " << i << " answers";
 }
 
 }  // namespace
