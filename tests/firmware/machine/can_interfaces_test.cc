@@ -132,6 +132,25 @@ TEST(CanInterface, IsReadFromTheKernelsMessage) {
   EXPECT_FALSE(interface->bus_off);
 }
 
+/// No attribute changes what another one has told, in whatever order they come: not even a queue of 65540 frames, which
+/// has the bytes of an empty kind.
+TEST(CanInterface, EachAttributeOfALinkIsReadAloneInAnyOrder) {
+  Message info(0, 0, 0);
+  info.attribute(1, Message::text("vcan"));
+  std::vector<std::pair<std::uint16_t, std::vector<std::uint8_t>>> attributes = {
+      {3, Message::text("vcan0")}, {4, Message::number(72)}, {13, Message::number(65540)}, {18, info.nested()}};
+  do {
+    Message message(kNewLink, kHardwareCan, 1);
+    for (const auto& [type, payload] : attributes) message.attribute(type, payload);
+    const std::optional<CanInterface> interface = parse_link(message.bytes());
+    ASSERT_TRUE(interface);
+    EXPECT_EQ(interface->name, "vcan0");
+    EXPECT_EQ(interface->mtu, 72);
+    EXPECT_EQ(interface->transmit_queue, 65540);
+    EXPECT_EQ(interface->kind, "vcan");
+  } while (std::next_permutation(attributes.begin(), attributes.end()));
+}
+
 TEST(CanInterface, NoOtherMessageIsTakenForOne) {
   EXPECT_FALSE(parse_link(Message(2 /* error */, kHardwareCan, 1).bytes()));
   EXPECT_FALSE(parse_link({}));
