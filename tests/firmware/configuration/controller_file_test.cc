@@ -149,5 +149,14 @@ TEST_F(ControllerFileTest, PlacesTheMeshAtItsStartInThePosture) {
   EXPECT_LT((mapping.scene_pose() * p_MB - centre_W).norm(), 1e-12);
 }
 
+/// A placement is a rigid motion even where the rotations that it is made of are of unit length to a thousandth only.
+TEST_F(ControllerFileTest, PlacesTheMeshByARotationOfUnitLength) {
+  ControllerConfig config = read(kLeast);
+  config.workspace.turn.coeffs() *= 1.0009;
+  config.workspace.start.rotation.coeffs() *= 1.0007;
+  const Placement placement = place(config.workspace, config.device, Vector3(0.02, -0.04, 0.06));
+  EXPECT_NEAR(placement.H_TM.rotation.norm(), 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace godobject::firmware::controller_file_test
