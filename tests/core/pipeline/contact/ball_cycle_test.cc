@@ -217,6 +217,24 @@ TEST(BallCycle, RestsAtTheNearestPlaceThatKeepsTheMargin) {
   }
 }
 
+/// In a corner the field is curved: a motion can pass the place of the lowest energy along its way. It stops there, so
+/// that the centre stops swinging: after 20 cycles it travels less than a margin in all, while the device rests.
+TEST(BallCycle, StopsSwingingInACorner) {
+  Random random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    BallRun run(corner(), {0.02, 0.02, 0.025});
+    const Vector3 goal(random.between(-0.02, 0.02), random.between(-0.02, 0.02), random.between(-0.01, 0.015));
+    for (int i = 0; i < 20; ++i) ASSERT_EQ(run.step(goal), Status::kOk);
+    double travelled = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      const Vector3 before = run.center();
+      ASSERT_EQ(run.step(goal), Status::kOk);
+      travelled += (run.center() - before).norm();
+    }
+    EXPECT_LT(travelled, run.q.margin) << trial;
+  }
+}
+
 /// Damping takes the velocity towards the faces that carry load, never more than their load, and nothing of the motion
 /// along them.
 TEST(BallCycle, DampsTheVelocityTowardsTheFaces) {
@@ -372,6 +390,22 @@ TEST(BallCycle, TakesNoSubstepBeyondTheOneThatReachesTheDevice) {
   EXPECT_GT(several, 0);
 }
 
+/// A surface beyond the longest search radius does not direct the motion. The top of the block is 15 mm below the
+/// centre, the device lower than the top and beside the block, and the straight way passes the edge by 4 mm: the centre
+/// goes that way in one sub-step, and not along the plane of the top.
+TEST(BallCycle, GoesStraightPastASurfaceBeyondTheSearchRadius) {
+  const Vector3 start(0.01, 0.001, 0.027), goal(0.034, 0.001, 0.005);
+  BallRun run(flat_block(), start);
+  const FieldSample here = run.field().sample(start);
+  ASSERT_TRUE(here.known) << "the field has a gradient there";
+  ASSERT_GT(here.clearance, run.lengths().longest_search_radius);
+  ASSERT_LT(here.clearance, run.field().assured_clearance());
+  ASSERT_EQ(run.step(goal), Status::kOk);
+  EXPECT_EQ(run.center(), goal);
+  EXPECT_EQ(run.report.substeps, 1u);
+  EXPECT_EQ(run.path.poses().size(), 1u);
+}
+
 /// The surface is near, but holds nothing.
 TEST(BallCycle, TakesOneSubstepBesideASurface) {
   BallRun run(plane(), {0.0, 0.0, 0.0003});
@@ -434,6 +468,24 @@ TEST(BallCycle, ComesOutAlongTheGradientByAShareOfTheDepth) {
   EXPECT_FALSE(run.state.inside);
 }
 
+/// A cycle that starts inside takes one sub-step, also where the nearest face changes during the motion. The centre
+/// starts 2 mm behind a face; the device is 6 mm behind another one.
+TEST(BallCycle, TakesOneSubstepInsideWhereTheNearestFaceChanges) {
+  const Vector3 start(-0.002, 0.02, 0.004), goal(-0.002, 0.02, -0.006);
+  BallRun run(corner(), start);
+  run.state.started = false;
+  run.state.inside = true;
+  ASSERT_GT(run.field().sample(start).gradient.x(), 0.99);
+  ASSERT_GT(run.field().sample(goal).gradient.z(), 0.99);
+  const ContactLengths lengths = run.lengths();
+  const double gain = std::min(0.3 * (0.002 + lengths.margin), lengths.largest_gain);
+  ASSERT_EQ(run.step(goal), Status::kOk);
+  EXPECT_EQ(run.report.outcome, Outcome::kStartInside);
+  EXPECT_EQ(run.report.substeps, 1u);
+  EXPECT_EQ(run.path.poses().size(), 1u);
+  EXPECT_LT((run.center() - Vector3(start.x() + gain, goal.y(), goal.z())).norm(), 0.01 * gain);
+}
+
 TEST(BallCycle, FollowsTheDeviceWithoutForceWhereTheFieldEnds) {
   BallRun run(plane(), {0.0, 0.0, -0.03});
   run.state.started = false;
@@ -456,6 +508,21 @@ TEST(BallCycle, FollowsTheDeviceWithoutForceWhereTheFieldEnds) {
 }
 
 // -- whatever the device does
+
+/// The workspace ends at the surface, and the centre is above both, by less than stored distances are exact. The
+/// nearest place of the workspace has the distance 0: the centre may not go there.
+TEST(BallCycle, DoesNotEnterTheSurfaceThroughAFaceOfTheWorkspace) {
+  const double rounding = BallRun(plane(), kZ).lengths().rounding;
+  for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 1.5, 3.0}) {
+    BallRun run(plane(), share * rounding * kZ);
+    run.q.workspace = {true, {-0.03, -0.03, -0.03}, {0.03, 0.03, 0.0}};
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_GT(run.gap(), 0.0) << share << ' ' << i;
+      ASSERT_EQ(run.step({0.0, 0.0, -0.002}), Status::kOk);
+    }
+    EXPECT_GT(run.gap(), 0.0) << share;
+  }
+}
 
 /// Along the whole path, from pose to pose, no distance is <= 0, and the pose at the end is the last of the path.
 TEST(BallCycle, LetsTheCentreThroughNothing) {
