@@ -160,6 +160,34 @@ TEST(ContactSubsteps, StoreTheMotionOfTheWholeCycle) {
   EXPECT_GT(all.far, 100);
 }
 
+/// A box slides on a floor. In a cycle whose budget of work is spent before its first motion it stays, and the stored
+/// motion is zero, not that of the cycle before. Its forces stay, so that the hand feels no jump.
+template <bool kFriction>
+void expect_no_motion_without_work() {
+  const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);
+  const SampledBody body = box_body(4);
+  SubstepRun<kFriction> run(field, body, pose_at({0.0, 0.0, 0.015 + kSubstepMargin}));
+  const auto device = [](int cycle) { return pose_at({1e-4 * cycle, 0.0, 0.0149}); };
+  for (int cycle = 1; cycle <= 20; ++cycle) {
+    const bool has_work = cycle % 5 != 0;
+    run.parameters.work_budget = has_work ? WorkMeter::kUnlimited : 1;
+    const Pose before = run.state.H_WS;
+    ASSERT_EQ(run.step(device(cycle)), Status::kOk);
+    const ConstrainedStep& last = run.memory().last_step;
+    EXPECT_GT(last.force_count, 0u) << cycle;
+    EXPECT_EQ(run.report.out_of_work, !has_work) << cycle;
+    if (has_work) {
+      EXPECT_GT(last.motion.translation.x(), 0.5e-4) << cycle;
+      continue;
+    }
+    EXPECT_TRUE(run.state.H_WS == before) << cycle;
+    EXPECT_EQ(last.motion.translation, Vector3::Zero()) << cycle;
+    EXPECT_EQ(last.motion.rotation, Vector3::Zero()) << cycle;
+  }
+}
+TEST(ContactSubsteps, StoreNoMotionWithoutWork) { expect_no_motion_without_work<false>(); }
+TEST(ContactSubsteps, StoreNoMotionWithoutWorkWithFriction) { expect_no_motion_without_work<true>(); }
+
 /// A point falls onto a floor in one cycle, in any number of sub-steps: at first none finds the floor, then some do.
 /// The stored motion is the whole fall.
 TEST(ContactSubsteps, StoreTheWholeFallOfAPoint) {
@@ -896,6 +924,39 @@ TEST(ContactSubsteps, KnowAFaceThatEndsBeforeAPoint) {
   EXPECT_TRUE(detail::face_ends_before(field, {0.02 + 1e-4, 0.0, height}, up, lengths)) << "the side is nearer";
   EXPECT_FALSE(detail::face_ends_before(field, {0.02 + kSubstepMargin, 0.0, 0.0}, Vector3::UnitX(), lengths));
   EXPECT_TRUE(detail::face_ends_before(field, {0.0, 0.0, height}, Vector3(0.6, 0.0, 0.8), lengths)) << "no such face";
+}
+
+/// The top of a block, which ends on the left, with a wall on the right.
+struct BlockWithAWall {
+  static constexpr double kWall = 0.01;
+  double distance(const Vector3& p) const noexcept { return std::min(Block{}.distance(p), kWall - p.x()); }
+  Vector3 gradient(const Vector3& p) const noexcept {
+    return Block{}.distance(p) < kWall - p.x() ? Block{}.gradient(p) : Vector3(-Vector3::UnitX());
+  }
+};
+
+/// A body stands on two points: one at the end of a block's top, the other in front of a wall. The top is nearer to the
+/// latter, so that only a second look sees the wall. The device presses the body down and against the wall, where it
+/// rests already. The top ends beside the first point, but that point's row is not one of a second look: the body rests
+/// in one sub-step, without a shortened motion.
+TEST(ContactSubsteps, RestAtAWallWithAPointAtTheEndOfItsFace) {
+  const AnalyticField field(BlockWithAWall{}, kSubstepVoxel);
+  const double right = BlockWithAWall::kWall - kSubstepMargin - 1e-9;
+  const double left = -0.02 + 0.5 * 0.01 * kSubstepVoxel;
+  const double middle = 0.5 * (left + right);
+  const SampledBody body{
+      {{Vector3(left - middle, 0.0, 0.0), Vector3(right - middle, 0.0, 0.0)}, {-Vector3::UnitZ(), -Vector3::UnitZ()}},
+      Vector3::Constant(1e-4)};
+  const Pose start = pose_at({middle, 0.0, 0.01 + kSubstepMargin - 1e-9});
+  SubstepRun<> run(field, body, start);
+  const Pose device = pose_at(start.translation + Vector3(1e-3, 0.0, -1e-3));
+  for (int cycle = 0; cycle < 5; ++cycle) {
+    ASSERT_EQ(run.step(device), Status::kOk);
+    EXPECT_LT((run.state.H_WS.translation - start.translation).norm(), 1e-7) << cycle;
+    EXPECT_EQ(run.report.outcome, Outcome::kContact) << cycle;
+    EXPECT_EQ(run.report.substeps, 1u) << cycle;
+    EXPECT_NEAR(run.report.force.spring_W.force.x(), -run.parameters.stiffness * 1e-3, 1e-3) << cycle;
+  }
 }
 
 /// A keel in a roof: convex edges that cross, far from all points.
