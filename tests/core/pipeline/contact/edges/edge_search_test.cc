@@ -96,6 +96,37 @@ TEST(EdgeSearch, GoesOnWhereTheBudgetEndedIt) {
   EXPECT_GT(stops, 100);
 }
 
+/// The budget of work ends a search with a small radius. Then the radius grows beyond the pairs that this search would
+/// remember: all pairs within the new radius are found all the same.
+TEST(EdgeSearch, FindsThePairsOfARadiusThatGrowsWhereTheBudgetEndedTheSearch) {
+  constexpr double kSmall = 1e-4, kSlack = 1e-4, kLarge = 2e-3;
+  test::Random random(16);
+  int stops = 0;
+  std::size_t farther = 0;  // pairs that the first search would not remember
+  for (int run = 0; run < 20; ++run) {
+    const test::EdgeSet moving(scattered(random, 60, 0.02, 0.01));
+    const test::EdgeSet still(scattered(random, 90, 0.03, 0.015));
+    const EdgeContacts edges{moving.view(), still.view()};
+    const auto search = std::make_unique<EdgeSearch>();
+    search->start(edges);
+    const Pose H;
+    WorkMeter little;
+    little.start(3e4);
+    NearEdges none;
+    stops += search->find(H, 0.0, kSmall, kSlack, 0.0, little, none).free_displacement == 0.0 ? 1 : 0;
+    WorkMeter enough;
+    NearEdges near;
+    const EdgeSurroundings around = search->find(H, 0.0, kLarge, kSlack, 0.0, enough, near);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+    for (std::uint32_t i = 0; i < near.count; ++i) found.emplace(near.pair[i].moving, near.pair[i].still);
+    EXPECT_EQ(found, all_below(edges, H, kLarge)) << run;
+    EXPECT_GE(around.free_displacement, kLarge) << run;
+    farther += found.size() - all_below(edges, H, kSmall + kSlack).size();
+  }
+  EXPECT_EQ(stops, 20);
+  EXPECT_GT(farther, 20u);
+}
+
 /// A body that walks among edges: near pairs, the bound of the free displacement, and what is known to be free.
 TEST(EdgeSearch, FindsAllNearPairsWhereverTheBodyWalks) {
   test::Random random(5);
