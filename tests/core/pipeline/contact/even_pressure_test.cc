@@ -214,6 +214,30 @@ TEST(EvenPressure, NeedsMoreThanALineAcross) {
   EXPECT_EQ(on.patches().count, 0u);
 }
 
+/// A face of 40 mm that is narrower than a thousandth of its length counts as a line, even if its points lie on its two
+/// long sides only. One that is a little wider is a face. Both lie along either axis of the plane.
+TEST(EvenPressure, TakesAFaceBelowAThousandthOfItsLengthForALine) {
+  constexpr double kLength = 0.04;
+  for (const double width : {0.9e-3 * kLength, 1.2e-3 * kLength}) {
+    for (const bool along_x : {true, false}) {
+      const auto at = [&](double along, double across) {
+        return along_x ? Vector3(along, across, kBottom) : Vector3(across, along, kBottom);
+      };
+      SurfaceSamples sides;
+      for (int i = -16; i <= 16; ++i) {
+        for (const double side : {-0.5, 0.5}) {
+          sides.points.push_back(at(kLength / 32.0 * i, width * side));
+          sides.normals.push_back(Vector3::UnitZ());
+        }
+      }
+      OnFace on(sides);
+      on.push(at(0.5 * kLength, 0.5 * width), 1.0);
+      on.push(at(-0.5 * kLength, -0.5 * width), 1.0);
+      EXPECT_EQ(on.patches().count, width < 1e-3 * kLength ? 0u : 1u) << width << ' ' << along_x;
+    }
+  }
+}
+
 /// A face whose forces carry no load has no patch.
 TEST(EvenPressure, HasNoPatchOnAFaceWithoutLoad) {
   SurfaceSamples face = lower_face(0.04, 0.03);
