@@ -215,6 +215,24 @@ TEST(SceneStructure, HasSharpEdgesInTheirSpheres) {
   EXPECT_EQ(status_of(far), Status::kImageValue);
 }
 
+/// A tree over sharp edges may have a parent with one child. More nodes than twice the edges it cannot need.
+TEST(SceneStructure, HasAtMostTwoNodesForASharpEdge) {
+  for (const SectionId nodes : {SectionId::kSharpEdgeNodes, SectionId::kBodySharpEdgeNodes}) {
+    ImageParts image = test::whole_image();
+    const auto leaf = image.item<format::Node>(nodes);
+    for (std::uint16_t count = 1; count <= 3; ++count) {  // a chain
+      std::vector<format::Node> chain(count, leaf);
+      for (std::uint16_t level = 0; level < count; ++level) {
+        chain[level].skip = count;
+        chain[level].level = level;
+        chain[level].leaf = level + 1 == count ? 1 : 0;
+      }
+      image.set(nodes, chain);
+      EXPECT_EQ(status_of(image), count <= 2 ? Status::kOk : Status::kImageLayout) << count;
+    }
+  }
+}
+
 TEST(SceneStructure, HasEverySectionOnce) {
   ImageParts image = test::whole_image();
   image[id_of(27)].resize(8);
