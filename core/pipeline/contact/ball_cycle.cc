@@ -164,7 +164,8 @@ class Center {
   detail::Budget budget_{work_};
 };
 
-/// Adds the half space of the contact at the start of the sub-step.
+/// Adds the half space of the contact at the start of the sub-step. Where the field has no gradient there is none: deep
+/// inside, the centre follows the device.
 void Center::push_contact() noexcept {
   spaces_.count = 0;
   const double steepness = here_.gradient.norm();
@@ -322,11 +323,6 @@ BallResult advance(Center& center, const Vector3& goal, const Quaternion& rotati
       break;
     }
     ++result.substeps;
-    if (result.inside && !here.known) {  // deep inside, where the field has no gradient: follow the device
-      center.go(goal);
-      path.push({rotation, goal});
-      break;
-    }
     const bool has_moved = center.step(goal);
     path.push({rotation, center.at()});
     if (!has_moved) break;
