@@ -109,7 +109,7 @@ EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second) {
 Sides sides_of(const std::vector<WatchedEdge>& moving, const Pose& H_WS, const std::vector<WatchedEdge>& still,
                std::size_t i, std::size_t j, const EdgeDistance& distance) {
   if (distance.in_both_wedges()) return Sides::kOverlap;
-  const double length = (distance.on_first - distance.on_second).norm();
+  const double length = distance.length();
   if (distance.first_inside && distance.end_of_first) {
     return has_nearer(still, j, distance.on_first, length) ? Sides::kApart : Sides::kOverlap;
   }

@@ -33,6 +33,10 @@ struct EdgeDistance {
   bool end_of_first = false;   ///< `on_first` is an end
   bool end_of_second = false;  ///< `on_second` is an end
 
+  /// Returns the distance of the nearest points [m].
+  double length() const { return (on_first - on_second).norm(); }
+  /// Returns the gap of edges that overlap [m].
+  double overlap() const { return gap - 2.0 * length(); }
   /// Tells whether each edge lies inside the wedge of the other, beside no end, as where two solids overlap.
   bool in_both_wedges() const { return first_inside && second_inside; }
   /// Tells whether one of them does.

@@ -144,15 +144,17 @@ void Watch::find_overlaps(const Pose& H_WS) {
     const WatchedEdge edge = session_.moving_edges[i].at(H_WS);
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      const bool overlaps = sides_of(H_WS, i, j, pair) == Sides::kOverlap || pair.gap < 0.0;  // or within a sheet
-      if (overlaps) overlaps_.pairs[i * session_.still_edges.size() + j] = true;
-      overlaps_.any = overlaps_.any || overlaps || (pair.in_a_wedge() && pair.gap < q_.voxel_size);
+      const Sides sides = sides_of(H_WS, i, j, pair);
+      const bool overlaps = sides == Sides::kOverlap || pair.gap < 0.0;  // or within a sheet
+      const std::size_t number = i * session_.still_edges.size() + j;
+      overlaps_.pairs[number] = overlaps || (sides == Sides::kAtAFace && overlaps_.pairs[number]);
+      overlaps_.any = overlaps_.any || overlaps || (pair.in_a_wedge() && pair.length() < q_.voxel_size);
     }
   }
 }
 
 Sides Watch::sides_of(const Pose& H_WS, std::size_t i, std::size_t j, const EdgeDistance& pair) const {
-  if (pair.gap >= q_.voxel_size) return Sides::kApart;
+  if (pair.length() >= q_.voxel_size) return Sides::kApart;
   return watch::sides_of(session_.moving_edges, H_WS, session_.still_edges, i, j, pair);
 }
 
@@ -261,7 +263,8 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       const bool may_overlap = overlaps_.has(i * session_.still_edges.size() + j);
       // past the end of an edge the overlap passes to the next one within a cycle
       const Sides sides = overlaps_.any ? sides_of(H0, i, j, begin) : Sides::kApart;
-      if (sides != Sides::kAtAFace) smallest_ = std::min(smallest_, sides == Sides::kOverlap ? -at_begin : at_begin);
+      if (sides != Sides::kAtAFace)
+        smallest_ = std::min(smallest_, sides == Sides::kOverlap ? begin.overlap() : at_begin);
       if (may_overlap || sides != Sides::kApart) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
@@ -350,7 +353,7 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
       const Sides sides = overlaps_before_.any ? sides_of(H_WS, i, j, pair) : Sides::kApart;
       if (sides == Sides::kAtAFace) continue;
       if (sides == Sides::kOverlap) {
-        pair.gap = -pair.gap;
+        pair.gap = pair.overlap();
         pair.normal = -pair.normal;
       }
       if (!(pair.gap <= reach)) continue;

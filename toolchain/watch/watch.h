@@ -155,7 +155,7 @@ class Watch {
   Vector6 stretch(const Pose& H_WS, const Pose& H_WD) const;
   Pose clamped(const Pose& H_WD) const;
 
-  /// The pairs of edges that have overlapped since the start, until the session has come out.
+  /// The pairs of edges that overlap since the start, until the session has come out.
   struct Overlaps {
     std::vector<bool> pairs;  ///< of all pairs
     bool any = false;         ///< some may still overlap

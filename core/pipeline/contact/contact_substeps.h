@@ -531,7 +531,6 @@ class ContactSubsteps {
   void follow_device() noexcept {
     move_to(input_.H_WD);
     add_to_whole(free_);
-    memory_.edges_may_overlap = false;  // all edges are apart along the motion
     friction_.slid = Motion{};
     step_.release();
     result_.smallest = std::numeric_limits<double>::infinity();

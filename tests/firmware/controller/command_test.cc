@@ -445,7 +445,6 @@ TEST_F(ControllerCommandTest, WarnsOfABudgetThatHoldsTheGodObject) {
   const std::string warning = "godobject-controller: with 1 us a cycle the god object stops on the way: ";
   write_contact_controller(settings + "1e-6\n");
   run("c.toml --duration 0.01");
-  EXPECT_TRUE(says("budget: 1 us a cycle for the god object, 1 units. ")) << words_;
   EXPECT_TRUE(says(warning)) << words_;
   write_contact_controller("[loop]\ncycle_budget = 1e-6\n");
   EXPECT_EQ(run("c.toml --duration 0.01"), 0) << words_;

@@ -45,7 +45,7 @@ double edge_distance(const EdgeInW& moving, const EdgeInW& still) noexcept;
 /// Which nearest point of two edges lies inside the wedge of the other edge, beside no end of that one.
 enum class EdgeInside : std::uint8_t {
   kNone,
-  kPoint,        ///< one that is no end of its edge, or both
+  kPoint,        ///< that of either edge, or of both: none of them is an end
   kEndOfMoving,  ///< that of the moving edge, and it is an end
   kEndOfStill,   ///< that of the still edge, and it is an end
 };
@@ -61,10 +61,14 @@ struct EdgeGap {
   bool is_nearest = true;
   EdgeInside inside = EdgeInside::kNone;
 
+  /// Tells whether the edges overlap, or an end of one may overlap the other.
+  bool may_be_turned() const noexcept {
+    return distance < 0.0 || inside == EdgeInside::kEndOfMoving || inside == EdgeInside::kEndOfStill;
+  }
   /// Turns the gap into that of edges which overlap by as much.
   void turn_round() noexcept {
     normal = -normal;
-    distance = -(on_moving - on_still).norm();
+    distance -= 2.0 * (on_moving - on_still).norm();
     is_nearest = true;
   }
 };

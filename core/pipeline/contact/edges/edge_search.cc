@@ -104,27 +104,29 @@ bool EdgeSearch::remember(const Pose& H_WS, double travelled, double radius, dou
   return true;
 }
 
-void EdgeSearch::settle_overlaps(const Pose& H_WS, WorkMeter& work, NearEdges& near) const noexcept {
+void EdgeSearch::settle_overlaps(const Pose& H_WS, bool has_all, WorkMeter& work, NearEdges& near) const noexcept {
+  const Matrix3 R = H_WS.rotation.toRotationMatrix();
   const auto is_nearer = [](const EdgeInW& edge, const Vector3& end, double distance) noexcept {
     const Vector3 along = edge.end[1] - edge.end[0];
     const double place = nearest_place(edge.end[0], along, along.squaredNorm(), end);
     return (edge.end[0] + place * along - end).norm() < distance;
   };
-  for (std::uint32_t k = 0; k < near.count; ++k) {
+  for (std::uint32_t k = 0; k < near.count && has_all; ++k) {
     EdgeGap& gap = near.gap[k];
     const bool of_moving = gap.inside == EdgeInside::kEndOfMoving;
     if (!of_moving && gap.inside != EdgeInside::kEndOfStill) continue;
+    if (work.is_spent()) return;
     work.add(Work::kScan, near.count);
     const double length = (gap.on_moving - gap.on_still).norm();
     bool is_nearest = true;
     for (std::uint32_t n = 0; n < near.count && is_nearest; ++n) {
       const EdgePair& other = near.pair[n];
-      if (n == k) continue;
-      if (of_moving && other.moving == near.pair[k].moving) {
-        is_nearest = !is_nearer(EdgeInW::of_still(edges_.still.edges[other.still]), gap.on_moving, length);
-      } else if (!of_moving && other.still == near.pair[k].still) {
-        is_nearest = !is_nearer(EdgeInW::at(edges_.moving.edges[other.moving], H_WS), gap.on_still, length);
-      }
+      const bool is_of_end = of_moving ? other.moving == near.pair[k].moving : other.still == near.pair[k].still;
+      if (n == k || !is_of_end) continue;
+      work.add(Work::kPair);
+      is_nearest = of_moving ? !is_nearer(EdgeInW::of_still(edges_.still.edges[other.still]), gap.on_moving, length)
+                             : !is_nearer(EdgeInW::at(edges_.moving.edges[other.moving], R, H_WS.translation),
+                                          gap.on_still, length);
     }
     if (is_nearest) gap.turn_round();
   }
@@ -158,10 +160,10 @@ EdgeSurroundings EdgeSearch::find(const Pose& H_WS, double travelled, double rad
       const EdgeGap gap = detail::gap_at(edges_, candidate.pair, H_WS, deepest);
       const double apart = std::max(0.0, gap.distance);  // sheets may overlap by less than their radii
       candidate.free_until = travelled + apart;
-      around.may_overlap = around.may_overlap || gap.inside != EdgeInside::kNone;
+      around.may_overlap = around.may_overlap || gap.inside != EdgeInside::kNone || gap.distance < 0.0;
       if (apart < radius && !near.push(candidate.pair, gap)) {
         // a pair that overlaps would be held on its wrong side once it is taken for one that is apart
-        const double left_out = gap.distance < 0.0 ? near.push_overlap(candidate.pair, gap) : gap.distance;
+        const double left_out = gap.may_be_turned() ? near.push_overlap(candidate.pair, gap) : gap.distance;
         ++around.unlisted;
         around.free_displacement = std::min(around.free_displacement, std::max(0.0, left_out));
       }
@@ -169,8 +171,9 @@ EdgeSurroundings EdgeSearch::find(const Pose& H_WS, double travelled, double rad
     certain_ = std::min(certain_, candidate.free_until);
   }
   if (deepest > 0.0) {
-    settle_overlaps(H_WS, work, near);
-    around.may_overlap = around.may_overlap || around.unlisted > 0;
+    settle_overlaps(H_WS, around.unlisted == 0, work, near);
+    around.may_overlap = around.may_overlap || complete_until_ - travelled < deepest;
+    if (around.may_overlap) certain_ = -std::numeric_limits<double>::infinity();  // the turned gaps are not free
   }
   return around;
 }

@@ -17,7 +17,8 @@ struct EdgeSurroundings {
   std::uint32_t unlisted = 0;  ///< near pairs, and pairs of branches, that found no place in a list
   /// Up to this displacement all pairs outside of the list of near pairs stay apart [m].
   double free_displacement = std::numeric_limits<double>::infinity();
-  /// Two near edges may overlap: a nearest point of theirs lies inside the other's wedge, or pairs are unlisted.
+  /// Two near edges may overlap: they do, or a nearest point of theirs lies inside the other's wedge, or that of a pair
+  /// which is not known may.
   bool may_overlap = false;
 };
 
@@ -53,7 +54,8 @@ class EdgeSearch {
   ///
   /// With `deepest` the end of an edge overlaps, too: if it lies inside the wedge of the other edge, and no other near
   /// edge of that body is nearer to it. Other pairs of which a nearest point lies inside the wedge of the other edge
-  /// are left out: the bodies overlap there by the distance to a face. A row would hold them together.
+  /// are left out, without a limit of the motion: the bodies overlap there by the distance to a face. A row would hold
+  /// them together.
   EdgeSurroundings find(const Pose& H_WS, double travelled, double radius, double slack, double deepest,
                         WorkMeter& work, NearEdges& near) noexcept;
 
@@ -87,8 +89,8 @@ class EdgeSearch {
   bool visit_trees(const Pose& H_WS, WorkMeter& work) noexcept;
   void look_at(const Branches& branches, double distance) noexcept;
   void leave_out(double apart) noexcept;
-  /// Turns the gaps of ends that overlap round, and leaves out what overlaps at a face.
-  void settle_overlaps(const Pose& H_WS, WorkMeter& work, NearEdges& near) const noexcept;
+  /// Turns the gaps of ends that overlap round, if the list has all near pairs, and leaves out what overlaps at a face.
+  void settle_overlaps(const Pose& H_WS, bool has_all, WorkMeter& work, NearEdges& near) const noexcept;
 
   EdgeContacts edges_;
   std::uint32_t count_{};

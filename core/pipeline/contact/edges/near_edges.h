@@ -69,11 +69,11 @@ struct NearEdges {
     return true;
   }
 
-  /// Puts a pair that overlaps in the place of one that is apart, if there is one. Returns the gap of the pair that
+  /// Puts a pair that may overlap in the place of one that is apart, if there is one. Returns the gap of the pair that
   /// found no place [m].
   double push_overlap(const EdgePair& near, const EdgeGap& at_start) noexcept {
     for (std::uint32_t k = 0; k < count; ++k) {
-      if (gap[k].distance < 0.0) continue;
+      if (gap[k].may_be_turned()) continue;
       const double left_out = gap[k].distance;
       pair[k] = near;
       gap[k] = at_start;

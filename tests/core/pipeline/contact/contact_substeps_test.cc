@@ -1030,6 +1030,7 @@ TEST(ContactSubsteps, LeadEdgesOutThatOverlapAtANewStart) {
 /// under a still device comes to rest.
 TEST(ContactSubsteps, LeadTwoOverlapsOutTogether) {
   Random random(5);
+  int came_out = 0;
   const AnalyticField field(FarBelow{}, kSubstepVoxel);
   const SampledBody body = box_body(2);
   for (int round = 0; round < 60; ++round) {
@@ -1076,12 +1077,74 @@ TEST(ContactSubsteps, LeadTwoOverlapsOutTogether) {
       are_near = are_near || across.inside != EdgeInside::kNone;
     }
     EXPECT_EQ(run.cycle.memory->edges_may_overlap, are_near) << round;
+    came_out += are_near ? 0 : 1;
     for (std::uint32_t pair = 0; pair < 2; ++pair) {
       const EdgeGap gap = detail::gap_at(run.cycle.edges, {pair, pair}, run.state.H_WS);
       EXPECT_GT(gap.normal.dot(out[pair]), 0.5) << "out on the right side, " << round;
       EXPECT_GE(gap.distance, 0.5 * kSubstepMargin) << round;
     }
   }
+  EXPECT_GT(came_out, 50);
+}
+
+/// An edge that ends below a ridge, 0.4 voxels deep, and leaves the roof through a face. The end leads the body out.
+TEST(ContactSubsteps, LeadAnOverlapAtAnEndOut) {
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body = box_body(2);
+  EdgeSet ridge({{Vector3(-0.02, 0, 0), Vector3(0.02, 0, 0)}});
+  EdgeSet side({{Vector3(0, 0, -0.4 * kSubstepVoxel), Vector3(0, 0.02, -4e-3)}});
+  for (int face = 0; face < 2; ++face) {
+    ridge.edges()[0].normal[face][1] = face == 0 ? 0.8f : -0.8f;
+    ridge.edges()[0].normal[face][2] = 0.6f;
+    side.edges()[0].normal[face][0] = face == 0 ? 1.0f : -1.0f;
+  }
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, Pose{});
+  run.state.started = false;
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {side.view(), ridge.view()};
+  ASSERT_EQ(run.step(Pose{}), Status::kOk);
+  EXPECT_TRUE(run.cycle.memory->edges_may_overlap);
+  double height = run.state.H_WS.translation.z();
+  // once it is out it may slide down beside the ridge, since the roof has no points here
+  for (int cycle = 0; cycle < 100 && height < 0.4 * kSubstepVoxel; ++cycle) {
+    ASSERT_EQ(run.step(Pose{}), Status::kOk);
+    EXPECT_GT(run.state.H_WS.translation.z(), height) << "out, not to the device, " << cycle;
+    EXPECT_TRUE(run.cycle.memory->edges_may_overlap) << "until a pose is found at which they do not, " << cycle;
+    height = run.state.H_WS.translation.z();
+  }
+  EXPECT_GT(height, 0.4 * kSubstepVoxel);
+  EXPECT_GT(detail::gap_at(run.cycle.edges, {0, 0}, run.state.H_WS).normal.z(), 0.5);
+  ASSERT_EQ(run.step(Pose{}), Status::kOk);
+  EXPECT_FALSE(run.cycle.memory->edges_may_overlap);
+}
+
+/// An edge of a body that reaches down from it, below a ridge and then above it: nothing holds the body there, and the
+/// edges may overlap until it has left.
+TEST(ContactSubsteps, KeepInMindWhatOverlapsAtAFace) {
+  const AnalyticField field(FarBelow{}, kSubstepVoxel);
+  const SampledBody body = box_body(2);
+  EdgeSet ridge({{Vector3(-0.02, 0, 0), Vector3(0.02, 0, 0)}});
+  EdgeSet across({{Vector3(0, -0.02, -0.4 * kSubstepVoxel), Vector3(0, 0.02, -0.4 * kSubstepVoxel)}});
+  for (int face = 0; face < 2; ++face) {
+    ridge.edges()[0].normal[face][1] = across.edges()[0].normal[face][0] = face == 0 ? 0.8f : -0.8f;
+    ridge.edges()[0].normal[face][2] = across.edges()[0].normal[face][2] = 0.6f;
+  }
+  AnalyticRun<AnalyticField, EdgeCycle> run(field, body, Pose{});
+  run.state.started = false;
+  run.parameters.margin = kSubstepMargin;
+  run.cycle.edges = {across.view(), ridge.view()};
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    const Pose H_WD = pose_at({0.0, 0.0, 1e-3 * kSubstepVoxel * cycle});
+    ASSERT_EQ(run.step(H_WD), Status::kOk);
+    EXPECT_TRUE(run.cycle.memory->edges_may_overlap) << cycle;
+    EXPECT_NEAR((run.state.H_WS.translation - H_WD.translation).norm(), 0.0, 1e-12) << "free, " << cycle;
+  }
+  for (int cycle = 0; cycle < 3; ++cycle) ASSERT_EQ(run.step(pose_at({0.0, 0.0, kSubstepVoxel})), Status::kOk);
+  EXPECT_TRUE(run.cycle.memory->edges_may_overlap) << "over the ridge";
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    ASSERT_EQ(run.step(pose_at({0.0, 0.0, 2.0 * kSubstepVoxel})), Status::kOk);
+  }
+  EXPECT_FALSE(run.cycle.memory->edges_may_overlap);
 }
 
 /// Edges that overlap on opposite sides at the start push against each other: no motion frees both. Under a device that

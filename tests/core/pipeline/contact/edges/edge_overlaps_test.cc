@@ -32,6 +32,12 @@ struct Found {
 
 Prism box() { return Prism::over({{-4e-3, -3e-3}, {4e-3, -3e-3}, {4e-3, 3e-3}, {-4e-3, 3e-3}}, 0.005); }
 
+Pose pose_at_z(double z) {
+  Pose H;
+  H.translation.z() = z;
+  return H;
+}
+
 /// Two convex bodies at random poses, near each other or a little inside each other: a box against wheels, whose rims
 /// have corners of 15 and of 4 degrees; the edges of the second are shorter than the deepest overlap. Apart no pair of
 /// edges overlaps. Where the bodies overlap and no corner of one lies inside the other, a pair tells it, wherever the
@@ -98,6 +104,29 @@ TEST(EdgeOverlaps, LeaveOutWhatOverlapsAtAFace) {
       }
     }
   }
+}
+
+/// The end of an edge below a ridge, which leaves the roof through a face. While it overlaps no motion is known to be
+/// free.
+TEST(EdgeOverlaps, OfEndsAreNoFreeSpace) {
+  EdgeSet ridge({{Vector3(-0.01, 0, 0), Vector3(0.01, 0, 0)}});
+  EdgeSet side({{Vector3(0, 0, -4e-4), Vector3(0, 0.01, -2e-3)}});
+  for (int face = 0; face < 2; ++face) {
+    ridge.edges()[0].normal[face][1] = face == 0 ? 0.8f : -0.8f;
+    ridge.edges()[0].normal[face][2] = 0.6f;
+    side.edges()[0].normal[face][0] = face == 0 ? 1.0f : -1.0f;
+  }
+  const auto search = std::make_unique<EdgeSearch>();
+  search->start({side.view(), ridge.view()});
+  NearEdges near;
+  WorkMeter work;
+  EXPECT_TRUE(search->find(Pose{}, 0.0, kDeepest, 1e-3, kDeepest, work, near).may_overlap);
+  ASSERT_EQ(near.count, 1u);
+  EXPECT_NEAR(near.gap[0].distance, -4e-4, 1e-5);
+  EXPECT_FALSE(search->is_free(0.0, 1e-4));
+  near.count = 0;
+  EXPECT_FALSE(search->find(pose_at_z(1e-3), 1e-3, kDeepest, 1e-3, kDeepest, work, near).may_overlap);
+  EXPECT_TRUE(search->is_free(1e-3, 1e-4)) << "above the ridge";
 }
 
 }  // namespace
