@@ -21,7 +21,7 @@ struct EdgeObstacle {
 /// The certificate of edge against edge. Tells whether no edge of the moving body meets one of the still body while its
 /// points move along their chords from pose H0 to H1, and no gap shrinks below `least_gap` [m], unless a face is
 /// nearer. If not, `obstacle` receives the first pair that failed. Pairs that overlap at the start may move freely.
-/// Pairs that are not near stay apart (EdgeSurroundings::free_displacement).
+/// Other pairs stay apart (EdgeSurroundings::free_displacement), but for those that EdgeSearch::find leaves out.
 ///
 /// A pair is free if its gap is larger than the displacement of the edge's ends. It is also free if a plane has the
 /// still edge on one side and the moving edge on the other side in both poses: each point moves straight, so the plane
