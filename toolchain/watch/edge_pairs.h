@@ -49,13 +49,12 @@ EdgeDistance distance_of(const WatchedEdge& first, const WatchedEdge& second);
 /// Sides of two near edges, by their wedges.
 enum class Sides {
   kApart,
-  kOverlap,  ///< each lies inside the wedge of the other, or an end of one does and is nearest to this edge of the
-             ///< other
+  kOverlap,  ///< each lies in the wedge of the other, or an end of one does and no other edge is nearer to that end
   kAtAFace,  ///< another point of one lies inside the wedge of the other: a face is nearer to it than the edge
 };
 
-/// Returns it for the edge `moving[i]` with the body at H_WS and the edge `still[j]` at this distance. `moving`, in S,
-/// and `still` are all edges.
+/// Returns the sides of the edge `moving[i]`, with the body at H_WS, and the edge `still[j]`. `distance`: theirs.
+/// `moving`: all edges of the moving body, in S; `still`: all of the still body.
 Sides sides_of(const std::vector<WatchedEdge>& moving, const Pose& H_WS, const std::vector<WatchedEdge>& still,
                std::size_t i, std::size_t j, const EdgeDistance& distance);
 

@@ -106,51 +106,45 @@ void Watch::cycle(const WatchedCycle& cycle) {
   H_WS_before_ = H_WS_;
   const bool was_inside = is_inside_;
   is_inside_ = is_contact && cycle.report.outcome == Outcome::kStartInside;
-  overlaps_before_ = overlaps_;
+  edges_may_overlap_before_ = edges_may_overlap_;
   if (is_contact) {
     follow(cycle);
-    find_overlaps(cycle.report.H_WS);
+    look_for_overlaps(cycle.report.H_WS);
   }
   H_WS_ = cycle.report.H_WS;
   H_WD_last_ = H_WD;
   check_wrench(cycle);
-  if (is_contact) {
-    if (cycle.report.contacts > 0) ++findings_.touching;
-    check_report(cycle, is_first || was_inside);
-    if (!is_inside_ && !was_inside) {
-      check_distance(cycle);
-      check_reference(cycle);
-    }
-  }
+  if (!is_contact) return;
+  if (cycle.report.contacts > 0) ++findings_.touching;
+  check_report(cycle, is_first || was_inside);
+  if (is_inside_ || was_inside) return;
+  check_distance(cycle);
+  check_reference(cycle);
 }
 
 void Watch::start(const Pose& H_WD) {
   started_ = true;
   H_WS_ = H_WD;
   H_WD_last_ = H_WD;
-  overlaps_ = {std::vector<bool>(edge_bound_.size()), true};
-  find_overlaps(H_WS_);
+  edges_may_overlap_ = true;
+  look_for_overlaps(H_WS_);
 }
 
-/// Finds the pairs of edges that overlap at a pose of the god object. Edges that are farther apart than a voxel may lie
-/// in each other's wedges although their bodies are apart. As long as some pair overlaps, others may follow past the
-/// end of an edge, without crossing it. While a point of one edge lies in the wedge of another a pair may still
-/// overlap: past an end no pair tells it. Edges may overlap after all points are outside, but none once all are apart.
-void Watch::find_overlaps(const Pose& H_WS) {
-  if (is_inside_) overlaps_ = {std::vector<bool>(edge_bound_.size()), true};
-  if (!overlaps_.any) return;
-  overlaps_.any = false;
-  for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
-    const WatchedEdge edge = session_.moving_edges[i].at(H_WS);
-    for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
-      const EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      const Sides sides = sides_of(H_WS, i, j, pair);
-      const bool overlaps = sides == Sides::kOverlap || pair.gap < 0.0;  // or within a sheet
-      const std::size_t number = i * session_.still_edges.size() + j;
-      overlaps_.pairs[number] = overlaps || (sides == Sides::kAtAFace && overlaps_.pairs[number]);
-      overlaps_.any = overlaps_.any || overlaps || (pair.in_a_wedge() && pair.length() < q_.voxel_size);
+/// Finds out whether edges may overlap at a pose of the god object. Once all are apart, none may. Edges that are
+/// farther apart than a voxel may lie in each other's wedges although their bodies are apart. While a point of one edge
+/// lies in the wedge of another a pair may still overlap: past an end no pair tells it. Edges may overlap after all
+/// points are outside.
+void Watch::look_for_overlaps(const Pose& H_WS) {
+  if (is_inside_) edges_may_overlap_ = true;
+  if (!edges_may_overlap_) return;
+  for (const WatchedEdge& moving : session_.moving_edges) {
+    const WatchedEdge edge = moving.at(H_WS);
+    for (const WatchedEdge& other : session_.still_edges) {
+      const EdgeDistance pair = distance_of(edge, other);
+      if (pair.gap < 0.0 || (pair.in_a_wedge() && pair.length() < q_.voxel_size)) return;  // or within a sheet
     }
   }
+  edges_may_overlap_ = false;
 }
 
 Sides Watch::sides_of(const Pose& H_WS, std::size_t i, std::size_t j, const EdgeDistance& pair) const {
@@ -193,7 +187,7 @@ void Watch::follow(const WatchedCycle& cycle) {
   H_WS_last_start_ = here;
   for (const Pose& next : cycle.path) {
     H_WS_last_start_ = here;
-    find_overlaps(here);
+    look_for_overlaps(here);
     advance(here, next);
     here = next;
   }
@@ -242,7 +236,7 @@ void Watch::advance(const Pose& H0, const Pose& H1) {
 
 /// No edge of the moving body may meet one of the still body. Edges that overlap at the start may come out.
 void Watch::advance_edges(const Pose& H0, const Pose& H1) {
-  const double near = (overlaps_.any ? 1.0 : 0.2) * q_.voxel_size;
+  const double near = (edges_may_overlap_ ? 1.0 : 0.2) * q_.voxel_size;
   for (std::size_t i = 0; i < session_.moving_edges.size(); ++i) {
     const WatchedEdge from = session_.moving_edges[i].at(H0);
     const WatchedEdge to = session_.moving_edges[i].at(H1);
@@ -260,12 +254,11 @@ void Watch::advance_edges(const Pose& H0, const Pose& H1) {
       const double at_begin = begin.gap;
       bound = std::max(0.0, distance_of(to, other).gap);
       if (is_inside_) continue;
-      const bool may_overlap = overlaps_.has(i * session_.still_edges.size() + j);
-      // past the end of an edge the overlap passes to the next one within a cycle
-      const Sides sides = overlaps_.any ? sides_of(H0, i, j, begin) : Sides::kApart;
+      const Sides sides = edges_may_overlap_ ? sides_of(H0, i, j, begin) : Sides::kApart;
       if (sides != Sides::kAtAFace)
         smallest_ = std::min(smallest_, sides == Sides::kOverlap ? begin.overlap() : at_begin);
-      if (may_overlap || sides != Sides::kApart) continue;
+      const bool in_a_sheet = edges_may_overlap_ && at_begin < 0.0;
+      if (in_a_sheet || sides != Sides::kApart) continue;
       const double resolution = 1e-6 * q_.voxel_size;
       judge(Property::kNoCrossing, falls_below(from, to, other, 0.0, resolution) ? 1.0 : 0.0, 0.0,
             [&] { return fmt::format("edge {} meets edge {} of the still body, from {} m", i, j, at_begin); });
@@ -350,7 +343,7 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
     for (std::size_t j = 0; j < session_.still_edges.size(); ++j) {
       if (edge_bound_[i * session_.still_edges.size() + j] > reach + travelled_) continue;
       EdgeDistance pair = distance_of(edge, session_.still_edges[j]);
-      const Sides sides = overlaps_before_.any ? sides_of(H_WS, i, j, pair) : Sides::kApart;
+      const Sides sides = edges_may_overlap_before_ ? sides_of(H_WS, i, j, pair) : Sides::kApart;
       if (sides == Sides::kAtAFace) continue;
       if (sides == Sides::kOverlap) {
         pair.gap = pair.overlap();

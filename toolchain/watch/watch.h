@@ -106,7 +106,7 @@ class Watch {
   }
 
   void start(const Pose& H_WD);
-  void find_overlaps(const Pose& H_WS);
+  void look_for_overlaps(const Pose& H_WS);
   Sides sides_of(const Pose& H_WS, std::size_t i, std::size_t j, const EdgeDistance& pair) const;
   void follow(const WatchedCycle& cycle);
   void advance(const Pose& H0, const Pose& H1);
@@ -155,21 +155,13 @@ class Watch {
   Vector6 stretch(const Pose& H_WS, const Pose& H_WD) const;
   Pose clamped(const Pose& H_WD) const;
 
-  /// The pairs of edges that overlap since the start, until the session has come out.
-  struct Overlaps {
-    std::vector<bool> pairs;  ///< of all pairs
-    bool any = false;         ///< some may still overlap
-
-    bool has(std::size_t pair) const { return any && pairs[pair]; }
-  };
-
   WatchedSession session_;
   const Parameters& q_;
   double gyration_;
   std::vector<Points> points_;
-  Overlaps overlaps_;               ///< at the current pose
-  Overlaps overlaps_before_;        ///< at the start of the cycle
-  std::vector<double> edge_bound_;  ///< lower bounds of all pairs' gaps at the current pose [m]
+  bool edges_may_overlap_ = false;         ///< at the current pose: since the start no pose had all edges apart
+  bool edges_may_overlap_before_ = false;  ///< the same at the start of the cycle
+  std::vector<double> edge_bound_;         ///< lower bounds of all pairs' gaps at the current pose [m]
   Findings findings_;
   Nearest nearest_;
 
