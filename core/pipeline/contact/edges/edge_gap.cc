@@ -57,21 +57,16 @@ bool is_across(const EdgeInW& edge, const Vector3& direction) noexcept {
   return std::fabs(along.dot(direction)) <= kSlack * along.norm();
 }
 
-/// Which nearest point of two edges lies inside the other's wedge, and whether both do, beside no end. Beyond an end of
-/// an edge its wedge ends.
-struct Inside {
-  EdgeInside which;
-  bool both;
-};
-
-Inside inside(const EdgeInW& moving, const EdgeInW& still, const Vector3& normal) noexcept {
+/// Returns which nearest points lie inside the wedge of the other edge. Beyond an end of an edge its wedge ends.
+EdgeInside inside(const EdgeInW& moving, const EdgeInW& still, const Vector3& normal) noexcept {
   const bool moving_has_end = !is_across(moving, normal);
   const bool still_has_end = !is_across(still, normal);
   const bool moving_point = !still_has_end && leads_inside(still, normal);
   const bool still_point = !moving_has_end && leads_inside(moving, -normal);
-  if (moving_point && moving_has_end) return {EdgeInside::kEndOfMoving, false};
-  if (still_point && still_has_end) return {EdgeInside::kEndOfStill, false};
-  return {moving_point || still_point ? EdgeInside::kPoint : EdgeInside::kNone, moving_point && still_point};
+  if (moving_point && still_point) return EdgeInside::kBoth;
+  if (moving_point) return moving_has_end ? EdgeInside::kEndOfMoving : EdgeInside::kPoint;
+  if (still_point) return still_has_end ? EdgeInside::kEndOfStill : EdgeInside::kPoint;
+  return EdgeInside::kNone;
 }
 
 /// Tells whether a direction from an edge leads over one of its faces: it has a part away from the edge in the plane of
@@ -116,9 +111,8 @@ EdgeGap edge_gap(const EdgeInW& moving, const EdgeInW& still, double deepest) no
   }
   gap.distance = length - (moving.radius + still.radius);
   if (length > kMeet && length < deepest) {
-    const Inside points = inside(moving, still, gap.normal);
-    gap.inside = points.which;
-    if (points.both) {
+    gap.inside = inside(moving, still, gap.normal);
+    if (gap.inside == EdgeInside::kBoth) {
       gap.turn_round();
       return gap;
     }

@@ -45,7 +45,8 @@ double edge_distance(const EdgeInW& moving, const EdgeInW& still) noexcept;
 /// Which nearest point of two edges lies inside the wedge of the other edge, beside no end of that one.
 enum class EdgeInside : std::uint8_t {
   kNone,
-  kPoint,        ///< that of either edge, or of both: none of them is an end
+  kPoint,        ///< that of one edge, and it is no end
+  kBoth,         ///< those of both edges, and none is an end: the edges overlap
   kEndOfMoving,  ///< that of the moving edge, and it is an end
   kEndOfStill,   ///< that of the still edge, and it is an end
 };
@@ -59,7 +60,7 @@ struct EdgeGap {
   double place = 0.0;                   ///< of `on_moving`, from end 0 to end 1 of the moving edge [1]
   /// True if neither edge lies over a face of the other one. Else that face is nearer than the edge.
   bool is_nearest = true;
-  EdgeInside inside = EdgeInside::kNone;
+  EdgeInside inside = EdgeInside::kNone;  ///< at the nearest points, as edge_gap found them
 
   /// Tells whether the edges overlap, or an end of one may overlap the other.
   bool may_be_turned() const noexcept {
