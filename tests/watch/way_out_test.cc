@@ -29,7 +29,7 @@ std::vector<Touch> touches_of(const WatchedSession& session, const Pose& H_WS, d
     for (const Vector3& p : direction.points) {
       const double gap = direction.field->distance(H_WS * p);
       if (gap > reach) continue;
-      touches.push_back({p, H_WS.rotation.conjugate() * direction.field->gradient(H_WS * p), gap});
+      touches.push_back({p, H_WS.rotation.conjugate() * direction.field->gradient(H_WS * p), gap - kMargin});
     }
   }
   return touches;
@@ -37,8 +37,8 @@ std::vector<Touch> touches_of(const WatchedSession& session, const Pose& H_WS, d
 
 double smallest_gap(const WatchedSession& session, const Pose& H_WS) {
   double smallest = HUGE_VAL;
-  for (const Touch& touch : touches_of(session, H_WS, HUGE_VAL)) smallest = std::min(smallest, touch.gap);
-  return smallest;
+  for (const Touch& touch : touches_of(session, H_WS, HUGE_VAL)) smallest = std::min(smallest, touch.left);
+  return smallest + kMargin;
 }
 
 Parameters parameters(double rho) {
@@ -58,23 +58,23 @@ Vector6 six(const Motion& m, double rho) {
 TEST(WayOut, IsNoneWhereNothingIsLostOrNobodyKnowsIt) {
   const Parameters q = parameters(0.1);
   EXPECT_EQ(way_out({}, q), Vector6::Zero());
-  EXPECT_EQ(way_out({{Vector3::Zero(), Vector3::UnitZ(), 1.01 * kMargin}}, q), Vector6::Zero());
+  EXPECT_EQ(way_out({{Vector3::Zero(), Vector3::UnitZ(), 0.01 * kMargin}}, q), Vector6::Zero());
   // the same gap on both sides of one point: no motion gains on both
-  EXPECT_EQ(way_out({{Vector3::Zero(), Vector3::UnitZ(), 0.5 * kMargin}, {Vector3::Zero(), -Vector3::UnitZ(), 0.0}}, q),
-            Vector6::Zero());
+  EXPECT_EQ(
+      way_out({{Vector3::Zero(), Vector3::UnitZ(), -0.5 * kMargin}, {Vector3::Zero(), -Vector3::UnitZ(), -kMargin}}, q),
+      Vector6::Zero());
 }
 
 TEST(WayOut, IsTheLostGapOnAPlaneAndGrowsAsAWedgeNarrows) {
   const Parameters q = parameters(0.1);
   const double lost = 0.4 * kMargin;
-  const Vector6 plane = way_out({{Vector3::Zero(), Vector3::UnitZ(), kMargin - lost}}, q);
+  const Vector6 plane = way_out({{Vector3::Zero(), Vector3::UnitZ(), -lost}}, q);
   EXPECT_NEAR(plane[2], kRegained * lost, 1e-12 * kMargin);
   EXPECT_NEAR(plane.norm(), kRegained * lost, 1e-12 * kMargin);
   for (const double half_angle : {0.5, 0.05, 0.005}) {
     const double c = std::cos(half_angle);
     const double s = std::sin(half_angle);
-    const Vector6 out =
-        way_out({{Vector3::Zero(), {c, 0.0, s}, kMargin - lost}, {Vector3::Zero(), {-c, 0.0, s}, kMargin - lost}}, q);
+    const Vector6 out = way_out({{Vector3::Zero(), {c, 0.0, s}, -lost}, {Vector3::Zero(), {-c, 0.0, s}, -lost}}, q);
     EXPECT_NEAR(out[2], kRegained * lost / s, 1e-9 * kMargin / s);
     EXPECT_NEAR(out.norm(), out[2], 1e-9 * out[2]);
   }
@@ -87,9 +87,9 @@ TEST(WayOut, IsATurnWhereTheWallsLeaveNothingElse) {
   const double rho = 0.3;
   const double lost = 0.2 * kMargin;
   for (const double height : {0.01, 0.001, 0.0001}) {
-    const Vector6 out = way_out({{{1.0, 0.0, height}, {-1.0, 0.0, 0.0}, kMargin - lost},
-                                 {{-1.0, 0.0, -height}, {1.0, 0.0, 0.0}, kMargin - lost}},
-                                parameters(rho));
+    const Vector6 out =
+        way_out({{{1.0, 0.0, height}, {-1.0, 0.0, 0.0}, -lost}, {{-1.0, 0.0, -height}, {1.0, 0.0, 0.0}, -lost}},
+                parameters(rho));
     EXPECT_NEAR(std::fabs(out[4]), rho * kRegained * lost / height, 1e-6 * out.norm());
     EXPECT_NEAR(out.norm(), std::fabs(out[4]), 1e-9 * out.norm());
   }
@@ -106,9 +106,9 @@ TEST(WayOut, BoundsHowFarAMotionEndsFromTheDevice) {
     std::vector<Touch> touches;
     ContactRows rows;
     for (int i = 0; i < 1 + problem % 12; ++i) {
-      const Touch touch{random.in_cube(0.05), random.direction(), random.between(0.5, 3.0) * kMargin};
+      const Touch touch{random.in_cube(0.05), random.direction(), random.between(-0.5, 2.0) * kMargin};
       touches.push_back(touch);
-      const double missing = kMargin - touch.gap;
+      const double missing = -touch.left;
       rows.push(rows.count, touch.normal_S, touch.point_S, missing > 0.0 ? kRegained * missing : missing);
     }
     const Motion wanted = random.motion(2e-4, 2e-3);

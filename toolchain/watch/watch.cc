@@ -324,6 +324,7 @@ void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, 
   if (!(gap <= reach)) return;
   Contact contact;
   contact.gap = gap;
+  contact.left = gap - q_.margin / steepness;
   if (points.direction.points_move) {
     contact.point_S = points.direction.points[i];
     contact.lever_W = p - H_WS.translation;
@@ -352,6 +353,7 @@ void Watch::push_edge_contacts(const Pose& H_WS, double reach, std::vector<Conta
       if (!(pair.gap <= reach)) continue;
       Contact contact;
       contact.gap = pair.gap;
+      contact.left = pair.gap - q_.margin;
       contact.point_S = H_WS.rotation.conjugate()._transformVector(pair.on_first - H_WS.translation);
       contact.lever_W = pair.on_first - H_WS.translation;
       contact.normal_W = pair.normal;
@@ -403,7 +405,7 @@ std::vector<Watch::Contact> Watch::contacts_at(const Pose& H_WS, double reach, d
 std::vector<Touch> Watch::touches_at(const Pose& H_WS, double reach) const {
   std::vector<Touch> touches;
   for (const Contact& contact : contacts_at(H_WS, reach, 0.05 * q_.voxel_size)) {
-    touches.push_back({contact.point_S, H_WS.rotation.conjugate()._transformVector(contact.normal_W), contact.gap});
+    touches.push_back({contact.point_S, H_WS.rotation.conjugate()._transformVector(contact.normal_W), contact.left});
   }
   return touches;
 }

@@ -89,10 +89,11 @@ class Watch {
   };
   /// A touching point at the god object's pose.
   struct Contact {
-    Vector3 lever_W;   ///< from the centre of mass [m]
-    Vector3 point_S;   ///< [m]
-    Vector3 normal_W;  ///< unit, gap grows as the moving body moves along it
-    double gap = 0.0;  ///< [m]
+    Vector3 lever_W;    ///< from the centre of mass [m]
+    Vector3 point_S;    ///< [m]
+    Vector3 normal_W;   ///< unit, gap grows as the moving body moves along it
+    double gap = 0.0;   ///< [m]
+    double left = 0.0;  ///< way against the normal that leaves the margin, by the linear field; negative: lost [m]
   };
 
   void note(Property property, const std::string& what);

@@ -160,7 +160,7 @@ void Watch::check_optimum(const WatchedCycle& cycle) {
   constexpr double kRegained = 0.3;  // core/README.md: share of a lost margin that one cycle regains
   std::vector<HalfPlane> rows;
   for (const Touch& touch : touches_at(H_WS_before_, 0.5 * q_.voxel_size)) {
-    const double missing = q_.margin - touch.gap;
+    const double missing = -touch.left;
     HalfPlane row;
     row.normal = stacked(touch.normal_S, touch.point_S.cross(touch.normal_S) / gyration_);
     row.bound = missing > 0.0 ? std::min(kRegained * missing, 0.25 * q_.voxel_size) : missing;

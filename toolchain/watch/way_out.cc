@@ -14,7 +14,7 @@ Vector6 way_out(const std::vector<Touch>& touches, const Parameters& parameters)
   std::vector<HalfPlane> rows;
   bool lost = false;
   for (const Touch& touch : touches) {
-    const double missing = parameters.margin - touch.gap;
+    const double missing = -touch.left;
     lost = lost || missing > 0.0;
     HalfPlane row;
     row.normal << touch.normal_S, touch.point_S.cross(touch.normal_S) / rho;

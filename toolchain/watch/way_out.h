@@ -10,9 +10,9 @@ namespace godobject::watch {
 
 /// A point of the god object near the surface.
 struct Touch {
-  Vector3 point_S;   ///< [m]
-  Vector3 normal_S;  ///< unit, the direction in which the gap grows
-  double gap = 0.0;  ///< [m]
+  Vector3 point_S;    ///< [m]
+  Vector3 normal_S;   ///< unit, the direction in which the gap grows
+  double left = 0.0;  ///< way against the normal that leaves the margin; negative: lost [m]
 };
 
 /// Returns the shortest motion z_0 = (x, rho r) [m] by which a god object regains the lost margin in one cycle,
