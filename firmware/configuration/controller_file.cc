@@ -123,7 +123,7 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
 
   config.loop.compute = loop.number("compute", {1e-6, 0.9e-3}, config.loop.compute);
   config.device.bus.compute = config.loop.compute;
-  if (loop.has("cycle_budget")) config.loop.cycle_budget = loop.number("cycle_budget", {1e-6, 0.9e-3}, 0.0);
+  if (loop.has("cycle_budget")) config.loop.cycle_budget = loop.number("cycle_budget", {0.0, 0.9e-3}, 0.0);
 
   read_limits(table("limits"), config.limits);
 

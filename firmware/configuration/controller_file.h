@@ -36,7 +36,7 @@ struct ControllerConfig {
     int priority = 80;                   ///< of SCHED_FIFO
     int velocity_window = 4;             ///< N of VelocityEstimator [samples]
     double compute = 120e-6;             ///< computing time in the bus plan [s]
-    std::optional<double> cycle_budget;  ///< time of `contact` in a cycle [s]; none: as long as it takes
+    std::optional<double> cycle_budget;  ///< time of `contact` in a cycle [s]; 0: no limit
   } loop;
 
   /// Limits at the hand and of the joints. A speed above a `stop` limit is a fault.

@@ -10,12 +10,14 @@
 #include <fmt/format.h>
 
 #include "firmware/controller/warning.h"
+#include "firmware/controller/work_calibration.h"
 #include "firmware/cycle/supervisor.h"
 
 namespace godobject::firmware {
 namespace {
 
 constexpr std::uint32_t kMoment = 3000;  // cycles; chosen: 3 s, longer than an operator needs who knows what to do
+constexpr std::uint32_t kBehind = 300;   // cycles; chosen: a hand feels it by then, and 20 ms of lag are common
 
 std::string why(const Standing& standing) {
   if (standing.fault != Fault::kAlarm) return describe(standing.fault);
@@ -34,6 +36,14 @@ void OperatorNotice::look() {
              : "waits with the arm held: the moving body touches or penetrates the still body; move the tool away");
   }
   said_waiting_ = waits;
+  const bool is_behind = report_.longest_behind.exchange(0, std::memory_order_relaxed) > kBehind;
+  if (is_behind && !said_behind_) {
+    warn(
+        fmt::format("the god object stays behind, so that the hand is held: each cycle spends its budget of work; "
+                    "move back, end the run, and {}",
+                    kMoreTime));
+  }
+  said_behind_ = is_behind;
   const bool stopped = standing.mode == Mode::kStopped && !refuses_to_start(standing.fault);
   if (stopped && !said_stopped_) {
     warn(fmt::format("stopped: {}; to go on, release enable switch and emergency stop, then kill -USR1 {}",

@@ -6,11 +6,12 @@
 
 namespace godobject::firmware {
 
-/// Tells the operator, once for each occasion, what to do: the controller waits for longer than 3 s, or it has stopped.
+/// Tells the operator, once for each occasion, what to do: the controller waits for longer than 3 s, the god object
+/// stays behind for longer than 0.3 s because of the budget of work, or the arm has stopped.
 class OperatorNotice {
  public:
   /// `report`: of the running loop; outlives this.
-  explicit OperatorNotice(const RunReport& report) noexcept : report_(report) {}
+  explicit OperatorNotice(RunReport& report) noexcept : report_(report) {}
 
   /// Reads the report and prints a line if there is something new to say.
   void look();
@@ -19,8 +20,9 @@ class OperatorNotice {
   void run(const std::stop_token& stop);
 
  private:
-  const RunReport& report_;
+  RunReport& report_;
   bool said_waiting_ = false;
+  bool said_behind_ = false;
   bool said_stopped_ = false;
 };
 

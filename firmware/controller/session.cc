@@ -32,6 +32,10 @@ using command::Failure;
 
 /// Time of a cycle outside of the god object, chosen: kinematics, torques, checks and frames take some 5 us [s].
 constexpr double kRestOfCycle = 10e-6;
+/// Share of what loop.compute leaves that is the default budget, chosen: the rest is for the calls of the buses and for
+/// cycles that take longer than those of the test motion.
+constexpr double kDefaultShare = 0.7;
+constexpr double kLeastBudget = 1e-6;  // by default, where loop.compute leaves less [s]
 
 SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
   set_gains(gains, scene);
@@ -80,17 +84,20 @@ void Session::start_cycle() {
   }
 }
 
-/// Returns the budget of work of a cycle for loop.cycle_budget [units]. In real time it is found on this machine; in
-/// virtual time a unit has its nominal cost, so that each run is the same.
+/// Returns the budget of work of a cycle for loop.cycle_budget [units]. In real time it is found on this machine. In
+/// virtual time, where no cycle is late, a unit has its nominal cost and there is no default, so that each run is the
+/// same.
 std::uint64_t Session::work_budget(const CycleSetup& setup) const {
-  if (!config_.loop.cycle_budget) return GodObject::kNoBudget;
+  const std::optional<double>& wanted = config_.loop.cycle_budget;
+  const bool has_budget = wanted ? *wanted > 0.0 : link_->real_time();
+  if (!has_budget) return GodObject::kNoBudget;
   if (setup.solver != Solver::kContact) {
-    warn("loop.cycle_budget has no effect: only the solver contact has a budget of work");
+    if (wanted) warn("loop.cycle_budget has no effect: only the solver contact has a budget of work");
     return GodObject::kNoBudget;
   }
-  const double seconds = *config_.loop.cycle_budget;
   const double most = config_.loop.compute - kRestOfCycle;
-  if (seconds > most + 1e-9) {
+  const double seconds = wanted.value_or(std::max(kLeastBudget, kDefaultShare * most));
+  if (wanted && seconds > most + 1e-9) {
     throw Failure(
         ExitCode::kBadConfig,
         fmt::format("loop.cycle_budget = {:g} exceeds loop.compute = {:g} less {:g} s for the rest of a cycle: "
@@ -102,15 +109,19 @@ std::uint64_t Session::work_budget(const CycleSetup& setup) const {
 }
 
 /// Finds the budget on a motion through the scene. Warns if it cannot bound the time, or if the god object then lags
-/// for good.
+/// for good. A budget of the controller file that cannot bound the time is refused.
 std::uint64_t Session::measured_budget(const CycleSetup& setup, double seconds) const {
   hal::MonotonicClock clock;
   const std::vector<Pose> path = calibration_path(scene_, config_.workspace.start);
   const WorkBudget found = find_budget(scene_, setup.friction, path, setup.memory, seconds, clock);
   if (found.with.cycles == 0) return GodObject::kNoBudget;  // the cycle's own start tells why
-  const double left = distance_left(scene_, setup.friction, path, setup.memory, found.units);
-  for (const std::string& concern : concerns(found, seconds, left)) warn(concern);
   fmt::print("{}\n", describe(found, seconds));
+  const std::string too_long = too_long_for(found, seconds);
+  if (!too_long.empty() && config_.loop.cycle_budget) throw Failure(ExitCode::kUnavailable, too_long);
+  if (!too_long.empty()) warn(too_long);
+  const std::string too_little =
+      too_little_for(distance_left(scene_, setup.friction, path, setup.memory, found.units), seconds);
+  if (!too_little.empty()) warn(too_little);
   return found.units;
 }
 
@@ -127,7 +138,7 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
     if (link_->real_time() && report_.beyond_plan > 0) {
       warn(fmt::format(
           "{} cycles computed for longer than loop.compute, which bus plan and gain check count on: {:.0f} us in place "
-          "of {:.0f} us at most; raise it, or set or lower loop.cycle_budget",
+          "of {:.0f} us at most; raise it, lower loop.cycle_budget, or run godobject-controller doctor",
           report_.beyond_plan, 1e-3 * static_cast<double>(report_.computing.largest_ns()), 1e6 * config_.loop.compute));
     }
   } else {

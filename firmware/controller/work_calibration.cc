@@ -107,23 +107,20 @@ std::string describe(const WorkBudget& budget, double seconds) {
       1e6 * seconds, budget.units, 1e6 * with.longest, with.ended, with.cycles, with.contacts);
 }
 
-std::vector<std::string> concerns(const WorkBudget& budget, double seconds, double left) {
+std::string too_long_for(const WorkBudget& budget, double seconds) {
+  if (!(budget.with.longest > seconds)) return "";
+  return fmt::format(
+      "no budget of work keeps cycles within {:.3g} us: the longest of a test motion takes {:.3g} us; {}",
+      1e6 * seconds, 1e6 * budget.with.longest, kMoreTime);
+}
+
+std::string too_little_for(double left, double seconds) {
   constexpr double kMostLeft = 1e-4;  // [m], chosen: a god object that comes no nearer counts as held
-  constexpr const char* kCure =
-      "raise loop.cycle_budget and loop.compute, or compile the scene with fewer points or with point_budget";
-  std::vector<std::string> all;
-  if (budget.with.longest > seconds) {
-    all.push_back(
-        fmt::format("no budget of work keeps cycles within {:.0f} us: the longest of a test motion takes {:.0f} us; {}",
-                    1e6 * seconds, 1e6 * budget.with.longest, kCure));
-  }
-  if (left > kMostLeft) {
-    all.push_back(
-        fmt::format("with {:.0f} us a cycle the god object stops on the way: after a test motion it is still {:.3g} mm "
-                    "from the position that it reaches without a budget; {}",
-                    1e6 * seconds, 1e3 * left, kCure));
-  }
-  return all;
+  if (!(left > kMostLeft)) return "";
+  return fmt::format(
+      "with {:.0f} us a cycle the god object stops on the way: after a test motion it is still {:.3g} mm from the "
+      "position that it reaches without a budget; {}",
+      1e6 * seconds, 1e3 * left, kMoreTime);
 }
 
 WorkBudget find_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,

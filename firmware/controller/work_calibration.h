@@ -17,6 +17,11 @@ namespace godobject::firmware {
 /// that, so that each run is the same.
 inline constexpr double kNominalUnit = 0.25e-9;
 
+/// The cure where the budget is too small for a scene.
+inline constexpr const char* kMoreTime =
+    "raise loop.compute, and loop.cycle_budget if it is set, or compile the scene with fewer points or with "
+    "point_budget";
+
 /// A motion of the moving mesh on which `contact` is timed: from the start in a straight line until its centre of mass
 /// is at the middle of the still body, then back and forth across and with turns, pressed against whatever holds it.
 /// Poses H_WM, a cycle each; at most some 0.5 mm a cycle on a body of 100 mm.
@@ -45,9 +50,12 @@ struct WorkBudget {
 /// Returns the line that tells the operator of a budget for `seconds`.
 std::string describe(const WorkBudget& budget, double seconds);
 
-/// Returns what the operator must know of a budget that does not bound the time, or leaves the god object behind, with
-/// the cure. `left`: as `distance_left` [m].
-std::vector<std::string> concerns(const WorkBudget& budget, double seconds, double left);
+/// Returns what the operator must know of a budget that does not bound the time, with the cure; empty if it does.
+std::string too_long_for(const WorkBudget& budget, double seconds);
+
+/// Returns what the operator must know of a budget that leaves the god object behind, with the cure; empty if it does
+/// not. `left`: as `distance_left` [m].
+std::string too_little_for(double left, double seconds);
 
 /// Finds a budget with which no cycle of a path but the first takes longer than `seconds`, from the nominal one down.
 /// If there is none after some trials, the last one is returned: see `with.longest`. Cost: at most eight times that of

@@ -146,6 +146,7 @@ Observation ControlCycle::observe(const LoopEvents& events, Status status) const
   seen.contact_force = contact_force();
   seen.inside = report_.outcome == Outcome::kStartInside;
   seen.overrun_ns = events.overrun_ns;
+  seen.computed_late_ns = events.computed_late_ns;
   seen.sends_failed = sends_failed_;
   seen.end_requested = events.end_requested;
   seen.reset_requested = events.reset_requested;
@@ -191,9 +192,9 @@ void ControlCycle::count(const LoopEvents& events) noexcept {
   counters_.scaled += add(rendering && joint_torque_.scale < 1.0);
   counters_.rate_limited += add(limiter_.rate_limited());
   counters_.unconverged += add(rendering && report_.unconverged);
-  out_of_work_ = rendering && report_.out_of_work ? out_of_work_ + 1 : 0;
-  counters_.out_of_work += add(out_of_work_ > 0);
-  counters_.most_out_of_work = std::max(counters_.most_out_of_work, out_of_work_);
+  record_.behind = rendering && report_.out_of_work ? record_.behind + 1 : 0;
+  counters_.out_of_work += add(record_.behind > 0);
+  counters_.most_out_of_work = std::max<std::uint64_t>(counters_.most_out_of_work, record_.behind);
 }
 
 }  // namespace godobject::firmware

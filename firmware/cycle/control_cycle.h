@@ -21,8 +21,9 @@ namespace godobject::firmware {
 
 /// Events that the loop reports to the cycle.
 struct LoopEvents {
-  std::int64_t overrun_ns = 0;  ///< time by which the previous cycle ended late
-  std::uint32_t skipped = 0;    ///< periods without a cycle since the previous one
+  std::int64_t overrun_ns = 0;        ///< time by which the previous cycle ended late
+  std::int64_t computed_late_ns = 0;  ///< time by which the previous cycle computed for longer than planned
+  std::uint32_t skipped = 0;          ///< periods without a cycle since the previous one
   bool end_requested = false;
   bool reset_requested = false;
 };
@@ -65,6 +66,7 @@ struct CycleRecord {
   double penetration = 0.0;       ///< as in CycleReport [m]
   std::uint32_t contacts = 0;
   std::uint32_t lost = 0;       ///< cycles in a row without a fresh position, of the worst joint
+  std::uint32_t behind = 0;     ///< rendering cycles in a row that the budget of work ended
   bool clutch_is_open = false;  ///< the tool moves, the mesh rests
   Outcome outcome = Outcome::kFree;
 };
@@ -153,7 +155,6 @@ class ControlCycle {
   JointTorque joint_torque_;
   ComputedTorque computed_;
   std::uint32_t sends_failed_ = 0;
-  std::uint64_t out_of_work_ = 0;  // cycles in a row up to this one that the budget of work ended
   CycleRecord record_;
   CycleCounters counters_;
 };

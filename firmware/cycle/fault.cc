@@ -13,7 +13,7 @@ const char* describe(Fault fault) noexcept {
     case Fault::kEncoderStuck:
       return "a joint's position did not change although the joint should have moved; check its encoder";
     case Fault::kComputation: return "the cycle could not be computed; read the last rows of the telemetry";
-    case Fault::kOverruns: return "the loop was late too often; run godobject-controller doctor";
+    case Fault::kOverruns: return "the loop overran its period too often; run godobject-controller doctor";
     case Fault::kDriveLeft: return "a drive is not enabled; read its own error display";
     case Fault::kAlarm: return "a bus or a drive raised an alarm";
     case Fault::kSendFailed: return "torques could not be sent three times in a row; check the bus";
@@ -30,6 +30,9 @@ const char* describe(Fault fault) noexcept {
     case Fault::kOutsideLimits:
       return "a joint is beyond its limits before the start; release its brake with the drive's own tool and move it "
              "back, or check its zero";
+    case Fault::kComputedLate:
+      return "cycles computed for longer than loop.compute too often; raise it, lower loop.cycle_budget, or run "
+             "godobject-controller doctor";
   }
   return "unknown fault";
 }

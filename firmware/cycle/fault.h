@@ -6,7 +6,7 @@
 
 namespace godobject::firmware {
 
-/// Reasons to take the power away. The supervisor latches the first one.
+/// Reasons to take the power away. The supervisor latches the first one. Telemetry has their numbers.
 enum class Fault : std::uint8_t {
   kNone,
   kDrivesAbsent,    ///< not all drives answered in time
@@ -16,7 +16,7 @@ enum class Fault : std::uint8_t {
   kNotFinite,       ///< a NaN or Inf in a reading
   kEncoderStuck,    ///< a position does not change although its joint should move
   kComputation,     ///< the cycle could not be computed
-  kOverruns,        ///< the loop was late too often, or by too much
+  kOverruns,        ///< the loop overran its period too often, or by too much
   kDriveLeft,       ///< a drive is no longer enabled, or did not become so
   kAlarm,           ///< a bus or a drive raised an alarm: the reading's alarm
   kSendFailed,      ///< torques could not be handed over three times in a row
@@ -27,6 +27,7 @@ enum class Fault : std::uint8_t {
   kSignWrong,       ///< a joint moves against its torque, or without one
   kSignUndecided,   ///< a joint does not move when pushed, or the hand is not still
   kOutsideLimits,   ///< a joint is beyond its position limit before the start
+  kComputedLate,    ///< cycles computed for longer than planned too often, or by too much
 };
 
 /// The fault, or the alarm, as one clause with the cure. Never null.

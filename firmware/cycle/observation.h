@@ -36,6 +36,7 @@ struct Observation {
   double contact_force = 0.0;           ///< size of the computed wrench [N]; torques count at the rotation length
   bool inside = false;                  ///< the god object started inside and is not yet outside
   std::int64_t overrun_ns = 0;          ///< of the previous cycle
+  std::int64_t computed_late_ns = 0;    ///< of the previous cycle: computing time beyond the plan
   std::uint32_t sends_failed = 0;       ///< cycles in a row before this one in which sending failed
   bool end_requested = false;           ///< SIGTERM, SIGINT, SIGHUP, or the duration is over
   bool reset_requested = false;         ///< by the operator

@@ -20,7 +20,9 @@ Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexce
 
 Decision Supervisor::step(const Observation& seen) noexcept {
   ++in_mode_;
-  too_many_overruns_ = overruns_.update(seen.overrun_ns);
+  // one rule for both: torques of a cycle that computes for longer than planned reach the drives as late as those of
+  // one that overruns
+  too_late_ = lateness_.update(std::max(seen.overrun_ns, seen.computed_late_ns));
   too_many_jumps_ = jumps_.update(seen.jumps > 0);
   // a drive that returns may have been exchanged, or connected differently
   if (!seen.drives.all_answer || seen.drive_restarted) sign_tested_ = !parameters_.sign_test;
@@ -94,7 +96,7 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (jumps_too_often(seen)) return Fault::kPositionJump;
   if (seen.stuck) return Fault::kEncoderStuck;
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
-  if (too_many_overruns_) return Fault::kOverruns;
+  if (too_late_) return seen.overrun_ns >= seen.computed_late_ns ? Fault::kOverruns : Fault::kComputedLate;
   return seen.sends_failed >= kInRow ? Fault::kSendFailed : Fault::kNone;
 }
 

@@ -4,9 +4,9 @@
 
 #include "core/device/arm_model.h"
 #include "firmware/cycle/fault.h"
+#include "firmware/cycle/lateness_watch.h"
 #include "firmware/cycle/mode.h"
 #include "firmware/cycle/observation.h"
-#include "firmware/cycle/overrun_watch.h"
 #include "firmware/cycle/rate_watch.h"
 #include "firmware/cycle/sign_test.h"
 #include "hal/joint_drives.h"
@@ -149,9 +149,9 @@ class Supervisor {
   std::uint32_t stop_cycles_{};  // longest duration of this kStopping
   int fault_joint_ = -1;
   SignTest sign_test_;
-  OverrunWatch overruns_;
+  LatenessWatch lateness_;
   RateWatch jumps_;
-  bool too_many_overruns_{};
+  bool too_late_{};
   bool too_many_jumps_{};
 };
 

@@ -15,6 +15,9 @@ void watch(const CycleRecord& record, RunReport& report) noexcept {
   const std::uint32_t waited = report.waiting.load(std::memory_order_relaxed);
   const bool waits = record.mode == Mode::kIdle || record.mode == Mode::kArmed;
   report.waiting.store(waits ? waited + 1 : 0, std::memory_order_relaxed);
+  if (record.behind > report.longest_behind.load(std::memory_order_relaxed)) {
+    report.longest_behind.store(record.behind, std::memory_order_relaxed);
+  }
   const Standing standing{record.mode, record.fault, record.alarm, static_cast<std::int8_t>(record.alarm_joint)};
   report.standing.store(standing, std::memory_order_relaxed);
   ++report.in_mode[static_cast<std::size_t>(record.mode)];

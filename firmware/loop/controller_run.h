@@ -43,7 +43,9 @@ struct RunReport {
   std::uint64_t in_contact = 0;                     ///< of those, cycles with a force
   std::array<std::uint64_t, kModeCount> in_mode{};  ///< cycles in each mode
   std::atomic<std::uint32_t> waiting{0};            ///< cycles in a row in kIdle or kArmed; other threads may read it
-  std::atomic<Standing> standing{};                 ///< of the last cycle; other threads may read it
+  /// Longest row of cycles that the budget of work ended, since another thread has set it to 0.
+  std::atomic<std::uint32_t> longest_behind{0};
+  std::atomic<Standing> standing{};  ///< of the last cycle; other threads may read it
 };
 
 /// True if the fault ends the run: a fault that was found before rendering does not go away by a reset.
@@ -68,7 +70,7 @@ void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycl
   constexpr std::int64_t kPeriod_ns = 1'000'000;
   std::uint64_t cycles = 0;
   run_periodically(
-      clock, kPeriod_ns, cycle.collect_ns(), report.loop, [&] { cycle.request(); },
+      clock, {kPeriod_ns, cycle.collect_ns(), setup.compute_ns}, report.loop, [&] { cycle.request(); },
       [&](LoopEvents events) {
         const bool over = setup.cycles > 0 && cycles >= setup.cycles;
         events.end_requested = over || requests.end.load(std::memory_order_relaxed);

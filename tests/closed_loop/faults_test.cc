@@ -264,6 +264,13 @@ std::vector<sim::LateWake> late_wakes(int count, int every, std::int64_t late_ns
   return late;
 }
 
+/// Cycles that compute for `took_ns`, every `every`-th from kBegin on.
+std::vector<SlowCycle> slow_cycles(int count, int every, std::int64_t took_ns) {
+  std::vector<SlowCycle> slow;
+  for (int i = 0; i < count; ++i) slow.push_back({kBegin + i * every, took_ns});
+  return slow;
+}
+
 TEST(ClosedLoop, SkipsAPeriodWhenItOverrunsOnceAndGoesOn) {
   SimulatedRun::Options options = pressing();
   options.late = late_wakes(1, 1, 1'400'000);
@@ -280,12 +287,29 @@ TEST(ClosedLoop, SkipsAPeriodWhenItOverrunsOnceAndGoesOn) {
   record_going_on(run);
 }
 
+/// Two in a row and ten in a second are allowed, and so is any number of cycles that take as long as planned.
+TEST(ClosedLoop, GoesOnWhenFewCyclesComputeForLongerThanPlanned) {
+  SimulatedRun::Options options = pressing();
+  for (int i = 0; i < 100; ++i) {
+    options.slow.push_back({kBegin + i, i % 10 < 1 || i == 1 ? 400'000 : SimulatedRun::kCompute_ns});
+  }
+  options.slow.erase(options.slow.end() - 10);  // the eleventh
+  SimulatedRun run(plate(), options);
+  run.run(kEnd);
+  EXPECT_EQ(run.controller().record().fault, Fault::kNone);
+  EXPECT_EQ(run.controller().counters().overruns, 0u);
+  EXPECT_EQ(run.report.loop.compute.largest_ns(), 400'000);
+  EXPECT_EQ(run.violation(), "");
+  record_going_on(run);
+}
+
 struct Overruns {
   std::string name;
   std::vector<sim::LateWake> late;
   std::int64_t cause;  ///< cycle in which the table's condition is met first
   std::int64_t command_deadline_ns = 4'000'000;
   Fault fault = Fault::kOverruns;
+  std::vector<SlowCycle> slow = {};
 };
 
 void PrintTo(const Overruns& row, std::ostream* out) { *out << row.name; }
@@ -295,6 +319,7 @@ class ClosedLoopOverruns : public testing::TestWithParam<Overruns> {};
 TEST_P(ClosedLoopOverruns, StopTheArm) {
   SimulatedRun::Options options = pressing();
   options.late = GetParam().late;
+  options.slow = GetParam().slow;
   options.command_deadline_ns = GetParam().command_deadline_ns;
   SimulatedRun run(plate(), options);
   run.run(kEnd);
@@ -313,7 +338,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Overruns{"one_of_more_than_5_ms", late_wakes(1, 1, 6'200'000), kBegin, 20'000'000},
                     // a drive that hears nothing for longer than 4 ms trips by itself
                     Overruns{"one_that_trips_the_drives", late_wakes(1, 1, 6'200'000), kBegin, 4'000'000,
-                             Fault::kDriveLeft}),
+                             Fault::kDriveLeft},
+                    Overruns{"three_in_a_row_computed_late",
+                             {},
+                             kBegin + 2,
+                             4'000'000,
+                             Fault::kComputedLate,
+                             slow_cycles(3, 1, SimulatedRun::kCompute_ns + 1)},
+                    Overruns{"more_than_one_in_a_hundred_computed_late",
+                             {},
+                             kBegin + 500,
+                             4'000'000,
+                             Fault::kComputedLate,
+                             slow_cycles(11, 50, 900'000)},
+                    Overruns{"one_computed_late_by_more_than_5_ms",
+                             {},
+                             kBegin,
+                             20'000'000,
+                             Fault::kComputedLate,
+                             slow_cycles(1, 1, SimulatedRun::kCompute_ns + 5'000'001)}),
     [](const testing::TestParamInfo<Overruns>& row) { return row.param.name; });
 
 TEST(ClosedLoop, StopsAHandThatIsTooFast) {

@@ -19,6 +19,31 @@ ControllerConfig::Workspace workspace(const Quaternion& turn = Quaternion::Ident
   return workspace;
 }
 
+/// Drives to which time passes before the torques of slow cycles are handed over.
+class SlowDrives final : public hal::JointDrives {
+ public:
+  SlowDrives(hal::JointDrives& drives, sim::VirtualClock& clock, std::span<const SlowCycle> slow) noexcept
+      : drives_(drives), clock_(clock), slow_(slow) {}
+
+  int joint_count() const noexcept override { return drives_.joint_count(); }
+  void request() noexcept override { drives_.request(); }
+  std::int64_t collect_ns() const noexcept override { return drives_.collect_ns(); }
+  void receive(hal::JointReading& reading) noexcept override { drives_.receive(reading); }
+  bool send(const hal::JointCommand& command) noexcept override {
+    if (!slow_.empty() && clock_.now_ns() / 1'000'000 >= slow_.front().number) {
+      clock_.spend(slow_.front().took_ns);
+      slow_ = slow_.subspan(1);
+    }
+    return drives_.send(command);
+  }
+  double delay() const noexcept override { return drives_.delay(); }
+
+ private:
+  hal::JointDrives& drives_;
+  sim::VirtualClock& clock_;
+  std::span<const SlowCycle> slow_;
+};
+
 }  // namespace
 
 const test::SceneImage& plate() {
@@ -83,7 +108,8 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
       placement_(run_placement(options.turn)),
       path_R_(run_path(placement_, options.path)),
       faults_(options.faults),
-      late_(options.late) {
+      late_(options.late),
+      slow_(options.slow) {
   set_run_gains(options.scene_stiffness, scene_);
   if (options.weightless) placement_.device.model.gravity_R.setZero();
   const ArmModel& arm = placement_.device.model;
@@ -103,6 +129,7 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
                                    sim::OperatorHand(hand, path_R_, static_cast<std::int64_t>(1e9 * options.begin)));
   drives_ = std::make_unique<sim::DirectDrives>(*plant_, hardware_, options.timing, faults_);
   clock_ = std::make_unique<sim::VirtualClock>(*drives_, late_);
+  slow_drives_ = std::make_unique<SlowDrives>(*drives_, *clock_, slow_);
   ring_ = std::make_unique<TelemetryRing>();
 
   CycleSetup setup = run_setup(scene_, placement_);
@@ -110,13 +137,13 @@ SimulatedRun::SimulatedRun(const test::SceneImage& image, const Options& options
   setup.hand = options.hand;
   setup.supervisor.sign_test = options.sign_test;
   setup.memory = memory_.span();
-  cycle_ = std::make_unique<ControlCycle>(setup, *drives_);
+  cycle_ = std::make_unique<ControlCycle>(setup, *slow_drives_);
   if (cycle_->start() != Status::kOk) throw std::runtime_error("the scene lacks the solver");
 }
 
 void SimulatedRun::run(std::int64_t count) {
   hal::MonotonicClock stopwatch;
-  const RunSetup setup{static_cast<std::uint64_t>(count), 1, &stopwatch};
+  const RunSetup setup{static_cast<std::uint64_t>(count), 1, &stopwatch, kCompute_ns};
   run_controller(setup, *clock_, *cycle_, requests, *ring_, report, [this] {
     TelemetryRecord row;
     while (ring_->pop(row)) {

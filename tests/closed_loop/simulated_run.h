@@ -47,6 +47,12 @@ struct SimulatedCycle {
   Vector3 tool_R;      ///< position of the tool [m]
 };
 
+/// A cycle that computes slowly: its torques reach the drives that much later.
+struct SlowCycle {
+  std::int64_t number = 0;  ///< period since time zero
+  std::int64_t took_ns = 0;
+};
+
 /// Runs the whole controller in virtual time on the light-weight robot, with a hand that leads the ball along a path.
 /// At the start the tool is 60 mm above the origin of a small scene.
 class SimulatedRun {
@@ -56,6 +62,7 @@ class SimulatedRun {
     double begin = 0.4;         ///< [s]; from then on forces are rendered in full
     std::vector<sim::DriveFault> faults;
     std::vector<sim::LateWake> late;
+    std::vector<SlowCycle> slow;  ///< in order of time; other cycles compute in no time
     sim::DriveTiming timing;
     std::int32_t counter_at_zero = 0;
     bool sign_test = false;
@@ -97,6 +104,7 @@ class SimulatedRun {
   double delay() const { return drives_->delay(); }
   static const JointVector& posture();  ///< at the start
   static constexpr int kVelocityWindow = 2;
+  static constexpr std::int64_t kCompute_ns = 120'000;  ///< computing time that the plan leaves
 
  private:
   SceneView scene_;
@@ -105,10 +113,12 @@ class SimulatedRun {
   std::vector<Pose> path_R_;
   std::vector<sim::DriveFault> faults_;
   std::vector<sim::LateWake> late_;
+  std::vector<SlowCycle> slow_;
   std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
   std::unique_ptr<sim::Plant> plant_;
   std::unique_ptr<sim::DirectDrives> drives_;
   std::unique_ptr<sim::VirtualClock> clock_;
+  std::unique_ptr<hal::JointDrives> slow_drives_;
   std::unique_ptr<TelemetryRing> ring_;
   files::AlignedBytes memory_{GodObject::memory_size(Scene::of(scene_))};
   std::unique_ptr<ControlCycle> cycle_;

@@ -17,7 +17,7 @@ configure_seven_joints() {  # fd|classical
       use_buses vcan0 vcan1 vcan2 vcan3 ;;
   esac
   sed "s|= \"../devices/lwr.toml\"|= \"$device_file\"|; s|= \"../../toolchain|= \"$PWD/toolchain|
-    s|^\[loop\]|[loop]\nreal_time = true\ncompute = $compute|" firmware/controllers/lwr.toml >"$config"
+    s|^\[loop\]|[loop]\nreal_time = true\ncompute = $compute\ncycle_budget = 0|" firmware/controllers/lwr.toml >"$config"
 }
 
 # Lets the hand begin shortly before the teapot, without the sign test. Its speed is that of firmware/controllers/lwr.toml.

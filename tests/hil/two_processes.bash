@@ -100,6 +100,7 @@ not_late() {
   [ "$HIL_CLOCK" = "virtual time" ] || return 0
   grep -q 'positions lost in 0 cycles, jumps in 0, sends failed 0, overruns 0, periods skipped 0' "$HIL_WORK/controller" ||
     fail "late or lost"
+  grep -q 'longer than loop.compute in 0$' "$HIL_WORK/controller" || fail "computed for longer than planned"
   grep -qE 'samples lost [0-7], late [0-7]; malformed 0, queue full 0, floods 0' "$HIL_WORK/controller" || fail "frames lost or late"
   grep -q 'page faults in the loop: 0' "$HIL_WORK/controller" || fail "page faults"
 }

@@ -321,10 +321,11 @@ void Watch::push_contact(const Points& points, const Pose& H_WS, std::size_t i, 
   const double steepness = gradient.norm();
   if (!(steepness > 1e-3)) return;
   const double gap = (distance + gradient.dot(p - at)) / steepness;
-  if (!(gap <= reach)) return;
+  const double left = gap - q_.margin / steepness;
+  if (!(gap <= reach || left <= 0.0)) return;  // a flat field has the margin far off the surface
   Contact contact;
   contact.gap = gap;
-  contact.left = gap - q_.margin / steepness;
+  contact.left = left;
   if (points.direction.points_move) {
     contact.point_S = points.direction.points[i];
     contact.lever_W = p - H_WS.translation;

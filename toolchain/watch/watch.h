@@ -93,7 +93,7 @@ class Watch {
     Vector3 point_S;    ///< [m]
     Vector3 normal_W;   ///< unit, gap grows as the moving body moves along it
     double gap = 0.0;   ///< [m]
-    double left = 0.0;  ///< way against the normal that leaves the margin, by the linear field; negative: lost [m]
+    double left = 0.0;  ///< way in that leaves the linear field at the margin; below 0: lost [m]
   };
 
   void note(Property property, const std::string& what);

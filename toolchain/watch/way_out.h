@@ -12,7 +12,7 @@ namespace godobject::watch {
 struct Touch {
   Vector3 point_S;    ///< [m]
   Vector3 normal_S;   ///< unit, the direction in which the gap grows
-  double left = 0.0;  ///< way against the normal that leaves the margin; negative: lost [m]
+  double left = 0.0;  ///< way in that leaves the field at the margin; below 0: lost [m]
 };
 
 /// Returns the shortest motion z_0 = (x, rho r) [m] by which a god object regains the lost margin in one cycle,

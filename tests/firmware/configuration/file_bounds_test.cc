@@ -62,7 +62,7 @@ const std::vector<Key> kControllerKeys = {
      [](const C& c) { return double(c.loop.velocity_window); }, true},
     {"loop", "compute", 1e-6, 0.9e-3, 120e-6, [](const C& c) { return c.loop.compute; }},
     {"loop", "compute", 1e-6, 0.9e-3, 120e-6, [](const C& c) { return c.device.bus.compute; }},
-    {"loop", "cycle_budget", 1e-6, 0.9e-3, -1.0, [](const C& c) { return c.loop.cycle_budget.value_or(-1.0); }},
+    {"loop", "cycle_budget", 0.0, 0.9e-3, -1.0, [](const C& c) { return c.loop.cycle_budget.value_or(-1.0); }},
     {"limits", "force", 1e-3, 140.0, 30.0, [](const C& c) { return c.limits.force; }, false, kHand},
     {"limits", "torque", 1e-4, 10.0, 3.0, [](const C& c) { return c.limits.torque; }, false, kHand},
     {"limits", "speed", 1e-3, 5.0, 1.0, [](const C& c) { return c.limits.speed; }, false, kHand},

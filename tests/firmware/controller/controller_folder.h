@@ -34,6 +34,14 @@ class ControllerFolderTest : public test::FolderTest {
         << gains << more;
   }
 
+  /// As write_controller, with the solver `contact`.
+  void write_contact_controller(const std::string& more) const {
+    write_controller(more);
+    const std::string lines = text("c.toml");
+    const std::string scene = "[scene]\n";
+    std::ofstream(folder_ / "c.toml") << scene << "solver = \"contact\"\n" << lines.substr(scene.size());
+  }
+
   /// A ball's path: 50 mm down in half a second, and it stays there.
   void write_path() const {
     std::ofstream out(folder_ / "path.csv");

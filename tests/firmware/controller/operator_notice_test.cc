@@ -45,6 +45,23 @@ TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
 /// Also if it has waited for long when it is first looked at.
 TEST_F(OperatorNoticeTest, SaysAtTheFirstLookThatItWaits) { EXPECT_EQ(told(Mode::kIdle, 9000), kIdle); }
 
+TEST_F(OperatorNoticeTest, SaysOnceThatTheGodObjectStaysBehind) {
+  const auto told_at = [this](std::uint32_t behind) {
+    report_.longest_behind = behind;
+    return told(Mode::kRunning, 0);
+  };
+  const std::string line =
+      "godobject-controller: the god object stays behind, so that the hand is held: each cycle spends its budget of "
+      "work; move back, end the run, and raise loop.compute, and loop.cycle_budget if it is set, or compile the scene "
+      "with fewer points or with point_budget\n";
+  EXPECT_EQ(told_at(300), "");
+  EXPECT_EQ(told_at(301), line);
+  EXPECT_EQ(told_at(900), "") << "once";
+  EXPECT_EQ(told_at(0), "");
+  EXPECT_EQ(told_at(301), line) << "another occasion";
+  EXPECT_EQ(report_.longest_behind, 0u) << "so that a stay between two looks is told, and one only once";
+}
+
 TEST_F(OperatorNoticeTest, SaysOnceWhyItHasStoppedAndHowToGoOn) {
   const auto line = [](const std::string& why) {
     return "godobject-controller: stopped: " + why +

@@ -114,6 +114,9 @@ const std::vector<ModeRow> kRows = {
     {"joint 2 beyond", ".o.xxxxxk...x.", Fault::kJointLimit, [](Observation& o) { o.joint_beyond_limit = 2; }},
     {"overrun of 5 ms", "..............", Fault::kNone, [](Observation& o) { o.overrun_ns = 5'000'000; }},
     {"overrun above 5 ms", "...xxxxxk...x.", Fault::kOverruns, [](Observation& o) { o.overrun_ns = 5'000'001; }},
+    {"computed 5 ms too long", "..............", Fault::kNone, [](Observation& o) { o.computed_late_ns = 5'000'000; }},
+    {"computed longer than that", "...xxxxxk...x.", Fault::kComputedLate,
+     [](Observation& o) { o.computed_late_ns = 5'000'001; }},
     {"second failed send", "..............", Fault::kNone, [](Observation& o) { o.sends_failed = 2; }},
     {"third failed send", "...xxxxxk...x.", Fault::kSendFailed, [](Observation& o) { o.sends_failed = 3; }},
     {"lost twice", "h.............", Fault::kNone, [](Observation& o) { o.lost = 2; }},
@@ -265,6 +268,7 @@ TEST(SupervisorModes, NameTheFirstOfTwoCausesInTheSameCycle) {
       {Fault::kEncoderStuck, [](Observation& o) { o.stuck = true; }},
       {Fault::kJointLimit, [](Observation& o) { o.joint_beyond_limit = 1; }},
       {Fault::kOverruns, [](Observation& o) { o.overrun_ns = 6'000'000; }},
+      {Fault::kComputedLate, [](Observation& o) { o.computed_late_ns = 6'000'000; }},
       {Fault::kSendFailed, [](Observation& o) { o.sends_failed = 3; }},
       {Fault::kPositionLost, [](Observation& o) { o.lost = 3; }}};
   const Bench running = bench_in(Mode::kRunning);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "firmware/cycle/lateness_watch.h"
 #include "firmware/cycle/observation.h"
-#include "firmware/cycle/overrun_watch.h"
 #include "firmware/cycle/rate_watch.h"
 #include "tests/support/random.h"
 
@@ -39,24 +39,24 @@ TEST(RateWatch, ForgetsAnEventAfterAThousandCycles) {
   }
 }
 
-TEST(OverrunWatch, FindsThreeInARowOneThatIsLongAndTooMany) {
-  OverrunWatch row;
+TEST(LatenessWatch, FindsThreeInARowOneThatIsLongAndTooMany) {
+  LatenessWatch row;
   for (const bool third : {false, false, true, true}) EXPECT_EQ(row.update(1), third);
   EXPECT_FALSE(row.update(0));
   for (const bool third : {false, false, true}) EXPECT_EQ(row.update(1), third) << "counted again";
 
   for (const std::int64_t longest : {std::int64_t{5'000'000}, std::int64_t{5'000'001}}) {
-    OverrunWatch watch;
+    LatenessWatch watch;
     EXPECT_EQ(watch.update(longest), longest > 5'000'000);
     EXPECT_FALSE(watch.update(0));
   }
 
-  OverrunWatch often;  // every other cycle: the eleventh is too many
+  LatenessWatch often;  // every other cycle: the eleventh is too many
   for (int i = 1; i <= 30; ++i) {
     ASSERT_EQ(often.update(1), i > 10) << i;
     ASSERT_FALSE(often.update(0)) << "an early cycle is no overrun";
   }
-  OverrunWatch early;
+  LatenessWatch early;
   for (int i = 0; i < 3000; ++i) ASSERT_FALSE(early.update(i % 2 == 0 ? 0 : -1));
 }
 

@@ -18,7 +18,7 @@ namespace {
 TEST(ControllerRun, RefusesToStartForWhatAResetDoesNotCure) {
   const std::vector<Fault> refusals = {Fault::kDrivesAbsent, Fault::kNotAtRest, Fault::kSignWrong,
                                        Fault::kSignUndecided, Fault::kOutsideLimits};
-  for (int i = 0; i <= static_cast<int>(Fault::kOutsideLimits); ++i) {
+  for (int i = 0; i <= static_cast<int>(Fault::kComputedLate); ++i) {
     const auto fault = static_cast<Fault>(i);
     EXPECT_EQ(refuses_to_start(fault), std::count(refusals.begin(), refusals.end(), fault) == 1) << describe(fault);
   }
@@ -90,12 +90,23 @@ TEST(ControllerRun, ShowsOtherThreadsTheStateOfTheLastCycle) {
   EXPECT_EQ(standing.alarm_joint, 5);
 }
 
-/// Virtual time; the stopwatch advances by a script.
+TEST(ControllerRun, ShowsOtherThreadsHowLongTheGodObjectStayedBehind) {
+  RunReport report;
+  CycleRecord record;
+  for (const auto& [behind, longest] : {std::pair{2u, 2u}, {0u, 2u}, {1u, 2u}, {3u, 3u}}) {
+    record.behind = behind;
+    detail::watch(record, report);
+    EXPECT_EQ(report.longest_behind, longest);
+  }
+}
+
+/// Virtual time, in which each look at the clock may take its time; the stopwatch advances by a script.
 class StepClock final : public hal::Clock {
  public:
-  std::int64_t now_ns() noexcept override { return now; }
+  std::int64_t now_ns() noexcept override { return now += look_ns; }
   void sleep_until(std::int64_t ns) noexcept override { now = std::max(now, ns); }
   std::int64_t now = 0;
+  std::int64_t look_ns = 0;
 };
 
 class Stopwatch final : public hal::Clock {
@@ -171,6 +182,23 @@ TEST_F(ControllerRunTest, EndsAfterItsCycles) {
   EXPECT_EQ(report_.computing.largest_ns(), 121'000);
   EXPECT_EQ(report_.beyond_plan, 111u) << "those above 10 us";
   EXPECT_EQ(clock_.now, 120'000'000);
+}
+
+/// The loop looks at its clock before and after a cycle, so each cycle takes one look.
+TEST_F(ControllerRunTest, GoesOnWhileCyclesComputeForAsLongAsPlanned) {
+  clock_.look_ns = run_.compute_ns;
+  run_.cycles = 2000;
+  run();
+  EXPECT_EQ(cycle_->record().fault, Fault::kNone);
+  EXPECT_EQ(report_.loop.compute.largest_ns(), run_.compute_ns);
+}
+
+TEST_F(ControllerRunTest, StopsAnArmWithPowerWhenCyclesComputeForLongerThanPlanned) {
+  clock_.look_ns = run_.compute_ns + 1;
+  run_.cycles = 2000;
+  run();
+  EXPECT_EQ(cycle_->record().fault, Fault::kComputedLate);
+  EXPECT_EQ(std::count(modes_.begin(), modes_.end(), Mode::kRunning), 0);
 }
 
 TEST_F(ControllerRunTest, EndsOnRequestAndNotBefore) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/cycle/overrun_watch.h"
+#include "firmware/cycle/lateness_watch.h"
 #include "tests/support/random.h"
 
 namespace godobject::firmware::periodic_loop_test {
@@ -31,7 +31,7 @@ TEST(PeriodicLoop, WakesAtAbsoluteDeadlinesWhateverComputingTakes) {
   test::Random random(1);
   int left = 1000;
   run_periodically(
-      clock, kPeriod_ns, 0, statistics, [] {},
+      clock, {kPeriod_ns, 0, kPeriod_ns}, statistics, [] {},
       [&](const LoopEvents& events) {
         EXPECT_EQ(events.overrun_ns, 0);
         EXPECT_EQ(events.skipped, 0u);
@@ -60,7 +60,7 @@ TEST(PeriodicLoop, LeavesOutWhatHasPassedAndTellsTheNextCycle) {
     std::vector<LoopEvents> heard;
     std::vector<std::int64_t> deadlines;
     run_periodically(
-        clock, kPeriod_ns, 0, statistics, [] {},
+        clock, {kPeriod_ns, 0, kPeriod_ns}, statistics, [] {},
         [&, spent = took](const LoopEvents& events) {
           heard.push_back(events);
           if (heard.size() == 3) clock.now += spent;
@@ -72,6 +72,41 @@ TEST(PeriodicLoop, LeavesOutWhatHasPassedAndTellsTheNextCycle) {
     EXPECT_EQ(heard[4].overrun_ns, 0);
     EXPECT_EQ(deadlines[3] - deadlines[2], (1 + skipped) * kPeriod_ns);
     EXPECT_EQ(deadlines[4] - deadlines[3], kPeriod_ns) << "no burst";
+  }
+}
+
+/// A clock that wakes its sleepers late by a script, a number a sleep.
+class LateClock final : public hal::Clock {
+ public:
+  explicit LateClock(std::vector<std::int64_t> late) : late_(std::move(late)) {}
+  std::int64_t now_ns() noexcept override { return now; }
+  void sleep_until(std::int64_t ns) noexcept override {
+    now = std::max(now, ns) + (slept_ < late_.size() ? late_[slept_] : 0);
+    ++slept_;
+  }
+  std::int64_t now = 0;
+
+ private:
+  std::vector<std::int64_t> late_;
+  std::size_t slept_ = 0;
+};
+
+/// Computing time counts from the last sample: neither late waking nor the wait for samples is part of it.
+TEST(PeriodicLoop, TellsTheNextCycleThatOneComputedForLongerThanPlanned) {
+  constexpr std::int64_t kPlanned_ns = 120'000;
+  for (const std::int64_t took : {0, 119'999, 120'000, 120'001, 700'000, 2'500'000}) {
+    LateClock clock({0, 0, 30'000, 400, 90'000, 0});
+    LoopStatistics statistics;
+    std::vector<std::int64_t> heard;
+    run_periodically(
+        clock, {kPeriod_ns, 300'000, kPlanned_ns}, statistics, [] {},
+        [&](const LoopEvents& events) {
+          heard.push_back(events.computed_late_ns);
+          clock.now += heard.size() == 2 ? took : kPlanned_ns;
+          return heard.size() < 5;
+        },
+        [&](const CycleTimes&) { clock.now += 70'000; });
+    EXPECT_EQ(heard, (std::vector<std::int64_t>{0, 0, std::max<std::int64_t>(0, took - kPlanned_ns), 0, 0})) << took;
   }
 }
 
@@ -97,7 +132,7 @@ TEST(PeriodicLoop, TellsACycleOfItsOwnLateWakingAndNoOther) {
     std::vector<LoopEvents> heard;
     std::vector<std::int64_t> woke;
     run_periodically(
-        clock, kPeriod_ns, 0, statistics, [] {},
+        clock, {kPeriod_ns, 0, kPeriod_ns}, statistics, [] {},
         [&](const LoopEvents& events) {
           heard.push_back(events);
           woke.push_back(clock.now);
@@ -159,17 +194,17 @@ TEST(DurationHistogram, TakesEveryNumber) {
   EXPECT_EQ(histogram.largest_ns(), INT64_MAX);
 }
 
-TEST(OverrunWatch, CountsInARowInAWindowAndTheLongOnes) {
-  OverrunWatch row;
+TEST(LatenessWatch, CountsInARowInAWindowAndTheLongOnes) {
+  LatenessWatch row;
   EXPECT_FALSE(row.update(1));
   EXPECT_FALSE(row.update(1));
   EXPECT_TRUE(row.update(1));
-  OverrunWatch longest;
+  LatenessWatch longest;
   EXPECT_FALSE(longest.update(5'000'000));
   EXPECT_TRUE(longest.update(5'000'001));
-  OverrunWatch window;
+  LatenessWatch window;
   for (int i = 0; i < 20'000; ++i) ASSERT_FALSE(window.update(i % 100 == 0 ? 1 : 0)) << i;
-  OverrunWatch more;
+  LatenessWatch more;
   bool tripped = false;
   for (int i = 0; i < 1000; ++i) tripped |= more.update(i % 90 == 0 ? 1 : 0);
   EXPECT_TRUE(tripped);
@@ -213,29 +248,13 @@ TEST(DurationHistogram, CountsTheShareOfDurationsThatAreNoLonger) {
   EXPECT_EQ(histogram.quantile_ns(1.1), 10);
 }
 
-/// A clock that wakes its sleepers late by a script, a number a sleep.
-class LateClock final : public hal::Clock {
- public:
-  explicit LateClock(std::vector<std::int64_t> late) : late_(std::move(late)) {}
-  std::int64_t now_ns() noexcept override { return now; }
-  void sleep_until(std::int64_t ns) noexcept override {
-    now = std::max(now, ns) + (slept_ < late_.size() ? late_[slept_] : 0);
-    ++slept_;
-  }
-  std::int64_t now = 0;
-
- private:
-  std::vector<std::int64_t> late_;
-  std::size_t slept_ = 0;
-};
-
 /// The samples come at their time, however soon after the request.
 TEST(PeriodicLoop, WaitsForSamplesThatComeANanosecondLater) {
   LateClock clock({0, 0, 0, 0});
   LoopStatistics statistics;
   std::vector<std::int64_t> ran;
   run_periodically(
-      clock, kPeriod_ns, 1, statistics, [] {},
+      clock, {kPeriod_ns, 1, kPeriod_ns}, statistics, [] {},
       [&](const LoopEvents&) {
         ran.push_back(clock.now % kPeriod_ns);
         return ran.size() < 2;
@@ -252,7 +271,7 @@ TEST(PeriodicLoop, MeasuresLatenessAndComputingTimeOfEachCycle) {
   std::vector<std::int64_t> requested, ran;
   std::vector<CycleTimes> times;
   run_periodically(
-      clock, kPeriod_ns, 300'000, statistics, [&] { requested.push_back(clock.now); },
+      clock, {kPeriod_ns, 300'000, kPeriod_ns}, statistics, [&] { requested.push_back(clock.now); },
       [&](const LoopEvents& events) {
         EXPECT_EQ(events.overrun_ns, 0);
         EXPECT_EQ(events.skipped, 0u);
@@ -299,7 +318,7 @@ TEST(PeriodicLoop, TellsTheFirstCycleOfItsLateWaking) {
     LoopStatistics statistics;
     LoopEvents heard;
     run_periodically(
-        clock, kPeriod_ns, 0, statistics, [] {},
+        clock, {kPeriod_ns, 0, kPeriod_ns}, statistics, [] {},
         [&](const LoopEvents& events) {
           heard = events;
           return false;
@@ -319,7 +338,8 @@ TEST(PeriodicLoop, BeginsAtTheNextWholePeriod) {
     LoopStatistics statistics;
     std::int64_t deadline = -1;
     run_periodically(
-        clock, kPeriod_ns, 0, statistics, [] {}, [](const LoopEvents& events) { return events.skipped != 0; },
+        clock, {kPeriod_ns, 0, kPeriod_ns}, statistics, [] {},
+        [](const LoopEvents& events) { return events.skipped != 0; },
         [&](const CycleTimes& times) { deadline = times.deadline_ns; });
     EXPECT_EQ(deadline, first) << now;
     EXPECT_EQ(clock.now, first) << now;

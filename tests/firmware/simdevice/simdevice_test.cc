@@ -258,7 +258,7 @@ TEST_F(SimdeviceTest, IsNotControlledWithoutRealTimeRights) {
 
 /// A busy machine may be too late for a loop in real time, or for the device, so that a fault stops the arm.
 TEST_F(SimdeviceTest, IsControlledByAnotherProcessOverItsInterfaces) {
-  write_controller("[start]\nsign_test = false\n[loop]\npriority = 1\n");
+  write_contact_controller("[start]\nsign_test = false\n[loop]\npriority = 1\n");
   Process process = device({"c.toml", "--bus", "can0,can1,can2", "--enable-after", "0.2"}, "device.txt");
   ASSERT_EQ(pipes(process).size(), 3u) << text("device.txt");
   const sched_param priority{1};
@@ -270,6 +270,7 @@ TEST_F(SimdeviceTest, IsControlledByAnotherProcessOverItsInterfaces) {
   const std::string words = text("log.txt");
   EXPECT_TRUE(code == 0 || (code == 69 && says("stopped: "))) << code << words;
   EXPECT_TRUE(says("bus.drive_delay = 0: ")) << words;
+  EXPECT_TRUE(says("budget: 77 us a cycle for the god object, ")) << "interfaces are real time: " << words;
   EXPECT_TRUE(says("round trip: p50 ")) << words;
   EXPECT_FALSE(says("godobject-controller: can")) << "there is nothing to warn of: " << words;
   const double cycles = number("rendered in [0-9]+ of ([0-9]+) cycles");

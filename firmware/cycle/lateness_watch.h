@@ -6,9 +6,9 @@
 
 namespace godobject::firmware {
 
-/// Detects too many overruns of the loop: kInRow in a row, more than one cycle in a hundred over the last second, or
-/// one longer than kLong_ns.
-class OverrunWatch {
+/// Detects too many late cycles, which overrun or compute for longer than planned: kInRow in a row, more than one cycle
+/// in a hundred over the last second, or one that is late by more than kLong_ns.
+class LatenessWatch {
  public:
   /// Chosen, as for lost positions: the drives hold the last torque for two cycles. With 5 the arm no longer stops
   /// within the 8 cycles of the fault table, with 2 a single disturbance of two cycles stops it.
@@ -17,12 +17,12 @@ class OverrunWatch {
   /// drives have stopped by themselves.
   static constexpr std::int64_t kLong_ns = 5'000'000;
 
-  /// Takes the overrun of one cycle; 0: none. True: too often, or too long.
-  bool update(std::int64_t overrun_ns) noexcept {
-    const bool overrun = overrun_ns > 0;
-    in_row_ = overrun ? in_row_ + 1 : 0;
-    const bool too_often = rate_.update(overrun);
-    return too_often || in_row_ >= kInRow || overrun_ns > kLong_ns;
+  /// Takes the lateness of one cycle; 0: in time. True: too often, or too late.
+  bool update(std::int64_t late_ns) noexcept {
+    const bool late = late_ns > 0;
+    in_row_ = late ? in_row_ + 1 : 0;
+    const bool too_often = rate_.update(late);
+    return too_often || in_row_ >= kInRow || late_ns > kLong_ns;
   }
 
  private:
