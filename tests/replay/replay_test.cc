@@ -17,6 +17,7 @@
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/scene_image_builder.h"
+#include "toolchain/replay/replay.h"
 
 namespace godobject::test {
 namespace {
@@ -198,6 +199,35 @@ TEST_F(ReplayTest, CountsTheCyclesThatDidNotGoAsWished) {
     EXPECT_NE(output_.find(said), std::string::npos) << said << "\n" << output_;
     EXPECT_EQ(output_.find("friction not found in ") != std::string::npos, solver == "contact") << output_;
   }
+}
+
+TEST(Lag, CountsTheCyclesAboveASmallDistanceAndTheMostInARow) {
+  replay::Lag lag;
+  EXPECT_TRUE(lag.empty());
+  for (const double distance : {0.0, 60e-6, 51e-6, 50e-6, 70e-6, 0.0, 80e-6, 90e-6, 55e-6, 1e-6}) lag.add(distance);
+  EXPECT_FALSE(lag.empty());
+  EXPECT_EQ(lag.above(), 6u);
+  EXPECT_EQ(lag.most_in_row(), 3u);
+  EXPECT_EQ(lag.quantile(0.5), 51e-6);
+  EXPECT_EQ(lag.quantile(0.51), 55e-6);
+  EXPECT_EQ(lag.quantile(1.0), 90e-6);
+  EXPECT_EQ(lag.quantile(0.0), 0.0);
+}
+
+/// Of many units, and of one.
+TEST_F(ReplayTest, TellsHowFarABudgetOfWorkKeepsTheGodObjectBehind) {
+  write_path();
+  ASSERT_EQ(run(""), 0) << output_;
+  EXPECT_EQ(output_.find("behind a god object"), std::string::npos) << output_;
+  ASSERT_EQ(run("--work-budget 1000000000"), 0) << output_;
+  EXPECT_NE(
+      output_.find("behind a god object without a budget: p50 0.0000 mm, p99.9 0.0000 mm, largest 0.0000 mm; more "
+                   "than 0.05 mm in 0 cycles, at most 0 in a row\n"),
+      std::string::npos)
+      << output_;
+  ASSERT_EQ(run("--work-budget 1"), 0) << output_;
+  EXPECT_NE(output_.find("behind a god object without a budget: p50 "), std::string::npos) << output_;
+  EXPECT_EQ(output_.find("largest 0.0000 mm"), std::string::npos) << output_;
 }
 
 TEST_F(ReplayTest, TakesAnotherStiffness) {

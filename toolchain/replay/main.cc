@@ -74,8 +74,8 @@ how often each was judged and violated. That takes seconds for a thousand cycles
 Forces are neither limited nor smoothed here; the controller that drives the device does that.
 The last line printed counts the cycles with these four, and with contact the cycles whose friction did not converge to
 Coulomb's law within the tolerance; their gaps hold all the same. It also says the largest work of a cycle, and how many
-cycles their --work-budget ended: there the god object may lag, but it crosses nothing. Work is counted, not timed: it
-is the same in each replay.
+cycles their --work-budget ended: there the god object may stay behind, but it crosses nothing. Work is counted, not
+timed: it is the same in each replay. With a budget a line before tells how far the god object stays behind one without.
 
 Exit codes: 0 done, 64 usage, 65 bad image or path, or rows that were no pose (OUT.csv is complete then), 66 an input is
 missing or cannot be read, 70 --watch found a violation (before 65; OUT.csv is complete then), 74 cannot write, 77 no
@@ -137,6 +137,17 @@ std::string outcomes_text(const godobject::replay::Summary& summary, bool contac
   if (summary.most_work > 0) text += fmt::format(", work of a cycle at most {} units", summary.most_work);
   if (summary.out_of_work > 0) text += fmt::format(", ended by the budget in {} cycles", summary.out_of_work);
   return text;
+}
+
+/// Returns a line about how far the god object stays behind, or "" without a budget of work.
+std::string lag_text(const godobject::replay::Lag& lag) {
+  if (lag.empty()) return "";
+  return fmt::format(
+      "behind a god object without a budget: p50 {:.4f} mm, p99.9 {:.4f} mm, largest {:.4f} mm; more than {:g} mm in "
+      "{} "
+      "cycles, at most {} in a row\n",
+      1e3 * lag.quantile(0.5), 1e3 * lag.quantile(0.999), 1e3 * lag.quantile(1.0), 1e3 * godobject::replay::Lag::kSmall,
+      lag.above(), lag.most_in_row());
 }
 
 /// Returns k_D from the command line.
@@ -226,6 +237,7 @@ void replay_file(const Options& options) {
   }
   out.commit();
   if (watch) fmt::print("{}", godobject::replay::findings_text(watch->findings()));
+  fmt::print("{}", lag_text(summary.lag));
   const bool contact_friction = pipeline.friction && pipeline.solver == Solver::kContact;
   fmt::print("{}: {} cycles, {}{}, peak force {:.2f} N; {}; floating-point exceptions:{}\n", options.output,
              summary.cycles, point_text(summary.deepest, scene.voxelmap.band()), overlap_text(options, summary),

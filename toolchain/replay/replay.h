@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/pipeline/cycle/work.h"
 #include "core/scene/scene_view.h"
@@ -15,6 +16,27 @@
 namespace godobject::replay {
 
 class ReplayWatch;
+
+/// The distances of the god object's centre of mass from that of one without a budget of work, cycle by cycle.
+class Lag {
+ public:
+  static constexpr double kSmall = 50e-6;  ///< chosen: a hand does not feel it [m]
+
+  void add(double distance);
+
+  bool empty() const { return distances_.empty(); }
+  /// Returns the distance that a share of the cycles does not exceed [m]. Not empty.
+  double quantile(double share) const;
+  /// Returns the number of cycles above kSmall, and the most of them in a row.
+  std::size_t above() const { return above_; }
+  std::size_t most_in_row() const { return most_in_row_; }
+
+ private:
+  std::vector<double> distances_;
+  std::size_t above_ = 0;
+  std::size_t in_row_ = 0;
+  std::size_t most_in_row_ = 0;
+};
 
 /// The summary of a replay, beside its rows.
 struct Summary {
@@ -32,6 +54,7 @@ struct Summary {
   std::uint32_t most_dropped = 0;  ///< largest number of near points left out in a cycle
   std::uint64_t most_work = 0;     ///< largest work of a cycle [units]
   std::size_t out_of_work = 0;     ///< cycles that the budget of work ended
+  Lag lag;                         ///< with a budget of work
   int float_exceptions = 0;        ///< FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW that any cycle raised
 
   /// Returns the number of cycles with this outcome.
@@ -52,8 +75,8 @@ struct Outputs {
 };
 
 /// Runs the god object along the path, one cycle for each pose. Everything except the two timing columns depends on the
-/// input alone, to the last bit. `work_budget`: of each cycle [units]. Throws Failure (kBadData) if the image lacks the
-/// solver or friction.
+/// input alone, to the last bit. `work_budget`: of each cycle [units]; with one a second god object runs beside
+/// without. Throws Failure (kBadData) if the image lacks the solver or friction.
 Summary replay(const SceneView& scene, Solver solver, bool friction, const files::PosePath& path,
                const Outputs& outputs, std::uint64_t work_budget = WorkMeter::kUnlimited);
 

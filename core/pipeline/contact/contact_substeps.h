@@ -276,6 +276,7 @@ class ContactSubsteps {
     kept.goes_on = stays && may_go_on;
     if (!kept.goes_on) return memory_.share.learn(work_, first_work_);
     if (first_work_ > 0) return memory_.share.lengthen_motion();  // an earlier sub-step of this cycle
+    memory_.share.shorten_search();
     if (had_all_points_) memory_.share.shorten_motion();
   }
 

@@ -94,14 +94,28 @@ TEST(WorkShare, ShortensTheRadiusFirstAndThenTheMotion) {
   EXPECT_EQ(share.motion(), 1e-9);
 }
 
-/// A search that goes on in the next cycle needs no smaller share.
-TEST(WorkShare, KeepsAllIfTheSearchGoesOn) {
+/// A cycle that spends most of its work on the trees is no reason for a smaller share.
+TEST(WorkShare, KeepsAllIfTheTreesTakeMostOfTheWork) {
   for (const Work kind : {Work::kItem, Work::kBranches}) {
     WorkShare share;
     for (int k = 0; k < 10; ++k) share.learn(spent_on(kind, 1000), 0);
     EXPECT_EQ(share.radius(), 1.0);
     EXPECT_EQ(share.motion(), 1.0);
   }
+}
+
+TEST(WorkShare, ShortensASearchThatTakesMoreThanACycleDownToAnEighth) {
+  WorkShare share;
+  for (const double radius : {0.5, 0.25, 0.125, 0.125}) {
+    share.shorten_search();
+    EXPECT_EQ(share.radius(), radius);
+    EXPECT_EQ(share.motion(), 1.0);
+    EXPECT_FALSE(share.is_least());
+  }
+  for (int k = 0; k < 3; ++k) share.learn(spent_on(Work::kBall, 1000), 0);
+  ASSERT_EQ(share.radius(), 1.0 / 64.0);
+  share.shorten_search();
+  EXPECT_EQ(share.radius(), 1.0 / 64.0) << "it lengthens nothing";
 }
 
 /// Where the search goes on, only a shorter motion helps. Once the share of the motion is a sixty-fourth or less, the
