@@ -1,8 +1,10 @@
 #include "firmware/controller/operator_notice.h"
 
 #include <gtest/gtest.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <string>
 #include <thread>
 
@@ -89,6 +91,25 @@ TEST_F(OperatorNoticeTest, RunsUntilItIsAskedToStop) {
   stop.request_stop();
   notice_.run(stop.get_token());
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "asked before it looked";
+}
+
+/// The thread beside the loop takes little of the processor's time.
+TEST_F(OperatorNoticeTest, SleepsBetweenTwoLooks) {
+  const auto own_ms = [] {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  };
+  double took_ms = 0.0;
+  std::jthread thread([&](const std::stop_token& stop) {
+    const double before_ms = own_ms();
+    notice_.run(stop);
+    took_ms = own_ms() - before_ms;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  thread.request_stop();
+  thread.join();
+  EXPECT_LT(took_ms, 30.0);
 }
 
 }  // namespace

@@ -827,6 +827,30 @@ TEST(ContactSubsteps, LetAFreeBodyGoWhoseFirstSearchTookSeveralCycles) {
   }
 }
 
+/// The search radius grows if the first sub-step takes less than half of the budget, however much the others take.
+TEST(ContactSubsteps, LearnTheSearchRadiusFromTheFirstSubstep) {
+  const AnalyticField field(HalfSpace{Vector3::UnitZ(), 0.0}, kSubstepVoxel);
+  const SampledBody body = box_body(4);
+  const auto work_of_slide = [&](std::uint64_t budget, double& radius) {
+    SubstepRun<false> run(field, body, pose_at({0.0, 0.0, 0.015 + kSubstepMargin}));
+    WorkMeter of_balls;
+    of_balls.start(1000);
+    of_balls.add(Work::kBall, 10);
+    run.cycle.memory->share.learn(of_balls, 0);  // to a half
+    run.parameters.work_budget = budget;
+    EXPECT_EQ(run.step(pose_at({0.02, 0.0, 0.0149})), Status::kOk);
+    EXPECT_GE(run.report.substeps, 3u);
+    EXPECT_FALSE(run.report.out_of_work);
+    radius = run.memory().share.radius();
+    return run.memory().work.spent();
+  };
+  double radius = 0.0;
+  const std::uint64_t work = work_of_slide(WorkMeter::kUnlimited, radius);
+  EXPECT_EQ(radius, 1.0);
+  EXPECT_EQ(work_of_slide(work + work / 2, radius), work);
+  EXPECT_EQ(radius, 0.5 * 1.125);
+}
+
 /// Far from any surface a cycle is one step to the device, whether its own search or an earlier one proves the way
 /// free.
 TEST(ContactSubsteps, GoToTheDeviceInOneStepWhereNothingIsNear) {

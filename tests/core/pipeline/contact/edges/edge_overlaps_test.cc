@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "core/pipeline/contact/edges/edge_search.h"
 #include "tests/support/edge_set.h"
@@ -127,6 +129,45 @@ TEST(EdgeOverlaps, OfEndsAreNoFreeSpace) {
   near.count = 0;
   EXPECT_FALSE(search->find(pose_at_z(1e-3), 1e-3, kDeepest, 1e-3, kDeepest, work, near).may_overlap);
   EXPECT_TRUE(search->is_free(1e-3, 1e-4)) << "above the ridge";
+}
+
+/// The end of an edge below a ridge, beside another edge of the roof that is nearer to it: that one tells the sides.
+TEST(EdgeOverlaps, OfEndsAreToldByTheNearestEdge) {
+  for (const bool swapped : {false, true}) {
+    for (const bool has_nearer : {false, true}) {
+      std::vector<std::pair<Vector3, Vector3>> edges{{Vector3(-0.01, 0, 0), Vector3(0.01, 0, 0)}};
+      if (has_nearer) edges.emplace_back(Vector3(-0.01, -3e-4, -4e-4), Vector3(0.01, -3e-4, -4e-4));
+      EdgeSet roof(edges);
+      EdgeSet side({{Vector3(0, 0, -4e-4), Vector3(0, 0.01, -2e-3)}});
+      for (int face = 0; face < 2; ++face) {
+        roof.edges()[0].normal[face][1] = face == 0 ? 0.8f : -0.8f;
+        roof.edges()[0].normal[face][2] = 0.6f;
+        if (has_nearer) roof.edges()[1].normal[face][1] = 1.0f;  // the end is outside
+        side.edges()[0].normal[face][0] = face == 0 ? 1.0f : -1.0f;
+      }
+      const auto search = std::make_unique<EdgeSearch>();
+      if (swapped) {
+        search->start({roof.view(), side.view()});
+      } else {
+        search->start({side.view(), roof.view()});
+      }
+      NearEdges near;
+      WorkMeter work;
+      EXPECT_TRUE(search->find(Pose{}, 0.0, kDeepest, 1e-3, kDeepest, work, near).may_overlap);
+      ASSERT_EQ(near.count, has_nearer ? 2u : 1u);
+      for (std::uint32_t n = 0; n < near.count; ++n) {
+        const bool is_ridge = (swapped ? near.pair[n].moving : near.pair[n].still) == 0;
+        const double distance = is_ridge ? (has_nearer ? 4e-4 : -4e-4) : 3e-4;
+        EXPECT_NEAR(near.gap[n].distance, distance, 2e-5) << swapped << has_nearer;
+      }
+      // at the same pose the pairs are known: each is looked at, and for the end both once more
+      const std::uint64_t before = work.spent();
+      near.count = 0;
+      static_cast<void>(search->find(Pose{}, 0.0, kDeepest, 1e-3, kDeepest, work, near));
+      const std::uint64_t pairs = near.count;
+      EXPECT_EQ(work.spent() - before, 2 * pairs * cost_of(Work::kScan) + (2 * pairs - 1) * cost_of(Work::kPair));
+    }
+  }
 }
 
 }  // namespace
