@@ -1,7 +1,6 @@
 #include "toolchain/figures/statistics.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -13,27 +12,6 @@
 
 namespace godobject::figures {
 namespace {
-
-TEST(Percentile, IsTheNearestRank) {
-  std::vector<double> values = {50, 15, 40, 20, 35};
-  EXPECT_EQ(percentile(values, 0.05), 15);
-  EXPECT_EQ(percentile(values, 0.30), 20);  // ceil(1.5) = 2nd
-  EXPECT_EQ(percentile(values, 0.40), 20);  // exactly the 2nd
-  EXPECT_EQ(percentile(values, 0.50), 35);
-  EXPECT_EQ(percentile(values, 1.00), 50);
-}
-
-TEST(Percentile, OfAHundredIsThatRankInSpiteOfRounding) {
-  std::vector<double> values(100);
-  std::iota(values.begin(), values.end(), 1.0);
-  for (int share = 1; share <= 100; ++share) EXPECT_EQ(percentile(values, share / 100.0), share);
-}
-
-TEST(Percentile, OfOneIsItself) {
-  std::vector<double> values = {7};
-  EXPECT_EQ(percentile(values, 0.01), 7);
-  EXPECT_EQ(percentile(values, 0.99), 7);
-}
 
 TEST(Statistics, AreHandComputed) {
   const ReplayLog log = {

@@ -17,7 +17,6 @@
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/scene_image_builder.h"
-#include "toolchain/replay/replay.h"
 
 namespace godobject::test {
 namespace {
@@ -199,19 +198,6 @@ TEST_F(ReplayTest, CountsTheCyclesThatDidNotGoAsWished) {
     EXPECT_NE(output_.find(said), std::string::npos) << said << "\n" << output_;
     EXPECT_EQ(output_.find("friction not found in ") != std::string::npos, solver == "contact") << output_;
   }
-}
-
-TEST(Lag, CountsTheCyclesAboveASmallDistanceAndTheMostInARow) {
-  replay::Lag lag;
-  EXPECT_TRUE(lag.empty());
-  for (const double distance : {0.0, 60e-6, 51e-6, 50e-6, 70e-6, 0.0, 80e-6, 90e-6, 55e-6, 1e-6}) lag.add(distance);
-  EXPECT_FALSE(lag.empty());
-  EXPECT_EQ(lag.above(), 6u);
-  EXPECT_EQ(lag.most_in_row(), 3u);
-  EXPECT_EQ(lag.quantile(0.5), 51e-6);
-  EXPECT_EQ(lag.quantile(0.51), 55e-6);
-  EXPECT_EQ(lag.quantile(1.0), 90e-6);
-  EXPECT_EQ(lag.quantile(0.0), 0.0);
 }
 
 /// Of many units, and of one.

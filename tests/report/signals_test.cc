@@ -54,20 +54,6 @@ TEST(Drift, IsThatOfTheMeans) {
   EXPECT_NEAR(drift(positions, 1000), 4e-6, 1e-12);
 }
 
-TEST(LongestAbove, CountsTheLongestRun) {
-  const std::vector<double> values = {1.0, 3.0, 3.0, 2.0, 3.0, 3.0, 3.0, 1.0, 3.0};
-  EXPECT_EQ(longest_above(values, 2.0), 3u);
-  EXPECT_EQ(longest_above(values, 0.5), 9u);
-  EXPECT_EQ(longest_above(values, 3.0), 0u);
-}
-
-TEST(Percentile, IsOfNearestRank) {
-  EXPECT_EQ(percentile({5.0, 1.0, 3.0, 2.0, 4.0}, 0.5), 3.0);
-  EXPECT_EQ(percentile({5.0, 1.0, 3.0, 2.0, 4.0}, 0.99), 5.0);
-  EXPECT_EQ(percentile({5.0}, 0.0), 5.0);
-  EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
-}
-
 TEST(Across, SplitsAForce) {
   const Vector3 force(0.18, 0.0, 1.0);
   EXPECT_NEAR(across(force, Vector3::UnitZ()).norm(), 0.18, 1e-15);

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "toolchain/figures/statistics.h"
+#include "toolchain/statistics/samples.h"
 
 namespace godobject::bench {
 
-Distribution distribution(std::vector<double> values) {
+Distribution distribution(const std::vector<double>& values) {
   if (values.empty()) return {};
   return {.count = values.size(),
-          .p50 = figures::percentile(values, 0.50),
-          .p99 = figures::percentile(values, 0.99),
-          .p999 = figures::percentile(values, 0.999),
-          .max = figures::percentile(values, 1.0)};
+          .p50 = percentile(values, 0.50),
+          .p99 = percentile(values, 0.99),
+          .p999 = percentile(values, 0.999),
+          .max = percentile(values, 1.0)};
 }
 
 Distribution PassSamples::all(std::span<const std::size_t> cycles) const {

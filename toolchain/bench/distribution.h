@@ -17,7 +17,7 @@ struct Distribution {
 };
 
 /// Returns the quantiles of the values, zeros for no value. Sorts its copy: O(n log n).
-Distribution distribution(std::vector<double> values);
+Distribution distribution(const std::vector<double>& values);
 
 /// Measurements of the same cycles, pass after pass [ns].
 class PassSamples {

@@ -18,7 +18,7 @@ target_precompile_headers(godobject_precompiled_commands PRIVATE
 
 # godobject_precompile_folder(FOLDER)
 # Gives a precompiled header to the targets of the folder and of the folders below it. Those of godobject_embedded are
-# compiled with other options, and two libraries do not link the core and Eigen.
+# compiled with other options, and three libraries do not link the core and Eigen.
 function(godobject_precompile_folder folder)
   set(tools "${PROJECT_SOURCE_DIR}/toolchain")
   cmake_path(IS_PREFIX tools "${folder}" NORMALIZE is_tool)
@@ -30,7 +30,7 @@ function(godobject_precompile_folder folder)
       target_compile_options(${target} PRIVATE ${COMMAND_OPTIONS})
       target_precompile_headers(${target} REUSE_FROM godobject_precompiled_commands)
     elseif(type MATCHES "STATIC_LIBRARY|EXECUTABLE" AND NOT "godobject_embedded" IN_LIST libraries
-       AND NOT target MATCHES "^godobject_(parallel|timing)$")
+       AND NOT target MATCHES "^godobject_(parallel|statistics|timing)$")
       target_precompile_headers(${target} REUSE_FROM godobject_precompiled)
     endif()
   endforeach()

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "toolchain/statistics/samples.h"
+
 namespace godobject::figures {
 namespace {
 
 constexpr double kUs_ns = 1e3;
 constexpr double kMillisecond_ns = 1e6;
 
-Times times(std::vector<double> values_ns) {
+Times times(const std::vector<double>& values_ns) {
   if (values_ns.empty()) return {};
   return {.p50 = percentile(values_ns, 0.50) / kUs_ns,
           .p99 = percentile(values_ns, 0.99) / kUs_ns,
@@ -17,13 +19,6 @@ Times times(std::vector<double> values_ns) {
 }
 
 }  // namespace
-
-double percentile(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
-  // 1e-9: the product of a share such as 0.07 and n must not be rounded up to the next rank
-  const double rank = std::ceil(share * static_cast<double>(values.size()) - 1e-9);
-  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
 
 Statistics statistics(const ReplayLog& log, double band) {
   Statistics result;

@@ -10,10 +10,6 @@
 
 namespace godobject::figures {
 
-/// Returns the nearest-rank percentile: of n sorted values the ceil(share n)-th, at least the first. Sorts `values`,
-/// which must not be empty. share in (0, 1].
-double percentile(std::vector<double>& values, double share);
-
 /// Run time of part of a cycle over the cycles in contact [us]; zeros without contact.
 struct Times {
   double p50 = 0.0;

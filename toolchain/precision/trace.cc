@@ -6,25 +6,19 @@
 
 #include "toolchain/command_line/failure.h"
 #include "toolchain/precision/instruction_counter.h"
+#include "toolchain/statistics/samples.h"
 #include "toolchain/timing/stopwatch.h"
 
 namespace godobject::precision {
 namespace {
 
-double nearest_rank(std::vector<double>& values, double quantile) {
-  const auto rank = static_cast<std::size_t>(std::ceil(quantile * static_cast<double>(values.size())));
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 /// Returns the cost from `passes` times of each cycle.
 CycleCost cost_of(const std::vector<std::vector<double>>& times_ns) {
   std::vector<double> medians;
-  for (std::vector<double> of_cycle : times_ns) medians.push_back(nearest_rank(of_cycle, 0.5));
+  for (const std::vector<double>& of_cycle : times_ns) medians.push_back(percentile(of_cycle, 0.5));
   CycleCost cost;
-  cost.p50_ns = nearest_rank(medians, 0.5);
-  cost.p99_ns = nearest_rank(medians, 0.99);
+  cost.p50_ns = percentile(medians, 0.5);
+  cost.p99_ns = percentile(medians, 0.99);
   cost.max_ns = *std::max_element(medians.begin(), medians.end());
   return cost;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@
 #include "toolchain/replay/replay_watch.h"
 #include "toolchain/scene_compiler/image_meshes.h"
 #include "toolchain/scene_compiler/scene_config.h"
+#include "toolchain/statistics/samples.h"
 
 namespace {
 
@@ -140,14 +142,15 @@ std::string outcomes_text(const godobject::replay::Summary& summary, bool contac
 }
 
 /// Returns a line about how far the god object stays behind, or "" without a budget of work.
-std::string lag_text(const godobject::replay::Lag& lag) {
+std::string lag_text(const std::vector<double>& lag) {
+  constexpr double kSmall = 50e-6;  // [m], chosen: a hand does not feel it
   if (lag.empty()) return "";
   return fmt::format(
-      "behind a god object without a budget: p50 {:.4f} mm, p99.9 {:.4f} mm, largest {:.4f} mm; more than {:g} mm in "
-      "{} "
-      "cycles, at most {} in a row\n",
-      1e3 * lag.quantile(0.5), 1e3 * lag.quantile(0.999), 1e3 * lag.quantile(1.0), 1e3 * godobject::replay::Lag::kSmall,
-      lag.above(), lag.most_in_row());
+      "behind a god object without a budget: p50 {:.4f} mm, p99.9 {:.4f} mm, largest {:.4f} mm; "
+      "more than {:g} mm in {} cycles, at most {} in a row\n",
+      1e3 * godobject::percentile(lag, 0.5), 1e3 * godobject::percentile(lag, 0.999),
+      1e3 * godobject::percentile(lag, 1.0), 1e3 * kSmall, godobject::count_above(lag, kSmall),
+      godobject::longest_above(lag, kSmall));
 }
 
 /// Returns k_D from the command line.

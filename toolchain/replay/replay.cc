@@ -43,21 +43,6 @@ Pose body_pose(const Pose& H_WM, const Pose& H_MB) { return Pose{H_WM.rotation.n
 
 }  // namespace
 
-void Lag::add(double distance) {
-  distances_.push_back(distance);
-  in_row_ = distance > kSmall ? in_row_ + 1 : 0;
-  above_ += in_row_ > 0 ? 1 : 0;
-  most_in_row_ = std::max(most_in_row_, in_row_);
-}
-
-double Lag::quantile(double share) const {
-  std::vector<double> sorted = distances_;
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  const auto at = sorted.begin() + std::max<std::ptrdiff_t>(rank, 1) - 1;
-  std::nth_element(sorted.begin(), at, sorted.end());
-  return *at;
-}
-
 const char* const kColumns =
     "t,dpx,dpy,dpz,dqw,dqx,dqy,dqz,gpx,gpy,gpz,gqw,gqx,gqy,gqz,fx,fy,fz,tx,ty,tz,point_depth,contacts,substeps,step1_"
     "ns,"
@@ -103,7 +88,7 @@ Summary replay(const SceneView& scene, Solver solver, bool friction, const files
       CycleReport other;
       static_cast<void>(without_budget->update({path.poses[i], Motion{}}, other));  // refuses the same rows
       const Vector3 here = (god_object->mesh_pose() * scene.H_MB).translation;
-      summary.lag.add((here - (without_budget->mesh_pose() * scene.H_MB).translation).norm());
+      summary.lag.push_back((here - (without_budget->mesh_pose() * scene.H_MB).translation).norm());
     }
     ++summary.cycles;
     ++summary.by_outcome[static_cast<std::size_t>(report.outcome)];

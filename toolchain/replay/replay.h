@@ -17,27 +17,6 @@ namespace godobject::replay {
 
 class ReplayWatch;
 
-/// The distances of the god object's centre of mass from that of one without a budget of work, cycle by cycle.
-class Lag {
- public:
-  static constexpr double kSmall = 50e-6;  ///< chosen: a hand does not feel it [m]
-
-  void add(double distance);
-
-  bool empty() const { return distances_.empty(); }
-  /// Returns the distance that a share of the cycles does not exceed [m]. Not empty.
-  double quantile(double share) const;
-  /// Returns the number of cycles above kSmall, and the most of them in a row.
-  std::size_t above() const { return above_; }
-  std::size_t most_in_row() const { return most_in_row_; }
-
- private:
-  std::vector<double> distances_;
-  std::size_t above_ = 0;
-  std::size_t in_row_ = 0;
-  std::size_t most_in_row_ = 0;
-};
-
 /// The summary of a replay, beside its rows.
 struct Summary {
   std::size_t cycles = 0;
@@ -54,8 +33,9 @@ struct Summary {
   std::uint32_t most_dropped = 0;  ///< largest number of near points left out in a cycle
   std::uint64_t most_work = 0;     ///< largest work of a cycle [units]
   std::size_t out_of_work = 0;     ///< cycles that the budget of work ended
-  Lag lag;                         ///< with a budget of work
-  int float_exceptions = 0;        ///< FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW that any cycle raised
+  /// With a budget of work: distance of the centre of mass from that of a god object without, for each cycle [m].
+  std::vector<double> lag;
+  int float_exceptions = 0;  ///< FE_INVALID, FE_DIVBYZERO, FE_OVERFLOW that any cycle raised
 
   /// Returns the number of cycles with this outcome.
   std::size_t count(Outcome outcome) const { return by_outcome[static_cast<std::size_t>(outcome)]; }

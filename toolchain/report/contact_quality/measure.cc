@@ -7,6 +7,7 @@
 #include "toolchain/report/contact_quality/recording.h"
 #include "toolchain/report/contact_quality/reference.h"
 #include "toolchain/report/contact_quality/signals.h"
+#include "toolchain/statistics/samples.h"
 
 namespace godobject::report {
 namespace {

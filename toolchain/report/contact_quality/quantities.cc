@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "toolchain/report/contact_quality/signals.h"
+#include "toolchain/statistics/samples.h"
 
 namespace godobject::report {
 namespace {

@@ -56,26 +56,8 @@ double chatter(std::span<const Vector3> signal) {
   return std::sqrt(sum / static_cast<double>(signal.size() - kSettle));
 }
 
-double percentile(std::vector<double> values, double q) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(q * static_cast<double>(values.size()))));
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 double drift(std::span<const Vector3> positions, std::size_t window) {
   return (mean(positions.last(window)) - mean(positions.first(window))).norm();
-}
-
-std::size_t longest_above(std::span<const double> values, double limit) {
-  std::size_t longest = 0;
-  std::size_t run = 0;
-  for (const double value : values) {
-    run = value > limit ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  return longest;
 }
 
 Vector3 across(const Vector3& v, const Vector3& unit) { return v - v.dot(unit) * unit; }

@@ -13,14 +13,8 @@ namespace godobject::report {
 /// settles, do not count). 0 for shorter signals.
 double chatter(std::span<const Vector3> signal);
 
-/// Returns the nearest-rank quantile; q in 0 .. 1. NaN without values.
-double percentile(std::vector<double> values, double q);
-
 /// Returns the distance between the means of the first and the last `window` positions [m].
 double drift(std::span<const Vector3> positions, std::size_t window);
-
-/// Returns the length of the longest run of values above `limit`, in samples.
-std::size_t longest_above(std::span<const double> values, double limit);
 
 /// Returns the part of a vector that is perpendicular to a unit vector.
 Vector3 across(const Vector3& v, const Vector3& unit);
