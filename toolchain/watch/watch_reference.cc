@@ -157,13 +157,9 @@ void Watch::check_pushes(const WatchedCycle& cycle, bool between_planes) {
 void Watch::check_optimum(const WatchedCycle& cycle) {
   if (cycle.report.outcome != Outcome::kContact || travelled_ > 0.25 * q_.voxel_size) return;
   const Vector6 to_device = stretch(H_WS_before_, clamped(cycle.H_WD));
-  constexpr double kRegained = 0.3;  // core/README.md: share of a lost margin that one cycle regains
   std::vector<HalfPlane> rows;
   for (const Touch& touch : touches_at(H_WS_before_, 0.5 * q_.voxel_size)) {
-    const double missing = -touch.left;
-    HalfPlane row;
-    row.normal = stacked(touch.normal_S, touch.point_S.cross(touch.normal_S) / gyration_);
-    row.bound = missing > 0.0 ? std::min(kRegained * missing, 0.25 * q_.voxel_size) : missing;
+    HalfPlane row = row_of(touch, gyration_, q_.voxel_size);
     row.bound -= row.normal.dot(to_device);
     rows.push_back(row);
   }

@@ -15,6 +15,10 @@ struct Touch {
   double left = 0.0;  ///< way in that leaves the field at the margin; below 0: lost [m]
 };
 
+/// Returns the row of `contact` for a touch (core/README.md): one cycle regains 0.3 of a lost margin, a quarter of a
+/// voxel at most; other points keep the margin. `gyration`: length that counts a rotation [m/rad].
+HalfPlane row_of(const Touch& touch, double gyration, double voxel_size);
+
 /// Returns the shortest motion z_0 = (x, rho r) [m] by which a god object regains the lost margin in one cycle,
 /// independent of the device. It satisfies the rows of `contact` (core/README.md: 0.3 of a lost margin, a quarter of a
 /// voxel at most; other gaps stay above the margin). Zero if no margin is lost, and if no motion satisfies all rows;
