@@ -17,7 +17,7 @@ namespace godobject::firmware {
 namespace {
 
 constexpr std::uint32_t kMoment = 3000;  // cycles; chosen: 3 s, longer than an operator needs who knows what to do
-constexpr std::uint32_t kBehind = 300;   // cycles; chosen: a hand feels it by then, and 20 ms of lag are common
+constexpr std::uint32_t kBehind = 300;   // cycles; chosen: a hand feels it by then
 
 std::string why(const Standing& standing) {
   if (standing.fault != Fault::kAlarm) return describe(standing.fault);

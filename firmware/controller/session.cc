@@ -138,7 +138,7 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
     if (link_->real_time() && report_.beyond_plan > 0) {
       warn(fmt::format(
           "{} cycles computed for longer than loop.compute, which bus plan and gain check count on: {:.0f} us in place "
-          "of {:.0f} us at most; raise it, lower loop.cycle_budget, or run godobject-controller doctor",
+          "of {:.0f} us at most; raise it, set or lower loop.cycle_budget, or run godobject-controller doctor",
           report_.beyond_plan, 1e-3 * static_cast<double>(report_.computing.largest_ns()), 1e6 * config_.loop.compute));
     }
   } else {

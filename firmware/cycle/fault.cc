@@ -31,7 +31,7 @@ const char* describe(Fault fault) noexcept {
       return "a joint is beyond its limits before the start; release its brake with the drive's own tool and move it "
              "back, or check its zero";
     case Fault::kComputedLate:
-      return "cycles computed for longer than loop.compute too often; raise it, lower loop.cycle_budget, or run "
+      return "cycles computed for longer than loop.compute too often; raise it, set or lower loop.cycle_budget, or run "
              "godobject-controller doctor";
   }
   return "unknown fault";

@@ -214,7 +214,7 @@ class ContactSubsteps {
 
   /// Moves the god object to the certified pose and chooses the next sub-step's search radius.
   void advance() noexcept {
-    if (is_first_ && !(share_.value() == 0.0 && result_.out_of_work)) first_work_ = work_.spent();
+    if (is_first_ && share_.value() != 0.0) first_work_ = work_.spent();
     const double remainder = (1.0 - share_.value()) * travel(lengths_.sphere, step_.motion);
     is_nearer_ = distance_gain() < 0.0;
     if constexpr (kFriction) slide_on();

@@ -12,9 +12,10 @@ namespace godobject {
 /// keeps the god object nearer to the device than a long one in some. After a cycle that had all points from the
 /// beginning and did not certify a motion, the share of the motion halves. Where a search cannot go on, the search
 /// radius halves further, and once it is as short as it may be, the share of the motion. The share of the motion grows
-/// again with each motion that is certified, the radius while the first sub-step takes less than half of the budget. The
-/// factors are chosen: from a sixty-fourth of the radius back to the whole takes 36 cycles. Measured with the eighth
-/// (godobject-replay --work-budget 308000, the demo's peg): the median of the lag is 0.09 mm in place of 0.35 mm.
+/// again with each motion that is certified, the radius while the first sub-step takes less than half of the budget.
+/// The factors are chosen: from a sixty-fourth of the radius back to the whole takes 36 cycles. Measured with the
+/// eighth (godobject-replay --work-budget 308000, the demo's peg): the median of the lag is 0.08 mm in place of 0.35
+/// mm.
 class WorkShare {
  public:
   /// Returns the share of the longest search radius that a sub-step may use [1].
