@@ -6,10 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "core/pipeline/contact/qp/contact_rows.h"
 #include "core/pipeline/contact/qp/least_constraint.h"
+#include "tests/support/decompositions.h"
 
 namespace godobject::test {
 
@@ -60,10 +61,7 @@ inline std::optional<SixVector> nearest_by_enumeration(const SixVector& target,
       b[k] = c.required_gain;
     }
     SixVector z = target;
-    if (size > 0) {
-      const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(A);
-      z += decomposition.solve(b - A * target);
-    }
+    if (size > 0) z += least_squares(A, b - A * target);
     bool meets_all = true;
     for (const SlowContact& c : contacts) meets_all &= c.gradient.dot(z) >= c.required_gain - tolerance;
     if (meets_all && (!best || (z - target).norm() < (*best - target).norm())) best = z;

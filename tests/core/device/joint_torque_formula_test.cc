@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
-
 #include "core/device/dynamics.h"
 #include "core/device/joint_torque.h"
 #include "tests/support/arms.h"
+#include "tests/support/decompositions.h"
 
 namespace godobject {
 namespace {
@@ -52,7 +51,7 @@ struct Expected {
   double scale = 1.0;
   double left_out = 0.0;
   bool gravity_clipped = false;
-  bool is_faded = false;   // a spring took room from the wrench
+  bool is_faded = false;     // a spring took room from the wrench
   bool is_singular = false;  // a direction is rendered in part
 };
 
@@ -116,14 +115,13 @@ Expected expected(const Arm& arm, const TorqueRequest& request) {
   // -P D P qd
   Eigen::MatrixXd ZJ = geometric_jacobian(request.kinematics, request.p_RP);
   ZJ.bottomRows(3) *= p.rotation_length;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ZJ, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const test::SingularValues svd = test::singular_values_of(ZJ);
   Vector6 f;
   for (int i = 0; i < 6; ++i) {
-    f[i] = rise(p.singular_none, p.singular_full, svd.singularValues()[i]);
+    f[i] = rise(p.singular_none, p.singular_full, svd.values[i]);
     out.is_singular = out.is_singular || (f[i] > 0.0 && f[i] < 1.0);
   }
-  const Eigen::MatrixXd V = svd.matrixV();
-  const Matrix7 P = Matrix7::Identity() - V * f.asDiagonal() * V.transpose();
+  const Matrix7 P = Matrix7::Identity() - svd.V * f.asDiagonal() * svd.V.transpose();
   JointVector qd = JointVector::Zero();
   qd.head(n) = request.qd.head(n);
   const JointVector damping = -P * p.null_damping.asDiagonal() * P * qd;
@@ -134,7 +132,7 @@ Expected expected(const Arm& arm, const TorqueRequest& request) {
   Z << 1.0, 1.0, 1.0, p.rotation_length, p.rotation_length, p.rotation_length;
   Vector6 F;
   F << request.F_P_R.force, request.F_P_R.torque;
-  const Eigen::MatrixXd U = svd.matrixU();
+  const Eigen::MatrixXd U = svd.U;
   const Vector6 wanted = F.cwiseQuotient(Z);
   const Vector6 shown = U * f.asDiagonal() * U.transpose() * wanted;
   const JointVector rendered = ZJ.transpose() * shown;

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/SVD>
-
 #include "core/device/dynamics.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/arms.h"
+#include "tests/support/decompositions.h"
 
 namespace godobject {
 namespace {
@@ -49,7 +48,7 @@ Jacobian weighted_jacobian(const Arm& arm, const TorqueRequest& request) {
 
 Vector6 singular_values(const Arm& arm, const TorqueRequest& request) {
   const Eigen::MatrixXd J = weighted_jacobian(arm, request);
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(J).singularValues();
+  return test::singular_values_of(J).values;
 }
 
 double smallest_singular_value(const Arm& arm, const TorqueRequest& request) {
@@ -239,7 +238,7 @@ TEST(JointTorque, LeavesOutNoMoreThanAllOfAWrench) {
     const Arm arm = with_strong_joints(without_additions(test::random_arm(random, joints)));
     TorqueRequest request = request_at(arm.model, test::random_joints(random, arm.model, 3.0));
     const Eigen::MatrixXd J = weighted_jacobian(arm, request);
-    const Eigen::MatrixXd U = Eigen::JacobiSVD<Eigen::MatrixXd>(J, Eigen::ComputeThinU).matrixU();
+    const Eigen::MatrixXd U = test::singular_values_of(J).U;
     Vector6 wanted = Vector6::Zero();
     for (int k = joints; k < 6; ++k) wanted += random.between(-10.0, 10.0) * U.col(k);
     request.F_P_R = {wanted.head<3>(), arm.parameters.rotation_length * wanted.tail<3>()};
@@ -333,8 +332,7 @@ TEST(JointTorque, NullSpaceDampingIsNotFeltAtTheTool) {
     ASSERT_LT((J * damping).norm(), 1e-10);
     ASSERT_GT(damping.norm(), 1e-6);
     // the damping takes power only from the motion that leaves the tool at rest
-    const Eigen::MatrixXd pinv = Eigen::MatrixXd(J).completeOrthogonalDecomposition().pseudoInverse();
-    const JointVector with_tool = pinv * (J * request.qd);
+    const JointVector with_tool = test::pseudo_inverse_of(J) * (J * request.qd);
     ASSERT_NEAR(damping.dot(with_tool), 0.0, 1e-10);
     ASSERT_LT(damping.dot(request.qd), 0.0);
     request.qd = with_tool;

@@ -7,9 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "core/device/stability.h"
+#include "tests/support/decompositions.h"
 #include "tests/support/random.h"
 
 namespace godobject {
@@ -62,7 +63,7 @@ double largest_root(const UnitAxis& axis) {
   Matrix companion = Matrix::Zero(degree, degree);
   for (int i = 0; i < degree; ++i) companion(0, i) = -polynomial[static_cast<std::size_t>(i) + 1];
   companion.block(1, 0, degree - 1, degree - 1).setIdentity();
-  return Eigen::EigenSolver<Matrix>(companion, false).eigenvalues().cwiseAbs().maxCoeff();
+  return test::eigenvalues_of(companion).cwiseAbs().maxCoeff();
 }
 
 /// The friction may end a motion within a small part of the period: d up to 300.

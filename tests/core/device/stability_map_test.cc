@@ -8,9 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "core/device/stability.h"
+#include "tests/support/decompositions.h"
 #include "tests/support/random.h"
 
 namespace godobject {
@@ -99,7 +100,7 @@ Matrix simulated_map(const ArmLoop& loop) {
 /// Returns the largest eigenvalue modulus without the `fixed` eigenvalues of 1 that belong to positions which the tool
 /// does not feel.
 double simulated_radius(const ArmLoop& loop, int fixed) {
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(simulated_map(loop), false).eigenvalues();
+  const Eigen::VectorXcd values = test::eigenvalues_of(simulated_map(loop));
   std::vector<std::complex<double>> left(values.data(), values.data() + values.size());
   std::sort(left.begin(), left.end(), [](auto a, auto b) { return std::abs(a - 1.0) < std::abs(b - 1.0); });
   left.erase(left.begin(), left.begin() + fixed);
@@ -238,7 +239,7 @@ TEST(ArmLoop, PassivityExcessIsTheSmallestEigenvalue) {
         }
       }
     }
-    const double expected = Eigen::EigenSolver<Matrix>(excess, false).eigenvalues().real().minCoeff();
+    const double expected = test::eigenvalues_of(excess).real().minCoeff();
     ASSERT_NEAR(passivity_excess(loop), expected, 1e-10 * excess.norm()) << i;
   }
 }
@@ -283,8 +284,9 @@ TEST(ArmLoop, IsRefusedOneStepBeyondEachBound) {
 
 TEST(ArmLoop, IsRefusedWithAnyNumberThatIsNotFinite) {
   ArmLoop loop = one_axis(100.0, 0.0);
-  std::vector<double*> numbers = {&loop.stiffness,   &loop.rotation_stiffness,    &loop.tool_damping,
-                                  &loop.rotation_tool_damping, &loop.timing.period, &loop.timing.delay};
+  std::vector<double*> numbers = {&loop.stiffness,     &loop.rotation_stiffness,
+                                  &loop.tool_damping,  &loop.rotation_tool_damping,
+                                  &loop.timing.period, &loop.timing.delay};
   numbers.insert(numbers.end(), {&loop.mass(0, 0), &loop.damping[0], &loop.jacobian(0, 0), &loop.jacobian(5, 0)});
   for (double* number : numbers) {
     const double good = *number;

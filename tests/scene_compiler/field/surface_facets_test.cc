@@ -110,7 +110,7 @@ TEST(SurfaceFacets, HaveNoPlaneOfABodyBeside) {
   const double h = 1e-3;
   const Vector3d up = Vector3d::Ones().normalized();
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.rotate(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up));
+  motion.rotate(Eigen::AngleAxisd(std::acos(up.z()), Vector3d::UnitZ().cross(up).normalized()));
   motion.pretranslate(-h * up);
   const TriangleMesh floor = test::moved(test::box_mesh({60 * h, 60 * h, 20 * h}, {-30 * h, -30 * h, -20 * h}), motion);
   const TriangleMesh block = test::box_mesh({6 * h, 8 * h, 2.9 * h}, {3.76 * h, -2.6 * h, -2.3 * h});

@@ -1,14 +1,13 @@
 // The way out of an overlap in which the rows contradict each other.
 #include "core/pipeline/contact/overlap.h"
 
-#include <Eigen/SVD>
-
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/decompositions.h"
 #include "tests/support/random.h"
 
 namespace godobject::overlap_test {
@@ -112,7 +111,7 @@ TEST_F(OverlapTest, IsTheLeastSquaresSolutionInBothDirections) {
       const double weight = std::sqrt(1e-3 * squares);
       rows.bottomRows(6).diagonal().setConstant(weight);
       gains.tail(6) << weight * wanted.translation, weight * gyration * wanted.rotation;
-      const Eigen::VectorXd expected = rows.jacobiSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(gains);
+      const Eigen::VectorXd expected = test::least_squares(rows, gains);
       const Motion out = is_feature ? way_out<FeatureDirection>(H, wanted) : way_out<SampleDirection>(H, wanted);
       EXPECT_LT((out.translation - expected.head<3>()).norm(), 1e-9 * (1e-6 + expected.norm())) << round;
       EXPECT_LT((gyration * out.rotation - expected.tail<3>()).norm(), 1e-9 * (1e-6 + expected.norm())) << round;
