@@ -1319,9 +1319,9 @@ struct Slope {
 
 /// In a wedge between a slope and a face of the workspace a lost margin is regained 50 times as far along the wedge. No
 /// cycle leads by more than a margin farther from the device than rest, and the margin is regained in the end.
-TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
+void expect_a_slow_regain(const SurfaceSamples& samples) {
   const AnalyticField field(Slope{}, kSubstepVoxel);
-  const SampledBody body({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Constant(1e-4));
+  const SampledBody body(samples, Vector3::Constant(1e-4));
   for (const double depth : {1e-4, 1e-3}) {
     const double lost = 0.75 * kSubstepMargin;
     SubstepRun<> run(field, body, pose_at((kSubstepMargin - lost) * Slope().normal));
@@ -1338,6 +1338,20 @@ TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
     EXPECT_LT(farthest, 1.01 * kSubstepMargin) << depth;
     EXPECT_GT(Slope().distance(run.state.H_WS.translation), 0.9 * kSubstepMargin) << depth;
   }
+}
+
+TEST(ContactSubsteps, RegainALostMarginOfAWedgeSlowly) {
+  expect_a_slow_regain({{Vector3::Zero()}, {Vector3::UnitZ()}});
+}
+
+/// The same with a row of points, more than there are rows: those that find no row at first regain no more.
+TEST(ContactSubsteps, RegainTheMarginsOfMorePointsThanRowsSlowly) {
+  SurfaceSamples samples;
+  for (int k = 0; k < 5000; ++k) {
+    samples.points.push_back({0.0, 1e-5 * (k - 2499.5), 0.0});
+    samples.normals.push_back(Vector3::UnitZ());
+  }
+  expect_a_slow_regain(samples);
 }
 
 /// A table whose edge is the y axis.
