@@ -79,6 +79,18 @@ TEST(Paper, GivesTheDevicePoseInRegionC) {
   EXPECT_TRUE(run.report.force.total_W.force.isZero());
 }
 
+/// A point in the middle of a voxel that is two layers from the plane: with a safety distance of two voxels V is
+/// exactly 0, which is region C, not B.
+TEST(Paper, GivesTheDevicePoseWhereThePenetrationIsZero) {
+  const Floor floor(HalfSpace{}, kVoxel);
+  const SampledBody point({{Vector3::Zero()}, {Vector3::UnitZ()}}, Vector3::Constant(1e-4));
+  PaperRun run(floor, point, at_height(2.0 * kVoxel));
+  run.parameters.safety_distance = 2.0 * kVoxel;
+  const Pose device = at_height(4.0 * kVoxel);
+  ASSERT_EQ(run.step(device), Status::kOk);
+  EXPECT_EQ(run.state.H_WS.translation, device.translation);
+}
+
 /// One contact below a 60 x 40 x 30 mm box at (lever, 0, -15 mm). By hand for a lever of 10 mm: a_x^2 = 1500, a_z^2 =
 /// 375, Q_L = (10, -sqrt(375 (1 - 100/1500))), r^2 = 450, sigma tau = J_y = 375 (mm^2): lambda = 37500 / (37500 +
 /// 450^2) = 0.156, removed share lambda + (1 - lambda) 100 / 450 = 0.344. A consistent pair would remove all of p.
