@@ -4,7 +4,8 @@
 
 namespace godobject::test {
 
-// Decompositions of matrices of any size. Each takes a compiler seconds, so that they are compiled once for all tests.
+// Decompositions of matrices of any size. The compiler takes seconds for each one, so they are compiled once for all
+// tests.
 
 /// A = U diag(values) V^T, with the smaller of A's sizes as the number of values, largest first.
 struct SingularValues {

@@ -16,7 +16,7 @@ struct Distribution {
   double max = 0.0;
 };
 
-/// Returns the quantiles of the values, zeros for no value. Sorts its copy: O(n log n).
+/// Returns the quantiles of the values, zeros for no value. Cost: linear in their number.
 Distribution distribution(const std::vector<double>& values);
 
 /// Measurements of the same cycles, pass after pass [ns].

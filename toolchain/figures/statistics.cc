@@ -1,7 +1,6 @@
 #include "toolchain/figures/statistics.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "toolchain/statistics/samples.h"
 
@@ -52,8 +51,8 @@ Statistics statistics(const ReplayLog& log, double band) {
   }
   if (result.contact_cycles > 0) result.penetration_mean = sum / static_cast<double>(result.contact_cycles);
   result.depth_is_bound = result.penetration_max >= (1.0 - 1e-6) * band;
-  result.step1 = times(std::move(step1));
-  result.solve = times(std::move(solve));
+  result.step1 = times(step1);
+  result.solve = times(solve);
   return result;
 }
 

@@ -132,9 +132,8 @@ Expected expected(const Arm& arm, const TorqueRequest& request) {
   Z << 1.0, 1.0, 1.0, p.rotation_length, p.rotation_length, p.rotation_length;
   Vector6 F;
   F << request.F_P_R.force, request.F_P_R.torque;
-  const Eigen::MatrixXd U = svd.U;
   const Vector6 wanted = F.cwiseQuotient(Z);
-  const Vector6 shown = U * f.asDiagonal() * U.transpose() * wanted;
+  const Vector6 shown = svd.U * f.asDiagonal() * svd.U.transpose() * wanted;
   const JointVector rendered = ZJ.transpose() * shown;
   const double within = left.factor(rendered, 1.0);
   Left reduced = left;

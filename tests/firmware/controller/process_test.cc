@@ -137,7 +137,7 @@ TEST_F(ControllerProcessTest, IsStoppedForGoodByAPauseOfTheProcess) {
   if (has("stopped")) {
     process.send(SIGTERM);
     process.wait();
-    GTEST_SKIP() << "this machine is too busy for a loop in real time: " << text("log.txt");
+    GTEST_SKIP() << "this machine is too busy for a loop in real time: " << line_with("stopped: ");
   }
   process.send(SIGSTOP);
   ASSERT_TRUE(see([&] { return process.is_stopped(); }));
