@@ -17,9 +17,9 @@ namespace godobject {
 /// sampled, delayed spring is not passive where K (T/2 + t_d) exceeds the damping. Cost: 20 ns. Real-time safe.
 class PassivityObserver {
  public:
-  /// Longest delay in periods. Chosen: a ring of 16 torques then holds all that may still act. The longest delay of a
-  /// device file is 6: a bus plan ends within one period and `bus.drive_delay` within five.
-  static constexpr int kMostDelay = 14;
+  /// Longest delay in periods. A ring of 44 torques then holds all that may still act. Derived: the longest delay of a
+  /// device file is 41 of its shortest period, 0.125 ms: a bus plan ends within one and `bus.drive_delay` within 40.
+  static constexpr int kMostDelay = 42;
 
   /// `delay_in_periods`: t_d / T, clamped to 0 .. kMostDelay.
   explicit PassivityObserver(double delay_in_periods) noexcept;

@@ -19,7 +19,7 @@ namespace godobject {
 /// N = 2 is the plain difference. The estimator accumulates nothing, so it does not drift.
 class VelocityEstimator {
  public:
-  static constexpr int kMaxWindow = 16;
+  static constexpr int kMaxWindow = 32;
 
   /// `window`: N, clamped to 2 .. kMaxWindow; `period`: T [s].
   VelocityEstimator(int window, double period) noexcept;

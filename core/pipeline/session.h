@@ -48,6 +48,7 @@ class Session {
     shell_ = &shell;
     parameters_ = parameters;
     cycle_ = cycle_of(solver, friction);
+    searches_ = solver == Solver::kContact;
     contact_scene_ = {field, shell, features, parameters_, edges};
     if constexpr (kHasSearch) contact_.search.start(contact_scene_, words);
     reset();
@@ -60,6 +61,7 @@ class Session {
     shell_ = &shell;
     parameters_ = parameters;
     cycle_ = &run_ball;
+    searches_ = false;
     contact_scene_ = {field, shell, {}, parameters_};
     reset();
   }
@@ -83,7 +85,8 @@ class Session {
     if (state_.started) return cycle_(*this, input, state_, report, times);
     ProxyState first;
     first.H_WS = input.H_WD;
-    first.inside = smallest_distance(*field_, *shell_, first.H_WS) < 0.0;
+    // `contact` finds that out by its own search, which the budget of work bounds
+    first.inside = !searches_ && smallest_distance(*field_, *shell_, first.H_WS) < 0.0;
     const Status status = cycle_(*this, input, first, report, times);
     if (status == Status::kOk) state_ = first;
     return status;
@@ -157,6 +160,7 @@ class Session {
   const Pointshell* shell_ = nullptr;
   Parameters parameters_;
   Cycle cycle_ = nullptr;
+  bool searches_ = false;  // the cycle finds out itself whether the first pose penetrates
   ContactScene<Field, BodyField> contact_scene_;
 
   // carried from cycle to cycle

@@ -20,7 +20,7 @@ namespace godobject::format {
 
 inline constexpr char kMagic[8] = {'G', 'O', 'D', 'O', 'B', 'J', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
-inline constexpr std::uint32_t kVersion = 10;
+inline constexpr std::uint32_t kVersion = 11;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMaxSections = 32;
 
@@ -119,8 +119,12 @@ struct Settings {
   double paper_rotation_static;   ///< mu_r,s of Algorithm 1 [1]
   double paper_rotation_kinetic;  ///< mu_r,k of Algorithm 1 [1]
   double paper_viscous;           ///< mu_v of Algorithm 1, per cycle [1]: x and r alike
+  double period;                  ///< T: time from one cycle to the next [s], 1.25e-4 to 1e-2
 };
-static_assert(sizeof(Settings) == 112);
+static_assert(sizeof(Settings) == 120);
+
+inline constexpr double kShortestPeriod = 1.25e-4;  ///< of Settings::period [s]
+inline constexpr double kLongestPeriod = 1e-2;      ///< of Settings::period [s]
 
 /// The box that the origin of B, the moving body's centre of mass, does not leave, along the axes of W [m]; low <=
 /// high. The image may leave out data that no pose in the box needs. A brick position that no look-up of a cycle meets

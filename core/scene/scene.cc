@@ -63,4 +63,12 @@ Status Scene::set_gains(const Gains& gains) noexcept {
   return Status::kOk;
 }
 
+double Scene::period() const noexcept { return view().settings.period; }
+
+Status Scene::set_period(double period) noexcept {
+  if (!valid_period(period)) return Status::kOutOfRange;
+  mutable_view().settings.period = period;
+  return Status::kOk;
+}
+
 }  // namespace godobject

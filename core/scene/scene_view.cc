@@ -95,7 +95,8 @@ bool valid_settings(const format::Settings& s) noexcept {
          valid_gains(s) && in_range(s.coupling_translation, 1e-12, kLargestSetting) &&
          in_range(s.friction_static, 0.0, 10.0) && in_range(s.friction_kinetic, 0.0, s.friction_static) &&
          in_range(s.friction_viscous, 0.0, kLargestSetting) && in_range(s.paper_rotation_static, 0.0, 10.0) &&
-         in_range(s.paper_rotation_kinetic, 0.0, s.paper_rotation_static) && in_range(s.paper_viscous, 0.0, 10.0);
+         in_range(s.paper_rotation_kinetic, 0.0, s.paper_rotation_static) && in_range(s.paper_viscous, 0.0, 10.0) &&
+         valid_period(s.period);
 }
 
 bool valid_grid(const format::Grid& g) noexcept {
@@ -562,6 +563,8 @@ bool valid_gains(const format::Settings& settings) noexcept {
   return in_range(settings.stiffness, 1e-12, kLargestSetting) && in_range(settings.damping, 0.0, kLargestSetting) &&
          in_range(settings.coupling_rotation, 1e-18, kLargestSetting);
 }
+
+bool valid_period(double period) noexcept { return in_range(period, format::kShortestPeriod, format::kLongestPeriod); }
 
 Status SceneView::open(std::span<const std::byte> image, SceneView& scene) noexcept {
   if (reinterpret_cast<std::uintptr_t>(image.data()) % format::kAlignment != 0) return Status::kImageLayout;

@@ -49,5 +49,7 @@ struct SceneView {
 
 /// Tells whether stiffness, damping and rotational stiffness are within the ranges of an image.
 bool valid_gains(const format::Settings& settings) noexcept;
+/// True if a period is within the range of Settings::period [s].
+bool valid_period(double period) noexcept;
 
 }  // namespace godobject

@@ -95,7 +95,7 @@ TimedPath time_path(const SceneView& scene, bool friction, std::span<const Pose>
       timed.ended += report.out_of_work ? 1 : 0;
     });
   }
-  for (std::size_t k = 1; k < path.size(); ++k) timed.longest = std::max(timed.longest, least[k]);
+  for (const double time : least) timed.longest = std::max(timed.longest, time);
   return timed;
 }
 

@@ -29,7 +29,7 @@ std::vector<Pose> calibration_path(const SceneView& scene, const Pose& start_WM)
 
 /// The timed motion of a mesh.
 struct TimedPath {
-  double longest = 0.0;        ///< longest cycle but the first, which looks up all points once [s]
+  double longest = 0.0;        ///< longest cycle [s]
   std::uint32_t cycles = 0;    ///< 0: the god object did not start
   std::uint32_t contacts = 0;  ///< cycles with contact
   std::uint32_t ended = 0;     ///< cycles that the budget ended
@@ -57,7 +57,7 @@ std::string too_long_for(const WorkBudget& budget, double seconds);
 /// not. `left`: as `distance_left` [m].
 std::string too_little_for(double left, double seconds);
 
-/// Finds a budget with which no cycle of a path but the first takes longer than `seconds`, from the nominal one down.
+/// Finds a budget with which no cycle of a path takes longer than `seconds`, from the nominal one down.
 /// If there is none after some trials, the last one is returned: see `with.longest`. Cost: at most eight times that of
 /// time_path.
 WorkBudget find_budget(const SceneView& scene, bool friction, std::span<const Pose> path, std::span<std::byte> memory,

@@ -235,6 +235,7 @@ TEST(SceneObject, ShowsItsImageInEveryCopy) {
   settings.solvers = 0b110;
   settings.default_solver = 2;
   settings.stiffness = 11.0, settings.damping = 13.0, settings.coupling_rotation = 17.0;
+  settings.period = 0.002;
   const test::SceneImage image = parts.assemble();
   Scene scene;
   ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
@@ -253,6 +254,7 @@ TEST(SceneObject, ShowsItsImageInEveryCopy) {
     EXPECT_EQ(shown->gains().stiffness, 11.0);
     EXPECT_EQ(shown->gains().damping, 13.0);
     EXPECT_EQ(shown->gains().rotational, 17.0);
+    EXPECT_EQ(shown->period(), 0.002);
     EXPECT_EQ(shown->view().features_origin, Vector3(0.1, 0.2, 0.3));
     EXPECT_TRUE(shown->view().has_features());
     EXPECT_EQ(shown->view().features.normal_y, nullptr) << "feature points have no normals";
@@ -306,6 +308,21 @@ TEST(SceneObject, HasNoNormalWhereTheFieldIsFlat) {
   const Vector3 p(0.021, 0.022, 0.023);
   EXPECT_TRUE(scene.distance(p).known);
   EXPECT_EQ(scene.distance(p).normal_W, Vector3::Zero());
+}
+
+TEST(SceneObject, TakesAPeriodWithinItsLimitsOnly) {
+  const test::SceneImage image = test::whole_image().assemble();
+  Scene scene;
+  ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
+  for (const double fine : {1.25e-4, 1e-2, 3e-4}) {
+    EXPECT_EQ(scene.set_period(fine), Status::kOk);
+    EXPECT_EQ(scene.period(), fine);
+  }
+  for (const double bad : {std::nextafter(1.25e-4, 0.0), std::nextafter(1e-2, 1.0), 0.0, -1e-3,
+                           std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_EQ(scene.set_period(bad), Status::kOutOfRange) << bad;
+    EXPECT_EQ(scene.period(), 3e-4);
+  }
 }
 
 TEST(SceneObject, TakesGainsWithinTheirLimitsOnly) {

@@ -163,7 +163,25 @@ TEST_F(ReplayTest, TakesAQuaternionOfEitherSignAndAlmostUnitLength) {
   EXPECT_EQ(run(""), 0) << output_;
 }
 
-TEST_F(ReplayTest, RefusesTimesThatAreNotOneMillisecondApart) {
+TEST_F(ReplayTest, TakesThePeriodOfThePath) {
+  for (const double period : {1.25e-4, 2.5e-4, 2e-3, 1e-2}) {
+    std::ofstream out(folder_ / "path.csv");
+    out << "t,px,py,pz,qw,qx,qy,qz\n";
+    for (int k = 0; k < 50; ++k) out << fmt::format("{},0,0,0.09,1,0,0,0\n", period * k);
+    out.close();
+    EXPECT_EQ(run(""), 0) << period << output_;
+  }
+  for (const double period : {1.2e-4, 1.1e-2}) {
+    std::ofstream out(folder_ / "path.csv");
+    out << "t,px,py,pz,qw,qx,qy,qz\n";
+    for (int k = 0; k < 50; ++k) out << fmt::format("{},0,0,0.09,1,0,0,0\n", period * k);
+    out.close();
+    EXPECT_EQ(run(""), 65) << period;
+    EXPECT_NE(output_.find("it must be 0.125 to 10 ms"), std::string::npos) << output_;
+  }
+}
+
+TEST_F(ReplayTest, RefusesTimesThatAreNotEvenlyApart) {
   for (const std::string bad : {"0.1002,0,0,0.08,1,0,0,0", "0.099,0,0,0.08,1,0,0,0", "nan,0,0,0.08,1,0,0,0"}) {
     write_path(300, 100, bad);
     EXPECT_EQ(run(""), 65) << bad;

@@ -397,6 +397,7 @@ format::Settings complete_settings(const SceneDescription& description) {
   default_to(settings.safety_distance, 1.5 * description.voxel_size);
   default_to(settings.margin, 0.01 * description.voxel_size);
   default_to(settings.stiffness, 2000.0);
+  default_to(settings.period, 1e-3);
   default_to(settings.coupling_translation, 1.0);
   default_to(settings.coupling_rotation, 0.025);
   if (settings.solvers == 0) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/format.h"
 #include "toolchain/files/text_file.h"
 #include "toolchain/files/toml_file.h"
 #include "toolchain/files/toml_table.h"
@@ -75,8 +76,9 @@ Keyframes parse_keyframes(std::string_view text, std::string_view name) {
   const toml::table file = files::parse_toml(text, name);
   const std::string file_name(name);
   const TomlTable top = TomlTable::top(file, file_name);
-  top.allow({"pivot", "keyframe", "oscillation"});
+  top.allow({"pivot", "keyframe", "oscillation", "period"});
   Keyframes motion;
+  motion.period = top.number("period", {format::kShortestPeriod, format::kLongestPeriod}, motion.period);
   motion.pivot = vector_or_zero(top, "pivot");
   for (const TomlTable& table : TomlTable::each(file, "keyframe", file_name)) {
     const Keyframe next = keyframe(table);

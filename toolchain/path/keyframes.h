@@ -28,14 +28,15 @@ struct Oscillation {
 
 /// A motion as a person describes it.
 struct Keyframes {
+  double period = 1e-3;             ///< time between two poses of the sampled motion [s]
   Vector3 pivot = Vector3::Zero();  ///< point of the moving mesh (scaled, frame M) to which positions refer [m]
   std::vector<Keyframe> keyframes;  ///< at least two, times ascending
   std::vector<Oscillation> oscillations;
 };
 
-/// Reads a TOML file: an optional `pivot`, at least two tables [[keyframe]], any number of [[oscillation]]. Throws
-/// Failure: kNoInput if it cannot be read, kBadConfig if it is not TOML or naming a key that is unknown, missing or out
-/// of range.
+/// Reads a TOML file: an optional `period` and `pivot`, at least two tables [[keyframe]], any number of
+/// [[oscillation]]. Throws Failure: kNoInput if it cannot be read, kBadConfig if it is not TOML or naming a key that is
+/// unknown, missing or out of range.
 Keyframes read_keyframes(const std::filesystem::path& file);
 
 /// The same from text. `name` stands for the file in messages.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ const char* const kFooter = R"(Examples:
   godobject-path peg.keyframes.toml --shake 7 -o shaken.csv
 
 KEYFRAMES.toml:
+  period = 0.001               # optional: time between two poses [s], 0.000125 to 0.01
   pivot = [0, 0, 0]            # optional: point of the moving mesh (scaled, own frame) to which positions refer [m]
   [[keyframe]]                 # at least two
   t = 0.0                      # [s]
@@ -33,7 +35,7 @@ KEYFRAMES.toml:
   translation = [0.001, 0, 0]  # amplitude of the pivot in W [m]
   rotation_deg = [0, 0, 2]     # amplitude as a rotation vector in W, about the pivot
 
-POSES.csv gets the columns t,px,py,pz,qw,qx,qy,qz, one row for each millisecond: the moving mesh's frame in W. The body
+POSES.csv gets the columns t,px,py,pz,qw,qx,qy,qz, one row for each period: the moving mesh's frame in W. The body
 rests at each keyframe. Between two keyframes the pivot moves straight and the rotation along the shorter arc, with the
 least jerk (10 u^3 - 15 u^4 + 6 u^5).
 
@@ -43,17 +45,18 @@ seed gives another swing.
 Exit codes: 0 done, 64 usage, 66 KEYFRAMES.toml is missing or cannot be read, 74 cannot write, 77 no permission to
 write, 78 not TOML, or a bad key.)";
 
-std::string row(const godobject::path::Sample& sample) {
+/// `decimals`: of the time.
+std::string row(const godobject::path::Sample& sample, int decimals) {
   const godobject::Vector3& p = sample.pose.translation;
   const godobject::Quaternion& q = sample.pose.rotation;
-  return fmt::format("{:.3f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f}\n", sample.t, p.x(), p.y(), p.z(),
-                     q.w(), q.x(), q.y(), q.z());
+  return fmt::format("{:.{}f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f},{:.12f}\n", sample.t, decimals, p.x(),
+                     p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes a device path, one pose for each millisecond, from keyframes.", "godobject-path");
+  CLI::App app("Makes a device path, one pose for each millisecond or other period, from keyframes.", "godobject-path");
   app.footer(kFooter);
   std::string keyframes_path, out_path;
   std::optional<std::uint64_t> seed;
@@ -67,7 +70,9 @@ int main(int argc, char** argv) {
     if (seed) godobject::path::shake(*seed, motion);
     godobject::files::AtomicFile out(out_path);
     out.write("t,px,py,pz,qw,qx,qy,qz\n");
-    for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample));
+    const bool whole_ms = std::abs(std::remainder(motion.period, 1e-3)) < 1e-9;
+    const int decimals = whole_ms ? 3 : 6;
+    for (const godobject::path::Sample& sample : godobject::path::sample(motion)) out.write(row(sample, decimals));
     out.commit();
   });
 }

@@ -7,8 +7,6 @@
 namespace godobject::path {
 namespace {
 
-constexpr double kPeriod = 1e-3;
-
 /// Returns the pose from the keyframes alone: rotation R_WM and the pivot's place in W.
 Pose blend(const std::vector<Keyframe>& keyframes, double t) {
   const auto next = std::upper_bound(keyframes.begin(), keyframes.end(), t,
@@ -46,11 +44,11 @@ Pose pose_at(const Keyframes& motion, double t) {
 std::vector<Sample> sample(const Keyframes& motion) {
   const double begin = motion.keyframes.front().t;
   const double span = motion.keyframes.back().t - begin;
-  const auto steps = static_cast<std::size_t>(std::floor(span / kPeriod + 1e-6));
+  const auto steps = static_cast<std::size_t>(std::floor(span / motion.period + 1e-6));
   std::vector<Sample> samples;
   samples.reserve(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i) {
-    const double t = begin + kPeriod * static_cast<double>(i);
+    const double t = begin + motion.period * static_cast<double>(i);
     samples.push_back({t, pose_at(motion, t)});
   }
   return samples;

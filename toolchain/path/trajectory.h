@@ -15,7 +15,7 @@ double minimum_jerk(double u);
 /// twice continuously differentiable in t, and rests before the first and after the last keyframe.
 Pose pose_at(const Keyframes& motion, double t);
 
-/// One pose of a sampled motion. `sample` gives one for each millisecond, from the first keyframe to the last.
+/// One pose of a sampled motion. `sample` gives one for each period of the motion, from the first keyframe to the last.
 struct Sample {
   double t;  ///< [s]
   Pose pose;

@@ -45,8 +45,8 @@ const char* const kFooter = R"(Examples:
 Solvers: contact, the least-constraint motion over all contact points, in sub-steps that never let a point cross a
 surface; corrected, one projection from one wrench for all contacts; paper, the published heuristic, for comparison.
 
-POSES.csv has the columns t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row for each
-millisecond. OUT.csv gets one row for each cycle: device pose d; god-object pose g after the cycle; spring force f [N]
+POSES.csv has the columns t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row for each period,
+which is 0.125 to 10 ms and replaces that of the scene. OUT.csv gets one row for each cycle: device pose d; god-object pose g after the cycle; spring force f [N]
 and torque t [Nm] on the device in W about the moving body's centre of mass; point_depth [m] of the god object's deepest
 sample point in the stored distances (positive inside, negative: no sample point is inside and the nearest is that far
 from the surface; at most the stored band); contacts (contact: rows that carry a force, two for a point seen from two
@@ -221,11 +221,12 @@ void replay_file(const Options& options) {
   if (options.stiffness) image.scene.settings.stiffness = checked_stiffness(*options.stiffness);
   const godobject::SceneView& scene = image.scene;
   const Pipeline pipeline = pipeline_of(options, scene);
+  const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses);
+  image.scene.settings.period = path.period;
   std::optional<MeshOverlap> meshes;
   if (!options.meshes.empty()) meshes.emplace(scene_file_of(options, options.meshes, scene));
   std::optional<ReplayWatch> watch;
   if (!options.watch.empty()) watch.emplace(image, scene_file_of(options, options.watch, scene));
-  const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses);
   fmt::print(stderr, "{}", far_path_note(options.poses, path, scene));
   godobject::files::AtomicFile out(options.output);
   godobject::replay::Summary summary;
@@ -256,12 +257,12 @@ void replay_file(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs the god object along a recorded device path, open loop: one 1 ms cycle for each row.",
+  CLI::App app("Runs the god object along a recorded device path, open loop: one cycle for each row.",
                "godobject-replay");
   app.footer(kFooter);
   Options options;
   app.add_option("X.scene", options.scene, "scene image, made by godobject-scenec")->required()->type_name("");
-  app.add_option("POSES.csv", options.poses, "device path, one row for each millisecond")->required()->type_name("");
+  app.add_option("POSES.csv", options.poses, "device path, one row for each cycle")->required()->type_name("");
   app.add_option("-o,--output", options.output, "cycles to write, one row each")->required()->type_name("OUT.csv");
   app.add_option("--solver", options.solver, "contact, corrected or paper; default: the scene's")
       ->check(CLI::IsMember(godobject::command::solver_names()))

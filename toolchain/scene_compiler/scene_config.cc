@@ -159,9 +159,10 @@ SceneConfig read_scene_config(const std::filesystem::path& file, const VoxelSize
   read_paper(table("paper"), settings);
 
   const TomlTable coupling = table("coupling");
-  coupling.allow({"stiffness", "damping", "rotational"});
+  coupling.allow({"stiffness", "damping", "rotational", "period"});
   settings.stiffness = coupling.number("stiffness", files::kStiffness, 2000.0);
   settings.damping = coupling.number("damping", {0.0, 1e6}, 20.0);
+  settings.period = coupling.number("period", {format::kShortestPeriod, format::kLongestPeriod}, 1e-3);
   settings.coupling_translation = 1.0;  // the translational spring is k_D itself
   settings.coupling_rotation = coupling.number("rotational", {1e-15, 1e9}, 0.025);
   config.workspace = read_workspace(table("workspace"));

@@ -56,7 +56,7 @@ A scene file (TOML; lengths in metres, defaults in brackets):
               the budget the god object may lag behind the device, but crosses nothing
   [friction]  static, kinetic [0.9 static], viscous [0 Ns/m]; without this table there is no friction
   [paper]     rotation_static [0.2], rotation_kinetic [0.9 of it], viscous [0.002]
-  [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2]
+  [coupling]  stiffness [2000 N/m], damping [20 Ns/m], rotational [0.025 m^2], period [0.001 s] from one cycle to the next
   [workspace] low, high: [x, y, z] in metres in the still mesh's frame: the box that the moving body's centre of mass
               does not leave. The device feels its faces. Data that no cycle reads from there is left out of the image.
               Without this table the workspace has no limits

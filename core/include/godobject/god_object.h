@@ -14,7 +14,7 @@ namespace godobject {
 
 class CompiledSession;
 
-/// The god object of a scene: one `update` a millisecond, from the device's pose to the force on the device.
+/// The god object of a scene: one `update` a period (Scene::period), from the device's pose to the force on the device.
 ///
 /// Poses of this interface are H_WM: the moving mesh's own frame M (scaled to metres) in W, the still mesh's frame.
 /// Forces are in W about the moving body's centre of mass. Lengths are in m, forces in N, torques in Nm.
@@ -105,10 +105,11 @@ class GodObject {
   /// about a quarter of a nanosecond on an x86-64 processor of 3 GHz with AVX2; CycleReport::work tells what a cycle
   /// took. When the budget is spent, the cycle ends with the motion that is certified so far: the god object may lag,
   /// but crosses nothing. A cycle takes somewhat more than its budget: some ten thousand units, or two passes over the
-  /// lists of near points. The first cycle after `start`, `reset` and `follow` also looks up all points once.
+  /// lists of near points.
   ///
   /// If the search for near points does not fit into the budget, the next cycles go on with it while the god object
-  /// stays. If the first motion after it does not fit, shorter ones follow in the next cycles, at last without friction
+  /// stays. After `start`, `reset` and `follow` the outcome is kStartInside until the first search has ended. If the
+  /// first motion after it does not fit, shorter ones follow in the next cycles, at last without friction
   /// (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles take without one
   /// may hold the god object for good, also when the device moves away; so it may without the memory of memory_size().
   /// `units`: 1 or more; kNoBudget: no budget. No effect before `start`. Real-time safe.

@@ -71,6 +71,13 @@ class Scene {
   /// not within 0 .. 1e9, or rotational not within 1e-18 .. 1e9.
   Status set_gains(const Gains& gains) noexcept;
 
+  /// Returns the time from one `GodObject::update` to the next with which god objects start in this scene [s].
+  double period() const noexcept;
+  /// Sets the period of god objects that are started from now on, in this object and later copies of it, as `set_gains`
+  /// sets gains. It rules friction by speed (`viscous`) and the filter of `paper`. kOutOfRange, and nothing changed: it
+  /// is not within 1.25e-4 .. 1e-2.
+  Status set_period(double period) noexcept;
+
   /// Returns the parts of the image, for this project's own tools: their types are not part of the interface.
   const SceneView& view() const noexcept;
   /// Returns the scene with these parts, for this project's own tools.

@@ -29,6 +29,7 @@ MassModel MassModel::make(const Vector3& principal_inertia, double radius, doubl
 Parameters Parameters::make(const SceneView& scene) noexcept {
   const format::Settings& s = scene.settings;
   Parameters p;
+  p.period = s.period;
   p.safety_distance = s.safety_distance;
   p.voxel_size = scene.grid.voxel_size;
   p.margin = s.margin;

@@ -439,6 +439,44 @@ TEST_F(GodObjectTest, CrossesNothingHoweverSmallTheBudgetOfWork) {
   }
 }
 
+/// A budget bounds the first cycle, too: the search goes on in the next ones. Until it has ended nobody knows whether
+/// the first pose penetrates; then the god object is where it is without a budget.
+TEST_F(GodObjectTest, KeepsToTheBudgetOfWorkFromTheFirstCycleOn) {
+  const double height = kWorldRadius + kBodyRadius;
+  const Pose apart = mesh_pose({0.0, 0.0, height + 0.0005});
+  const Pose inside = mesh_pose({0.0, 0.0, height - 0.001});
+  for (const Pose& start : {apart, inside}) {
+    OwnedGodObject all;
+    ASSERT_EQ(all.start(scene_, Solver::kContact, false), Status::kOk);
+    CycleReport report;
+    for (int k = 0; k < 100; ++k) ASSERT_EQ(all->update({start, Motion{}}, report), Status::kOk);
+    const Pose expected = all->mesh_pose();
+    const Outcome outcome = report.outcome;
+    for (const std::uint64_t budget : {16000u, 20000u, 60000u}) {
+      OwnedGodObject god_object;
+      ASSERT_EQ(god_object.start(scene_, Solver::kContact, false), Status::kOk);
+      god_object->set_work_budget(budget);
+      int began = 0;
+      for (int k = 0; k < 400; ++k) {
+        ASSERT_EQ(god_object->update({start, Motion{}}, report), Status::kOk);
+        ASSERT_LE(report.work, budget + 20000) << budget << ", cycle " << k;
+        if (began == k && report.out_of_work) {
+          ++began;
+          EXPECT_EQ(report.outcome, Outcome::kStartInside) << "not known yet";
+          EXPECT_EQ(report.force.total_W.force.norm(), 0.0);
+        }
+      }
+      EXPECT_EQ(began > 0, budget <= 20000) << budget;
+      EXPECT_EQ(report.outcome, outcome) << budget;
+      EXPECT_LT((god_object->mesh_pose().translation - expected.translation).norm(), 2e-5) << budget;
+      // `follow` forgets it, and so does the next first cycle
+      ASSERT_EQ(god_object->follow(start, report), Status::kOk);
+      ASSERT_EQ(god_object->update({start, Motion{}}, report), Status::kOk);
+      ASSERT_LE(report.work, budget + 20000) << budget;
+    }
+  }
+}
+
 /// With any budget that has room for some points the god object comes to the same place, however many cycles its search
 /// goes on. Without friction: with it the place depends on the way.
 TEST_F(GodObjectTest, ArrivesWithASmallBudgetOfWork) {
@@ -582,6 +620,39 @@ TEST_F(GodObjectTest, FindsTheContactsOfBruteForce) {
     ASSERT_EQ(smallest_distance(scene_.voxelmap, shell, H_WS), smallest);
   }
   EXPECT_GT(touching, 10000u);
+}
+
+/// A ball that slides over a plate at 50 mm/s with 20 Ns/m and no other friction drags with 1 N, whatever the
+/// period: 8 to 0.1 cycles a millisecond.
+TEST(Period, LeavesTheDragBySpeedAsItIs) {
+  SceneDescription d;
+  d.distance = [](const Vector3& p) { return p.z(); };
+  d.surface_min = Vector3(-0.05, -0.05, 0.0);
+  d.surface_max = Vector3(0.05, 0.05, 0.0);
+  d.voxel_size = 0.002;
+  d.points = sample_ball(kBodyRadius, 500).points;
+  d.settings.friction = 1;
+  d.settings.friction_viscous = 20.0;
+  const SceneImage image = build_scene_image(d);
+  for (const Solver solver : {Solver::kCorrected, Solver::kContact}) {
+    for (const double period : {1.25e-4, 2.5e-4, 1e-3, 4e-3, 1e-2}) {
+      Scene scene;
+      ASSERT_EQ(Scene::open(image.bytes(), scene), Status::kOk);
+      ASSERT_EQ(scene.set_period(period), Status::kOk);
+      files::AlignedBytes memory(GodObject::memory_size(scene));
+      const auto god_object = std::make_unique<GodObject>();
+      ASSERT_EQ(god_object->start(scene, solver, true, memory.span()), Status::kOk);
+      CycleReport report;
+      constexpr double kSpeed = 0.05;
+      for (int k = 0; k * period < 0.8; ++k) {
+        Pose H_WM;
+        H_WM.translation = Vector3(-0.02 + kSpeed * period * k, 0.0, kBodyRadius + (k == 0 ? 0.001 : -0.002));
+        ASSERT_EQ(god_object->update({H_WM, {}}, report), Status::kOk);
+      }
+      EXPECT_NEAR(report.force.total_W.force.x(), -1.0, 0.03) << period;
+      EXPECT_NEAR(report.force.total_W.force.z(), 4.0, 0.1) << period;
+    }
+  }
 }
 
 TEST_P(EachPipeline, KeepsItsRotationAtUnitLength) {

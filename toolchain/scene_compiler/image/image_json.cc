@@ -64,6 +64,7 @@ Json settings_json(const format::Settings& s) {
                {"margin", s.margin},
                {"stiffness", s.stiffness},
                {"damping", s.damping},
+               {"period", s.period},
                {"coupling_translation", s.coupling_translation},
                {"coupling_rotational", s.coupling_rotation},
                {"friction", nullptr},

@@ -99,6 +99,7 @@ SceneView scene_of_numbers() {
   s.paper_rotation_static = 0.24;
   s.paper_rotation_kinetic = 0.25;
   s.paper_viscous = 0.26;
+  s.period = 0.27e-3;
   scene.grid.voxel_size = 0.027;
   scene.body.inertia[0] = 0.031;
   scene.body.inertia[1] = 0.032;
@@ -116,7 +117,7 @@ SceneView scene_of_numbers() {
 
 TEST(Parameters, TakeEachNumberOfTheSceneToItsPlace) {
   const Parameters q = Parameters::make(scene_of_numbers());
-  EXPECT_EQ(q.period, 1e-3);
+  EXPECT_EQ(q.period, 0.27e-3);
   EXPECT_EQ(q.correction_gain, 0.2);
   EXPECT_EQ(q.point_budget, 17u);
   EXPECT_EQ(q.safety_distance, 0.011);
