@@ -79,6 +79,6 @@ class CanDevice final : public World {
   std::array<Held, kHeld> held_{};
   hal::FrameTap* tap_ = nullptr;
 };
-static_assert(sizeof(CanDevice) < (std::size_t{1} << 20), "1 MiB; most of it is the queues of the wires");
+static_assert(sizeof(CanDevice) < (std::size_t{2} << 20), "2 MiB; most of it is the queues of the wires");
 
 }  // namespace godobject::sim

@@ -20,7 +20,9 @@ bool LoopbackBus::hand_over(int end, const hal::CanFrame& frame, std::int64_t re
   assert(end >= 0 && end < kEnds);
   Queue& queue = queues_[at(end)];
   if (queue.count == kQueue) return false;
-  queue.frames[at((queue.first + queue.count++) % kQueue)] = {frame, ready_ns};
+  Queued& last = queue.frames[at((queue.first + queue.count++) % kQueue)];
+  last = {frame, ready_ns};
+  last.frame.fd = frame.fd || (layout_.fd && layout_.fd_services);
   return true;
 }
 

@@ -38,7 +38,8 @@ class LoopbackBus {
   /// Uses the rates of `layout`, which outlives the bus.
   explicit LoopbackBus(const hal::BusLayout& layout) noexcept : layout_(layout) {}
 
-  /// Puts a frame into the queue of an end, to be sent from `ready_ns` on. False: the queue is full.
+  /// Puts a frame into the queue of an end, to be sent from `ready_ns` on: as an FD frame if all frames of the layout
+  /// are. False: the queue is full.
   bool hand_over(int end, const hal::CanFrame& frame, std::int64_t ready_ns) noexcept;
   int queued(int end) const noexcept { return queues_[static_cast<std::size_t>(end)].count; }
   void clear(int end) noexcept;  ///< clears its queue; a frame on the wire continues

@@ -7,7 +7,7 @@
 
 namespace godobject::hal {
 
-inline constexpr int kMaxBuses = 4;
+inline constexpr int kMaxBuses = 8;
 
 /// Address and scaling of a joint's drive. The only struct with other units than SI.
 ///
@@ -35,19 +35,20 @@ struct PanelConfig {
 /// firmware/configuration/cia402_keys.cc.
 struct BusLayout {
   int bus_count = 1;
-  double bit_rate = 1e6;             ///< [bit/s]
-  bool fd = false;                   ///< SYNC and PDOs as FD frames; all other messages are classical
-  double data_rate = 5e6;            ///< bit rate of FD frames' data [bit/s]
-  double period = 1e-3;              ///< [s]
-  double compute = 120e-6;           ///< computing time between the last position and the first torque [s]
-  double answer = 0.0;               ///< longest time from SYNC's end until a node has queued its TPDO1 [s]
-  double drive_delay = 0.0;          ///< time from an RPDO's end to the torque plus a position's age at SYNC [s]
-  double command_deadline = 4e-3;    ///< a drive stops by itself if torques are missing for longer [s]
-  double drive_heartbeat = 20e-3;    ///< period of the heartbeats of drives and controller [s]
-  double heartbeat_timeout = 50e-3;  ///< a missing heartbeat is noticed after this time [s]
-  double mode_refresh = 1.0;         ///< a drive sends its mode on change and with this period [s]
-  double boot_timeout = 5.0;         ///< until each node must boot [s]
-  int read_back_interval = 50;       ///< cycles from one SDO exchange to the next while the drives may have power
+  double bit_rate = 1e6;              ///< [bit/s]
+  bool fd = false;                    ///< SYNC and PDOs as FD frames
+  bool fd_services = false;           ///< with `fd`: all other messages as FD frames, too; else they are classical
+  double data_rate = 5e6;             ///< bit rate of FD frames' data [bit/s]
+  double period = 1e-3;               ///< T: time from one SYNC to the next [s]
+  double compute = 120e-6;            ///< computing time between the last position and the first torque [s]
+  double answer = 0.0;                ///< longest time from SYNC's end until a node has queued its TPDO1 [s]
+  double drive_delay = 0.0;           ///< time from an RPDO's end to the torque plus a position's age at SYNC [s]
+  double command_deadline = 4e-3;     ///< a drive stops by itself if torques are missing for longer [s]
+  double drive_heartbeat = 20e-3;     ///< period of the heartbeats of drives and controller [s]
+  double heartbeat_timeout = 50e-3;   ///< a missing heartbeat is noticed after this time [s]
+  double mode_refresh = 1.0;          ///< a drive sends its mode on change and with this period [s]
+  double boot_timeout = 5.0;          ///< until each node must boot [s]
+  double read_back_interval = 50e-3;  ///< from one SDO exchange to the next while the drives may have power [s]
   int joint_count = 0;
   std::array<DriveConfig, kMaxJoints> drives{};
   PanelConfig panel;

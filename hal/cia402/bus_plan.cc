@@ -35,6 +35,8 @@ std::int64_t frame_ns(int bytes, bool fd, const BusLayout& layout, Stuffing stuf
   return duration_ns(nominal, layout.bit_rate) + duration_ns(data, layout.data_rate);
 }
 
+bool has_fd_services(const BusLayout& layout) noexcept { return layout.fd && layout.fd_services; }
+
 /// The load of one bus as far as it does not depend on the other buses.
 BusLoad frames_of(const BusLayout& layout, int bus) noexcept {
   BusLoad load;
@@ -46,8 +48,8 @@ BusLoad frames_of(const BusLayout& layout, int bus) noexcept {
   load.samples_ns = load.joints * longest_frame_ns(kSampleBytes, layout.fd, layout) +
                     (load.panel ? longest_frame_ns(kPanelBytes, layout.fd, layout) : 0);
   load.torques_ns = load.joints * longest_frame_ns(kTorqueBytes, layout.fd, layout);
-  load.blocking_ns =
-      std::max(longest_frame_ns(kHeartbeatBytes, false, layout), longest_frame_ns(kModeBytes, layout.fd, layout));
+  load.blocking_ns = std::max(longest_frame_ns(kHeartbeatBytes, has_fd_services(layout), layout),
+                              longest_frame_ns(kModeBytes, layout.fd, layout));
   return load;
 }
 
@@ -55,7 +57,7 @@ BusLoad frames_of(const BusLayout& layout, int bus) noexcept {
 void judge(const BusLayout& layout, std::int64_t collect_ns, BusLoad& load) noexcept {
   const std::int64_t period_ns = duration_ns(layout.period, 1.0);
   const std::int64_t compute_ns = duration_ns(layout.compute, 1.0);
-  const std::int64_t sdo_ns = longest_frame_ns(kSdoBytes, false, layout);
+  const std::int64_t sdo_ns = longest_frame_ns(kSdoBytes, has_fd_services(layout), layout);
   const std::int64_t sampled_ns = load.sync_ns + duration_ns(layout.answer, 1.0) + load.samples_ns;
 
   load.end_ns = collect_ns + compute_ns + load.blocking_ns + load.torques_ns;
@@ -67,7 +69,7 @@ void judge(const BusLayout& layout, std::int64_t collect_ns, BusLoad& load) noex
   load.utilisation = static_cast<double>(load.sync_ns + load.samples_ns + load.torques_ns) * 1e-9 / layout.period +
                      producers * static_cast<double>(load.blocking_ns) * 1e-9 / layout.drive_heartbeat +
                      load.joints * static_cast<double>(load.blocking_ns) * 1e-9 / layout.mode_refresh +
-                     2.0 * static_cast<double>(sdo_ns) * 1e-9 / (layout.read_back_interval * layout.period);
+                     2.0 * static_cast<double>(sdo_ns) * 1e-9 / layout.read_back_interval;
 }
 
 }  // namespace

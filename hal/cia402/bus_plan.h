@@ -30,7 +30,7 @@ struct BusLoad {
 ///
 /// Frames of lower priority, in any number, cost one frame each time that the wire becomes idle: before SYNC, before
 /// the samples if drives take time to answer, and before the RPDOs. These frames are heartbeats and modes, TPDO2
-/// {6061}. An SDO exchange takes place every `read_back_interval` cycles, at a distance from heartbeats. Its request
+/// {6061}. An SDO exchange takes place every `read_back_interval`, at a distance from heartbeats. Its request
 /// finds the wire idle after the samples; the drive sends the answer when it is ready. If one of these two frames falls
 /// into a cycle, the last RPDO ends by `slot_ns` plus the blocking of SYNC. If both do, because a drive answers at
 /// once, or if one is on the wire when SYNC is due, samples of the next cycle may be up to `late_ns` late.

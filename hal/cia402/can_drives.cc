@@ -28,7 +28,8 @@ CanDrives::CanDrives(const BusLayout& layout, std::span<CanBus* const> buses, co
       tap_(tap),
       stations_(layout),
       heartbeat_cycles_(cycles(layout.drive_heartbeat, layout.period)),
-      timeout_cycles_(cycles(layout.heartbeat_timeout, layout.period)) {
+      timeout_cycles_(cycles(layout.heartbeat_timeout, layout.period)),
+      read_back_cycles_(cycles(layout.read_back_interval, layout.period)) {
   assert(static_cast<int>(buses.size()) == layout.bus_count && layout.bus_count <= kMaxBuses);
   for (std::size_t b = 0; b < buses.size(); ++b) buses_[b].wire = buses[b];
   restart();
@@ -40,7 +41,8 @@ void CanDrives::restart() noexcept {
     bus = {.wire = bus.wire, .watch = cia402::ParameterWatch(layout_, b)};
   }
   for (int i = 0; i < layout_.joint_count; ++i) {
-    joint(i) = {.channel = cia402::JointChannel(layout_.drives[static_cast<std::size_t>(i)], layout_.fd)};
+    const DriveConfig& drive = layout_.drives[static_cast<std::size_t>(i)];
+    joint(i) = {.channel = cia402::JointChannel(drive, layout_.fd, layout_.period)};
   }
   panel_ = Panel();
   reading_ = JointReading();
@@ -352,7 +354,7 @@ void CanDrives::send_heartbeat_or_sdo() noexcept {
       send_on(b, heartbeat_frame(kControllerNode, kNmtOperational));
       continue;
     }
-    const int overdue = bus.since_sdo - bus.watch.interval(layout_.read_back_interval);
+    const int overdue = bus.since_sdo - bus.watch.interval(read_back_cycles_);
     if (overdue < 0 || (overdue < heartbeat_cycles_ && heartbeat_is_near(b))) continue;
     bus.since_sdo = 0;
     CanFrame request;

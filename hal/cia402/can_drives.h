@@ -26,7 +26,7 @@ namespace godobject::hal {
 /// A cycle: `request` sends SYNC, the first frame on each bus. `receive` takes the received frames, at most kMostFrames
 /// a bus. A sample belongs to this cycle if and only if it follows the own echo of this cycle's SYNC; an earlier one is
 /// late and not used. `send` sends RPDO1 to each joint. One more frame may use the wire between samples and torques:
-/// every `drive_heartbeat` the controller's heartbeat; else, about every `read_back_interval` cycles and at a distance
+/// every `drive_heartbeat` the controller's heartbeat; else, about every `read_back_interval` and at a distance
 /// from the nodes' heartbeats, an SDO request. It is handed over right after SYNC, or after the collection if the
 /// drives' `answer` leaves the wire idle before. A mode, TPDO2, counts whenever it arrives.
 ///
@@ -139,6 +139,7 @@ class CanDrives final : public JointDrives {
   cia402::Stations stations_;
   int heartbeat_cycles_;
   int timeout_cycles_;
+  int read_back_cycles_;
   std::array<Bus, kMaxBuses> buses_{};
   std::array<Joint, kMaxJoints> joints_{};
   Panel panel_;

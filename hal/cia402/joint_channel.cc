@@ -1,11 +1,18 @@
 #include "hal/cia402/joint_channel.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "hal/canopen/little_endian.h"
 #include "hal/canopen/network.h"
 
 namespace godobject::hal::cia402 {
 
-JointChannel::JointChannel(const DriveConfig& drive, bool fd) noexcept : scaling_(drive), node_(drive.node), fd_(fd) {}
+JointChannel::JointChannel(const DriveConfig& drive, bool fd, double period) noexcept
+    : scaling_(drive),
+      node_(drive.node),
+      fd_(fd),
+      reset_hold_(std::max(1, static_cast<int>(std::lround(kResetHold / period)))) {}
 
 bool JointChannel::take(const CanFrame& tpdo) noexcept {
   if (tpdo.length != 8) return false;
@@ -57,7 +64,7 @@ PowerGoal JointChannel::goal(PowerRequest power) const noexcept {
 bool JointChannel::command(PowerRequest power, double torque, CanFrame& rpdo) noexcept {
   power_ = power;
   if (power != PowerRequest::kEnable) was_enabled_ = has_followed_ = false;
-  const bool reset_bit = (reset_cycles_ / kResetHold) % 2 == 1;
+  const bool reset_bit = (reset_cycles_ / reset_hold_) % 2 == 1;
   reset_cycles_ = power == PowerRequest::kReset ? reset_cycles_ + 1 : 0;
   const PowerGoal towards = goal(power);
   std::int16_t permille = 0;

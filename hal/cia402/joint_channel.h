@@ -16,7 +16,8 @@ namespace godobject::hal::cia402 {
 class JointChannel {
  public:
   JointChannel() = default;
-  JointChannel(const DriveConfig& drive, bool fd) noexcept;
+  /// `fd`: its PDOs are FD frames; `period`: T [s].
+  JointChannel(const DriveConfig& drive, bool fd, double period) noexcept;
 
   /// Takes a sample. False: it is invalid; nothing changes.
   bool take(const CanFrame& tpdo) noexcept;
@@ -35,15 +36,16 @@ class JointChannel {
   bool command(PowerRequest power, double torque, CanFrame& rpdo) noexcept;
 
  private:
-  /// Cycles for which the bit of a fault reset is low, and then high. A drive needs the rising edge. Chosen: a drive
-  /// that reads its controlword every few milliseconds sees both levels; tests/closed_loop pass with 1 to 64.
-  static constexpr int kResetHold = 8;
+  /// Time for which the bit of a fault reset is low, and then high [s]. A drive needs the rising edge. Chosen: a drive
+  /// that reads its controlword every few milliseconds sees both levels; tests/closed_loop pass with 1 to 64 ms.
+  static constexpr double kResetHold = 8e-3;
 
   PowerGoal goal(PowerRequest power) const noexcept;
 
   JointScaling scaling_;
   int node_ = 0;
   bool fd_ = false;
+  int reset_hold_ = 1;  // cycles
   PowerState state_ = PowerState::kNotReady;
   bool follows_{};             // bit 12 of the statusword
   bool was_enabled_ = false;   // since power was requested

@@ -1,6 +1,7 @@
 #include "hal/cia402/parameter_watch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hal/canopen/object_numbers.h"
 
@@ -8,8 +9,15 @@ namespace godobject::hal::cia402 {
 
 using canopen::SdoResponse;
 
+namespace {
+
+/// Time in which every parameter is read once [s]. Chosen: a second, less 5 % for requests that wait for heartbeats.
+constexpr double kWithin = 0.95;
+
+}  // namespace
+
 ParameterWatch::ParameterWatch(const BusLayout& layout, int bus) noexcept
-    : steps_(watched_parameters(layout)), bus_(bus) {
+    : steps_(watched_parameters(layout)), bus_(bus), within_(static_cast<int>(std::lround(kWithin / layout.period))) {
   for (int joint = 0; joint < layout.joint_count; ++joint) {
     const DriveConfig& drive = layout.drives[static_cast<std::size_t>(joint)];
     if (drive.bus != bus) continue;
@@ -26,9 +34,7 @@ void ParameterWatch::find(Alarm alarm, const SdoResponse& response) noexcept {
 }
 
 int ParameterWatch::interval(int wanted) const noexcept {
-  // Cycles in which every parameter is read once. Chosen: a second, less 5 % for requests that wait for heartbeats.
-  constexpr int kWithin = 950;
-  return std::min(wanted, kWithin / std::max(1, static_cast<int>(kWatchedCount) * joint_count_));
+  return std::min(wanted, std::max(1, within_ / std::max(1, static_cast<int>(kWatchedCount) * joint_count_)));
 }
 
 bool ParameterWatch::next(CanFrame& request) noexcept {

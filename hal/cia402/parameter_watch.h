@@ -24,7 +24,7 @@ class ParameterWatch {
   /// Makes the next request. The previous one, if not answered, counts as silent. False: there is no drive on this bus.
   bool next(CanFrame& request) noexcept;
 
-  /// Cycles of a millisecond between two requests: `wanted`, or fewer such that each parameter is read within a second.
+  /// Cycles between two requests: `wanted`, or fewer such that each parameter is read within a second; at least one.
   int interval(int wanted) const noexcept;
 
   /// Checks an SDO response of this bus. Ignores responses to other requests.
@@ -39,6 +39,7 @@ class ParameterWatch {
   std::array<ParameterStep, kWatchedCount> steps_{};
   int bus_{};
   int joint_count_ = 0;  // on this bus
+  int within_ = 950;     // cycles in which every parameter is read once
   std::array<int, kMaxJoints> joints_{};
   std::array<int, kMaxJoints> nodes_{};
   std::array<int, kMaxJoints> silent_{};

@@ -96,6 +96,7 @@ OpenResult SocketCan::open(const char* interface, const SocketCanOptions& option
   health_ = {};
   drop_counter_ = 0;
   fetched_ = taken_ = 0;
+  only_fd_ = options.fd && options.only_fd;
 
   descriptor_ = ::socket(AF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (descriptor_ < 0) {
@@ -134,12 +135,13 @@ OpenResult SocketCan::open(const char* interface, const SocketCanOptions& option
 
 SendResult SocketCan::send(const CanFrame& frame) noexcept {
   assert(frame.id <= CAN_SFF_MASK && is_length(frame.length, frame.fd));
+  const bool fd = frame.fd || only_fd_;
   canfd_frame raw{};  // a classical frame has the same layout, truncated
   raw.can_id = frame.id;
   raw.len = frame.length;
-  raw.flags = frame.fd ? CANFD_BRS : 0;
+  raw.flags = fd ? CANFD_BRS : 0;
   std::memcpy(raw.data, frame.data.data(), frame.length);
-  const std::size_t size = frame.fd ? CANFD_MTU : CAN_MTU;
+  const std::size_t size = fd ? CANFD_MTU : CAN_MTU;
   const ssize_t sent = ::send(descriptor_, &raw, size, MSG_DONTWAIT | MSG_NOSIGNAL);
   if (sent == static_cast<ssize_t>(size)) {
     ++health_.unreturned;

@@ -12,7 +12,8 @@
 namespace godobject::hal {
 
 struct SocketCanOptions {
-  bool fd = false;  ///< FD frames and classical ones; the interface's MTU must be 72
+  bool fd = false;       ///< FD frames and classical ones; the interface's MTU must be 72
+  bool only_fd = false;  ///< with `fd`: all frames are sent as FD frames
   /// Requested receive buffer [bytes]. Chosen: at some 800 bytes a frame, as the kernel counts them, it holds 1300
   /// frames.
   int receive_buffer = 1 << 20;
@@ -78,6 +79,7 @@ class SocketCan final : public CanBus {
   void read_error(const canfd_frame& raw) noexcept;
 
   int descriptor_ = -1;
+  bool only_fd_ = false;
   BusHealth health_;
   std::uint32_t drop_counter_ = 0;  // last value of the kernel's 32 bit counter
   std::size_t fetched_ = 0;

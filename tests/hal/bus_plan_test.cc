@@ -323,16 +323,41 @@ TEST(BusPlan, TheTorquesMayEndWithThePeriodButNotLater) {
 }
 
 /// A cycle: SYNC 55, two samples 270, the panel's 65, two torques 190 us. Heartbeats of two drives, the panel and the
-/// controller each 40 ms; two modes each 250 ms; an SDO exchange of two frames each 25 cycles.
+/// controller each 40 ms; two modes each 250 ms; an SDO exchange of two frames each 25 ms.
 TEST(BusPlan, UtilisationCountsEveryFrame) {
   BusLayout layout = layout_of({2});
   layout.panel.bus = 0;
   layout.drive_heartbeat = 40e-3;
   layout.mode_refresh = 0.25;
-  layout.read_back_interval = 25;
+  layout.read_back_interval = 25e-3;
   EXPECT_NEAR(plan_buses(layout).buses[0].utilisation, 0.580 + 4 * 65 / 40e3 + 2 * 65 / 250e3 + 270 / 25e3, 1e-12);
   layout.period = 2e-3;
-  EXPECT_NEAR(plan_buses(layout).buses[0].utilisation, 0.290 + 4 * 65 / 40e3 + 2 * 65 / 250e3 + 270 / 50e3, 1e-12);
+  EXPECT_NEAR(plan_buses(layout).buses[0].utilisation, 0.290 + 4 * 65 / 40e3 + 2 * 65 / 250e3 + 270 / 25e3, 1e-12);
+}
+
+/// 4 kHz: one joint a bus, all messages as FD frames at 1 and 8 Mbit/s. A frame has 34 bits at 1 Mbit/s and, with n
+/// bytes, 33 + 10 n at 8: SYNC 38.125, sample 48.125, torque 43.125, heartbeat 39.375, SDO 48.125 us. Rounded up to
+/// whole nanoseconds, with 40 us of computing: end 39.375 + 38.125 + 48.125 + 40 + 39.375 + 43.125 = 248.125 us.
+TEST(BusPlan, FitsIntoAQuarterOfAMillisecondWithFdFramesAlone) {
+  BusLayout layout = layout_of({1});
+  layout.period = 0.25e-3;
+  layout.compute = 40e-6;
+  layout.fd = layout.fd_services = true;
+  layout.data_rate = 8e6;
+  const BusPlan plan = plan_buses(layout);
+  EXPECT_EQ(plan.buses[0].sync_ns, 38'125);
+  EXPECT_EQ(plan.buses[0].samples_ns, 48'125);
+  EXPECT_EQ(plan.buses[0].torques_ns, 43'125);
+  EXPECT_EQ(plan.buses[0].blocking_ns, 39'375);
+  EXPECT_EQ(plan.buses[0].end_ns, 248'125);
+  EXPECT_EQ(plan.buses[0].slot_ns, 125'625 + 40'000 + 48'125 + 43'125 - 39'375);
+  EXPECT_TRUE(plan.fits);
+  layout.compute = 42e-6;
+  EXPECT_FALSE(plan_buses(layout).fits);
+  layout.compute = 40e-6;
+  layout.fd_services = false;  // a classical heartbeat takes 65 us, an SDO frame 135
+  EXPECT_EQ(plan_buses(layout).buses[0].blocking_ns, 65'000);
+  EXPECT_FALSE(plan_buses(layout).fits);
 }
 
 TEST(BusPlan, FitsOnlyIfEveryBusFits) {

@@ -39,7 +39,7 @@ class CanDrivesTest : public testing::Test {
   static BusLayout layout() {
     BusLayout layout;
     layout.joint_count = 2;
-    layout.read_back_interval = 50;
+    layout.read_back_interval = 50e-3;
     layout.drives[0] = {.bus = 0, .node = 5, .counts = 1000, .gear = 10.0, .rated_torque = 2.0};
     layout.drives[1] = {
         .bus = 0, .node = 3, .counts = 4000, .gear = 1.0, .rated_torque = 5.0, .sign = -1.0, .zero = 1.0};

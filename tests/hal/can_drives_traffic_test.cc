@@ -21,7 +21,7 @@ class TwoBusesTest : public testing::Test {
   TwoBusesTest() {
     layout_.bus_count = 2;
     layout_.joint_count = 2;
-    layout_.read_back_interval = 10;
+    layout_.read_back_interval = 10e-3;
     layout_.drives[0] = {.bus = 0, .node = 5, .counts = 1000, .rated_torque = 2.0};
     layout_.drives[1] = {.bus = 1, .node = 3, .counts = 1000, .rated_torque = 2.0};
     layout_.panel = {.bus = 1, .node = 32};
@@ -73,15 +73,17 @@ class TwoBusesTest : public testing::Test {
     std::vector<int> found;
     int last = -1;
     for (int k = 0; k < cycles; ++k) {
-      if (k % kHeartbeat == 0 || k - last < layout_.read_back_interval) continue;
+      if (k % kHeartbeat == 0 || k - last < interval()) continue;
       bool due = false;
       for (const int phase : phases) due = due || is_due(phase, k);
-      if (due && k - last < layout_.read_back_interval + kHeartbeat) continue;
+      if (due && k - last < interval() + kHeartbeat) continue;
       found.push_back(k);
       last = k;
     }
     return found;
   }
+
+  int interval() const { return static_cast<int>(std::lround(1e3 * layout_.read_back_interval)); }
 
   BusLayout layout_;
   std::array<FakeBus, 2> buses_;
@@ -102,7 +104,7 @@ TEST_F(TwoBusesTest, SdoRequestsKeepAwayFromTheHeartbeatsOfTheirBus) {
 }
 
 TEST_F(TwoBusesTest, SdoRequestsWaitAPeriodForOverdueHeartbeatsAndNotLonger) {
-  const int interval = layout_.read_back_interval;
+  const int interval = this->interval();
   const std::array<std::vector<int>, 2> found = requests({-1, -1, -1}, 200);
   EXPECT_EQ(found[0], expected({-1}, 200));
   EXPECT_EQ(found[1], expected({-1, -1}, 200));
@@ -143,7 +145,7 @@ TEST_F(TwoBusesTest, SevenJointsWaitForTheHeartbeatsOfTheirBusOnly) {
 /// A node that nobody has heard yet is due 18 cycles after the start: 17 cycles after it the wire is still free.
 TEST_F(TwoBusesTest, SdoRequestsGoOutJustBeforeAHeartbeatIsDue) {
   for (const int interval : {17, 18, 19}) {
-    layout_.read_back_interval = interval;
+    layout_.read_back_interval = 1e-3 * interval;
     const std::array<std::vector<int>, 2> found = requests({-1, 19, 19}, 200);
     EXPECT_EQ(found[0], expected({-1}, 200)) << interval;
     EXPECT_EQ(found[1], expected({19, 19}, 200)) << interval;
@@ -212,7 +214,7 @@ TEST_F(TwoBusesTest, AlarmsNameTheirBus) {
 }
 
 TEST_F(TwoBusesTest, AnAlarmOfMissingFramesNamesItsBus) {
-  layout_.read_back_interval = 100;  // nobody answers them
+  layout_.read_back_interval = 100e-3;  // nobody answers them
   const auto run = [this](int cycles, bool panel, bool heartbeats) {
     CanDrives drives(layout_, wires_, {});
     JointReading reading;

@@ -110,7 +110,7 @@ TEST(Defaults, ADriveTurnsOncePerMillionCountsAndGivesNoTorque) {
   EXPECT_DOUBLE_EQ(scaling.position(1'048'576), 2.0 * M_PI);
   EXPECT_EQ(scaling.torque(1000), 0.0);
   EXPECT_EQ(DriveConfig().torque_limit, 0.0);
-  cia402::JointChannel channel(DriveConfig(), false);
+  cia402::JointChannel channel(DriveConfig(), false, 1e-3);
   CanFrame rpdo;
   EXPECT_FALSE(channel.command(PowerRequest::kEnable, 1.0, rpdo)) << "no rated torque";
   EXPECT_EQ(rpdo.id, 0x201);

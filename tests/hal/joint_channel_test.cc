@@ -33,7 +33,7 @@ class JointChannelTest : public testing::Test {
     return rpdo.data[0] | rpdo.data[1] << 8;
   }
 
-  JointChannel channel_{DriveConfig{.node = 9, .counts = 4000, .gear = 1.0, .rated_torque = 2.0}, false};
+  JointChannel channel_{DriveConfig{.node = 9, .counts = 4000, .gear = 1.0, .rated_torque = 2.0}, false, 1e-3};
 };
 
 TEST_F(JointChannelTest, ReadsEveryByteOfASample) {
@@ -57,7 +57,7 @@ TEST_F(JointChannelTest, AnInvalidSampleChangesNothing) {
 
 TEST_F(JointChannelTest, MakesFramesOfTheBusFormat) {
   CanFrame rpdo;
-  JointChannel fd(DriveConfig{.node = 9, .rated_torque = 2.0}, true);
+  JointChannel fd(DriveConfig{.node = 9, .rated_torque = 2.0}, true, 1e-3);
   EXPECT_TRUE(fd.command(PowerRequest::kOff, 1.0, rpdo));
   EXPECT_TRUE(rpdo.fd);
   EXPECT_EQ(rpdo.id, 0x209);
@@ -124,6 +124,19 @@ TEST_F(JointChannelTest, EveryResetHoldsTheBitLowAndThenHighForEightCycles) {
       EXPECT_EQ(controlword(PowerRequest::kReset), k / 8 % 2 == 1 ? 0x80 : 0x00) << k << " of " << cycles;
     }
     EXPECT_EQ(controlword(PowerRequest::kOff), 0x00);
+  }
+}
+
+/// Eight milliseconds of any period, and at least a cycle.
+TEST(JointChannelReset, HoldsTheBitForATimeAndNotForACount) {
+  for (const auto& [period, hold] : {std::pair{0.125e-3, 64}, {0.25e-3, 32}, {2e-3, 4}, {10e-3, 1}, {20e-3, 1}}) {
+    JointChannel channel(DriveConfig{.node = 9, .counts = 4000, .rated_torque = 2.0}, false, period);
+    ASSERT_TRUE(channel.take(frame(0x189, {0x18, 0x02, 0, 0, 0, 0, 0, 0})));
+    for (int k = 0; k < 4 * hold; ++k) {
+      CanFrame rpdo;
+      ASSERT_TRUE(channel.command(PowerRequest::kReset, 0.0, rpdo));
+      ASSERT_EQ(rpdo.data[0], k / hold % 2 == 1 ? 0x80 : 0x00) << period << ' ' << k;
+    }
   }
 }
 

@@ -157,6 +157,23 @@ TEST_F(ParameterWatchTest, ReadsEveryParameterWithinASecond) {
   }
 }
 
+/// Within a second of any period: 950 ms, in cycles, over 6 parameters of two drives; never less than a cycle.
+TEST_F(ParameterWatchTest, ReadsEveryParameterWithinASecondAtEveryPeriod) {
+  BusLayout two;
+  two.joint_count = 2;
+  two.drives[0].node = 1, two.drives[1].node = 2;
+  for (const auto& [period, most] : {std::pair{0.125e-3, 633}, {0.25e-3, 316}, {1e-3, 79}, {10e-3, 7}}) {
+    two.period = period;
+    const ParameterWatch watch(two, 0);
+    EXPECT_EQ(watch.interval(5000), most) << period;
+    EXPECT_EQ(watch.interval(3), 3);
+  }
+  two.joint_count = kMaxJoints;
+  for (int i = 0; i < kMaxJoints; ++i) two.drives[static_cast<std::size_t>(i)].node = i + 1;
+  two.period = 50e-3;
+  EXPECT_EQ(ParameterWatch(two, 0).interval(10), 1);
+}
+
 TEST_F(ParameterWatchTest, FindsAnyOtherValue) {
   for (const Watched& watched : kWatched) {
     for (int bit = 0; bit < 8 * watched.size; ++bit) {

@@ -75,6 +75,21 @@ TEST(FrameTime, OfFdFramesIsThatOfTheLayouts) {
   EXPECT_EQ(frame_ns(layout, frame(0x181, 20, true)), 34'000 + 7'600 + 40'000);
 }
 
+/// With `fd_services` every message is an FD frame: 1 byte in 34 + 43 / 5 us.
+TEST(FrameTime, OfAllMessagesAsFdFrames) {
+  hal::BusLayout layout;
+  layout.fd = layout.fd_services = true;
+  LoopbackBus bus(layout);
+  ASSERT_TRUE(bus.hand_over(1, frame(0x701, 1), 0));
+  bus.arbitrate(0);
+  EXPECT_EQ(bus.next_ns(), 42'600);
+  layout.fd = false;  // nothing without FD
+  LoopbackBus classical(layout);
+  ASSERT_TRUE(classical.hand_over(1, frame(0x701, 1), 0));
+  classical.arbitrate(0);
+  EXPECT_EQ(classical.next_ns(), 65'000);
+}
+
 struct Wire {
   hal::BusLayout layout;
   std::unique_ptr<LoopbackBus> bus = std::make_unique<LoopbackBus>(layout);
