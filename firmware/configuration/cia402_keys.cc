@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/format.h"
+
 namespace godobject::firmware {
 namespace {
 
@@ -42,14 +44,21 @@ void check_nodes(const TomlTable& joint, const hal::BusLayout& bus, std::size_t 
 }  // namespace
 
 void read_bus(const TomlTable& table, hal::BusLayout& bus) {
-  table.allow({"bit_rate", "fd", "data_rate", "answer", "drive_delay", "command_deadline", "drive_heartbeat",
-               "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
+  table.allow({"period", "bit_rate", "fd", "fd_services", "data_rate", "answer", "drive_delay", "command_deadline",
+               "drive_heartbeat", "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
+  bus.period = table.number("period", {format::kShortestPeriod, format::kLongestPeriod}, bus.period);
   bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
   bus.fd = table.flag("fd", bus.fd);
+  bus.fd_services = table.flag("fd_services", bus.fd_services);
+  if (bus.fd_services && !bus.fd) table.complain("fd_services", "= true needs fd = true");
   bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
   bus.answer = table.number("answer", {0.0, 5e-4}, bus.answer);
   bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
-  bus.command_deadline = table.number("command_deadline", {2e-3, 0.01}, bus.command_deadline);
+  // two lost torques must not stop a drive, nor may it hold the last one for long
+  const double few_cycles = 4.0 * bus.period;
+  bus.command_deadline =
+      table.number("command_deadline", {std::max(2e-3, 2.0 * bus.period), std::max(0.01, few_cycles)},
+                   std::max(bus.command_deadline, few_cycles));
   bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);
   const double two_heartbeats = 2.0 * bus.drive_heartbeat;
   bus.heartbeat_timeout =

@@ -1,6 +1,7 @@
 #include "firmware/configuration/controller_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ namespace godobject::firmware {
 namespace {
 
 using files::TomlTable;
+
+constexpr double kVelocitySpan = 3e-3;  // of the default window of velocities, chosen: four samples at 1 kHz [s]
+/// Largest share of a period that is the default computing time. Chosen: with FD frames alone, one joint a bus and data
+/// at 8 Mbit/s it leaves room for the frames at 4 kHz.
+constexpr double kComputeShare = 0.16;
 
 /// A path relative to the folder of `file`; empty stays empty.
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
@@ -118,12 +124,16 @@ ControllerConfig read_controller_file(const std::filesystem::path& file) {
   config.loop.real_time = loop.flag("real_time", config.loop.real_time);
   config.loop.cpu = static_cast<int>(loop.whole_number("cpu", {-1, 1023}, config.loop.cpu));
   config.loop.priority = static_cast<int>(loop.whole_number("priority", {1, 98}, config.loop.priority));
-  config.loop.velocity_window = static_cast<int>(
-      loop.whole_number("velocity_window", {2, VelocityEstimator::kMaxWindow}, config.loop.velocity_window));
+  const double period = config.device.bus.period;
+  const int window =
+      std::clamp(1 + static_cast<int>(std::lround(kVelocitySpan / period)), 2, VelocityEstimator::kMaxWindow);
+  config.loop.velocity_window =
+      static_cast<int>(loop.whole_number("velocity_window", {2, VelocityEstimator::kMaxWindow}, window));
 
-  config.loop.compute = loop.number("compute", {1e-6, 0.9e-3}, config.loop.compute);
+  const double longest = period - 0.1 * period;
+  config.loop.compute = loop.number("compute", {1e-6, longest}, std::min(config.loop.compute, kComputeShare * period));
   config.device.bus.compute = config.loop.compute;
-  if (loop.has("cycle_budget")) config.loop.cycle_budget = loop.number("cycle_budget", {0.0, 0.9e-3}, 0.0);
+  if (loop.has("cycle_budget")) config.loop.cycle_budget = loop.number("cycle_budget", {0.0, longest}, 0.0);
 
   read_limits(table("limits"), config.limits);
 

@@ -34,7 +34,7 @@ struct ControllerConfig {
     bool real_time = false;              ///< of a simulated arm: keep to the machine's clock
     int cpu = -1;                        ///< processor of the loop; -1: any
     int priority = 80;                   ///< of SCHED_FIFO
-    int velocity_window = 4;             ///< N of VelocityEstimator [samples]
+    int velocity_window = 4;             ///< N of VelocityEstimator [samples]; default: over 3 ms
     double compute = 120e-6;             ///< computing time in the bus plan [s]
     std::optional<double> cycle_budget;  ///< time of `contact` in a cycle [s]; 0: no limit
   } loop;
@@ -51,7 +51,7 @@ struct ControllerConfig {
     double joint_speed_stop = 1.0;  ///< [1]
     double stuck_torque =
         0.005;  ///< torque above which a joint should move, above its dry friction: share of its limit [1]
-    double torque_rate = 0.05;  ///< largest change of a joint's torque in a cycle, share of its limit [1]
+    double torque_rate = 0.05;  ///< largest change of a joint's torque in 1 ms, share of its limit [1]
   } limits;
 
   struct Engage {

@@ -11,13 +11,14 @@
 
 #include "firmware/controller/warning.h"
 #include "firmware/controller/work_calibration.h"
+#include "firmware/cycle/cycles_in.h"
 #include "firmware/cycle/supervisor.h"
 
 namespace godobject::firmware {
 namespace {
 
-constexpr std::uint32_t kMoment = 3000;  // cycles; chosen: 3 s, longer than an operator needs who knows what to do
-constexpr std::uint32_t kBehind = 300;   // cycles; chosen: a hand feels it by then
+constexpr double kMoment = 3.0;  // [s] chosen: longer than an operator needs who knows what to do
+constexpr double kBehind = 0.3;  // [s] chosen: a hand feels it by then
 
 std::string why(const Standing& standing) {
   if (standing.fault != Fault::kAlarm) return describe(standing.fault);
@@ -29,14 +30,14 @@ std::string why(const Standing& standing) {
 
 void OperatorNotice::look() {
   const Standing standing = report_.standing.load(std::memory_order_relaxed);
-  const bool waits = report_.waiting.load(std::memory_order_relaxed) > kMoment;
+  const bool waits = report_.waiting.load(std::memory_order_relaxed) > cycles_in(kMoment, period_);
   if (waits && !said_waiting_) {
     warn(standing.mode == Mode::kIdle
              ? "waits for the enable switch: release it, then hold it"
              : "waits with the arm held: the moving body touches or penetrates the still body; move the tool away");
   }
   said_waiting_ = waits;
-  const bool is_behind = report_.longest_behind.exchange(0, std::memory_order_relaxed) > kBehind;
+  const bool is_behind = report_.longest_behind.exchange(0, std::memory_order_relaxed) > cycles_in(kBehind, period_);
   if (is_behind && !said_behind_) {
     warn(
         fmt::format("the god object stays behind, so that the hand is held: each cycle spends its budget of work; "

@@ -10,8 +10,8 @@ namespace godobject::firmware {
 /// stays behind for longer than 0.3 s because of the budget of work, or the arm has stopped.
 class OperatorNotice {
  public:
-  /// `report`: of the running loop; outlives this.
-  explicit OperatorNotice(RunReport& report) noexcept : report_(report) {}
+  /// `report`: of the running loop; outlives this. `period`: T [s].
+  OperatorNotice(RunReport& report, double period) noexcept : report_(report), period_(period) {}
 
   /// Reads the report and prints a line if there is something new to say.
   void look();
@@ -21,6 +21,7 @@ class OperatorNotice {
 
  private:
   RunReport& report_;
+  double period_;
   bool said_waiting_ = false;
   bool said_behind_ = false;
   bool said_stopped_ = false;

@@ -17,26 +17,26 @@ std::string quantiles(const DurationHistogram& times) {
                      us(times.quantile_ns(0.999)), us(times.largest_ns()), times.count());
 }
 
-std::string seconds_in_modes(const RunReport& report) {
+std::string seconds_in_modes(const RunReport& report, double period) {
   std::string text;
   for (std::size_t mode = 0; mode < report.in_mode.size(); ++mode) {
     if (report.in_mode[mode] == 0) continue;
     text += fmt::format("{} {} {:.3f} s", text.empty() ? "" : ",", name(static_cast<Mode>(mode)),
-                        ControlCycle::kPeriod * static_cast<double>(report.in_mode[mode]));
+                        period * static_cast<double>(report.in_mode[mode]));
   }
   return text;
 }
 
 }  // namespace
 
-std::string run_summary(const RunReport& report, const CycleCounters& counters, const std::string& transport,
-                        std::optional<long> page_faults) {
+std::string run_summary(const RunReport& report, const CycleCounters& counters, double period,
+                        const std::string& transport, std::optional<long> page_faults) {
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "rendered in {} of {} cycles, in contact in {}: at most {:.2f} N, {:.3f} Nm, {:.3f} mm deep\n",
                  report.rendering, counters.cycles, report.in_contact, report.largest_force, report.largest_torque,
                  1e3 * report.deepest);
-  fmt::format_to(out, "modes:{}\n", seconds_in_modes(report));
+  fmt::format_to(out, "modes:{}\n", seconds_in_modes(report, period));
   fmt::format_to(out, "positions lost in {} cycles, jumps in {}, sends failed {}, overruns {}, periods skipped {}\n",
                  counters.lost, counters.jumps, counters.sends_failed, counters.overruns, counters.skipped);
   text += transport;

@@ -37,8 +37,10 @@ constexpr double kRestOfCycle = 10e-6;
 constexpr double kDefaultShare = 0.7;
 constexpr double kLeastBudget = 1e-6;  // by default, where loop.compute leaves less [s]
 
-SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noexcept {
-  set_gains(gains, scene);
+/// The scene with the gains and the period of the controller.
+SceneView as_configured(SceneView scene, const ControllerConfig& config) noexcept {
+  set_gains(config.gains, scene);
+  scene.settings.period = config.device.bus.period;
   return scene;
 }
 
@@ -47,7 +49,7 @@ SceneView with_gains(SceneView scene, const ControllerConfig::Gains& gains) noex
 Session::Session(const ControllerConfig& config, const std::string& transport)
     : config_(config),
       image_(config.scene.image),
-      scene_(with_gains(image_.scene(), config.gains)),
+      scene_(as_configured(image_.scene(), config)),
       placement_(place(config.workspace, config.device, scene_.H_MB.translation)) {
   const std::unique_ptr<DriveFamily> family = choose_drives(config_.device);
   family->require_plan();
@@ -133,7 +135,8 @@ std::string Session::run(const std::optional<double>& duration, RunRequests& req
                       .bus_names = link_->bus_names()},
                      ring_, bus_ring_);
   if (run_loop(run_setup(duration, stopwatch), requests, records)) {
-    fmt::print("{}", run_summary(report_, cycle_->counters(), link_->statistics(), page_faults_));
+    fmt::print("{}",
+               run_summary(report_, cycle_->counters(), config_.device.bus.period, link_->statistics(), page_faults_));
     fmt::print("{}", records.summary());
     if (link_->real_time() && report_.beyond_plan > 0) {
       warn(fmt::format(
@@ -154,7 +157,9 @@ RunSetup Session::run_setup(const std::optional<double>& duration, hal::Clock& s
     seconds = config_.simulation.begin + simulated->path_seconds() + 0.5;
   }
   RunSetup setup;
-  setup.cycles = seconds ? static_cast<std::uint64_t>(1e3 * *seconds) : 0;
+  const double period = config_.device.bus.period;
+  setup.period_ns = std::llround(1e9 * period);
+  setup.cycles = seconds ? static_cast<std::uint64_t>(*seconds / period + 1e-6) : 0;
   setup.every = static_cast<std::uint32_t>(config_.telemetry.every);
   setup.stopwatch = &stopwatch;
   setup.compute_ns = std::llround(1e9 * config_.loop.compute);
@@ -163,7 +168,7 @@ RunSetup Session::run_setup(const std::optional<double>& duration, hal::Clock& s
 
 /// From the start of the drives to their stop. False: the run was asked to end before the drives were started.
 bool Session::run_loop(const RunSetup& setup, RunRequests& requests, RunRecords& records) {
-  OperatorNotice notice(report_);
+  OperatorNotice notice(report_, config_.device.bus.period);
   std::vector<std::jthread> beside;  // started before this thread is a real-time one: threads inherit that
   const auto run_beside = [&beside](const char* name, auto& worker) {
     beside.push_back(start_worker(name, [&worker](const std::stop_token& stop) { worker.run(stop); }));

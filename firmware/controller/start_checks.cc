@@ -6,13 +6,12 @@
 
 #include "firmware/configuration/gain_check.h"
 #include "firmware/controller/warning.h"
-#include "firmware/cycle/control_cycle.h"
 
 namespace godobject::firmware {
 
 void check_gains_at_start(const ControllerConfig& config, const SceneView& scene, const Device& device, double delay) {
   const double scale = config.workspace.scale;
-  const LoopTiming timing{ControlCycle::kPeriod, delay, config.loop.velocity_window};
+  const LoopTiming timing{config.device.bus.period, delay, config.loop.velocity_window};
   require_stable_joints(device.model, device.torque, config.workspace.posture, timing);
   const GainReport report = check_gains(scene, device.model, config.workspace.posture, scale, timing);
   const auto felt = FeltCoupling::of(scene, scale);

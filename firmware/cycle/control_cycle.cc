@@ -7,11 +7,11 @@ namespace godobject::firmware {
 ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
     : setup_(setup),
       drives_(drives),
-      position_check_(*setup.arm, setup.stuck_torque, kPeriod),
-      velocity_(setup.velocity_window, kPeriod),
+      position_check_(*setup.arm, setup.stuck_torque, setup.period),
+      velocity_(setup.velocity_window, setup.period),
       supervisor_(*setup.arm, setup.supervisor),
       limiter_(*setup.arm, setup.torque),
-      observer_(drives.delay() / kPeriod),
+      observer_(drives.delay() / setup.period),
       passivity_(setup.passivity) {}
 
 // clang-format off: the steps stand in a column
@@ -92,7 +92,8 @@ Status ControlCycle::render(const ArmKinematics& kinematics) noexcept {
   p_MG_R_ = H_RM.rotation._transformVector(p_MB) / setup_.mapping.scale;
   const Pose H_RG{H_RM.rotation, H_RM.translation + p_MG_R_};
   if (!mapping_) mapping_.emplace(setup_.mapping, H_RG);
-  if (const Status status = mapping_->update(H_RG, !opens_clutch(), kPeriod); status != Status::kOk) return status;
+  if (const Status status = mapping_->update(H_RG, !opens_clutch(), setup_.period); status != Status::kOk)
+    return status;
   const Motion velocity_R = tool_velocity(geometric_jacobian(kinematics, H_RG.translation), qd_);
 
   const Pose& H_WG = mapping_->scene_pose();

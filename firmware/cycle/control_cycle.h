@@ -73,6 +73,7 @@ struct CycleRecord {
 
 /// Constants of a session. Scene, arm and torque parameters are validated and outlive the cycle.
 struct CycleSetup {
+  double period = 1e-3;  ///< T [s], as in the scene's settings
   const SceneView* scene = nullptr;
   Solver solver = Solver::kContact;
   bool friction = false;
@@ -89,14 +90,12 @@ struct CycleSetup {
   Supervisor::Parameters supervisor;
 };
 
-/// One millisecond of the controller: from the drives' positions to their torques. The same code runs in virtual time
+/// One period of the controller: from the drives' positions to their torques. The same code runs in virtual time
 /// and on the real-time thread. A request to open the clutch is deferred until the contact force is below
-/// `supervisor.engage_force`. 8 KiB; the god object works in `CycleSetup::memory`. No allocation, no exceptions, no
+/// `supervisor.engage_force`. 12 KiB; the god object works in `CycleSetup::memory`. No allocation, no exceptions, no
 /// locks.
 class ControlCycle {
  public:
-  static constexpr double kPeriod = 1e-3;  ///< T [s], as in the core
-
   /// `setup` and `drives` outlive the cycle.
   ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept;
 
@@ -158,6 +157,6 @@ class ControlCycle {
   CycleRecord record_;
   CycleCounters counters_;
 };
-static_assert(sizeof(ControlCycle) <= 8 * 1024);
+static_assert(sizeof(ControlCycle) <= 12 * 1024);
 
 }  // namespace godobject::firmware

@@ -15,7 +15,7 @@ enum class Mode : std::uint8_t {
   kArmed,      ///< holds the arm; waits until the contact force is small
   kEngaging,   ///< the rendered share rises from zero
   kRunning,    ///< renders
-  kFade,       ///< the last rendered torques fade to zero within kFadeCycles; then kStopping
+  kFade,       ///< the last rendered torques fade to zero within kFade_ms; then kStopping
   kStopping,   ///< renders nothing, holds the arm; the drives come to rest and close the brakes
   kStopped,    ///< no power once the drives rest; a fault is latched until the operator resets it
   kResetting,  ///< resets the drives' faults once they rest; then kBoot

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/cycle/cycles_in.h"
+
 namespace godobject::firmware {
 
 PositionCheck::PositionCheck(const ArmModel& arm, double stuck_torque, double period) noexcept
-    : joint_count_(arm.joint_count), period_(period) {
+    : joint_count_(arm.joint_count), period_(period), cycles_a_sample_(cycles_in(1e-3, period)) {
   for (int i = 0; i < joint_count_; ++i) {
     const ArmJoint& joint = arm.joints[static_cast<std::size_t>(i)];
     largest_step_[i] = kJumpOfVelocity * joint.velocity * period;
     stuck_torque_[i] = stuck_torque * joint.torque;
-    speed_step_[i] = joint.velocity * period;
+    speed_step_[i] = joint.velocity * period * cycles_a_sample_;
   }
 }
 
@@ -58,6 +60,8 @@ void PositionCheck::update(const hal::JointReading& reading, const JointVector& 
   checked.predicted = std::max(checked.predicted, checked.lost);
   started_ = checked.finite;
   checked.q = q_;
+  if (++since_sample_ < cycles_a_sample_) return;
+  since_sample_ = 0;
   const bool abruptly = stops_abruptly(reading);
   checked.stuck = rests_though_pushed(reading, pushed) || abruptly;
 }

@@ -26,10 +26,11 @@ struct CheckedPositions {
 /// - Jump: a fresh position is further than kJumpOfVelocity v_max T from the last accepted one, for each period between
 ///   them. It is predicted, too. If the next position is as far again in the same direction, the encoder does not jump:
 ///   the joint runs away.
-/// - Stuck, first way: a joint moved at kMotion of its speed limit for kMoving cycles and then, from one cycle to the
-///   next, did not change by a bit for kStill cycles. No torque stops an arm like this.
-/// - Stuck, second way: over kWindow cycles a position did not change by a bit although the controller pushed its joint
-/// by
+/// - Stuck, first way: a joint moved at kMotion of its speed limit for kMoving samples and then, from one sample to the
+///   next, did not change by a bit for kStill samples. No torque stops an arm like this. A sample is one cycle in each
+///   millisecond, or each cycle if the period is longer.
+/// - Stuck, second way: over kWindow samples a position did not change by a bit although the controller pushed its
+/// joint by
 ///   more than `stuck_torque` all the time, and another joint moved at kOtherMotion of its own limit. The second
 ///   condition excludes correct readings at rest: a hand that presses against a wall holds all joints, and a joint that
 ///   turns round in a slow motion rests for a while.
@@ -38,7 +39,7 @@ struct CheckedPositions {
 /// others unchanged, and the effect of the next value tried.
 class PositionCheck {
  public:
-  /// 24 to 48. Two whole windows must end within the 100 cycles that the fault table allows; 60 is too late.
+  /// Samples. 24 to 48. Two whole windows must end within the 100 cycles that the fault table allows; 60 is too late.
   static constexpr std::uint32_t kWindow = 48;
   /// Share of the speed limit. 0.007 alone of those tried: 0.003 reports joints that come to rest by themselves, 0.015
   /// misses the stuck encoder of the light-weight robot's forearm (encoder_stuck_forearm).
@@ -47,9 +48,9 @@ class PositionCheck {
   /// its limit, 0.15 also one that sticks before rendering begins. The largest value reports the fewest correct
   /// readings.
   static constexpr double kOtherMotion = 0.03;
-  /// Cycles. 4: with 2 the stuck forearm is missed, with 8 a joint that comes to rest by itself is reported.
+  /// Samples. 4: with 2 the stuck forearm is missed, with 8 a joint that comes to rest by itself is reported.
   static constexpr std::uint32_t kMoving = 4;
-  /// Cycles. 40 to 80. With 20 a tool that stops at a contact is reported (control_cycle_test.cc). The fault table
+  /// Samples. 40 to 80. With 20 a tool that stops at a contact is reported (control_cycle_test.cc). The fault table
   /// allows 100.
   static constexpr std::uint32_t kStill = 40;
   /// Factor on the speed limit. 1.5: it must be above the speed at which the supervisor stops (joint_speed_stop is at
@@ -57,7 +58,7 @@ class PositionCheck {
   /// loop's encoder_jumps_twice.
   static constexpr double kJumpOfVelocity = 1.5;
 
-  /// `stuck_torque`: share of a joint's torque limit, above its dry friction.
+  /// `stuck_torque`: share of a joint's torque limit, above its dry friction; `period`: T [s].
   PositionCheck(const ArmModel& arm, double stuck_torque, double period) noexcept;
 
   /// Accepts the next reading without a comparison: at the start, and after a reset.
@@ -77,7 +78,9 @@ class PositionCheck {
   double period_;
   JointVector largest_step_ = JointVector::Zero();  // in a period [rad]
   JointVector stuck_torque_ = JointVector::Zero();  // [Nm]
-  JointVector speed_step_ = JointVector::Zero();    // in a period at the speed limit [rad]
+  JointVector speed_step_ = JointVector::Zero();    // from sample to sample at the speed limit [rad]
+  std::uint32_t cycles_a_sample_;
+  std::uint32_t since_sample_ = 0;  // cycles
   bool started_ = false;
   JointVector accepted_ = JointVector::Zero();       // last accepted positions
   JointVector q_ = JointVector::Zero();              // accepted or predicted positions
@@ -89,8 +92,8 @@ class PositionCheck {
   /// Motion of one joint by its fresh positions.
   struct Motion {
     std::array<double, kMoving + 1> last{};  // newest first
-    std::uint32_t moving = 0;                // cycles in a row with a change
-    std::uint32_t still = 0;                 // cycles in a row without a change
+    std::uint32_t moving = 0;                // samples in a row with a change
+    std::uint32_t still = 0;                 // samples in a row without a change
     bool abrupt = false;                     // the joint moved just before these
   };
   std::array<Motion, kMaxJoints> motion_;

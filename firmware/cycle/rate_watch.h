@@ -6,10 +6,10 @@
 
 namespace godobject::firmware {
 
-/// Detects an event that happens in more than one cycle in a hundred over the last second.
+/// Detects an event that happens in more than one cycle in a hundred over the last thousand.
 class RateWatch {
  public:
-  static constexpr std::size_t kWindow = 1000;  ///< cycles: a second
+  static constexpr std::size_t kWindow = 1000;  ///< cycles
   /// Events in the window that are allowed. Chosen: 1 %. With 3 single jumps that the arm must tolerate
   /// (encoder_jumps_once) stop it; with 30 a joint may move by predictions in one cycle of 33.
   static constexpr std::uint32_t kMost = 10;

@@ -26,22 +26,24 @@ class SignTest {
     double motion = 0.002;  ///< deviation to detect [rad]
   };
 
-  /// Cycles that determine the straight line. 50 to 100. With 20 a hand that holds the arm as a spring spoils the line.
-  static constexpr std::uint32_t kStillCycles = 50;
-  /// Cycles in which the torque rises to its largest value. 1000: with 300 dry friction and a drifting hand, with 3000
-  /// a hand that holds the arm as a spring makes the test fail.
-  static constexpr std::uint32_t kPushCycles = 1000;
-  /// Motion in kStillCycles that counts as rest: share of `motion`. 0.05 to 0.15. With 0.5 a joint that still springs
+  /// Time that determines the straight line [ms]. 50 to 100. With 20 a hand that holds the arm as a spring spoils the
+  /// line.
+  static constexpr std::uint32_t kStill_ms = 50;
+  /// Time in which the torque rises to its largest value [ms]. 1000: with 300 dry friction and a drifting hand, with
+  /// 3000 a hand that holds the arm as a spring makes the test fail.
+  static constexpr std::uint32_t kPush_ms = 1000;
+  /// Motion in kStill_ms that counts as rest: share of `motion`. 0.05 to 0.15. With 0.5 a joint that still springs
   /// back from the push before, in the hand's grip, spoils the line.
   static constexpr double kAtRest = 0.15;
-  /// Times kStillCycles in which a joint may come to rest. 8 to 20. With 3 a joint in the hand's grip is tested too
+  /// Times kStill_ms in which a joint may come to rest. 8 to 20. With 3 a joint in the hand's grip is tested too
   /// early.
   static constexpr std::uint32_t kWaits = 8;
   /// 1 to 5 pass. Chosen: a hand that moves by chance costs one attempt; the third without a result means a cause that
   /// stays.
   static constexpr int kAttempts = 3;
 
-  SignTest(const ArmModel& arm, const Parameters& parameters) noexcept;
+  /// `period`: T [s].
+  SignTest(const ArmModel& arm, const Parameters& parameters, double period) noexcept;
 
   void restart() noexcept;
 
@@ -56,6 +58,8 @@ class SignTest {
   void finish_push(int response) noexcept;
 
   int joint_count_;
+  std::uint32_t still_cycles_;
+  std::uint32_t push_cycles_;
   double motion_;
   JointVector largest_ = JointVector::Zero();  // torque [Nm]
   Result result_ = Result::kRunning;

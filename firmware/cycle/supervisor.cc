@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/cycle/cycles_in.h"
+
 namespace godobject::firmware {
 namespace {
 
@@ -12,11 +14,26 @@ bool seen_at_rest(const DriveSummary& drives) noexcept { return drives.none_move
 
 }  // namespace
 
+Supervisor::Durations::Durations(double period) noexcept {
+  const auto cycles = [period](std::uint32_t ms, std::uint32_t least = 1) {
+    return cycles_in(1e-3 * ms, period, least);
+  };
+  zero = cycles(kZero_ms);
+  enable = cycles(kEnable_ms);
+  fade = cycles(kFade_ms, 2);
+  hold = cycles(kHold_ms);
+  end_ramp = cycles(kEndRamp_ms);
+  end_stop = cycles(kEndStop_ms);
+  fault_stop = cycles(kFaultStop_ms);
+}
+
 Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept
     : joint_count_(arm.joint_count),
       parameters_(parameters),
+      cycles_(parameters.period),
       sign_tested_(!parameters.sign_test),
-      sign_test_(arm, parameters.sign) {}
+      sign_test_(arm, parameters.sign, parameters.period),
+      lateness_(parameters.period) {}
 
 Decision Supervisor::step(const Observation& seen) noexcept {
   ++in_mode_;
@@ -45,11 +62,11 @@ Decision Supervisor::step(const Observation& seen) noexcept {
 /// Comes after the faults of the cycle, so a stop that has begun continues.
 void Supervisor::begin_ending() noexcept {
   ending_ = true;
-  end_step_ = share_ / kEndRamp;
+  end_step_ = share_ / cycles_.end_ramp;
   if (mode_ == Mode::kEngaging || mode_ == Mode::kRunning) {
     enter(Mode::kEnding);
   } else if (powered() && mode_ != Mode::kFade) {
-    stop_cycles_ = kEndStop;
+    stop_cycles_ = cycles_.end_stop;
     enter(Mode::kStopping);
   } else if (mode_ != Mode::kFade && mode_ != Mode::kStopping) {
     enter(Mode::kEnded);
@@ -67,7 +84,7 @@ void Supervisor::stop(Fault fault, int joint) noexcept {
     fault_joint_ = joint;
   }
   share_ = 0.0;
-  stop_cycles_ = kFaultStop;
+  stop_cycles_ = cycles_.fault_stop;
   enter(powered() ? Mode::kStopping : Mode::kStopped);
 }
 
@@ -125,7 +142,7 @@ void Supervisor::advance(const Observation& seen) noexcept {
     case Mode::kEngaging: return raise_share();
     case Mode::kEnding: return lower_share();
     case Mode::kFade:
-      if (in_mode_ > kFadeCycles) stop(fault_);
+      if (in_mode_ > cycles_.fade) stop(fault_);
       return;
     case Mode::kStopping: return come_to_rest(seen);
     case Mode::kStopped:
@@ -144,13 +161,13 @@ void Supervisor::raise_share() noexcept {
 
 void Supervisor::lower_share() noexcept {
   share_ = std::max(0.0, share_ - end_step_);
-  if (in_mode_ <= kEndRamp) return;
-  stop_cycles_ = kEndStop;
+  if (in_mode_ <= cycles_.end_ramp) return;
+  stop_cycles_ = cycles_.end_stop;
   enter(Mode::kStopping);
 }
 
 void Supervisor::come_to_rest(const Observation& seen) noexcept {
-  const bool at_rest = in_mode_ > kHoldCycles && seen_at_rest(seen.drives);
+  const bool at_rest = in_mode_ > cycles_.hold && seen_at_rest(seen.drives);
   if (at_rest || in_mode_ > stop_cycles_) enter(ending_ ? Mode::kEnded : Mode::kStopped);
 }
 
@@ -170,7 +187,7 @@ void Supervisor::check_zero(const Observation& seen) noexcept {
     stop(Fault::kOutsideLimits, seen.joint_beyond_limit);
   } else if (moved(seen, kAtRest)) {
     stop(Fault::kNotAtRest);
-  } else if (in_mode_ > kZeroCycles) {
+  } else if (in_mode_ > cycles_.zero) {
     switch_was_released_ = false;
     enter(Mode::kIdle);
   }
@@ -193,7 +210,7 @@ void Supervisor::wait_for_power(const Observation& seen) noexcept {
     stop(Fault::kSignWrong);
   } else if (seen.drives.all_enabled) {
     enter(sign_tested_ ? Mode::kArmed : Mode::kSignTest);
-  } else if (in_mode_ > parameters_.prepare_cycles + kEnableCycles) {
+  } else if (in_mode_ > parameters_.prepare_cycles + cycles_.enable) {
     stop(Fault::kDriveLeft);
   }
 }
@@ -215,7 +232,7 @@ void Supervisor::reset(const Observation& seen) noexcept {
     fault_ = Fault::kNone;
     fault_joint_ = -1;
     enter(Mode::kBoot);
-  } else if (in_mode_ > kFaultStop) {
+  } else if (in_mode_ > cycles_.fault_stop) {
     enter(Mode::kStopped);
   }
 }
@@ -259,12 +276,12 @@ Decision Supervisor::decide(const Observation& seen) const noexcept {
     case Mode::kFade:
       decision.power = power_to_stop(seen.drives, true);
       decision.holds_arm = true;
-      decision.share = 1.0 - static_cast<double>(in_mode_) / kFadeCycles;
+      decision.share = 1.0 - static_cast<double>(in_mode_) / cycles_.fade;
       decision.of_last = true;
       decision.rate_limited = false;
       break;
     case Mode::kStopping:
-      decision.power = power_to_stop(seen.drives, in_mode_ <= kHoldCycles);
+      decision.power = power_to_stop(seen.drives, in_mode_ <= cycles_.hold);
       decision.holds_arm = true;
       decision.rate_limited = false;
       break;

@@ -32,18 +32,20 @@ struct Decision {
 /// since.
 ///
 /// FADE, after a position was lost three times: the last rendered torque, held for the two cycles in which a position
-/// may be missing, goes to zero in kFadeCycles; then STOP.
+/// may be missing, goes to zero in kFade_ms; then STOP.
 ///
-/// STOP: nothing is rendered from this cycle on. Drives that obey hold the arm for kHoldCycles; then they get their
+/// STOP: nothing is rendered from this cycle on. Drives that obey hold the arm for kHold_ms; then they get their
 /// quick stop: they come to rest by themselves and close the brakes. The hold comes first since a drive's quick stop
 /// begins with the present torque. Power is taken away only once all drives are seen at rest, since a drive without
 /// power breaks its ramp off. A drive that is not seen at rest in time stays in its quick stop.
 ///
-/// Reactions, in cycles from the one that sees the cause to the complete reaction: position lost three times, FADE then
-/// STOP, 6; all others, STOP, 1. A cause that must occur two or three times in a row is seen at the last of them.
+/// Reactions, in cycles of 1 ms from the one that sees the cause to the complete reaction: position lost three times,
+/// FADE then STOP, 6; all others, STOP, 1 of any period. A cause that must occur two or three times in a row is seen at
+/// the last of them.
 class Supervisor {
  public:
   struct Parameters {
+    double period = 1e-3;               ///< T [s]
     std::uint32_t boot_cycles = 5000;   ///< until all drives must answer
     std::uint32_t prepare_cycles = 25;  ///< until the torque that holds the arm is reached, before power
     std::uint32_t engage_cycles = 500;  ///< of the ramp to the full wrench
@@ -60,25 +62,26 @@ class Supervisor {
   static constexpr std::uint32_t kInRow = 3;
   /// Jumps in a row. One may be a disturbance of the encoder; the second confirms the fault.
   static constexpr std::uint32_t kJumpsInRow = 2;
-  /// Cycles of the zero check. 20 to 100: long enough to see a joint that slips in its brake. Longer only delays the
-  /// start.
-  static constexpr std::uint32_t kZeroCycles = 100;
-  /// Cycles until the drives must be enabled. 500 to 2000. The simulated drives need 28 (3 ms power stage, 25 ms
-  /// brake); with 30 they are too late over CAN.
-  static constexpr std::uint32_t kEnableCycles = 2000;
-  /// Cycles of a FADE. 5: from the third loss on the bus to the complete reaction the fault table measures 7 cycles,
-  /// and allows 8; with 10 it is too late. Fewer would let the torque step harder.
-  static constexpr std::uint32_t kFadeCycles = 5;
-  /// Cycles in which a STOP holds the arm. 1 to 4. With 0 the quick stop would begin with the last rendered torque.
-  static constexpr std::uint32_t kHoldCycles = 2;
-  /// Cycles of the ramp when the run ends. 50: with 10 torques change faster than the rate limit, with 200 the run does
-  /// not end within 0.2 s, which the tests require.
-  static constexpr std::uint32_t kEndRamp = 50;
-  /// Cycles until the drives must rest when the run ends. 50 to 120. With 300 the run does not end within 0.2 s.
-  static constexpr std::uint32_t kEndStop = 120;
-  /// Cycles until the drives must rest after a fault, and until a reset must succeed. 200 to 1000. A drive's quick stop
-  /// takes at most 0.5 s in simulation (JointHardwareParameters::quick_stop_ns). Longer only delays the message.
-  static constexpr std::uint32_t kFaultStop = 1000;
+  /// Duration of the zero check [ms]. 20 to 100: long enough to see a joint that slips in its brake. Longer only delays
+  /// the start.
+  static constexpr std::uint32_t kZero_ms = 100;
+  /// Time until the drives must be enabled [ms]. 500 to 2000. The simulated drives need 28 (3 for the power stage, 25
+  /// for the brake); with 30 they are too late over CAN.
+  static constexpr std::uint32_t kEnable_ms = 2000;
+  /// Duration of a FADE [ms], at least two cycles. 5: at 1 kHz the fault table measures 7 cycles from the third loss on
+  /// the bus to the complete reaction, and allows 8; with 10 it is too late. Less would let the torque step harder.
+  static constexpr std::uint32_t kFade_ms = 5;
+  /// Time in which a STOP holds the arm [ms], at least a cycle. 1 to 4. With 0 the quick stop would begin with the last
+  /// rendered torque.
+  static constexpr std::uint32_t kHold_ms = 2;
+  /// Duration of the ramp when the run ends [ms]. 50: with 10 torques change faster than the rate limit, with 200 the
+  /// run does not end within 0.2 s, which the tests require.
+  static constexpr std::uint32_t kEndRamp_ms = 50;
+  /// Time until the drives must rest when the run ends [ms]. 50 to 120. With 300 the run does not end within 0.2 s.
+  static constexpr std::uint32_t kEndStop_ms = 120;
+  /// Time until the drives must rest after a fault, and until a reset must succeed [ms]. 200 to 1000. A drive's quick
+  /// stop takes at most 0.5 s in simulation (JointHardwareParameters::quick_stop_ns). Longer only delays the message.
+  static constexpr std::uint32_t kFaultStop_ms = 1000;
   /// Motion that the zero check allows [rad]. 0.001 to 0.005. With 0.02 a joint that moves 6 mrad with its brake closed
   /// passes.
   static constexpr double kAtRest = 0.005;
@@ -133,8 +136,15 @@ class Supervisor {
   hal::PowerRequest power_to_stop(const DriveSummary& drives, bool may_hold) const noexcept;
   hal::PowerRequest power_after_stop(const DriveSummary& drives) const noexcept;
 
+  /// The constants in cycles.
+  struct Durations {
+    explicit Durations(double period) noexcept;
+    std::uint32_t zero, enable, fade, hold, end_ramp, end_stop, fault_stop;
+  };
+
   int joint_count_;
   Parameters parameters_;
+  Durations cycles_;
   Mode mode_ = Mode::kBoot;
   Fault fault_ = Fault::kNone;
   hal::PowerRequest last_power_ = hal::PowerRequest::kOff;

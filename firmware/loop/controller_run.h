@@ -14,8 +14,9 @@ namespace godobject::firmware {
 
 /// Settings of `run_controller`.
 struct RunSetup {
-  std::uint64_t cycles = 0;  ///< cycles until the run ends; 0: no limit
-  std::uint32_t every = 1;   ///< cycles a telemetry record
+  std::int64_t period_ns = 1'000'000;  ///< T
+  std::uint64_t cycles = 0;            ///< cycles until the run ends; 0: no limit
+  std::uint32_t every = 1;             ///< cycles a telemetry record
   /// The machine's clock, to measure computing time; the loop's own clock stands still meanwhile in virtual time.
   hal::Clock* stopwatch = nullptr;
   std::int64_t compute_ns = 0;  ///< computing time in the bus plan
@@ -67,10 +68,9 @@ void watch(const CycleRecord& record, RunReport& report) noexcept;
 template <class Reader>
 void run_controller(const RunSetup& setup, hal::Clock& clock, ControlCycle& cycle, RunRequests& requests,
                     TelemetryRing& ring, RunReport& report, Reader&& reader) noexcept {
-  constexpr std::int64_t kPeriod_ns = 1'000'000;
   std::uint64_t cycles = 0;
   run_periodically(
-      clock, {kPeriod_ns, cycle.collect_ns(), setup.compute_ns}, report.loop, [&] { cycle.request(); },
+      clock, {setup.period_ns, cycle.collect_ns(), setup.compute_ns}, report.loop, [&] { cycle.request(); },
       [&](LoopEvents events) {
         const bool over = setup.cycles > 0 && cycles >= setup.cycles;
         events.end_requested = over || requests.end.load(std::memory_order_relaxed);

@@ -145,7 +145,7 @@ ArmLoop held_along(const SimulatedRun& run, const Vector3& normal_R) {
   loop.jacobian.row(0) = normal_R.transpose() * J.topRows<3>();
   loop.stiffness = felt.stiffness;
   loop.tool_damping = felt.damping;
-  loop.timing = {ControlCycle::kPeriod, run.delay(), SimulatedRun::kVelocityWindow};
+  loop.timing = {CycleSetup().period, run.delay(), SimulatedRun::kVelocityWindow};
   return loop;
 }
 

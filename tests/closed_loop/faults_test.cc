@@ -165,7 +165,7 @@ TEST_P(ClosedLoopNuisance, IsGoneOnWith) {
   SimulatedRun run(plate(), options);
   run.run(kEnd);
   EXPECT_EQ(run.controller().record().fault, Fault::kNone) << describe(run.controller().record().fault);
-  EXPECT_EQ(run.cycles_to_stop(kBegin), kEnd - kBegin + Supervisor::kEndRamp);
+  EXPECT_EQ(run.cycles_to_stop(kBegin), kEnd - kBegin + Supervisor::kEndRamp_ms);
   EXPECT_EQ(run.violation(), "");
   EXPECT_EQ(
       run.controller().counters().lost + run.controller().counters().jumps + run.controller().counters().sends_failed,

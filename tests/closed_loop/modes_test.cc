@@ -102,7 +102,7 @@ TEST_P(ClosedLoopMode, MeetsEveryFault) {
       stopped = stopped || mode >= Mode::kStopping;
       ASSERT_TRUE(mode == Mode::kFade || mode == Mode::kStopping || mode == Mode::kStopped || mode == Mode::kEnded)
           << cause.name << " in cycle " << cycle.number << ": " << name(mode);
-      if (cycle.number >= since + Supervisor::kFadeCycles) {
+      if (cycle.number >= since + Supervisor::kFade_ms) {
         ASSERT_EQ(cycle.record.share, 0.0) << cause.name;
       }
     }

@@ -46,7 +46,8 @@ CanBuses::CanBuses(const std::vector<std::string>& interfaces, const hal::BusLay
     const std::string& name = interfaces[i];
     const hal::BusIdentifiers identifiers(layout, static_cast<int>(i));
     auto socket = std::make_unique<hal::SocketCan>();
-    const hal::OpenResult result = socket->open(name.c_str(), {.fd = layout.fd, .identifiers = identifiers.all()});
+    const hal::OpenResult result =
+        socket->open(name.c_str(), {.fd = layout.fd, .only_fd = layout.fd_services, .identifiers = identifiers.all()});
     if (result.status != hal::OpenStatus::kOk) {
       const bool forbidden = result.error == EPERM || result.error == EACCES;
       const std::string system = result.error == 0 ? "" : fmt::format(" ({})", std::strerror(result.error));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "firmware/cycle/cycles_in.h"
 #include "firmware/drives/cia402/bus_messages.h"
 #include "hal/canopen/emergency.h"
 #include "hal/canopen/network.h"
@@ -20,7 +21,7 @@ namespace {
 using command::ExitCode;
 using command::Failure;
 
-constexpr std::int64_t kPeriod_ns = 1'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
 /// Cycles until all drives must answer. Chosen: 25 times the 8 cycles of the probe after a start (CanDrives).
 constexpr int kSettle = 200;
 /// Cycles until a drive must have left its fault. Chosen: half of them with a reset, which takes some 16 cycles
@@ -47,7 +48,7 @@ std::optional<int> set_mode(hal::CanBus& bus, hal::Clock& clock, int node, std::
       written = true;
     }
     if (written && told) return ms;
-    clock.sleep_until(clock.now_ns() + kPeriod_ns);
+    clock.sleep_until(clock.now_ns() + kMillisecond_ns);
   }
   return {};
 }
@@ -62,15 +63,20 @@ void try_mode(hal::CanBus& bus, hal::Clock& clock, int node, JointTrial& trial) 
 /// Runs cycles without power.
 class IdleCycles {
  public:
-  IdleCycles(hal::CanDrives& drives, hal::Clock& clock, const std::atomic<bool>& end)
-      : drives_(drives), clock_(clock), end_(end), next_ns_(clock.now_ns() / kPeriod_ns * kPeriod_ns) {}
+  /// `period`: T [s].
+  IdleCycles(hal::CanDrives& drives, hal::Clock& clock, double period, const std::atomic<bool>& end)
+      : drives_(drives),
+        clock_(clock),
+        period_ns_(std::llround(1e9 * period)),
+        end_(end),
+        next_ns_(clock.now_ns() / period_ns_ * period_ns_) {}
 
   const hal::JointReading& run(hal::PowerRequest power) {
     if (end_.load(std::memory_order_relaxed)) {
       throw Failure(ExitCode::kUnavailable, "ended before all joints were tested; run it again");
     }
-    next_ns_ += kPeriod_ns;
-    if (clock_.now_ns() > next_ns_ + kPeriod_ns) next_ns_ = clock_.now_ns();
+    next_ns_ += period_ns_;
+    if (clock_.now_ns() > next_ns_ + period_ns_) next_ns_ = clock_.now_ns();
     clock_.sleep_until(next_ns_);
     drives_.request();
     clock_.sleep_until(next_ns_ + drives_.collect_ns());
@@ -82,6 +88,7 @@ class IdleCycles {
  private:
   hal::CanDrives& drives_;
   hal::Clock& clock_;
+  std::int64_t period_ns_;
   const std::atomic<bool>& end_;
   std::int64_t next_ns_;
   hal::JointReading reading_;
@@ -113,12 +120,15 @@ void recover(IdleCycles& cycles, const hal::CanDrives& drives, int joint, const 
   throw alarm_of(drives, names);
 }
 
-void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, int deadline_ms,
+void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, const hal::BusLayout& layout,
                   const std::vector<std::string>& names, JointTrial& trial) {
   const hal::JointReading& before = cycles.run(hal::PowerRequest::kOff);
   trial.position = before.position[joint];
   drives.withhold(joint);
-  for (int ms = 1; ms <= deadline_ms + kPatience_ms && trial.after_ms < 0; ++ms) {
+  const std::uint32_t deadline = cycles_in(layout.command_deadline, layout.period);
+  const std::uint32_t most = deadline + cycles_in(1e-3 * kPatience_ms, layout.period);
+  std::uint32_t after = 0;
+  for (std::uint32_t k = 1; k <= most && after == 0; ++k) {
     const hal::JointReading& reading = cycles.run(hal::PowerRequest::kOff);
     const hal::cia402::AlarmDetail& alarm = drives.alarm_detail();
     if (alarm.alarm != hal::Alarm::kNone) {
@@ -126,11 +136,12 @@ void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, int dea
       trial.emergency = static_cast<std::uint16_t>(alarm.found);
     }
     trial.fault = reading.state[static_cast<std::size_t>(joint)] == hal::DriveState::kFault;
-    if (trial.fault || trial.emergency != 0) trial.after_ms = ms;
+    if (trial.fault || trial.emergency != 0) after = k;
   }
+  if (after > 0) trial.after_ms = static_cast<int>(std::lround(1e3 * layout.period * after));
   drives.withhold(-1);
   const bool is_it = trial.fault || trial.emergency == hal::canopen::kRpdoTimeout;
-  trial.in_time = is_it && trial.after_ms <= deadline_ms + kSeenAfter;
+  trial.in_time = is_it && after <= deadline + kSeenAfter;
   recover(cycles, drives, joint, names);
 }
 
@@ -168,11 +179,10 @@ std::vector<JointTrial> try_drives(hal::CanDrives& drives, const hal::BusLayout&
     trials[i].rated_torque = read(hal::canopen::kMotorRatedTorque, 0);
     try_mode(*buses[static_cast<std::size_t>(drive.bus)], clock, drive.node, trials[i]);
   }
-  IdleCycles cycles(drives, clock, end);
+  IdleCycles cycles(drives, clock, layout.period, end);
   settle(cycles, drives, names);
-  const auto deadline_ms = static_cast<int>(std::lround(1e3 * layout.command_deadline));
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    try_deadline(cycles, drives, static_cast<int>(i), deadline_ms, names, trials[i]);
+    try_deadline(cycles, drives, static_cast<int>(i), layout, names, trials[i]);
   }
   return trials;
 }

@@ -28,7 +28,7 @@ struct JointTrial {
 };
 
 /// Tests each drive in turn, without power, right after the start. First the mode is set to none and back: TPDO2 must
-/// show both changes within kModeAtOnce_ms. Then the deadline of the RPDOs: for some cycles of a millisecond this drive
+/// show both changes within kModeAtOnce_ms. Then the deadline of the RPDOs: for some cycles this drive
 /// gets none while all other drives do. Its reaction must be seen within the deadline and kSeenAfter cycles; the test
 /// waits kPatience_ms longer. `buses`: those of `drives`. Throws command::Failure (kUnavailable) if the drives do not
 /// answer, another alarm occurs, a drive cannot be reset, or `end` becomes true.
@@ -43,7 +43,7 @@ inline constexpr int kPatience_ms = 50;
 /// (`BusLayout::mode_refresh`), which a drive sends even if it misses the change.
 inline constexpr int kModeAtOnce_ms = 20;
 /// Derived: a drive reacts within a cycle of its deadline, and its frame is read at the end of the next cycle.
-inline constexpr int kSeenAfter = 2;
+inline constexpr std::uint32_t kSeenAfter = 2;
 
 /// The results as a table: one line a joint, each with a line feed.
 std::string trial_table(const hal::BusLayout& layout, std::span<const JointTrial> trials);

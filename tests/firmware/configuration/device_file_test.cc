@@ -172,7 +172,7 @@ TEST_F(DeviceFileTest, NamesLineAndKeyOfWhatIsWrong) {
            {"\nnode = 5\n", "\nnode = 32\n", "joint[5].node = 32 is also the panel's"},
            {"\nnode = 5\n", "\nnode = 5.5\n", "joint[5].node must be a whole number"},
            {"\nbus = 0\nnode = 1\n", "\nnode = 1\n", "joint[1].bus is missing"},
-           {"\nbus = 0\nnode = 1\n", "\nbus = 4\nnode = 1\n", "joint[1].bus = 4 is out of range"},
+           {"\nbus = 0\nnode = 1\n", "\nbus = 8\nnode = 1\n", "joint[1].bus = 8 is out of range"},
            {"\nsign = -1\n", "\nsign = 0.5\n", "joint[3].sign must be 1 or -1"},
            {"\nrated_torque = 0.15\n", "\nrated_torque = 15.0\n", "joint[1].rated_torque times gear is 150 Nm"},
            {"bit_rate = 1e6", "bit_rate = 2e6", "bus.bit_rate = 2e+06 is out of range"},

@@ -342,6 +342,7 @@ const std::vector<DeviceKey> kDeviceKeys = {
     {"[torque]", "singular_none", 1e-9, 1e3},
     {"[torque]", "singular_full", 0.004 * 1.001, 1e3},
     {"[torque]", "limit_band", 1e-6, 0.5 * (1.8 + 0.3)},
+    {"[bus]", "period", 1.25e-4, 1e-2, 0, false, true},
     {"[bus]", "bit_rate", 1e4, 1e6},
     {"[bus]", "data_rate", 1e6, 8e6, 0, false, true},
     {"[bus]", "answer", 0.0, 5e-4, 0, false, true},
@@ -350,7 +351,7 @@ const std::vector<DeviceKey> kDeviceKeys = {
     {"[bus]", "drive_heartbeat", 5e-3, 0.1, 0, false, true},
     {"[bus]", "heartbeat_timeout", 0.04, 0.5, 0, false, true},
     {"[bus]", "boot_timeout", 0.1, 60.0, 0, false, true},
-    {"[bus]", "panel_bus", -1, 3, 0, true, true},
+    {"[bus]", "panel_bus", -1, 7, 0, true, true},
     {"[bus]", "panel_node", 1, 126, 0, true, true},
     {"[[joint]]", "a", -1e3, 1e3},
     {"[[joint]]", "alpha", -kTurns, kTurns},
@@ -368,7 +369,7 @@ const std::vector<DeviceKey> kDeviceKeys = {
     {"[[joint]]", "null_damping", 0.0, 1e6},
     {"[[joint]]", "limit_stiffness", 0.0, 1e6},
     {"[[joint]]", "limit_damping", 0.0, 1e6},
-    {"[[joint]]", "bus", 0, 3, 0, true},
+    {"[[joint]]", "bus", 0, 7, 0, true},
     {"[[joint]]", "node", 1, 126, 0, true},
     {"[[joint]]", "counts", 16.0, 1e9},
     {"[[joint]]", "gear", 1e-3, 1e4},
@@ -622,13 +623,40 @@ TEST_F(DeviceKeyTest, ReadsEveryKeyOfAJointAndOfTheTables) {
 
 TEST_F(DeviceKeyTest, HasTheDefaultsOfTheBusThatAreDocumented) {
   const hal::BusLayout bus = read_device_file(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml").bus;
+  EXPECT_EQ(bus.period, 1e-3);
   EXPECT_FALSE(bus.fd);
+  EXPECT_FALSE(bus.fd_services);
   EXPECT_EQ(bus.data_rate, 5e6);
   EXPECT_EQ(bus.answer, 0.0);
   EXPECT_EQ(bus.command_deadline, 0.004);
   EXPECT_EQ(bus.drive_heartbeat, 0.02);
   EXPECT_EQ(bus.heartbeat_timeout, 0.05);
   EXPECT_EQ(bus.boot_timeout, 5.0);
+}
+
+/// A drive waits for torques for 4 ms or four periods, whichever is longer, and not for less than two.
+TEST_F(DeviceKeyTest, WaitsForTorquesLongerWhereThePeriodIsLong) {
+  const DeviceKey period{"[bus]", "period", 0.0, 0.0};
+  for (const auto& [T, deadline, least, most] :
+       {std::tuple{"0.000125", 0.004, 0.002, 0.01}, {"0.002", 0.008, 0.004, 0.01}, {"0.01", 0.04, 0.02, 0.04}}) {
+    const std::string line = fmt::format("period = {}", T);
+    ASSERT_EQ(refusal(with(period, line)), "");
+    EXPECT_EQ(read_device_file(file_).bus.command_deadline, deadline) << T;
+    for (const double fine : {least, most}) {
+      EXPECT_EQ(refusal(with(period, fmt::format("{}\ncommand_deadline = {}", line, fine))), "") << T << fine;
+    }
+    for (const double bad : {0.99 * least, 1.01 * most}) {
+      EXPECT_NE(refusal(with(period, fmt::format("{}\ncommand_deadline = {}", line, bad))), "") << T << bad;
+    }
+  }
+}
+
+TEST_F(DeviceKeyTest, SendsServicesAsFdFramesOnlyWithFd) {
+  const DeviceKey services{"[bus]", "fd_services", 0.0, 0.0};
+  EXPECT_NE(refusal(with(services, "fd_services = true")).find("bus.fd_services = true needs fd = true"),
+            std::string::npos);
+  ASSERT_EQ(refusal(with(services, "fd = true\nfd_services = true")), "");
+  EXPECT_TRUE(read_device_file(file_).bus.fd_services);
 }
 
 /// The timeout is at least two heartbeats, also where the file names the heartbeat alone.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "core/device/velocity_estimator.h"
 #include "tests/support/arms.h"
@@ -73,6 +74,27 @@ TEST_F(CycleSetupTest, PreparesForLongEnoughToReachAnyTorque) {
     EXPECT_LE((cycles - 6.0) * rate, 1.0) << "no longer than it must, and some cycles";
     EXPECT_GE((cycles - 5.0 + 1.0) * rate, 1.0);
   }
+}
+
+/// All that is a time stays one: at 4 kHz four times as many cycles. Torques change as fast as at 1 kHz.
+TEST_F(CycleSetupTest, FollowsThePeriodOfTheDevice) {
+  for (const auto& [period, a_millisecond] : {std::pair{0.125e-3, 8.0}, {0.25e-3, 4.0}, {2e-3, 0.5}, {10e-3, 0.1}}) {
+    config_.device.bus.period = period;
+    config_.limits.torque_rate = 0.04;
+    config_.engage.ramp = 0.3;
+    config_.start.wait = 5.0;
+    const CycleSetup made = setup();
+    EXPECT_EQ(made.period, period);
+    EXPECT_EQ(made.passivity.period, period);
+    EXPECT_EQ(made.supervisor.period, period);
+    EXPECT_EQ(made.supervisor.boot_cycles, static_cast<std::uint32_t>(std::lround(5000 * a_millisecond)));
+    EXPECT_EQ(made.supervisor.engage_cycles, static_cast<std::uint32_t>(std::lround(300 * a_millisecond)));
+    EXPECT_NEAR(made.torque.rate, 0.04 / a_millisecond, 1e-12);
+    EXPECT_GE(made.supervisor.prepare_cycles * made.torque.rate, 1.0);
+  }
+  config_.device.bus.period = 10e-3;
+  config_.limits.torque_rate = 0.05;
+  EXPECT_EQ(setup().torque.rate, 0.5);
 }
 
 TEST_F(CycleSetupTest, RoundsTimesToCycles) {

@@ -24,7 +24,7 @@ class OperatorNoticeTest : public testing::Test {
   }
 
   RunReport report_;
-  OperatorNotice notice_{report_};
+  OperatorNotice notice_{report_, 1e-3};
 };
 
 const std::string kIdle = "godobject-controller: waits for the enable switch: release it, then hold it\n";
@@ -41,6 +41,23 @@ TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
     EXPECT_EQ(told(Mode::kRunning, 0), "");
     EXPECT_EQ(told(mode, 3001), line) << "another occasion";
     told(Mode::kRunning, 0);
+  }
+}
+
+TEST_F(OperatorNoticeTest, CountsTheCyclesOfItsPeriod) {
+  for (const auto& [period, waits, behind] : {std::tuple{0.25e-3, 12000u, 1200u}, std::tuple{10e-3, 300u, 30u}}) {
+    OperatorNotice notice(report_, period);
+    const auto told_by = [&](std::uint32_t waiting, std::uint32_t stays) {
+      report_.standing = {.mode = Mode::kIdle};
+      report_.waiting = waiting;
+      report_.longest_behind = stays;
+      testing::internal::CaptureStderr();
+      notice.look();
+      return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(told_by(waits, behind), "") << period;
+    EXPECT_EQ(told_by(waits + 1, 0), kIdle);
+    EXPECT_NE(told_by(waits + 1, behind + 1).find("stays behind"), std::string::npos);
   }
 }
 

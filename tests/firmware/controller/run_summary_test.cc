@@ -57,13 +57,13 @@ const char* const kComputing =
 
 TEST(RunSummary, HasEachNumberInItsPlace) {
   RunReport report;
-  const std::string text = run_summary(example(report), counters(), "buses: none\n", std::nullopt);
+  const std::string text = run_summary(example(report), counters(), 1e-3, "buses: none\n", std::nullopt);
   EXPECT_EQ(text, fmt::format("{}{}on {}\n", kAlways, kComputing, describe_machine()));
 }
 
 TEST(RunSummary, HasLatenciesOnlyOfARealTimeRun) {
   RunReport report;
-  const std::string text = run_summary(example(report), counters(), "buses: none\n", 3);
+  const std::string text = run_summary(example(report), counters(), 1e-3, "buses: none\n", 3);
   EXPECT_EQ(text, fmt::format("{}{}"
                               "round trip: p50 5.0 us, p99.9 5.0 us, largest 5.0 us of 1 cycles\n"
                               "waking late: p50 6.0 us, p99.9 6.0 us, largest 6.0 us of 2 cycles\n"

@@ -187,7 +187,7 @@ TEST_F(ControlCycleTest, TellsTheEnergyThatTheDelayGivesAndPaysItBack) {
   scene_.settings.damping = 0.0;
   double given[2] = {};
   for (const bool controlled : {false, true}) {
-    setup_.passivity = {controlled ? 50.0 : 0.0, ControlCycle::kPeriod, 0.16};
+    setup_.passivity = {controlled ? 50.0 : 0.0, CycleSetup().period, 0.16};
     drives_ = FakeDrives(7);
     drives_.reading.position = q0_;
     make();
@@ -490,8 +490,8 @@ TEST_F(ControlCycleTest, StopsWithTheGodObjectAtTheToolWhereverThatIs) {
   EXPECT_EQ(cycle_->record().outcome, Outcome::kFree) << "nobody looks at the scene any more";
 }
 
-/// Some cycles near the plate take more than 80,000 units. Only rendering cycles count: in others nobody feels where the
-/// god object stays.
+/// Some cycles near the plate take more than 80,000 units. Only rendering cycles count: in others nobody feels where
+/// the god object stays.
 TEST_F(ControlCycleTest, CountsRenderingCyclesInARowThatTheBudgetOfWorkEnded) {
   setup_.work_budget = 80'000;
   make();

@@ -195,6 +195,44 @@ TEST_F(PositionCheckTest, FindsAnEncoderThatStopsInMidMotionThoughNothingPushesI
   EXPECT_EQ(cycles, static_cast<int>(PositionCheck::kStill));
 }
 
+/// At 4 kHz a slow joint does not change its counter in every cycle. Rest is looked for in samples of a millisecond.
+TEST_F(PositionCheckTest, LooksForRestInMillisecondsAlsoAtHigherRates) {
+  for (const double period : {0.125e-3, 0.25e-3, 0.5e-3}) {
+    const int cycles_a_sample = static_cast<int>(std::lround(1e-3 / period));
+    PositionCheck check(arm(), 0.005, period);
+    hal::JointReading reading;
+    CheckedPositions checked;
+    const auto step = [&] {
+      check.update(reading, qd_, pushed_, 0, checked);
+      return checked.stuck;
+    };
+    // 0.04 rad/s on an encoder of 2e-5 rad: a change in every millisecond
+    int k = 0;
+    for (; k < 50 * cycles_a_sample; ++k) {
+      reading.position[0] = 2e-5 * std::floor(0.04 * period * k / 2e-5);
+      ASSERT_FALSE(step()) << period;
+    }
+    int cycles = 1;
+    while (!step() && cycles < 1000) ++cycles;
+    EXPECT_GE(cycles, static_cast<int>(PositionCheck::kStill - 1) * cycles_a_sample) << period;
+    EXPECT_LE(cycles, static_cast<int>(PositionCheck::kStill + 1) * cycles_a_sample) << period;
+  }
+}
+
+TEST_F(PositionCheckTest, JumpsByTheSpeedOfItsPeriod) {
+  for (const double period : {0.25e-3, 10e-3}) {
+    for (const double share : {0.99, 1.01}) {
+      PositionCheck check(arm(), 0.005, period);
+      hal::JointReading reading;
+      CheckedPositions checked;
+      check.update(reading, qd_, pushed_, 0, checked);
+      reading.position[0] = share * 1.5 * 2.0 * period;
+      check.update(reading, qd_, pushed_, 0, checked);
+      EXPECT_EQ(checked.jumps, share > 1.0 ? 1u : 0u) << period;
+    }
+  }
+}
+
 TEST_F(PositionCheckTest, LetsAJointComeToRestByItselfAndCountsBeSlow) {
   // decelerated by 5 rad/s^2 on an encoder of 1e-5 rad, then at rest; then slow motion, a count in three cycles
   double q = 0.0;

@@ -55,7 +55,7 @@ TEST(SignTest, PassesJointsThatMoveAsTheyArePushed) {
   for (const double inertia : {1e-3, 0.1, 3.0}) {
     Joints joints(7);
     joints.inertia = inertia;
-    SignTest test(joints.arm, {});
+    SignTest test(joints.arm, {}, 1e-3);
     EXPECT_EQ(run(joints, test), SignTest::Result::kPassed) << inertia;
     EXPECT_LT(joints.q.cwiseAbs().maxCoeff(), 0.2) << "no farther than the supervisor lets them, inertia " << inertia;
   }
@@ -64,11 +64,11 @@ TEST(SignTest, PassesJointsThatMoveAsTheyArePushed) {
 TEST(SignTest, PassesWithDryFrictionAndAHandThatDrifts) {
   Joints joints(3);
   joints.dry = 0.2;
-  SignTest still(joints.arm, {});
+  SignTest still(joints.arm, {}, 1e-3);
   EXPECT_EQ(run(joints, still), SignTest::Result::kPassed);
   for (const double drift : {-0.05, 0.05}) {
     Joints drifting(3);
-    SignTest test(drifting.arm, {});
+    SignTest test(drifting.arm, {}, 1e-3);
     EXPECT_EQ(run(drifting, test, drift), SignTest::Result::kPassed) << drift;
   }
 }
@@ -79,7 +79,7 @@ TEST(SignTest, PassesWithAHandThatHoldsTheArmAsASpring) {
     joints.inertia = inertia;
     joints.spring = 50.0;
     joints.damping = 2.0 * std::sqrt(joints.spring * inertia);
-    SignTest test(joints.arm, {});
+    SignTest test(joints.arm, {}, 1e-3);
     EXPECT_EQ(run(joints, test), SignTest::Result::kPassed) << inertia;
     joints.gain[1] = -1.0;
     test.restart();
@@ -91,7 +91,7 @@ TEST(SignTest, FindsEachJointThatMovesAgainstItsTorque) {
   for (int wrong = 0; wrong < 3; ++wrong) {
     Joints joints(3);
     joints.gain[wrong] = -1.0;
-    SignTest test(joints.arm, {});
+    SignTest test(joints.arm, {}, 1e-3);
     EXPECT_EQ(run(joints, test), SignTest::Result::kWrong);
     EXPECT_EQ(test.joint(), wrong);
   }
@@ -100,7 +100,7 @@ TEST(SignTest, FindsEachJointThatMovesAgainstItsTorque) {
 TEST(SignTest, DoesNotDecideOnAJointThatDoesNotMove) {
   Joints joints(2);
   joints.gain[1] = 0.0;
-  SignTest test(joints.arm, {});
+  SignTest test(joints.arm, {}, 1e-3);
   EXPECT_EQ(run(joints, test), SignTest::Result::kUndecided);
   EXPECT_EQ(test.joint(), 1);
   test.restart();
@@ -108,8 +108,8 @@ TEST(SignTest, DoesNotDecideOnAJointThatDoesNotMove) {
   EXPECT_EQ(run(joints, test), SignTest::Result::kPassed);
 }
 
-constexpr int kStill = static_cast<int>(SignTest::kStillCycles);
-constexpr int kPush = static_cast<int>(SignTest::kPushCycles);
+constexpr int kStill = static_cast<int>(SignTest::kStill_ms);
+constexpr int kPush = static_cast<int>(SignTest::kPush_ms);
 
 /// Two joints of 10 and 4 Nm; largest torques are 0.5 and 0.2 Nm.
 ArmModel two_unlike_joints() {
@@ -128,7 +128,7 @@ JointVector only(int joint, double value) {
 
 /// Joints that stand still at 1 rad: each push rises evenly, first in the positive direction, three times both ways.
 TEST(SignTest, PushesEvenlyInBothDirectionsThreeTimesAndGivesUp) {
-  SignTest test(two_unlike_joints(), {});
+  SignTest test(two_unlike_joints(), {}, 1e-3);
   const JointVector still = JointVector::Constant(1.0);
   JointVector torque = JointVector::Constant(7.0);
   for (int attempt = 0; attempt < SignTest::kAttempts; ++attempt) {
@@ -153,7 +153,7 @@ TEST(SignTest, PushesEvenlyInBothDirectionsThreeTimesAndGivesUp) {
 /// Joints that respond by script: in each push the joint under test moves a little more than `motion` along the push
 /// (1), against it (-1), or a little less than that (0).
 struct Script {
-  SignTest test{two_unlike_joints(), {}};
+  SignTest test{two_unlike_joints(), {}, 1e-3};
   JointVector q = JointVector::Constant(1.0);
   JointVector torque = JointVector::Zero();
   SignTest::Result result = SignTest::Result::kRunning;
@@ -220,7 +220,7 @@ TEST(SignTest, GivesEachJointItsOwnAttempts) {
 /// no response, however far the joint goes.
 TEST(SignTest, WaitsForAJointThatDriftsSevenTimesAndThenTestsIt) {
   for (const double drift : {5.9e-6, -5.9e-6, 6.1e-6, -6.1e-6, 1e-4}) {
-    SignTest test(two_unlike_joints(), {});
+    SignTest test(two_unlike_joints(), {}, 1e-3);
     JointVector q = JointVector::Constant(-1.0);
     JointVector torque;
     const int waits = std::fabs(drift) > 6e-6 ? static_cast<int>(SignTest::kWaits) - 1 : 0;
@@ -241,7 +241,7 @@ TEST(SignTest, WaitsForAJointThatDriftsSevenTimesAndThenTestsIt) {
 /// The line goes through the first and the last position of the still cycles; one between them does not bend it.
 TEST(SignTest, DrawsTheLineThroughTheEndsOfTheStillCycles) {
   for (const int disturbed : {1, kStill / 2, kStill - 1}) {
-    SignTest test(two_unlike_joints(), {});
+    SignTest test(two_unlike_joints(), {}, 1e-3);
     JointVector torque;
     for (int call = 1; call < kStill + kPush; ++call) {
       const JointVector q = only(0, call - 1 == disturbed ? 2.5e-4 : 0.0);
@@ -255,7 +255,7 @@ TEST(SignTest, DrawsTheLineThroughTheEndsOfTheStillCycles) {
 TEST(SignTest, RestartsAsIfItWereNew) {
   test::Random random(5);
   for (int run = 0; run < 60; ++run) {
-    SignTest restarted(two_unlike_joints(), {});
+    SignTest restarted(two_unlike_joints(), {}, 1e-3);
     JointVector torque;
     JointVector other;
     JointVector q = JointVector::Zero();
@@ -265,7 +265,7 @@ TEST(SignTest, RestartsAsIfItWereNew) {
       q += gain * torque;
     }
     restarted.restart();
-    SignTest fresh(two_unlike_joints(), {});
+    SignTest fresh(two_unlike_joints(), {}, 1e-3);
     SignTest::Result result = SignTest::Result::kRunning;
     for (int i = 0; i < 6000 && result == SignTest::Result::kRunning; ++i) {
       result = fresh.update(q, torque);

@@ -335,17 +335,54 @@ TEST(SupervisorModes, GrantPowerAndTorqueAsTheTableSays) {
 }
 
 TEST(SupervisorModes, LastAsLongAsTheyAreDocumented) {
-  EXPECT_EQ(bench_in(Mode::kZeroCheck).stay() + 1, static_cast<int>(Supervisor::kZeroCycles));
-  EXPECT_EQ(bench_in(Mode::kFade).stay() + 1, static_cast<int>(Supervisor::kFadeCycles));
+  EXPECT_EQ(bench_in(Mode::kZeroCheck).stay() + 1, static_cast<int>(Supervisor::kZero_ms));
+  EXPECT_EQ(bench_in(Mode::kFade).stay() + 1, static_cast<int>(Supervisor::kFade_ms));
   EXPECT_EQ(bench_in(Mode::kEngaging).stay() + 1, 10);
-  EXPECT_EQ(bench_in(Mode::kEnding).stay() + 1, static_cast<int>(Supervisor::kEndRamp));
-  EXPECT_EQ(bench_in(Mode::kStopping).stay() + 1, static_cast<int>(Supervisor::kHoldCycles) + 1);
+  EXPECT_EQ(bench_in(Mode::kEnding).stay() + 1, static_cast<int>(Supervisor::kEndRamp_ms));
+  EXPECT_EQ(bench_in(Mode::kStopping).stay() + 1, static_cast<int>(Supervisor::kHold_ms) + 1);
   EXPECT_EQ(bench_in(Mode::kResetting).stay() + 1, 1);
   for (const Mode mode : {Mode::kIdle, Mode::kArmed, Mode::kRunning, Mode::kStopped, Mode::kEnded}) {
     Bench bench = bench_in(mode);
     bench.seen.inside = mode == Mode::kArmed;
     bench.lets_go = false;
     EXPECT_EQ(bench.stay(), -1) << name(mode);
+  }
+}
+
+/// The same times at other periods; a fade takes two cycles at least, a hold one.
+TEST(SupervisorModes, LastForATimeAndNotForACount) {
+  for (const auto& [period, a_millisecond] : {std::pair{0.125e-3, 8.0}, {0.25e-3, 4.0}, {2e-3, 0.5}, {10e-3, 0.1}}) {
+    Supervisor::Parameters parameters = short_start();
+    parameters.period = period;
+    const auto cycles = [share = a_millisecond](std::uint32_t ms, int least = 1) {
+      return std::max(least, static_cast<int>(std::lround(ms * share)));
+    };
+    Bench zero(parameters);
+    ASSERT_GE(zero.run_to(Mode::kZeroCheck), 0);
+    EXPECT_EQ(zero.stay() + 1, cycles(Supervisor::kZero_ms)) << period;
+    Bench fade(parameters);
+    fade.joints_follow = true;
+    ASSERT_GE(fade.run_to(Mode::kRunning), 0) << period;
+    for (std::uint32_t k = 1; k <= 3; ++k) {
+      fade.seen.lost = k;
+      fade.step();
+    }
+    fade.seen.lost = 0;
+    ASSERT_EQ(fade.supervisor.mode(), Mode::kFade);
+    EXPECT_GT(fade.decision.share, 0.0) << "not at once";
+    EXPECT_EQ(fade.stay() + 1, cycles(Supervisor::kFade_ms, 2)) << period;
+    ASSERT_EQ(fade.supervisor.mode(), Mode::kStopping);
+    EXPECT_EQ(fade.stay() + 1, cycles(Supervisor::kHold_ms) + 1) << period;
+    Bench ends(parameters);
+    ends.joints_follow = true;
+    ASSERT_GE(ends.run_to(Mode::kRunning), 0) << period;
+    ends.seen.end_requested = true;
+    ends.obeys = false;
+    ends.step();
+    ASSERT_EQ(ends.supervisor.mode(), Mode::kEnding);
+    EXPECT_EQ(ends.stay() + 1, cycles(Supervisor::kEndRamp_ms)) << period;
+    EXPECT_EQ(ends.stay() + 1, cycles(Supervisor::kEndStop_ms)) << period;
+    EXPECT_EQ(ends.supervisor.mode(), Mode::kEnded);
   }
 }
 
@@ -364,7 +401,7 @@ TEST(SupervisorModes, WaitForDrivesAndResetsNoLongerThanDocumented) {
   Bench resetting = bench_in(Mode::kResetting);
   resetting.obeys = false;
   resetting.seen.drives.any_fault = true;
-  EXPECT_EQ(resetting.stay() + 1, static_cast<int>(Supervisor::kFaultStop));
+  EXPECT_EQ(resetting.stay() + 1, static_cast<int>(Supervisor::kFaultStop_ms));
   EXPECT_EQ(resetting.supervisor.mode(), Mode::kStopped);
   EXPECT_EQ(resetting.supervisor.fault(), Fault::kEmergencyStop) << "still latched";
   EXPECT_EQ(resetting.step().power, PowerRequest::kOff);
@@ -376,17 +413,17 @@ TEST(SupervisorModes, EndWithinTheirTimeThoughNoDriveObeys) {
     bench.obeys = false;
     bench.seen.end_requested = true;
     ASSERT_GE(bench.run_to(Mode::kStopping), 0);
-    for (std::uint32_t i = 2; i <= Supervisor::kHoldCycles; ++i) {
+    for (std::uint32_t i = 2; i <= Supervisor::kHold_ms; ++i) {
       EXPECT_EQ(bench.step().power, PowerRequest::kEnable) << name(mode);
     }
-    EXPECT_EQ(bench.stay() + static_cast<int>(Supervisor::kHoldCycles), static_cast<int>(Supervisor::kEndStop))
+    EXPECT_EQ(bench.stay() + static_cast<int>(Supervisor::kHold_ms), static_cast<int>(Supervisor::kEndStop_ms))
         << name(mode);
     EXPECT_EQ(bench.supervisor.mode(), Mode::kEnded);
     EXPECT_EQ(bench.decision.power, PowerRequest::kQuickStop) << "not seen at rest";
   }
 }
 
-/// From any share, in kEndRamp equal steps to zero.
+/// From any share, in kEndRamp_ms equal steps to zero.
 TEST(SupervisorModes, EndingLowersTheShareEvenly) {
   for (int engaged = 1; engaged <= 10; ++engaged) {
     Bench bench = bench_in(Mode::kEngaging);
@@ -394,8 +431,8 @@ TEST(SupervisorModes, EndingLowersTheShareEvenly) {
     const double share = 0.1 * engaged;
     ASSERT_NEAR(bench.decision.share, share, 1e-12);
     bench.seen.end_requested = true;
-    for (std::uint32_t k = 1; k <= Supervisor::kEndRamp; ++k) {
-      EXPECT_NEAR(bench.step().share, share * (1.0 - static_cast<double>(k) / Supervisor::kEndRamp), 1e-12);
+    for (std::uint32_t k = 1; k <= Supervisor::kEndRamp_ms; ++k) {
+      EXPECT_NEAR(bench.step().share, share * (1.0 - static_cast<double>(k) / Supervisor::kEndRamp_ms), 1e-12);
       EXPECT_GE(bench.decision.share, 0.0);
       ASSERT_EQ(bench.supervisor.mode(), Mode::kEnding);
     }
@@ -534,11 +571,11 @@ TEST(SupervisorModes, StopsAtRestOnlyAfterTheHoldThoughTheDrivesRestAtOnce) {
   bench.obeys = false;
   bench.seen.drives = {true, false, true, true, true};  // all have tripped
   std::vector<Mode> modes;
-  for (std::uint32_t i = 0; i <= Supervisor::kHoldCycles; ++i) {
+  for (std::uint32_t i = 0; i <= Supervisor::kHold_ms; ++i) {
     bench.step();
     modes.push_back(bench.supervisor.mode());
   }
-  std::vector<Mode> expected(Supervisor::kHoldCycles, Mode::kStopping);
+  std::vector<Mode> expected(Supervisor::kHold_ms, Mode::kStopping);
   expected.push_back(Mode::kStopped);
   EXPECT_EQ(modes, expected);
 }

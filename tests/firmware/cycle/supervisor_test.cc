@@ -19,8 +19,7 @@ TEST(Supervisor, RunsFromBootToRunningWhenAllIsWell) {
   bool powered_before_zero_check = false;
   for (int i = 0; i < 400; ++i) {
     const Decision& decision = bench.step();
-    if (i < static_cast<int>(Supervisor::kZeroCycles))
-      powered_before_zero_check |= decision.power != PowerRequest::kOff;
+    if (i < static_cast<int>(Supervisor::kZero_ms)) powered_before_zero_check |= decision.power != PowerRequest::kOff;
     if (bench.supervisor.mode() != modes.back()) modes.push_back(bench.supervisor.mode());
   }
   EXPECT_FALSE(powered_before_zero_check);
@@ -380,7 +379,7 @@ TEST(Supervisor, IsNotHurriedByARequestToEndWhileItStopsForAFault) {
     bench.step();
     ++cycles;
   }
-  EXPECT_EQ(cycles, static_cast<int>(Supervisor::kFaultStop) + 1) << "the last one is that of the end";
+  EXPECT_EQ(cycles, static_cast<int>(Supervisor::kFaultStop_ms) + 1) << "the last one is that of the end";
   EXPECT_EQ(bench.supervisor.mode(), Mode::kEnded);
 }
 
@@ -423,7 +422,7 @@ TEST(Supervisor, LeavesTheQuickStopToADriveThatFellSilentUntilItIsSeenAtRest) {
       ASSERT_EQ(bench.step().power, PowerRequest::kQuickStop) << stopping;
       if (bench.supervisor.mode() == Mode::kStopping) ++stopping;
     }
-    EXPECT_EQ(stopping, Supervisor::kFaultStop);
+    EXPECT_EQ(stopping, Supervisor::kFaultStop_ms);
     for (int i = 0; i < 3000; ++i) ASSERT_EQ(bench.step().power, PowerRequest::kQuickStop) << i;
 
     bench.seen.drives = drives_with(hal::DriveState::kOff, 0);
@@ -441,7 +440,7 @@ TEST(Supervisor, EndsInTheQuickStopWhereADriveWasNotSeenAtRest) {
     ASSERT_GE(bench.run_to(Mode::kRunning), 0);
     bench.seen.end_requested = true;
     ASSERT_GE(bench.run_to(Mode::kStopping), 0);
-    for (std::uint32_t i = 0; i < Supervisor::kHoldCycles; ++i) bench.step();
+    for (std::uint32_t i = 0; i < Supervisor::kHold_ms; ++i) bench.step();
     bench.obeys = false;
     bench.seen.drives = silent;
     ASSERT_GE(bench.run_to(Mode::kEnded), 0);
@@ -514,7 +513,7 @@ TEST(Supervisor, StopsWhenADriveDoesNotBecomeEnabled) {
     bench.step();
     ++cycles;
   }
-  EXPECT_EQ(cycles, static_cast<int>(short_start().prepare_cycles + Supervisor::kEnableCycles));
+  EXPECT_EQ(cycles, static_cast<int>(short_start().prepare_cycles + Supervisor::kEnable_ms));
   EXPECT_EQ(bench.supervisor.fault(), Fault::kDriveLeft);
 }
 
@@ -598,7 +597,7 @@ TEST(Supervisor, EndsFromRunningWithARampAndAQuickStopWithinTwoHundredCycles) {
     int cycles = 0;
     for (; cycles < 300 && bench.supervisor.mode() != Mode::kEnded; ++cycles) {
       bench.step();
-      EXPECT_LE(before - bench.decision.share, 1.0 / Supervisor::kEndRamp + 1e-12);
+      EXPECT_LE(before - bench.decision.share, 1.0 / Supervisor::kEndRamp_ms + 1e-12);
       EXPECT_LE(bench.decision.share, before);
       before = bench.decision.share;
       if (requests.empty() || requests.back() != bench.decision.power) requests.push_back(bench.decision.power);

@@ -40,27 +40,39 @@ TEST(RateWatch, ForgetsAnEventAfterAThousandCycles) {
 }
 
 TEST(LatenessWatch, FindsThreeInARowOneThatIsLongAndTooMany) {
-  LatenessWatch row;
+  LatenessWatch row(1e-3);
   for (const bool third : {false, false, true, true}) EXPECT_EQ(row.update(1), third);
   EXPECT_FALSE(row.update(0));
   for (const bool third : {false, false, true}) EXPECT_EQ(row.update(1), third) << "counted again";
 
   for (const std::int64_t longest : {std::int64_t{5'000'000}, std::int64_t{5'000'001}}) {
-    LatenessWatch watch;
+    LatenessWatch watch(1e-3);
     EXPECT_EQ(watch.update(longest), longest > 5'000'000);
     EXPECT_FALSE(watch.update(0));
   }
 
-  LatenessWatch often;  // every other cycle: the eleventh is too many
+  LatenessWatch often(1e-3);  // every other cycle: the eleventh is too many
   for (int i = 1; i <= 30; ++i) {
     ASSERT_EQ(often.update(1), i > 10) << i;
     ASSERT_FALSE(often.update(0)) << "an early cycle is no overrun";
   }
-  LatenessWatch early;
+  LatenessWatch early(1e-3);
   for (int i = 0; i < 3000; ++i) ASSERT_FALSE(early.update(i % 2 == 0 ? 0 : -1));
 }
 
 /// Every combination of states and ages of three joints, of which the arm has one, two or three.
+/// A period longer than the default deadline of torques, which is 4 ms or four periods.
+TEST(LatenessWatch, CallsLongWhatTheDrivesDoNotWaitFor) {
+  for (const auto& [period, longest] : {std::pair{0.125e-3, std::int64_t{4'125'000}},
+                                        {0.25e-3, std::int64_t{4'250'000}},
+                                        {2e-3, std::int64_t{10'000'000}},
+                                        {10e-3, std::int64_t{50'000'000}}}) {
+    LatenessWatch watch(period);
+    EXPECT_FALSE(watch.update(longest)) << period;
+    EXPECT_TRUE(watch.update(longest + 1)) << period;
+  }
+}
+
 TEST(Observation, SummarizesTheDrivesOfTheArmAlone) {
   using hal::DriveState;
   constexpr int kStates = 5;

@@ -195,16 +195,16 @@ TEST(DurationHistogram, TakesEveryNumber) {
 }
 
 TEST(LatenessWatch, CountsInARowInAWindowAndTheLongOnes) {
-  LatenessWatch row;
+  LatenessWatch row(1e-3);
   EXPECT_FALSE(row.update(1));
   EXPECT_FALSE(row.update(1));
   EXPECT_TRUE(row.update(1));
-  LatenessWatch longest;
+  LatenessWatch longest(1e-3);
   EXPECT_FALSE(longest.update(5'000'000));
   EXPECT_TRUE(longest.update(5'000'001));
-  LatenessWatch window;
+  LatenessWatch window(1e-3);
   for (int i = 0; i < 20'000; ++i) ASSERT_FALSE(window.update(i % 100 == 0 ? 1 : 0)) << i;
-  LatenessWatch more;
+  LatenessWatch more(1e-3);
   bool tripped = false;
   for (int i = 0; i < 1000; ++i) tripped |= more.update(i % 90 == 0 ? 1 : 0);
   EXPECT_TRUE(tripped);

@@ -22,7 +22,7 @@ class LedDrives final : public hal::JointDrives {
   int joint_count() const noexcept override { return joint_count_; }
   void request() noexcept override {}
   std::int64_t collect_ns() const noexcept override { return 0; }
-  double delay() const noexcept override { return ControlCycle::kPeriod; }
+  double delay() const noexcept override { return CycleSetup().period; }
 
   /// The enable switch is held once it was seen released.
   void receive(hal::JointReading& reading) noexcept override {

@@ -10,7 +10,7 @@ namespace {
 hal::BusLayout three_on_one() {
   hal::BusLayout layout;
   layout.joint_count = 3;
-  layout.read_back_interval = 100;
+  layout.read_back_interval = 0.1;
   for (int i = 0; i < 3; ++i) {
     hal::DriveConfig& drive = layout.drives[static_cast<std::size_t>(i)];
     drive.node = i + 1;
