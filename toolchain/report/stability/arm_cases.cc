@@ -28,8 +28,15 @@ namespace {
 
 namespace bound = stability_bound;
 
-constexpr std::int64_t kPeriod_ns = 1'000'000;
-constexpr double kArmPeriod = 1e-9 * kPeriod_ns;
+constexpr double kArmPeriod = 1e-3;  // [s]
+
+std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
+
+/// Sampling and delay of an arm's loop [s].
+struct ArmTiming {
+  double period = kArmPeriod;
+  double delay = 0.0;
+};
 
 /// The gains in use of an arm; those of the light desktop device are a sixteenth of the other's.
 struct ArmGains {
@@ -46,7 +53,7 @@ Coupling planted(Coupling coupling, const LoopFault& fault) {
   return coupling;
 }
 
-ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& coupling, double delay) {
+ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& coupling, const ArmTiming& timing) {
   const ArmKinematics kinematics = forward_kinematics(model, q);
   ArmLoop loop;
   loop.joint_count = model.joint_count;
@@ -57,7 +64,7 @@ ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& cou
   loop.rotation_stiffness = coupling.rotation_stiffness;
   loop.tool_damping = coupling.damping;
   loop.rotation_tool_damping = coupling.rotation_damping;
-  loop.timing = {kArmPeriod, delay, 2};
+  loop.timing = {timing.period, timing.delay, 2};
   return loop;
 }
 
@@ -65,12 +72,13 @@ ArmLoop loop_at(const ArmModel& model, const JointVector& q, const Coupling& cou
 /// the plant advances only while the clock sleeps.
 class CoupledArm {
  public:
-  CoupledArm(const ArmModel& model, const JointVector& q, const Coupling& coupling, double delay)
+  CoupledArm(const ArmModel& model, const JointVector& q, const Coupling& coupling, const ArmTiming& timing)
       : model_(model),
         coupling_(coupling),
+        period_(timing.period),
         plant_(model, q),
         hardware_(ideal_hardware()),
-        drives_(plant_, hardware_, {kPeriod_ns, std::llround(1e9 * delay)}),
+        drives_(plant_, hardware_, {nanoseconds(timing.period), nanoseconds(timing.delay)}),
         clock_(drives_) {
     target_ = forward_kinematics(model, q).H_RM;
     // released a hundredth of a millimetre and of a milliradian away, in a random direction
@@ -107,13 +115,13 @@ class CoupledArm {
     started_ = true;
     Eigen::Matrix<double, 6, 1> wrench;
     wrench << -coupling_.stiffness * x.translation -
-                  coupling_.damping / kArmPeriod * (x.translation - x_before_.translation),
+                  coupling_.damping / period_ * (x.translation - x_before_.translation),
         -coupling_.rotation_stiffness * x.rotation -
-            coupling_.rotation_damping / kArmPeriod * (x.rotation - x_before_.rotation);
+            coupling_.rotation_damping / period_ * (x.rotation - x_before_.rotation);
     x_before_ = x;
     const Jacobian J = geometric_jacobian(kinematics, kinematics.H_RM.translation);
     static_cast<void>(drives_.send({J.transpose() * wrench, hal::PowerRequest::kEnable}));
-    deadline_ns_ += kPeriod_ns;
+    deadline_ns_ += nanoseconds(period_);
     clock_.sleep_until(deadline_ns_);
     return std::sqrt(coupling_.stiffness * x.translation.squaredNorm() +
                      coupling_.rotation_stiffness * x.rotation.squaredNorm());
@@ -121,6 +129,7 @@ class CoupledArm {
 
   ArmModel model_;
   Coupling coupling_;
+  double period_;
   sim::Plant plant_;
   std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
   sim::DirectDrives drives_;
@@ -148,18 +157,20 @@ JointVector posture(const ArmModel& model, std::mt19937& random) {
 
 /// Returns the growth at 0.98 and 1.02 of the exact boundary.
 std::array<double, 2> growth_at_boundary(const ArmModel& model, const JointVector& q, const Coupling& coupling,
-                                         double margin, double delay, const LoopFault& fault) {
+                                         double margin, const ArmTiming& timing, const LoopFault& fault) {
   std::array<double, 2> grown{};
   for (std::size_t side = 0; side < 2; ++side) {
     const double share = side == 0 ? 0.98 : 1.02;
     Coupling scaled = coupling;
     scaled.stiffness *= share * margin;
     scaled.rotation_stiffness *= share * margin;
-    CoupledArm arm(model, q, planted(scaled, fault), delay + fault.late * kArmPeriod);
-    arm.swing(1500);
-    const double first = arm.swing(500);
-    arm.swing(2500);
-    grown[side] = std::log(arm.swing(500) / first);
+    CoupledArm arm(model, q, planted(scaled, fault), {timing.period, timing.delay + fault.late * timing.period});
+    // the same times at shorter periods: swings are those of the arm
+    const int a_millisecond = std::max(1, static_cast<int>(std::lround(kArmPeriod / timing.period)));
+    arm.swing(1500 * a_millisecond);
+    const double first = arm.swing(500 * a_millisecond);
+    arm.swing(2500 * a_millisecond);
+    grown[side] = std::log(arm.swing(500 * a_millisecond) / first);
   }
   return grown;
 }
@@ -178,12 +189,13 @@ CaseResult whole_arm(const firmware::Device& device, const Coupling& coupling, c
   for (int i = 0; i < (request.quick ? 1 : 4); ++i) {
     const JointVector q = posture(model, random);
     for (const double delay : {1e-3, 1.3e-3}) {
-      const ArmLoop loop = loop_at(model, q, coupling, delay);
+      const ArmTiming timing{.delay = delay};
+      const ArmLoop loop = loop_at(model, q, coupling, timing);
       const double margin = stiffness_margin(loop);
-      const auto grown = growth_at_boundary(model, q, coupling, margin, delay, request.fault);
+      const auto grown = growth_at_boundary(model, q, coupling, margin, timing, request.fault);
       wrong += static_cast<double>(!(grown[0] < 0.0)) + static_cast<double>(!(grown[1] >= 0.0));
       const double measured = zero_between(0.98, grown[0], 1.02, grown[1]);
-      const double in_use = stiffness_margin(loop_at(model, q, planted(coupling, request.fault), delay));
+      const double in_use = stiffness_margin(loop_at(model, q, planted(coupling, request.fault), timing));
       const std::string where = fmt::format("{} posture {} t_d {} ms", device.name, i, 1e3 * delay);
       sheet.rows.push_back({device.name, std::to_string(i), cell(1e3 * delay), cell(margin), cell(measured * margin),
                             cell(passivity_excess(loop))});
@@ -215,7 +227,7 @@ CaseResult passive_arm(const firmware::Device& device, const Coupling& coupling,
   for (int i = 0; i < (request.quick ? 2 : 20); ++i) {
     const JointVector q = posture(model, random);
     for (const double delay : {0.0, 0.5e-3, 1.3e-3}) {
-      const ArmLoop loop = loop_at(model, q, spring, delay);
+      const ArmLoop loop = loop_at(model, q, spring, {.delay = delay});
       const Eigen::Index n = loop.joint_count;
       Eigen::Matrix<double, 6, 1> k;
       k << Vector3::Constant(loop.stiffness), Vector3::Constant(loop.rotation_stiffness);
@@ -263,12 +275,17 @@ ArmModel rotors(const hal::BusLayout& layout) {
 /// with `share` of its exact boundary at the delay of the bus plan. Returns the logarithm of the growth of each joint.
 std::optional<JointVector> growth_on_the_bus(const hal::BusLayout& layout, const ArmModel& model, double share,
                                              const JointVector& stiffness, double gain) {
-  constexpr int kSettle = 500;
-  constexpr int kStretch = 500;
-  constexpr int kApart = 4000;
+  const int a_millisecond = std::max(1, static_cast<int>(std::lround(kArmPeriod / layout.period)));
+  const int settle = 500 * a_millisecond;
+  const int stretch = 500 * a_millisecond;
+  const int apart = 4000 * a_millisecond;
   auto hardware = sim::usual_hardware(model);
   for (auto& joint : hardware) joint.encoder_step = 0.0;
-  sim::Plant plant(model, JointVector::Constant(0.02));
+  JointVector begin = JointVector::Zero();
+  for (int i = 0; i < layout.joint_count; ++i) {
+    begin[i] = std::min(0.02, 0.5 * model.joints.at(static_cast<std::size_t>(i)).torque / stiffness[i]);
+  }
+  sim::Plant plant(model, begin);
   const auto device = std::make_unique<sim::CanDevice>(plant, layout, hardware);
   sim::VirtualClock clock(*device);
   std::array<hal::CanBus*, hal::kMaxBuses> wires{};
@@ -277,31 +294,30 @@ std::optional<JointVector> growth_on_the_bus(const hal::BusLayout& layout, const
   std::optional<hal::CanDrives> drives;  // it must not be on the heap
   drives.emplace(layout, std::span(wires.data(), static_cast<std::size_t>(layout.bus_count)), plan.timing);
   if (drives->bring_up(clock).status != hal::BringUpStatus::kOk) return std::nullopt;
-  clock.sleep_until((device->now_ns() / kPeriod_ns + 1) * kPeriod_ns);
+  const std::int64_t period_ns = nanoseconds(layout.period);
+  clock.sleep_until((device->now_ns() / period_ns + 1) * period_ns);
   JointVector low[2] = {JointVector::Constant(1e9), JointVector::Constant(1e9)};
   JointVector high[2] = {JointVector::Constant(-1e9), JointVector::Constant(-1e9)};
   hal::JointReading reading;
-  for (int k = 0; k < kSettle + 2 * kStretch + kApart; ++k) {
+  for (int k = 0; k < settle + 2 * stretch + apart; ++k) {
     const std::int64_t begin_ns = device->now_ns();
     drives->request();
     clock.sleep_until(begin_ns + drives->collect_ns());
     drives->receive(reading);
     const JointVector torque = -gain * share * stiffness.cwiseProduct(reading.position);
     if (!drives->send({torque, hal::PowerRequest::kEnable})) return std::nullopt;
-    clock.sleep_until(begin_ns + kPeriod_ns);
-    const int stretch = k < kSettle ? -1 : k < kSettle + kStretch ? 0 : k < kSettle + kStretch + kApart ? -1 : 1;
-    if (stretch < 0) continue;
-    low[stretch] = low[stretch].cwiseMin(plant.positions());
-    high[stretch] = high[stretch].cwiseMax(plant.positions());
+    clock.sleep_until(begin_ns + period_ns);
+    const int part = k < settle ? -1 : k < settle + stretch ? 0 : k < settle + stretch + apart ? -1 : 1;
+    if (part < 0) continue;
+    low[part] = low[part].cwiseMin(plant.positions());
+    high[part] = high[part].cwiseMax(plant.positions());
   }
   return JointVector(((high[1] - low[1]).array() / (high[0] - low[0]).array()).log().matrix());
 }
 
-CaseResult bus_schedule(const firmware::Device& device, const LoopFault& fault) {
-  CaseResult result;
-  Sheet sheet{
-      .name = "stability_bus", .columns = {"device", "joint", "t_d_plan_us", "K_exact", "K_measured"}, .rows = {}};
-  const hal::BusLayout& layout = device.bus;
+/// Finds the boundary of each joint on a spring over simulated CAN, and adds it to `sheet`. Torques of `fault.gain`.
+void boundaries_on_the_bus(const std::string& name, const hal::BusLayout& layout, const LoopFault& fault, Sheet& sheet,
+                           CaseResult& result) {
   const hal::BusPlan plan = hal::plan_buses(layout);
   const ArmModel model = rotors(layout);
   JointVector exact = JointVector::Zero();
@@ -309,6 +325,7 @@ CaseResult bus_schedule(const firmware::Device& device, const LoopFault& fault) 
     AxisLoop loop;
     loop.mass = model.joints.at(static_cast<std::size_t>(i)).rotor;
     loop.damping = model.joints.at(static_cast<std::size_t>(i)).damping;
+    loop.timing.period = layout.period;
     loop.timing.delay = 1e-9 * static_cast<double>(plan.unblocked_ns.at(static_cast<std::size_t>(i)));
     exact[i] = stability_boundary(loop);
   }
@@ -319,12 +336,90 @@ CaseResult bus_schedule(const firmware::Device& device, const LoopFault& fault) 
     const double measured =
         below && above ? zero_between(kShares[0], (*below)[i], kShares[1], (*above)[i]) : std::nan("");
     const double delay_us = 1e-3 * static_cast<double>(plan.unblocked_ns.at(static_cast<std::size_t>(i)));
-    sheet.rows.push_back({device.name, std::to_string(i), cell(delay_us), cell(exact[i]), cell(measured * exact[i])});
-    result.findings.push_back(judged(bound::kBus, kPercent * std::fabs(measured - 1.0),
-                                     fmt::format("{} joint {} t_d {:.0f} us", device.name, i, delay_us)));
+    sheet.rows.push_back({name, cell(kMilli * layout.period), std::to_string(i), cell(delay_us), cell(exact[i]),
+                          cell(measured * exact[i])});
+    result.findings.push_back(
+        judged(bound::kBus, kPercent * std::fabs(measured - 1.0),
+               fmt::format("{} T {:g} ms joint {} t_d {:.0f} us", name, kMilli * layout.period, i, delay_us)));
   }
-  result.findings.push_back(judged(bound::kBusDelay, plan.timing.delay_s / layout.period + fault.late, device.name));
+  result.findings.push_back(judged(bound::kBusDelay, plan.timing.delay_s / layout.period + fault.late,
+                                   fmt::format("{} T {:g} ms", name, kMilli * layout.period)));
+}
+
+Sheet bus_sheet(const char* name) {
+  return {.name = name, .columns = {"device", "T_ms", "joint", "t_d_plan_us", "K_exact", "K_measured"}, .rows = {}};
+}
+
+CaseResult bus_schedule(const firmware::Device& device, const LoopFault& fault) {
+  CaseResult result;
+  Sheet sheet = bus_sheet("stability_bus");
+  boundaries_on_the_bus(device.name, device.bus, fault, sheet, result);
   result.sheets.push_back(sheet);
+  return result;
+}
+
+/// The drives of a device on the buses that a period needs: below 1 ms each joint on a bus of its own, with FD frames
+/// alone and data at 8 Mbit/s.
+hal::BusLayout layout_for(hal::BusLayout layout, double period) {
+  constexpr double kSlowest = 0.9e-3;  // below, the device's own buses have no room
+  constexpr double kComputeShare = 0.16;
+  layout.period = period;
+  if (period > kSlowest) return layout;
+  layout.fd = layout.fd_services = true;
+  layout.data_rate = 8e6;
+  layout.compute = std::min(layout.compute, kComputeShare * period);
+  for (int i = 0; i < layout.joint_count; ++i) layout.drives.at(static_cast<std::size_t>(i)).bus = i;
+  layout.panel = {.bus = layout.joint_count};
+  layout.bus_count = layout.joint_count + 1;
+  return layout;
+}
+
+/// The time at which the last torque of a cycle, or the SDO frame in its place, is on the wires [s].
+double end_of(const hal::BusLayout& layout, const hal::BusPlan& plan) {
+  std::int64_t end_ns = 0;
+  for (int i = 0; i < layout.bus_count; ++i) {
+    const hal::BusLoad& load = plan.buses.at(static_cast<std::size_t>(i));
+    end_ns = std::max({end_ns, load.end_ns, load.slot_ns});
+  }
+  return 1e-9 * static_cast<double>(end_ns);
+}
+
+/// The wall that a device can render at several periods, each with the delay of its bus plan: the stiffness at the hand
+/// that the arm bears, in the middle of its joints' ranges, and that of each joint over simulated CAN.
+CaseResult rates(const firmware::Device& device, const Coupling& coupling, const StabilityRequest& request) {
+  ArmModel model = device.model;
+  model.gravity_R.setZero();
+  JointVector q = JointVector::Zero();
+  for (int i = 0; i < model.joint_count; ++i) {
+    const ArmJoint& joint = model.joints.at(static_cast<std::size_t>(i));
+    q[i] = 0.4 * joint.lower + 0.6 * joint.upper;
+  }
+  CaseResult result;
+  Sheet walls{.name = "stability_rate",
+              .columns = {"device", "T_ms", "t_d_us", "K_hand_exact_N_per_m", "K_hand_simulated_N_per_m"},
+              .rows = {}};
+  Sheet joints = bus_sheet("stability_rate_joints");
+  double at_1_kHz = 0.0;
+  for (const double period : {4e-3, 2e-3, 1e-3, 0.5e-3, 0.25e-3}) {
+    const hal::BusLayout layout = layout_for(device.bus, period);
+    const hal::BusPlan plan = hal::plan_buses(layout);
+    const std::string where = fmt::format("{} T {:g} ms", device.name, kMilli * period);
+    const ArmTiming timing{period, plan.timing.delay_s};
+    const double margin = stiffness_margin(loop_at(model, q, coupling, timing));
+    const auto grown = growth_at_boundary(model, q, coupling, margin, timing, request.fault);
+    const double measured = zero_between(0.98, grown[0], 1.02, grown[1]);
+    walls.rows.push_back({device.name, cell(kMilli * period), cell(std::round(1e9 * timing.delay) / 1e3),
+                          cell(margin * coupling.stiffness), cell(measured * margin * coupling.stiffness)});
+    result.findings.push_back(judged(bound::kRate, kPercent * std::fabs(measured - 1.0), where));
+    result.findings.push_back(judged(bound::kRatePlan, end_of(layout, plan) / period + request.fault.late, where));
+    const ArmTiming planted_timing{period, timing.delay + request.fault.late * kArmPeriod};
+    const double wall = stiffness_margin(loop_at(model, q, coupling, planted_timing));
+    if (period == 1e-3) at_1_kHz = wall;
+    if (period == 0.25e-3) result.findings.push_back(judged(bound::kStiffer, at_1_kHz / wall, where));
+    if (period < 1e-3) boundaries_on_the_bus(device.name, layout, request.fault, joints, result);
+  }
+  result.sheets.push_back(walls);
+  result.sheets.push_back(joints);
   return result;
 }
 
@@ -349,6 +444,8 @@ std::vector<StudyCase> arm_cases(const StabilityRequest& request) {
       return passive_arm(device, coupling, request);
     });
     add("bus", [request](const firmware::Device& device) { return bus_schedule(device, request.fault); });
+    add("rate",
+        [&coupling = coupling, request](const firmware::Device& device) { return rates(device, coupling, request); });
   }
   return cases;
 }

@@ -37,6 +37,9 @@ inline const Bound kLeastPassive{"A13", "work on the simulated arm along the lea
                                  "%", 2.0};
 inline const Bound kBus{"bus schedule", "boundary over CAN against A4 at the plan's delay", "%", 0.6};
 inline const Bound kBusDelay{"bus schedule", "longest delay of the plan", "periods", 2.0};
+inline const Bound kRate{"rate", "arm at 250 Hz to 4 kHz: simulated boundary against the exact one", "%", 2.0};
+inline const Bound kRatePlan{"rate", "end of a cycle on the bus", "periods", 1.0};
+inline const Bound kStiffer{"rate", "stiffest stable wall at 1 kHz over that at 4 kHz", "", 0.75};
 inline const Bound kControlled{"passivity controller",
                                "boundary with controller below those without it and of B + b_max", "%", 0.05};
 inline const Bound kControlledForce{"passivity controller",
