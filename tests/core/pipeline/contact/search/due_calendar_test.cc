@@ -148,6 +148,34 @@ TEST(DueCalendar, GoesOnWhereItWasStopped) {
   EXPECT_GT(stops, 1000);
 }
 
+/// A stop puts the rest of a list behind what the visitor has filed there: nothing of either is lost.
+TEST(DueCalendar, KeepsWhatItsVisitorFilesIntoAListThatIsStopped) {
+  const SampledBody body = ball_body();
+  const Pointshell& shell = body.pointshell();
+  for (const std::uint64_t again : {50u, 0u, 50u + 2048u}) {  // due at once, and in the list's next turn
+    for (std::size_t most = 0; most <= 8; ++most) {
+      std::vector<std::uint32_t> memory(DueCalendar::memory(shell));
+      DueCalendar calendar;
+      calendar.start(memory, shell);
+      calendar.take(0);
+      for (std::uint32_t item = 1; item <= 8; ++item) calendar.file(item, 50);
+      std::set<std::uint32_t> visited;
+      const bool ended = calendar.take_due(
+          60,
+          [&](std::uint32_t item) {
+            EXPECT_TRUE(visited.insert(item).second) << "twice";
+            calendar.file(item, again);
+          },
+          [&] { return visited.size() >= most; });
+      EXPECT_EQ(ended, most == 8 && visited.size() == 8);
+      EXPECT_EQ(visited.size(), most);
+      std::set<std::uint32_t> later;
+      calendar.take_due(~0ull >> 4, [&](std::uint32_t item) { EXPECT_TRUE(later.insert(item).second) << "twice"; });
+      EXPECT_EQ(later, (std::set<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 8})) << again << ' ' << most;
+    }
+  }
+}
+
 /// The calendar may jump by any number of ticks. A search then looks at one item too many at worst.
 TEST(DueCalendar, LosesNothingInAnyJump) {
   const SampledBody body = ball_body();
