@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -314,6 +316,23 @@ TEST(VoxelmapOracle, HasTheKernelsOfThisProcessor) {
   const bool has_512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
   const bool has_256 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   EXPECT_EQ(sample.size(), has_512 ? 2u : has_256 ? 1u : 0u);
+#endif
+}
+
+/// The same on processors without AVX-512 and without AVX2, in an emulator, which ends a program with a forbidden
+/// instruction.
+TEST(VoxelmapOracle, ChoosesItsKernelsOnOtherProcessors) {
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  if (std::system("command -v qemu-x86_64 > /dev/null") != 0) GTEST_SKIP() << "not run: qemu-x86_64 is missing";
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  for (const std::string processor : {"Haswell", "Nehalem"}) {
+    const std::string command = "qemu-x86_64 -cpu " + processor + " '" + self +
+                                "' --gtest_filter=VoxelmapOracle.HasTheKernelsOfThisProcessor:"
+                                "VoxelmapOracle.LooksUpBatchesOfAnySize > /dev/null 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  }
+#else
+  GTEST_SKIP() << "not run: these processors are x86-64, and the emulator runs no sanitizer";
 #endif
 }
 
