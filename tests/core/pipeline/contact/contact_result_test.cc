@@ -219,6 +219,39 @@ TEST(DampingChange, ProjectsOnTheConeOfTheRows) {
   EXPECT_GT(pulling, 500);
 }
 
+/// Rows that contradict each other almost exactly, under loads of any size: the projection is then wrong by rounding of
+/// the load. Damping must not push all the same: the change takes power from the velocity, and is no larger than the
+/// damping.
+TEST(DampingChange, NeverPushesThoughRowsContradictEachOther) {
+  test::Random random(11);
+  const auto vector = [&](double half) {
+    return Vector6(Vector6::NullaryExpr([&] { return random.between(-half, half); }));
+  };
+  int zeros = 0;
+  constexpr int kCases = 20000;
+  for (int k = 0; k < kCases; ++k) {
+    const int count = random.integer(2, 9);
+    const double apart = std::pow(10.0, random.between(-14.0, -1.0));
+    const double size = std::pow(10.0, random.between(-3.0, 9.0));
+    std::vector<Vector6> rows;
+    Vector6 load = Vector6::Zero();
+    for (int i = 0; i < count; ++i) {
+      Vector6 row = vector(1.0).normalized();
+      if (i > 0 && random.integer(0, 1) == 1) {
+        row = -rows[static_cast<std::size_t>(random.integer(0, i - 1))] + vector(apart);
+      }
+      rows.push_back(row);
+      load += size * random.between(0.0, 1.0) * row;
+    }
+    const Vector6 damping = vector(1.0);
+    const Vector6 change = detail::damping_change(rows.data(), static_cast<std::uint32_t>(count), load, damping);
+    ASSERT_LE(change.norm(), damping.norm() * (1.0 + 1e-8)) << k;
+    ASSERT_LE(change.dot(damping), 1e-8 * damping.squaredNorm()) << k;
+    zeros += change.isZero(0.0) ? 1 : 0;
+  }
+  EXPECT_LT(zeros, kCases / 5) << "most damp";
+}
+
 /// Damping is zero if the rows cannot carry the load: it would add power or be too strong.
 TEST(DampingChange, IsZeroForALoadThatTheRowsCannotCarry) {
   const Vector6 row = Vector6::Unit(2);
