@@ -374,6 +374,9 @@ hal::BusLayout layout_for(hal::BusLayout layout, double period) {
   return layout;
 }
 
+/// To four digits, for tables that people read.
+double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+
 /// The time at which the last torque of a cycle, or the SDO frame in its place, is on the wires [s].
 double end_of(const hal::BusLayout& layout, const hal::BusPlan& plan) {
   std::int64_t end_ns = 0;
@@ -408,8 +411,9 @@ CaseResult rates(const firmware::Device& device, const Coupling& coupling, const
     const double margin = stiffness_margin(loop_at(model, q, coupling, timing));
     const auto grown = growth_at_boundary(model, q, coupling, margin, timing, request.fault);
     const double measured = zero_between(0.98, grown[0], 1.02, grown[1]);
-    walls.rows.push_back({device.name, cell(kMilli * period), cell(std::round(1e9 * timing.delay) / 1e3),
-                          cell(margin * coupling.stiffness), cell(measured * margin * coupling.stiffness)});
+    walls.rows.push_back({device.name, cell(kMilli * period), cell(rounded(1e6 * timing.delay)),
+                          cell(rounded(margin * coupling.stiffness)),
+                          cell(rounded(measured * margin * coupling.stiffness))});
     result.findings.push_back(judged(bound::kRate, kPercent * std::fabs(measured - 1.0), where));
     result.findings.push_back(judged(bound::kRatePlan, end_of(layout, plan) / period + request.fault.late, where));
     const ArmTiming planted_timing{period, timing.delay + request.fault.late * kArmPeriod};
