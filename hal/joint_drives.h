@@ -7,6 +7,20 @@
 
 namespace godobject::hal {
 
+/// Returns how many cycles in a row without an answer count as a loss: 3, or those of 10 ms if they are fewer. Chosen:
+/// a disturbance of two cycles must not stop the arm, nor may the last torque be held for long.
+constexpr int cycles_to_loss(double period) noexcept {
+  const int in_10_ms = static_cast<int>(10e-3 / period + 1e-9);
+  return in_10_ms < 1 ? 1 : in_10_ms > 3 ? 3 : in_10_ms;
+}
+
+/// Returns for how long drives wait for torques by default before they stop by themselves [s]: 4 ms, or a period more
+/// than a loss takes.
+constexpr double default_deadline(double period) noexcept {
+  const double a_loss = (cycles_to_loss(period) + 1) * period;
+  return a_loss > 4e-3 ? a_loss : 4e-3;
+}
+
 /// State of a drive, as it reports it.
 enum class DriveState : std::uint8_t {
   kOff,          ///< no torque, brake closed: before it is enabled and after a quick stop

@@ -43,8 +43,8 @@ Wrench PassivityController::apply(double absorbed, const Wrench& F, const Motion
   const double square = F.force.squaredNorm() + F.torque.squaredNorm() / (length * length);
   const double power = F.force.dot(V.translation) + F.torque.dot(V.rotation);
   damping_ = 0.0;
-  unloaded_ = square > 0.0 ? 0 : std::min(unloaded_ + 1, kForget);
-  if (unloaded_ == kForget) forgotten_ = std::max(forgotten_, absorbed);
+  unloaded_ = square > 0.0 ? 0 : std::min(unloaded_ + 1, forget_);
+  if (unloaded_ == forget_) forgotten_ = std::max(forgotten_, absorbed);
   const double debt = forgotten_ - absorbed;
   if (!(debt > 0.0 && square > 0.0) || power == 0.0) return F;
   // compared before the division, whose divisor may be close to zero

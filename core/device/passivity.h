@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/device/joint_vector.h"
 #include "godobject/pose.h"
@@ -59,19 +61,23 @@ class PassivityObserver {
 /// of zero stays zero.
 ///
 /// A surplus, energy taken, must not be given back to a later contact: it is forgotten after kForget periods without a
-/// wrench. A debt is not forgotten. Cost: 20 ns. Real-time safe.
+/// wrench, or two more than the delay. A debt is not forgotten. Cost: 20 ns. Real-time safe.
 class PassivityController {
  public:
   struct Parameters {
-    double most_damping = 0.0;     ///< b_max [Ns/m]; 0: the wrench does not change
-    double period = 1e-3;          ///< T [s]
-    double rotation_length = 0.1;  ///< L [m]
+    double most_damping = 0.0;      ///< b_max [Ns/m]; 0: the wrench does not change
+    double period = 1e-3;           ///< T [s]
+    double rotation_length = 0.1;   ///< L [m]
+    double delay_in_periods = 0.0;  ///< t_d / T
   };
 
-  /// Periods until a surplus is forgotten. Derived: a torque acts for at most kMostDelay + 1 periods after it was sent.
-  static constexpr int kForget = PassivityObserver::kMostDelay + 2;
+  /// Least periods until a surplus is forgotten. Chosen: more than those for which a torque acts after it was sent,
+  /// where the delay is below 14 periods.
+  static constexpr int kForget = 16;
 
-  explicit PassivityController(const Parameters& parameters) noexcept : parameters_(parameters) {}
+  explicit PassivityController(const Parameters& parameters) noexcept
+      : parameters_(parameters),
+        forget_(std::max(kForget, static_cast<int>(std::ceil(parameters.delay_in_periods)) + 2)) {}
 
   /// Forgets debt and surplus. The caller resets the observer, too.
   void reset() noexcept;
@@ -84,6 +90,7 @@ class PassivityController {
 
  private:
   Parameters parameters_;
+  int forget_;              // periods until a surplus is forgotten
   double forgotten_ = 0.0;  // the observer's energy from which debts count [J]
   int unloaded_ = 0;        // periods without a wrench, in a row
   double damping_ = 0.0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/format.h"
+#include "hal/joint_drives.h"
 
 namespace godobject::firmware {
 namespace {
@@ -24,6 +25,17 @@ void require_unambiguous(const TomlTable& table, const ArmJoint& joint, const ha
   table.complain("counts", fmt::format("times gear makes the 32 bits of 6064 wrap {:.3g} rad from joint.zero, but the "
                                        "joint moves {:.3g} rad, with a reserve of {:.3g}; check counts and zero",
                                        half_turn, reach, kBeyond));
+}
+
+/// Refuses a period that 1006, in us, and 60C2, a byte times a power of ten, cannot hold.
+void require_holdable(const TomlTable& table, double period) {
+  for (int exponent = 3; exponent <= 6; ++exponent) {
+    const double count = period * std::pow(10.0, exponent);
+    if (count < 255.5 && std::fabs(count - std::round(count)) < 1e-6) return;
+  }
+  table.complain("period", fmt::format("= {:g} cannot be told to the drives: 60C2 holds whole numbers up to 255 of 1, "
+                                       "0.1, 0.01 or 0.001 ms; for instance 0.001, 0.0005 or 0.00025",
+                                       period));
 }
 
 /// Refuses a node number that another node on the same bus has.
@@ -47,6 +59,7 @@ void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   table.allow({"period", "bit_rate", "fd", "fd_services", "data_rate", "answer", "drive_delay", "command_deadline",
                "drive_heartbeat", "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
   bus.period = table.number("period", {format::kShortestPeriod, format::kLongestPeriod}, bus.period);
+  require_holdable(table, bus.period);
   bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
   bus.fd = table.flag("fd", bus.fd);
   bus.fd_services = table.flag("fd_services", bus.fd_services);
@@ -54,12 +67,14 @@ void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
   bus.answer = table.number("answer", {0.0, 5e-4}, bus.answer);
   bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
-  // two lost torques must not stop a drive, nor may it hold the last one for long
-  const double few_cycles = 4.0 * bus.period;
-  bus.command_deadline =
-      table.number("command_deadline", {std::max(2e-3, 2.0 * bus.period), std::max(0.01, few_cycles)},
-                   std::max(bus.command_deadline, few_cycles));
-  bus.drive_heartbeat = table.number("drive_heartbeat", {5e-3, 0.1}, bus.drive_heartbeat);
+  // 1400:5 counts whole milliseconds; one lost torque must not stop a drive, nor may it hold the last one for long
+  const double deadline = 1e-3 * std::ceil(1e3 * hal::default_deadline(bus.period) - 1e-6);
+  const double least = std::max(2e-3, 2.0 * bus.period);
+  bus.command_deadline = table.number("command_deadline", {least, std::max(0.01, deadline)}, deadline);
+  // from one heartbeat to the next SDO exchanges need some cycles
+  const double heartbeat = 5.0 * bus.period;
+  bus.drive_heartbeat =
+      table.number("drive_heartbeat", {std::max(5e-3, heartbeat), 0.1}, std::max(bus.drive_heartbeat, heartbeat));
   const double two_heartbeats = 2.0 * bus.drive_heartbeat;
   bus.heartbeat_timeout =
       table.number("heartbeat_timeout", {two_heartbeats, 0.5}, std::max(bus.heartbeat_timeout, two_heartbeats));

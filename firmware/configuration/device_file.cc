@@ -107,6 +107,19 @@ void read_torque(const TomlTable& table, Device& device) {
   torque.limit_band = table.number("limit_band", {1e-6, widest});
 }
 
+/// A count must be a small part of the way of a period, or a step of the encoder looks like a jump (PositionCheck).
+void require_resolution(const TomlTable& table, const ArmJoint& joint, const hal::BusLayout& bus, std::size_t index) {
+  const hal::DriveConfig& drive = bus.drives[index];
+  const double count = 2.0 * std::numbers::pi / (drive.counts * drive.gear);
+  const double way = joint.velocity * bus.period;
+  if (count < 0.5 * way) return;
+  table.complain("counts",
+                 fmt::format("times gear makes a count {:.3g} rad, but at its largest velocity the joint moves "
+                             "{:.3g} rad in a period: at least two counts; give a finer encoder or a longer "
+                             "bus.period",
+                             count, way));
+}
+
 }  // namespace
 
 Device read_device_file(const std::filesystem::path& file) {
@@ -129,6 +142,7 @@ Device read_device_file(const std::filesystem::path& file) {
   const TomlTable bus(root, "bus", file);
   read_bus(bus, device.bus);
   finish_buses(bus, joints, device.bus);
+  for (std::size_t i = 0; i < joints.size(); ++i) require_resolution(joints[i], device.model.joints[i], device.bus, i);
 
   const TomlTable tool(root, "tool", file);
   tool.allow({"pose"});

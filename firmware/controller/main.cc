@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace godobject;
-  CLI::App app("The haptic controller: reads the drives' positions and sends their torques, once a millisecond.",
+  CLI::App app("The haptic controller: reads the drives' positions and sends their torques, once a period.",
                "godobject-controller");
   std::string transport = firmware::kSimulatedTransport;
   firmware::ControlCommand control(app, transport);

@@ -32,9 +32,9 @@ void OperatorNotice::look() {
   const Standing standing = report_.standing.load(std::memory_order_relaxed);
   const bool waits = report_.waiting.load(std::memory_order_relaxed) > cycles_in(kMoment, period_);
   if (waits && !said_waiting_) {
-    warn(standing.mode == Mode::kIdle
-             ? "waits for the enable switch: release it, then hold it"
-             : "waits with the arm held: the moving body touches or penetrates the still body; move the tool away");
+    warn(standing.mode == Mode::kIdle ? "waits for the enable switch: release it, then hold it"
+                                      : "waits with the arm held: the moving body touches or penetrates the still "
+                                        "body, or the budget of work does not suffice to find out; move the tool away");
   }
   said_waiting_ = waits;
   const bool is_behind = report_.longest_behind.exchange(0, std::memory_order_relaxed) > cycles_in(kBehind, period_);

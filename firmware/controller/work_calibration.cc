@@ -7,11 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "firmware/cycle/cycles_in.h"
+
 namespace godobject::firmware {
 namespace {
 
-constexpr int kApproach = 250;  // cycles
-constexpr int kPressed = 150;
+constexpr double kApproach = 0.25;  // [s]
+constexpr double kPressed = 0.15;   // [s]
 constexpr int kPasses = 3;
 constexpr int kTrials = 8;
 constexpr double kReserve = 0.9;  // of the budget that the last trial suggests
@@ -63,11 +65,13 @@ std::vector<Pose> calibration_path(const SceneView& scene, const Pose& start_WM)
   const Vector3 along = length > 0.0 ? Vector3(way / length) : Vector3(Vector3::UnitZ());
   const Vector3 across = along.unitOrthogonal();
   std::vector<Pose> path;
-  for (int k = 0; k <= kApproach; ++k) {
-    path.push_back(moved(start_WM, p_MB, static_cast<double>(k) / kApproach * way, Vector3::Zero()));
+  const std::uint32_t approach = cycles_in(kApproach, scene.settings.period);
+  for (std::uint32_t k = 0; k <= approach; ++k) {
+    path.push_back(moved(start_WM, p_MB, static_cast<double>(k) / approach * way, Vector3::Zero()));
   }
-  for (int k = 1; k <= kPressed; ++k) {
-    const double phase = 4.0 * std::acos(-1.0) * k / kPressed;
+  const std::uint32_t pressed = cycles_in(kPressed, scene.settings.period);
+  for (std::uint32_t k = 1; k <= pressed; ++k) {
+    const double phase = 4.0 * std::acos(-1.0) * k / pressed;
     path.push_back(moved(start_WM, p_MB, way + kSwing * length * std::sin(phase) * across,
                          kTurn * (std::sin(phase) * along + std::sin(0.5 * phase) * across)));
   }

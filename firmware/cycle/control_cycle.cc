@@ -4,6 +4,15 @@
 
 namespace godobject::firmware {
 
+namespace {
+
+PassivityController::Parameters with_delay(PassivityController::Parameters parameters, double periods) noexcept {
+  parameters.delay_in_periods = periods;
+  return parameters;
+}
+
+}  // namespace
+
 ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) noexcept
     : setup_(setup),
       drives_(drives),
@@ -12,7 +21,7 @@ ControlCycle::ControlCycle(const CycleSetup& setup, hal::JointDrives& drives) no
       supervisor_(*setup.arm, setup.supervisor),
       limiter_(*setup.arm, setup.torque),
       observer_(drives.delay() / setup.period),
-      passivity_(setup.passivity) {}
+      passivity_(with_delay(setup.passivity, drives.delay() / setup.period)) {}
 
 // clang-format off: the steps stand in a column
 void ControlCycle::run_once(const LoopEvents& events) noexcept {

@@ -11,7 +11,7 @@ enum class Fault : std::uint8_t {
   kNone,
   kDrivesAbsent,    ///< not all drives answered in time
   kNotAtRest,       ///< a joint moved although its brake was closed
-  kPositionLost,    ///< a joint had no usable position three times in a row
+  kPositionLost,    ///< a joint had no usable position three times in a row, or too often
   kPositionJump,    ///< an impossible position, twice in a row or too often
   kNotFinite,       ///< a NaN or Inf in a reading
   kEncoderStuck,    ///< a position does not change although its joint should move

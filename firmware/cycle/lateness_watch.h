@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "firmware/cycle/rate_watch.h"
+#include "hal/joint_drives.h"
 
 namespace godobject::firmware {
 
@@ -17,7 +17,7 @@ class LatenessWatch {
 
   /// `period`: T [s].
   explicit LatenessWatch(double period) noexcept
-      : long_ns_(static_cast<std::int64_t>(1e9 * (std::max(kDeadline, 4.0 * period) + period) + 0.5)) {}
+      : long_ns_(static_cast<std::int64_t>(1e9 * (hal::default_deadline(period) + period) + 0.5)) {}
 
   /// Takes the lateness of one cycle; 0: in time. True: too often, or too late.
   bool update(std::int64_t late_ns) noexcept {
@@ -28,11 +28,7 @@ class LatenessWatch {
   }
 
  private:
-  /// The default deadline of torques, after which the drives have stopped by themselves, see
-  /// BusLayout::command_deadline and firmware/configuration/cia402_keys.cc [s].
-  static constexpr double kDeadline = 4e-3;
-
-  std::int64_t long_ns_;  // derived: a period longer than that deadline
+  std::int64_t long_ns_;  // derived: a period longer than drives wait by default before they stop by themselves
   std::uint32_t in_row_ = 0;
   RateWatch rate_;
 };

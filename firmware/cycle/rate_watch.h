@@ -6,7 +6,7 @@
 
 namespace godobject::firmware {
 
-/// Detects an event that happens in more than one cycle in a hundred over the last thousand.
+/// Detects an event that happens too often in the last thousand cycles.
 class RateWatch {
  public:
   static constexpr std::size_t kWindow = 1000;  ///< cycles
@@ -14,15 +14,18 @@ class RateWatch {
   /// (encoder_jumps_once) stop it; with 30 a joint may move by predictions in one cycle of 33.
   static constexpr std::uint32_t kMost = 10;
 
+  explicit RateWatch(std::uint32_t most = kMost) noexcept : most_(most) {}
+
   /// Takes one cycle. True: the event happened, and too often. Cost: 5 ns. Real-time safe.
   bool update(bool happened) noexcept {
     in_window_ += (happened ? 1u : 0u) - (window_[at_] ? 1u : 0u);
     window_[at_] = happened;
     at_ = (at_ + 1) % kWindow;
-    return happened && in_window_ > kMost;
+    return happened && in_window_ > most_;
   }
 
  private:
+  std::uint32_t most_;
   std::uint32_t in_window_ = 0;
   std::size_t at_{};
   std::bitset<kWindow> window_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware/cycle/cycles_in.h"
+#include "hal/joint_drives.h"
 
 namespace godobject::firmware {
 namespace {
@@ -25,6 +26,7 @@ Supervisor::Durations::Durations(double period) noexcept {
   end_ramp = cycles(kEndRamp_ms);
   end_stop = cycles(kEndStop_ms);
   fault_stop = cycles(kFaultStop_ms);
+  to_loss = static_cast<std::uint32_t>(hal::cycles_to_loss(period));
 }
 
 Supervisor::Supervisor(const ArmModel& arm, const Parameters& parameters) noexcept
@@ -41,6 +43,7 @@ Decision Supervisor::step(const Observation& seen) noexcept {
   // one that overruns
   too_late_ = lateness_.update(std::max(seen.overrun_ns, seen.computed_late_ns));
   too_many_jumps_ = jumps_.update(seen.jumps > 0);
+  too_many_lost_ = lost_.update(seen.lost > 0 && powered());
   // a drive that returns may have been exchanged, or connected differently
   if (!seen.drives.all_answer || seen.drive_restarted) sign_tested_ = !parameters_.sign_test;
   const Fault fault = find_fault(seen);
@@ -95,7 +98,7 @@ Fault Supervisor::find_fault(const Observation& seen) const noexcept {
   if (mode_ == Mode::kBoot) return Fault::kNone;
   if (seen.alarm) return Fault::kAlarm;
   const Fault fault = powered() ? find_fault_with_power(seen) : find_fault_without_power(seen);
-  if (fault != Fault::kNone || seen.lost < kInRow) return fault;
+  if (fault != Fault::kNone || !(seen.lost >= cycles_.to_loss || too_many_lost_)) return fault;
   // a bus that takes no frames brings no positions either, and a fade needs a bus that takes them
   const bool cannot_send = powered() && mode_ != Mode::kFade && seen.sends_failed > 0;
   return cannot_send ? Fault::kSendFailed : Fault::kPositionLost;
@@ -114,7 +117,7 @@ Fault Supervisor::find_fault_with_power(const Observation& seen) const noexcept 
   if (seen.stuck) return Fault::kEncoderStuck;
   if (seen.joint_beyond_limit >= 0) return Fault::kJointLimit;
   if (too_late_) return seen.overrun_ns >= seen.computed_late_ns ? Fault::kOverruns : Fault::kComputedLate;
-  return seen.sends_failed >= kInRow ? Fault::kSendFailed : Fault::kNone;
+  return seen.sends_failed >= cycles_.to_loss ? Fault::kSendFailed : Fault::kNone;
 }
 
 /// A drive that has power without a request is as bad as one that has tripped.

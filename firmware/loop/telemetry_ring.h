@@ -14,8 +14,8 @@ struct TelemetryRecord {
   CycleRecord cycle;
 };
 
-/// Records of 4 s, 2 MiB. Chosen: the writer drains it every 50 ms; a disk may stall for 80 times that before a row is
-/// lost.
+/// Records of 4096 cycles, 2 MiB: of 4 s at 1 kHz, half a second at 8 kHz. Chosen: the writer drains it every 50 ms; a
+/// disk may stall for ten times that before a row is lost.
 using TelemetryRing = hal::RecordRing<TelemetryRecord, 4096>;
 static_assert(sizeof(TelemetryRing) < (std::size_t{2} << 20) + 1024);
 

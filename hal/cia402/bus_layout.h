@@ -24,8 +24,8 @@ struct DriveConfig {
   double zero = 0.0;          ///< position of the joint where 6064 is 0 [rad]
 };
 
-/// The operator's panel: a CiA 401 input module that answers each SYNC with 6000:1, see object_numbers.h. Three cycles
-/// without an answer count as an emergency stop.
+/// The operator's panel: a CiA 401 input module that answers each SYNC with 6000:1, see object_numbers.h. Cycles
+/// without an answer, see `cycles_to_loss`, count as an emergency stop.
 struct PanelConfig {
   int bus = -1;  ///< -1: no panel; then only a simulated bus may be driven
   int node = 0x20;

@@ -19,6 +19,9 @@ int cycles(double duration, double period) noexcept {
   return std::max(1, static_cast<int>(std::lround(duration / period)));
 }
 
+/// So many cycles, or as many milliseconds if they take more.
+int at_least(int count, double period) noexcept { return std::max(count, cycles(1e-3 * count, period)); }
+
 }  // namespace
 
 CanDrives::CanDrives(const BusLayout& layout, std::span<CanBus* const> buses, const BusTiming& timing,
@@ -29,7 +32,12 @@ CanDrives::CanDrives(const BusLayout& layout, std::span<CanBus* const> buses, co
       stations_(layout),
       heartbeat_cycles_(cycles(layout.drive_heartbeat, layout.period)),
       timeout_cycles_(cycles(layout.heartbeat_timeout, layout.period)),
-      read_back_cycles_(cycles(layout.read_back_interval, layout.period)) {
+      read_back_cycles_(cycles(layout.read_back_interval, layout.period)),
+      held_cycles_(at_least(kHeldCycles, layout.period)),
+      probe_cycles_(at_least(kProbeCycles, layout.period)),
+      probe_silent_(at_least(kProbeSilent, layout.period)),
+      near_heartbeat_(at_least(3, layout.period)),
+      most_panel_lost_(cycles_to_loss(layout.period)) {
   assert(static_cast<int>(buses.size()) == layout.bus_count && layout.bus_count <= kMaxBuses);
   for (std::size_t b = 0; b < buses.size(); ++b) buses_[b].wire = buses[b];
   restart();
@@ -57,7 +65,7 @@ BringUpResult CanDrives::bring_up(Clock& clock, const std::atomic<bool>* end) no
   std::array<CanBus*, kMaxBuses> wires{};
   std::ranges::transform(buses_, wires.begin(), &Bus::wire);
   restart();
-  probe_ = kProbeCycles + 1;
+  probe_ = probe_cycles_ + 1;
   const BringUpResult result =
       hal::bring_up(layout_, {wires.data(), static_cast<std::size_t>(layout_.bus_count)}, clock, tap_, end);
   anothers_ = result.status == BringUpStatus::kSecondMaster || !result.began;
@@ -91,12 +99,12 @@ void CanDrives::request() noexcept {
     Bus& bus = buses_[static_cast<std::size_t>(b)];
     bus.echo_ns = bus.sample_ns = 0;
     // frames that are still in the queue would be late, and all frames after them
-    bus.holds = bus.unechoed > 0 && ++bus.held < kHeldCycles;
+    bus.holds = bus.unechoed > 0 && ++bus.held < held_cycles_;
     bus.asked = false;
     if (!bus.holds) {
       bus.unechoed = 0;
       bus.held = 0;  // a SYNC that has not returned in this time never will
-      if (probe_ == 0 || probe_ > kProbeSilent) bus.asked = send_on(b, sync) == SendResult::kSent;
+      if (probe_ == 0 || probe_ > probe_silent_) bus.asked = send_on(b, sync) == SendResult::kSent;
       if (bus.asked) ++bus.unechoed;
     }
     if (!bus.asked && probe_ == 0) sync_failed_ = true;
@@ -190,7 +198,7 @@ void CanDrives::take_foreign_master(int bus, const CanFrame& frame) noexcept {
 void CanDrives::take_sample(int b, int station, const ReceivedFrame& received) noexcept {
   Bus& bus = buses_[static_cast<std::size_t>(b)];
   const bool in_time = bus.asked && bus.unechoed == 0;
-  if (probe_ > 0 && probe_ <= kProbeSilent) {
+  if (probe_ > 0 && probe_ <= probe_silent_) {
     alarm_.raise({.alarm = Alarm::kAnswersLate, .bus = b, .joint = joint_of(station), .id = received.frame.id});
   }
   if (station == kPanelStation) {
@@ -296,8 +304,8 @@ void CanDrives::close_panel() noexcept {
     panel_.lost = 0;
     panel_.seen = true;
   } else if (probe_ == 0) {
-    panel_.lost = std::min(panel_.lost + 1, kMostPanelLost);
-    if (panel_.lost == kMostPanelLost) {
+    panel_.lost = std::min(panel_.lost + 1, most_panel_lost_);
+    if (panel_.lost == most_panel_lost_) {
       panel_.inputs = 0;
       alarm_.raise({.alarm = panel_.seen ? Alarm::kPanelLost : Alarm::kPanelSilent, .bus = layout_.panel.bus});
     }
@@ -330,10 +338,10 @@ bool CanDrives::send(const JointCommand& command) noexcept {
   return all_sent;
 }
 
-/// True if a heartbeat on this bus is due in this cycle or the next one, or overdue: together with an SDO exchange it
+/// True if a heartbeat on this bus is due in this cycle or the next ones, or overdue: together with an SDO exchange it
 /// would delay samples beyond their collection.
 bool CanDrives::heartbeat_is_near(int bus) const noexcept {
-  const auto is_near = [this](int silent) { return silent > heartbeat_cycles_ - 3; };
+  const auto is_near = [this](int silent) { return silent > heartbeat_cycles_ - near_heartbeat_; };
   for (int i = 0; i < layout_.joint_count; ++i) {
     if (stations_.bus(i) == bus && is_near(joints_[static_cast<std::size_t>(i)].silent)) return true;
   }

@@ -51,11 +51,11 @@ class CanDrives final : public JointDrives {
  public:
   static constexpr int kMostFrames = 64;                ///< taken from a bus in a cycle
   static constexpr int kMostBadFrames = 3;              ///< in a row of one joint
-  static constexpr int kMostPanelLost = 3;              ///< cycles without the panel
   static constexpr std::uint32_t kMostUnreturned = 32;  ///< frames: those of three cycles, with heartbeats and SDO
-  static constexpr int kHeldCycles = 10;                ///< for which a SYNC's echo is waited for
-  static constexpr int kProbeCycles = 8;                ///< after a start
-  static constexpr int kProbeSilent = 4;                ///< of these, the last ones: without SYNC
+  // cycles at 1 ms and at longer periods; at shorter ones as many milliseconds
+  static constexpr int kHeldCycles = 10;  ///< for which a SYNC's echo is waited for
+  static constexpr int kProbeCycles = 8;  ///< after a start
+  static constexpr int kProbeSilent = 4;  ///< of these, the last ones: without SYNC
 
   /// `buses`: one for each bus of the layout; they and the tap outlive this. The layout has been checked: buses and
   /// nodes exist, and node numbers are unique on each bus and not 127.
@@ -140,6 +140,11 @@ class CanDrives final : public JointDrives {
   int heartbeat_cycles_;
   int timeout_cycles_;
   int read_back_cycles_;
+  int held_cycles_;
+  int probe_cycles_;
+  int probe_silent_;
+  int near_heartbeat_;  // cycles before a heartbeat in which no SDO exchange begins
+  int most_panel_lost_;
   std::array<Bus, kMaxBuses> buses_{};
   std::array<Joint, kMaxJoints> joints_{};
   Panel panel_;

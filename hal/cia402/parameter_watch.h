@@ -24,7 +24,8 @@ class ParameterWatch {
   /// Makes the next request. The previous one, if not answered, counts as silent. False: there is no drive on this bus.
   bool next(CanFrame& request) noexcept;
 
-  /// Cycles between two requests: `wanted`, or fewer such that each parameter is read within a second; at least one.
+  /// Cycles between two requests: `wanted`, or fewer such that each parameter is read within a second if
+  /// no request waits for a heartbeat; at least one.
   int interval(int wanted) const noexcept;
 
   /// Checks an SDO response of this bus. Ignores responses to other requests.

@@ -1,8 +1,10 @@
 #include "tests/closed_loop/can_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "firmware/cycle/cycles_in.h"
 #include "hal/canopen/network.h"
 
 namespace godobject::firmware {
@@ -46,14 +48,35 @@ bool DisturbedBus::receive(hal::ReceivedFrame& received) noexcept {
   return true;
 }
 
+namespace {
+
+/// The buses and times that a device file with this period has.
+void set_period(double period, hal::BusLayout& layout) {
+  layout.period = period;
+  layout.command_deadline = 1e-3 * std::ceil(1e3 * hal::default_deadline(period) - 1e-6);
+  layout.drive_heartbeat = std::max(layout.drive_heartbeat, 5.0 * period);
+  layout.heartbeat_timeout = std::max(layout.heartbeat_timeout, 2.0 * layout.drive_heartbeat);
+  if (!(period < 1e-3)) return;
+  layout.fd = layout.fd_services = true;
+  layout.data_rate = 8e6;
+  layout.compute = 0.16 * period;
+  for (int i = 0; i < layout.joint_count; ++i) layout.drives.at(static_cast<std::size_t>(i)).bus = i;
+  layout.panel.bus = layout.joint_count;
+  layout.bus_count = layout.joint_count + 1;
+}
+
+}  // namespace
+
 CanRun::CanRun(const test::SceneImage& image, const Options& options)
     : scene_(test::open_scene(image)),
       placement_(run_placement()),
       options_(options),
       path_R_(run_path(placement_, options.path)) {
-  set_run_gains(2000.0, scene_);
+  set_run_gains(options.stiffness, scene_);
+  scene_.settings.period = options.period;
   const ArmModel& arm = placement_.device.model;
   hal::BusLayout& layout = placement_.device.bus;
+  set_period(options.period, layout);
   layout.drives[1].zero = options.zero;
   layout.boot_timeout = 1.0;
   if (options.quiet) {
@@ -76,9 +99,15 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   for (int i = 0; i < layout.bus_count; ++i) buses_.emplace_back(device_->bus(i));
   for (int i = 0; options.quiet && i < layout.bus_count; ++i)
     buses_.at(static_cast<std::size_t>(i)).answer_beside_the_wire(device_->nodes(), i);
-  std::array<hal::CanBus*, 3> buses{&buses_.at(0), &buses_.at(1), &buses_.at(2)};
-  drives_.emplace(layout, buses, hal::plan_buses(layout).timing);
+  std::vector<hal::CanBus*> buses;
+  for (DisturbedBus& bus : buses_) buses.push_back(&bus);
+  const hal::BusPlan plan = hal::plan_buses(layout);
+  if (!plan.fits) throw std::runtime_error("the buses have no room for a cycle");
+  drives_.emplace(layout, buses, plan.timing);
   CycleSetup setup = run_setup(scene_, placement_);
+  setup.period = setup.passivity.period = setup.supervisor.period = options.period;
+  setup.torque.rate *= options.period / 1e-3;
+  setup.supervisor.engage_cycles = cycles_in(0.05, options.period);
   setup.supervisor.sign_test = false;
   setup.memory = memory_.span();
   cycle_ = std::make_unique<ControlCycle>(setup, *drives_);
@@ -86,11 +115,11 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
 }
 
 void CanRun::run(std::int64_t count, const LoopEvents& events) {
-  constexpr std::int64_t kPeriod_ns = 1'000'000;
+  const std::int64_t period_ns = std::llround(1e9 * options_.period);
   for (std::int64_t i = 0; i < count; ++i) {
-    deadline_ns_ = (device_->now_ns() + kPeriod_ns - 1) / kPeriod_ns * kPeriod_ns;
+    deadline_ns_ = (device_->now_ns() + period_ns - 1) / period_ns * period_ns;
     clock_->sleep_until(deadline_ns_);
-    const std::int64_t cycle = deadline_ns_ / kPeriod_ns;
+    const std::int64_t cycle = deadline_ns_ / period_ns;
     const Options::Flood& flood = options_.flood;
     const bool floods = cycle >= flood.first_cycle && cycle - flood.first_cycle < flood.cycles;
     const bool set = cycle >= options_.clock_set.first_cycle;

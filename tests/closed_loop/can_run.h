@@ -42,7 +42,8 @@ class DisturbedBus final : public hal::CanBus {
   std::optional<hal::CanFrame> answer_;
 };
 
-/// Runs the whole controller on the simulated arm over its three buses, in virtual time. Otherwise as SimulatedRun.
+/// Runs the whole controller on the simulated arm over its buses, three at 1 ms, in virtual time. Otherwise as
+/// SimulatedRun.
 class CanRun {
  public:
   struct Options {
@@ -50,9 +51,11 @@ class CanRun {
     double begin = 1.2;         ///< [s]
     std::vector<sim::BusFault> bus_faults;
     std::vector<sim::DriveFault> drive_faults;
-    double zero = 0.0;        ///< position of joint 2 where its counter is 0 [rad]
-    double hold_from = 1.04;  ///< the enable switch is held from this time on [s]
-    bool quiet = false;       ///< for 3 s from the first heartbeat on, only SYNC and PDOs are on the wires
+    double period = 1e-3;       ///< T; below 1 ms each joint has a bus of its own, with FD frames alone [s]
+    double stiffness = 2000.0;  ///< of the wall [N/m]
+    double zero = 0.0;          ///< position of joint 2 where its counter is 0 [rad]
+    double hold_from = 1.04;    ///< the enable switch is held from this time on [s]
+    bool quiet = false;         ///< for 3 s from the first heartbeat on, only SYNC and PDOs are on the wires
     struct Flood {
       int bus = 0;
       std::int64_t first_cycle = 0;

@@ -304,6 +304,23 @@ TEST_F(SocketCanOpenTest, ErrorNumbersOfSendTellAFullQueueFromADeadInterface) {
   }
 }
 
+/// Classical frames, as those of NMT, heartbeats and SDO, leave as FD frames at the higher rate if the bus takes these
+/// only.
+TEST_F(SocketCanOpenTest, SendsEveryFrameAsAnFdFrameOnRequest) {
+  kernel_.interfaces["can3"] = {.mtu = CANFD_MTU};
+  for (const auto& [fd, only_fd] : {std::pair{true, true}, {true, false}, {false, true}, {false, false}}) {
+    expect_end(OpenStatus::kOk, 0, {.fd = fd, .only_fd = only_fd});
+    kernel_.sent.clear();
+    EXPECT_EQ(bus_.send({0x77F, 1, false, {0x05}}), SendResult::kSent);
+    const std::vector<std::uint8_t>& bytes = kernel_.sent.at(0).bytes;
+    const bool as_fd = fd && only_fd;
+    EXPECT_EQ(bytes.size(), as_fd ? CANFD_MTU : CAN_MTU) << fd << only_fd;
+    EXPECT_EQ(bytes.at(4), 1) << "its length";
+    EXPECT_EQ(bytes.at(5), as_fd ? CANFD_BRS : 0) << "its flags";
+    EXPECT_EQ(bytes.at(8), 0x05);
+  }
+}
+
 TEST_F(SocketCanOpenTest, AnEmptyOrInterruptedReceiveIsNoFault) {
   expect_end(OpenStatus::kOk, 0);
   ReceivedFrame received;

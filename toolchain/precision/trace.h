@@ -10,7 +10,7 @@
 
 namespace godobject::precision {
 
-/// Motions, each from a free pose: of the moving mesh's frame in W, one pose for each millisecond.
+/// Motions, each from a free pose: of the moving mesh's frame in W, one pose for each cycle.
 using Paths = std::vector<std::vector<Pose>>;
 
 /// The result of one cycle of a god object.

@@ -46,15 +46,16 @@ Solvers: contact, the least-constraint motion over all contact points, in sub-st
 surface; corrected, one projection from one wrench for all contacts; paper, the published heuristic, for comparison.
 
 POSES.csv has the columns t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row for each period,
-which is 0.125 to 10 ms and replaces that of the scene. OUT.csv gets one row for each cycle: device pose d; god-object pose g after the cycle; spring force f [N]
-and torque t [Nm] on the device in W about the moving body's centre of mass; point_depth [m] of the god object's deepest
-sample point in the stored distances (positive inside, negative: no sample point is inside and the nearest is that far
-from the surface; at most the stored band); contacts (contact: rows that carry a force, two for a point seen from two
-sides; otherwise: colliding points); substeps; time of the look-ups (step #1 and, with contact, its certificate) and of
-the other steps #2-#7; and a status:
+which is 0.125 to 10 ms and replaces that of the scene. OUT.csv gets one row for each cycle: device pose d; god-object
+pose g after the cycle; spring force f [N] and torque t [Nm] on the device in W about the moving body's centre of mass;
+point_depth [m] of the god object's deepest sample point in the stored distances (positive inside, negative: no sample
+point is inside and the nearest is that far from the surface; at most the stored band); contacts (contact: rows that
+carry a force, two for a point seen from two sides; otherwise: colliding points); substeps; time of the look-ups (step
+#1 and, with contact, its certificate) and of the other steps #2-#7; and a status:
   free          nothing holds the god object: it is at the device pose
   contact       constrained; with contact: rows are active in the solution
-  start_inside  the first pose penetrated and the god object is still moving out. Where the field has a direction it
+  start_inside  the first pose penetrated and the god object is still moving out, or with --work-budget the first search
+                has not ended. Where the field has a direction it
                 moves out, with contact by up to a quarter of a voxel in a cycle, otherwise by a fifth of its depth.
                 Where the field has no direction it follows the device without force
   cut           the motion did not end in eight sub-steps, or an obstacle stopped it: it continues in the next cycle

@@ -108,8 +108,8 @@ class GodObject {
   /// lists of near points.
   ///
   /// If the search for near points does not fit into the budget, the next cycles go on with it while the god object
-  /// stays. After `start`, `reset` and `follow` the outcome is kStartInside until the first search has ended. If the
-  /// first motion after it does not fit, shorter ones follow in the next cycles, at last without friction
+  /// stays. After `start`, `reset` and `follow` the outcome is kStartInside, without force, until the first search has
+  /// ended. If the first motion after it does not fit, shorter ones follow in the next cycles, at last without friction
   /// (`unconverged`). Where the bodies touch at thousands of points, a budget far below what cycles take without one
   /// may hold the god object for good, also when the device moves away; so it may without the memory of memory_size().
   /// `units`: 1 or more; kNoBudget: no budget. No effect before `start`. Real-time safe.

@@ -17,7 +17,8 @@ struct DeviceForce {
 enum class Outcome : std::uint8_t {
   kFree,         ///< no contact holds the god object; with `contact` it is at the device pose
   kContact,      ///< contacts constrain the god object
-  kStartInside,  ///< the first pose penetrated, and the god object has not come out yet
+  kStartInside,  ///< the first pose penetrated, and the god object has not come out yet; `contact` with a
+                 ///< budget of work: or its first search has not ended, then without force
   kCut,         ///< the motion was shortened so as not to jump over the surface; the remainder waits for the next cycle
   kOverflow,    ///< `contact`: near points or edges that matter found no room, or exceeded the point budget
   kBadInput,    ///< the input was refused; the god object stayed and the force is zero

@@ -79,20 +79,22 @@ struct ContactSearch {
 /// The memory of `contact` beside ProxyState: the state that it carries from cycle to cycle, and its workspace.
 struct ContactMemory {
   ContactSearch search;
-  ConstrainedStep last_step;       ///< the last cycle's motion and contact forces
-  Pose H_WD_last;                  ///< the last cycle's device pose
-  bool edges_may_overlap = true;   ///< no pose since the start is known to have all edges apart
-  SubstepPath path;                ///< of the last cycle, for tools and tests
-  WorkMeter work;                  ///< of the last cycle
-  WorkShare share;                 ///< of radius and motion that the budget of work allows
-  KeptSearch kept;                 ///< the last search
-  std::uint64_t attempt_work = 0;  ///< of the last first attempt at a motion [units]
+  ConstrainedStep last_step;        ///< the last cycle's motion and contact forces
+  Pose H_WD_last;                   ///< the last cycle's device pose
+  bool first_search_ended = false;  ///< since the start: it is known whether the first pose penetrates
+  bool edges_may_overlap = true;    ///< no pose since the start is known to have all edges apart
+  SubstepPath path;                 ///< of the last cycle, for tools and tests
+  WorkMeter work;                   ///< of the last cycle
+  WorkShare share;                  ///< of radius and motion that the budget of work allows
+  KeptSearch kept;                  ///< the last search
+  std::uint64_t attempt_work = 0;   ///< of the last first attempt at a motion [units]
   ContactWorkspace workspace;
 
   /// Forgets the last cycle; the search's memory stays valid.
   void reset() noexcept {
     last_step = ConstrainedStep{};
     H_WD_last = Pose{};
+    first_search_ended = false;
     edges_may_overlap = true;
     path.clear();
     share = WorkShare{};

@@ -40,7 +40,8 @@ Status finish_contact(const CycleInput& input, const ContactResult& result, cons
                       const Parameters& q, const ContactLengths& lengths, ContactMemory& memory, ProxyState& state,
                       CycleReport& report) noexcept {
   DeviceForce force;
-  if (!(result.H_WS == input.H_WD)) {
+  // a spring to a pose of which nobody knows whether it is inside would push at random
+  if (!result.unknown && !(result.H_WS == input.H_WD)) {
     const Motion stretch = coupling_stretch(input.H_WD, result.H_WS);                                // #6 (44), (45)
     const Wrench coupling = constraint_force(stretch, q.coupling_translation, q.coupling_rotation);  // (46)
     force.spring_W.force = q.stiffness * input.H_WD.rotation._transformVector(coupling.force);       // #7

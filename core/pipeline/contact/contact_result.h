@@ -23,6 +23,7 @@ struct ContactResult {
   bool cut = false;            ///< the last motion was shortened so as not to jump over the surface
   bool inside = false;         ///< the god object has not come out yet after a start inside
   bool out_of_work = false;    ///< the budget of work ended the cycle
+  bool unknown = false;        ///< `inside` only for lack of an answer: the first search has not ended
 };
 
 /// The flags of a cycle, as in ContactResult.

@@ -106,6 +106,7 @@ class ContactSubsteps {
     // a point inside has clearance 0, so it is near; both directions decide whether the first pose penetrates
     const bool may_be_inside = result_.inside || (is_first_ && !state_.started);
     result_.inside = may_be_inside && (around_.smallest <= 0.0 || !has_all_points_);
+    memory_.first_search_ended |= has_all_points_;
     if (has_all_points_) find_edges();
     has_surroundings_ = has_all_points_ && !work_.is_spent();
     if ((around_.dropped > 0 || had_all_points_) && !work_.is_spent()) select_again();
@@ -250,6 +251,7 @@ class ContactSubsteps {
       // friction needs the slip of the whole cycle; in the sum the slip of a point that stuck stays zero
       step_.motion = whole_;
     }
+    result_.unknown = result_.inside && !memory_.first_search_ended;
     const Status status = finish_contact(input_, result_, step_, *scene_.parameters, lengths_, memory_, state, report);
     if (status != Status::kOk) return status;
     if (attempt_work_ > 0) memory_.attempt_work = attempt_work_;

@@ -10,7 +10,8 @@
 namespace godobject::firmware {
 namespace {
 
-constexpr double kFastest = 1e6;  // largest bit rate of the arbitration, ISO 11898-1 [bit/s]
+constexpr double kFastest = 1e6;      // largest bit rate of the arbitration, ISO 11898-1 [bit/s]
+constexpr double kFastestData = 8e6;  // of the keys of a device file [bit/s]
 constexpr double kHandLever =
     0.5;  // lever with which a torque step is shown as a force; chosen, half an arm's reach [m]
 
@@ -19,6 +20,13 @@ double us(std::int64_t ns) { return 1e-3 * static_cast<double>(ns); }
 std::string rates(const hal::BusLayout& layout) {
   if (!layout.fd) return fmt::format("CAN {:g} Mbit/s", 1e-6 * layout.bit_rate);
   return fmt::format("CAN FD {:g}/{:g} Mbit/s", 1e-6 * layout.bit_rate, 1e-6 * layout.data_rate);
+}
+
+/// Returns the cure that makes frames shorter.
+const char* faster(const hal::BusLayout& layout) {
+  if (!layout.fd) return "use CAN FD (bus.fd) ";
+  if (!layout.fd_services) return "set bus.fd_services ";
+  return layout.data_rate < kFastestData ? "raise bus.data_rate " : "";
 }
 
 }  // namespace
@@ -50,12 +58,11 @@ std::string bus_plan_objection(const hal::BusLayout& layout, const hal::BusPlan&
     const hal::BusLoad& load = plan.buses[bus];
     if (load.fits) continue;
     return fmt::format(
-        "bus {}: a cycle needs {:.0f} us of {:.0f} with {} joint{}{}; put fewer on it, {}lower loop.compute ({:.0f} "
-        "us) or "
-        "use CAN FD",
+        "bus {}: a cycle needs {:.0f} us of {:.0f} with {} joint{}{}; {}{}lower loop.compute ({:.0f} us), {}or raise "
+        "bus.period",
         bus, us(std::max(load.end_ns, load.slot_ns)), 1e6 * layout.period, load.joints, load.joints == 1 ? "" : "s",
-        load.panel ? " and the panel" : "", layout.bit_rate < kFastest ? "raise bus.bit_rate, " : "",
-        1e6 * layout.compute);
+        load.panel ? " and the panel" : "", load.joints + (load.panel ? 1 : 0) > 1 ? "put fewer on it, " : "",
+        layout.bit_rate < kFastest ? "raise bus.bit_rate, " : "", 1e6 * layout.compute, faster(layout));
   }
   return "";
 }

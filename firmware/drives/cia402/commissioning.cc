@@ -22,11 +22,11 @@ using command::ExitCode;
 using command::Failure;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-/// Cycles until all drives must answer. Chosen: 25 times the 8 cycles of the probe after a start (CanDrives).
-constexpr int kSettle = 200;
-/// Cycles until a drive must have left its fault. Chosen: half of them with a reset, which takes some 16 cycles
+/// Time until all drives must answer [ms]. Chosen: 25 times that of the probe after a start (CanDrives).
+constexpr int kSettle_ms = 200;
+/// Time until a drive must have left its fault [ms]. Chosen: half of it with a reset, which takes some 16 ms
 /// (JointChannel), half for the drive's own transitions.
-constexpr int kRecover = 1000;
+constexpr int kRecover_ms = 1000;
 
 /// Writes a mode. Returns the milliseconds until the write was confirmed and TPDO2 showed the mode. None: not within
 /// half a second, or the write was refused.
@@ -71,6 +71,12 @@ class IdleCycles {
         end_(end),
         next_ns_(clock.now_ns() / period_ns_ * period_ns_) {}
 
+  /// Returns the cycles within a time, at least as many as at 1 ms where a period is longer.
+  std::uint32_t within(int ms) const {
+    const auto least = static_cast<std::uint32_t>(ms) / 4;
+    return cycles_in(1e-3 * ms, 1e-9 * static_cast<double>(period_ns_), least);
+  }
+
   const hal::JointReading& run(hal::PowerRequest power) {
     if (end_.load(std::memory_order_relaxed)) {
       throw Failure(ExitCode::kUnavailable, "ended before all joints were tested; run it again");
@@ -101,7 +107,7 @@ Failure alarm_of(const hal::CanDrives& drives, const std::vector<std::string>& n
 /// Waits until all drives answer; then none may have an alarm.
 void settle(IdleCycles& cycles, const hal::CanDrives& drives, const std::vector<std::string>& names) {
   const hal::JointReading* reading = nullptr;
-  for (int k = 0; k < kSettle; ++k) reading = &cycles.run(hal::PowerRequest::kOff);
+  for (std::uint32_t k = 0; k < cycles.within(kSettle_ms); ++k) reading = &cycles.run(hal::PowerRequest::kOff);
   if (reading->alarm != hal::Alarm::kNone) throw alarm_of(drives, names);
   for (int i = 0; i < drives.joint_count(); ++i) {
     if (reading->state[static_cast<std::size_t>(i)] == hal::DriveState::kOff) continue;
@@ -111,9 +117,9 @@ void settle(IdleCycles& cycles, const hal::CanDrives& drives, const std::vector<
 }
 
 void recover(IdleCycles& cycles, const hal::CanDrives& drives, int joint, const std::vector<std::string>& names) {
-  for (int k = 0; k < kRecover; ++k) {
-    const hal::JointReading& reading =
-        cycles.run(k < kRecover / 2 ? hal::PowerRequest::kReset : hal::PowerRequest::kOff);
+  const std::uint32_t most = cycles.within(kRecover_ms);
+  for (std::uint32_t k = 0; k < most; ++k) {
+    const hal::JointReading& reading = cycles.run(k < most / 2 ? hal::PowerRequest::kReset : hal::PowerRequest::kOff);
     const bool off = reading.state[static_cast<std::size_t>(joint)] == hal::DriveState::kOff;
     if (k > 2 && off && reading.alarm == hal::Alarm::kNone) return;
   }
@@ -141,7 +147,7 @@ void try_deadline(IdleCycles& cycles, hal::CanDrives& drives, int joint, const h
   if (after > 0) trial.after_ms = static_cast<int>(std::lround(1e3 * layout.period * after));
   drives.withhold(-1);
   const bool is_it = trial.fault || trial.emergency == hal::canopen::kRpdoTimeout;
-  trial.in_time = is_it && after <= deadline + kSeenAfter;
+  trial.in_time = is_it && after <= deadline + cycles_in(1e-3 * kSeenAfter_ms, layout.period, 2);
   recover(cycles, drives, joint, names);
 }
 

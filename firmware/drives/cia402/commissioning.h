@@ -24,12 +24,12 @@ struct JointTrial {
   int after_ms = -1;            ///< time from the last RPDO to a reaction; -1: there was none
   std::uint16_t emergency = 0;  ///< code of the emergency message; 0: none
   bool fault = false;           ///< the statusword showed a fault
-  bool in_time = false;         ///< emergency 8250 or a fault within the deadline and kSeenAfter
+  bool in_time = false;         ///< emergency 8250 or a fault within the deadline and kSeenAfter_ms
 };
 
 /// Tests each drive in turn, without power, right after the start. First the mode is set to none and back: TPDO2 must
 /// show both changes within kModeAtOnce_ms. Then the deadline of the RPDOs: for some cycles this drive
-/// gets none while all other drives do. Its reaction must be seen within the deadline and kSeenAfter cycles; the test
+/// gets none while all other drives do. Its reaction must be seen within the deadline and kSeenAfter_ms; the test
 /// waits kPatience_ms longer. `buses`: those of `drives`. Throws command::Failure (kUnavailable) if the drives do not
 /// answer, another alarm occurs, a drive cannot be reset, or `end` becomes true.
 std::vector<JointTrial> try_drives(hal::CanDrives& drives, const hal::BusLayout& layout,
@@ -42,8 +42,9 @@ inline constexpr int kPatience_ms = 50;
 /// Chosen: a tenth of a brake's or a power stage's time, and far below the periodic refresh of TPDO2, 1 s
 /// (`BusLayout::mode_refresh`), which a drive sends even if it misses the change.
 inline constexpr int kModeAtOnce_ms = 20;
-/// Derived: a drive reacts within a cycle of its deadline, and its frame is read at the end of the next cycle.
-inline constexpr std::uint32_t kSeenAfter = 2;
+/// Derived: a drive reacts within a cycle of its deadline, and its frame is read at the end of the next cycle. 1400:5
+/// counts milliseconds, so a drive may react a millisecond later. Two cycles at least.
+inline constexpr int kSeenAfter_ms = 2;
 
 /// The results as a table: one line a joint, each with a line feed.
 std::string trial_table(const hal::BusLayout& layout, std::span<const JointTrial> trials);

@@ -29,8 +29,8 @@ class OperatorNoticeTest : public testing::Test {
 
 const std::string kIdle = "godobject-controller: waits for the enable switch: release it, then hold it\n";
 const std::string kArmed =
-    "godobject-controller: waits with the arm held: the moving body touches or penetrates the still body; move the "
-    "tool away\n";
+    "godobject-controller: waits with the arm held: the moving body touches or penetrates the still body, or the "
+    "budget of work does not suffice to find out; move the tool away\n";
 
 TEST_F(OperatorNoticeTest, SaysOnceThatItWaitsForLongerThanThreeSeconds) {
   for (const auto& [mode, line] : {std::pair{Mode::kIdle, kIdle}, {Mode::kArmed, kArmed}}) {

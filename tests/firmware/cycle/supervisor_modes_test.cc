@@ -363,7 +363,7 @@ TEST(SupervisorModes, LastForATimeAndNotForACount) {
     Bench fade(parameters);
     fade.joints_follow = true;
     ASSERT_GE(fade.run_to(Mode::kRunning), 0) << period;
-    for (std::uint32_t k = 1; k <= 3; ++k) {
+    for (std::uint32_t k = 1; k <= static_cast<std::uint32_t>(hal::cycles_to_loss(period)); ++k) {
       fade.seen.lost = k;
       fade.step();
     }
@@ -383,6 +383,42 @@ TEST(SupervisorModes, LastForATimeAndNotForACount) {
     EXPECT_EQ(ends.stay() + 1, cycles(Supervisor::kEndRamp_ms)) << period;
     EXPECT_EQ(ends.stay() + 1, cycles(Supervisor::kEndStop_ms)) << period;
     EXPECT_EQ(ends.supervisor.mode(), Mode::kEnded);
+  }
+}
+
+/// Three lost positions in a row, or those of 10 ms if they are fewer: the last torque is not held for longer.
+TEST(SupervisorModes, FadeAfterThreeLostPositionsOrTenMilliseconds) {
+  for (const auto& [period, losses] : {std::pair{0.125e-3, 3u}, {2e-3, 3u}, {4e-3, 2u}, {5e-3, 2u}, {10e-3, 1u}}) {
+    Supervisor::Parameters parameters = short_start();
+    parameters.period = period;
+    Bench bench(parameters);
+    bench.joints_follow = true;
+    ASSERT_GE(bench.run_to(Mode::kRunning), 0) << period;
+    for (std::uint32_t k = 1; k <= losses; ++k) {
+      EXPECT_EQ(bench.supervisor.mode(), Mode::kRunning) << period;
+      bench.seen.lost = k;
+      bench.step();
+    }
+    EXPECT_EQ(bench.supervisor.mode(), Mode::kFade) << period;
+  }
+}
+
+/// A drive that answers only every second SYNC never loses two positions in a row, but half of all.
+TEST(SupervisorModes, FadeWhereMoreThanAFifthOfThePositionsAreLost) {
+  for (const int every : {2, 3, 4, 5, 6}) {
+    Bench bench(short_start());
+    bench.joints_follow = true;
+    ASSERT_GE(bench.run_to(Mode::kRunning), 0);
+    int cycles = 0;
+    for (; cycles < 3000 && bench.supervisor.mode() == Mode::kRunning; ++cycles) {
+      bench.seen.lost = cycles % every == 0 ? 1 : 0;
+      bench.step();
+    }
+    EXPECT_EQ(bench.supervisor.mode(), every < 5 ? Mode::kFade : Mode::kRunning) << every;
+    if (every < 5) {
+      EXPECT_EQ(cycles, 200 * every + 1) << "at the 201st";
+      EXPECT_EQ(bench.supervisor.fault(), Fault::kPositionLost);
+    }
   }
 }
 

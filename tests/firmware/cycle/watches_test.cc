@@ -60,19 +60,25 @@ TEST(LatenessWatch, FindsThreeInARowOneThatIsLongAndTooMany) {
   for (int i = 0; i < 3000; ++i) ASSERT_FALSE(early.update(i % 2 == 0 ? 0 : -1));
 }
 
-/// Every combination of states and ages of three joints, of which the arm has one, two or three.
-/// A period longer than the default deadline of torques, which is 4 ms or four periods.
+/// A period longer than drives wait by default: for 4 ms, or four periods, less where three periods take over 10 ms.
 TEST(LatenessWatch, CallsLongWhatTheDrivesDoNotWaitFor) {
   for (const auto& [period, longest] : {std::pair{0.125e-3, std::int64_t{4'125'000}},
                                         {0.25e-3, std::int64_t{4'250'000}},
                                         {2e-3, std::int64_t{10'000'000}},
-                                        {10e-3, std::int64_t{50'000'000}}}) {
+                                        {4e-3, std::int64_t{16'000'000}},
+                                        {10e-3, std::int64_t{30'000'000}}}) {
     LatenessWatch watch(period);
     EXPECT_FALSE(watch.update(longest)) << period;
     EXPECT_TRUE(watch.update(longest + 1)) << period;
   }
 }
 
+TEST(RateWatch, AllowsAsManyAsItIsTold) {
+  RateWatch watch(200);
+  for (int i = 1; i <= 400; ++i) ASSERT_EQ(watch.update(i % 2 == 1), i % 2 == 1 && (i + 1) / 2 > 200) << i;
+}
+
+/// Every combination of states and ages of three joints, of which the arm has one, two or three.
 TEST(Observation, SummarizesTheDrivesOfTheArmAlone) {
   using hal::DriveState;
   constexpr int kStates = 5;

@@ -42,7 +42,7 @@ TEST(BusPlanTable, NamesTheBusThatDoesNotFitAndTheCure) {
   EXPECT_NE(bus_plan_table(layout, plan).find("does not fit\n  1      0"), std::string::npos);
   EXPECT_EQ(bus_plan_objection(layout, plan),
             "bus 0: a cycle needs 1065 us of 1000 with 3 joints and the panel; put fewer on it, lower "
-            "loop.compute (120 us) or use CAN FD");
+            "loop.compute (120 us), use CAN FD (bus.fd) or raise bus.period");
   layout.bit_rate = 250e3;
   EXPECT_NE(bus_plan_objection(layout, hal::plan_buses(layout)).find("put fewer on it, raise bus.bit_rate, lower"),
             std::string::npos);
@@ -98,14 +98,18 @@ TEST(BusPlanTable, HasEachNumberInItsPlace) {
             "joint 1: bus 1, node 9, torque in steps of 0.25 Nm, 0.5 N at 0.5 m\n"
             "joint 2: bus 0, node 8, torque in steps of 0.125 Nm, 0.25 N at 0.5 m\n");
   EXPECT_EQ(bus_plan_objection(layout, plan),
-            "bus 1: a cycle needs 2504 us of 2000 with 1 joint; put fewer on it, raise bus.bit_rate, lower "
-            "loop.compute (250 us) or use CAN FD");
+            "bus 1: a cycle needs 2504 us of 2000 with 1 joint; raise bus.bit_rate, lower loop.compute (250 us), "
+            "set bus.fd_services or raise bus.period");
+  layout.fd_services = true;
   plan.buses[1].slot_ns = 2'600'000;
   plan.buses[1].joints = 0;
   layout.bit_rate = 1e6;
   EXPECT_EQ(bus_plan_objection(layout, plan),
-            "bus 1: a cycle needs 2600 us of 2000 with 0 joints; put fewer on it, lower loop.compute (250 us) or use "
-            "CAN FD");
+            "bus 1: a cycle needs 2600 us of 2000 with 0 joints; lower loop.compute (250 us), raise bus.data_rate or "
+            "raise bus.period");
+  layout.data_rate = 8e6;
+  EXPECT_EQ(bus_plan_objection(layout, plan),
+            "bus 1: a cycle needs 2600 us of 2000 with 0 joints; lower loop.compute (250 us), or raise bus.period");
   plan.buses[0].fits = false;
   EXPECT_EQ(bus_plan_objection(layout, plan).substr(0, 52), "bus 0: a cycle needs 605 us of 2000 with 1 joint and");
 }
