@@ -1,0 +1,46 @@
+// A session of one solver, on a field that counts its look-ups.
+
+#include "core/pipeline/session.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "tests/support/counted_field.h"
+#include "tests/support/small_scenes.h"
+
+namespace godobject::test::session_test {
+namespace {
+
+/// The budget of work bounds the look-ups of a first cycle as those of any other: a point costs at least 100 units.
+TEST(Session, KeepsToTheBudgetOfWorkInTheFirstCycle) {
+  const SceneImage image = ball_and([](const Vector3& p) { return ball_distance(p, 0.021); }, Vector3::Constant(0.021));
+  SceneView scene;
+  ASSERT_EQ(SceneView::open(image.bytes(), scene), Status::kOk);
+  using Field = Counted<Voxelmap>;
+  const Field field{scene.voxelmap};
+  const auto session = std::make_unique<Session<Field, NoBodyField>>();
+  std::vector<std::uint32_t> words(session->search_words(scene.pointshell, {}));
+  for (const double off : {0.0, 0.001, 0.04}) {  // in the middle all points are near
+    int unbounded = 0;
+    for (const std::uint64_t budget : {WorkMeter::kUnlimited, std::uint64_t{10000}, std::uint64_t{30000}}) {
+      Parameters q = Parameters::make(scene);
+      q.work_budget = budget;
+      session->start(field, scene.pointshell, {}, q, Solver::kContact, false, words);
+      CycleInput input;
+      input.H_WD.translation = Vector3(0.0, 0.0, off);
+      CycleReport report;
+      field.looks = field.bounds = 0;
+      ASSERT_EQ(session->update(input, report), Status::kOk);
+      if (budget == WorkMeter::kUnlimited) {
+        unbounded = field.looks + field.bounds;
+      } else {
+        EXPECT_LE(field.looks + field.bounds, 100 + static_cast<int>(budget / 100)) << off << " of " << unbounded;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace godobject::test::session_test
