@@ -6,6 +6,7 @@
 
 #include "firmware/cycle/cycles_in.h"
 #include "hal/canopen/network.h"
+#include "toolchain/report/stability/fast_buses.h"
 
 namespace godobject::firmware {
 
@@ -51,18 +52,12 @@ bool DisturbedBus::receive(hal::ReceivedFrame& received) noexcept {
 namespace {
 
 /// The buses and times that a device file with this period has.
-void set_period(double period, hal::BusLayout& layout) {
-  layout.period = period;
+hal::BusLayout at_period(double period, const hal::BusLayout& usual) {
+  hal::BusLayout layout = report::layout_for(usual, period);
   layout.command_deadline = 1e-3 * std::ceil(1e3 * hal::default_deadline(period) - 1e-6);
   layout.drive_heartbeat = std::max(layout.drive_heartbeat, 5.0 * period);
   layout.heartbeat_timeout = std::max(layout.heartbeat_timeout, 2.0 * layout.drive_heartbeat);
-  if (!(period < 1e-3)) return;
-  layout.fd = layout.fd_services = true;
-  layout.data_rate = 8e6;
-  layout.compute = 0.16 * period;
-  for (int i = 0; i < layout.joint_count; ++i) layout.drives.at(static_cast<std::size_t>(i)).bus = i;
-  layout.panel.bus = layout.joint_count;
-  layout.bus_count = layout.joint_count + 1;
+  return layout;
 }
 
 }  // namespace
@@ -76,7 +71,7 @@ CanRun::CanRun(const test::SceneImage& image, const Options& options)
   scene_.settings.period = options.period;
   const ArmModel& arm = placement_.device.model;
   hal::BusLayout& layout = placement_.device.bus;
-  set_period(options.period, layout);
+  layout = at_period(options.period, layout);
   layout.drives[1].zero = options.zero;
   layout.boot_timeout = 1.0;
   if (options.quiet) {

@@ -22,6 +22,7 @@
 #include "toolchain/report/stability/axis_loop.h"
 #include "toolchain/report/stability/bounds.h"
 #include "toolchain/report/stability/cases.h"
+#include "toolchain/report/stability/fast_buses.h"
 #include "toolchain/report/study/result_file.h"
 
 namespace godobject::report {
@@ -357,22 +358,6 @@ CaseResult bus_schedule(const firmware::Device& device, const LoopFault& fault) 
   boundaries_on_the_bus(device.name, device.bus, fault, sheet, result);
   result.sheets.push_back(sheet);
   return result;
-}
-
-/// The drives of a device on the buses that a period needs: below 1 ms each joint on a bus of its own, with FD frames
-/// alone and data at 8 Mbit/s.
-hal::BusLayout layout_for(hal::BusLayout layout, double period) {
-  constexpr double kSlowest = 0.9e-3;  // below, the device's own buses have no room
-  constexpr double kComputeShare = 0.16;
-  layout.period = period;
-  if (period > kSlowest) return layout;
-  layout.fd = layout.fd_services = true;
-  layout.data_rate = 8e6;
-  layout.compute = std::min(layout.compute, kComputeShare * period);
-  for (int i = 0; i < layout.joint_count; ++i) layout.drives.at(static_cast<std::size_t>(i)).bus = i;
-  layout.panel = {.bus = layout.joint_count};
-  layout.bus_count = layout.joint_count + 1;
-  return layout;
 }
 
 /// To four digits, for tables that people read.
