@@ -6,6 +6,8 @@
 namespace godobject::sim {
 namespace {
 
+constexpr double kRow = 1e-3;  // period of a script's rows [s]
+
 /// The rotation vector from a to b, on the axes of R.
 Vector3 rotation_between(const Pose& a, const Pose& b) noexcept {
   return log_rotation(b.rotation * a.rotation.conjugate());
@@ -28,14 +30,14 @@ double stored(const Pose& a, const Pose& b, double stiffness, double rotation_st
 
 }  // namespace
 
-OperatorHand::OperatorHand(const HandParameters& parameters, std::span<const Pose> script, std::int64_t start_ns,
-                           double row) noexcept
-    : parameters_(parameters), script_(script), start_(1e-9 * static_cast<double>(start_ns)), row_(row) {}
+OperatorHand::OperatorHand(const HandParameters& parameters, std::span<const Pose> script,
+                           std::int64_t start_ns) noexcept
+    : parameters_(parameters), script_(script), start_(1e-9 * static_cast<double>(start_ns)) {}
 
 BodyState OperatorHand::target(double time) const noexcept {
   BodyState target;
   if (script_.empty()) return target;
-  const double rows = (time - start_) / row_;
+  const double rows = (time - start_) / kRow;
   const auto last = static_cast<std::ptrdiff_t>(script_.size()) - 1;
   if (!(rows > 0.0)) return {script_.front(), {}};
   if (rows >= static_cast<double>(last)) return {script_.back(), {}};
@@ -60,9 +62,9 @@ BodyState OperatorHand::target(double time) const noexcept {
   const double h1 = s * s * (3.0 - 2.0 * s);
   const double h2 = s * (s - 1.0) * (s - 1.0);
   const double h3 = s * s * (s - 1.0);
-  const double d1 = 6.0 * s * (1.0 - s) / row_;
-  const double d2 = ((3.0 * s - 4.0) * s + 1.0) / row_;
-  const double d3 = (3.0 * s - 2.0) * s / row_;
+  const double d1 = 6.0 * s * (1.0 - s) / kRow;
+  const double d2 = ((3.0 * s - 4.0) * s + 1.0) / kRow;
+  const double d3 = (3.0 * s - 2.0) * s / kRow;
   target.pose.translation = here.translation + h1 * step.translation + h2 * first.translation + h3 * second.translation;
   target.pose.rotation = exp_rotation(h1 * step.rotation + h2 * first.rotation + h3 * second.rotation) * here.rotation;
   target.velocity.translation = d1 * step.translation + d2 * first.translation + d3 * second.translation;

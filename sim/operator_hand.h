@@ -47,11 +47,11 @@ class OperatorHand {
  public:
   OperatorHand() = default;
 
-  /// `script`: target poses H_RM of the tool, `row` [s] apart, the first at time `start_ns`; outlives the hand. The
-  /// first pose holds before the script, the last one after it. Without a script the hand is passive: a mass, damped
-  /// against the room.
-  explicit OperatorHand(const HandParameters& parameters, std::span<const Pose> script = {}, std::int64_t start_ns = 0,
-                        double row = 1e-3) noexcept;
+  /// `script`: target poses H_RM of the tool, 1 ms apart, the first at time `start_ns`; outlives the hand. The first
+  /// pose holds before the script, the last one after it. Without a script the hand is passive: a mass, damped against
+  /// the room.
+  explicit OperatorHand(const HandParameters& parameters, std::span<const Pose> script = {},
+                        std::int64_t start_ns = 0) noexcept;
 
   const HandParameters& parameters() const noexcept { return parameters_; }
 
@@ -69,7 +69,6 @@ class OperatorHand {
   HandParameters parameters_;
   std::span<const Pose> script_;
   double start_ = 0.0;  // [s]
-  double row_ = 1e-3;   // time between poses of the script [s]
 };
 
 }  // namespace godobject::sim

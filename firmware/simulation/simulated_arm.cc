@@ -31,7 +31,7 @@ std::vector<Pose> in_room(const std::vector<Pose>& path, const Placement& placem
   return room;
 }
 
-/// The path in `slower` times its duration, with the same period.
+/// The path in `slower` times its duration, still 1 ms a pose.
 std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
   const auto rows = static_cast<std::size_t>(slower * static_cast<double>(path.size() - 1)) + 1;
   std::vector<Pose> longer;
@@ -47,25 +47,17 @@ std::vector<Pose> slowed(const std::vector<Pose>& path, double slower) {
   return longer;
 }
 
-sim::HandParameters hand() {
-  sim::HandParameters parameters;
-  parameters.grip = sim::Grip::kSpring;
-  return parameters;
-}
-
-}  // namespace
-
-SimulatedArm::Path SimulatedArm::read_path(const ControllerConfig& config, const Placement& placement) {
+std::vector<Pose> read_path(const ControllerConfig& config, const Placement& placement) {
   const Pose rest = forward_kinematics(config.device.model, config.workspace.posture).H_RM;
-  if (config.simulation.path.empty()) return {{rest}};
-  const files::PosePath read = files::read_pose_path(config.simulation.path);
-  for (const Pose& pose : read.poses) {
+  if (config.simulation.path.empty()) return {rest};
+  std::vector<Pose> path = files::read_pose_path(config.simulation.path).poses;
+  for (const Pose& pose : path) {
     if (!pose.is_finite() || !(pose.rotation.norm() > 0.999 && pose.rotation.norm() < 1.001)) {
       throw Failure(ExitCode::kBadData, fmt::format("{}: has a row with an invalid pose; check its quaternions",
                                                     config.simulation.path.string()));
     }
   }
-  const std::vector<Pose> path = in_room(read.poses, placement);
+  path = in_room(path, placement);
   // tolerances chosen: across them the hand's spring (300 N/m, 3 Nm/rad) pulls with 3 N and 0.15 Nm
   const double gap = (path.front().translation - rest.translation).norm();
   if (gap > 0.01 || path.front().rotation.angularDistance(rest.rotation) > 0.05) {
@@ -74,13 +66,21 @@ SimulatedArm::Path SimulatedArm::read_path(const ControllerConfig& config, const
         fmt::format("{}: begins {:.3g} m and {:.3g} rad from the tool; set workspace.start to its first pose",
                     config.simulation.path.string(), gap, path.front().rotation.angularDistance(rest.rotation)));
   }
-  return {slowed(path, config.simulation.slower), read.period};
+  return slowed(path, config.simulation.slower);
 }
+
+sim::HandParameters hand() {
+  sim::HandParameters parameters;
+  parameters.grip = sim::Grip::kSpring;
+  return parameters;
+}
+
+}  // namespace
 
 SimulatedArm::SimulatedArm(const ControllerConfig& config, const Placement& placement)
     : path_(read_path(config, placement)),
       hardware_(sim::usual_hardware(config.device.model)),
       plant_(config.device.model, config.workspace.posture, JointVector::Zero(),
-             sim::OperatorHand(hand(), path_.poses, std::llround(1e9 * config.simulation.begin), path_.period)) {}
+             sim::OperatorHand(hand(), path_, std::llround(1e9 * config.simulation.begin))) {}
 
 }  // namespace godobject::firmware

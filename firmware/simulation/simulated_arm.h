@@ -27,18 +27,11 @@ class SimulatedArm {
 
   int joint_count() const noexcept { return plant_.joint_count(); }
   std::int64_t now_ns() const noexcept { return plant_.now_ns(); }
-  double path_seconds() const noexcept { return path_.period * static_cast<double>(path_.poses.size()); }
+  double path_seconds() const noexcept { return 1e-3 * static_cast<double>(path_.size()); }
   double hand_work() const noexcept { return plant_.work().hand.sum(); }  ///< work on the tool since the start [J]
 
  private:
-  /// Target poses H_RT of the tool frame of the device file, `period` [s] apart.
-  struct Path {
-    std::vector<Pose> poses;
-    double period = 1e-3;
-  };
-  static Path read_path(const ControllerConfig& config, const Placement& placement);
-
-  Path path_;
+  std::vector<Pose> path_;  // H_RT of the tool frame of the device file, 1 ms apart
   std::array<sim::JointHardwareParameters, kMaxJoints> hardware_;
   sim::Plant plant_;
 };

@@ -56,6 +56,18 @@ TEST(Trajectory, HasOneUnitPoseAMillisecond) {
   for (const Sample& s : samples) EXPECT_NEAR(s.pose.rotation.norm(), 1.0, 1e-14);
 }
 
+TEST(Trajectory, HasAPoseForEachPeriod) {
+  for (const double period : {0.125e-3, 0.25e-3, 2e-3, 10e-3}) {
+    Keyframes motion;
+    motion.period = period;
+    motion.keyframes = {{.t = 0.5}, {.t = 1.5}};
+    const std::vector<Sample> samples = sample(motion);
+    ASSERT_EQ(samples.size(), static_cast<std::size_t>(std::lround(1.0 / period)) + 1) << period;
+    EXPECT_NEAR(samples[1].t - samples[0].t, period, 1e-12);
+    EXPECT_NEAR(samples.back().t, 1.5, 1e-12);
+  }
+}
+
 TEST(Trajectory, IsSmoothToTheSecondDerivative) {
   Keyframes motion = quarter_turn();
   motion.oscillations.push_back({.from = 0.2,

@@ -46,6 +46,7 @@ TEST(SceneConfig, FillsInDefaultsAsMultiplesOfTheVoxel) {
   EXPECT_DOUBLE_EQ(config.settings.paper_rotation_kinetic, 0.18);
   EXPECT_DOUBLE_EQ(config.settings.paper_viscous, 0.002);
   EXPECT_DOUBLE_EQ(config.settings.stiffness, 2000.0);
+  EXPECT_EQ(config.settings.period, 1e-3);
   EXPECT_EQ(config.levels, 7u);
 }
 
@@ -152,7 +153,8 @@ TEST(SceneConfig, ReadsEveryKey) {
       "[contact]\nsolver = \"paper\"\nsafety_distance = 0.002\nmargin = 1e-5\npoint_budget = 500\n"
       "[friction]\nstatic = 0.3\nkinetic = 0.25\nviscous = 0.1\n"
       "[paper]\nrotation_static = 0.1\nrotation_kinetic = 0.05\nviscous = 0.001\n"
-      "[coupling]\nstiffness = 1000\ndamping = 0\nrotational = 0.01\n");
+      "[coupling]\nstiffness = 1000\ndamping = 0\nrotational = 0.01\nperiod = 0.002\n");
+  EXPECT_EQ(config.settings.period, 0.002);
   EXPECT_EQ(config.still.file.filename(), "a.ply");
   EXPECT_EQ(config.still.file.parent_path().filename(), "m");
   EXPECT_EQ(config.still.surface, SurfaceKind::kShell);
@@ -190,6 +192,8 @@ TEST(SceneConfig, RefusesWithLineAndKey) {
   expect_refused(still + moving + "[friction]\nkinetic = 0.1\n", ":6:", "below [friction] write static = 0.2");
   expect_refused(still + moving + "[friction]\nstatic = 0.1\nkinetic = 0.2\n", ":8:", "friction.kinetic");
   expect_refused(still + moving + "[coupling]\nstiffness = 0\n", ":7:", "coupling.stiffness");
+  expect_refused(still + moving + "[coupling]\nperiod = 0.0001\n", ":7:", "coupling.period");
+  expect_refused(still + moving + "[coupling]\nperiod = 0.011\n", ":7:", "coupling.period");
   expect_refused(still + moving + "[colour]\nred = 1\n", ":6:", "colour is not a known table; known: still, moving, ");
   expect_refused("still = 3\n" + moving, ":1:", "still");
   expect_refused(still + "mesh = \"again.ply\"\n", ":4:", "not TOML");

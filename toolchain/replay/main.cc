@@ -45,13 +45,13 @@ const char* const kFooter = R"(Examples:
 Solvers: contact, the least-constraint motion over all contact points, in sub-steps that never let a point cross a
 surface; corrected, one projection from one wrench for all contacts; paper, the published heuristic, for comparison.
 
-POSES.csv has the columns t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row for each period,
-which is 0.125 to 10 ms and replaces that of the scene. OUT.csv gets one row for each cycle: device pose d; god-object
-pose g after the cycle; spring force f [N] and torque t [Nm] on the device in W about the moving body's centre of mass;
-point_depth [m] of the god object's deepest sample point in the stored distances (positive inside, negative: no sample
-point is inside and the nearest is that far from the surface; at most the stored band); contacts (contact: rows that
-carry a force, two for a point seen from two sides; otherwise: colliding points); substeps; time of the look-ups (step
-#1 and, with contact, its certificate) and of the other steps #2-#7; and a status:
+POSES.csv has the columns t,px,py,pz,qw,qx,qy,qz: the moving mesh's frame in the still mesh's, one row for each period
+of the scene: coupling.period of its file, 1 ms by default. OUT.csv gets one row for each cycle: device pose d;
+god-object pose g after the cycle; spring force f [N] and torque t [Nm] on the device in W about the moving body's
+centre of mass; point_depth [m] of the god object's deepest sample point in the stored distances (positive inside,
+negative: no sample point is inside and the nearest is that far from the surface; at most the stored band); contacts
+(contact: rows that carry a force, two for a point seen from two sides; otherwise: colliding points); substeps; time of
+the look-ups (step #1 and, with contact, its certificate) and of the other steps #2-#7; and a status:
   free          nothing holds the god object: it is at the device pose
   contact       constrained; with contact: rows are active in the solution
   start_inside  the first pose penetrated and the god object is still moving out, or with --work-budget the first search
@@ -222,8 +222,7 @@ void replay_file(const Options& options) {
   if (options.stiffness) image.scene.settings.stiffness = checked_stiffness(*options.stiffness);
   const godobject::SceneView& scene = image.scene;
   const Pipeline pipeline = pipeline_of(options, scene);
-  const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses);
-  image.scene.settings.period = path.period;
+  const godobject::files::PosePath path = godobject::files::read_pose_path(options.poses, scene.settings.period);
   std::optional<MeshOverlap> meshes;
   if (!options.meshes.empty()) meshes.emplace(scene_file_of(options, options.meshes, scene));
   std::optional<ReplayWatch> watch;
