@@ -15,6 +15,12 @@ namespace {
 
 using files::TomlTable;
 
+/// Least periods from one heartbeat to the next. Chosen: SDO exchanges need some cycles between two heartbeats.
+constexpr double kBeatPeriods = 5.0;
+
+/// Rounds up to whole milliseconds, which 1400:5 counts [s].
+double whole_ms(double seconds) { return 1e-3 * std::ceil(1e3 * seconds - 1e-6); }
+
 /// The joint's range must be unambiguous: within half a wrap of 6064, a counter of 32 bits, from `joint.zero`.
 void require_unambiguous(const TomlTable& table, const ArmJoint& joint, const hal::DriveConfig& drive) {
   constexpr double kBeyond = 0.5;  // largest position beyond a joint's limits before the start, chosen [rad]
@@ -27,8 +33,8 @@ void require_unambiguous(const TomlTable& table, const ArmJoint& joint, const ha
                                        half_turn, reach, kBeyond));
 }
 
-/// Refuses a period that 1006, in us, and 60C2, a byte times a power of ten, cannot hold.
-void require_holdable(const TomlTable& table, double period) {
+/// Refuses a period that 60C2, a byte times a power of ten, does not hold exactly.
+void require_exact_period(const TomlTable& table, double period) {
   for (int exponent = 3; exponent <= 6; ++exponent) {
     const double count = period * std::pow(10.0, exponent);
     if (count < 255.5 && std::fabs(count - std::round(count)) < 1e-6) return;
@@ -55,11 +61,18 @@ void check_nodes(const TomlTable& joint, const hal::BusLayout& bus, std::size_t 
 
 }  // namespace
 
+void set_usual_times(hal::BusLayout& bus) {
+  bus.command_deadline = whole_ms(hal::default_deadline(bus.period));
+  bus.drive_heartbeat = std::max(bus.drive_heartbeat, kBeatPeriods * bus.period);
+  bus.heartbeat_timeout = std::max(bus.heartbeat_timeout, 2.0 * bus.drive_heartbeat);
+}
+
 void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   table.allow({"period", "bit_rate", "fd", "fd_services", "data_rate", "answer", "drive_delay", "command_deadline",
                "drive_heartbeat", "heartbeat_timeout", "boot_timeout", "panel_bus", "panel_node"});
   bus.period = table.number("period", {format::kShortestPeriod, format::kLongestPeriod}, bus.period);
-  require_holdable(table, bus.period);
+  require_exact_period(table, bus.period);
+  set_usual_times(bus);
   bus.bit_rate = table.number("bit_rate", {1e4, 1e6});
   bus.fd = table.flag("fd", bus.fd);
   bus.fd_services = table.flag("fd_services", bus.fd_services);
@@ -67,14 +80,12 @@ void read_bus(const TomlTable& table, hal::BusLayout& bus) {
   bus.data_rate = table.number("data_rate", {bus.bit_rate, 8e6}, std::max(bus.data_rate, bus.bit_rate));
   bus.answer = table.number("answer", {0.0, 5e-4}, bus.answer);
   bus.drive_delay = table.number("drive_delay", {0.0, 5e-3});
-  // 1400:5 counts whole milliseconds; one lost torque must not stop a drive, nor may it hold the last one for long
-  const double deadline = 1e-3 * std::ceil(1e3 * hal::default_deadline(bus.period) - 1e-6);
-  const double least = std::max(2e-3, 2.0 * bus.period);
-  bus.command_deadline = table.number("command_deadline", {least, std::max(0.01, deadline)}, deadline);
-  // from one heartbeat to the next SDO exchanges need some cycles
-  const double heartbeat = 5.0 * bus.period;
+  // one lost torque must not stop a drive, nor may it hold the last one for long
+  const double least = std::max(2e-3, whole_ms(2.0 * bus.period));
+  bus.command_deadline =
+      table.number("command_deadline", {least, std::max(0.01, bus.command_deadline)}, bus.command_deadline);
   bus.drive_heartbeat =
-      table.number("drive_heartbeat", {std::max(5e-3, heartbeat), 0.1}, std::max(bus.drive_heartbeat, heartbeat));
+      table.number("drive_heartbeat", {std::max(5e-3, kBeatPeriods * bus.period), 0.1}, bus.drive_heartbeat);
   const double two_heartbeats = 2.0 * bus.drive_heartbeat;
   bus.heartbeat_timeout =
       table.number("heartbeat_timeout", {two_heartbeats, 0.5}, std::max(bus.heartbeat_timeout, two_heartbeats));

@@ -8,6 +8,9 @@
 
 namespace godobject::firmware {
 
+/// Sets the deadline of torques and the times of heartbeats to those that suit `bus.period` if a device file has none.
+void set_usual_times(hal::BusLayout& bus);
+
 /// Reads `[bus]` of a device file: rates, times, the operator's panel. Throws as `read_device_file`.
 void read_bus(const files::TomlTable& table, hal::BusLayout& bus);
 

@@ -20,10 +20,6 @@ namespace {
 using files::TomlTable;
 
 constexpr double kVelocitySpan = 3e-3;  // of the default window of velocities, chosen: four samples at 1 kHz [s]
-/// Largest share of a period that is the default computing time. Chosen: with FD frames alone, one joint a bus and data
-/// at 8 Mbit/s it leaves room for the frames at 4 kHz.
-constexpr double kComputeShare = 0.16;
-
 /// A path relative to the folder of `file`; empty stays empty.
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
   return path.empty() ? std::filesystem::path() : file.parent_path() / path;
@@ -170,6 +166,12 @@ void set_gains(const ControllerConfig::Gains& gains, SceneView& scene) noexcept 
   settings.stiffness = gains.stiffness.value_or(settings.stiffness);
   settings.damping = gains.damping.value_or(settings.damping);
   settings.coupling_rotation = gains.rotational.value_or(settings.coupling_rotation);
+}
+
+SceneView configured(SceneView scene, const ControllerConfig& config) noexcept {
+  set_gains(config.gains, scene);
+  scene.settings.period = config.device.bus.period;
+  return scene;
 }
 
 Placement place(const ControllerConfig::Workspace& workspace, const Device& device, const Vector3& p_MB) {

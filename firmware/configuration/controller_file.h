@@ -11,6 +11,10 @@
 
 namespace godobject::firmware {
 
+/// Largest share of a period that is the default of loop.compute. Chosen: with FD frames alone, one joint a bus and
+/// data at 8 Mbit/s it leaves room for the frames at 4 kHz.
+inline constexpr double kComputeShare = 0.16;
+
 /// The contents of CONTROLLER.toml in SI units. firmware/README.md explains keys and defaults.
 struct ControllerConfig {
   struct SceneChoice {
@@ -99,6 +103,9 @@ ControllerConfig read_controller_file(const std::filesystem::path& file);
 
 /// Replaces gains of the scene by those that the controller file has.
 void set_gains(const ControllerConfig::Gains& gains, SceneView& scene) noexcept;
+
+/// Returns the scene with the gains of the controller and the period of its device.
+SceneView configured(SceneView scene, const ControllerConfig& config) noexcept;
 
 /// The workspace in the scene and the device with the mesh in its hand.
 struct Placement {

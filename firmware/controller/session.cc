@@ -37,19 +37,12 @@ constexpr double kRestOfCycle = 10e-6;
 constexpr double kDefaultShare = 0.7;
 constexpr double kLeastBudget = 1e-6;  // by default, where loop.compute leaves less [s]
 
-/// The scene with the gains and the period of the controller.
-SceneView as_configured(SceneView scene, const ControllerConfig& config) noexcept {
-  set_gains(config.gains, scene);
-  scene.settings.period = config.device.bus.period;
-  return scene;
-}
-
 }  // namespace
 
 Session::Session(const ControllerConfig& config, const std::string& transport)
     : config_(config),
       image_(config.scene.image),
-      scene_(as_configured(image_.scene(), config)),
+      scene_(configured(image_.scene(), config)),
       placement_(place(config.workspace, config.device, scene_.H_MB.translation)) {
   const std::unique_ptr<DriveFamily> family = choose_drives(config_.device);
   family->require_plan();

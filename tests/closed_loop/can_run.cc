@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "firmware/configuration/cia402_keys.h"
 #include "firmware/cycle/cycles_in.h"
 #include "hal/canopen/network.h"
 #include "toolchain/report/stability/fast_buses.h"
@@ -54,9 +55,7 @@ namespace {
 /// The buses and times that a device file with this period has.
 hal::BusLayout at_period(double period, const hal::BusLayout& usual) {
   hal::BusLayout layout = report::layout_for(usual, period);
-  layout.command_deadline = 1e-3 * std::ceil(1e3 * hal::default_deadline(period) - 1e-6);
-  layout.drive_heartbeat = std::max(layout.drive_heartbeat, 5.0 * period);
-  layout.heartbeat_timeout = std::max(layout.heartbeat_timeout, 2.0 * layout.drive_heartbeat);
+  set_usual_times(layout);
   return layout;
 }
 

@@ -352,8 +352,16 @@ TEST(BusPlan, FitsIntoAQuarterOfAMillisecondWithFdFramesAlone) {
   EXPECT_EQ(plan.buses[0].end_ns, 248'125);
   EXPECT_EQ(plan.buses[0].slot_ns, 125'625 + 40'000 + 48'125 + 43'125 - 39'375);
   EXPECT_TRUE(plan.fits);
-  layout.compute = 42e-6;
-  EXPECT_FALSE(plan_buses(layout).fits);
+  for (const double compute : {41e-6, 42e-6}) {
+    layout.compute = compute;
+    EXPECT_EQ(plan_buses(layout).fits, compute < 41.9e-6);
+  }
+  layout.compute = 0.0;  // 208.125 us without computing: 4.8 kHz at most
+  for (const double rate : {4800.0, 4810.0}) {
+    layout.period = 1.0 / rate;
+    EXPECT_EQ(plan_buses(layout).fits, rate < 4805.0);
+  }
+  layout.period = 0.25e-3;
   layout.compute = 40e-6;
   layout.fd_services = false;  // a classical heartbeat takes 65 us, an SDO frame 135
   EXPECT_EQ(plan_buses(layout).buses[0].blocking_ns, 65'000);

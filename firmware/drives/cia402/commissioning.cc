@@ -71,7 +71,7 @@ class IdleCycles {
         end_(end),
         next_ns_(clock.now_ns() / period_ns_ * period_ns_) {}
 
-  /// Returns the cycles within a time, at least as many as at 1 ms where a period is longer.
+  /// Returns the cycles within a time; where a period is long, at least a quarter of those at 1 ms.
   std::uint32_t within(int ms) const {
     const auto least = static_cast<std::uint32_t>(ms) / 4;
     return cycles_in(1e-3 * ms, 1e-9 * static_cast<double>(period_ns_), least);

@@ -178,6 +178,32 @@ TEST_F(ControllerKeyTest, RangesAndDefaultsFollowTheKeysThatTheyDependOn) {
   EXPECT_NE(refusal(with("limits", "force = 5.0\n[engage]\nforce = 5.001")), "");
 }
 
+/// Velocities over 3 ms, and a computing time that leaves room for the frames.
+TEST_F(ControllerKeyTest, HasDefaultsThatFollowThePeriodOfTheDevice) {
+  std::ifstream stream(GODOBJECT_FIRMWARE_DIR "/devices/desktop6.toml");
+  const std::string desktop((std::istreambuf_iterator<char>(stream)), {});
+  const std::string bus = "[bus]\n";
+  for (const auto& [period, window, compute, longest] : {std::tuple{"0.000125", 25, 20e-6, 112.5e-6},
+                                                         {"0.00025", 13, 40e-6, 225e-6},
+                                                         {"0.002", 3, 120e-6, 1.8e-3},
+                                                         {"0.01", 2, 120e-6, 9e-3}}) {
+    std::string device = desktop;
+    device.insert(device.find(bus) + bus.size(), fmt::format("period = {}\n", period));
+    std::ofstream(folder_ / "other.toml") << device;
+    std::string text = least();
+    const std::size_t file = text.find("file = \"") + 8;
+    text.replace(file, text.find('"', file) - file, (folder_ / "other.toml").string());
+    const ControllerConfig config = read(text);
+    EXPECT_EQ(config.loop.velocity_window, window) << period;
+    EXPECT_DOUBLE_EQ(config.loop.compute, compute) << period;
+    EXPECT_EQ(config.device.bus.compute, config.loop.compute);
+    for (const double share : {0.999, 1.001}) {
+      const std::string loop = fmt::format("[loop]\ncompute = {}\n", share * longest);
+      EXPECT_EQ(refusal(text + loop).empty(), share < 1.0) << period;
+    }
+  }
+}
+
 /// A force limit below the default of engage.force is a limit of that, too.
 TEST_F(ControllerKeyTest, EngagesAtNoMoreThanTheForceLimit) {
   EXPECT_EQ(read(with("limits", "force = 0.2")).engage.force, 0.2);
@@ -321,6 +347,13 @@ TEST_F(ControllerKeyTest, SetsOnlyTheGainsThatTheFileHas) {
   gains.rotational = 0.5;
   set_gains(gains, scene);
   expect_gains(1000.0, 5.0, 0.5);
+  C config;
+  config.gains = gains;
+  config.device.bus.period = 0.25e-3;
+  reset();
+  scene = configured(scene, config);
+  expect_gains(1000.0, 5.0, 0.5);
+  EXPECT_EQ(scene.settings.period, 0.25e-3);
 }
 
 /// A key of the device file with `count` numbers, 0: a single one.
@@ -638,7 +671,7 @@ TEST_F(DeviceKeyTest, HasTheDefaultsOfTheBusThatAreDocumented) {
 TEST_F(DeviceKeyTest, WaitsForTorquesLongerWhereThePeriodIsLong) {
   const DeviceKey period{"[bus]", "period", 0.0, 0.0};
   for (const auto& [T, deadline, least, most] : {std::tuple{"0.00025", 0.004, 0.002, 0.01},
-                                                 {"0.0012", 0.005, 0.0024, 0.01},
+                                                 {"0.0012", 0.005, 0.003, 0.01},
                                                  {"0.002", 0.008, 0.004, 0.01},
                                                  {"0.004", 0.012, 0.008, 0.012},
                                                  {"0.01", 0.02, 0.02, 0.02}}) {

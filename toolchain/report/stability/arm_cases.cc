@@ -385,7 +385,7 @@ CaseResult rates(const firmware::Device& device, const Coupling& coupling, const
   }
   CaseResult result;
   Sheet walls{.name = "stability_rate",
-              .columns = {"device", "T_ms", "t_d_us", "K_hand_exact_N_per_m", "K_hand_simulated_N_per_m"},
+              .columns = {"device", "T_ms", "t_d_us", "wall_exact_N_per_m", "wall_N_per_m"},
               .rows = {}};
   Sheet joints = bus_sheet("stability_rate_joints");
   double at_1_kHz = 0.0;

@@ -189,8 +189,8 @@ Picture rate_picture(const Sheet& sheet) {
     return points;
   };
   std::size_t i = 0;
-  const auto simulated = by(sheet, "device", "T_ms", "K_hand_simulated_N_per_m");
-  for (const auto& [device, points] : by(sheet, "device", "T_ms", "K_hand_exact_N_per_m")) {
+  const auto simulated = by(sheet, "device", "T_ms", "wall_N_per_m");
+  for (const auto& [device, points] : by(sheet, "device", "T_ms", "wall_exact_N_per_m")) {
     plot.curves.push_back({device + ", exact", "lines lw 2 " + color(i), by_rate(points)});
     plot.curves.push_back({device + ", simulated", "points pt 6 ps 1.5 " + color(i), by_rate(simulated.at(device))});
     ++i;
