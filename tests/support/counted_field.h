@@ -8,23 +8,28 @@
 
 namespace godobject::test {
 
-/// A field that counts its look-ups.
+/// A field that counts its look-ups. Its clearance falls `slope` times as fast as that of the field.
 template <class Field>
 struct Counted {
-  const Field& field;
-  mutable int looks = 0;   ///< points that were looked up
-  mutable int bounds = 0;  ///< calls of `lower_bound`
+  Field field;
+  double slope = 1.0;
+  mutable int single = 0;  ///< calls of `sample`
+  mutable int bounds = 0;  ///< points of `clearances`
+  mutable int exact = 0;   ///< points of `samples`
+  mutable int lower = 0;   ///< calls of `lower_bound`
+
+  int looks() const noexcept { return single + bounds + exact + lower; }
 
   FieldSample sample(const Vector3& p) const noexcept {
-    ++looks;
+    ++single;
     return field.sample(p);
   }
   void clearances(const Pose& H, PointBatch& batch) const noexcept {
-    looks += static_cast<int>(batch.count);
+    bounds += static_cast<int>(batch.count);
     field.clearances(H, batch);
   }
   void samples(const Pose& H, SampleBatch& batch) const noexcept {
-    looks += static_cast<int>(batch.count);
+    exact += static_cast<int>(batch.count);
     field.samples(H, batch);
   }
   std::uint64_t free_chords(const Pose& H0, const Pose& H1, SampleBatch& batch) const noexcept {
@@ -32,10 +37,10 @@ struct Counted {
   }
   LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
   double lower_bound(const Vector3& c, double r) const noexcept {
-    ++bounds;
+    ++lower;
     return field.lower_bound(c, r);
   }
-  double lipschitz() const noexcept { return field.lipschitz(); }
+  double lipschitz() const noexcept { return slope * field.lipschitz(); }
   double assured_clearance() const noexcept { return field.assured_clearance(); }
   double voxel_size() const noexcept { return field.voxel_size(); }
   double band() const noexcept { return field.band(); }

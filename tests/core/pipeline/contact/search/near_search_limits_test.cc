@@ -12,6 +12,7 @@
 #include "core/pipeline/contact/search/near_search.h"
 #include "core/pipeline/contact/search/point_budget.h"
 #include "tests/support/analytic_worlds.h"
+#include "tests/support/counted_field.h"
 #include "tests/support/random.h"
 #include "tests/support/small_scenes.h"
 
@@ -23,34 +24,7 @@ constexpr double kLongestMotion = 0.003;
 constexpr double kTick = kLongestMotion / 64.0;   // of the calendar
 constexpr double kFieldRounding = 1e-5 * kVoxel;  // that the search allows for
 
-/// A field that counts its look-ups. Its clearance falls `slope` times as fast as the distance.
-struct CountedField {
-  AnalyticField field;
-  double slope = 1.0;
-  mutable int bounds = 0;
-  mutable int exact = 0;
-  mutable int single = 0;
-
-  FieldSample sample(const Vector3& p) const noexcept {
-    ++single;
-    return field.sample(p);
-  }
-  void clearances(const Pose& H, PointBatch& batch) const noexcept {
-    bounds += static_cast<int>(batch.count);
-    field.clearances(H, batch);
-  }
-  void samples(const Pose& H, SampleBatch& batch) const noexcept {
-    exact += static_cast<int>(batch.count);
-    field.samples(H, batch);
-  }
-  std::uint64_t free_chords(const Pose&, const Pose&, SampleBatch&) const noexcept { return 0; }
-  LayerSample layer(const Vector3& p) const noexcept { return field.layer(p); }
-  double lower_bound(const Vector3& c, double r) const noexcept { return field.lower_bound(c, r); }
-  double lipschitz() const noexcept { return slope; }
-  double assured_clearance() const noexcept { return field.assured_clearance(); }
-  double voxel_size() const noexcept { return field.voxel_size(); }
-  double band() const noexcept { return field.band(); }
-};
+using CountedField = Counted<AnalyticField>;
 
 /// A ball of 20 mm radius with 500 points and their tree.
 const Pointshell& ball_shell() {

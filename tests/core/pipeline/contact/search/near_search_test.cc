@@ -239,12 +239,12 @@ TEST(NearSearch, LooksAtNothingWhileNothingMoves) {
   H.translation.z() = 0.01 + 0.02 + 1.5 * field.lipschitz() * longest;  // just beyond the search radius
   const detail::SampleDirection direction;
   EXPECT_TRUE(found(search, direction, field, scene.pointshell, H, 0.0, longest).empty());
-  const int first = field.looks;
+  const int first = field.looks();
   EXPECT_GT(first, 0);
   for (int i = 0; i < 10; ++i) {
     EXPECT_TRUE(found(search, direction, field, scene.pointshell, H, 0.0, 0.25 * longest).empty());
   }
-  EXPECT_EQ(field.looks, first);
+  EXPECT_EQ(field.looks(), first);
 }
 
 TEST(NearSearch, KnowsForHowLongNothingComesNear) {
