@@ -35,7 +35,7 @@ class NearestFirst {
   /// Finds the classes to take. Call it after the last `count`.
   void spread() noexcept {
     while (last_ + 1 < kSizes && count_[last_] <= points_) points_ -= count_[last_++];
-    stride_ = points_ > 0 ? (count_[last_] + points_ - 1) / points_ : std::numeric_limits<std::uint32_t>::max();
+    if (points_ > 0) stride_ = (count_[last_] + points_ - 1) / points_;
   }
 
   /// Tells whether to take the point. Call it after `spread`, once for each counted point.
@@ -57,7 +57,7 @@ class NearestFirst {
   float always_;
   float per_bound_;
   std::uint32_t last_ = 0;  ///< the class of which only some are taken
-  std::uint32_t stride_{};
+  std::uint32_t stride_{};  ///< every stride-th of that class is taken, unless no points remain
   std::uint32_t seen_ = 0;
 };
 

@@ -92,9 +92,18 @@ TEST(ArcEnergy, ByHand) {
   EXPECT_NEAR(arc_energy(step), 0.03, 1e-15);
 }
 
+/// The floor z = 0 in a field whose distance grows `steepness` times as fast as the height, as a stored field's may.
+struct SteepFloor {
+  double steepness;
+  double distance(const Vector3& p) const noexcept { return steepness * p.z(); }
+  Vector3 gradient(const Vector3&) const noexcept { return steepness * Vector3::UnitZ(); }
+};
+
 /// One holding point of each kind: a sample point over the floor z = 0, a feature point over the plane z = 0 of the
 /// body, and the crossing of two edges.
 struct ArrivalWorld {
+  ArrivalWorld() = default;
+  explicit ArrivalWorld(double steepness) : floor(SteepFloor{steepness}, 0.002) {}
   test::AnalyticField floor{test::HalfSpace{}, 0.002};
   test::SampledBody body{{{{0.01, 0.0, 0.0}}, {-Vector3::UnitZ()}}, Vector3::Constant(1e-4)};
   test::SampledBody tip{{{{0.0, 0.004, 0.0}}, {-Vector3::UnitZ()}}, Vector3::Constant(1e-4)};
@@ -213,27 +222,32 @@ TEST(Arrival, TellsWhetherAnEdgePairHasLeftOrLacksAPartOfItsMargin) {
 /// By hand: the body turns by an angle about the horizontal axis y while it moves upwards. Its sample point, at 0.01 m
 /// along x, is above its margin, so its row leads to the margin; its linear motion rises by the body's rise less 0.01 m
 /// times the angle, its true one by the body's rise less 0.01 m times the sine.
-TEST(EndGaps, HaveTheEnergyOfAPointThatTurnsWithTheBody) {
-  const ArrivalWorld world;
+void expect_energy_of_a_turned_point(double steepness, double angle, double rise) {
+  const ArrivalWorld world(steepness);
   const double margin = world.scene.lengths.margin;
-  for (const double angle : {0.0, 0.1, -0.2}) {
-    for (const double rise : {0.0, 1e-4}) {
-      Pose H0;
-      H0.translation = {0.0, 0.0, 2.0 * margin + 0.01};
-      Pose H1 = H0;
-      H1.translation.z() += rise;
-      H1.rotation = exp_rotation({0.0, angle, 0.0});
-      ConstrainedStep step;
-      step.force_count = 1;
-      step.forces[0].id = 0;
-      step.forces[0].point = {0.01, 0.0, 0.0};
-      step.forces[0].normal = Vector3::UnitZ();
-      step.forces[0].multiplier = 2.0;
-      step.motion = {{0.0, 0.0, rise}, {0.0, angle, 0.0}};
-      const double end = H0.translation.z() + rise - 0.01 * std::sin(angle);
-      const double increase = rise - 0.01 * angle;
-      EXPECT_NEAR(end_gaps(world.scene, H0, H1, step, 1.0).energy, 2.0 * 2.0 * (margin - end - increase), 1e-9)
-          << angle << ' ' << rise;
+  Pose H0;
+  H0.translation = {0.0, 0.0, 2.0 * margin + 0.01};
+  Pose H1 = H0;
+  H1.translation.z() += rise;
+  H1.rotation = exp_rotation({0.0, angle, 0.0});
+  ConstrainedStep step;
+  step.force_count = 1;
+  step.forces[0].id = 0;
+  step.forces[0].point = {0.01, 0.0, 0.0};
+  step.forces[0].normal = Vector3::UnitZ();
+  step.forces[0].multiplier = 2.0;
+  step.motion = {{0.0, 0.0, rise}, {0.0, angle, 0.0}};
+  const double height = H0.translation.z() + rise - 0.01 * std::sin(angle);
+  const double increase = rise - 0.01 * angle;
+  EXPECT_NEAR(end_gaps(world.scene, H0, H1, step, 1.0).energy, 2.0 * 2.0 * (margin / steepness - height - increase),
+              1e-9)
+      << steepness << ' ' << angle << ' ' << rise;
+}
+
+TEST(EndGaps, HaveTheEnergyOfAPointThatTurnsWithTheBody) {
+  for (const double steepness : {1.0, 0.5, 2.0}) {
+    for (const double angle : {0.0, 0.1, -0.2}) {
+      for (const double rise : {0.0, 1e-4}) expect_energy_of_a_turned_point(steepness, angle, rise);
     }
   }
 }
